@@ -1,0 +1,21 @@
+# Sourced by every script here: where the project is, and how to fail with one sentence.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+python=/usr/bin/python3
+# Debian's tools, whatever pyenv or conda put first.
+export PATH="/usr/sbin:/usr/bin:/sbin:/bin:$PATH"
+unset PYTHONHOME VIRTUAL_ENV CONDA_PREFIX
+
+die() {
+  echo "scripts/$(basename "$0"): $*" >&2
+  exit 1
+}
+
+# The project's own runs take no Python package but Debian's.
+use_only_debian_python() {
+  export PYTHONNOUSERSITE=1
+  unset PYTHONPATH PYTHONSTARTUP
+}
+
+jobs_at_once() { echo "${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"; }
