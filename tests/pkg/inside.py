@@ -1,0 +1,23 @@
+"""Runs pytest inside the running yade: `scripts/yade -n -x tests/pkg/inside.py [pytest args]`.
+
+Exits with pytest's code. Arguments that name tests are relative to tests/pkg.
+"""
+import os
+import sys
+
+import pytest
+
+
+def main():
+    here = os.path.dirname(os.path.abspath(sys.argv[0]))
+    arguments = sys.argv[1:]
+    os.chdir(here)
+    if not any(os.path.exists(a.split('::')[0]) for a in arguments if not a.startswith('-')):
+        arguments.append(here)
+    code = int(pytest.main(['-q', '-p', 'no:cacheprovider', '--rootdir', here, *arguments]))
+    sys.stdout.flush()
+    sys.stderr.flush()
+    return code
+
+
+sys.exit(main())

@@ -1,0 +1,75 @@
+"""True sphere-sphere contacts from centres and radii alone: no collider, no YADE, plain NumPy."""
+import itertools
+
+import numpy as np
+
+kRelative = 1e-11   # rounding allowed on a sum of radii
+kAbsolute = 8e-16   # rounding allowed on a coordinate (a few ulps)
+
+
+def contacts(centres, radii, hSize=None, block=512):
+    """Contacts of all pairs, found by comparing every pair.
+
+    centres (n,3) and radii (n) in any one length unit; hSize (3,3): columns are the period vectors,
+    None for an aperiodic scene. Rows that are NaN never touch. Returns (sure, possible), two dicts
+    (i, j) -> cellDist with i < j: `sure` overlap beyond rounding, `possible` includes the ties.
+    cellDist is the triple of periods by which body j has to be shifted (zeros if aperiodic).
+    """
+    centres = np.asarray(centres, float).reshape(-1, 3)
+    radii = np.asarray(radii, float)
+    finder = _aperiodic if hSize is None else _periodic
+    sure, possible = {}, {}
+    for start in range(0, len(centres), block):
+        rows = np.arange(start, min(start + block, len(centres)))
+        for i, j, overlap, slack, dist in finder(centres, radii, rows, hSize):
+            for k in np.nonzero(overlap >= -slack)[0]:
+                key = (int(i[k]), int(j[k]))
+                possible[key] = tuple(int(c) for c in dist[k])
+                if overlap[k] > slack[k]:
+                    sure[key] = possible[key]
+    return sure, possible
+
+
+def _pairs(radii, rows, n):
+    i, j = np.meshgrid(rows, np.arange(n), indexing='ij')
+    upper = (i < j) & ~np.isnan(radii)[i] & ~np.isnan(radii)[j]
+    return i[upper], j[upper]
+
+
+def _overlap(centres, radii, i, j, delta):
+    scale = np.maximum(abs(centres[i]).max(axis=1), abs(centres[j]).max(axis=1))
+    reach = radii[i] + radii[j]
+    overlap = reach - np.sqrt((delta**2).sum(axis=1))
+    return overlap, kRelative * reach + kAbsolute * scale
+
+
+def _aperiodic(centres, radii, rows, _):
+    i, j = _pairs(radii, rows, len(centres))
+    overlap, slack = _overlap(centres, radii, i, j, centres[j] - centres[i])
+    yield i, j, overlap, slack, np.zeros((len(i), 3), int)
+
+
+def _periodic(centres, radii, rows, hSize):
+    """The nearest lattice image and its 26 neighbours: enough while cells are not needle-thin."""
+    hSize = np.asarray(hSize, float)
+    i, j = _pairs(radii, rows, len(centres))
+    delta = centres[j] - centres[i]
+    nearest = -np.rint(np.linalg.solve(hSize, delta.T).T).astype(int)
+    for offset in itertools.product((-1, 0, 1), repeat=3):
+        dist = nearest + np.array(offset)
+        overlap, slack = _overlap(centres, radii, i, j, delta + dist @ hSize.T)
+        # the error of the shift itself counts too
+        slack = slack + kAbsolute * 4 * abs(dist @ hSize.T).max(axis=1, initial=0)
+        yield i, j, overlap, slack, dist
+
+
+def masked(pairs, masks, avoid=0, clumps=None):
+    """Those of `pairs` that may collide: masks share a bit, not both alike within `avoid`,
+    not members of one clump. masks (n,) ints; clumps (n,) ints, -1: none."""
+    def may(i, j):
+        if not masks[i] & masks[j]:
+            return False
+        if masks[i] == masks[j] and masks[i] & avoid:
+            return False
+        return clumps is None or clumps[i] < 0 or clumps[i] != clumps[j]
+    return {key: value for key, value in pairs.items() if may(*key)}

@@ -1,0 +1,153 @@
+"""Builders and checks shared by the in-yade tests. All lengths in m, times in s."""
+import builtins
+
+import numpy as np
+import yade
+import yade.timing
+import yade.wrapper as w
+from yade import utils
+from yade.minieigenHP import Matrix3, Vector3
+
+import oracle
+
+O = builtins.O
+
+
+def clear():
+    """An empty aperiodic scene with no engines, timing off."""
+    O.reset()
+    O.engines = []
+    O.periodic = False
+    O.timingEnabled = False
+    O.stopAtIter = 0
+    O.dt = 1e-3
+    O.bodies.enableRedirection = False
+
+
+def makeCollider(name, functors=None, **attributes):
+    """A collider of class `name` with `functors` (default: spheres, facets, boxes, walls)."""
+    if name.startswith('InsertionSort'):
+        cls = getattr(w, name)
+    else:
+        import yadefrag
+        cls = getattr(yadefrag, name)
+    if functors is None:
+        functors = [w.Bo1_Sphere_Aabb(), w.Bo1_Facet_Aabb(), w.Bo1_Box_Aabb(), w.Bo1_Wall_Aabb()]
+    return cls(functors, **attributes)
+
+
+def loop():
+    """An interaction loop for spheres, facets, boxes and walls; contacts go when they open."""
+    return w.InteractionLoop(
+        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
+         w.Ig2_Wall_Sphere_ScGeom()],
+        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()])
+
+
+def setEngines(collider, *more, newton=True, interactionLoop=None):
+    """The usual loop around `collider`; `more` engines run before the integrator. Gives it back."""
+    engines = [w.ForceResetter(), collider, interactionLoop or loop(), *more]
+    if newton:
+        engines.append(newton if newton is not True else w.NewtonIntegrator(damping=0))
+    O.engines = engines
+    return collider
+
+
+def addSpheres(centres, radii, velocities=None, dynamic=False, **attributes):
+    """Spheres; those not `dynamic` keep their velocity whatever forces act. Returns the ids."""
+    n = len(centres)
+    bodies = []
+    for k in range(n):
+        body = utils.sphere(Vector3(*map(float, centres[k])), float(radii[k]), **attributes)
+        if velocities is not None:
+            body.state.vel = Vector3(*map(float, velocities[k]))
+        if not dynamic:
+            body.state.blockedDOFs = 'xyzXYZ'
+        bodies.append(body)
+    return list(O.bodies.append(bodies))
+
+
+def spheresNow():
+    """(centres (n,3), radii (n)) by body id; NaN where there is no sphere."""
+    n = len(O.bodies)
+    centres, radii = np.full((n, 3), np.nan), np.full(n, np.nan)
+    for body in O.bodies:
+        if isinstance(body.shape, w.Sphere) and body.bounded:
+            centres[body.id] = body.state.pos
+            radii[body.id] = body.shape.radius
+    return centres, radii
+
+
+def masksNow():
+    """(groupMask (n,), clumpId (n,)) by body id."""
+    n = len(O.bodies)
+    masks, clumps = [0] * n, [-1] * n
+    for body in O.bodies:
+        masks[body.id] = int(body.mask)
+        clumps[body.id] = body.clumpId
+    return masks, clumps
+
+
+def realPairs():
+    """{(id1, id2) sorted: cellDist of the larger id} of all real interactions."""
+    pairs = {}
+    for i in O.interactions:
+        sign = 1 if i.id1 < i.id2 else -1
+        pairs[tuple(sorted((i.id1, i.id2)))] = tuple(sign * int(c) for c in i.cellDist)
+    return pairs
+
+
+def allPairs():
+    """The set of (id1, id2), sorted, of all interactions, potential ones included."""
+    return {tuple(sorted((i.id1, i.id2))) for i in O.interactions.all()}
+
+
+def spherePairs(pairs):
+    return {k: v for k, v in pairs.items()
+            if all(isinstance(O.bodies[b].shape, w.Sphere) for b in k)}
+
+
+def stepAndCheck(avoid=0, mayMiss=(), steps=1):
+    """Steps once (or more) and compares the real sphere contacts with the oracle each time.
+
+    `mayMiss`: ids of bodies that may be one search late in the first of these steps.
+    Returns how many contacts there were in all."""
+    total = 0
+    for k in range(steps):
+        centres, radii = spheresNow()
+        O.step()
+        late = mayMiss if k == 0 else ()
+        total += compare(centres, radii, avoid, late)
+    return total
+
+
+def compare(centres, radii, avoid=0, mayMiss=()):
+    """Asserts that the real contacts are those of the oracle at `centres`, cellDist included."""
+    # YADE advances the cell before the engines run, so the present hSize is the one they saw.
+    hSize = np.array([[O.cell.hSize[r, c] for c in range(3)] for r in range(3)]) \
+        if O.periodic else None
+    sure, possible = oracle.contacts(centres, radii, hSize)
+    masks, clumps = masksNow()
+    sure = oracle.masked(sure, masks, avoid, clumps)
+    possible = oracle.masked(possible, masks, avoid, clumps)
+    found = spherePairs(realPairs())
+    missed = {p for p in sure if p not in found and not set(p) & set(mayMiss)}
+    extra = {p for p in found if p not in possible and not set(p) & set(mayMiss)}
+    assert not missed, f'step {O.iter}: {len(missed)} of {len(sure)} contacts missed: ' \
+        f'{sorted(missed)[:5]}'
+    assert not extra, f'step {O.iter}: contacts that are none: {sorted(extra)[:5]}'
+    if hSize is not None:
+        wrong = {p: (found[p], possible[p]) for p in found if p in possible
+                 and found[p] != possible[p]}
+        assert not wrong, f'step {O.iter}: cellDist (found, right): {list(wrong.items())[:3]}'
+    return len(sure)
+
+
+def positions():
+    """(n,3) of all bodies that exist, in the order of their ids."""
+    return np.array([b.state.pos for b in O.bodies])
+
+
+def matrix(rows):
+    """A YADE Matrix3 from a (3,3) array."""
+    return Matrix3(*[float(x) for x in np.asarray(rows).ravel()])
