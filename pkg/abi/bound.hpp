@@ -1,0 +1,40 @@
+#pragma once
+// Boxes around bodies; corners are in the unsheared coordinates of a periodic cell.
+
+#include "abi/indexable.hpp"
+#include "abi/serializable.hpp"
+
+namespace yade {
+
+class Bound : public Serializable, public Indexable {
+ public:
+  int lastUpdateIter;
+  Vector3r refPos;
+  Real sweepLength;
+  Vector3r color;
+  Vector3r min;
+  Vector3r max;
+
+  Bound() = delete;
+  ~Bound() override;
+  const int& getClassIndex() const override;
+  const int& getBaseClassIndex(int depth) const override;
+  const int& getMaxCurrentlyUsedClassIndexOfKin() const override;
+
+ protected:
+  int& modifyClassIndex() override;
+  void incrementMaxCurrentlyUsedClassIndexOfKin() override;
+};
+
+class Aabb : public Bound {
+ public:
+  Aabb();
+  ~Aabb() override;
+  const int& getClassIndex() const override;
+  const int& getBaseClassIndex(int depth) const override;
+
+ protected:
+  int& modifyClassIndex() override;
+};
+
+}  // namespace yade

@@ -1,0 +1,19 @@
+#pragma once
+// Second base, at byte 24, of the classes YADE dispatches on. The order of the virtual functions is
+// that of YADE's table.
+
+namespace yade {
+
+class Indexable {
+ protected:
+  virtual void incrementMaxCurrentlyUsedClassIndexOfKin() = 0;
+  virtual int& modifyClassIndex() = 0;
+
+ public:
+  virtual ~Indexable() = default;
+  virtual const int& getClassIndex() const = 0;
+  virtual const int& getBaseClassIndex(int depth) const = 0;
+  virtual const int& getMaxCurrentlyUsedClassIndexOfKin() const = 0;
+};
+
+}  // namespace yade

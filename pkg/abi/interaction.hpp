@@ -1,0 +1,86 @@
+#pragma once
+
+#include "abi/body.hpp"
+
+namespace yade {
+
+class IGeom;
+class IPhys;
+class IGeomFunctor;
+class IPhysFunctor;
+class LawFunctor;
+
+class Interaction : public Serializable {
+ public:
+  bool isActive;
+  struct {
+    bool geomExists;
+    shared_ptr<IGeomFunctor> geom;
+    shared_ptr<IPhysFunctor> phys;
+    shared_ptr<LawFunctor> constLaw;
+  } functorCache;
+  Body::id_t id1;
+  Body::id_t id2;
+  long iterMadeReal;
+  long iterLastSeen;
+  shared_ptr<IGeom> geom;
+  shared_ptr<IPhys> phys;
+  Vector3i cellDist;
+  int linIx;
+  long iterBorn;
+
+  Interaction();
+  Interaction(Body::id_t id1, Body::id_t id2);
+  ~Interaction() override;
+
+  bool isReal() const { return geom && phys; }
+  const Body::id_t& getId1() const { return id1; }
+  const Body::id_t& getId2() const { return id2; }
+  bool isFresh(Scene* scene);
+  void swapOrder();
+  void reset();
+};
+
+class InteractionContainer : public Serializable {
+  using ContainerT = vector<shared_ptr<Interaction>>;
+  ContainerT linIntrs;
+  ContainerT sortedIntrs;
+  const vector<shared_ptr<Body>>* bodies;
+  std::size_t currSize;
+  shared_ptr<Interaction> empty;
+  ContainerT interaction;
+
+ public:
+  using iterator = ContainerT::iterator;
+  using const_iterator = ContainerT::const_iterator;
+
+  bool dirty;
+  std::mutex drawloopmutex;
+  bool serializeSorted;
+  long iterColliderLastRun;
+
+  InteractionContainer() = delete;
+  ~InteractionContainer() override;
+
+  // Entries past size() of the vector behind these may exist; begin..end is what YADE walks.
+  iterator begin() { return linIntrs.begin(); }
+  iterator end() { return linIntrs.end(); }
+  const_iterator begin() const { return linIntrs.begin(); }
+  const_iterator end() const { return linIntrs.end(); }
+  std::size_t size() { return currSize; }
+  shared_ptr<Interaction>& operator[](std::size_t i) { return linIntrs[i]; }
+  const shared_ptr<Interaction>& operator[](std::size_t i) const { return linIntrs[i]; }
+
+  bool insert(Body::id_t id1, Body::id_t id2);
+  bool insert(const shared_ptr<Interaction>& interaction);
+  bool erase(Body::id_t id1, Body::id_t id2, int linPos = -1);
+  const shared_ptr<Interaction>& find(Body::id_t id1, Body::id_t id2);
+  void clear();
+  void eraseNonReal();
+  void requestErase(Body::id_t id1, Body::id_t id2);
+
+ private:
+  friend struct LayoutProbe;  // layout_checks.cpp measures the private members too
+};
+
+}  // namespace yade

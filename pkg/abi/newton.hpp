@@ -1,0 +1,48 @@
+#pragma once
+// The integrator, whose record of the fastest body drives the stride of a collider.
+
+#include "abi/engine.hpp"
+
+namespace yade {
+
+class FieldApplier : public GlobalEngine {
+ public:
+  int fieldWorkIx;
+  FieldApplier() = delete;
+  ~FieldApplier() override;
+  void action() override;
+};
+
+class NewtonIntegrator : public FieldApplier {
+  bool syncEnsured;
+  bool cellChanged;
+  int homoDeform;
+  bool bodySelected;
+  Matrix3r dVelGrad;
+  Vector3r dSpin;
+
+ public:
+  bool densityScaling;
+  Real updatingDispFactor;
+  vector<Real> threadMaxVelocitySq;
+  Real damping;
+  Vector3r gravity;
+  Real maxVelocitySq;
+  bool exactAsphericalRot;
+  Matrix3r prevVelGrad;
+  Vector3r prevCellSize;
+  bool warnNoForceReset;
+  int nonviscDampIx;
+  bool kinSplit;
+  bool dampGravity;
+  int kinEnergyIx;
+  int kinEnergyTransIx;
+  int kinEnergyRotIx;
+  int mask;
+
+  NewtonIntegrator() = delete;
+  ~NewtonIntegrator() override;
+  void action() override;
+};
+
+}  // namespace yade

@@ -1,0 +1,26 @@
+#pragma once
+// Archives that YADE saves to, and types whose archive code YADE's libraries hold: none is made here
+// for those, so that files stay YADE's. A base to publish from must be listed.
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/archive/xml_iarchive.hpp>
+#include <boost/archive/xml_oarchive.hpp>
+
+#include "abi/yade.hpp"
+
+#define YADEFRAG_YADE_ARCHIVES(T)                          \
+  extern template class oserializer<xml_oarchive, T>;    \
+  extern template class iserializer<xml_iarchive, T>;    \
+  extern template class oserializer<binary_oarchive, T>; \
+  extern template class iserializer<binary_iarchive, T>;
+
+namespace boost::archive::detail {
+
+YADEFRAG_YADE_ARCHIVES(yade::Collider)
+YADEFRAG_YADE_ARCHIVES(yade::Vector3r)
+YADEFRAG_YADE_ARCHIVES(yade::Matrix3r)
+
+}  // namespace boost::archive::detail
+
+#undef YADEFRAG_YADE_ARCHIVES

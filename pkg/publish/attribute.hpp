@@ -1,0 +1,71 @@
+#pragma once
+// One attribute of a published class: a name for Python and archives, and where it is kept.
+
+#include <type_traits>
+
+#include "abi/yade.hpp"
+
+namespace yadefrag {
+
+template <class Class, class Value>
+struct Attribute {
+  const char* name;
+  Value Class::* member;
+  const char* doc;
+  int flags;  // of yade::Attr
+
+  constexpr bool has(int flag) const { return (flags & flag) != 0; }
+};
+
+template <class Class, class Value>
+constexpr Attribute<Class, Value> attribute(const char* name, Value Class::* member,
+                                            const char* doc, int flags = 0) {
+  return {name, member, doc, flags};
+}
+
+// Vectors and matrices are handed to Python as references, so that `o.v[0] = 1` reaches the object.
+template <class Value>
+inline constexpr bool kByReference = std::is_base_of_v<Eigen::MatrixBase<Value>, Value>;
+
+// Both take Self, which Python knows, where the member may belong to a base that it does not.
+template <class Self, class Class, class Value>
+yade::py::object attributeGetter(Value Class::* member) {
+  namespace py = yade::py;
+  if constexpr (kByReference<Value>) {
+    return py::make_function([member](Self& self) -> Value& { return self.*member; },
+                             py::return_internal_reference<>(), boost::mpl::vector<Value&, Self&>());
+  } else {
+    return py::make_function([member](Self& self) -> Value { return self.*member; },
+                             py::default_call_policies(), boost::mpl::vector<Value, Self&>());
+  }
+}
+
+template <class Self, class Value, class Class>
+yade::py::object attributeSetter(const Attribute<Class, Value>& attr) {
+  namespace py = yade::py;
+  const auto member = attr.member;
+  const bool notify = attr.has(yade::Attr::triggerPostLoad);
+  return py::make_function(
+      [member, notify](Self& self, const Value& value) {
+        self.*member = value;
+        if (notify) self.callPostLoad();
+      },
+      py::default_call_policies(), boost::mpl::vector<void, Self&, const Value&>());
+}
+
+// Adds the attribute to a Python class; what is hidden stays out of Python, as in YADE.
+template <class Self, class PyClass, class Class, class Value>
+void defineAttribute(PyClass& pyClass, const Attribute<Class, Value>& attr) {
+  if (attr.has(yade::Attr::hidden)) return;
+  // YADE's documentation and inspector read the flags from the docstring.
+  const std::string doc =
+      std::string(attr.doc) + " :yattrflags:`" + std::to_string(attr.flags) + "` ";
+  const auto getter = attributeGetter<Self>(attr.member);
+  if (attr.has(yade::Attr::readonly)) {
+    pyClass.add_property(attr.name, getter, doc.c_str());
+  } else {
+    pyClass.add_property(attr.name, getter, attributeSetter<Self>(attr), doc.c_str());
+  }
+}
+
+}  // namespace yadefrag

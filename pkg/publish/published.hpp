@@ -1,0 +1,118 @@
+#pragma once
+// What a class needs to be known to YADE (names, Python, archives), written once for all classes.
+
+#include <boost/python/raw_function.hpp>
+#include <boost/serialization/nvp.hpp>
+#include <boost/serialization/shared_ptr.hpp>
+
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "publish/attribute.hpp"
+
+namespace yadefrag {
+
+namespace py = yade::py;
+
+// `new Self(args, **kw)` as YADE's own classes are made from Python.
+template <class Self>
+boost::shared_ptr<Self> makeFromPython(py::tuple args, py::dict kw) {
+  boost::shared_ptr<Self> made(new Self);
+  made->pyHandleCustomCtorArgs(args, kw);
+  if (py::len(args) > 0) {
+    throw std::runtime_error(std::string(Self::kName) + " takes keyword arguments only, besides " +
+                             "what its base takes; not understood: " +
+                             std::to_string(py::len(args)) + " more.");
+  }
+  if (py::len(kw) > 0) made->pyUpdateAttrs(kw);
+  return made;
+}
+
+// class Self final : public Published<Self, Base, YadeBase>
+//   kName, kDoc          what Python calls the class, and its docstring
+//   attributes()         static constexpr: a tuple of attribute(...); a Base may supply it
+//   postLoad(Self&)      optional, public: called after attributes changed or were loaded
+//   pyExtra(pyClass)     optional, public, static template: more definitions for Python
+// Base may be a class that YADE does not know; YadeBase is the nearest one that it does.
+template <class Self, class Base, class YadeBase = Base>
+class Published : public Base {
+ public:
+  using Base::Base;
+
+  std::string getClassName() const override { return Self::kName; }
+  int getBaseClassNumber() const override { return 1; }
+  std::string getBaseClassName(unsigned int i = 0) const override {
+    return i == 0 ? YadeBase::getClassName() : std::string();
+  }
+
+  void pySetAttr(const std::string& key, const py::object& value) override {
+    const auto setIfNamed = [&](const auto& attr) {
+      if (key != attr.name) return false;
+      auto& slot = self().*attr.member;
+      slot = py::extract<std::remove_cvref_t<decltype(slot)>>(value)();
+      return true;
+    };
+    const bool found = std::apply([&](const auto&... attr) { return (setIfNamed(attr) || ...); },
+                                  Self::attributes());
+    if (!found) Base::pySetAttr(key, value);  // the last base throws YADE's AttributeError
+  }
+
+  py::dict pyDict() const override {
+    py::dict result;
+    forEach([&](const auto& attr) {
+      if (!attr.has(yade::Attr::hidden)) result[attr.name] = self().*attr.member;
+    });
+    result.update(this->pyDictCustom());
+    result.update(Base::pyDict());
+    return result;
+  }
+
+  void callPostLoad() override {
+    Base::callPostLoad();
+    ownPostLoad();
+  }
+
+  void pyRegisterClass(py::object scope) override {
+    const py::scope inside(scope);
+    py::class_<Self, boost::shared_ptr<Self>, py::bases<YadeBase>, boost::noncopyable> pyClass(
+        Self::kName, Self::kDoc, py::no_init);
+    const py::object init = py::make_constructor(&makeFromPython<Self>);
+    pyClass.def("__init__", py::raw_function(
+                                [init](py::tuple args, py::dict kw) {
+                                  const py::object instance = args[0];
+                                  return init(instance, py::tuple(args.slice(1, py::_)), kw);
+                                },
+                                1));
+    forEach([&](const auto& attr) { defineAttribute<Self>(pyClass, attr); });
+    if constexpr (requires { Self::pyExtra(pyClass); }) Self::pyExtra(pyClass);
+  }
+
+ private:
+  friend class boost::serialization::access;
+
+  Self& self() { return static_cast<Self&>(*this); }
+  const Self& self() const { return static_cast<const Self&>(*this); }
+
+  template <class Function>
+  static void forEach(Function&& function) {
+    std::apply([&](const auto&... attr) { (function(attr), ...); }, Self::attributes());
+  }
+
+  void ownPostLoad() {
+    if constexpr (requires(Self& s) { s.postLoad(s); }) self().postLoad(self());
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive, unsigned /*version*/) {
+    using boost::serialization::make_nvp;
+    static const std::string baseName = YadeBase::getClassName();
+    archive& make_nvp(baseName.c_str(), boost::serialization::base_object<YadeBase>(self()));
+    forEach([&](const auto& attr) {
+      if (!attr.has(yade::Attr::noSave)) archive& make_nvp(attr.name, self().*attr.member);
+    });
+    if constexpr (Archive::is_loading::value) ownPostLoad();
+  }
+};
+
+}  // namespace yadefrag
