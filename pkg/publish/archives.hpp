@@ -1,6 +1,6 @@
 #pragma once
-// Archives that YADE saves to, and types whose archive code YADE's libraries hold: none is made here
-// for those, so that files stay YADE's. A base to publish from must be listed.
+// Archives that YADE saves to, and types whose archive code YADE's libraries hold: none is made
+// here for those, so that files stay YADE's. A base to publish from must be listed.
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
@@ -9,7 +9,7 @@
 
 #include "abi/yade.hpp"
 
-#define YADEFRAG_YADE_ARCHIVES(T)                          \
+#define YADEFRAG_YADE_ARCHIVES(T)                        \
   extern template class oserializer<xml_oarchive, T>;    \
   extern template class iserializer<xml_iarchive, T>;    \
   extern template class oserializer<binary_oarchive, T>; \

@@ -10,7 +10,7 @@ namespace yadefrag {
 template <class Class, class Value>
 struct Attribute {
   const char* name;
-  Value Class::* member;
+  Value Class::*member;
   const char* doc;
   int flags;  // of yade::Attr
 
@@ -18,8 +18,8 @@ struct Attribute {
 };
 
 template <class Class, class Value>
-constexpr Attribute<Class, Value> attribute(const char* name, Value Class::* member,
-                                            const char* doc, int flags = 0) {
+constexpr Attribute<Class, Value> attribute(const char* name, Value Class::*member, const char* doc,
+                                            int flags = 0) {
   return {name, member, doc, flags};
 }
 
@@ -29,11 +29,12 @@ inline constexpr bool kByReference = std::is_base_of_v<Eigen::MatrixBase<Value>,
 
 // Both take Self, which Python knows, where the member may belong to a base that it does not.
 template <class Self, class Class, class Value>
-yade::py::object attributeGetter(Value Class::* member) {
+yade::py::object attributeGetter(Value Class::*member) {
   namespace py = yade::py;
   if constexpr (kByReference<Value>) {
     return py::make_function([member](Self& self) -> Value& { return self.*member; },
-                             py::return_internal_reference<>(), boost::mpl::vector<Value&, Self&>());
+                             py::return_internal_reference<>(),
+                             boost::mpl::vector<Value&, Self&>());
   } else {
     return py::make_function([member](Self& self) -> Value { return self.*member; },
                              py::default_call_policies(), boost::mpl::vector<Value, Self&>());

@@ -1,7 +1,7 @@
 #pragma once
 // publish<A, B>(file): makes classes derived from Published known to YADE's factory, to Python (in
-// yade.wrapper) and to the archives of O.save and O.load. Include it where the classes are published
-// only: archive code is made where it is included.
+// yade.wrapper) and to the archives of O.save and O.load. Include it where the classes are
+// published only: archive code is made where it is included.
 
 #include <algorithm>
 #include <array>
@@ -19,8 +19,9 @@
 namespace yadefrag {
 
 template <class T>
-concept PublishedClass =
-    std::derived_from<T, yade::Serializable> && requires { std::string_view(T::kName); };
+concept PublishedClass = std::derived_from<T, yade::Serializable> && requires {
+  std::string_view(T::kName);
+};
 
 // "yade::" and the name: what an archive calls the class, as for YADE's own.
 template <class T>

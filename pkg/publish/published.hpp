@@ -21,9 +21,9 @@ boost::shared_ptr<Self> makeFromPython(py::tuple args, py::dict kw) {
   boost::shared_ptr<Self> made(new Self);
   made->pyHandleCustomCtorArgs(args, kw);
   if (py::len(args) > 0) {
-    throw std::runtime_error(std::string(Self::kName) + " takes keyword arguments only, besides " +
-                             "what its base takes; not understood: " +
-                             std::to_string(py::len(args)) + " more.");
+    throw std::runtime_error(
+        std::string(Self::kName) + " takes keyword arguments only, besides " +
+        "what its base takes; not understood: " + std::to_string(py::len(args)) + " more.");
   }
   if (py::len(kw) > 0) made->pyUpdateAttrs(kw);
   return made;
@@ -100,7 +100,7 @@ class Published : public Base {
   }
 
   void ownPostLoad() {
-    if constexpr (requires(Self& s) { s.postLoad(s); }) self().postLoad(self());
+    if constexpr (requires(Self & s) { s.postLoad(s); }) self().postLoad(self());
   }
 
   template <class Archive>
