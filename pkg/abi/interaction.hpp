@@ -62,7 +62,6 @@ class InteractionContainer : public Serializable {
   InteractionContainer() = delete;
   ~InteractionContainer() override;
 
-  // Entries past size() of the vector behind these may exist; begin..end is what YADE walks.
   iterator begin() { return linIntrs.begin(); }
   iterator end() { return linIntrs.end(); }
   const_iterator begin() const { return linIntrs.begin(); }
@@ -73,6 +72,7 @@ class InteractionContainer : public Serializable {
 
   bool insert(Body::id_t id1, Body::id_t id2);
   bool insert(const shared_ptr<Interaction>& interaction);
+  // linPos must be the interaction's linIx: the package is built with assertions that ask for it.
   bool erase(Body::id_t id1, Body::id_t id2, int linPos = -1);
   const shared_ptr<Interaction>& find(Body::id_t id1, Body::id_t id2);
   void clear();

@@ -1,0 +1,62 @@
+#pragma once
+// Write an attribute through Python, read it through a declaration of pkg/abi.
+
+#include <string>
+
+#include "abi/support_check.hpp"
+#include "abi/yade.hpp"
+
+namespace yadefrag {
+
+// "Body.groupMask is not where ..." as UnsupportedYade.
+[[noreturn]] void throwMisplaced(const std::string& typeAndMember);
+
+// A scratch object of a class of yade.wrapper, seen from both sides.
+template <class Type>
+class Scratch {
+ public:
+  explicit Scratch(const char* pythonClass)
+      : name_(pythonClass),
+        object_(yade::py::import("yade.wrapper").attr(pythonClass)()),
+        seen_(yade::py::extract<boost::shared_ptr<Type>>(object_)()) {}
+
+  // For an object that YADE keeps inside another one.
+  Scratch(const char* name, boost::shared_ptr<Type> seen)
+      : name_(name), object_(), seen_(std::move(seen)) {}
+
+  Type& operator*() const { return *seen_; }
+  Type* operator->() const { return seen_.get(); }
+  const boost::shared_ptr<Type>& pointer() const { return seen_; }
+  const yade::py::object& object() const { return object_; }
+
+  // By YADE's attribute list; read-only and hidden attributes are on it too.
+  template <class Slot, class Value>
+  void check(const char* attr, const Slot& slot, const Value& value) const {
+    const Slot wanted = value;
+    refuse(attr, slot == wanted);  // a fresh object has another value there
+    yade::py::dict one;
+    one[attr] = wanted;
+    seen_->pyUpdateAttrs(one);
+    refuse(attr, !(slot == wanted));
+  }
+
+  // By Python's own assignment, for properties that are not on that list.
+  template <class Slot, class Value>
+  void checkProperty(const char* attr, const Slot& slot, const Value& value) const {
+    const Slot wanted = value;
+    refuse(attr, slot == wanted);
+    yade::py::setattr(object_, attr, yade::py::object(wanted));
+    refuse(attr, !(slot == wanted));
+  }
+
+  void refuse(const char* member, bool wrong) const {
+    if (wrong) throwMisplaced(std::string(name_) + "." + member);
+  }
+
+ private:
+  const char* name_;
+  yade::py::object object_;
+  boost::shared_ptr<Type> seen_;
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,34 @@
+// The extension behind `import yadefrag`. Loading it touches nothing: yadefrag/__init__.py calls
+// the check first and publishes after it. (An error thrown while Boost.Python initializes a module
+// is lost, so the work is not done there.)
+
+#include "abi/support_check.hpp"
+#include "publish/publish.hpp"
+
+namespace yadefrag {
+
+template <class... Classes>
+struct ClassList {
+  static py::tuple publishAll() {
+    publish<Classes...>(__FILE__);
+    return py::make_tuple(Classes::kName...);
+  }
+};
+
+// Every class that this project adds to YADE.
+using NewClasses = ClassList<>;
+
+void toImportError(const UnsupportedYade& error) {
+  PyErr_SetString(PyExc_ImportError, error.what());
+}
+
+}  // namespace yadefrag
+
+BOOST_PYTHON_MODULE(_yadefrag) {
+  namespace py = boost::python;
+  py::register_exception_translator<yadefrag::UnsupportedYade>(&yadefrag::toImportError);
+  py::def("checkRunningYade", &yadefrag::checkRunningYade,
+          "Raises ImportError unless YADE's classes are laid out as this extension declares them.");
+  py::def("publish", &yadefrag::NewClasses::publishAll,
+          "Adds the new classes to YADE, once; returns their names.");
+}

@@ -1,0 +1,22 @@
+"""Contact search for YADE: colliders that take the place of InsertionSortCollider.
+
+`import yadefrag` in a script run by `yade` adds the classes to yade.wrapper, as YADE does with its
+own, and to the names that every script sees. ImportError, in one sentence, in any other YADE.
+"""
+
+import builtins
+
+from yadefrag import support
+
+support.require()
+
+# Only after the check: without the right YADE these may not exist, or not load.
+from yade import wrapper  # noqa: E402
+from yadefrag import _yadefrag  # noqa: E402
+
+_yadefrag.checkRunningYade()
+__all__ = list(_yadefrag.publish())
+
+for _name in __all__:
+    globals()[_name] = getattr(wrapper, _name)
+    setattr(builtins, _name, globals()[_name])
