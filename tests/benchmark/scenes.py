@@ -61,8 +61,8 @@ def polydisperse(n, seed, ratio=20.):
 
     The volume is spread evenly over the logarithm of the radius (each octave of radii holds the
     same volume), so most spheres are small; one has the largest radius. Velocities as in `gas`,
-    whatever the size. (Few bodies and a large ratio: the cube is at least 2.5 of the largest diameters wide,
-    and the volume fraction less.)
+    whatever the size. (Few bodies and a large ratio: the cube is at least 2.5 of the largest
+    diameters wide, and the volume fraction less.)
     """
     rng = np.random.default_rng(seed)
     positions, radii, edge = _sizeClasses(rng, n, ratio, .25)
@@ -80,8 +80,8 @@ def clusters(n, seed):
     """Two dense blocks 20 block edges apart, and 1 % of the n spheres far outside.
 
     The blocks are as in `packing` and approach each other at 1 m/s each (their outermost spheres
-    keep that velocity). The outliers are spread over a cube of 100 block edges, with velocities as in
-    `gas`. Young 10 MPa, no damping.
+    keep that velocity). The outliers are spread over a cube of 100 block edges, with velocities as
+    in `gas`. Young 10 MPa, no damping.
     """
     rng = np.random.default_rng(seed)
     nOut = max(1, n // 100)
