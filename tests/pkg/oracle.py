@@ -50,17 +50,24 @@ def _aperiodic(centres, radii, rows, _):
 
 
 def _periodic(centres, radii, rows, hSize):
-    """The nearest lattice image and its 26 neighbours: enough while cells are not needle-thin."""
+    """The nearest lattice image, and of its 26 neighbours those that can be within reach."""
     hSize = np.asarray(hSize, float)
     i, j = _pairs(radii, rows, len(centres))
     delta = centres[j] - centres[i]
-    nearest = -np.rint(np.linalg.solve(hSize, delta.T).T).astype(int)
+    fraction = np.linalg.solve(hSize, delta.T).T
+    nearest = -np.rint(fraction).astype(int)
+    fraction = fraction + nearest
+    # |hSize f| >= (least singular value) |f|: no contact where some |f| exceeds this
+    limit = 1e-6 + 2 * np.nanmax(radii) / np.linalg.svd(hSize, compute_uv=False)[-1]
     for offset in itertools.product((-1, 0, 1), repeat=3):
-        dist = nearest + np.array(offset)
-        overlap, slack = _overlap(centres, radii, i, j, delta + dist @ hSize.T)
+        keep = (abs(fraction + offset) <= limit).all(axis=1)
+        if not keep.any():
+            continue
+        dist = nearest[keep] + np.array(offset)
+        shift = dist @ hSize.T
+        overlap, slack = _overlap(centres, radii, i[keep], j[keep], delta[keep] + shift)
         # the error of the shift itself counts too
-        slack = slack + kAbsolute * 4 * abs(dist @ hSize.T).max(axis=1, initial=0)
-        yield i, j, overlap, slack, dist
+        yield i[keep], j[keep], overlap, slack + 4 * kAbsolute * abs(shift).max(axis=1), dist
 
 
 def masked(pairs, masks, avoid=0, clumps=None):
