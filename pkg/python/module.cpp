@@ -3,6 +3,7 @@
 // is lost, so the work is not done there.)
 
 #include "abi/support_check.hpp"
+#include "collider/colliders.hpp"
 #include "publish/publish.hpp"
 
 namespace yadefrag {
@@ -16,7 +17,7 @@ struct ClassList {
 };
 
 // Every class that this project adds to YADE.
-using NewClasses = ClassList<>;
+using NewClasses = ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider>;
 
 void toImportError(const UnsupportedYade& error) {
   PyErr_SetString(PyExc_ImportError, error.what());

@@ -1,0 +1,14 @@
+#pragma once
+// Bad input is reported by a typed exception with one sentence; our own mistakes are `assert`s.
+
+#include <stdexcept>
+
+namespace yadefrag {
+
+/// The caller's input cannot be used; the message says what it was and what would be right.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,32 @@
+#pragma once
+// Typed 32-bit ids: an index into one array cannot be handed to another by mistake.
+
+#include <compare>
+#include <cstdint>
+
+namespace yadefrag {
+
+template <class Tag>
+struct Id {
+  std::uint32_t value;
+
+  constexpr Id() : value(0) {}
+  constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {}
+  friend constexpr auto operator<=>(Id, Id) = default;
+};
+
+/// A slot in the array of boxes given to a search.
+using BoxId = Id<struct BoxTag>;
+
+/// Two boxes that overlap; `first < second`.
+struct BoxPair {
+  BoxId first;
+  BoxId second;
+  friend constexpr auto operator<=>(const BoxPair&, const BoxPair&) = default;
+};
+
+inline constexpr BoxPair orderedPair(BoxId a, BoxId b) {
+  return a < b ? BoxPair{a, b} : BoxPair{b, a};
+}
+
+}  // namespace yadefrag

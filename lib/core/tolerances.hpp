@@ -1,0 +1,39 @@
+#pragma once
+// Every tolerance and threshold of the project, with its unit and its reason.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace yadefrag::tolerance {
+
+/// (relative) Added to the largest box of a level before it is subtracted from a coordinate: covers
+/// the rounding of the two subtractions (2⁻⁵³ each) with a factor of eight to spare.
+inline constexpr double kExtentRounding = 8.9e-16;
+
+/// (ratio) Edge of a position-code box over the largest body box of its level. At 1 a query spans
+/// three boxes an axis and eight code ranges, at 2 two boxes and three to four ranges, but more
+/// candidates. Measured on the benchmark scenes: flat between 1.2 and 2.
+inline constexpr double kEdgeOverExtent = 1.5;
+
+/// (count) Levels with no more boxes than this are not put on the curve but tested against
+/// everything: a floor and four walls would otherwise cost every body a range search each.
+inline constexpr std::size_t kWideLevelCount = 8;
+
+/// (count) Codes in one bucket of the directory above which the bucket gets a directory of its own.
+inline constexpr std::size_t kBucketCodes = 16;
+
+/// (share) Above this share of moved boxes a sort from nothing is cheaper than a merge.
+inline constexpr double kResortShare = 0.25;
+
+/// (boxes) An axis along which all boxes start within this many median box lengths is left out of
+/// the position code: a plane scene is searched with 2D codes.
+inline constexpr double kFlatAxis = 1.0;
+
+/// (ratio) The hierarchy is rebuilt when the summed half-perimeter of its refitted nodes exceeds
+/// this many times what it was when built.
+inline constexpr double kHierarchyDecay = 1.5;
+
+/// (count) Boxes in a leaf of the hierarchy.
+inline constexpr std::uint32_t kHierarchyLeaf = 4;
+
+}  // namespace yadefrag::tolerance

@@ -1,0 +1,83 @@
+#pragma once
+// The ranges of the curve that cover a rectangle of boxes (paper §4.4, fig. 7).
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "curve/position_code.hpp"
+
+namespace yadefrag {
+
+/// A closed interval of position codes.
+struct CodeRange {
+  std::uint64_t start;
+  std::uint64_t stop;
+};
+
+/// At most 2^Dim ranges, in no particular order.
+template <int Dim>
+struct CodeRanges {
+  std::array<CodeRange, std::size_t{1} << Dim> range;
+  int count = 0;
+};
+
+/// Closed interval of box numbers on one axis.
+struct AxisInterval {
+  std::uint32_t low;
+  std::uint32_t high;
+};
+
+/// Cuts [low, high] where the highest-level boundary of the curve crosses it. A pair below one
+/// parent box is left whole: the range is then at most twice as long, and there are half as many.
+/// An interval that wraps (low > high) is cut at the wrap, which is the highest boundary of all.
+template <int Dim>
+int cutAtHighestBoundary(std::uint32_t low, std::uint32_t high, std::array<AxisInterval, 2>& part) {
+  const std::uint32_t differing = low ^ high;
+  if (low > high) {
+    part = {{{low, PositionCode<Dim>::kMask}, {0, high}}};
+    return 2;
+  }
+  if (differing <= 1) {
+    part[0] = {low, high};
+    return 1;
+  }
+  const int level = static_cast<int>(std::bit_width(differing)) - 1;
+  const std::uint32_t boundary = (high >> level) << level;
+  part = {{{low, boundary - 1}, {boundary, high}}};
+  return 2;
+}
+
+/// Ranges of all boxes with low ≤ box ≤ high on every axis (modulo 2^kBits), each clipped to the
+/// codes of the lower-left and upper-right corner of its part. Other boxes may lie in a range too.
+template <int Dim>
+CodeRanges<Dim> rangesOfRectangle(const typename PositionCode<Dim>::Cell& low,
+                                  const typename PositionCode<Dim>::Cell& high) {
+  using Code = PositionCode<Dim>;
+  struct SpreadPart {
+    std::uint64_t low, high;
+  };
+  CodeRanges<Dim> out;
+  out.range[0] = {0, 0};
+  out.count = 1;
+  for (int axis = 0; axis < Dim; ++axis) {
+    std::array<AxisInterval, 2> part;
+    const int parts = cutAtHighestBoundary<Dim>(low[axis], high[axis], part);
+    std::array<SpreadPart, 2> bits;
+    for (int p = 0; p < parts; ++p)
+      bits[p] = {Code::spread(part[p].low) << Code::axisShift(axis), Code::spread(part[p].high)
+                                                                         << Code::axisShift(axis)};
+    if (parts == 2)
+      for (int r = 0; r < out.count; ++r)
+        out.range[out.count + r] = {out.range[r].start | bits[1].low,
+                                    out.range[r].stop | bits[1].high};
+    for (int r = 0; r < out.count; ++r) {
+      out.range[r].start |= bits[0].low;
+      out.range[r].stop |= bits[0].high;
+    }
+    out.count *= parts;
+  }
+  return out;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,65 @@
+#pragma once
+// The two numberings of position-code boxes: along the Lebesgue curve (SPC, paper §4.2) and row by
+// row (LPC, Oldenburg and Nilsson 1994, the paper's [5]). Both count coordinates modulo 2^kBits:
+// far boxes then share codes, which costs a candidate and loses none.
+
+#include "curve/code_ranges.hpp"
+#include "curve/position_code.hpp"
+
+namespace yadefrag {
+
+template <int Dim>
+struct LebesgueNumbering {
+  using Code = PositionCode<Dim>;
+  using Cell = typename Code::Cell;
+  static constexpr bool kStepsByXor = true;
+
+  static std::uint64_t encode(const Cell& cell) { return Code::encode(cell); }
+
+  template <class Visit>
+  static void forEachRange(const Cell& low, const Cell& high, Visit visit) {
+    const CodeRanges<Dim> ranges = rangesOfRectangle<Dim>(low, high);
+    for (int r = 0; r < ranges.count; ++r) visit(ranges.range[r]);
+  }
+};
+
+template <int Dim>
+struct LinearNumbering {
+  using Code = PositionCode<Dim>;
+  using Cell = typename Code::Cell;
+  static constexpr bool kStepsByXor = false;
+
+  /// Rows run along x, the first axis; each row has room for all 2^kBits boxes.
+  static std::uint64_t encode(const Cell& cell) {
+    std::uint64_t code = 0;
+    for (int axis = Dim - 1; axis >= 0; --axis) code = (code << Code::kBits) | cell[axis];
+    return code;
+  }
+
+  /// One range per row of the rectangle, two where the row wraps.
+  template <class Visit>
+  static void forEachRange(const Cell& low, const Cell& high, Visit visit) {
+    Cell row = low;
+    for (;;) {
+      row[0] = 0;
+      const std::uint64_t base = encode(row);
+      if (low[0] <= high[0]) {
+        visit(CodeRange{base | low[0], base | high[0]});
+      } else {
+        visit(CodeRange{base, base | high[0]});
+        visit(CodeRange{base | low[0], base | Code::kMask});
+      }
+      int axis = 1;
+      for (; axis < Dim; ++axis) {
+        if (row[axis] != high[axis]) {
+          row[axis] = (row[axis] + 1) & Code::kMask;
+          break;
+        }
+        row[axis] = low[axis];
+      }
+      if (axis == Dim) return;
+    }
+  }
+};
+
+}  // namespace yadefrag

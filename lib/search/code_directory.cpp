@@ -1,0 +1,53 @@
+#include "search/code_directory.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+#include "core/tolerances.hpp"
+
+namespace yadefrag {
+
+void CodeDirectory::build(std::span<const std::uint64_t> codes) {
+  assert(codes.size() < kChild);
+  codes_ = codes;
+  nodes_.clear();
+  table_.clear();
+  const auto count = static_cast<std::uint32_t>(codes.size());
+  // An empty list answers 0 to every question: nothing is ≤ first = max.
+  nodes_.push_back(
+      {count ? codes.front() : ~std::uint64_t{0}, count ? codes.back() : 0, 0, count, 0, 0});
+  // Children are appended behind, so this visits them too.
+  for (std::uint32_t at = 0; at < nodes_.size(); ++at) buildNode(at);
+}
+
+void CodeDirectory::buildNode(std::uint32_t at) {
+  Node& node = nodes_[at];
+  const std::uint32_t count = node.end - node.begin;
+  const std::uint64_t width = count ? node.last - node.first : 0;
+  const int slotBits = static_cast<int>(std::bit_width(count));
+  node.shift = std::max(0, static_cast<int>(std::bit_width(width)) - slotBits);
+  node.table = static_cast<std::uint32_t>(table_.size());
+  const auto slots = static_cast<std::uint32_t>(width >> node.shift) + 1;
+  table_.resize(node.table + slots + 1);
+  std::uint32_t filled = 0;
+  for (std::uint32_t i = node.begin; i < node.end; ++i) {
+    const auto slot = static_cast<std::uint32_t>((codes_[i] - node.first) >> node.shift);
+    while (filled <= slot) table_[node.table + filled++] = i;
+  }
+  while (filled <= slots) table_[node.table + filled++] = node.end;
+  splitOverfullSlots(at, slots);
+}
+
+void CodeDirectory::splitOverfullSlots(std::uint32_t at, std::uint32_t slots) {
+  const std::uint32_t table = nodes_[at].table;
+  for (std::uint32_t slot = 0; slot < slots; ++slot) {
+    const std::uint32_t begin = table_[table + slot];
+    const std::uint32_t end = table_[table + slot + 1];
+    if (end - begin <= tolerance::kBucketCodes || codes_[begin] == codes_[end - 1]) continue;
+    table_[table + slot] = kChild | static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back({codes_[begin], codes_[end - 1], begin, end, 0, 0});
+  }
+}
+
+}  // namespace yadefrag

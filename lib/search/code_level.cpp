@@ -1,0 +1,19 @@
+#include "search/code_level.hpp"
+
+#include "core/parallel.hpp"
+
+namespace yadefrag {
+
+void CodeLevel::refresh(std::span<const Box> boxes, bool withDirectory, int threads) {
+  boxes_.resize(list_.size());
+  forEachPart(list_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) boxes_[i] = {boxes[list_[i].slot], list_[i].slot};
+  });
+  if (!changed_) return;
+  changed_ = false;
+  codes_.resize(list_.size());
+  for (std::size_t i = 0; i < list_.size(); ++i) codes_[i] = list_[i].code;
+  if (withDirectory) directory_.build(codes_);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,60 @@
+#pragma once
+// The boxes of one level in the order of their position codes.
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/box.hpp"
+#include "search/code_directory.hpp"
+#include "search/sorted_list.hpp"
+
+namespace yadefrag {
+
+/// A box beside the slot it came from, so that a candidate test touches one cache line.
+struct alignas(64) CodedBox {
+  Box box;
+  std::uint32_t slot;
+};
+
+class CodeLevel {
+ public:
+  [[nodiscard]] std::size_t size() const { return list_.size(); }
+  [[nodiscard]] const CodedBox& operator[](std::size_t i) const { return boxes_[i]; }
+  [[nodiscard]] std::uint64_t code(std::size_t i) const { return codes_[i]; }
+  [[nodiscard]] const CodeDirectory& directory() const { return directory_; }
+  [[nodiscard]] std::span<const std::uint64_t> codes() const { return codes_; }
+
+  /// Takes out the entries for which `leaves(slot)`, and marks the list as changed.
+  template <class Leaves>
+  void remove(Leaves leaves) {
+    std::erase_if(list_, [&](const CodedSlot& c) { return leaves(c.slot); });
+    changed_ = true;
+  }
+
+  /// Puts in new entries, ascending in slot.
+  template <class Count>
+  void insert(std::vector<CodedSlot>& incoming, std::vector<CodedSlot>& scratch, Count& count) {
+    sortByCode(incoming);
+    mergeByCode(list_, incoming, scratch, count);
+    changed_ = true;
+  }
+
+  void clear() {
+    list_.clear();
+    changed_ = true;
+  }
+
+  /// Copies the boxes in curve order; `withDirectory` if codes are looked up through a directory.
+  void refresh(std::span<const Box> boxes, bool withDirectory, int threads);
+
+ private:
+  std::vector<CodedSlot> list_;
+  std::vector<std::uint64_t> codes_;
+  std::vector<CodedBox> boxes_;
+  CodeDirectory directory_;
+  bool changed_ = true;
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,85 @@
+#pragma once
+// Search by position codes: the paper's SPC (§4) and, with another numbering, its rival LPC.
+//
+// Where this departs from the paper: nodes and segments are boxes (keyed by their lower corner), so
+// a rectangle is stretched by the longest box of the level it asks; boxes of very different size
+// live on levels of their own; pairs on one level are found once, from the one that comes first on
+// the curve.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "search/code_level.hpp"
+#include "search/contact_search.hpp"
+#include "search/level_grid.hpp"
+#include "search/wide_boxes.hpp"
+
+namespace yadefrag {
+
+template <class Numbering, int Dim, class Count>
+class CodeSearch final : public ContactSearch {
+ public:
+  explicit CodeSearch(const SearchPlan& plan) : grid_(plan) {}
+
+  void update(std::span<const Box> boxes) override;
+  void findPairs(std::vector<BoxPair>& pairs) override;
+  void findOverlaps(const Box& box, std::vector<BoxId>& found) const override;
+  void clear() override;
+  [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
+
+ private:
+  using Code = PositionCode<Dim>;
+  using Cell = typename Code::Cell;
+
+  static constexpr int kAbsent = -1;
+  static constexpr int kWide = -2;
+
+  /// What is remembered of a slot: where it was at the last update (L_x, L_y of the paper, and
+  /// code).
+  struct Place {
+    std::uint64_t code = 0;
+    std::array<std::int32_t, Dim> number{};
+    std::int32_t level = kAbsent;
+  };
+  enum class Change : std::uint8_t { kNone, kMoved };
+  using Extents = std::array<double, kLevels>;
+
+  void locateAll();
+  void collectMoved();
+  Change locate(const Box& box, Place& place, Extents& extents, Count& count) const;
+  [[nodiscard]] int levelFor(const Box& box, double side) const;
+  bool stepWithin(const Box& box, Place& place, Count& count) const;
+  void encodeAnew(const Box& box, Place& place) const;
+  void sendSparseLevelsWide();
+  void listOccupiedLevels();
+
+  void pairsOf(int level, std::size_t i, std::vector<BoxPair>& out, Count& count) const;
+  template <class Visit>
+  void visitRectangle(const CodeLevel& level, const Cell& low, const Cell& high, Count& count,
+                      Visit visit) const;
+  std::uint32_t lowerBound(const CodeLevel& level, std::uint64_t code, Count& count) const;
+  bool rectangleOf(const Box& box, int level, Cell& low, Cell& high) const;
+
+  LevelGrid<Dim> grid_;
+  std::span<const Box> boxes_;
+  std::vector<Place> places_;
+  std::vector<Change> changes_;
+  std::array<CodeLevel, kLevels> levels_;
+  Extents extents_{};                   // longest side on each level now
+  std::array<bool, kLevels> isWide_{};  // levels of too few boxes to be worth codes
+  std::vector<int> occupied_;           // levels with boxes, fine to coarse
+  WideBoxes wide_;
+  std::size_t wideAtStart_ = 0;
+  bool started_ = false;
+  std::vector<CodedSlot> incoming_, scratch_;
+  std::array<std::vector<CodedSlot>, kLevels> arriving_;
+  std::vector<std::vector<BoxPair>> partPairs_;
+  Count count_;
+};
+
+}  // namespace yadefrag
+
+#include "search/code_search_pairs.hpp"
+#include "search/code_search_update.hpp"

@@ -1,0 +1,142 @@
+#pragma once
+// Third part of code_search.hpp: from codes to pairs (paper §4.4).
+
+#include "search/code_search.hpp"
+
+namespace yadefrag {
+
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
+  std::size_t total = 0;
+  for (const int level : occupied_) total += levels_[level].size();
+  partPairs_.resize(static_cast<std::size_t>(std::max(threads_, 1)));
+  std::vector<Count> counts(partPairs_.size());
+  const int parts = forEachPart(total, threads_, [&](std::size_t begin, std::size_t end, int part) {
+    std::vector<BoxPair>& out = partPairs_[part];
+    out.clear();
+    std::size_t first = 0;
+    for (const int level : occupied_) {
+      const std::size_t size = levels_[level].size();
+      const std::size_t from = std::max(begin, first), to = std::min(end, first + size);
+      for (std::size_t i = from; i < to; ++i) pairsOf(level, i - first, out, counts[part]);
+      first += size;
+    }
+  });
+  for (int part = 0; part < parts; ++part) {
+    pairs.insert(pairs.end(), partPairs_[part].begin(), partPairs_[part].end());
+    count_.merge(counts[part]);
+  }
+  wide_.pairsAmong(boxes_, pairs, count_);
+}
+
+/// Pairs of the i-th box of a level with later ones of its level, with all of coarser levels and
+/// with the wide ones.
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, std::vector<BoxPair>& out,
+                                                Count& count) const {
+  const CodedBox& me = levels_[own][i];
+  Cell low;
+  Cell high;
+  for (const int other : occupied_) {
+    if (other < own) continue;
+    const CodeLevel& level = levels_[other];
+    const bool narrow = rectangleOf(me.box, other, low, high);
+    assert(narrow);
+    static_cast<void>(narrow);
+    const auto test = [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t j = begin; j < end; ++j) {
+        count.test(2 * Dim);
+        if (overlaps(me.box, level[j].box))
+          out.push_back(orderedPair(BoxId(me.slot), BoxId(level[j].slot)));
+      }
+    };
+    if (other > own) {
+      visitRectangle(level, low, high, count, test);
+      continue;
+    }
+    const auto next = static_cast<std::uint32_t>(i) + 1;
+    const std::uint64_t code = level.code(i);
+    Numbering::forEachRange(low, high, [&](const CodeRange& range) {
+      count.range(2);
+      if (range.stop < code) return;
+      const std::uint32_t begin =
+          range.start <= code ? next : lowerBound(level, range.start, count);
+      test(begin, lowerBound(level, range.stop + 1, count));
+    });
+  }
+  wide_.pairsWith(boxes_, me.box, me.slot, out, count);
+}
+
+template <class Numbering, int Dim, class Count>
+template <class Visit>
+void CodeSearch<Numbering, Dim, Count>::visitRectangle(const CodeLevel& level, const Cell& low,
+                                                       const Cell& high, Count& count,
+                                                       Visit visit) const {
+  Numbering::forEachRange(low, high, [&](const CodeRange& range) {
+    visit(lowerBound(level, range.start, count), lowerBound(level, range.stop + 1, count));
+  });
+}
+
+/// The boxes that hold the lower corners of all boxes of `level` that can overlap `box`. False if
+/// the rectangle is wider than the curve on some axis.
+template <class Numbering, int Dim, class Count>
+bool CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level, Cell& low,
+                                                    Cell& high) const {
+  for (int d = 0; d < Dim; ++d) {
+    const int axis = grid_.axis(d);
+    const double extent = extents_[level];
+    double from = box.min[axis] - extent;
+    from -= (std::abs(from) + extent) * tolerance::kExtentRounding;
+    const double scaledLow = grid_.scaled(from, level),
+                 scaledHigh = grid_.scaled(box.max[axis], level);
+    if (!(scaledHigh - scaledLow < Code::kMask / 2) || !(std::abs(scaledLow) < 0x1p60))
+      return false;
+    low[d] =
+        static_cast<std::uint32_t>(floorToInt(scaledLow) - grid_.origin(level, d)) & Code::kMask;
+    high[d] =
+        static_cast<std::uint32_t>(floorToInt(scaledHigh) - grid_.origin(level, d)) & Code::kMask;
+  }
+  return true;
+}
+
+/// The Lebesgue search has its directory; the paper's linear rival searches its whole list (§4.5).
+template <class Numbering, int Dim, class Count>
+std::uint32_t CodeSearch<Numbering, Dim, Count>::lowerBound(const CodeLevel& level,
+                                                            std::uint64_t code,
+                                                            Count& count) const {
+  if constexpr (Numbering::kStepsByXor) return level.directory().lowerBound(code, count);
+  const std::span<const std::uint64_t> codes = level.codes();
+  std::uint32_t begin = 0;
+  auto end = static_cast<std::uint32_t>(codes.size());
+  while (begin < end) {
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    count.range(1);
+    if (codes[middle] < code)
+      begin = middle + 1;
+    else
+      end = middle;
+  }
+  return begin;
+}
+
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::findOverlaps(const Box& box,
+                                                     std::vector<BoxId>& found) const {
+  Count uncounted;
+  Cell low;
+  Cell high;
+  for (const int at : occupied_) {
+    const CodeLevel& level = levels_[at];
+    const auto test = [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t j = begin; j < end; ++j)
+        if (overlaps(box, level[j].box)) found.push_back(BoxId(level[j].slot));
+    };
+    if (rectangleOf(box, at, low, high))
+      visitRectangle(level, low, high, uncounted, test);
+    else
+      test(0, static_cast<std::uint32_t>(level.size()));
+  }
+  wide_.overlapsWith(boxes_, box, found, uncounted);
+}
+
+}  // namespace yadefrag

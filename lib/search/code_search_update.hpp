@@ -1,0 +1,172 @@
+#pragma once
+// Second half of code_search.hpp: keeping the codes up to date (paper §4.2, §4.3).
+
+#include "search/code_search.hpp"
+
+namespace yadefrag {
+
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::clear() {
+  places_.clear();
+  started_ = false;
+}
+
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::update(std::span<const Box> boxes) {
+  boxes_ = boxes;
+  if (!started_) {
+    places_.clear();
+    for (CodeLevel& level : levels_) level.clear();
+    isWide_.fill(false);
+  }
+  locateAll();
+  if (!started_) sendSparseLevelsWide();
+  collectMoved();
+  listOccupiedLevels();
+  // Many new floors or walls, or a crowd of one size that was too rare at the start: begin again.
+  const bool tooMany = wide_.size() > 2 * wideAtStart_ + tolerance::kWideLevelCount;
+  if (!started_) {
+    started_ = true;
+    wideAtStart_ = wide_.size();
+  } else if (tooMany) {
+    started_ = false;
+    update(boxes);
+    return;
+  }
+  constexpr bool withDirectory = Numbering::kStepsByXor;
+  for (const int level : occupied_) levels_[level].refresh(boxes, withDirectory, threads_);
+}
+
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::locateAll() {
+  const std::size_t before = places_.size();
+  const std::size_t count = std::max(before, boxes_.size());
+  places_.resize(count);  // slots beyond the new end vanish in this update
+  changes_.assign(count, Change::kNone);
+  std::vector<Extents> extents(static_cast<std::size_t>(threads_), Extents{});
+  std::vector<Count> counts(static_cast<std::size_t>(threads_));
+  const Box absent = Box::absent();
+  const int parts = forEachPart(count, threads_, [&](std::size_t begin, std::size_t end, int part) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Box& box = i < boxes_.size() ? boxes_[i] : absent;
+      changes_[i] = locate(box, places_[i], extents[part], counts[part]);
+    }
+  });
+  extents_.fill(0);
+  for (int part = 0; part < parts; ++part) {
+    count_.merge(counts[part]);
+    for (int level = 0; level < kLevels; ++level)
+      extents_[level] = std::max(extents_[level], extents[part][level]);
+  }
+}
+
+template <class Numbering, int Dim, class Count>
+auto CodeSearch<Numbering, Dim, Count>::locate(const Box& box, Place& place, Extents& extents,
+                                               Count& count) const -> Change {
+  if (box.isAbsent()) {
+    const bool was = place.level != kAbsent;
+    place.level = kAbsent;
+    return was ? Change::kMoved : Change::kNone;
+  }
+  const double side = longestSide(box);
+  const int level = levelFor(box, side);
+  if (level >= 0 && side > extents[level]) extents[level] = side;
+  if (level == place.level) {
+    if (level < 0 || stepWithin(box, place, count)) return Change::kNone;
+    return Change::kMoved;
+  }
+  place.level = level;
+  if (level >= 0) encodeAnew(box, place);
+  return Change::kMoved;
+}
+
+template <class Numbering, int Dim, class Count>
+int CodeSearch<Numbering, Dim, Count>::levelFor(const Box& box, double side) const {
+  const int level = grid_.levelOf(side);
+  if (level >= kLevels || isWide_[level]) return kWide;
+  for (int d = 0; d < Dim; ++d)
+    if (!LevelGrid<Dim>::isNumbered(grid_.scaled(box.min[grid_.axis(d)], level))) return kWide;
+  return level;
+}
+
+/// Fig. 6: two comparisons an axis tell whether the box kept its position code. Returns true if so.
+template <class Numbering, int Dim, class Count>
+bool CodeSearch<Numbering, Dim, Count>::stepWithin(const Box& box, Place& place,
+                                                   Count& count) const {
+  bool same = true;
+  for (int d = 0; d < Dim; ++d) {
+    const double x = grid_.scaled(box.min[grid_.axis(d)], place.level);
+    const auto floor = static_cast<double>(grid_.origin(place.level, d) + place.number[d]);
+    count.move(2);
+    const bool down = x < floor;
+    const bool up = x >= floor + 1;
+    if (!(down | up)) continue;
+    same = false;
+    const bool byOne = down ? x >= floor - 1 : x < floor + 2;
+    if (!Numbering::kStepsByXor || !byOne) {
+      encodeAnew(box, place);
+      return false;
+    }
+    const auto number = static_cast<std::uint32_t>(place.number[d]);
+    const std::uint32_t crossed = down ? number : number + 1;
+    count.move(static_cast<std::uint64_t>(std::countr_zero(crossed | (1U << (Code::kBits - 1)))) +
+               1);
+    place.code = down ? Code::stepDown(place.code, d, number) : Code::stepUp(place.code, d, number);
+    place.number[d] += down ? -1 : 1;
+  }
+  return same;
+}
+
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::encodeAnew(const Box& box, Place& place) const {
+  Cell cell;
+  for (int d = 0; d < Dim; ++d) {
+    place.number[d] = grid_.number(box.min[grid_.axis(d)], place.level, d);
+    cell[d] = static_cast<std::uint32_t>(place.number[d]) & Code::kMask;
+  }
+  place.code = Numbering::encode(cell);
+}
+
+/// A level of its own for a handful of boxes would cost every smaller box a range search.
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::sendSparseLevelsWide() {
+  std::array<std::size_t, kLevels> population{};
+  for (const Place& place : places_)
+    if (place.level >= 0) ++population[place.level];
+  for (int level = 0; level < kLevels; ++level)
+    isWide_[level] = population[level] > 0 && population[level] <= tolerance::kWideLevelCount;
+  for (Place& place : places_)
+    if (place.level >= 0 && isWide_[place.level]) place.level = kWide;
+}
+
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::collectMoved() {
+  for (auto& list : arriving_) list.clear();
+  wide_.clear();
+  bool any = false;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Place& place = places_[i];
+    if (place.level == kWide) wide_.add(i);
+    if (changes_[i] == Change::kNone) continue;
+    any = true;
+    if (place.level >= 0)
+      arriving_[place.level].push_back({place.code, static_cast<std::uint32_t>(i)});
+  }
+  if (any) {
+    for (int level = 0; level < kLevels; ++level) {
+      if (levels_[level].size() > 0)
+        levels_[level].remove([&](std::uint32_t slot) { return changes_[slot] != Change::kNone; });
+      if (!arriving_[level].empty()) levels_[level].insert(arriving_[level], scratch_, count_);
+    }
+  }
+  places_.resize(boxes_.size());
+}
+
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::listOccupiedLevels() {
+  occupied_.clear();
+  for (int level = 0; level < kLevels; ++level)
+    if (levels_[level].size() > 0) occupied_.push_back(level);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,32 @@
+#include "search/contact_search.hpp"
+
+#include "curve/numbering.hpp"
+#include "search/brute_force.hpp"
+#include "search/hierarchy_search.hpp"
+#include "search/planned_search.hpp"
+
+namespace yadefrag {
+namespace {
+
+template <class Count>
+std::unique_ptr<ContactSearch> make(SearchMethod method) {
+  switch (method) {
+    case SearchMethod::kLebesgue:
+      return std::make_unique<PlannedSearch<LebesgueNumbering, Count>>();
+    case SearchMethod::kLinearCode:
+      return std::make_unique<PlannedSearch<LinearNumbering, Count>>();
+    case SearchMethod::kHierarchy:
+      return std::make_unique<HierarchySearch<Count>>();
+    case SearchMethod::kBruteForce:
+      break;
+  }
+  return std::make_unique<BruteForce<Count>>();
+}
+
+}  // namespace
+
+std::unique_ptr<ContactSearch> makeSearch(SearchMethod method, bool countComparisons) {
+  return countComparisons ? make<CountAll>(method) : make<CountNothing>(method);
+}
+
+}  // namespace yadefrag

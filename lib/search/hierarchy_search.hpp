@@ -1,0 +1,98 @@
+#pragma once
+// Search in a tree of boxes: the paper's second rival (HO).
+
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "search/contact_search.hpp"
+#include "search/hierarchy.hpp"
+#include "search/search_plan.hpp"
+#include "search/wide_boxes.hpp"
+
+namespace yadefrag {
+
+template <class Count>
+class HierarchySearch final : public ContactSearch {
+ public:
+  void update(std::span<const Box> boxes) override {
+    boxes_ = boxes;
+    std::vector<std::uint32_t> slots;
+    wide_.clear();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (boxes[i].isAbsent()) continue;
+      if (isFinite(boxes[i]))
+        slots.push_back(static_cast<std::uint32_t>(i));
+      else
+        wide_.add(i);
+    }
+    if (slots != slots_ || !tree_.refit(boxes)) {
+      slots_ = slots;
+      tree_.build(boxes, std::move(slots));
+    }
+  }
+
+  void findPairs(std::vector<BoxPair>& pairs) override {
+    const std::span<const std::uint32_t> order = tree_.order();
+    std::vector<std::vector<BoxPair>> partPairs(static_cast<std::size_t>(std::max(threads_, 1)));
+    std::vector<Count> counts(partPairs.size());
+    const int parts =
+        forEachPart(order.size(), threads_, [&](std::size_t begin, std::size_t end, int part) {
+          for (std::size_t i = begin; i < end; ++i) {
+            const Box& box = boxes_[order[i]];
+            descend(box, i + 1, counts[part], [&](std::uint32_t other) {
+              partPairs[part].push_back(orderedPair(BoxId(order[i]), BoxId(other)));
+            });
+            wide_.pairsWith(boxes_, box, order[i], partPairs[part], counts[part]);
+          }
+        });
+    for (int part = 0; part < parts; ++part) {
+      pairs.insert(pairs.end(), partPairs[part].begin(), partPairs[part].end());
+      count_.merge(counts[part]);
+    }
+    wide_.pairsAmong(boxes_, pairs, count_);
+  }
+
+  void findOverlaps(const Box& box, std::vector<BoxId>& found) const override {
+    Count uncounted;
+    descend(box, 0, uncounted, [&](std::uint32_t other) { found.push_back(BoxId(other)); });
+    wide_.overlapsWith(boxes_, box, found, uncounted);
+  }
+
+  void clear() override { slots_.clear(); }
+  [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
+
+ private:
+  static bool isFinite(const Box& box) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (!std::isfinite(box.max[axis] - box.min[axis])) return false;
+    return true;
+  }
+
+  /// Visits the slots from the `first` one of the tree's order on whose boxes overlap `box`.
+  template <class Visit>
+  void descend(const Box& box, std::size_t first, Count& count, Visit visit) const {
+    const std::span<const Hierarchy::Node> nodes = tree_.nodes();
+    for (std::uint32_t at = 0; at < nodes.size();) {
+      const Hierarchy::Node& node = nodes[at];
+      count.range(7);
+      if (node.end <= first || !overlaps(box, node.box)) {
+        at = node.skip;
+        continue;
+      }
+      if (node.isLeaf(at))
+        for (std::size_t i = std::max<std::size_t>(node.begin, first); i < node.end; ++i) {
+          count.test(6);
+          if (overlaps(box, boxes_[tree_.order()[i]])) visit(tree_.order()[i]);
+        }
+      ++at;
+    }
+  }
+
+  std::span<const Box> boxes_;
+  std::vector<std::uint32_t> slots_;  // what the tree was built over, ascending
+  Hierarchy tree_;
+  WideBoxes wide_;
+  Count count_;
+};
+
+}  // namespace yadefrag

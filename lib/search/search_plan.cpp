@@ -1,0 +1,74 @@
+#include "search/search_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/tolerances.hpp"
+
+namespace yadefrag {
+namespace {
+
+constexpr std::size_t kSample = 1024;
+
+struct Sample {
+  std::vector<double> sides;
+  std::array<double, 3> low;
+  std::array<double, 3> high;  // of the lower corners
+};
+
+Sample takeSample(std::span<const Box> boxes) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Sample s{{}, {inf, inf, inf}, {-inf, -inf, -inf}};
+  const std::size_t stride = boxes.size() / kSample + 1;
+  for (std::size_t i = 0; i < boxes.size(); i += stride) {
+    const Box& box = boxes[i];
+    const double side = longestSide(box);
+    if (box.isAbsent() || !std::isfinite(side)) continue;
+    s.sides.push_back(side);
+    for (int axis = 0; axis < 3; ++axis) {
+      s.low[axis] = std::min(s.low[axis], box.min[axis]);
+      s.high[axis] = std::max(s.high[axis], box.min[axis]);
+    }
+  }
+  return s;
+}
+
+/// The longest side within a factor of two above the median: bodies of about one size then share a
+/// level, which they fill to its upper end.
+double typicalSide(std::vector<double>& sides) {
+  std::sort(sides.begin(), sides.end());
+  const double median = sides[sides.size() / 2];
+  return *std::prev(std::upper_bound(sides.begin(), sides.end(), 2 * median));
+}
+
+}  // namespace
+
+bool SearchPlan::stillServes(const SearchPlan& now) const {
+  return dim == now.dim && axes == now.axes && now.edge < 1.3 * edge && now.edge > edge / 1.3;
+}
+
+SearchPlan planSearch(std::span<const Box> boxes) {
+  SearchPlan plan;
+  Sample sample = takeSample(boxes);
+  if (sample.sides.empty()) return plan;
+  plan.low = sample.low;
+  std::array<double, 3> spread;
+  for (int axis = 0; axis < 3; ++axis) spread[axis] = sample.high[axis] - sample.low[axis];
+  double side = typicalSide(sample.sides);
+  // Points have no size of their own: any edge far below their spread separates them.
+  if (side == 0) side = std::ldexp(*std::max_element(spread.begin(), spread.end()), -20);
+  if (!(side > 0) || !std::isnormal(side)) side = 1;
+  plan.edge = side * tolerance::kEdgeOverExtent;
+
+  const int flattest =
+      static_cast<int>(std::min_element(spread.begin(), spread.end()) - spread.begin());
+  if (spread[flattest] <= tolerance::kFlatAxis * side) {
+    plan.dim = 2;
+    plan.axes = {(flattest + 1) % 3, (flattest + 2) % 3, flattest};
+    if (plan.axes[0] > plan.axes[1]) std::swap(plan.axes[0], plan.axes[1]);
+  }
+  return plan;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,201 @@
+#include "collider/body_boxes.hpp"
+
+#include <optional>
+#include <typeinfo>
+
+#include "collider/complaints.hpp"
+#include "core/parallel.hpp"
+
+namespace yadefrag {
+namespace {
+
+using yade::Bound;
+using yade::Real;
+using yade::Vector3r;
+
+Box toBox(const Vector3r& low, const Vector3r& high) {
+  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+}
+
+/// Radius of the bound of a body that is exactly a sphere and gets its bound from exactly YADE's
+/// functor; none for all others.
+std::optional<Real> boundRadius(const yade::Body& body) {
+  if (!body.shape || !body.isBounded()) return {};
+  const yade::Shape& shape = *body.shape;
+  const yade::BoundFunctor* functor = shape.boundFunctor.get();
+  if (!functor || typeid(shape) != typeid(yade::Sphere) ||
+      typeid(*functor) != typeid(yade::Bo1_Sphere_Aabb))
+    return {};
+  const Real enlarge = static_cast<const yade::Bo1_Sphere_Aabb*>(functor)->aabbEnlargeFactor;
+  return (enlarge > 0 ? enlarge : 1) * static_cast<const yade::Sphere&>(shape).radius;
+}
+
+/// Written so that a NaN is no good box either.
+bool isGood(const Box& box) {
+  return box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];
+}
+
+}  // namespace
+
+/// A bound as it was before this update, to be put back if the update fails.
+struct BodyBoxes::OldBound {
+  yade::Body* body;
+  bool existed;
+  int lastUpdateIter = 0;
+  Vector3r refPos{}, min{}, max{};
+  Real sweepLength = 0;
+
+  explicit OldBound(yade::Body& b) : body(&b), existed(bool(b.bound)) {
+    if (!existed) return;
+    const Bound& bound = *b.bound;
+    lastUpdateIter = bound.lastUpdateIter;
+    refPos = bound.refPos, min = bound.min, max = bound.max;
+    sweepLength = bound.sweepLength;
+  }
+  void restore() const {
+    if (!existed) {
+      body->bound.reset();
+      return;
+    }
+    Bound& bound = *body->bound;
+    bound.lastUpdateIter = lastUpdateIter;
+    bound.refPos = refPos, bound.min = min, bound.max = max;
+    bound.sweepLength = sweepLength;
+  }
+};
+
+void BodyBoxes::update(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
+                       double cellSlack, int threads) {
+  rule_ = rule;
+  cell_ = scene.isPeriodic ? scene.cell.get() : nullptr;
+  cellSlack_ = cellSlack;
+  // A length r in space is r·‖row‖ at most along an unsheared axis, a cube of half-width s is
+  // s·Σ|row|. (YADE enlarges by cosines instead, which falls short at large shear.)
+  radiusFactor_ = sweepFactor_ = Vector3r::Ones();
+  if (cell_ && cell_->hasShear()) {
+    radiusFactor_ = cell_->getUnshearTrsf().rowwise().norm();
+    sweepFactor_ = cell_->getUnshearTrsf().cwiseAbs().rowwise().sum();
+  }
+  gatherSpheres(scene, threads);
+  checkPositions(scene);
+  updateOthers(scene, dispatcher);
+  writeSpheres(scene, threads);
+}
+
+void BodyBoxes::gatherSpheres(yade::Scene& scene, int threads) {
+  const auto& bodies = scene.bodies->body;
+  boxes_.resize(bodies.size());
+  balls_.resize(bodies.size());
+  kinds_.resize(bodies.size());
+  forEachPart(bodies.size(), threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t id = begin; id < end; ++id) {
+      boxes_[id] = Box::absent();
+      balls_[id].radius = -1;
+      kinds_[id] = bodies[id] ? takeSphere(*bodies[id], id) : Kind::kNone;
+    }
+  });
+}
+
+/// Spheres get their box here, without a call to their functor, once they have a bound to write to.
+auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
+  if (!body.bound) return body.shape && body.isBounded() ? Kind::kOther : Kind::kNone;
+  const std::optional<Real> radius = boundRadius(body);
+  if (!radius) return Kind::kOther;
+  const yade::State& state = *body.state;
+  Ball& ball = balls_[id];
+  ball = {state.se3.position, *radius, rule_.lengthFor(SweepRule::speedOf(state.vel))};
+  const Vector3r at = cell_ ? cell_->unshearPt(ball.centre) : ball.centre;
+  const Vector3r half = ball.radius * radiusFactor_;
+  const Vector3r sweep = (ball.sweep + cellSlack_) * sweepFactor_;
+  boxes_[id] = toBox((at - half) - sweep, (at + half) + sweep);
+  return Kind::kSphere;
+}
+
+void BodyBoxes::checkPositions(const yade::Scene& scene) const {
+  const auto& bodies = scene.bodies->body;
+  for (std::size_t id = 0; id < bodies.size(); ++id) {
+    if (kinds_[id] == Kind::kSphere) {
+      if (!balls_[id].centre.allFinite()) complainOfPosition(id, balls_[id].centre);
+      if (!(balls_[id].radius >= 0)) complainOfRadius(id, balls_[id].radius);
+    } else if (kinds_[id] == Kind::kOther && bodies[id]->shape && bodies[id]->isBounded()) {
+      if (!bodies[id]->state->se3.position.allFinite())
+        complainOfPosition(id, bodies[id]->state->se3.position);
+    }
+  }
+}
+
+void BodyBoxes::updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher) {
+  // The functors make bare boxes: each is enlarged here by a sweep of its own.
+  dispatcher.scene = &scene;
+  for (const auto& functor : dispatcher.functors) functor->scene = &scene;
+  dispatcher.sweepDist = 0;
+  dispatcher.targetInterv = -1;
+  turning_.clear();
+  std::vector<OldBound> undo;
+  try {
+    for (std::size_t id = 0; id < kinds_.size(); ++id) {
+      if (kinds_[id] != Kind::kOther) continue;
+      const auto& body = scene.bodies->body[id];
+      undo.emplace_back(*body);
+      if (body->shape && body->isBounded()) dispatcher.processBody(body);
+      if (body->bound) takeOther(body, scene);
+    }
+  } catch (...) {
+    for (const OldBound& old : undo) old.restore();
+    throw;
+  }
+}
+
+void BodyBoxes::takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene) {
+  const auto id = static_cast<std::size_t>(body->id);
+  Bound& bound = *body->bound;
+  if (!isGood(toBox(bound.min, bound.max))) complainOfBound(id, bound);
+  // A body that no longer asks for a bound keeps the one it has, as in YADE.
+  if (body->shape && body->isBounded()) {
+    const double sweep = sweepOfOther(*body);
+    bound.min -= (sweep + cellSlack_) * sweepFactor_;
+    bound.max += (sweep + cellSlack_) * sweepFactor_;
+    bound.sweepLength = sweep;
+    bound.refPos = body->state->se3.position;
+    bound.lastUpdateIter = static_cast<int>(scene.iter);
+  }
+  boxes_[id] = toBox(bound.min, bound.max);
+}
+
+double BodyBoxes::sweepOfOther(const yade::Body& body) {
+  const yade::State& state = *body.state;
+  const double speed = SweepRule::speedOf(state.vel);
+  const ShapeKind kind = shapeKinds_.of(*body.shape);
+  if (kind == ShapeKind::kFollower) return rule_.most;
+  if (kind == ShapeKind::kSphere) {
+    const double sweep = rule_.lengthFor(speed);
+    if (const auto radius = boundRadius(body))
+      balls_[static_cast<std::size_t>(body.id)] = {state.se3.position, *radius, sweep};
+    return sweep;
+  }
+  const Vector3r at = cell_ ? cell_->unshearPt(state.se3.position) : state.se3.position;
+  const Vector3r far =
+      (body.bound->max - at).cwiseAbs().cwiseMax((body.bound->min - at).cwiseAbs());
+  const double reach = far.norm() * (cell_ ? cell_->getShearTrsf().norm() : 1);
+  turning_.push_back({body.id, state.se3.orientation, reach});
+  const double turn = state.angVel.norm();
+  return rule_.lengthFor(speed + (turn > 0 ? turn * reach : 0));
+}
+
+void BodyBoxes::writeSpheres(yade::Scene& scene, int threads) {
+  const auto& bodies = scene.bodies->body;
+  forEachPart(bodies.size(), threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t id = begin; id < end; ++id) {
+      if (kinds_[id] != Kind::kSphere) continue;
+      Bound& bound = *bodies[id]->bound;
+      const Box& box = boxes_[id];
+      bound.min = Vector3r(box.min[0], box.min[1], box.min[2]);
+      bound.max = Vector3r(box.max[0], box.max[1], box.max[2]);
+      bound.refPos = balls_[id].centre;
+      bound.sweepLength = balls_[id].sweep;
+      bound.lastUpdateIter = static_cast<int>(scene.iter);
+    }
+  });
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,64 @@
+#pragma once
+// From YADE's bodies to the boxes that a search takes, and back into their bounds.
+
+#include <vector>
+
+#include "abi/yade.hpp"
+#include "collider/shape_kinds.hpp"
+#include "collider/sweep_rule.hpp"
+#include "core/box.hpp"
+
+namespace yadefrag {
+
+/// Centre and radius of a body that is exactly a sphere, for the test of the true halo.
+struct Ball {
+  yade::Vector3r centre;
+  double radius;  ///< m, that of its bound (with aabbEnlargeFactor); negative: not a sphere
+  double sweep;   ///< m, how far it may move in any direction
+};
+
+/// What has to be watched between searches in bodies whose orientation matters.
+struct Turning {
+  yade::Body::id_t id;
+  yade::Quaternionr orientation;
+  double reach;  ///< m, farthest point from the centre
+};
+
+class BodyBoxes {
+ public:
+  /// Computes all boxes and brings the bounds up to date. Throws InputError, with every bound as it
+  /// was, for a position that is not finite or a bound that is turned inside out.
+  void update(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
+              double cellSlack, int threads);
+
+  /// By body id; absent where a body takes no part.
+  [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
+  [[nodiscard]] const std::vector<Ball>& balls() const { return balls_; }
+  [[nodiscard]] const std::vector<Turning>& turning() const { return turning_; }
+
+ private:
+  enum class Kind : unsigned char { kNone, kSphere, kOther };
+  struct OldBound;
+
+  void gatherSpheres(yade::Scene& scene, int threads);
+  Kind takeSphere(const yade::Body& body, std::size_t id);
+  void updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
+  void takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene);
+  double sweepOfOther(const yade::Body& body);
+  void writeSpheres(yade::Scene& scene, int threads);
+  void checkPositions(const yade::Scene& scene) const;
+
+  std::vector<Box> boxes_;
+  std::vector<Ball> balls_;
+  std::vector<Kind> kinds_;
+  std::vector<Turning> turning_;
+  ShapeKinds shapeKinds_;
+
+  // The same for all bodies of one update:
+  SweepRule rule_{0, 0, 0, 0};
+  const yade::Cell* cell_ = nullptr;           // null if the scene is not periodic
+  yade::Vector3r radiusFactor_, sweepFactor_;  // of lengths in space, in unsheared coordinates
+  double cellSlack_ = 0;
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,46 @@
+#include "collider/complaints.hpp"
+
+#include <sstream>
+
+#include "core/errors.hpp"
+
+namespace yadefrag {
+namespace {
+
+std::ostream& operator<<(std::ostream& out, const yade::Vector3r& v) {
+  return out << '(' << v[0] << ", " << v[1] << ", " << v[2] << ')';
+}
+
+}  // namespace
+
+void complainOfPosition(std::size_t id, const yade::Vector3r& position) {
+  std::ostringstream text;
+  text << "Body #" << id << " is at " << position
+       << ", which is not finite: the simulation has become unstable (is O.dt too large?) or the "
+          "position was set wrongly.";
+  throw InputError(text.str());
+}
+
+void complainOfRadius(std::size_t id, double radius) {
+  std::ostringstream text;
+  text << "Body #" << id << " has a bound that is turned inside out: its sphere's radius is "
+       << radius << " and must not be negative.";
+  throw InputError(text.str());
+}
+
+void complainOfBound(std::size_t id, const yade::Bound& bound) {
+  std::ostringstream text;
+  text << "Body #" << id << " has a bound that is turned inside out or not a number: from "
+       << bound.min << " to " << bound.max << "; its shape or its orientation must be wrong.";
+  throw InputError(text.str());
+}
+
+void complainOfSize(std::size_t id, int axis, double cellSize) {
+  std::ostringstream text;
+  text << "Body #" << id << " spans over half of the cell size " << cellSize << " (axis=" << axis
+       << "): Body larger than half of the cell size encountered. See allowBiggerThanPeriod and "
+          "Cell.flipFlippable.";
+  throw InputError(text.str());
+}
+
+}  // namespace yadefrag

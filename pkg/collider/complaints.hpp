@@ -1,0 +1,18 @@
+#pragma once
+// The sentences in which the colliders refuse bad input.
+
+#include <cstddef>
+
+#include "abi/yade.hpp"
+
+namespace yadefrag {
+
+[[noreturn]] void complainOfPosition(std::size_t id, const yade::Vector3r& position);
+[[noreturn]] void complainOfRadius(std::size_t id, double radius);
+[[noreturn]] void complainOfBound(std::size_t id, const yade::Bound& bound);
+
+/// The body spans more than the cell allows along an axis; YADE's words, for scripts that look for
+/// them, with the body in front.
+[[noreturn]] void complainOfSize(std::size_t id, int axis, double cellSize);
+
+}  // namespace yadefrag

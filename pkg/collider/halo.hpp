@@ -1,0 +1,54 @@
+#pragma once
+// The true halo (paper §4.4: a node found by its code is tested against the slanted halo): of two
+// balls whose boxes overlap, more than half cannot meet before the next search.
+
+#include <vector>
+
+#include "abi/yade.hpp"
+#include "collider/body_boxes.hpp"
+#include "core/ids.hpp"
+
+namespace yadefrag {
+
+/// A pair that goes on to YADE, with the cells by which the second body is shifted.
+struct Neighbours {
+  yade::Body::id_t first, second;  // first < second
+  yade::Vector3i cellDist;
+};
+
+class Halo {
+ public:
+  /// `slack` (m) is what the cell's deformation may add to a distance before the next search.
+  Halo(const std::vector<Ball>& balls, double slack) : balls_(balls), slack_(slack) {}
+
+  /// False if the bodies are balls that cannot touch while both stay within their sweeps. The
+  /// integrator watches each component of a displacement by itself, so the relative displacement
+  /// fills a cube of half-width s₁ + s₂, and a ball of that radius would be too small.
+  [[nodiscard]] bool mayTouch(const BoxPair& pair, const yade::Vector3r& shift) const {
+    const Ball& a = balls_[pair.first.value];
+    const Ball& b = balls_[pair.second.value];
+    if (a.radius < 0 || b.radius < 0) return true;
+    const double cube = a.sweep + b.sweep + slack_;
+    double square = 0, farthest = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double distance = std::abs(b.centre[axis] + shift[axis] - a.centre[axis]);
+      const double left = distance > cube ? distance - cube : 0;
+      square += left * left;
+      farthest = std::max(
+          farthest, std::abs(a.centre[axis]) + std::abs(b.centre[axis]) + std::abs(shift[axis]));
+    }
+    const double reach = a.radius + b.radius;
+    const double sum = reach + kRounding * (farthest + reach);
+    return square <= sum * sum;
+  }
+
+ private:
+  /// (relative to coordinates) Covers the rounding of this test and of the geometry functor's own,
+  /// so that balls that touch to the last bit are not lost where there is no sweep.
+  static constexpr double kRounding = 2e-15;
+
+  const std::vector<Ball>& balls_;
+  double slack_;
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,77 @@
+#include "collider/interaction_update.hpp"
+
+#include <boost/make_shared.hpp>
+
+#include <algorithm>
+
+namespace yadefrag {
+
+using yade::Body;
+using yade::Interaction;
+using yade::InteractionContainer;
+
+void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> near,
+                              const MayCollide& mayCollide) {
+  InteractionContainer& interactions = *scene.interactions;
+  known_.assign(near.size(), 0);
+  toErase_.clear();
+  if (interactions.size() > 0) markKnown(interactions, near, scene.bodies->body.size());
+  // Backwards: erasing moves the last one into the gap, which must not be one still to be erased.
+  for (auto place = toErase_.rbegin(); place != toErase_.rend(); ++place) {
+    const Interaction& gone = *interactions[static_cast<std::size_t>(*place)];
+    interactions.erase(gone.getId1(), gone.getId2(), *place);
+  }
+  makeNew(scene, near, mayCollide);
+}
+
+void InteractionUpdate::markKnown(InteractionContainer& interactions,
+                                  std::span<const Neighbours> near, std::size_t bodies) {
+  fillRows(
+      partners_, bodies, near.size(), [&](std::size_t i) { return near[i].first; },
+      [&](std::size_t i) {
+        return Partner{near[i].second, static_cast<std::uint32_t>(i)};
+      });
+  constexpr std::size_t ahead = 12;  // interactions lie where they were made: ask for them early
+  const std::size_t count = interactions.size();
+  for (std::size_t place = 0; place < count; ++place) {
+    if (place + ahead < count) {
+      const char* next = reinterpret_cast<const char*>(interactions[place + ahead].get());
+      __builtin_prefetch(next + offsetof(Interaction, id1));
+      __builtin_prefetch(next + offsetof(Interaction, phys));
+    }
+    Interaction& is = *interactions[place];
+    const bool swapped = is.getId1() > is.getId2();
+    const auto first = static_cast<std::size_t>(swapped ? is.getId2() : is.getId1());
+    const Body::id_t second = swapped ? is.getId1() : is.getId2();
+    bool isNear = false;
+    if (first < bodies) {
+      for (const Partner& partner : partners_.row(first)) {
+        if (partner.second != second) continue;
+        isNear = true;
+        known_[partner.index] = 1;
+        // A pair that is not in contact may have come near across another face of the cell.
+        if (!is.isReal()) {
+          const yade::Vector3i& cells = near[partner.index].cellDist;
+          is.cellDist = swapped ? yade::Vector3i(-cells) : cells;
+        }
+      }
+    }
+    if (!isNear && !is.isReal()) toErase_.push_back(static_cast<int>(place));
+  }
+}
+
+void InteractionUpdate::makeNew(yade::Scene& scene, std::span<const Neighbours> near,
+                                const MayCollide& mayCollide) {
+  const auto& bodies = scene.bodies->body;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (known_[i]) continue;
+    const Body* first = bodies[static_cast<std::size_t>(near[i].first)].get();
+    const Body* second = bodies[static_cast<std::size_t>(near[i].second)].get();
+    if (!mayCollide(first, second)) continue;
+    const auto made = boost::make_shared<Interaction>(near[i].first, near[i].second);
+    made->cellDist = near[i].cellDist;
+    scene.interactions->insert(made);
+  }
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,80 @@
+#include "collider/motion_watch.hpp"
+
+#include <algorithm>
+
+namespace yadefrag {
+
+using yade::Body;
+using yade::NewtonIntegrator;
+using yade::Scene;
+
+void MotionWatch::start(const Scene& scene, const BodyBoxes& boxes, double cellSlack,
+                        const yade::Vector3r& cellSpan) {
+  turning_ = boxes.turning();
+  cellSlack_ = cellSlack;
+  cellSpan_ = cellSpan;
+  if (scene.isPeriodic) cellBefore_ = scene.cell->hSize;
+}
+
+bool MotionWatch::boundsBroken(const Scene& scene) const {
+  const auto newton = findIntegrator(scene);
+  if (newton && newton->mask <= 0) {
+    const double fastest = fastestBody(*newton);
+    if (fastest >= 1 || fastest == 0) return true;
+  } else if (someMovedOut(scene)) {
+    return true;
+  }
+  return someTurnedOut(scene) || (scene.isPeriodic && cellMoved(scene));
+}
+
+yade::shared_ptr<NewtonIntegrator> MotionWatch::findIntegrator(const Scene& scene) {
+  for (const auto& engine : scene.engines) {
+    auto newton = boost::dynamic_pointer_cast<NewtonIntegrator>(engine);
+    if (newton && !newton->dead) return newton;
+  }
+  return {};
+}
+
+/// Not `maxVelocitySq`: in a periodic scene that also holds the cell's speed in m/s, so that it
+/// depends on the unit whether a search is called for. The cell is watched here.
+double MotionWatch::fastestBody(const NewtonIntegrator& newton) {
+  const auto& byThread = newton.threadMaxVelocitySq;
+  return byThread.empty() ? 0 : *std::max_element(byThread.begin(), byThread.end());
+}
+
+bool MotionWatch::someMovedOut(const Scene& scene) {
+  for (const auto& body : scene.bodies->body) {
+    if (!body || !body->bound || !body->isBounded()) continue;
+    const yade::Vector3r moved = body->state->se3.position - body->bound->refPos;
+    const double most = moved.cwiseAbs().maxCoeff();
+    if (most > 0 && !(most < body->bound->sweepLength)) return true;
+  }
+  return false;
+}
+
+/// A point at distance R moves by at most 2R‖q − q₀‖ when the orientation goes from q₀ to q.
+bool MotionWatch::someTurnedOut(const Scene& scene) const {
+  const auto& bodies = scene.bodies->body;
+  for (const Turning& was : turning_) {
+    const auto id = static_cast<std::size_t>(was.id);
+    if (id >= bodies.size() || !bodies[id] || !bodies[id]->bound) continue;
+    const yade::State& state = *bodies[id]->state;
+    const auto& now = state.se3.orientation.coeffs();
+    const auto& before = was.orientation.coeffs();
+    if (now == before) continue;
+    const double turned = std::min((now - before).norm(), (now + before).norm());
+    const double moved = (state.se3.position - bodies[id]->bound->refPos).cwiseAbs().maxCoeff();
+    if (!(moved + 2 * was.reach * turned < bodies[id]->bound->sweepLength)) return true;
+  }
+  return false;
+}
+
+/// Two neighbours that are k cells apart come closer by up to ‖ΔH k‖ when the cell goes from H to
+/// H + ΔH, whatever they do themselves.
+bool MotionWatch::cellMoved(const Scene& scene) const {
+  const yade::Matrix3r change = (scene.cell->hSize - cellBefore_).cwiseAbs();
+  if (change.isZero(0)) return false;
+  return !((change * cellSpan_).maxCoeff() < 2 * cellSlack_);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,40 @@
+#pragma once
+// Tells whether the bounds of the last search still hold: if not, a search is due.
+
+#include <vector>
+
+#include "abi/yade.hpp"
+#include "collider/body_boxes.hpp"
+
+namespace yadefrag {
+
+/// Positions are watched by YADE's integrator where it moves every body, and here where it does not
+/// (no integrator, a dead one, one with a mask). Turning bodies and a deforming cell, which the
+/// integrator does not see, are always watched here.
+class MotionWatch {
+ public:
+  /// Starts the watch over bounds that were just brought up to date. `cellSpan`: by how many cells
+  /// two neighbours can be apart, per axis.
+  void start(const yade::Scene& scene, const BodyBoxes& boxes, double cellSlack,
+             const yade::Vector3r& cellSpan);
+
+  [[nodiscard]] bool boundsBroken(const yade::Scene& scene) const;
+
+  /// The integrator that moves the scene's bodies; null if there is none or it is dead.
+  static yade::shared_ptr<yade::NewtonIntegrator> findIntegrator(const yade::Scene& scene);
+
+  /// Displacement record of the integrator: 0 not run yet, below 1 within bounds, else out of them.
+  static double fastestBody(const yade::NewtonIntegrator& newton);
+
+ private:
+  [[nodiscard]] bool cellMoved(const yade::Scene& scene) const;
+  [[nodiscard]] bool someTurnedOut(const yade::Scene& scene) const;
+  static bool someMovedOut(const yade::Scene& scene);
+
+  std::vector<Turning> turning_;
+  double cellSlack_ = 0;
+  yade::Vector3r cellSpan_ = yade::Vector3r::Zero();
+  yade::Matrix3r cellBefore_ = yade::Matrix3r::Zero();
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,210 @@
+#include "collider/search_collider.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "collider/complaints.hpp"
+#include "core/parallel.hpp"
+#include "search/periodic_overlap.hpp"
+
+namespace yadefrag {
+
+using yade::Body;
+using yade::Vector3r;
+
+/// One search. Nothing in the scene changes before `boxes_.update` has found every body sound.
+void SearchCollider::action() {
+  const int threads = threadsToUse();
+  chooseVerletDist();
+  slack_ = cellSlack();
+  const double sweep = std::max(verletDist, 0.);
+  boxes_.update(*scene, *boundDispatcher,
+                SweepRule(sweep, minSweepDistFactor, scene->dt, targetInterv), slack_, threads);
+  startSearchIfNeeded();
+  updateSearch(threads);
+  findNeighbours(threads);
+  interactions_.apply(*scene, near_, [this](const Body* a, const Body* b) {
+    return mayCollide(a, b, scene->subdomain);
+  });
+  sceneIsSearched();
+}
+
+int SearchCollider::threadsToUse() const {
+  const int most = omp_get_max_threads();
+  return ompThreads > 0 ? std::min(ompThreads, most) : most;
+}
+
+/// A negative verletDist stands for a multiple of the smallest radius. Without any sphere it is
+/// kept for later (YADE would set it to 0 for good, and a scene that a factory fills would never
+/// stride).
+void SearchCollider::chooseVerletDist() {
+  if (verletDist >= 0) return;
+  double least = INFINITY;
+  for (const auto& body : scene->bodies->body) {
+    if (!body || !body->shape) continue;
+    if (const auto* sphere = dynamic_cast<const yade::Sphere*>(body->shape.get()))
+      least = std::min(least, sphere->radius);
+  }
+  if (least < INFINITY) verletDist *= -least;
+}
+
+/// Room for the cell's deformation within the interval for which the bodies' sweeps are made.
+double SearchCollider::cellSlack() const {
+  if (!scene->isPeriodic || !(verletDist > 0) || targetInterv <= 0) return 0;
+  const yade::Cell& cell = *scene->cell;
+  const Vector3r span(images_.span()[0] + 1, images_.span()[1] + 1, images_.span()[2] + 1);
+  const Vector3r speed = (cell.velGrad * cell.hSize).cwiseAbs() * span;
+  const double wanted = .5 * 1.02 * targetInterv * scene->dt * speed.maxCoeff();
+  return wanted < verletDist ? wanted : verletDist;
+}
+
+void SearchCollider::startSearchIfNeeded() {
+  if (search_ && searchCounts_ == countComparisons && !doSort && !scene->interactions->dirty &&
+      periodic_ == scene->isPeriodic)
+    return;
+  if (!search_ || searchCounts_ != countComparisons) {
+    search_ = makeSearch(method_, countComparisons);
+    searchCounts_ = countComparisons;
+  }
+  search_->clear();
+  ++numReinit;
+}
+
+void SearchCollider::updateSearch(int threads) {
+  const Comparisons before = search_->comparisons();
+  search_->setThreads(threads);
+  pairs_.clear();
+  if (scene->isPeriodic) {
+    const Vector3r& size = scene->cell->getSize();
+    // Twice the tolerance: the exact test that follows must not be the stricter one.
+    images_.build(boxes_.boxes(), {size[0], size[1], size[2]}, 2 * overlapTolerance);
+    search_->update(images_.boxes());
+    search_->findPairs(pairs_);
+    images_.toSlots(pairs_);
+  } else {
+    search_->update(boxes_.boxes());
+    search_->findPairs(pairs_);
+  }
+  comparisons = static_cast<long>(search_->comparisons().total() - before.total());
+  comparisonsTotal += comparisons;
+}
+
+void SearchCollider::findNeighbours(int threads) {
+  std::vector<std::vector<Neighbours>> byPart(static_cast<std::size_t>(threads));
+  const Halo halo(boxes_.balls(), 2 * slack_);
+  near_.clear();
+  const auto work = [&](std::size_t begin, std::size_t end, std::vector<Neighbours>& out) {
+    Neighbours found;
+    for (std::size_t i = begin; i < end; ++i)
+      if (isNear(pairs_[i], halo, found)) out.push_back(found);
+  };
+  if (threads == 1) {
+    work(0, pairs_.size(), near_);
+    return;
+  }
+  // An exception must not leave a parallel region: sizes are complained of in front of it.
+  if (scene->isPeriodic) {
+    work(0, pairs_.size(), near_);
+    return;
+  }
+  const int parts = forEachPart(pairs_.size(), threads, [&](auto begin, auto end, int part) {
+    work(begin, end, byPart[static_cast<std::size_t>(part)]);
+  });
+  for (int part = 0; part < parts; ++part) {
+    const auto& found = byPart[static_cast<std::size_t>(part)];
+    near_.insert(near_.end(), found.begin(), found.end());
+  }
+}
+
+bool SearchCollider::isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const {
+  out = {static_cast<Body::id_t>(pair.first.value), static_cast<Body::id_t>(pair.second.value),
+         yade::Vector3i::Zero()};
+  Vector3r shift = Vector3r::Zero();
+  if (scene->isPeriodic) {
+    const Vector3r& size = scene->cell->getSize();
+    const PeriodicRules rules{{size[0], size[1], size[2]}, overlapTolerance, allowBiggerThanPeriod};
+    const PeriodicOverlap meets =
+        periodicOverlap(boxes_.boxes()[pair.first.value], boxes_.boxes()[pair.second.value], rules);
+    if (meets.kind == PeriodicOverlap::kTooLarge)
+      complainOfSize(meets.secondTooLarge ? pair.second.value : pair.first.value, meets.axis,
+                     rules.size[static_cast<std::size_t>(meets.axis)]);
+    if (meets.kind == PeriodicOverlap::kApart) return false;
+    out.cellDist = yade::Vector3i(meets.shift[0], meets.shift[1], meets.shift[2]);
+    shift = scene->cell->intrShiftPos(out.cellDist);
+  }
+  return !trueHalo || halo.mayTouch(pair, shift);
+}
+
+/// What YADE expects of a collider that has run.
+void SearchCollider::sceneIsSearched() {
+  ++numAction;
+  doSort = false;
+  numBodies_ = scene->bodies->body.size();
+  periodic_ = scene->isPeriodic;
+  strideActive_ = verletDist > 0;
+  keepListsShort = scene->bodies->useRedirection;
+  scene->doSort = false;
+  scene->interactions->dirty = false;
+  scene->interactions->iterColliderLastRun = -1;
+  scene->bodies->checkedByCollider = true;
+  scene->bodies->insertedBodies.clear();
+  scene->bodies->erasedBodies.clear();
+  scene->forces.addMaxId(static_cast<Body::id_t>(numBodies_));
+  Vector3r span = Vector3r::Zero();
+  if (periodic_) span = Vector3r(images_.span()[0], images_.span()[1], images_.span()[2]);
+  watch_.start(*scene, boxes_, slack_, span);
+}
+
+bool SearchCollider::isActivated() {
+  if (!strideActive_ || doSort || scene->doSort || scene->interactions->dirty ||
+      periodic_ != scene->isPeriodic || numBodies_ != scene->bodies->body.size())
+    return true;
+  newton = MotionWatch::findIntegrator(*scene);
+  if (newton) fastestBodyMaxDist = MotionWatch::fastestBody(*newton);
+  return watch_.boundsBroken(*scene);
+}
+
+void SearchCollider::invalidatePersistentData() { doSort = true; }
+
+/// Bodies whose bounds, without their sweeps and where the bodies are now, overlap `bound`.
+yade::vector<Body::id_t> SearchCollider::probeBoundingVolume(const yade::Bound& bound) {
+  if (periodic_)
+    throw std::invalid_argument(getClassName() +
+                                ".probeBoundingVolume: not possible in a periodic scene.");
+  yade::vector<Body::id_t> found;
+  if (!search_ || boxes_.boxes().empty()) return found;
+  std::vector<BoxId> near;
+  search_->findOverlaps(
+      {{bound.min[0], bound.min[1], bound.min[2]}, {bound.max[0], bound.max[1], bound.max[2]}},
+      near);
+  for (const BoxId id : near) {
+    const auto& bodies = scene->bodies->body;
+    if (id.value >= bodies.size() || !bodies[id.value] || !bodies[id.value]->bound) continue;
+    const Body& body = *bodies[id.value];
+    const Vector3r sweep = Vector3r::Constant(body.bound->sweepLength);
+    const Vector3r moved = body.state->se3.position - body.bound->refPos;
+    const Vector3r low = body.bound->min + sweep + moved;
+    const Vector3r high = body.bound->max - sweep + moved;
+    if ((low.array() <= bound.max.array()).all() && (high.array() >= bound.min.array()).all())
+      found.push_back(body.getId());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void SearchCollider::pySetAttr(const yade::string& key, const yade::py::object& value) {
+  if (key == "newton")
+    newton = yade::py::extract<yade::shared_ptr<yade::NewtonIntegrator>>(value)();
+  else
+    Collider::pySetAttr(key, value);
+}
+
+yade::py::dict SearchCollider::pyDict() const {
+  yade::py::dict result = Collider::pyDict();
+  result["newton"] = newton;
+  return result;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,86 @@
+#pragma once
+// What the three colliders share: YADE's side of a contact search.
+
+#include <memory>
+#include <tuple>
+
+#include "abi/yade.hpp"
+#include "collider/body_boxes.hpp"
+#include "collider/halo.hpp"
+#include "collider/interaction_update.hpp"
+#include "collider/motion_watch.hpp"
+#include "publish/attribute.hpp"
+#include "search/contact_search.hpp"
+#include "search/periodic_images.hpp"
+
+namespace yadefrag {
+
+/// Takes the place of YADE's InsertionSortCollider. Attributes of that name have its meaning; those
+/// that belong to its sorting only are accepted and do nothing.
+class SearchCollider : public yade::Collider {
+ public:
+  explicit SearchCollider(SearchMethod method) : method_(method) {}
+
+  void action() override;
+  bool isActivated() override;
+  void invalidatePersistentData() override;
+  yade::vector<yade::Body::id_t> probeBoundingVolume(const yade::Bound& bound) override;
+  void pySetAttr(const yade::string& key, const yade::py::object& value) override;
+  yade::py::dict pyDict() const override;
+
+  int sortAxis = 0;
+  bool allowBiggerThanPeriod = false;
+  bool sortThenCollide = false;
+  int targetInterv = 10;
+  double overlapTolerance = 1e-7;
+  double updatingDispFactor = -1;
+  double verletDist = -.5;
+  double minSweepDistFactor = .1;
+  double fastestBodyMaxDist = 0;
+  int numReinit = 0;
+  int numAction = 0;
+  bool doSort = false;
+  bool keepListsShort = false;
+  bool smartInsertErase = false;
+  bool trueHalo = true;
+  bool countComparisons = false;
+  long comparisons = 0;
+  long comparisonsTotal = 0;
+  yade::shared_ptr<yade::NewtonIntegrator> newton;
+
+  [[nodiscard]] bool strideActive() const { return strideActive_; }
+  [[nodiscard]] bool periodic() const { return periodic_; }
+
+  static constexpr auto attributes();
+  template <class PyClass>
+  static void pyExtra(PyClass& pyClass);
+
+ private:
+  void chooseVerletDist();
+  void startSearchIfNeeded();
+  void updateSearch(int threads);
+  void findNeighbours(int threads);
+  void keepNear(int threads);
+  bool isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const;
+  void sceneIsSearched();
+  [[nodiscard]] double cellSlack() const;
+  [[nodiscard]] int threadsToUse() const;
+
+  SearchMethod method_;
+  std::unique_ptr<ContactSearch> search_;
+  bool searchCounts_ = false;
+  BodyBoxes boxes_;
+  PeriodicImages images_;
+  MotionWatch watch_;
+  InteractionUpdate interactions_;
+  std::vector<BoxPair> pairs_;
+  std::vector<Neighbours> near_;
+  double slack_ = 0;           // m, room for the cell's deformation in every box
+  std::size_t numBodies_ = 0;  // at the last search
+  bool periodic_ = false;
+  bool strideActive_ = false;
+};
+
+}  // namespace yadefrag
+
+#include "collider/attributes.hpp"

@@ -1,0 +1,38 @@
+#pragma once
+// How far a body may move before the next search must take place.
+
+#include <algorithm>
+#include <cmath>
+
+#include "abi/yade.hpp"
+
+namespace yadefrag {
+
+/// Every bound is enlarged by a length of its own, so that it holds for about `targetInterv` steps
+/// at the body's present speed: fast bodies do not call for a search at every step, and slow ones
+/// do not have neighbours they will not reach.
+struct SweepRule {
+  double most;   ///< m, verletDist
+  double least;  ///< m, minSweepDistFactor · verletDist
+  double ahead;  ///< s, the time to be covered; not finite: always `most`
+
+  SweepRule(double verletDist, double minFactor, double dt, double interval)
+      : most(verletDist),
+        least(std::min(minFactor, 1.0) * verletDist),
+        ahead(interval > 0 ? kSpare * dt * interval : INFINITY) {}
+
+  [[nodiscard]] double lengthFor(double speed) const {
+    const double wanted = speed * ahead;
+    // A product that is not a number (0 · ∞, a broken velocity) gets the longest sweep.
+    return wanted < most ? std::max(wanted, least) : most;
+  }
+
+  /// The integrator asks for a search when the largest component has reached the sweep.
+  static double speedOf(const yade::Vector3r& velocity) { return velocity.cwiseAbs().maxCoeff(); }
+
+ private:
+  /// Spare for acceleration: without it a body at constant speed calls one step early.
+  static constexpr double kSpare = 1.02;
+};
+
+}  // namespace yadefrag
