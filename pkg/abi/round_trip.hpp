@@ -2,6 +2,7 @@
 // Write an attribute through Python, read it through a declaration of pkg/abi.
 
 #include <string>
+#include <utility>
 
 #include "abi/support_check.hpp"
 #include "abi/yade.hpp"
@@ -10,6 +11,17 @@ namespace yadefrag {
 
 // "Body.groupMask is not where ..." as UnsupportedYade.
 [[noreturn]] void throwMisplaced(const std::string& typeAndMember);
+
+inline bool otherThan(bool value) { return !value; }
+inline std::string otherThan(const std::string& value) { return value + "_"; }
+template <class Value>
+Value otherThan(const Value& value) {  // numbers, vectors, matrices
+  return value * 2;
+}
+template <class Type>
+boost::shared_ptr<Type> otherThan(const boost::shared_ptr<Type>& value) {
+  return value;
+}
 
 // A scratch object of a class of yade.wrapper, seen from both sides.
 template <class Type>
@@ -32,21 +44,18 @@ class Scratch {
   // By YADE's attribute list; read-only and hidden attributes are on it too.
   template <class Slot, class Value>
   void check(const char* attr, const Slot& slot, const Value& value) const {
-    const Slot wanted = value;
-    refuse(attr, slot == wanted);  // a fresh object has another value there
-    yade::py::dict one;
-    one[attr] = wanted;
-    seen_->pyUpdateAttrs(one);
-    refuse(attr, !(slot == wanted));
+    writeTwice(attr, slot, Slot(value), [&](const yade::py::object& written) {
+      yade::py::dict one;
+      one[attr] = written;
+      seen_->pyUpdateAttrs(one);
+    });
   }
 
   // By Python's own assignment, for properties that are not on that list.
   template <class Slot, class Value>
   void checkProperty(const char* attr, const Slot& slot, const Value& value) const {
-    const Slot wanted = value;
-    refuse(attr, slot == wanted);
-    yade::py::setattr(object_, attr, yade::py::object(wanted));
-    refuse(attr, !(slot == wanted));
+    writeTwice(attr, slot, Slot(value),
+               [&](const yade::py::object& written) { yade::py::setattr(object_, attr, written); });
   }
 
   void refuse(const char* member, bool wrong) const {
@@ -54,6 +63,15 @@ class Scratch {
   }
 
  private:
+  // Two values, because memory that YADE leaves unset may hold one of them from an earlier check.
+  template <class Slot, class Write>
+  void writeTwice(const char* attr, const Slot& slot, const Slot& wanted, Write&& write) const {
+    for (const Slot& value : {otherThan(wanted), wanted}) {
+      write(yade::py::object(value));
+      refuse(attr, !(slot == value));
+    }
+  }
+
   const char* name_;
   yade::py::object object_;
   boost::shared_ptr<Type> seen_;

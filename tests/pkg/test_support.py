@@ -1,0 +1,83 @@
+"""The check at `import yadefrag`: which YADE is refused, and with what words."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import types
+
+import pytest
+
+import scenes
+import yade
+from yade import wrapper
+from yadefrag import _yadefrag, support
+
+O = scenes.O
+
+STOCK = ['OPENMP', 'MPI', 'QT5', 'FEMLIKE', 'VTK', 'CGAL']
+
+
+def test_stockYadeIsAccepted():
+    assert support.describeMismatch('2023.02a', 'PrecisionDouble', STOCK) == ''
+    assert support.describeSurroundings() == ''
+
+
+@pytest.mark.parametrize('version, precision, features, found, needed', [
+    ('2022.01a', 'PrecisionDouble', STOCK, 'version 2022.01a', 'version 2023.02a'),
+    ('2023.02a', 'PrecisionLongDouble', STOCK, 'PrecisionLongDouble', 'PrecisionDouble'),
+    ('2023.02a', 'PrecisionDouble', STOCK + ['VECTORIZE'], 'has VECTORIZE', 'no VECTORIZE'),
+    ('2023.02a', 'PrecisionDouble', STOCK + ['MASK_ARBITRARY'], 'has MASK_ARB', 'no MASK_ARB'),
+    ('2023.02a', 'PrecisionDouble', STOCK + ['SPH'], 'has SPH', 'no SPH'),
+    ('2023.02a', 'PrecisionDouble', ['OPENMP', 'QT5', 'FEMLIKE'], 'has no MPI', 'with MPI'),
+])
+def test_otherYadeIsNamedInOneSentence(version, precision, features, found, needed):
+    sentence = support.describeMismatch(version, precision, features)
+    assert found in sentence and needed in sentence
+    assert sentence.count('. ') == 0 and sentence.endswith('.') and '\n' not in sentence
+
+
+def test_everyDifferenceIsNamed():
+    sentence = support.describeMismatch('1.0', 'PrecisionFloat', ['SPH'])
+    for word in ('1.0', 'PrecisionFloat', 'no OPENMP', 'no MPI', 'has', 'SPH'):
+        assert word in sentence
+
+
+def test_configWithoutTheFieldsIsRefused():
+    modules = {'yade.wrapper': None, 'yade.config': types.SimpleNamespace()}
+    assert 'unknown' in support.describeSurroundings(modules)
+
+
+def test_plainPythonIsToldToUseYade():
+    package = pathlib.Path(support.__file__).parent.parent
+    done = subprocess.run([sys.executable, '-c', 'import yadefrag'], capture_output=True, text=True,
+                          env={**os.environ, 'PYTHONPATH': str(package)}, check=False)
+    assert done.returncode == 1
+    last = done.stderr.strip().splitlines()[-1]
+    assert last.startswith('ImportError: ') and 'run by the command `yade`' in last
+
+
+def test_layoutCheckPassesAndLeavesTheSceneAlone():
+    scenes.addSpheres([(0, 0, 0), (1.5, 0, 0)], [1, 1])
+    newton = wrapper.NewtonIntegrator()
+    scenes.setEngines(scenes.makeCollider('InsertionSortCollider'), newton=newton)
+    O.dt = 1e-6
+    O.run(3, True)
+
+    def seen():
+        return (O.iter, O.dt, O.time, len(O.bodies), len(O.interactions), O.periodic, O.tags['id'],
+                [e.dict().keys() for e in O.engines], [b.dict().keys() for b in O.bodies],
+                [b.state.pos for b in O.bodies], newton.densityScaling, O._sceneObj.dict()['doSort'])
+
+    before = seen()
+    for _ in range(3):
+        _yadefrag.checkRunningYade()
+    assert seen() == before
+    O.run(3, True)
+    assert O.iter == 6
+
+
+def test_yadesOwnClassesAreNotReplaced():
+    for name in ('Collider', 'InsertionSortCollider', 'Sphere', 'Body'):
+        assert getattr(yade, name) is getattr(wrapper, name)
+    assert isinstance(wrapper.InsertionSortCollider(), yade.Collider)
