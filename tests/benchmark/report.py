@@ -98,7 +98,7 @@ def markdown(summary, grids, machine, options):
             if size == n:
                 out.append('| ' + ' | '.join([scene, NAMES[label]] + _cells(entry)) + ' |')
         out.append('')
-        out += _tunedLines([g for g in grids if g['n'] == n])
+        out += _tunedLines([g for g in grids if g['n'] == n]) + _disagreements(summary, n)
     return '\n'.join(out)
 
 
@@ -129,14 +129,25 @@ def _tunedLines(grids):
             + '; '.join(best) + '.', '']
 
 
+def _disagreements(summary, n):
+    """A warning for each scene whose real contacts after the first step depend on the collider."""
+    out = []
+    for scene in _ordered(key[0] for key in summary if key[1] == n):
+        counts = {NAMES[k[2]]: int(v['realAfterFirst']) for k, v in summary.items()
+                  if k[:2] == (scene, n) and 'error' not in v}
+        if len(set(counts.values())) > 1:
+            out += [f'**Contacts differ after the first step of {scene}: {counts}.**', '']
+    return out
+
+
 # --- plots ----------------------------------------------------------------------------------------
 def plots(folder, summary, machine):
-    """colliders.png: bars for the largest size; colliders_sizes.png: against the size."""
+    """colliders.png: relative times at the largest size; colliders_sizes.png: against the size."""
     good = {k: v for k, v in summary.items() if 'error' not in v}
-    if not good:
-        return
-    _bars(os.path.join(folder, 'colliders.png'), good, max(k[1] for k in good), machine)
-    if len({k[1] for k in good}) > 1:
+    sizes = {k[1] for k in good if k[2] == RIVAL}
+    if sizes:
+        _bars(os.path.join(folder, 'colliders.png'), good, max(sizes), machine)
+    if len(sizes) > 1:
         _lines(os.path.join(folder, 'colliders_sizes.png'), good, machine)
 
 
@@ -149,31 +160,45 @@ def _labels(good):
 
 
 def _bars(file, good, n, machine):
+    """Time relative to YADE's default, whose own time stands under each scene."""
     labels = _labels(good)
-    scenes = _ordered(k[0] for k in good if k[1] == n)
-    figure, axes = plt.subplots(3, 1, figsize=(max(6.5, 1.5 * len(scenes) + 2), 9.5), sharex=True)
-    width = .84 / len(labels)
+    scenes = _ordered(k[0] for k in good if k[1:] == (n, RIVAL))
+    figure, axes = plt.subplots(3, 1, figsize=(max(7., 1.75 * len(scenes) + 1), 10))
+    width = .86 / len(labels)
     for axis, (key, title) in zip(axes, TIMES):
         for i, label in enumerate(labels):
-            found = [(j, 1e3 * good[s, n, label][key]) for j, s in enumerate(scenes)
-                     if (s, n, label) in good]
-            x = [j + (i - (len(labels) - 1) / 2) * width for j, _ in found]
-            axis.bar(x, [v for _, v in found], width * .92, label=NAMES[label],
-                     color=COLOURS[label], zorder=2)
+            places = [j for j, s in enumerate(scenes) if (s, n, label) in good]
+            ratios = [good[scenes[j], n, label]['x' + key] for j in places]
+            x = [j + (i - (len(labels) - 1) / 2) * width for j in places]
+            bars = axis.bar(x, [1 / r for r in ratios], width * .92, label=NAMES[label],
+                            color=COLOURS[label], zorder=2)
+            if label != RIVAL:
+                axis.bar_label(bars, [_times(r) for r in ratios], fontsize=7.5, padding=1)
         axis.set_title(title[0].upper() + title[1:], loc='left', fontsize=11)
-        axis.set_ylabel('time, ms')
-        _logAxis(axis.yaxis)
+        axis.set_ylabel('time / default')
+        axis.set_ylim(0, min(2.2, axis.get_ylim()[1] * 1.08))
+        own = [f'{s}\n{_seconds(good[s, n, RIVAL][key])}' for s in scenes]
+        axis.set_xticks(range(len(scenes)), own)
         _clean(axis)
-    axes[-1].set_xticks(range(len(scenes)), scenes)
-    figure.suptitle(f'Contact search inside YADE, {n:,} bodies (less is better)', fontsize=13)
+    figure.suptitle(f'Contact search inside YADE, {n:,} bodies: time relative to YADE\'s collider\n'
+                    'at its defaults (whose time is under the scene); on the bars, times faster',
+                    fontsize=12)
     _finish(figure, axes[0], file, machine, len(labels))
+
+
+def _times(ratio):
+    return f'{ratio:.{0 if ratio >= 9.5 else 1 if ratio >= .95 else 2}f}×'
+
+
+def _seconds(value):
+    return f'{_digits(value)} s' if value >= 1 else f'{_digits(1e3 * value)} ms'
 
 
 def _lines(file, good, machine):
     labels, scenes = _labels(good), _ordered(k[0] for k in good)
     columns = min(4, len(scenes))
     rows = -(-len(scenes) // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(3.1 * columns + .8, 2.9 * rows + 1.3),
+    figure, axes = plt.subplots(rows, columns, figsize=(3.1 * columns + .8, 2.7 * rows + 1.5),
                                 sharex=True, sharey=True, squeeze=False)
     for axis, scene in zip(axes.flat, scenes):
         for label in labels:
@@ -213,10 +238,12 @@ def _clean(axis):
 
 
 def _finish(figure, axis, file, machine, columns):
+    """Legend under the title, machine at the foot, margins in inches whatever the height."""
+    inch = 1 / figure.get_figheight()
     handles, names = axis.get_legend_handles_labels()
-    figure.tight_layout(rect=(0, .035, 1, .94))
-    figure.legend(handles, names, loc='upper center', bbox_to_anchor=(.5, .958), ncol=columns,
-                  frameon=False)
-    figure.text(.01, .008, line(machine), fontsize=8, color='#555555')
+    figure.tight_layout(rect=(0, .25 * inch, 1, 1 - .6 * inch))
+    figure.legend(handles, names, loc='upper center', bbox_to_anchor=(.5, 1 - .5 * inch),
+                  ncol=columns, frameon=False, fontsize=10)
+    figure.text(.01, .08 * inch, line(machine), fontsize=8, color='#555555')
     figure.savefig(file, dpi=110)
     plt.close(figure)

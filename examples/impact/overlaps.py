@@ -1,0 +1,96 @@
+"""Which spheres overlap, found with NumPy and no collider, and the comparison of two runs."""
+import numpy as np
+from yade import O
+from yade.wrapper import Sphere
+
+
+def positions():
+    """Centres (n, 3) of all spheres, m, in the order of their ids."""
+    return np.array([b.state.pos for b in O.bodies if isinstance(b.shape, Sphere)])
+
+
+def snapshot(before):
+    """State after a step that began at the centres `before` (n, 3): a dict of arrays.
+
+    `contacts` are the real sphere–sphere interactions as a sorted set, one number per pair;
+    `overlapping` the pairs that overlap at `before`; `x`, `speed`, `radii` the spheres.
+    """
+    spheres = [b for b in O.bodies if isinstance(b.shape, Sphere)]
+    radii = np.array([b.shape.radius for b in spheres])
+    n = len(spheres)
+    pairs = np.array([(i.id1, i.id2) for i in O.interactions], int).reshape(-1, 2)
+    pairs = np.sort(pairs[(pairs < n).all(axis=1)], axis=1)
+    return dict(before=before, radii=radii, contacts=np.sort(pairs[:, 0] * n + pairs[:, 1]),
+                overlapping=overlapping(before, radii), x=positions(),
+                speed=np.array([b.state.vel.norm() for b in spheres]))
+
+
+def overlapping(x, radii):
+    """Sorted pairs i * n + j, i < j, of spheres whose centres are nearer than their radii's sum.
+
+    Spheres of one size go into a grid of cells, the few larger ones are compared with all.
+    """
+    n, r = len(x), np.median(radii)
+    big = np.flatnonzero(radii > 1.001 * r)
+    small = np.flatnonzero(radii <= 1.001 * r)
+    found = [_touching(np.full(n, b), np.arange(n), x, radii) for b in big]
+    edge = 2.002 * r
+    cell = np.floor((x[small] - x[small].min(axis=0)) / edge).astype(int) + 1
+    size = cell.max(axis=0) + 2
+    key = (cell[:, 0] * size[1] + cell[:, 1]) * size[2] + cell[:, 2]
+    order = np.argsort(key, kind='stable')
+    small, key = small[order], key[order]
+    offsets = np.argwhere(np.ones((3, 3, 3), bool)) - 1
+    for shift in (offsets[:, 0] * size[1] + offsets[:, 1]) * size[2] + offsets[:, 2]:
+        low, high = np.searchsorted(key, key + shift), np.searchsorted(key, key + shift, 'right')
+        counts = high - low
+        i = np.repeat(np.arange(len(key)), counts)
+        j = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts) + low[i]
+        found.append(_touching(small[i], small[j], x, radii))
+    return np.unique(np.concatenate(found))
+
+
+def _touching(i, j, x, radii):
+    low, high = np.minimum(i, j), np.maximum(i, j)
+    overlap = radii[low] + radii[high] - np.linalg.norm(x[low] - x[high], axis=1)
+    keep = (overlap > 0) & (low != high)
+    return low[keep] * len(x) + high[keep]
+
+
+def compare(results, checks):
+    """Print what agrees at each check; returns how many contacts are wrong."""
+    wrong = 0
+    for k, step in enumerate(checks):
+        shots = [r['snapshots'][k] for r in results]
+        for r, shot in zip(results, shots):
+            bad = np.setxor1d(shot['contacts'], shot['overlapping'])
+            if len(bad):
+                print(f'step {step}, {r["name"]}: {len(bad)} contacts are not the overlaps')
+                wrong += len(bad)
+        line = f'step {step:5}: contacts {len(shots[0]["contacts"]):6,}'
+        if len(shots) > 1:
+            line += '; ' + _difference(shots[0], shots[-1])
+            wrong += _impossible(shots[0], shots[-1])
+        print(line)
+    print('\nAll contacts are the pairs that overlap.' if not wrong
+          else f'\n{wrong} contacts are WRONG.')
+    if len(results) > 1:
+        print('(Positions differ since forces are summed in another order; see impact.py.)')
+    return wrong
+
+
+def _difference(a, b):
+    moved = np.linalg.norm(a['before'] - b['before'], axis=1).max()
+    differing = len(np.setxor1d(a['contacts'], b['contacts']))
+    return f'differing {differing}; positions differ by at most {moved:.1e} m'
+
+
+def _impossible(a, b):
+    """Contacts of only one run that overlap by more than the two runs' positions differ."""
+    pairs = np.setxor1d(a['contacts'], b['contacts'])
+    i, j = np.divmod(pairs, len(a['radii']))
+    touch = a['radii'][i] + a['radii'][j]
+    overlap = [touch - np.linalg.norm(s['before'][i] - s['before'][j], axis=1) for s in (a, b)]
+    moved = np.linalg.norm(a['before'] - b['before'], axis=1)
+    bad = np.maximum(*overlap) > (moved[i] + moved[j]) * (1 + 1e-9) + 1e-15
+    return int(bad.sum())
