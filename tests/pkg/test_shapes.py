@@ -75,7 +75,7 @@ def wallsOnly(rng):
     """Nothing but walls and one sphere: no finite extent to build a grid on."""
     for axis in range(3):
         O.bodies.append(utils.wall(.1, axis=axis))
-    addSpheres([(0, 0, 0)], [.05], [(.01, .01, .01)])
+    addSpheres([(0, 0, 0)], [.05], [(.013, .0131, .0132)])
 
 
 def hugeFloor(rng):

@@ -100,6 +100,15 @@ class Leash:
         if self.steps >= kSteps:
             raise Enough
 
+    def finish(self):
+        """The steps that the script leaves to the person in front of the window."""
+        try:
+            self.go(O, kSteps)
+        except Enough:
+            return None
+        except Exception as error:
+            return f'{type(error).__name__}: {error}'
+
 
 def makeRepeatable():
     """No windows, no plots, and packings from a fixed seed."""
@@ -132,7 +141,7 @@ def runExamples(swap, names, scope):
         started, before = clock.time(), dict(swap.count)
         home = os.getcwd()
         os.chdir(os.path.dirname(path))
-        error = execute(path, scope)
+        error = execute(path, scope) or leash.finish()
         os.chdir(home)
         report(path, swap, before, started, error=error, steps=leash.steps, iteration=O.iter,
                bodies=len(O.bodies), contacts=contacts())
