@@ -1,6 +1,7 @@
 #pragma once
 // The ranges of the curve that cover a rectangle of boxes (paper §4.4, fig. 7).
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -15,7 +16,7 @@ struct CodeRange {
   std::uint64_t stop;
 };
 
-/// At most 2^Dim ranges, in no particular order.
+/// At most 2^Dim ranges without a common code, in no particular order.
 template <int Dim>
 struct CodeRanges {
   std::array<CodeRange, std::size_t{1} << Dim> range;
@@ -48,6 +49,24 @@ int cutAtHighestBoundary(std::uint32_t low, std::uint32_t high, std::array<AxisI
   return 2;
 }
 
+/// Parts longer than a pair can give ranges that overlap: their codes vary on levels above the one
+/// on which another axis was cut. Joins those.
+template <int Dim>
+void joinOverlapping(CodeRanges<Dim>& ranges) {
+  const auto begin = ranges.range.begin();
+  std::sort(begin, begin + ranges.count,
+            [](const CodeRange& a, const CodeRange& b) { return a.start < b.start; });
+  int kept = 0;
+  for (int r = 1; r < ranges.count; ++r) {
+    CodeRange& last = ranges.range[kept];
+    if (ranges.range[r].start <= last.stop)
+      last.stop = std::max(last.stop, ranges.range[r].stop);
+    else
+      ranges.range[++kept] = ranges.range[r];
+  }
+  ranges.count = kept + 1;
+}
+
 /// Ranges of all boxes with low ≤ box ≤ high on every axis (modulo 2^kBits), each clipped to the
 /// codes of the lower-left and upper-right corner of its part. Other boxes may lie in a range too.
 template <int Dim>
@@ -60,6 +79,7 @@ CodeRanges<Dim> rangesOfRectangle(const typename PositionCode<Dim>::Cell& low,
   CodeRanges<Dim> out;
   out.range[0] = {0, 0};
   out.count = 1;
+  bool onlyPairs = true;
   for (int axis = 0; axis < Dim; ++axis) {
     std::array<AxisInterval, 2> part;
     const int parts = cutAtHighestBoundary<Dim>(low[axis], high[axis], part);
@@ -77,6 +97,7 @@ CodeRanges<Dim> rangesOfRectangle(const typename PositionCode<Dim>::Cell& low,
     }
     out.count *= parts;
   }
+  if (!onlyPairs) joinOverlapping(out);
   return out;
 }
 

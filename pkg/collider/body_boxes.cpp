@@ -37,35 +37,27 @@ bool isGood(const Box& box) {
 
 }  // namespace
 
-/// A bound as it was before this update, to be put back if the update fails.
-struct BodyBoxes::OldBound {
-  yade::Body* body;
-  bool existed;
-  int lastUpdateIter = 0;
-  Vector3r refPos{}, min{}, max{};
-  Real sweepLength = 0;
+BodyBoxes::OldBound::OldBound(yade::Body& b) : body(&b), existed(bool(b.bound)) {
+  if (!existed) return;
+  const Bound& bound = *b.bound;
+  lastUpdateIter = bound.lastUpdateIter;
+  sweepLength = bound.sweepLength;
+  refPos = bound.refPos, min = bound.min, max = bound.max;
+}
 
-  explicit OldBound(yade::Body& b) : body(&b), existed(bool(b.bound)) {
-    if (!existed) return;
-    const Bound& bound = *b.bound;
-    lastUpdateIter = bound.lastUpdateIter;
-    refPos = bound.refPos, min = bound.min, max = bound.max;
-    sweepLength = bound.sweepLength;
+void BodyBoxes::OldBound::restore() const {
+  if (!existed) {
+    body->bound.reset();
+    return;
   }
-  void restore() const {
-    if (!existed) {
-      body->bound.reset();
-      return;
-    }
-    Bound& bound = *body->bound;
-    bound.lastUpdateIter = lastUpdateIter;
-    bound.refPos = refPos, bound.min = min, bound.max = max;
-    bound.sweepLength = sweepLength;
-  }
-};
+  Bound& bound = *body->bound;
+  bound.lastUpdateIter = lastUpdateIter;
+  bound.sweepLength = sweepLength;
+  bound.refPos = refPos, bound.min = min, bound.max = max;
+}
 
-void BodyBoxes::update(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
-                       double cellSlack, int threads) {
+void BodyBoxes::prepare(yade::Scene& scene, yade::BoundDispatcher& dispatcher,
+                        const SweepRule& rule, double cellSlack, int threads) {
   rule_ = rule;
   cell_ = scene.isPeriodic ? scene.cell.get() : nullptr;
   cellSlack_ = cellSlack;
@@ -78,8 +70,17 @@ void BodyBoxes::update(yade::Scene& scene, yade::BoundDispatcher& dispatcher, co
   }
   gatherSpheres(scene, threads);
   checkPositions(scene);
-  updateOthers(scene, dispatcher);
-  writeSpheres(scene, threads);
+  try {
+    updateOthers(scene, dispatcher);
+  } catch (...) {
+    rollBack();
+    throw;
+  }
+}
+
+void BodyBoxes::rollBack() {
+  for (const OldBound& old : undo_) old.restore();
+  undo_.clear();
 }
 
 void BodyBoxes::gatherSpheres(yade::Scene& scene, int threads) {
@@ -131,18 +132,13 @@ void BodyBoxes::updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatch
   dispatcher.sweepDist = 0;
   dispatcher.targetInterv = -1;
   turning_.clear();
-  std::vector<OldBound> undo;
-  try {
-    for (std::size_t id = 0; id < kinds_.size(); ++id) {
-      if (kinds_[id] != Kind::kOther) continue;
-      const auto& body = scene.bodies->body[id];
-      undo.emplace_back(*body);
-      if (body->shape && body->isBounded()) dispatcher.processBody(body);
-      if (body->bound) takeOther(body, scene);
-    }
-  } catch (...) {
-    for (const OldBound& old : undo) old.restore();
-    throw;
+  undo_.clear();
+  for (std::size_t id = 0; id < kinds_.size(); ++id) {
+    if (kinds_[id] != Kind::kOther) continue;
+    const auto& body = scene.bodies->body[id];
+    undo_.emplace_back(*body);
+    if (body->shape && body->isBounded()) dispatcher.processBody(body);
+    if (body->bound) takeOther(body, scene);
   }
 }
 
@@ -182,7 +178,8 @@ double BodyBoxes::sweepOfOther(const yade::Body& body) {
   return rule_.lengthFor(speed + (turn > 0 ? turn * reach : 0));
 }
 
-void BodyBoxes::writeSpheres(yade::Scene& scene, int threads) {
+void BodyBoxes::commit(yade::Scene& scene, int threads) {
+  undo_.clear();
   const auto& bodies = scene.bodies->body;
   forEachPart(bodies.size(), threads, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t id = begin; id < end; ++id) {

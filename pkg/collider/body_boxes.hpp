@@ -26,10 +26,13 @@ struct Turning {
 
 class BodyBoxes {
  public:
-  /// Computes all boxes and brings the bounds up to date. Throws InputError, with every bound as it
-  /// was, for a position that is not finite or a bound that is turned inside out.
-  void update(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
-              double cellSlack, int threads);
+  /// Computes all boxes, for `commit` to write into the bounds. Throws InputError, with every bound
+  /// as it was, for a position that is not finite or a bound that is turned inside out.
+  void prepare(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
+               double cellSlack, int threads);
+  void commit(yade::Scene& scene, int threads);
+  /// Instead of `commit`: all bounds as before `prepare`.
+  void rollBack();
 
   /// By body id; absent where a body takes no part.
   [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
@@ -38,20 +41,30 @@ class BodyBoxes {
 
  private:
   enum class Kind : unsigned char { kNone, kSphere, kOther };
-  struct OldBound;
+  /// A bound as it was before `prepare`: YADE's functors write into the bound itself.
+  struct OldBound {
+    yade::Body* body;
+    bool existed;
+    int lastUpdateIter = 0;
+    yade::Real sweepLength = 0;
+    yade::Vector3r refPos = yade::Vector3r::Zero(), min = refPos, max = refPos;
+
+    explicit OldBound(yade::Body& body);
+    void restore() const;
+  };
 
   void gatherSpheres(yade::Scene& scene, int threads);
   Kind takeSphere(const yade::Body& body, std::size_t id);
   void updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   void takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene);
   double sweepOfOther(const yade::Body& body);
-  void writeSpheres(yade::Scene& scene, int threads);
   void checkPositions(const yade::Scene& scene) const;
 
   std::vector<Box> boxes_;
   std::vector<Ball> balls_;
   std::vector<Kind> kinds_;
   std::vector<Turning> turning_;
+  std::vector<OldBound> undo_;
   ShapeKinds shapeKinds_;
 
   // The same for all bodies of one update:

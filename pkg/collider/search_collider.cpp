@@ -14,17 +14,22 @@ namespace yadefrag {
 using yade::Body;
 using yade::Vector3r;
 
-/// One search. Nothing in the scene changes before `boxes_.update` has found every body sound.
+/// One search. Nothing in the scene changes before every body has been found sound.
 void SearchCollider::action() {
   const int threads = threadsToUse();
   chooseVerletDist();
   slack_ = cellSlack();
-  const double sweep = std::max(verletDist, 0.);
-  boxes_.update(*scene, *boundDispatcher,
-                SweepRule(sweep, minSweepDistFactor, scene->dt, targetInterv), slack_, threads);
-  startSearchIfNeeded();
-  updateSearch(threads);
-  findNeighbours(threads);
+  const SweepRule rule(std::max(verletDist, 0.), minSweepDistFactor, scene->dt, targetInterv);
+  boxes_.prepare(*scene, *boundDispatcher, rule, slack_, threads);
+  try {
+    startSearchIfNeeded();
+    updateSearch(threads);
+    findNeighbours(threads);
+  } catch (...) {
+    boxes_.rollBack();
+    throw;
+  }
+  boxes_.commit(*scene, threads);
   interactions_.apply(*scene, near_, [this](const Body* a, const Body* b) {
     return mayCollide(a, b, scene->subdomain);
   });

@@ -1,0 +1,111 @@
+// Every search finds exactly the pairs of brute force, in random scenes whose boxes move, jump,
+// appear and vanish. YADEFRAG_SCENES sets the number of scenes (default 100,000).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "random_scenes.hpp"
+#include "search/contact_search.hpp"
+
+namespace yadefrag {
+namespace {
+
+std::uint64_t sceneCount() {
+  const char* text = std::getenv("YADEFRAG_SCENES");
+  return text ? std::strtoull(text, nullptr, 10) : 100000;
+}
+
+std::vector<BoxPair> sortedPairs(ContactSearch& search, const std::vector<Box>& boxes) {
+  std::vector<BoxPair> pairs;
+  search.update(boxes);
+  search.findPairs(pairs);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue, SearchMethod::kLinearCode,
+                                     SearchMethod::kHierarchy};
+
+TEST(SearchProperty, SamePairsAsBruteForce) {
+  const std::uint64_t scenes = sceneCount();
+  std::uint64_t found = 0;
+  for (std::uint64_t seed = 0; seed < scenes; ++seed) {
+    RandomScene scene(seed);
+    const auto brute = makeSearch(SearchMethod::kBruteForce);
+    std::vector<std::unique_ptr<ContactSearch>> searches;
+    for (const SearchMethod method : kMethods) searches.push_back(makeSearch(method, seed % 2));
+    for (int step = 0; step < 4; ++step) {
+      const std::vector<BoxPair> expected = sortedPairs(*brute, scene.boxes());
+      found += expected.size();
+      for (std::size_t k = 0; k < searches.size(); ++k)
+        ASSERT_EQ(sortedPairs(*searches[k], scene.boxes()), expected)
+            << "seed " << seed << ", step " << step << ", method " << k;
+      scene.step();
+    }
+  }
+  EXPECT_GT(found, 10 * scenes) << "scenes too empty to prove anything";
+}
+
+TEST(SearchProperty, SameOverlapsAsBruteForce) {
+  const std::uint64_t scenes = std::max<std::uint64_t>(sceneCount() / 50, 100);
+  for (std::uint64_t seed = 0; seed < scenes; ++seed) {
+    RandomScene scene(seed), probes(seed + 1);
+    const auto brute = makeSearch(SearchMethod::kBruteForce);
+    brute->update(scene.boxes());
+    for (const SearchMethod method : kMethods) {
+      const auto search = makeSearch(method);
+      search->update(scene.boxes());
+      for (const std::vector<Box>& from : {scene.boxes(), probes.boxes()})
+        for (const Box& box : from) {
+          std::vector<BoxId> expected, found;
+          brute->findOverlaps(box, expected);
+          search->findOverlaps(box, found);
+          std::sort(found.begin(), found.end());
+          ASSERT_EQ(found, expected) << "seed " << seed;
+        }
+    }
+  }
+}
+
+TEST(SearchProperty, SameOrderForAnyNumberOfThreads) {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> place(0, 30);
+  std::vector<Box> boxes(20000);
+  for (Box& box : boxes)
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = place(random);
+      box.max[axis] = box.min[axis] + .7;
+    }
+  for (const SearchMethod method : kMethods) {
+    std::vector<BoxPair> first;
+    for (const int threads : {1, 2, 3, 8}) {
+      const auto search = makeSearch(method);
+      search->setThreads(threads);
+      std::vector<BoxPair> pairs;
+      search->update(boxes);
+      search->findPairs(pairs);
+      if (threads == 1) first = pairs;
+      ASSERT_EQ(pairs, first) << threads << " threads";
+    }
+    EXPECT_GT(first.size(), 1000U);
+  }
+}
+
+TEST(SearchProperty, ClearForgetsEverything) {
+  for (const SearchMethod method : kMethods) {
+    RandomScene before(1), after(2);
+    const auto used = makeSearch(method), fresh = makeSearch(method);
+    sortedPairs(*used, before.boxes());
+    used->clear();
+    std::vector<BoxPair> a, b;
+    used->update(after.boxes());
+    used->findPairs(a);
+    fresh->update(after.boxes());
+    fresh->findPairs(b);
+    EXPECT_EQ(a, b);  // in the same order too
+  }
+}
+
+}  // namespace
+}  // namespace yadefrag
