@@ -77,7 +77,7 @@ def _round(scene, n, seed, makeCollider, budget, steps):
                NewtonIntegrator(**parts['newton'])]
     O.engines = engines
     O.timingEnabled = True
-    row = dict(build=time.perf_counter() - start)
+    row = dict(build=time.perf_counter() - start, memoryBuilt=_peakMemory())
     stepper = Stepper(engines, parts['perStep'])
     row['first'] = stepper.step().times[1]
     row['interactionsAfterFirst'] = len(O.interactions)
