@@ -159,24 +159,27 @@ def _labels(good):
     return [label for label in NAMES if any(k[2] == label for k in good)]
 
 
+TALLEST = 2.2  # a bar that would be taller is cut; its number tells
+
+
 def _bars(file, good, n, machine):
     """Time relative to YADE's default, whose own time stands under each scene."""
     labels = _labels(good)
     scenes = _ordered(k[0] for k in good if k[1:] == (n, RIVAL))
-    figure, axes = plt.subplots(3, 1, figsize=(max(7., 1.75 * len(scenes) + 1), 10))
+    figure, axes = plt.subplots(3, 1, figsize=(max(8., 1.75 * len(scenes) + 1), 10))
     width = .86 / len(labels)
     for axis, (key, title) in zip(axes, TIMES):
         for i, label in enumerate(labels):
             places = [j for j, s in enumerate(scenes) if (s, n, label) in good]
             ratios = [good[scenes[j], n, label]['x' + key] for j in places]
             x = [j + (i - (len(labels) - 1) / 2) * width for j in places]
-            bars = axis.bar(x, [1 / r for r in ratios], width * .92, label=NAMES[label],
+            bars = axis.bar(x, [min(1 / r, TALLEST) for r in ratios], width * .92, label=NAMES[label],
                             color=COLOURS[label], zorder=2)
             if label != RIVAL:
                 axis.bar_label(bars, [_times(r) for r in ratios], fontsize=7.5, padding=1)
         axis.set_title(title[0].upper() + title[1:], loc='left', fontsize=11)
         axis.set_ylabel('time / default')
-        axis.set_ylim(0, min(2.2, axis.get_ylim()[1] * 1.08))
+        axis.set_ylim(0, axis.get_ylim()[1] * 1.08)
         own = [f'{s}\n{_seconds(good[s, n, RIVAL][key])}' for s in scenes]
         axis.set_xticks(range(len(scenes)), own)
         _clean(axis)
