@@ -1,4 +1,4 @@
-"""`yade -n -x own.py CLASS KIND NAME...`, KIND: checks, unit or examples. See yade_scripts.py."""
+"""`yade -n -x own.py CLASS KIND NAME...`, see main() in yade_scripts.py."""
 import os
 import sys
 

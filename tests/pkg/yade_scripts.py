@@ -12,6 +12,7 @@ import time as clock
 import unittest
 import unittest.mock
 
+import numpy
 import yade
 import yade.plot
 import yade.wrapper
@@ -19,7 +20,6 @@ from swap import Swap, kRivals
 
 O = builtins.O
 
-kSteps = 300        # of an example; enough for contacts to come and go
 kYadeTests = os.path.join(os.path.dirname(yade.__file__), 'tests')
 
 
@@ -81,29 +81,41 @@ def runUnit(swap, names):
 
 
 class Leash:
-    """Lets an example run kSteps steps in all, in the foreground, then ends it."""
+    """Lets an example run a number of steps in all, in the foreground, then ends it.
+
+    On the way it notes the contacts and positions at some `moments`, dense at first: later, two
+    runs of a dense scene part by rounding alone.
+    """
 
     def __init__(self):
-        self.steps = 0
-        self.run, self.step = yade.wrapper.Omega.run, yade.wrapper.Omega.step
-        leash = self
-        yade.wrapper.Omega.run = lambda omega, nSteps=-1, wait=False: leash.go(omega, nSteps)
-        yade.wrapper.Omega.step = lambda omega: leash.go(omega, 1)
+        self.step = yade.wrapper.Omega.step     # Omega.run would sleep 40 ms each time
+        self.restart()
+        yade.wrapper.Omega.run = lambda omega, nSteps=-1, wait=False: self.go(omega, nSteps)
+        yade.wrapper.Omega.step = lambda omega: self.go(omega, 1)
         yade.wrapper.Omega.wait = lambda omega: None
 
+    def restart(self):
+        self.steps, self.limit, self.next, self.moments = 0, None, 1, []
+
     def go(self, omega, steps):
-        steps = kSteps if steps < 0 else steps
-        steps = min(steps, kSteps - self.steps)
-        self.steps += steps
-        if steps:
-            self.run(omega, steps, True)
-        if self.steps >= kSteps:
+        if self.limit is None:
+            self.limit = max(300, min(3000, 600000 // (len(O.bodies) + 100)))
+        last = self.limit if steps < 0 else min(self.limit, self.steps + steps)
+        while self.steps < last:
+            until = min(self.next, last)
+            for _ in range(until - self.steps):
+                self.step(omega)
+            self.steps = until
+            if until == self.next:
+                self.next = until + max(1, min(8, until // 3))
+                self.moments.append(dict(step=until, contacts=contacts(), positions=positions()))
+        if self.steps >= self.limit:
             raise Enough
 
     def finish(self):
         """The steps that the script leaves to the person in front of the window."""
         try:
-            self.go(O, kSteps)
+            self.go(O, -1)
         except Enough:
             return None
         except Exception as error:
@@ -129,6 +141,16 @@ def contacts():
                   for i in O.interactions)
 
 
+def positions():
+    return [tuple(b.state.pos) for b in O.bodies]
+
+
+def radius():
+    """A typical length of the bodies: the median radius of the spheres, 1 without any."""
+    radii = sorted(b.shape.radius for b in O.bodies if isinstance(b.shape, yade.wrapper.Sphere))
+    return radii[len(radii) // 2] if radii else 1.
+
+
 def runExamples(swap, names, scope):
     makeRepeatable()
     leash = Leash()
@@ -137,21 +159,23 @@ def runExamples(swap, names, scope):
         O.engines = yade.utils.defaultEngines
         O.dt = 1e-8
         random.seed(1)
-        leash.steps = 0
+        numpy.random.seed(1)
+        leash.restart()
         started, before = clock.time(), dict(swap.count)
         home = os.getcwd()
         os.chdir(os.path.dirname(path))
         error = execute(path, scope) or leash.finish()
         os.chdir(home)
-        report(path, swap, before, started, error=error, steps=leash.steps, iteration=O.iter,
-               bodies=len(O.bodies), contacts=contacts())
+        report(path, swap, before, started, error=error, radius=radius(), moments=leash.moments)
 
 
 def main(scope):
-    """`scope`: the globals of yade's __main__, where YADE's runners look names up, too."""
+    """CLASS checks|unit|examples|reference NAME...; a reference is an example searched every step.
+
+    `scope`: the globals of yade's __main__, where YADE's runners look names up, too."""
     name, kind, *names = sys.argv[1:]
     sys.argv = sys.argv[:1]
-    swap = Swap(colliderClass(name))
+    swap = Swap(colliderClass(name), everyStep=kind == 'reference')
     swap.install(scope)
     if kind == 'checks':
         runChecks(swap, names, scope)

@@ -1,0 +1,157 @@
+"""YADE's own check scripts, unit tests and shipped examples, with a collider put in the place of
+YADE's (see swap.py). LebesgueCollider goes through all of them, the others through the quick ones."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import pytest
+import yade
+
+kHere = os.path.dirname(os.path.abspath(__file__))
+kExamples = '/usr/share/doc/yade/examples'
+
+# Not here: checkList.py runs the others; the MPI scripts start other programs;
+# checkColliderConstantness.py reads the rival's sort lists (test_constantness.py stands for it);
+# checkCapillaryEngineStandalone.py fails with YADE's own collider, and YADE skips it.
+kQuickChecks = [
+    'DEM-PFV-check.py', 'checkAvoidSelfInteractionMask.py', 'checkBlockGen.py',
+    'checkCapillaryModels.py', 'checkColliderCorrectness.py', 'checkFlipCell.py',
+    'checkGravity.py', 'checkGravityRungeKuttaCashKarp54.py', 'checkHertzExtended.py',
+    'checkLiquidMigration.py', 'checkLubrication.py', 'checkLubricationWithRoughness.py',
+    'checkPolyhedraCrush.py', 'checkPotentialParticles.py', 'checkPotentialVTKRecorders.py',
+    'checkTestTriax.py', 'checkVTKRecorder.py', 'checkViscElEng.py', 'checkViscElPM.py',
+    'checkViscElPM2.py', 'checkWeight.py', 'checkWirePM.py']
+kLongChecks = [
+    'checkAlpha.py', 'checkClumpHopper.py', 'checkDEM-PFVPressureInjection.py',
+    'checkFlipSpheres.py', 'checkJCFpm.py', 'checkLS_DEM.py', 'checkLS_DEM_pbc.py',
+    'checkPotentialBlocks.py', 'checkSaveLoadClumps.py', 'checkTestDummy.py',
+    'checkThermalEngine.py', 'check_TwoPhaseFlowEngine_PressureInjection.py',
+    'checkbf_simple.py', 'checkbf_unixial_clump.py', 'colliderTorture.py']
+# of those, the ones in which no collider runs at all
+kNoCollider = {'checkAlpha.py', 'checkPotentialBlocks.py', 'checkTestDummy.py'}
+# these build their scene without running it, or run the engine by itself
+kNoRun = {'checkAvoidSelfInteractionMask.py', 'checkFlipCell.py', 'checkBlockGen.py'}
+# here the collider comes out of C++, not by name
+kFoundChecks = {'checkBlockGen.py', 'checkTestTriax.py'}
+
+kUnit = ['dummyTest', 'wrapper', 'core', 'pbc', 'clump', 'cohesive-chain', 'engines',
+         'utilsModule']
+kUnitWithCollider = {'wrapper', 'core', 'cohesive-chain', 'engines', 'utilsModule'}
+
+kResults = {}
+
+
+def outcome(collider, kind, names):
+    """{name: dict} as yade_scripts.py reports it; one process for all, another one for the rest
+    if a script takes it down."""
+    key = (collider, kind)
+    if key not in kResults:
+        results, left = {}, list(names)
+        while left:
+            with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
+                done = subprocess.run(
+                    [getattr(sys, 'yade_argv', ['/usr/bin/yade'])[0], '-n', '-x',
+                     os.path.join(kHere, 'own.py'), collider, kind, *left],
+                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=folder, timeout=400,
+                    text=True, errors='replace')
+            lines = [x[4:] for x in done.stdout.splitlines() if x.startswith('@@@ {')]
+            results.update((r['name'], r) for r in map(json.loads, lines))
+            left = [n for n in left if n not in results]
+            if left:
+                results[left[0]] = dict(error=f'ended yade ({done.returncode}): '
+                                              f'{done.stdout[-1500:]}')
+                left.pop(0)
+        kResults[key] = results
+    return kResults[key]
+
+
+def checkResult(collider, result):
+    assert result['error'] is None, result['error']
+    assert result['rivals'] == 0, "YADE's own collider was still there"
+
+
+def isFull(collider):
+    return collider.name in ('LebesgueCollider', 'InsertionSortCollider')
+
+
+@pytest.mark.parametrize('script', kQuickChecks + kLongChecks)
+def testCheckScript(collider, script):
+    if script in kLongChecks and not isFull(collider):
+        pytest.skip('long: LebesgueCollider runs it')
+    names = kQuickChecks + (kLongChecks if isFull(collider) else [])
+    result = outcome(collider.name, 'checks', names)[script]
+    checkResult(collider, result)
+    if script not in kNoCollider and not collider.isRival:
+        assert result['made'] + result['found'] > 0
+        assert (result['runs'] > 0) != (script in kNoRun)
+    if script in kFoundChecks and not collider.isRival:
+        assert result['found'] > 0
+
+
+@pytest.mark.parametrize('module', kUnit)
+def testUnit(collider, module):
+    result = outcome(collider.name, 'unit', kUnit)[module]
+    checkResult(collider, result)
+    assert result['tests'] > 0
+    if module in kUnitWithCollider:
+        assert result['made'] > 0
+
+
+kShortExamples = [
+    'billiard.py', 'mill.py', 'test/facet-sphere.py', 'test/clump.py',
+    'test/facet-sphere-ViscElBasic-peri.py', 'PeriodicBoundaries/periodic-simple.py']
+kLongExamples = [
+    'PeriodicBoundaries/cellFlipping.py', 'PeriodicBoundaries/periodic-simple-shear.py',
+    'PeriodicBoundaries/periodic-triax.py', 'PeriodicBoundaries/periodicSandPile.py',
+    'clumps/clump-hopper-viscoelastic.py', 'test/collider-stride-triax.py',
+    'test/triax-basic-without-plots.py', 'timeStepperUsage.py']
+# nothing touches in them as long as they run here; they still go through a collider
+kNeverTouch = {'clumps/clump-hopper-viscoelastic.py'}
+
+
+@pytest.mark.skipif(not os.path.isdir(kExamples), reason='yade-doc is not installed')
+@pytest.mark.parametrize('script', kShortExamples + kLongExamples)
+def testExample(collider, script):
+    """The contacts are those that YADE's collider has when it searches in every step.
+
+    With its strides on it loses floor contacts in periodicSandPile.py and so is no yardstick."""
+    if script in kLongExamples and not isFull(collider):
+        pytest.skip('long: LebesgueCollider runs it')
+    every = [os.path.join(kExamples, s) for s in kShortExamples + kLongExamples]
+    names = every if isFull(collider) else every[:len(kShortExamples)]
+    path = os.path.join(kExamples, script)
+    expected = outcome('InsertionSortCollider', 'reference', every)[path]
+    assert expected['error'] is None, expected['error']
+    result = outcome(collider.name, 'examples', names)[path]
+    checkResult(collider, result)
+    assert result['runs'] > 0
+    compared = compareMoments(expected['moments'], result['moments'], result['radius'])
+    assert compared > 0 or script in kNeverTouch
+
+
+def compareMoments(expected, found, radius):
+    """Compares the contacts while positions agree to a millionth of a radius; how many it saw."""
+    total = 0
+    assert [m['step'] for m in expected] == [m['step'] for m in found]
+    for a, b in zip(expected, found):
+        missing, extra = (differences(x['contacts'], y['contacts'], 1e-5 * radius)
+                          for x, y in ((a, b), (b, a)))
+        assert not missing and not extra, f'at step {a["step"]}'
+        total += len(a['contacts'])
+        if apart(a['positions'], b['positions']) > 1e-6 * radius:
+            assert a['step'] >= 20, 'the runs parted at once'     # rounding takes longer
+            break
+    return total
+
+
+def differences(these, others, depth):
+    """Pairs that only `these` have, apart from those that barely touch (rounding)."""
+    return {tuple(c[:2]) for c in these if c[2] is None or c[2] > depth} \
+        - {tuple(c[:2]) for c in others}
+
+
+def apart(these, others):
+    assert len(these) == len(others)
+    return max(abs(x - y) for p, q in zip(these, others) for x, y in zip(p, q))
