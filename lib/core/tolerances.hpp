@@ -22,8 +22,9 @@ inline constexpr std::size_t kWideLevelCount = 8;
 /// (count) Codes in one bucket of the directory above which the bucket gets a directory of its own.
 inline constexpr std::size_t kBucketCodes = 16;
 
-/// (share) Above this share of moved boxes a sort from nothing is cheaper than a merge.
-inline constexpr double kResortShare = 0.25;
+/// (boxes) A rectangle wider than this on some axis is not cut into code ranges, of which the
+/// linear numbering would need one per row. Rectangles around bodies are three boxes wide.
+inline constexpr double kWidestRectangle = 64;
 
 /// (boxes) An axis along which all boxes start within this many median box lengths is left out of
 /// the position code: a plane scene is searched with 2D codes.

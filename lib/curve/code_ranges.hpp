@@ -84,9 +84,11 @@ CodeRanges<Dim> rangesOfRectangle(const typename PositionCode<Dim>::Cell& low,
     std::array<AxisInterval, 2> part;
     const int parts = cutAtHighestBoundary<Dim>(low[axis], high[axis], part);
     std::array<SpreadPart, 2> bits;
-    for (int p = 0; p < parts; ++p)
-      bits[p] = {Code::spread(part[p].low) << Code::axisShift(axis), Code::spread(part[p].high)
-                                                                         << Code::axisShift(axis)};
+    for (int p = 0; p < parts; ++p) {
+      bits[p].low = Code::spread(part[p].low) << Code::axisShift(axis);
+      bits[p].high = Code::spread(part[p].high) << Code::axisShift(axis);
+      onlyPairs &= part[p].high - part[p].low <= 1;
+    }
     if (parts == 2)
       for (int r = 0; r < out.count; ++r)
         out.range[out.count + r] = {out.range[r].start | bits[1].low,

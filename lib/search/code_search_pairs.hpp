@@ -1,6 +1,7 @@
 #pragma once
 // Third part of code_search.hpp: from codes to pairs (paper §4.4).
 
+#include "curve/numbering.hpp"
 #include "search/code_search.hpp"
 
 namespace yadefrag {
@@ -87,9 +88,9 @@ bool CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level, C
     const double extent = extents_[level];
     double from = box.min[axis] - extent;
     from -= (std::abs(from) + extent) * tolerance::kExtentRounding;
-    const double scaledLow = grid_.scaled(from, level),
-                 scaledHigh = grid_.scaled(box.max[axis], level);
-    if (!(scaledHigh - scaledLow < Code::kMask / 2) || !(std::abs(scaledLow) < 0x1p60))
+    const double scaledLow = grid_.scaled(from, level);
+    const double scaledHigh = grid_.scaled(box.max[axis], level);
+    if (!(scaledHigh - scaledLow < tolerance::kWidestRectangle) || !(std::abs(scaledLow) < 0x1p60))
       return false;
     low[d] =
         static_cast<std::uint32_t>(floorToInt(scaledLow) - grid_.origin(level, d)) & Code::kMask;

@@ -100,7 +100,7 @@ def testUnit(collider, module):
 
 
 kShortExamples = [
-    'billiard.py', 'mill.py', 'test/facet-sphere.py', 'test/clump.py',
+    'billiard.py', 'test/facet-sphere.py', 'test/clump.py',
     'test/facet-sphere-ViscElBasic-peri.py', 'PeriodicBoundaries/periodic-simple.py']
 kLongExamples = [
     'PeriodicBoundaries/cellFlipping.py', 'PeriodicBoundaries/periodic-simple-shear.py',

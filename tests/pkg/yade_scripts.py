@@ -133,6 +133,9 @@ def makeRepeatable():
             keywords.setdefault('seed', 1)
         return makeCloud(*arguments, **keywords)
     yade.pack.SpherePack.makeCloud = seeded
+    # utils.randomColor() seeds from the clock with every body
+    seed = random.seed
+    random.seed = lambda *a: seed(*a) if a and a[0] is not None else None
 
 
 def contacts():

