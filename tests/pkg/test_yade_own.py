@@ -14,9 +14,10 @@ kExamples = '/usr/share/doc/yade/examples'
 
 # Not here: checkList.py runs the others; the MPI scripts start other programs;
 # checkColliderConstantness.py reads the rival's sort lists (test_constantness.py stands for it);
-# checkCapillaryEngineStandalone.py fails with YADE's own collider, and YADE skips it.
+# YADE itself skips checkCapillaryEngineStandalone.py, which fails with its own collider, and
+# DEM-PFV-check.py, which fails with its own collider as soon as that searches in every step.
 kQuickChecks = [
-    'DEM-PFV-check.py', 'checkAvoidSelfInteractionMask.py', 'checkBlockGen.py',
+    'checkAvoidSelfInteractionMask.py', 'checkBlockGen.py',
     'checkCapillaryModels.py', 'checkColliderCorrectness.py', 'checkFlipCell.py',
     'checkGravity.py', 'checkGravityRungeKuttaCashKarp54.py', 'checkHertzExtended.py',
     'checkLiquidMigration.py', 'checkLubrication.py', 'checkLubricationWithRoughness.py',
@@ -118,6 +119,8 @@ def testExample(collider, script):
     With its strides on it loses floor contacts in periodicSandPile.py and so is no yardstick."""
     if script in kLongExamples and not isFull(collider):
         pytest.skip('long: LebesgueCollider runs it')
+    if collider.isRival and script.endswith('periodicSandPile.py'):
+        pytest.xfail('with strides it loses contacts with the floor')
     every = [os.path.join(kExamples, s) for s in kShortExamples + kLongExamples]
     names = every if isFull(collider) else every[:len(kShortExamples)]
     path = os.path.join(kExamples, script)
