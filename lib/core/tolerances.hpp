@@ -10,10 +10,15 @@ namespace yadefrag::tolerance {
 /// the rounding of the two subtractions (2⁻⁵³ each) with a factor of eight to spare.
 inline constexpr double kExtentRounding = 8.9e-16;
 
-/// (ratio) Edge of a position-code box over the largest body box of its level. At 1 a query spans
-/// three boxes an axis and eight code ranges, at 2 two boxes and three to four ranges, but more
-/// candidates. Measured on the benchmark scenes: flat between 1.2 and 2.
-inline constexpr double kEdgeOverExtent = 1.5;
+/// (ratio) Edge of a position-code box over the longest body box of its level. Above 1, a box that
+/// overlaps another starts in the same position-code box or the next, which the search relies on.
+/// The greater, the fewer ranges and the more candidates: see tests/benchmark.
+inline constexpr double kEdgeOverExtent = 2;
+
+/// (ratio) The longest side of a level is planned by this much above the longest of the sample, so
+/// that bodies of one size, which differ by rounding and by their sweeps, do not straddle two
+/// levels.
+inline constexpr double kSpareSide = 1.1;
 
 /// (count) Levels with no more boxes than this are not put on the curve but tested against
 /// everything: a floor and four walls would otherwise cost every body a range search each.

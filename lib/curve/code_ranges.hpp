@@ -23,29 +23,24 @@ struct CodeRanges {
   int count = 0;
 };
 
-/// Closed interval of box numbers on one axis.
-struct AxisInterval {
-  std::uint32_t low;
-  std::uint32_t high;
-};
-
-/// Cuts [low, high] where the highest-level boundary of the curve crosses it. A pair below one
-/// parent box is left whole: the range is then at most twice as long, and there are half as many.
-/// An interval that wraps (low > high) is cut at the wrap, which is the highest boundary of all.
-template <int Dim>
-int cutAtHighestBoundary(std::uint32_t low, std::uint32_t high, std::array<AxisInterval, 2>& part) {
-  const std::uint32_t differing = low ^ high;
-  if (low > high) {
-    part = {{{low, PositionCode<Dim>::kMask}, {0, high}}};
+/// Cuts an axis' interval [low, high] where the highest-level boundary of the curve crosses it. All
+/// numbers are an axis' bits in their places within a code, `unit` is the lowest of them: comparing
+/// and cutting need no unpacking. A pair below one parent box is left whole: the range is then at
+/// most twice as long, and there are half as many. An interval that wraps (low > high) is cut at
+/// the wrap, the highest boundary of all.
+inline int cutAtHighestBoundary(const CodeRange& axis, std::uint64_t mask, std::uint64_t unit,
+                                std::array<CodeRange, 2>& part) {
+  const std::uint64_t differing = axis.start ^ axis.stop;
+  if (axis.start > axis.stop) {
+    part = {{{axis.start, mask}, {0, axis.stop}}};
     return 2;
   }
-  if (differing <= 1) {
-    part[0] = {low, high};
+  if (differing <= unit) {
+    part[0] = axis;
     return 1;
   }
-  const int level = static_cast<int>(std::bit_width(differing)) - 1;
-  const std::uint32_t boundary = (high >> level) << level;
-  part = {{{low, boundary - 1}, {boundary, high}}};
+  const std::uint64_t boundary = axis.stop & ~(std::bit_floor(differing) - 1);
+  part = {{{axis.start, (boundary - unit) & mask}, {boundary, axis.stop}}};
   return 2;
 }
 
@@ -67,35 +62,30 @@ void joinOverlapping(CodeRanges<Dim>& ranges) {
   ranges.count = kept + 1;
 }
 
-/// Ranges of all boxes with low ≤ box ≤ high on every axis (modulo 2^kBits), each clipped to the
-/// codes of the lower-left and upper-right corner of its part. Other boxes may lie in a range too.
+/// Ranges of all boxes of the rectangle (modulo 2^kBits an axis) between two corners, given by
+/// their codes, each range clipped to the codes of its part's lower-left and upper-right corner.
+/// Other boxes may lie in a range too.
 template <int Dim>
-CodeRanges<Dim> rangesOfRectangle(const typename PositionCode<Dim>::Cell& low,
-                                  const typename PositionCode<Dim>::Cell& high) {
+CodeRanges<Dim> rangesOfRectangle(std::uint64_t low, std::uint64_t high) {
   using Code = PositionCode<Dim>;
-  struct SpreadPart {
-    std::uint64_t low, high;
-  };
   CodeRanges<Dim> out;
   out.range[0] = {0, 0};
   out.count = 1;
   bool onlyPairs = true;
   for (int axis = 0; axis < Dim; ++axis) {
-    std::array<AxisInterval, 2> part;
-    const int parts = cutAtHighestBoundary<Dim>(low[axis], high[axis], part);
-    std::array<SpreadPart, 2> bits;
-    for (int p = 0; p < parts; ++p) {
-      bits[p].low = Code::spread(part[p].low) << Code::axisShift(axis);
-      bits[p].high = Code::spread(part[p].high) << Code::axisShift(axis);
-      onlyPairs &= part[p].high - part[p].low <= 1;
-    }
+    constexpr std::uint64_t one = 1;
+    const std::uint64_t mask = Code::axisMask(axis);
+    const std::uint64_t unit = one << Code::axisShift(axis);
+    std::array<CodeRange, 2> part;
+    const int parts = cutAtHighestBoundary({low & mask, high & mask}, mask, unit, part);
+    for (int p = 0; p < parts; ++p) onlyPairs &= (part[p].start ^ part[p].stop) <= unit;
     if (parts == 2)
       for (int r = 0; r < out.count; ++r)
-        out.range[out.count + r] = {out.range[r].start | bits[1].low,
-                                    out.range[r].stop | bits[1].high};
+        out.range[out.count + r] = {out.range[r].start | part[1].start,
+                                    out.range[r].stop | part[1].stop};
     for (int r = 0; r < out.count; ++r) {
-      out.range[r].start |= bits[0].low;
-      out.range[r].stop |= bits[0].high;
+      out.range[r].start |= part[0].start;
+      out.range[r].stop |= part[0].stop;
     }
     out.count *= parts;
   }

@@ -16,8 +16,19 @@ struct LebesgueNumbering {
 
   static std::uint64_t encode(const Cell& cell) { return Code::encode(cell); }
 
+  /// Code of the next box down or up an axis: arithmetic on that axis' bits where they are.
+  static std::uint64_t down(std::uint64_t code, int axis) {
+    const std::uint64_t mask = Code::axisMask(axis);
+    return (code & ~mask) | (((code & mask) - (std::uint64_t{1} << Code::axisShift(axis))) & mask);
+  }
+  static std::uint64_t up(std::uint64_t code, int axis) {
+    const std::uint64_t mask = Code::axisMask(axis);
+    return (code & ~mask) | (((code | ~mask) + (std::uint64_t{1} << Code::axisShift(axis))) & mask);
+  }
+
+  /// Ranges of the rectangle between two corners, given by their codes.
   template <class Visit>
-  static void forEachRange(const Cell& low, const Cell& high, Visit visit) {
+  static void forEachRange(std::uint64_t low, std::uint64_t high, Visit visit) {
     const CodeRanges<Dim> ranges = rangesOfRectangle<Dim>(low, high);
     for (int r = 0; r < ranges.count; ++r) visit(ranges.range[r]);
   }
@@ -35,10 +46,23 @@ struct LinearNumbering {
     for (int axis = Dim - 1; axis >= 0; --axis) code = (code << Code::kBits) | cell[axis];
     return code;
   }
+  static Cell decode(std::uint64_t code) {
+    Cell cell;
+    for (int axis = 0; axis < Dim; ++axis)
+      cell[axis] = static_cast<std::uint32_t>(code >> (axis * Code::kBits)) & Code::kMask;
+    return cell;
+  }
+
+  static std::uint64_t down(std::uint64_t code, int axis) {
+    return stepped(code, axis, Code::kMask);
+  }
+  static std::uint64_t up(std::uint64_t code, int axis) { return stepped(code, axis, 1); }
 
   /// One range per row of the rectangle, two where the row wraps.
   template <class Visit>
-  static void forEachRange(const Cell& low, const Cell& high, Visit visit) {
+  static void forEachRange(std::uint64_t lowCode, std::uint64_t highCode, Visit visit) {
+    const Cell low = decode(lowCode);
+    const Cell high = decode(highCode);
     Cell row = low;
     for (;;) {
       row[0] = 0;
@@ -59,6 +83,13 @@ struct LinearNumbering {
       }
       if (axis == Dim) return;
     }
+  }
+
+ private:
+  static std::uint64_t stepped(std::uint64_t code, int axis, std::uint32_t by) {
+    Cell cell = decode(code);
+    cell[axis] = (cell[axis] + by) & Code::kMask;
+    return encode(cell);
   }
 };
 

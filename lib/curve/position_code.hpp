@@ -97,6 +97,9 @@ struct PositionCode {
     return code ^ flipMask(axis, l == 0 ? kBits - 1 : std::countr_zero(l));
   }
 
+  /// All bits of one axis.
+  static constexpr std::uint64_t axisMask(int axis) { return flipMask(axis, kBits - 1); }
+
   /// First and last code of the block of side 2^i that contains the box of `code` (§4.4).
   static constexpr std::uint64_t startCode(std::uint64_t code, int i) {
     return code & ~((std::uint64_t{1} << (Dim * i)) - 1);

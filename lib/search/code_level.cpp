@@ -4,10 +4,15 @@
 
 namespace yadefrag {
 
-void CodeLevel::refresh(std::span<const Box> boxes, bool withDirectory, int threads) {
+void CodeLevel::refresh(std::span<const Box> boxes, const FilterScale& scale, bool withDirectory,
+                        int threads) {
   boxes_.resize(list_.size());
+  filters_.resize(list_.size());
   forEachPart(list_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i) boxes_[i] = {boxes[list_[i].slot], list_[i].slot};
+    for (std::size_t i = begin; i < end; ++i) {
+      boxes_[i] = {boxes[list_[i].slot], list_[i].slot};
+      filters_[i] = FilterBox(boxes_[i].box, scale);
+    }
   });
   if (!changed_) return;
   changed_ = false;

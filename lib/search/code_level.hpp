@@ -8,11 +8,12 @@
 
 #include "core/box.hpp"
 #include "search/code_directory.hpp"
+#include "search/filter_box.hpp"
 #include "search/sorted_list.hpp"
 
 namespace yadefrag {
 
-/// A box beside the slot it came from, so that a candidate test touches one cache line.
+/// A box beside the slot it came from: an exact test touches one cache line.
 struct alignas(64) CodedBox {
   Box box;
   std::uint32_t slot;
@@ -22,6 +23,7 @@ class CodeLevel {
  public:
   [[nodiscard]] std::size_t size() const { return list_.size(); }
   [[nodiscard]] const CodedBox& operator[](std::size_t i) const { return boxes_[i]; }
+  [[nodiscard]] const FilterBox& filter(std::size_t i) const { return filters_[i]; }
   [[nodiscard]] std::uint64_t code(std::size_t i) const { return codes_[i]; }
   [[nodiscard]] const CodeDirectory& directory() const { return directory_; }
   [[nodiscard]] std::span<const std::uint64_t> codes() const { return codes_; }
@@ -47,12 +49,14 @@ class CodeLevel {
   }
 
   /// Copies the boxes in curve order; `withDirectory` if codes are looked up through a directory.
-  void refresh(std::span<const Box> boxes, bool withDirectory, int threads);
+  void refresh(std::span<const Box> boxes, const FilterScale& scale, bool withDirectory,
+               int threads);
 
  private:
   std::vector<CodedSlot> list_;
   std::vector<std::uint64_t> codes_;
   std::vector<CodedBox> boxes_;
+  std::vector<FilterBox> filters_;
   CodeDirectory directory_;
   bool changed_ = true;
 };

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "curve/numbering.hpp"
 #include "search/code_level.hpp"
 #include "search/contact_search.hpp"
 #include "search/level_grid.hpp"
@@ -57,10 +58,14 @@ class CodeSearch final : public ContactSearch {
 
   void pairsOf(int level, std::size_t i, std::vector<BoxPair>& out, Count& count) const;
   template <class Visit>
-  void visitRectangle(const CodeLevel& level, const Cell& low, const Cell& high, Count& count,
+  void visitLaterNeighbours(const CodeLevel& level, int own, std::size_t i, Count& count,
+                            Visit visit) const;
+  template <class Visit>
+  void visitRectangle(const CodeLevel& level, const CodeRange& corners, Count& count,
                       Visit visit) const;
   std::uint32_t lowerBound(const CodeLevel& level, std::uint64_t code, Count& count) const;
-  bool rectangleOf(const Box& box, int level, Cell& low, Cell& high) const;
+  double lowestStart(const Box& box, int axis, int level) const;
+  bool rectangleOf(const Box& box, int level, CodeRange& corners) const;
 
   LevelGrid<Dim> grid_;
   std::span<const Box> boxes_;

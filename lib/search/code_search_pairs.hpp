@@ -36,67 +36,94 @@ template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, std::vector<BoxPair>& out,
                                                 Count& count) const {
   const CodedBox& me = levels_[own][i];
-  Cell low;
-  Cell high;
+  const FilterBox& filter = levels_[own].filter(i);
   for (const int other : occupied_) {
     if (other < own) continue;
     const CodeLevel& level = levels_[other];
-    const bool narrow = rectangleOf(me.box, other, low, high);
-    assert(narrow);
-    static_cast<void>(narrow);
     const auto test = [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t j = begin; j < end; ++j) {
         count.test(2 * Dim);
-        if (overlaps(me.box, level[j].box))
+        if (mayOverlap(filter, level.filter(j)) && overlaps(me.box, level[j].box))
           out.push_back(orderedPair(BoxId(me.slot), BoxId(level[j].slot)));
       }
     };
-    if (other > own) {
-      visitRectangle(level, low, high, count, test);
+    if (other == own) {
+      visitLaterNeighbours(level, own, i, count, test);
       continue;
     }
-    const auto next = static_cast<std::uint32_t>(i) + 1;
-    const std::uint64_t code = level.code(i);
-    Numbering::forEachRange(low, high, [&](const CodeRange& range) {
-      count.range(2);
-      if (range.stop < code) return;
-      const std::uint32_t begin =
-          range.start <= code ? next : lowerBound(level, range.start, count);
-      test(begin, lowerBound(level, range.stop + 1, count));
-    });
+    CodeRange corners;
+    const bool narrow = rectangleOf(me.box, other, corners);
+    assert(narrow);
+    static_cast<void>(narrow);
+    visitRectangle(level, corners, count, test);
   }
   wide_.pairsWith(boxes_, me.box, me.slot, out, count);
 }
 
+/// Boxes of one level are shorter than an edge: those that overlap lie in the same position-code
+/// box or the next. Which of the next come in question is seen from two comparisons an axis, and
+/// their codes from the own code.
 template <class Numbering, int Dim, class Count>
 template <class Visit>
-void CodeSearch<Numbering, Dim, Count>::visitRectangle(const CodeLevel& level, const Cell& low,
-                                                       const Cell& high, Count& count,
+void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const CodeLevel& level, int own,
+                                                             std::size_t i, Count& count,
+                                                             Visit visit) const {
+  const Box& box = level[i].box;
+  const std::uint64_t code = level.code(i);
+  CodeRange corners = {code, code};
+  for (int d = 0; d < Dim; ++d) {
+    const int axis = grid_.axis(d);
+    const auto floor = static_cast<double>(floorToInt(grid_.scaled(box.min[axis], own)));
+    count.range(2);
+    if (grid_.scaled(lowestStart(box, axis, own), own) < floor)
+      corners.start = Numbering::down(corners.start, d);
+    if (grid_.scaled(box.max[axis], own) >= floor + 1)
+      corners.stop = Numbering::up(corners.stop, d);
+  }
+  const auto next = static_cast<std::uint32_t>(i) + 1;
+  Numbering::forEachRange(corners.start, corners.stop, [&](const CodeRange& range) {
+    count.range(2);
+    if (range.stop < code) return;
+    const std::uint32_t begin = range.start <= code ? next : lowerBound(level, range.start, count);
+    visit(begin, lowerBound(level, range.stop + 1, count));
+  });
+}
+
+template <class Numbering, int Dim, class Count>
+template <class Visit>
+void CodeSearch<Numbering, Dim, Count>::visitRectangle(const CodeLevel& level,
+                                                       const CodeRange& corners, Count& count,
                                                        Visit visit) const {
-  Numbering::forEachRange(low, high, [&](const CodeRange& range) {
+  Numbering::forEachRange(corners.start, corners.stop, [&](const CodeRange& range) {
     visit(lowerBound(level, range.start, count), lowerBound(level, range.stop + 1, count));
   });
 }
 
-/// The boxes that hold the lower corners of all boxes of `level` that can overlap `box`. False if
-/// the rectangle is wider than the curve on some axis.
+/// Boxes of `level` that overlap `box` have their lower corners at or above this.
 template <class Numbering, int Dim, class Count>
-bool CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level, Cell& low,
-                                                    Cell& high) const {
+double CodeSearch<Numbering, Dim, Count>::lowestStart(const Box& box, int axis, int level) const {
+  const double extent = extents_[level];
+  const double from = box.min[axis] - extent;
+  return from - (std::abs(from) + extent) * tolerance::kExtentRounding;
+}
+
+/// Codes of the corners of the rectangle that holds the lower corners of all boxes of `level` that
+/// can overlap `box`. False if it is so wide that a look at every box of the level is cheaper.
+template <class Numbering, int Dim, class Count>
+bool CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level,
+                                                    CodeRange& corners) const {
+  Cell low;
+  Cell high;
   for (int d = 0; d < Dim; ++d) {
     const int axis = grid_.axis(d);
-    const double extent = extents_[level];
-    double from = box.min[axis] - extent;
-    from -= (std::abs(from) + extent) * tolerance::kExtentRounding;
-    const double scaledLow = grid_.scaled(from, level);
-    const double scaledHigh = grid_.scaled(box.max[axis], level);
-    if (!(scaledHigh - scaledLow < tolerance::kWidestRectangle) || !(std::abs(scaledLow) < 0x1p60))
-      return false;
-    low[d] =
-        static_cast<std::uint32_t>(floorToInt(scaledLow) - grid_.origin(level, d)) & Code::kMask;
-    high[d] =
-        static_cast<std::uint32_t>(floorToInt(scaledHigh) - grid_.origin(level, d)) & Code::kMask;
+    const double from = grid_.scaled(lowestStart(box, axis, level), level);
+    const double to = grid_.scaled(box.max[axis], level);
+    if (!(to - from < tolerance::kWidestRectangle) || !(std::abs(from) < 0x1p60)) return false;
+    const std::int64_t origin = grid_.origin(level, d);
+    low[d] = static_cast<std::uint32_t>(floorToInt(from) - origin) & Code::kMask;
+    high[d] = static_cast<std::uint32_t>(floorToInt(to) - origin) & Code::kMask;
   }
+  corners = {Numbering::encode(low), Numbering::encode(high)};
   return true;
 }
 
@@ -124,16 +151,15 @@ template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::findOverlaps(const Box& box,
                                                      std::vector<BoxId>& found) const {
   Count uncounted;
-  Cell low;
-  Cell high;
+  CodeRange corners;
   for (const int at : occupied_) {
     const CodeLevel& level = levels_[at];
     const auto test = [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t j = begin; j < end; ++j)
         if (overlaps(box, level[j].box)) found.push_back(BoxId(level[j].slot));
     };
-    if (rectangleOf(box, at, low, high))
-      visitRectangle(level, low, high, uncounted, test);
+    if (rectangleOf(box, at, corners))
+      visitRectangle(level, corners, uncounted, test);
     else
       test(0, static_cast<std::uint32_t>(level.size()));
   }

@@ -34,7 +34,8 @@ void CodeSearch<Numbering, Dim, Count>::update(std::span<const Box> boxes) {
     return;
   }
   constexpr bool withDirectory = Numbering::kStepsByXor;
-  for (const int level : occupied_) levels_[level].refresh(boxes, withDirectory, threads_);
+  const FilterScale scale = grid_.filterScale();
+  for (const int level : occupied_) levels_[level].refresh(boxes, scale, withDirectory, threads_);
 }
 
 template <class Numbering, int Dim, class Count>

@@ -10,6 +10,7 @@
 
 #include "core/tolerances.hpp"
 #include "curve/position_code.hpp"
+#include "search/filter_box.hpp"
 #include "search/search_plan.hpp"
 
 namespace yadefrag {
@@ -44,6 +45,9 @@ class LevelGrid {
   }
 
   [[nodiscard]] int axis(int d) const { return plan_.axes[d]; }
+
+  /// For filters of all levels: origin and edge of the base level.
+  [[nodiscard]] FilterScale filterScale() const { return {plan_.low, 1 / plan_.edge}; }
 
   /// The finest level whose edge is at least kEdgeOverExtent times `side`; kLevels if there is
   /// none.

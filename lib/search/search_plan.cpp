@@ -59,7 +59,7 @@ SearchPlan planSearch(std::span<const Box> boxes) {
   // Points have no size of their own: any edge far below their spread separates them.
   if (side == 0) side = std::ldexp(*std::max_element(spread.begin(), spread.end()), -20);
   if (!(side > 0) || !std::isnormal(side)) side = 1;
-  plan.edge = side * tolerance::kEdgeOverExtent;
+  plan.edge = side * tolerance::kSpareSide * tolerance::kEdgeOverExtent;
 
   const int flattest =
       static_cast<int>(std::min_element(spread.begin(), spread.end()) - spread.begin());

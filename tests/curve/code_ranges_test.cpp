@@ -44,10 +44,11 @@ TYPED_TEST(RangeLaws, HoldEveryBoxOfTheRectangleOnce) {
   for (int k = 0; k < 20000; ++k) {
     const auto r = randomRectangle<TypeParam>(random);
     std::vector<CodeRange> ranges;
-    TypeParam::forEachRange(r.low, r.high, [&](const CodeRange& range) {
-      ASSERT_LE(range.start, range.stop);
-      ranges.push_back(range);
-    });
+    TypeParam::forEachRange(TypeParam::encode(r.low), TypeParam::encode(r.high),
+                            [&](const CodeRange& range) {
+                              ASSERT_LE(range.start, range.stop);
+                              ranges.push_back(range);
+                            });
     std::sort(ranges.begin(), ranges.end(), [](auto& a, auto& b) { return a.start < b.start; });
     for (std::size_t i = 1; i < ranges.size(); ++i)
       ASSERT_LT(ranges[i - 1].stop, ranges[i].start) << "two ranges share a code";
@@ -67,6 +68,21 @@ TYPED_TEST(RangeLaws, HoldEveryBoxOfTheRectangleOnce) {
   }
 }
 
+TYPED_TEST(RangeLaws, StepsToTheNextBox) {
+  std::mt19937_64 random(14);
+  using Code = typename TypeParam::Code;
+  for (int k = 0; k < 20000; ++k) {
+    auto cell = randomRectangle<TypeParam>(random).low;
+    if (k < 2) cell.fill(k == 0 ? 0 : Code::kMask);
+    for (int axis = 0; axis < static_cast<int>(cell.size()); ++axis) {
+      auto next = cell;
+      next[axis] = (cell[axis] + 1) & Code::kMask;
+      ASSERT_EQ(TypeParam::up(TypeParam::encode(cell), axis), TypeParam::encode(next));
+      ASSERT_EQ(TypeParam::down(TypeParam::encode(next), axis), TypeParam::encode(cell));
+    }
+  }
+}
+
 TEST(CodeRanges, AtMostFourInTwoDimensionsAndEightInThree) {
   std::mt19937_64 random(12);
   int most2 = 0;
@@ -74,8 +90,12 @@ TEST(CodeRanges, AtMostFourInTwoDimensionsAndEightInThree) {
   for (int k = 0; k < 20000; ++k) {
     const auto r2 = randomRectangle<LebesgueNumbering<2>>(random);
     const auto r3 = randomRectangle<LebesgueNumbering<3>>(random);
-    most2 = std::max(most2, rangesOfRectangle<2>(r2.low, r2.high).count);
-    most3 = std::max(most3, rangesOfRectangle<3>(r3.low, r3.high).count);
+    most2 = std::max(most2, rangesOfRectangle<2>(PositionCode<2>::encode(r2.low),
+                                                 PositionCode<2>::encode(r2.high))
+                                .count);
+    most3 = std::max(most3, rangesOfRectangle<3>(PositionCode<3>::encode(r3.low),
+                                                 PositionCode<3>::encode(r3.high))
+                                .count);
   }
   EXPECT_EQ(most2, 4);
   EXPECT_EQ(most3, 8);
@@ -94,7 +114,7 @@ TEST(CodeRanges, ClippingHalvesWhatTheBlocksWouldHold) {
       low[d] = static_cast<std::uint32_t>(random() % 4096);
       high[d] = low[d] + 1 + static_cast<std::uint32_t>(random() % 4);
     }
-    const CodeRanges<2> ranges = rangesOfRectangle<2>(low, high);
+    const CodeRanges<2> ranges = rangesOfRectangle<2>(Code::encode(low), Code::encode(high));
     for (int r = 0; r < ranges.count; ++r) {
       const auto [start, stop] = ranges.range[r];
       clipped += static_cast<double>(stop - start + 1);

@@ -1,0 +1,52 @@
+#pragma once
+// Boxes in single precision, for a first test that is four times as fast as the exact one.
+
+#include <array>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include "core/box.hpp"
+
+namespace yadefrag {
+
+/// Maps coordinates to floats near zero, where floats are dense.
+struct FilterScale {
+  std::array<double, 3> origin{0, 0, 0};
+  double factor = 1;  // > 0
+  [[nodiscard]] float operator()(double x, int axis) const {
+    return static_cast<float>((x - origin[axis]) * factor);
+  }
+};
+
+/// Half a cache line. Every step of the mapping is monotone, rounding included: if two boxes
+/// overlap, so do their filters, and nothing has to be inflated.
+struct alignas(32) FilterBox {
+  std::array<float, 4> min;
+  std::array<float, 4> max;  // the fourth of each is 0
+
+  FilterBox() = default;
+  FilterBox(const Box& box, const FilterScale& scale) : min{}, max{} {
+    for (int axis = 0; axis < 3; ++axis) {
+      min[axis] = scale(box.min[axis], axis);
+      max[axis] = scale(box.max[axis], axis);
+    }
+  }
+};
+
+/// False only if the boxes behind the filters do not overlap.
+inline bool mayOverlap(const FilterBox& a, const FilterBox& b) {
+#if defined(__SSE2__)
+  const __m128 below = _mm_cmple_ps(_mm_load_ps(a.min.data()), _mm_load_ps(b.max.data()));
+  const __m128 above = _mm_cmple_ps(_mm_load_ps(b.min.data()), _mm_load_ps(a.max.data()));
+  return _mm_movemask_ps(_mm_and_ps(below, above)) == 15;
+#else
+  bool may = true;
+  for (int axis = 0; axis < 3; ++axis)
+    may &= a.min[axis] <= b.max[axis] && b.min[axis] <= a.max[axis];
+  return may;
+#endif
+}
+
+}  // namespace yadefrag
