@@ -9,7 +9,8 @@ from yade.minieigenHP import Vector3
 
 
 def uniform(rng, n, dim=3):
-    return addZ(rng.uniform(0, 1, (n, dim)), dim), rng.uniform(.02, .06, n) * (1 if dim == 3 else .5)
+    radii = rng.uniform(.02, .06, n) * (1 if dim == 3 else .5)
+    return addZ(rng.uniform(0, 1, (n, dim)), dim), radii
 
 
 def clustered(rng, n, dim=3):
@@ -94,7 +95,8 @@ def testScaleAndOffset(collider, scale, offset):
 
 
 @pytest.mark.parametrize('attributes', [
-    dict(verletDist=0), dict(verletDist=.01), dict(verletDist=-2), dict(verletDist=.05, targetInterv=0),
+    dict(verletDist=0), dict(verletDist=.01), dict(verletDist=-2),
+    dict(verletDist=.05, targetInterv=0),
     dict(targetInterv=5), dict(minSweepDistFactor=.001), dict(minSweepDistFactor=1),
     dict(sortAxis=1), dict(sortThenCollide=True), dict(updatingDispFactor=1.5)], ids=str)
 def testAttributes(collider, attributes):
@@ -297,7 +299,8 @@ def testRealPairsAreKept(collider):
     addSpheres([(0, 0, 0), (1, 0, 0)], [.5001, .5001], [(0, 0, 0), (1000., 0, 0)])
     setEngines(collider(), interactionLoop=InteractionLoop(
         [Ig2_Sphere_Sphere_ScGeom6D()],
-        [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True, setCohesionOnNewContacts=True)],
+        [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True,
+                                                    setCohesionOnNewContacts=True)],
         [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]))
     for _ in range(20):
         O.step()

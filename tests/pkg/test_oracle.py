@@ -11,7 +11,8 @@ def testAperiodic():
 
 
 def testNanNeverTouches():
-    assert contacts([(0, 0, 0), (np.nan, 0, 0), (.1, 0, 0)], [1, np.nan, 1])[0] == {(0, 2): (0, 0, 0)}
+    sure, _ = contacts([(0, 0, 0), (np.nan, 0, 0), (.1, 0, 0)], [1, np.nan, 1])
+    assert sure == {(0, 2): (0, 0, 0)}
 
 
 def testBlocksDoNotMatter():

@@ -53,7 +53,8 @@ def testDriftThroughPeriods(collider):
 
 kFlows = dict(
     compression=np.diag([-.01] * 3), extension=np.diag([.01, .005, .02]),
-    pureShear=[[0, .01, 0], [.01, 0, 0], [0, 0, 0]], simpleShear=[[0, .02, 0], [0, 0, 0], [0, 0, 0]],
+    pureShear=[[0, .01, 0], [.01, 0, 0], [0, 0, 0]],
+    simpleShear=[[0, .02, 0], [0, 0, 0], [0, 0, 0]],
     skew=[[0, .01, -.005], [0, 0, .01], [.01, 0, 0]])
 
 

@@ -1,4 +1,4 @@
-"""Bodies other than spheres: the same real contacts as YADE's collider has when it runs every step."""
+"""Bodies other than spheres: the real contacts that YADE's collider has when it runs every step."""
 import math
 
 import numpy as np
@@ -158,7 +158,8 @@ def grids(rng):
                                   nodesIds=[], cylIds=[], pfIds=[])
     for k in range(3):
         nodes = [O.bodies.append(gridpfacet.gridNode(Vector3(*rng.uniform(0, 1, 3)), .03,
-                                                     fixed=True, material='node')) for _ in range(2)]
+                                                     fixed=True, material='node'))
+                 for _ in range(2)]
         O.bodies.append(gridpfacet.gridConnection(*nodes, .03, material='outer'))
     addSpheres(rng.uniform(0, 1, (60, 3)), [.03] * 60, rng.normal(size=(60, 3)) * .01,
                material='outer')

@@ -1,5 +1,6 @@
 """YADE's own check scripts, unit tests and shipped examples, with a collider put in the place of
-YADE's (see swap.py). LebesgueCollider goes through all of them, the others through the quick ones."""
+YADE's (see swap.py). LebesgueCollider goes through all of them, the others through the quick
+ones."""
 import json
 import os
 import subprocess

@@ -58,8 +58,8 @@ def execute(path, scope):
 
 
 def openUnordered(path, *arguments, **keywords):
-    """open(), but the interactions in a .vtp file come with each array's numbers sorted: VTKRecorder
-    writes them in the order of the container, which is a collider's own affair."""
+    """open(), but the interactions in a .vtp file come with each array's numbers sorted:
+    VTKRecorder writes them in the order of the container, which is a collider's own affair."""
     file = open(path, *arguments, **keywords)
     if not str(path).endswith('.vtp') or not file.readable():
         return file
