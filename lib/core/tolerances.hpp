@@ -27,9 +27,12 @@ inline constexpr std::size_t kWideLevelCount = 8;
 /// (count) Codes in one bucket of the directory above which the bucket gets a directory of its own.
 inline constexpr std::size_t kBucketCodes = 16;
 
-/// (boxes) A rectangle wider than this on some axis is not cut into code ranges, of which the
-/// linear numbering would need one per row. Rectangles around bodies are three boxes wide.
-inline constexpr double kWidestRectangle = 64;
+/// (boxes) Up to this width on every axis a rectangle is cut once an axis (paper §4.4); a larger
+/// one is cut until its ranges hold little else.
+inline constexpr double kSmallRectangle = 3;
+
+/// (ratio) From this many boxes on a finer level per box on a coarser one, the coarse ones search.
+inline constexpr std::size_t kFinePerCoarse = 4;
 
 /// (boxes) An axis along which all boxes start within this many median box lengths is left out of
 /// the position code: a plane scene is searched with 2D codes.

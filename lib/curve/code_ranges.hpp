@@ -93,4 +93,31 @@ CodeRanges<Dim> rangesOfRectangle(std::uint64_t low, std::uint64_t high) {
   return out;
 }
 
+/// Codes per box that a range of a large rectangle may hold: a sliver's two end codes can have the
+/// whole scene between them.
+inline constexpr std::uint64_t kCodesPerBox = 4;
+
+/// Ranges of a rectangle of any shape and size, in the order of the curve: it is cut again until no
+/// range holds more than kCodesPerBox codes for each of its boxes. The highest bit in which the
+/// corners differ tells which axis to cut: the two parts are then apart on the curve.
+template <int Dim, class Visit>
+void forEachRangeOfLarge(std::uint64_t low, std::uint64_t high, Visit& visit) {
+  using Code = PositionCode<Dim>;
+  std::uint64_t boxes = 1;
+  for (int axis = 0; axis < Dim; ++axis)
+    boxes *= Code::gather(high >> Code::axisShift(axis)) -
+             Code::gather(low >> Code::axisShift(axis)) + std::uint64_t{1};
+  if ((high - low) / kCodesPerBox < boxes) {
+    visit(CodeRange{low, high});
+    return;
+  }
+  const int bit = static_cast<int>(std::bit_width(low ^ high)) - 1;
+  const int axis = Dim - 1 - bit % Dim;
+  const std::uint64_t mask = Code::axisMask(axis);
+  const std::uint64_t unit = std::uint64_t{1} << Code::axisShift(axis);
+  const std::uint64_t boundary = (high & mask) & ~((std::uint64_t{1} << bit) - 1);
+  forEachRangeOfLarge<Dim>(low, (high & ~mask) | ((boundary - unit) & mask), visit);
+  forEachRangeOfLarge<Dim>((low & ~mask) | boundary, high, visit);
+}
+
 }  // namespace yadefrag

@@ -12,7 +12,7 @@ template <int Dim>
 struct LebesgueNumbering {
   using Code = PositionCode<Dim>;
   using Cell = typename Code::Cell;
-  static constexpr bool kStepsByXor = true;
+  static constexpr bool kIsCurve = true;
 
   static std::uint64_t encode(const Cell& cell) { return Code::encode(cell); }
 
@@ -32,13 +32,19 @@ struct LebesgueNumbering {
     const CodeRanges<Dim> ranges = rangesOfRectangle<Dim>(low, high);
     for (int r = 0; r < ranges.count; ++r) visit(ranges.range[r]);
   }
+
+  /// The same for a rectangle of any size that does not wrap.
+  template <class Visit>
+  static void forEachRangeOfLarge(std::uint64_t low, std::uint64_t high, Visit visit) {
+    yadefrag::forEachRangeOfLarge<Dim>(low, high, visit);
+  }
 };
 
 template <int Dim>
 struct LinearNumbering {
   using Code = PositionCode<Dim>;
   using Cell = typename Code::Cell;
-  static constexpr bool kStepsByXor = false;
+  static constexpr bool kIsCurve = false;
 
   /// Rows run along x, the first axis; each row has room for all 2^kBits boxes.
   static std::uint64_t encode(const Cell& cell) {

@@ -45,6 +45,7 @@ class CodeSearch final : public ContactSearch {
     std::int32_t level = kAbsent;
   };
   enum class Change : std::uint8_t { kNone, kMoved };
+  enum class Extent { kSmall, kLarge, kWraps };
   using Extents = std::array<double, kLevels>;
 
   void locateAll();
@@ -61,11 +62,11 @@ class CodeSearch final : public ContactSearch {
   void visitLaterNeighbours(const CodeLevel& level, int own, std::size_t i, Count& count,
                             Visit visit) const;
   template <class Visit>
-  void visitRectangle(const CodeLevel& level, const CodeRange& corners, Count& count,
-                      Visit visit) const;
+  void visitRectangle(const Box& box, int at, Count& count, Visit visit) const;
   std::uint32_t lowerBound(const CodeLevel& level, std::uint64_t code, Count& count) const;
   double lowestStart(const Box& box, int axis, int level) const;
-  bool rectangleOf(const Box& box, int level, CodeRange& corners) const;
+  Extent rectangleOf(const Box& box, int level, CodeRange& corners) const;
+  [[nodiscard]] bool asks(int own, int other) const;
 
   LevelGrid<Dim> grid_;
   std::span<const Box> boxes_;

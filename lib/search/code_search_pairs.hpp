@@ -30,15 +30,28 @@ void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
   wide_.pairsAmong(boxes_, pairs, count_);
 }
 
-/// Pairs of the i-th box of a level with later ones of its level, with all of coarser levels and
-/// with the wide ones.
+/// Which of two levels asks the other: the finer one, of whose boxes each meets a few boxes of the
+/// coarser, unless there are so many more of them that it is cheaper for each coarse box to find
+/// the fine ones on the stretches of the curve that it covers.
+template <class Numbering, int Dim, class Count>
+bool CodeSearch<Numbering, Dim, Count>::asks(int own, int other) const {
+  const int fine = std::min(own, other);
+  const int coarse = std::max(own, other);
+  const bool coarseAsks =
+      Numbering::kIsCurve &&
+      tolerance::kFinePerCoarse * levels_[coarse].size() <= levels_[fine].size();
+  return own == (coarseAsks ? coarse : fine);
+}
+
+/// Pairs of the i-th box of a level with later ones of its level, with all of the levels that this
+/// one asks, and with the wide ones.
 template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, std::vector<BoxPair>& out,
                                                 Count& count) const {
   const CodedBox& me = levels_[own][i];
   const FilterBox& filter = levels_[own].filter(i);
   for (const int other : occupied_) {
-    if (other < own) continue;
+    if (other != own && !asks(own, other)) continue;
     const CodeLevel& level = levels_[other];
     const auto test = [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t j = begin; j < end; ++j) {
@@ -47,15 +60,10 @@ void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, std::vec
           out.push_back(orderedPair(BoxId(me.slot), BoxId(level[j].slot)));
       }
     };
-    if (other == own) {
+    if (other == own)
       visitLaterNeighbours(level, own, i, count, test);
-      continue;
-    }
-    CodeRange corners;
-    const bool narrow = rectangleOf(me.box, other, corners);
-    assert(narrow);
-    static_cast<void>(narrow);
-    visitRectangle(level, corners, count, test);
+    else
+      visitRectangle(me.box, other, count, test);
   }
   wide_.pairsWith(boxes_, me.box, me.slot, out, count);
 }
@@ -89,14 +97,30 @@ void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const CodeLevel& le
   });
 }
 
+/// Visits all boxes of a level that can overlap `box`, and others.
 template <class Numbering, int Dim, class Count>
 template <class Visit>
-void CodeSearch<Numbering, Dim, Count>::visitRectangle(const CodeLevel& level,
-                                                       const CodeRange& corners, Count& count,
+void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at, Count& count,
                                                        Visit visit) const {
-  Numbering::forEachRange(corners.start, corners.stop, [&](const CodeRange& range) {
+  const CodeLevel& level = levels_[at];
+  CodeRange corners;
+  const auto visitRange = [&](const CodeRange& range) {
     visit(lowerBound(level, range.start, count), lowerBound(level, range.stop + 1, count));
-  });
+  };
+  switch (rectangleOf(box, at, corners)) {
+    case Extent::kSmall:
+      Numbering::forEachRange(corners.start, corners.stop, visitRange);
+      return;
+    case Extent::kLarge:
+      if constexpr (Numbering::kIsCurve) {
+        Numbering::forEachRangeOfLarge(corners.start, corners.stop, visitRange);
+        return;
+      }
+      [[fallthrough]];  // a look at every box is cheaper than thousands of rows
+    case Extent::kWraps:
+      visit(0, static_cast<std::uint32_t>(level.size()));
+      return;
+  }
 }
 
 /// Boxes of `level` that overlap `box` have their lower corners at or above this.
@@ -108,23 +132,28 @@ double CodeSearch<Numbering, Dim, Count>::lowestStart(const Box& box, int axis, 
 }
 
 /// Codes of the corners of the rectangle that holds the lower corners of all boxes of `level` that
-/// can overlap `box`. False if it is so wide that a look at every box of the level is cheaper.
+/// can overlap `box`; none if it is large and wraps.
 template <class Numbering, int Dim, class Count>
-bool CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level,
-                                                    CodeRange& corners) const {
+auto CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level,
+                                                    CodeRange& corners) const -> Extent {
   Cell low;
   Cell high;
+  bool wraps = false;
+  double longest = 0;
   for (int d = 0; d < Dim; ++d) {
     const int axis = grid_.axis(d);
     const double from = grid_.scaled(lowestStart(box, axis, level), level);
     const double to = grid_.scaled(box.max[axis], level);
-    if (!(to - from < tolerance::kWidestRectangle) || !(std::abs(from) < 0x1p60)) return false;
+    longest = std::max(longest, to - from);
+    if (!(to - from < Code::kMask / 2) || !(std::abs(from) < 0x1p60)) return Extent::kWraps;
     const std::int64_t origin = grid_.origin(level, d);
     low[d] = static_cast<std::uint32_t>(floorToInt(from) - origin) & Code::kMask;
     high[d] = static_cast<std::uint32_t>(floorToInt(to) - origin) & Code::kMask;
+    wraps |= low[d] > high[d];
   }
   corners = {Numbering::encode(low), Numbering::encode(high)};
-  return true;
+  if (longest < tolerance::kSmallRectangle) return Extent::kSmall;
+  return wraps ? Extent::kWraps : Extent::kLarge;
 }
 
 /// The Lebesgue search has its directory; the paper's linear rival searches its whole list (§4.5).
@@ -132,7 +161,7 @@ template <class Numbering, int Dim, class Count>
 std::uint32_t CodeSearch<Numbering, Dim, Count>::lowerBound(const CodeLevel& level,
                                                             std::uint64_t code,
                                                             Count& count) const {
-  if constexpr (Numbering::kStepsByXor) return level.directory().lowerBound(code, count);
+  if constexpr (Numbering::kIsCurve) return level.directory().lowerBound(code, count);
   const std::span<const std::uint64_t> codes = level.codes();
   std::uint32_t begin = 0;
   auto end = static_cast<std::uint32_t>(codes.size());
@@ -151,17 +180,12 @@ template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::findOverlaps(const Box& box,
                                                      std::vector<BoxId>& found) const {
   Count uncounted;
-  CodeRange corners;
   for (const int at : occupied_) {
     const CodeLevel& level = levels_[at];
-    const auto test = [&](std::uint32_t begin, std::uint32_t end) {
+    visitRectangle(box, at, uncounted, [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t j = begin; j < end; ++j)
         if (overlaps(box, level[j].box)) found.push_back(BoxId(level[j].slot));
-    };
-    if (rectangleOf(box, at, corners))
-      visitRectangle(level, corners, uncounted, test);
-    else
-      test(0, static_cast<std::uint32_t>(level.size()));
+    });
   }
   wide_.overlapsWith(boxes_, box, found, uncounted);
 }

@@ -33,7 +33,7 @@ void CodeSearch<Numbering, Dim, Count>::update(std::span<const Box> boxes) {
     update(boxes);
     return;
   }
-  constexpr bool withDirectory = Numbering::kStepsByXor;
+  constexpr bool withDirectory = Numbering::kIsCurve;
   const FilterScale scale = grid_.filterScale();
   for (const int level : occupied_) levels_[level].refresh(boxes, scale, withDirectory, threads_);
 }
@@ -104,7 +104,7 @@ bool CodeSearch<Numbering, Dim, Count>::stepWithin(const Box& box, Place& place,
     if (!(down | up)) continue;
     same = false;
     const bool byOne = down ? x >= floor - 1 : x < floor + 2;
-    if (!Numbering::kStepsByXor || !byOne) {
+    if (!Numbering::kIsCurve || !byOne) {
       encodeAnew(box, place);
       return false;
     }

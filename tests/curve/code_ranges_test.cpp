@@ -83,6 +83,41 @@ TYPED_TEST(RangeLaws, StepsToTheNextBox) {
   }
 }
 
+TEST(CodeRanges, LargeRectanglesAreCutUntilLittleElseIsInTheRanges) {
+  std::mt19937_64 random(15);
+  using Code = PositionCode<3>;
+  for (int k = 0; k < 300; ++k) {
+    Code::Cell low;
+    Code::Cell high;
+    std::uint64_t boxes = 1;
+    for (int d = 0; d < 3; ++d) {
+      const auto length = 1 + static_cast<std::uint32_t>(random() >> (58 + random() % 6));
+      low[d] = static_cast<std::uint32_t>(random() % 100000);
+      high[d] = low[d] + length - 1;
+      boxes *= length;
+    }
+    std::vector<CodeRange> ranges;
+    std::uint64_t codes = 0;
+    LebesgueNumbering<3>::forEachRangeOfLarge(Code::encode(low), Code::encode(high),
+                                              [&](auto range) {
+                                                if (!ranges.empty())
+                                                  ASSERT_GT(range.start, ranges.back().stop);
+                                                ranges.push_back(range);
+                                                codes += range.stop - range.start + 1;
+                                              });
+    ASSERT_LE(codes, kCodesPerBox * boxes);
+    Code::Cell cell;
+    for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0])
+      for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1])
+        for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2]) {
+          const std::uint64_t code = Code::encode(cell);
+          const auto after = std::partition_point(ranges.begin(), ranges.end(),
+                                                  [&](auto& range) { return range.start <= code; });
+          ASSERT_TRUE(after != ranges.begin() && code <= std::prev(after)->stop);
+        }
+  }
+}
+
 TEST(CodeRanges, AtMostFourInTwoDimensionsAndEightInThree) {
   std::mt19937_64 random(12);
   int most2 = 0;

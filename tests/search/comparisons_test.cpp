@@ -5,10 +5,14 @@
 #include <cmath>
 #include <random>
 
+#include "core/tolerances.hpp"
 #include "search/contact_search.hpp"
 
 namespace yadefrag {
 namespace {
+
+/// Of a position-code box, with halos of .5; a little more, so that every node changes its box.
+constexpr double kEdge = .5 * tolerance::kSpareSide * tolerance::kEdgeOverExtent * (1 + 1e-9);
 
 class Nodes {
  public:
@@ -17,7 +21,7 @@ class Nodes {
     std::uniform_real_distribution<double> place(0, side);
     for (std::size_t i = 0; i < count; ++i) {
       const double x = place(random_), y = place(random_);
-      // Halos of .5 around the nodes: boxes of edge kEdgeOverExtent × .5.
+      // Halos of .5 around the nodes.
       boxes_.push_back({{x, y, 0}, {x + .5, y + .5, 0}});
     }
   }
@@ -67,8 +71,8 @@ TEST(PaperFigures, AtMostEightForANodeThatMoves) {
   std::vector<Box> moved = nodes.boxes();
   for (Box& box : moved)
     for (int axis = 0; axis < 2; ++axis) {
-      box.min[axis] += .75;  // exactly one box edge, in x and y
-      box.max[axis] += .75;
+      box.min[axis] += kEdge;
+      box.max[axis] += kEdge;
     }
   const double perNode = static_cast<double>(ofOneSearch(*search, moved).move) / 100000;
   EXPECT_LE(perNode, 8.02);  // 8 in the limit of infinitely many levels, plus the sampling error
