@@ -148,7 +148,7 @@ void BodyBoxes::takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene&
   if (!isGood(toBox(bound.min, bound.max))) complainOfBound(id, bound);
   // A body that no longer asks for a bound keeps the one it has, as in YADE.
   if (body->shape && body->isBounded()) {
-    const double sweep = sweepOfOther(*body);
+    const double sweep = sweepOfOther(*body, undo_.back().existed);
     bound.min -= (sweep + cellSlack_) * sweepFactor_;
     bound.max += (sweep + cellSlack_) * sweepFactor_;
     bound.sweepLength = sweep;
@@ -158,7 +158,7 @@ void BodyBoxes::takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene&
   boxes_[id] = toBox(bound.min, bound.max);
 }
 
-double BodyBoxes::sweepOfOther(const yade::Body& body) {
+double BodyBoxes::sweepOfOther(const yade::Body& body, bool hadBound) {
   const yade::State& state = *body.state;
   const double speed = SweepRule::speedOf(state.vel);
   const ShapeKind kind = shapeKinds_.of(*body.shape);
@@ -174,6 +174,8 @@ double BodyBoxes::sweepOfOther(const yade::Body& body) {
       (body.bound->max - at).cwiseAbs().cwiseMax((body.bound->min - at).cwiseAbs());
   const double reach = far.norm() * (cell_ ? cell_->getShearTrsf().norm() : 1);
   turning_.push_back({body.id, state.se3.orientation, reach});
+  // As in YADE, a first bound is enlarged by the whole of verletDist. Spheres have no need of that.
+  if (!hadBound) return rule_.most;
   const double turn = state.angVel.norm();
   return rule_.lengthFor(speed + (turn > 0 ? turn * reach : 0));
 }

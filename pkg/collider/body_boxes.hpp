@@ -57,7 +57,7 @@ class BodyBoxes {
   Kind takeSphere(const yade::Body& body, std::size_t id);
   void updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   void takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene);
-  double sweepOfOther(const yade::Body& body);
+  double sweepOfOther(const yade::Body& body, bool hadBound);
   void checkPositions(const yade::Scene& scene) const;
 
   std::vector<Box> boxes_;

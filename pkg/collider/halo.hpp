@@ -21,13 +21,17 @@ class Halo {
   /// `slack` (m) is what the cell's deformation may add to a distance before the next search.
   Halo(const std::vector<Ball>& balls, double slack) : balls_(balls), slack_(slack) {}
 
+  [[nodiscard]] bool areBalls(const BoxPair& pair) const {
+    return balls_[pair.first.value].radius >= 0 && balls_[pair.second.value].radius >= 0;
+  }
+
   /// False if the bodies are balls that cannot touch while both stay within their sweeps. The
   /// integrator watches each component of a displacement by itself, so the relative displacement
   /// fills a cube of half-width s₁ + s₂, and a ball of that radius would be too small.
   [[nodiscard]] bool mayTouch(const BoxPair& pair, const yade::Vector3r& shift) const {
     const Ball& a = balls_[pair.first.value];
     const Ball& b = balls_[pair.second.value];
-    if (a.radius < 0 || b.radius < 0) return true;
+    if (!areBalls(pair)) return true;
     const double cube = a.sweep + b.sweep + slack_;
     double square = 0, farthest = 0;
     for (int axis = 0; axis < 3; ++axis) {

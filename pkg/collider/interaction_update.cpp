@@ -63,7 +63,17 @@ void InteractionUpdate::markKnown(InteractionContainer& interactions,
 void InteractionUpdate::makeNew(yade::Scene& scene, std::span<const Neighbours> near,
                                 const MayCollide& mayCollide) {
   const auto& bodies = scene.bodies->body;
+  const auto prefetch = [&](Body::id_t id) {
+    const char* body = reinterpret_cast<const char*>(bodies[static_cast<std::size_t>(id)].get());
+    __builtin_prefetch(body + offsetof(Body, groupMask));
+    __builtin_prefetch(body + offsetof(Body, intrs) + sizeof(Body::intrs) - 1);
+  };
+  constexpr std::size_t ahead = 8;  // bodies lie in the order of their ids, not of the curve
   for (std::size_t i = 0; i < near.size(); ++i) {
+    if (i + ahead < near.size() && !known_[i + ahead]) {
+      prefetch(near[i + ahead].first);
+      prefetch(near[i + ahead].second);
+    }
     if (known_[i]) continue;
     const Body* first = bodies[static_cast<std::size_t>(near[i].first)].get();
     const Body* second = bodies[static_cast<std::size_t>(near[i].second)].get();

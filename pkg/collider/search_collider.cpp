@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "collider/complaints.hpp"
+#include "collider/nearest_image.hpp"
 #include "core/parallel.hpp"
 #include "search/periodic_overlap.hpp"
 
@@ -126,20 +127,31 @@ void SearchCollider::findNeighbours(int threads) {
 bool SearchCollider::isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const {
   out = {static_cast<Body::id_t>(pair.first.value), static_cast<Body::id_t>(pair.second.value),
          yade::Vector3i::Zero()};
-  Vector3r shift = Vector3r::Zero();
-  if (scene->isPeriodic) {
-    const Vector3r& size = scene->cell->getSize();
-    const PeriodicRules rules{{size[0], size[1], size[2]}, overlapTolerance, allowBiggerThanPeriod};
-    const PeriodicOverlap meets =
-        periodicOverlap(boxes_.boxes()[pair.first.value], boxes_.boxes()[pair.second.value], rules);
-    if (meets.kind == PeriodicOverlap::kTooLarge)
-      complainOfSize(meets.secondTooLarge ? pair.second.value : pair.first.value, meets.axis,
-                     rules.size[static_cast<std::size_t>(meets.axis)]);
-    if (meets.kind == PeriodicOverlap::kApart) return false;
-    out.cellDist = yade::Vector3i(meets.shift[0], meets.shift[1], meets.shift[2]);
-    shift = scene->cell->intrShiftPos(out.cellDist);
+  if (!scene->isPeriodic) return !trueHalo || halo.mayTouch(pair, Vector3r::Zero());
+  const yade::Cell& cell = *scene->cell;
+  if (trueHalo && halo.areBalls(pair) && ballsFit(pair)) {
+    const auto& balls = boxes_.balls();
+    out.cellDist =
+        nearestImage(cell, balls[pair.first.value].centre, balls[pair.second.value].centre);
+    return halo.mayTouch(pair, cell.intrShiftPos(out.cellDist));
   }
-  return !trueHalo || halo.mayTouch(pair, shift);
+  const Vector3r& size = cell.getSize();
+  const PeriodicRules rules{{size[0], size[1], size[2]}, overlapTolerance, allowBiggerThanPeriod};
+  const PeriodicOverlap meets =
+      periodicOverlap(boxes_.boxes()[pair.first.value], boxes_.boxes()[pair.second.value], rules);
+  if (meets.kind == PeriodicOverlap::kTooLarge)
+    complainOfSize(meets.secondTooLarge ? pair.second.value : pair.first.value, meets.axis,
+                   rules.size[static_cast<std::size_t>(meets.axis)]);
+  out.cellDist = yade::Vector3i(meets.shift[0], meets.shift[1], meets.shift[2]);
+  return meets.kind == PeriodicOverlap::kOverlap;
+}
+
+/// Balls of up to half the cell meet one copy of each other at most, and it is the nearest. (YADE
+/// takes the box for the body's size, and refuses small ones in a cell that is strongly sheared.)
+bool SearchCollider::ballsFit(const BoxPair& pair) const {
+  const double longest = 2 * std::max(boxes_.balls()[pair.first.value].radius,
+                                      boxes_.balls()[pair.second.value].radius);
+  return longest <= .5 * scene->cell->getSize().minCoeff();
 }
 
 /// What YADE expects of a collider that has run.

@@ -62,6 +62,7 @@ class SearchCollider : public yade::Collider {
   void findNeighbours(int threads);
   void keepNear(int threads);
   bool isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const;
+  [[nodiscard]] bool ballsFit(const BoxPair& pair) const;
   void sceneIsSearched();
   [[nodiscard]] double cellSlack() const;
   [[nodiscard]] int threadsToUse() const;
