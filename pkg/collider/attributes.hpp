@@ -18,7 +18,12 @@ constexpr auto SearchCollider::attributes() {
                 "Shortest enlargement of a bound, as a share of verletDist."),
       attribute("targetInterv", &C::targetInterv,
                 "Steps for which a bound should hold at its body's present speed; 0 or less: every "
-                "bound is enlarged by verletDist. Default 10: fewest milliseconds per step."),
+                "bound is enlarged by verletDist. See adaptInterval."),
+      attribute(
+          "adaptInterval", &C::adaptInterval,
+          "Let the interval leave targetInterv for one that balances searches against potential "
+          "interactions, by counts (never by times: runs stay reproducible); False: keep it."),
+      attribute("interval", &C::interval, "Steps for which bounds are made now.", readonly),
       attribute("trueHalo", &C::trueHalo,
                 "Keep two spheres apart whose boxes overlap while they themselves cannot touch "
                 "before the next search; False: potential interactions as from boxes alone."),

@@ -2,6 +2,7 @@
 // The true halo (paper §4.4: a node found by its code is tested against the slanted halo): of two
 // balls whose boxes overlap, more than half cannot meet before the next search.
 
+#include <algorithm>
 #include <vector>
 
 #include "abi/yade.hpp"
@@ -14,6 +15,7 @@ namespace yadefrag {
 struct Neighbours {
   yade::Body::id_t first, second;  // first < second
   yade::Vector3i cellDist;
+  bool nearByHalf;  // would be near with sweeps half as long
 };
 
 class Halo {
@@ -28,25 +30,31 @@ class Halo {
   /// False if the bodies are balls that cannot touch while both stay within their sweeps. The
   /// integrator watches each component of a displacement by itself, so the relative displacement
   /// fills a cube of half-width s₁ + s₂, and a ball of that radius would be too small.
-  [[nodiscard]] bool mayTouch(const BoxPair& pair, const yade::Vector3r& shift) const {
+  [[nodiscard]] bool mayTouch(const BoxPair& pair, const yade::Vector3r& shift,
+                              bool& byHalf) const {
     const Ball& a = balls_[pair.first.value];
     const Ball& b = balls_[pair.second.value];
+    byHalf = true;
     if (!areBalls(pair)) return true;
-    const double cube = a.sweep + b.sweep + slack_;
-    double square = 0, farthest = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double distance = std::abs(b.centre[axis] + shift[axis] - a.centre[axis]);
-      const double left = distance > cube ? distance - cube : 0;
-      square += left * left;
-      farthest = std::max(
-          farthest, std::abs(a.centre[axis]) + std::abs(b.centre[axis]) + std::abs(shift[axis]));
-    }
+    const yade::Vector3r apart = (b.centre + shift - a.centre).cwiseAbs();
+    const double farthest =
+        std::max(a.centre.cwiseAbs().maxCoeff(), b.centre.cwiseAbs().maxCoeff());
     const double reach = a.radius + b.radius;
-    const double sum = reach + kRounding * (farthest + reach);
-    return square <= sum * sum;
+    const double sum = reach + kRounding * (2 * farthest + apart.maxCoeff() + reach);
+    const double cube = a.sweep + b.sweep;
+    byHalf = isWithin(apart, .5 * cube + slack_, sum);
+    return byHalf || isWithin(apart, cube + slack_, sum);
   }
 
  private:
+  /// True if a point at `apart` is within `reach` of the cube of the given half-width.
+  static bool isWithin(const yade::Vector3r& apart, double halfWidth, double reach) {
+    const double x = std::max(apart[0] - halfWidth, 0.);
+    const double y = std::max(apart[1] - halfWidth, 0.);
+    const double z = std::max(apart[2] - halfWidth, 0.);
+    return x * x + y * y + z * z <= reach * reach;
+  }
+
   /// (relative to coordinates) Covers the rounding of this test and of the geometry functor's own,
   /// so that balls that touch to the last bit are not lost where there is no sweep.
   static constexpr double kRounding = 2e-15;

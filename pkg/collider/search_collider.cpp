@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "collider/complaints.hpp"
+#include "collider/interval.hpp"
 #include "collider/nearest_image.hpp"
 #include "core/parallel.hpp"
 #include "search/periodic_overlap.hpp"
@@ -19,8 +20,9 @@ using yade::Vector3r;
 void SearchCollider::action() {
   const int threads = threadsToUse();
   chooseVerletDist();
+  chooseInterval();
   slack_ = cellSlack();
-  const SweepRule rule(std::max(verletDist, 0.), minSweepDistFactor, scene->dt, targetInterv);
+  const SweepRule rule(std::max(verletDist, 0.), minSweepDistFactor, scene->dt, interval);
   boxes_.prepare(*scene, *boundDispatcher, rule, slack_, threads);
   try {
     startSearchIfNeeded();
@@ -56,13 +58,23 @@ void SearchCollider::chooseVerletDist() {
   if (least < INFINITY) verletDist *= -least;
 }
 
+void SearchCollider::chooseInterval() {
+  if (targetInterv <= 0 || !adaptInterval || !(interval > 0)) interval = targetInterv;
+  if (targetInterv > 0 && adaptInterval && sweepsEnded_ && trueHalo)
+    interval = Interval::next(interval, static_cast<double>(scene->bodies->body.size()),
+                              static_cast<double>(scene->iter - lastIter_),
+                              static_cast<double>(pairsOfHalf_));
+  sweepsEnded_ = false;
+  lastIter_ = scene->iter;
+}
+
 /// Room for the cell's deformation within the interval for which the bodies' sweeps are made.
 double SearchCollider::cellSlack() const {
   if (!scene->isPeriodic || !(verletDist > 0) || targetInterv <= 0) return 0;
   const yade::Cell& cell = *scene->cell;
   const Vector3r span(images_.span()[0] + 1, images_.span()[1] + 1, images_.span()[2] + 1);
   const Vector3r speed = (cell.velGrad * cell.hSize).cwiseAbs() * span;
-  const double wanted = .5 * 1.02 * targetInterv * scene->dt * speed.maxCoeff();
+  const double wanted = .5 * 1.02 * interval * scene->dt * speed.maxCoeff();
   return wanted < verletDist ? wanted : verletDist;
 }
 
@@ -98,42 +110,40 @@ void SearchCollider::updateSearch(int threads) {
 }
 
 void SearchCollider::findNeighbours(int threads) {
-  std::vector<std::vector<Neighbours>> byPart(static_cast<std::size_t>(threads));
   const Halo halo(boxes_.balls(), 2 * slack_);
   near_.clear();
-  const auto work = [&](std::size_t begin, std::size_t end, std::vector<Neighbours>& out) {
+  nearByPart_.resize(static_cast<std::size_t>(threads));
+  std::vector<std::size_t> ofHalf(static_cast<std::size_t>(threads), 0);
+  const auto work = [&](std::size_t begin, std::size_t end, int part) {
+    std::vector<Neighbours>& out = nearByPart_[static_cast<std::size_t>(part)];
+    out.clear();
     Neighbours found;
-    for (std::size_t i = begin; i < end; ++i)
-      if (isNear(pairs_[i], halo, found)) out.push_back(found);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!isNear(pairs_[i], halo, found)) continue;
+      out.push_back(found);
+      ofHalf[static_cast<std::size_t>(part)] += !found.nearByHalf;
+    }
   };
-  if (threads == 1) {
-    work(0, pairs_.size(), near_);
-    return;
-  }
-  // An exception must not leave a parallel region: sizes are complained of in front of it.
-  if (scene->isPeriodic) {
-    work(0, pairs_.size(), near_);
-    return;
-  }
-  const int parts = forEachPart(pairs_.size(), threads, [&](auto begin, auto end, int part) {
-    work(begin, end, byPart[static_cast<std::size_t>(part)]);
-  });
+  // One part in a periodic cell: a complaint about a body's size must not leave a parallel region.
+  const int parts = forEachPart(pairs_.size(), scene->isPeriodic ? 1 : threads, work);
+  pairsOfHalf_ = 0;
   for (int part = 0; part < parts; ++part) {
-    const auto& found = byPart[static_cast<std::size_t>(part)];
+    const auto& found = nearByPart_[static_cast<std::size_t>(part)];
     near_.insert(near_.end(), found.begin(), found.end());
+    pairsOfHalf_ += ofHalf[static_cast<std::size_t>(part)];
   }
 }
 
 bool SearchCollider::isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const {
   out = {static_cast<Body::id_t>(pair.first.value), static_cast<Body::id_t>(pair.second.value),
-         yade::Vector3i::Zero()};
-  if (!scene->isPeriodic) return !trueHalo || halo.mayTouch(pair, Vector3r::Zero());
+         yade::Vector3i::Zero(), true};
+  if (!scene->isPeriodic) return !trueHalo || halo.mayTouch(pair, Vector3r::Zero(), out.nearByHalf);
   const yade::Cell& cell = *scene->cell;
   if (trueHalo && halo.areBalls(pair) && ballsFit(pair)) {
     const auto& balls = boxes_.balls();
     out.cellDist =
         nearestImage(cell, balls[pair.first.value].centre, balls[pair.second.value].centre);
-    return halo.mayTouch(pair, cell.intrShiftPos(out.cellDist));
+    return halo.mayTouch(pair, cell.intrShiftPos(out.cellDist), out.nearByHalf);
   }
   const Vector3r& size = cell.getSize();
   const PeriodicRules rules{{size[0], size[1], size[2]}, overlapTolerance, allowBiggerThanPeriod};
@@ -180,7 +190,8 @@ bool SearchCollider::isActivated() {
     return true;
   newton = MotionWatch::findIntegrator(*scene);
   if (newton) fastestBodyMaxDist = MotionWatch::fastestBody(*newton);
-  return watch_.boundsBroken(*scene);
+  sweepsEnded_ = watch_.boundsBroken(*scene);
+  return sweepsEnded_;
 }
 
 void SearchCollider::invalidatePersistentData() { doSort = true; }

@@ -43,6 +43,8 @@ class SearchCollider : public yade::Collider {
   bool keepListsShort = false;
   bool smartInsertErase = false;
   bool trueHalo = true;
+  bool adaptInterval = true;
+  double interval = 0;  // steps; 0: targetInterv
   bool countComparisons = false;
   long comparisons = 0;
   long comparisonsTotal = 0;
@@ -57,10 +59,10 @@ class SearchCollider : public yade::Collider {
 
  private:
   void chooseVerletDist();
+  void chooseInterval();
   void startSearchIfNeeded();
   void updateSearch(int threads);
   void findNeighbours(int threads);
-  void keepNear(int threads);
   bool isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const;
   [[nodiscard]] bool ballsFit(const BoxPair& pair) const;
   void sceneIsSearched();
@@ -76,8 +78,12 @@ class SearchCollider : public yade::Collider {
   InteractionUpdate interactions_;
   std::vector<BoxPair> pairs_;
   std::vector<Neighbours> near_;
-  double slack_ = 0;           // m, room for the cell's deformation in every box
-  std::size_t numBodies_ = 0;  // at the last search
+  std::vector<std::vector<Neighbours>> nearByPart_;
+  std::size_t pairsOfHalf_ = 0;  // near only because the sweeps are not half as long
+  long lastIter_ = -1;           // step of the last search
+  bool sweepsEnded_ = false;     // this search is due because a body left its bound
+  double slack_ = 0;             // m, room for the cell's deformation in every box
+  std::size_t numBodies_ = 0;    // at the last search
   bool periodic_ = false;
   bool strideActive_ = false;
 };
