@@ -145,7 +145,7 @@ auto CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level,
     const double from = grid_.scaled(lowestStart(box, axis, level), level);
     const double to = grid_.scaled(box.max[axis], level);
     longest = std::max(longest, to - from);
-    if (!(to - from < Code::kMask / 2) || !(std::abs(from) < 0x1p60)) return Extent::kWraps;
+    if (!(to - from < (Code::kMask >> 1)) || !(std::abs(from) < 0x1p60)) return Extent::kWraps;
     const std::int64_t origin = grid_.origin(level, d);
     low[d] = static_cast<std::uint32_t>(floorToInt(from) - origin) & Code::kMask;
     high[d] = static_cast<std::uint32_t>(floorToInt(to) - origin) & Code::kMask;
