@@ -66,7 +66,7 @@ void InteractionUpdate::makeNew(yade::Scene& scene, std::span<const Neighbours> 
   const auto prefetch = [&](Body::id_t id) {
     const char* body = reinterpret_cast<const char*>(bodies[static_cast<std::size_t>(id)].get());
     __builtin_prefetch(body + offsetof(Body, groupMask));
-    __builtin_prefetch(body + offsetof(Body, intrs) + sizeof(Body::intrs) - 1);
+    __builtin_prefetch(body + offsetof(Body, intrs) + sizeof(Body::MapId2IntrT) - 1);
   };
   constexpr std::size_t ahead = 8;  // bodies lie in the order of their ids, not of the curve
   for (std::size_t i = 0; i < near.size(); ++i) {

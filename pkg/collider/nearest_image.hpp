@@ -13,7 +13,7 @@ inline yade::Vector3i nearestImage(const yade::Cell& cell, const yade::Vector3r&
                                    const yade::Vector3r& b) {
   const yade::Vector3r apart = b - a;
   const yade::Vector3r cells = cell.unshearPt(apart).cwiseQuotient(cell.getSize());
-  const yade::Vector3i start = -cells.array().round().matrix().cast<int>();
+  yade::Vector3i start = -cells.array().round().matrix().cast<int>();
   if (!cell.hasShear()) return start;
   yade::Vector3i best = start;
   double least = INFINITY;

@@ -79,7 +79,7 @@ class Published : public Base {
         Self::kName, Self::kDoc, py::no_init);
     const py::object init = py::make_constructor(&makeFromPython<Self>);
     pyClass.def("__init__", py::raw_function(
-                                [init](py::tuple args, py::dict kw) {
+                                [init](py::tuple args, const py::dict& kw) {
                                   const py::object instance = args[0];
                                   return init(instance, py::tuple(args.slice(1, py::_)), kw);
                                 },
