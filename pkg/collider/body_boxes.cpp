@@ -17,17 +17,18 @@ Box toBox(const Vector3r& low, const Vector3r& high) {
   return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
 }
 
-/// Radius of the bound of a body that is exactly a sphere and gets its bound from exactly YADE's
-/// functor; none for all others.
-std::optional<Real> boundRadius(const yade::Body& body) {
-  if (!body.shape || !body.isBounded()) return {};
-  const yade::Shape& shape = *body.shape;
-  const yade::BoundFunctor* functor = shape.boundFunctor.get();
-  if (!functor || typeid(shape) != typeid(yade::Sphere) ||
-      typeid(*functor) != typeid(yade::Bo1_Sphere_Aabb))
-    return {};
-  const Real enlarge = static_cast<const yade::Bo1_Sphere_Aabb*>(functor)->aabbEnlargeFactor;
-  return (enlarge > 0 ? enlarge : 1) * static_cast<const yade::Sphere&>(shape).radius;
+/// The functor that makes bounds of exact spheres, if it is exactly YADE's. The last one named for
+/// a type is the one that a dispatcher calls.
+const yade::Bo1_Sphere_Aabb* findSphereFunctor(const yade::BoundDispatcher& dispatcher) {
+  const yade::Bo1_Sphere_Aabb* found = nullptr;
+  for (const auto& functor : dispatcher.functors) {
+    const yade::vector<yade::string> types = functor->getFunctorTypes();
+    if (types.empty() || types.front() != "Sphere") continue;
+    const yade::BoundFunctor& is = *functor;
+    const bool yades = typeid(is) == typeid(yade::Bo1_Sphere_Aabb);
+    found = yades ? static_cast<const yade::Bo1_Sphere_Aabb*>(functor.get()) : nullptr;
+  }
+  return found;
 }
 
 /// Written so that a NaN is no good box either.
@@ -68,6 +69,7 @@ void BodyBoxes::prepare(yade::Scene& scene, yade::BoundDispatcher& dispatcher,
     radiusFactor_ = cell_->getUnshearTrsf().rowwise().norm();
     sweepFactor_ = cell_->getUnshearTrsf().cwiseAbs().rowwise().sum();
   }
+  sphereFunctor_ = findSphereFunctor(dispatcher);
   gatherSpheres(scene, threads);
   checkPositions(scene);
   try {
@@ -97,9 +99,25 @@ void BodyBoxes::gatherSpheres(yade::Scene& scene, int threads) {
   });
 }
 
-/// Spheres get their box here, without a call to their functor, once they have a bound to write to.
+/// Radius of the bound of a body that is exactly a sphere and gets its bound from exactly YADE's
+/// functor; none for all others. A shape remembers a functor that was found for it before.
+std::optional<Real> BodyBoxes::boundRadius(const yade::Body& body) const {
+  if (!body.shape || !body.isBounded()) return {};
+  const yade::Shape& shape = *body.shape;
+  if (typeid(shape) != typeid(yade::Sphere)) return {};
+  const yade::Bo1_Sphere_Aabb* functor = sphereFunctor_;
+  if (const yade::BoundFunctor* cached = shape.boundFunctor.get(); cached && cached != functor) {
+    if (typeid(*cached) != typeid(yade::Bo1_Sphere_Aabb)) return {};
+    functor = static_cast<const yade::Bo1_Sphere_Aabb*>(cached);
+  }
+  if (!functor) return {};
+  const Real enlarge = functor->aabbEnlargeFactor;
+  return (enlarge > 0 ? enlarge : 1) * static_cast<const yade::Sphere&>(shape).radius;
+}
+
+/// Spheres get their box here, without a call to their functor.
 auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
-  if (!body.bound) return body.shape && body.isBounded() ? Kind::kOther : Kind::kNone;
+  if (!body.bound && !(body.shape && body.isBounded())) return Kind::kNone;
   const std::optional<Real> radius = boundRadius(body);
   if (!radius) return Kind::kOther;
   const yade::State& state = *body.state;
@@ -186,6 +204,7 @@ void BodyBoxes::commit(yade::Scene& scene, int threads) {
   forEachPart(bodies.size(), threads, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t id = begin; id < end; ++id) {
       if (kinds_[id] != Kind::kSphere) continue;
+      if (!bodies[id]->bound) bodies[id]->bound.reset(new yade::Aabb);
       Bound& bound = *bodies[id]->bound;
       const Box& box = boxes_[id];
       bound.min = Vector3r(box.min[0], box.min[1], box.min[2]);

@@ -1,6 +1,7 @@
 #pragma once
 // From YADE's bodies to the boxes that a search takes, and back into their bounds.
 
+#include <optional>
 #include <vector>
 
 #include "abi/yade.hpp"
@@ -57,6 +58,7 @@ class BodyBoxes {
   Kind takeSphere(const yade::Body& body, std::size_t id);
   void updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   void takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene);
+  [[nodiscard]] std::optional<double> boundRadius(const yade::Body& body) const;
   double sweepOfOther(const yade::Body& body, bool hadBound);
   void checkPositions(const yade::Scene& scene) const;
 
@@ -69,7 +71,8 @@ class BodyBoxes {
 
   // The same for all bodies of one update:
   SweepRule rule_{0, 0, 0, 0};
-  const yade::Cell* cell_ = nullptr;           // null if the scene is not periodic
+  const yade::Bo1_Sphere_Aabb* sphereFunctor_ = nullptr;  // null if spheres' bounds are not YADE's
+  const yade::Cell* cell_ = nullptr;                      // null if the scene is not periodic
   yade::Vector3r radiusFactor_, sweepFactor_;  // of lengths in space, in unsheared coordinates
   double cellSlack_ = 0;
 };
