@@ -35,6 +35,13 @@ void complainOfBound(std::size_t id, const yade::Bound& bound) {
   throw InputError(text.str());
 }
 
+void complainOfVerletDist(const std::string& collider, double verletDist) {
+  std::ostringstream text;
+  text << collider << ".verletDist is " << verletDist
+       << ": it must be a length in m, 0, or minus a multiple of the smallest radius.";
+  throw InputError(text.str());
+}
+
 void complainOfSize(std::size_t id, int axis, double cellSize) {
   std::ostringstream text;
   text << "Body #" << id << " spans over half of the cell size " << cellSize << " (axis=" << axis

@@ -2,6 +2,7 @@
 // The sentences in which the colliders refuse bad input.
 
 #include <cstddef>
+#include <string>
 
 #include "abi/yade.hpp"
 
@@ -10,6 +11,8 @@ namespace yadefrag {
 [[noreturn]] void complainOfPosition(std::size_t id, const yade::Vector3r& position);
 [[noreturn]] void complainOfRadius(std::size_t id, double radius);
 [[noreturn]] void complainOfBound(std::size_t id, const yade::Bound& bound);
+
+[[noreturn]] void complainOfVerletDist(const std::string& collider, double verletDist);
 
 /// The body spans more than the cell allows along an axis; YADE's words, for scripts that look for
 /// them, with the body in front.

@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "collider/complaints.hpp"
@@ -48,6 +49,7 @@ int SearchCollider::threadsToUse() const {
 /// kept for later (YADE would set it to 0 for good, and a scene that a factory fills would never
 /// stride).
 void SearchCollider::chooseVerletDist() {
+  if (!std::isfinite(verletDist)) complainOfVerletDist(getClassName(), verletDist);
   if (verletDist >= 0) return;
   double least = INFINITY;
   for (const auto& body : scene->bodies->body) {

@@ -128,3 +128,14 @@ def testInfiniteWallIsNoError(collider):
     O.bodies.append(utils.wall(.5, axis=1))
     O.step()
     assert any(20 in p for p in scenes.realPairs())
+
+
+@pytest.mark.rivalFails('it accepts them')
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
+def testVerletDistIsFinite(collider, value):
+    engine = start(collider)
+    engine.verletDist = value
+    before = snapshot()
+    with pytest.raises(RuntimeError, match='verletDist is .*: it must be'):
+        engine()
+    assert snapshot() == before
