@@ -100,8 +100,9 @@ TEST(CodeRanges, LargeRectanglesAreCutUntilLittleElseIsInTheRanges) {
     std::uint64_t codes = 0;
     LebesgueNumbering<3>::forEachRangeOfLarge(Code::encode(low), Code::encode(high),
                                               [&](auto range) {
-                                                if (!ranges.empty())
+                                                if (!ranges.empty()) {
                                                   ASSERT_GT(range.start, ranges.back().stop);
+                                                }
                                                 ranges.push_back(range);
                                                 codes += range.stop - range.start + 1;
                                               });
