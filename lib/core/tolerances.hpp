@@ -31,6 +31,10 @@ inline constexpr std::size_t kBucketCodes = 16;
 /// one is cut until its ranges hold little else.
 inline constexpr double kSmallRectangle = 3;
 
+/// (boxes) Up to this many per occupied position-code box of twice the edge, a level is joined to
+/// the next coarser one.
+inline constexpr double kThinLevel = 1.5;
+
 /// (ratio) From this many boxes on a finer level per box on a coarser one, the coarse ones search.
 inline constexpr std::size_t kFinePerCoarse = 4;
 

@@ -16,9 +16,11 @@ void CodeLevel::refresh(std::span<const Box> boxes, const FilterScale& scale, bo
   });
   if (!changed_) return;
   changed_ = false;
+  codes_.reserve(list_.size() + 1);
   codes_.resize(list_.size());
   for (std::size_t i = 0; i < list_.size(); ++i) codes_[i] = list_[i].code;
   if (withDirectory) directory_.build(codes_);
+  codes_.push_back(kEnd);
 }
 
 }  // namespace yadefrag

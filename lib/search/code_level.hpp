@@ -26,7 +26,9 @@ class CodeLevel {
   [[nodiscard]] const FilterBox& filter(std::size_t i) const { return filters_[i]; }
   [[nodiscard]] std::uint64_t code(std::size_t i) const { return codes_[i]; }
   [[nodiscard]] const CodeDirectory& directory() const { return directory_; }
+  /// Ascending, with kEnd behind the last.
   [[nodiscard]] std::span<const std::uint64_t> codes() const { return codes_; }
+  static constexpr std::uint64_t kEnd = ~std::uint64_t{0};
 
   /// Takes out the entries for which `leaves(slot)`, and marks the list as changed.
   template <class Leaves>

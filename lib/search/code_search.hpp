@@ -55,6 +55,7 @@ class CodeSearch final : public ContactSearch {
   bool stepWithin(const Box& box, Place& place, Count& count) const;
   void encodeAnew(const Box& box, Place& place) const;
   void sendSparseLevelsWide();
+  bool joinThinLevels();
   void listOccupiedLevels();
 
   void pairsOf(int level, std::size_t i, std::vector<BoxPair>& out, Count& count) const;
@@ -75,6 +76,7 @@ class CodeSearch final : public ContactSearch {
   std::array<CodeLevel, kLevels> levels_;
   Extents extents_{};                   // longest side on each level now
   std::array<bool, kLevels> isWide_{};  // levels of too few boxes to be worth codes
+  std::array<int, kLevels> joined_{};   // the level on which boxes of each level live
   std::vector<int> occupied_;           // levels with boxes, fine to coarse
   WideBoxes wide_;
   std::size_t wideAtStart_ = 0;

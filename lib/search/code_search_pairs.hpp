@@ -53,8 +53,12 @@ void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, std::vec
   for (const int other : occupied_) {
     if (other != own && !asks(own, other)) continue;
     const CodeLevel& level = levels_[other];
-    const auto test = [&](std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t j = begin; j < end; ++j) {
+    const std::uint64_t* codes = level.codes().data();
+    // From where a range begins, its end is met sooner than looked up.
+    const auto test = [&](std::uint32_t begin, std::uint64_t stop) {
+      count.range(1);
+      for (std::uint32_t j = begin; codes[j] <= stop; ++j) {
+        count.range(1);
         count.test(2 * Dim);
         if (mayOverlap(filter, level.filter(j)) && overlaps(me.box, level[j].box))
           out.push_back(orderedPair(BoxId(me.slot), BoxId(level[j].slot)));
@@ -93,7 +97,7 @@ void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const CodeLevel& le
     count.range(2);
     if (range.stop < code) return;
     const std::uint32_t begin = range.start <= code ? next : lowerBound(level, range.start, count);
-    visit(begin, lowerBound(level, range.stop + 1, count));
+    visit(begin, range.stop);
   });
 }
 
@@ -105,7 +109,7 @@ void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at, C
   const CodeLevel& level = levels_[at];
   CodeRange corners;
   const auto visitRange = [&](const CodeRange& range) {
-    visit(lowerBound(level, range.start, count), lowerBound(level, range.stop + 1, count));
+    visit(lowerBound(level, range.start, count), range.stop);
   };
   switch (rectangleOf(box, at, corners)) {
     case Extent::kSmall:
@@ -118,7 +122,7 @@ void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at, C
       }
       [[fallthrough]];  // a look at every box is cheaper than thousands of rows
     case Extent::kWraps:
-      visit(0, static_cast<std::uint32_t>(level.size()));
+      visit(0, CodeLevel::kEnd - 1);
       return;
   }
 }
@@ -164,7 +168,7 @@ std::uint32_t CodeSearch<Numbering, Dim, Count>::lowerBound(const CodeLevel& lev
   if constexpr (Numbering::kIsCurve) return level.directory().lowerBound(code, count);
   const std::span<const std::uint64_t> codes = level.codes();
   std::uint32_t begin = 0;
-  auto end = static_cast<std::uint32_t>(codes.size());
+  auto end = static_cast<std::uint32_t>(level.size());
   while (begin < end) {
     const std::uint32_t middle = begin + (end - begin) / 2;
     count.range(1);
@@ -182,8 +186,8 @@ void CodeSearch<Numbering, Dim, Count>::findOverlaps(const Box& box,
   Count uncounted;
   for (const int at : occupied_) {
     const CodeLevel& level = levels_[at];
-    visitRectangle(box, at, uncounted, [&](std::uint32_t begin, std::uint32_t end) {
-      for (std::uint32_t j = begin; j < end; ++j)
+    visitRectangle(box, at, uncounted, [&](std::uint32_t begin, std::uint64_t stop) {
+      for (std::uint32_t j = begin; level.codes()[j] <= stop; ++j)
         if (overlaps(box, level[j].box)) found.push_back(BoxId(level[j].slot));
     });
   }

@@ -1,6 +1,9 @@
 #pragma once
 // Second half of code_search.hpp: keeping the codes up to date (paper §4.2, §4.3).
 
+#include <algorithm>
+#include <numeric>
+
 #include "search/code_search.hpp"
 
 namespace yadefrag {
@@ -18,9 +21,16 @@ void CodeSearch<Numbering, Dim, Count>::update(std::span<const Box> boxes) {
     places_.clear();
     for (CodeLevel& level : levels_) level.clear();
     isWide_.fill(false);
+    std::iota(joined_.begin(), joined_.end(), 0);
   }
   locateAll();
-  if (!started_) sendSparseLevelsWide();
+  if (!started_) {
+    sendSparseLevelsWide();
+    if (joinThinLevels()) {
+      places_.clear();
+      locateAll();
+    }
+  }
   collectMoved();
   listOccupiedLevels();
   // Many new floors or walls, or a crowd of one size that was too rare at the start: begin again.
@@ -83,8 +93,9 @@ auto CodeSearch<Numbering, Dim, Count>::locate(const Box& box, Place& place, Ext
 
 template <class Numbering, int Dim, class Count>
 int CodeSearch<Numbering, Dim, Count>::levelFor(const Box& box, double side) const {
-  const int level = grid_.levelOf(side);
+  int level = grid_.levelOf(side);
   if (level >= kLevels || isWide_[level]) return kWide;
+  level = joined_[level];
   for (int d = 0; d < Dim; ++d)
     if (!LevelGrid<Dim>::isNumbered(grid_.scaled(box.min[grid_.axis(d)], level))) return kWide;
   return level;
@@ -138,6 +149,40 @@ void CodeSearch<Numbering, Dim, Count>::sendSparseLevelsWide() {
     isWide_[level] = population[level] > 0 && population[level] <= tolerance::kWideLevelCount;
   for (Place& place : places_)
     if (place.level >= 0 && isWide_[place.level]) place.level = kWide;
+}
+
+/// Boxes of a level that are mostly alone even in position-code boxes twice as long may as well
+/// live on the next level: it costs no candidates there, and all other levels one question less.
+/// True if any were joined.
+template <class Numbering, int Dim, class Count>
+bool CodeSearch<Numbering, Dim, Count>::joinThinLevels() {
+  std::array<std::vector<CodedSlot>, kLevels> parents;
+  for (const Place& place : places_) {
+    if (place.level < 0) continue;
+    Cell cell;
+    for (int d = 0; d < Dim; ++d)
+      cell[d] = static_cast<std::uint32_t>(place.number[d] >> 1) & Code::kMask;
+    parents[place.level].push_back({Code::encode(cell), 0});
+  }
+  int coarser = -1;
+  bool any = false;
+  for (int level = kLevels - 1; level >= 0; --level) {
+    std::vector<CodedSlot>& codes = parents[level];
+    if (codes.empty()) continue;
+    if (coarser >= 0) {
+      sortByCode(codes);
+      const auto same = [](const CodedSlot& a, const CodedSlot& b) { return a.code == b.code; };
+      const auto occupied = std::unique(codes.begin(), codes.end(), same) - codes.begin();
+      const auto all = static_cast<double>(codes.size());
+      // Only one level up each: the parents that were looked at are those of the next level.
+      if (coarser == level + 1 && all <= tolerance::kThinLevel * static_cast<double>(occupied)) {
+        joined_[level] = joined_[coarser];
+        any = true;
+      }
+    }
+    coarser = level;
+  }
+  return any;
 }
 
 template <class Numbering, int Dim, class Count>
