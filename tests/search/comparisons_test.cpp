@@ -99,8 +99,8 @@ TEST(PaperFigures, FlatPerNodeFromAThousandToAMillion) {
 }
 
 TEST(PaperFigures, RivalsNeedMoreAndGrow) {
-  // §4.5: LPC pays log N per row, ten comparisons more for a thousand times the nodes, of some thirty
-  // in all; HO descends a tree of log N levels.
+  // §4.5: LPC pays log N per row, ten comparisons more for a thousand times the nodes, of some
+  // thirty in all; HO descends a tree of log N levels.
   std::vector<double> lebesgue, linear, hierarchy;
   for (const std::size_t count : {1000, 1000000}) {
     for (auto& [method, result] : {std::pair{SearchMethod::kLebesgue, &lebesgue},
