@@ -16,7 +16,7 @@ class Interval {
   static double next(double interval, double bodies, double steps, double pairsOfHalf) {
     if (!(steps > 0)) return interval;
     const double ratio = searchOverPair(bodies) * bodies / (2 * pairsOfHalf * steps + 1);
-    return std::clamp(interval * std::clamp(std::sqrt(ratio), .5, 2.), kLeast, kMost);
+    return std::clamp(interval * std::clamp(std::sqrt(ratio), .5, kGrowth), kLeast, kMost);
   }
 
  private:
@@ -28,6 +28,9 @@ class Interval {
     return std::clamp(4 * std::pow(3000 / bodies, .4), 1., 4.);
   }
   static constexpr double kLeast = 3, kMost = 200;
+  /// Growth is blind, since H tells nothing of longer sweeps: in a dense block a whole shell of
+  /// further neighbours comes near at once. Small steps overshoot little.
+  static constexpr double kGrowth = 1.25;
 };
 
 }  // namespace yadefrag
