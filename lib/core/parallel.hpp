@@ -11,7 +11,7 @@
 
 namespace yadefrag {
 
-/// Below this many items a second thread costs more than it brings (about 20 µs to wake it).
+/// Fewer items than this are not worth waking a second thread for.
 inline constexpr std::size_t kMinItemsPerThread = 512;
 
 /// Calls `work(begin, end, part)` for contiguous parts of [0, count) and returns how many there

@@ -2,10 +2,9 @@
 // Finds a position code in a sorted list in a constant number of steps.
 //
 // The paper (§4.4) finds the ends of a range by exponential search from where the last one was
-// found. A directory over the leading bits of the codes, about two slots per code, does it in one
-// look where codes are spread evenly, and an overfull slot has a directory of its own, so that two
-// far clusters cost one look more. Exponential search took three times as long in the gas
-// benchmark.
+// found. A directory over the leading bits of the codes, about two slots per code, finds its
+// beginning in one look where codes are spread evenly; an overfull slot has a directory of its own,
+// so that two far clusters cost one look more.
 
 #include <cstdint>
 #include <span>

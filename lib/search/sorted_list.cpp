@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kDigitBits = 11;  // 2048 counters stay in the first-level cache
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
-constexpr std::size_t kRadixPays = 256;  // below, clearing the counters costs more than sorting
+constexpr std::size_t kRadixPays = 256;  // a shorter list has fewer entries than there are counters
 
 }  // namespace
 
