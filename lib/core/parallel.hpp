@@ -9,16 +9,16 @@
 #include <cstddef>
 #include <vector>
 
-namespace yadefrag {
+#include "core/tolerances.hpp"
 
-/// Fewer items than this are not worth waking a second thread for.
-inline constexpr std::size_t kMinItemsPerThread = 512;
+namespace yadefrag {
 
 /// Calls `work(begin, end, part)` for contiguous parts of [0, count) and returns how many there
 /// were.
 template <class Work>
 int forEachPart(std::size_t count, int threads, Work work) {
-  const int parts = std::max(1, std::min(threads, static_cast<int>(count / kMinItemsPerThread)));
+  const int parts =
+      std::max(1, std::min(threads, static_cast<int>(count / tolerance::kMinItemsPerThread)));
   if (parts == 1) {
     work(std::size_t{0}, count, 0);
     return 1;

@@ -42,11 +42,34 @@ inline constexpr std::size_t kFinePerCoarse = 4;
 /// the position code: a plane scene is searched with 2D codes.
 inline constexpr double kFlatAxis = 1.0;
 
+/// (ratio) Codes that a range of a large rectangle may hold for each of its boxes: a sliver's two
+/// end codes can have the whole scene between them.
+inline constexpr std::uint64_t kCodesPerBox = 4;
+
+/// (count) Fewer items than this are not worth waking a second thread for.
+inline constexpr std::size_t kMinItemsPerThread = 512;
+
 /// (ratio) The hierarchy is rebuilt when the summed half-perimeter of its refitted nodes exceeds
 /// this many times what it was when built.
 inline constexpr double kHierarchyDecay = 1.5;
 
 /// (count) Boxes in a leaf of the hierarchy.
 inline constexpr std::uint32_t kHierarchyLeaf = 4;
+
+/// (relative to coordinates) Covers the rounding of the test of the true halo and of YADE's
+/// geometry functors, so that balls that touch to the last bit are not lost where there is no
+/// sweep.
+inline constexpr double kHaloRounding = 2e-15;
+
+/// (ratio) Spare in the length of a sweep for acceleration: without it a body at constant speed
+/// calls for a search one step early.
+inline constexpr double kSweepSpare = 1.02;
+
+/// (steps) Shortest and longest interval between searches that is aimed at.
+inline constexpr double kLeastInterval = 3, kMostInterval = 200;
+
+/// (ratio) Growth of the interval from one search to the next. Growth is blind: in a dense block a
+/// whole shell of further neighbours comes near at once. Small steps overshoot little.
+inline constexpr double kIntervalGrowth = 1.25;
 
 }  // namespace yadefrag::tolerance

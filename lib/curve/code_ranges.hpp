@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "core/tolerances.hpp"
 #include "curve/position_code.hpp"
 
 namespace yadefrag {
@@ -93,10 +94,6 @@ CodeRanges<Dim> rangesOfRectangle(std::uint64_t low, std::uint64_t high) {
   return out;
 }
 
-/// Codes per box that a range of a large rectangle may hold: a sliver's two end codes can have the
-/// whole scene between them.
-inline constexpr std::uint64_t kCodesPerBox = 4;
-
 /// Ranges of a rectangle of any shape and size, in the order of the curve: it is cut again until no
 /// range holds more than kCodesPerBox codes for each of its boxes. The highest bit in which the
 /// corners differ tells which axis to cut: the two parts are then apart on the curve.
@@ -107,7 +104,7 @@ void forEachRangeOfLarge(std::uint64_t low, std::uint64_t high, Visit& visit) {
   for (int axis = 0; axis < Dim; ++axis)
     boxes *= Code::gather(high >> Code::axisShift(axis)) -
              Code::gather(low >> Code::axisShift(axis)) + std::uint64_t{1};
-  if ((high - low) / kCodesPerBox < boxes) {
+  if ((high - low) / tolerance::kCodesPerBox < boxes) {
     visit(CodeRange{low, high});
     return;
   }

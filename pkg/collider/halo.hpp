@@ -8,6 +8,7 @@
 #include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"
 #include "core/ids.hpp"
+#include "core/tolerances.hpp"
 
 namespace yadefrag {
 
@@ -40,7 +41,7 @@ class Halo {
     const double farthest =
         std::max(a.centre.cwiseAbs().maxCoeff(), b.centre.cwiseAbs().maxCoeff());
     const double reach = a.radius + b.radius;
-    const double sum = reach + kRounding * (2 * farthest + apart.maxCoeff() + reach);
+    const double sum = reach + tolerance::kHaloRounding * (2 * farthest + apart.maxCoeff() + reach);
     const double cube = a.sweep + b.sweep;
     byHalf = isWithin(apart, .5 * cube + slack_, sum);
     return byHalf || isWithin(apart, cube + slack_, sum);
@@ -54,10 +55,6 @@ class Halo {
     const double z = std::max(apart[2] - halfWidth, 0.);
     return x * x + y * y + z * z <= reach * reach;
   }
-
-  /// (relative to coordinates) Covers the rounding of this test and of the geometry functor's own,
-  /// so that balls that touch to the last bit are not lost where there is no sweep.
-  static constexpr double kRounding = 2e-15;
 
   const std::vector<Ball>& balls_;
   double slack_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tolerances.hpp"
+
 namespace yadefrag {
 
 /// Long sweeps make searches rare and potential interactions many. With N bodies, k steps since the
@@ -16,7 +18,8 @@ class Interval {
   static double next(double interval, double bodies, double steps, double pairsOfHalf) {
     if (!(steps > 0)) return interval;
     const double ratio = searchOverPair(bodies) * bodies / (2 * pairsOfHalf * steps + 1);
-    return std::clamp(interval * std::clamp(std::sqrt(ratio), .5, kGrowth), kLeast, kMost);
+    return std::clamp(interval * std::clamp(std::sqrt(ratio), .5, tolerance::kIntervalGrowth),
+                      tolerance::kLeastInterval, tolerance::kMostInterval);
   }
 
  private:
@@ -27,10 +30,6 @@ class Interval {
   static double searchOverPair(double bodies) {
     return std::clamp(4 * std::pow(3000 / bodies, .4), 1., 4.);
   }
-  static constexpr double kLeast = 3, kMost = 200;
-  /// Growth is blind, since H tells nothing of longer sweeps: in a dense block a whole shell of
-  /// further neighbours comes near at once. Small steps overshoot little.
-  static constexpr double kGrowth = 1.25;
 };
 
 }  // namespace yadefrag

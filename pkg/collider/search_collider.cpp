@@ -10,6 +10,7 @@
 #include "collider/interval.hpp"
 #include "collider/nearest_image.hpp"
 #include "core/parallel.hpp"
+#include "core/tolerances.hpp"
 #include "search/periodic_overlap.hpp"
 
 namespace yadefrag {
@@ -76,7 +77,7 @@ double SearchCollider::cellSlack() const {
   const yade::Cell& cell = *scene->cell;
   const Vector3r span(images_.span()[0] + 1, images_.span()[1] + 1, images_.span()[2] + 1);
   const Vector3r speed = (cell.velGrad * cell.hSize).cwiseAbs() * span;
-  const double wanted = .5 * 1.02 * interval * scene->dt * speed.maxCoeff();
+  const double wanted = .5 * tolerance::kSweepSpare * interval * scene->dt * speed.maxCoeff();
   return wanted < verletDist ? wanted : verletDist;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "abi/yade.hpp"
+#include "core/tolerances.hpp"
 
 namespace yadefrag {
 
@@ -19,7 +20,7 @@ struct SweepRule {
   SweepRule(double verletDist, double minFactor, double dt, double interval)
       : most(verletDist),
         least(std::min(minFactor, 1.0) * verletDist),
-        ahead(interval > 0 ? kSpare * dt * interval : INFINITY) {}
+        ahead(interval > 0 ? tolerance::kSweepSpare * dt * interval : INFINITY) {}
 
   [[nodiscard]] double lengthFor(double speed) const {
     const double wanted = speed * ahead;
@@ -29,10 +30,6 @@ struct SweepRule {
 
   /// The integrator asks for a search when the largest component has reached the sweep.
   static double speedOf(const yade::Vector3r& velocity) { return velocity.cwiseAbs().maxCoeff(); }
-
- private:
-  /// Spare for acceleration: without it a body at constant speed calls one step early.
-  static constexpr double kSpare = 1.02;
 };
 
 }  // namespace yadefrag

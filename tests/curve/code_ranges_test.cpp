@@ -106,7 +106,7 @@ TEST(CodeRanges, LargeRectanglesAreCutUntilLittleElseIsInTheRanges) {
                                                 ranges.push_back(range);
                                                 codes += range.stop - range.start + 1;
                                               });
-    ASSERT_LE(codes, kCodesPerBox * boxes);
+    ASSERT_LE(codes, tolerance::kCodesPerBox * boxes);
     Code::Cell cell;
     for (cell[0] = low[0]; cell[0] <= high[0]; ++cell[0])
       for (cell[1] = low[1]; cell[1] <= high[1]; ++cell[1])
