@@ -112,7 +112,7 @@ kLongExamples = [
     'test/triax-basic-without-plots.py', 'timeStepperUsage.py']
 
 
-@pytest.mark.skipif(not os.path.isdir(kExamples), reason='YADE's examples are not installed')
+@pytest.mark.skipif(not os.path.isdir(kExamples), reason="YADE's examples are not installed")
 @pytest.mark.parametrize('script', kShortExamples + kLongExamples)
 def testExample(collider, script):
     """The contacts are those that YADE's collider has when it searches in every step.
