@@ -72,12 +72,7 @@ void BodyBoxes::prepare(yade::Scene& scene, yade::BoundDispatcher& dispatcher,
   sphereFunctor_ = findSphereFunctor(dispatcher);
   gatherSpheres(scene, threads);
   checkPositions(scene);
-  try {
-    updateOthers(scene, dispatcher);
-  } catch (...) {
-    rollBack();
-    throw;
-  }
+  updateOthers(scene, dispatcher);
 }
 
 void BodyBoxes::rollBack() {

@@ -27,8 +27,8 @@ struct Turning {
 
 class BodyBoxes {
  public:
-  /// Computes all boxes, for `commit` to write into the bounds. Throws InputError, with every bound
-  /// as it was, for a position that is not finite or a bound that is turned inside out.
+  /// Computes all boxes, for `commit` to write into the bounds. Throws InputError for a position
+  /// that is not finite or a bound that is turned inside out; `rollBack` then restores every bound.
   void prepare(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
                double cellSlack, int threads);
   void commit(yade::Scene& scene, int threads);

@@ -25,13 +25,15 @@ void SearchCollider::action() {
   chooseInterval();
   slack_ = cellSlack();
   const SweepRule rule(std::max(verletDist, 0.), minSweepDistFactor, scene->dt, interval);
-  boxes_.prepare(*scene, *boundDispatcher, rule, slack_, threads);
   try {
+    boxes_.prepare(*scene, *boundDispatcher, rule, slack_, threads);
     startSearchIfNeeded();
     updateSearch(threads);
     findNeighbours(threads);
   } catch (...) {
     boxes_.rollBack();
+    search_.reset();  // it looks at boxes that are no longer those of the last search
+    strideActive_ = false;
     throw;
   }
   boxes_.commit(*scene, threads);
