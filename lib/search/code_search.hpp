@@ -81,7 +81,7 @@ class CodeSearch final : public ContactSearch {
   WideBoxes wide_;
   std::size_t wideAtStart_ = 0;
   bool started_ = false;
-  std::vector<CodedSlot> incoming_, scratch_;
+  std::vector<CodedSlot> scratch_;
   std::array<std::vector<CodedSlot>, kLevels> arriving_;
   std::vector<std::vector<BoxPair>> partPairs_;
   Count count_;

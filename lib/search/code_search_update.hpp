@@ -1,5 +1,5 @@
 #pragma once
-// Second half of code_search.hpp: keeping the codes up to date (paper §4.2, §4.3).
+// Second part of code_search.hpp: keeping the codes up to date (paper §4.2, §4.3).
 
 #include <algorithm>
 #include <numeric>
