@@ -13,7 +13,15 @@ struct Id {
   constexpr Id() : value(0) {}
   constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {}
   friend constexpr auto operator<=>(Id, Id) = default;
+
+  static constexpr Id none() { return Id(std::size_t{0xffffffff}); }
 };
+
+using NodeId = Id<struct NodeTag>;            ///< of a mesh
+using ElementId = Id<struct ElementTag>;      ///< a triangle
+using ComponentId = Id<struct ComponentTag>;  ///< a body of triangles
+using SegmentId = Id<struct SegmentTag>;      ///< of a mesh's boundary
+using EntryId = Id<struct EntryTag>;          ///< of a contact surface: a sampling point and a piece
 
 /// A slot in the array of boxes given to a search.
 using BoxId = Id<struct BoxTag>;

@@ -1,0 +1,54 @@
+#pragma once
+// All finite-element bodies of a scene: nodes, triangles and components as parallel arrays.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/vec2.hpp"
+#include "mesh/elastic_material.hpp"
+
+namespace yadefrag {
+
+/// Directions in which a node does not obey forces but moves at its prescribed velocity.
+enum Held : std::uint8_t { kFree = 0, kHeldX = 1, kHeldY = 2, kHeldXY = 3 };
+
+struct Nodes {
+  std::vector<Vec2> position;        ///< m, xⁿ
+  std::vector<Vec2> velocity;        ///< m/s, vⁿ⁻½; of a held direction: the prescribed one
+  std::vector<double> mass;          ///< kg, lumped
+  std::vector<std::uint8_t> held;    ///< Held
+  std::vector<ComponentId> component;
+  std::vector<Vec2> load;            ///< N, constant outer force; empty if there is none in the scene
+
+  [[nodiscard]] std::size_t size() const { return position.size(); }
+};
+
+struct Triangles {
+  std::vector<std::array<NodeId, 3>> nodes;  ///< counter-clockwise
+  /// (1/m) Inverse of the stress-free edge matrix D = [X₁−X₀, X₂−X₀], row by row: F = d·D⁻¹.
+  std::vector<std::array<double, 4>> inverseEdges;
+  std::vector<double> area;  ///< m², stress-free
+  std::vector<ComponentId> component;
+
+  [[nodiscard]] std::size_t size() const { return nodes.size(); }
+};
+
+/// What all triangles of one body share. A removed component keeps its slot with no triangles.
+struct Component {
+  ElasticMaterial material;
+  double thickness = 1;     ///< m
+  double friction = 0;      ///< tan of the friction angle
+  bool selfContact = true;  ///< may its surfaces touch each other
+  std::uint32_t firstTriangle = 0;
+  std::uint32_t lastTriangle = 0;  ///< one past; triangles of a component are consecutive
+};
+
+struct Model {
+  Nodes nodes;
+  Triangles triangles;
+  std::vector<Component> components;
+};
+
+}  // namespace yadefrag

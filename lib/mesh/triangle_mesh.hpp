@@ -1,0 +1,30 @@
+#pragma once
+// One body's mesh, before it joins the model.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/vec2.hpp"
+
+namespace yadefrag {
+
+/// An outline and its holes; after `checkPolygon` the outline is counter-clockwise, holes clockwise.
+struct Polygon {
+  std::vector<Vec2> outline;
+  std::vector<std::vector<Vec2>> holes;
+};
+
+/// Node and triangle numbers follow the Lebesgue curve, so that neighbours are near in memory.
+struct TriangleMesh {
+  std::vector<Vec2> nodes;                               ///< m
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise
+  /// Boundary nodes in order, material on the left: first the outline, then the holes as given.
+  std::vector<std::vector<std::uint32_t>> loops;
+  /// For each boundary node the vertex of its outline or hole that it is, or else (a node that
+  /// divides a long edge) the vertex at which that edge begins.
+  std::vector<std::vector<std::uint32_t>> loopVertices;
+  double minAngle = 0;  ///< rad, smallest of all triangles
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,71 @@
+#pragma once
+// The two layers of a boundary (paper §3.1): the mesh's boundary segments, and above them the contact
+// surface ("virtual surface") with one entry for each sampling point.
+//
+//   mesh       a ───────── b ───────── c ─────     segments, one per boundary node
+//   contact    a ───────── b ─── H ⌒⌒⌒ H ⌒⌒     entries: a, b corners; c, … smooth; H a halfpoint
+//
+// A node is a corner (straight) or smooth. Between two corners the curve is the segment; around a
+// smooth node it is the Bézier arc from the halfpoint before to the halfpoint after; between a
+// corner and a halfpoint it is half the segment. Every entry is a slave (its sampling point, where
+// the piece begins) and a master (the piece up to the next entry's sampling point).
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/vec2.hpp"
+
+namespace yadefrag {
+
+enum class Piece : std::uint8_t {
+  kSegment,     ///< nodes a, b; whole: 0 ≤ ξ ≤ 1
+  kFirstHalf,   ///< of a segment that leaves a corner: 0 ≤ ξ ≤ ½
+  kSecondHalf,  ///< of a segment that reaches a corner: ½ ≤ ξ ≤ 1
+  kArc,         ///< nodes a, b, c; from the halfpoint of ab (ξ = 0) to that of bc (ξ = 1)
+};
+
+/// A point of the boundary as a combination of up to three nodes; unused ones have weight 0.
+struct Stencil {
+  NodeId node[3];
+  double weight[3] = {1, 0, 0};
+  int count = 1;
+};
+
+class ContactSurfaces {
+ public:
+  /// Adds a closed loop, material on the left; one flag per node. Returns its number.
+  std::uint32_t addLoop(std::span<const NodeId> nodes, std::span<const std::uint8_t> smooth,
+                        ComponentId component);
+  /// Takes away all loops of a component; entries after them move up, in order.
+  void removeComponent(ComponentId component);
+  /// A node is known by a new number (`renumbered[old]`), none() if it is gone.
+  void renumberNodes(std::span<const NodeId> renumbered, std::size_t nodeCount);
+
+  // First layer: segment s runs from segmentNode[s] to that of the next one.
+  std::vector<NodeId> segmentNode;
+  std::vector<SegmentId> segmentNext, segmentPrev;
+  std::vector<std::uint8_t> segmentSmooth;  ///< is its first node smooth
+  std::vector<EntryId> segmentEntry;        ///< its first entry: the one on its first node or halfpoint
+  std::vector<SegmentId> nodeSegment;       ///< by node: the segment that leaves it, or none()
+
+  // Second layer.
+  std::vector<SegmentId> entrySegment;  ///< the segment in which it begins
+  std::vector<Piece> piece;
+  std::vector<EntryId> next, prev;
+  std::vector<std::uint32_t> loop;  ///< number of its closed loop
+  std::vector<ComponentId> component;
+
+  [[nodiscard]] std::size_t segments() const { return segmentNode.size(); }
+  [[nodiscard]] std::size_t entries() const { return entrySegment.size(); }
+
+  /// Up to three nodes a, b, c of a piece; returns how many.
+  int pieceNodes(EntryId entry, NodeId (&nodes)[3]) const;
+  /// The sampling point of an entry: a node or a halfpoint.
+  [[nodiscard]] Stencil slave(EntryId entry) const;
+  /// The point ξ of an entry's piece (eq. 1, eq. 2).
+  [[nodiscard]] Stencil master(EntryId entry, double xi) const;
+};
+
+}  // namespace yadefrag
