@@ -72,4 +72,78 @@ inline constexpr double kLeastInterval = 3, kMostInterval = 200;
 /// whole shell of further neighbours comes near at once. Small steps overshoot little.
 inline constexpr double kIntervalGrowth = 1.25;
 
+/// (ξ) A Newton step of the foot on an arc that is as short as this was the last: ξ itself is known
+/// to a few roundings only.
+inline constexpr double kFootStep = 1e-15;
+
+/// (count) Steps for the foot on an arc: halving alone gets from 1 to `kFootStep` in 50.
+inline constexpr int kMostFootSteps = 100;
+
+/// (count) Halvings of an arc that isolate its orthogonal feet; two that are nearer than 2⁻²⁰ are
+/// one.
+inline constexpr int kMostArcCuts = 20;
+
+/// (relative to the chord) Rounding that the quick line test of a boundary piece forgives.
+inline constexpr double kQuickLine = 1e-14;
+
+/// (squared length of the sum of two unit vectors) A corner folded nearer to 180° than 10⁻⁶ rad has
+/// no normal between its two sides'.
+inline constexpr double kFold = 1e-12;
+
+/// (of a piece's length) Slaves this little inside a master when they first come near count as
+/// outside: bodies laid exactly on one another differ by rounding.
+inline constexpr double kTouching = 1e-9;
+
+/// (rad) A corner that turns by more is a slave in a single pass too: 30°.
+inline constexpr double kSharpCorner = .52;
+
+/// (1/octave) Surfaces whose mean piece lengths are equal when rounded to this part of an octave
+/// count as equally fine, so that deformation does not make slaves and masters take turns.
+inline constexpr double kFinenessSteps = 8;
+
+/// (ξ) A foot this far beyond a piece's end is still on it: at a joint of two pieces, rounding must
+/// not leave a slave between them.
+inline constexpr double kFootRange = 1e-9;
+
+/// (cosine) A slave's normal and its master's must be opposed by more than this: at coincident
+/// corners the lateral faces, parallel to rounding, take no part.
+inline constexpr double kOpposed = -.1;
+
+/// (ξ) Farthest beyond a piece's end that the foot at xⁿ may be for the force to act at that foot,
+/// which keeps the angular momentum; the shape functions go on linearly.
+inline constexpr double kFootBeyond = .25;
+
+/// (of the shortest segment) Penetration that is left by the second-order remainder of the
+/// linearised condition and not worth another solve.
+inline constexpr double kPenetrationLeft = 1e-10;
+
+/// (count) Most detections in one step.
+inline constexpr int kDetections = 5;
+
+/// (ratio) An overlap older than its contact is let out by this part in every step: all at once it
+/// would become a velocity, and energy out of nothing.
+inline constexpr double kOverlapDecay = .02;
+
+/// (relative to the largest bound) Change of the friction bounds at which their iteration ends, and
+/// how often it may go round.
+inline constexpr double kFrictionBound = 1e-9;
+inline constexpr int kFrictionRounds = 60;
+
+/// (of the shortest segment) The halo's width: at most half, so that three adjacent halos do not
+/// overlap (paper §4.1); at least a twentieth, below which nothing is saved.
+inline constexpr double kWidestHalo = .5, kNarrowestHalo = .05;
+
+/// (steps) For how many a halo is made wide enough at the present largest velocity.
+inline constexpr double kHaloSteps = 20;
+
+/// (ratio) Spare for acceleration when it is foreseen whether the next step leaves the halo.
+inline constexpr double kHaloSpare = 1.1;
+
+/// (count) Elements whose forces are summed in one go: their nodes stay in the first-level cache, and
+/// few of them belong to another chunk too.
+inline constexpr std::size_t kChunkElements = 512;
+
+/// (count) Fewer elements than this per thread are not worth two meetings of the threads a step.
+inline constexpr std::size_t kElementsPerThread = 2048;
+
 }  // namespace yadefrag::tolerance

@@ -1,0 +1,159 @@
+#include "surface/contact_surface.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "surface/bezier_arc.hpp"
+
+namespace yadefrag {
+namespace {
+
+/// New numbers of the rows that stay, in order; none() for those that go.
+template <class IdType, class Stays>
+std::vector<IdType> compactNumbers(std::size_t count, Stays stays) {
+  std::vector<IdType> numbers(count, IdType::none());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (stays(i)) numbers[i] = IdType(kept++);
+  return numbers;
+}
+
+template <class T, class IdType>
+void keepRows(std::vector<T>& column, const std::vector<IdType>& numbers) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < column.size(); ++i)
+    if (numbers[i] != IdType::none()) column[kept++] = column[i];
+  column.resize(kept);
+}
+
+template <class IdType>
+void translate(std::vector<IdType>& links, const std::vector<IdType>& numbers) {
+  for (IdType& link : links) link = numbers[link.value];
+}
+
+Stencil onSegment(NodeId a, NodeId b, double xi) { return {{a, b, {}}, {1 - xi, xi, 0}, 2}; }
+
+/// The segments of a closed loop; their entries are still missing.
+void appendSegments(ContactSurfaces& s, std::span<const NodeId> nodes,
+                    std::span<const std::uint8_t> smooth) {
+  const std::size_t first = s.segments();
+  const std::size_t count = nodes.size();
+  const auto last = std::max_element(nodes.begin(), nodes.end());
+  if (last->value >= s.nodeSegment.size()) s.nodeSegment.resize(last->value + 1, SegmentId::none());
+  for (std::size_t i = 0; i < count; ++i) {
+    assert(s.nodeSegment[nodes[i].value] == SegmentId::none());
+    s.nodeSegment[nodes[i].value] = SegmentId(first + i);
+    s.segmentNode.push_back(nodes[i]);
+    s.segmentSmooth.push_back(smooth[i] != 0);
+    s.segmentNext.push_back(SegmentId(first + (i + 1) % count));
+    s.segmentPrev.push_back(SegmentId(first + (i + count - 1) % count));
+    s.segmentEntry.push_back(EntryId::none());
+  }
+}
+
+}  // namespace
+
+std::uint32_t ContactSurfaces::addLoop(std::span<const NodeId> nodes,
+                                       std::span<const std::uint8_t> smooth, ComponentId owner) {
+  assert(nodes.size() >= 3 && smooth.size() == nodes.size());
+  const std::uint32_t number = loop.empty() ? 0 : *std::max_element(loop.begin(), loop.end()) + 1;
+  const std::size_t firstSegment = segments();
+  const std::size_t firstEntry = entries();
+  appendSegments(*this, nodes, smooth);
+
+  const auto append = [&](std::size_t segment, Piece kind) {
+    if (segmentEntry[segment] == EntryId::none()) segmentEntry[segment] = EntryId(entries());
+    entrySegment.push_back(SegmentId(segment));
+    piece.push_back(kind);
+  };
+  for (std::size_t s = firstSegment; s < segments(); ++s) {
+    const bool fromSmooth = segmentSmooth[s];
+    const bool toSmooth = segmentSmooth[segmentNext[s].value];
+    if (!fromSmooth) append(s, toSmooth ? Piece::kFirstHalf : Piece::kSegment);
+    if (toSmooth)
+      append(s, Piece::kArc);
+    else if (fromSmooth)
+      append(s, Piece::kSecondHalf);
+  }
+
+  const std::size_t count = entries() - firstEntry;
+  for (std::size_t i = 0; i < count; ++i) {
+    next.push_back(EntryId(firstEntry + (i + 1) % count));
+    prev.push_back(EntryId(firstEntry + (i + count - 1) % count));
+  }
+  loop.resize(entries(), number);
+  component.resize(entries(), owner);
+  return number;
+}
+
+void ContactSurfaces::removeComponent(ComponentId gone) {
+  const auto segmentNumbers = compactNumbers<SegmentId>(
+      segments(), [&](std::size_t s) { return component[segmentEntry[s].value] != gone; });
+  const auto entryNumbers =
+      compactNumbers<EntryId>(entries(), [&](std::size_t e) { return component[e] != gone; });
+
+  for (SegmentId& segment : nodeSegment)
+    if (segment != SegmentId::none()) segment = segmentNumbers[segment.value];
+  keepRows(segmentNode, segmentNumbers);
+  keepRows(segmentNext, segmentNumbers);
+  keepRows(segmentPrev, segmentNumbers);
+  keepRows(segmentSmooth, segmentNumbers);
+  keepRows(segmentEntry, segmentNumbers);
+  keepRows(entrySegment, entryNumbers);
+  keepRows(piece, entryNumbers);
+  keepRows(next, entryNumbers);
+  keepRows(prev, entryNumbers);
+  keepRows(loop, entryNumbers);
+  keepRows(component, entryNumbers);
+
+  translate(segmentNext, segmentNumbers);
+  translate(segmentPrev, segmentNumbers);
+  translate(entrySegment, segmentNumbers);
+  translate(segmentEntry, entryNumbers);
+  translate(next, entryNumbers);
+  translate(prev, entryNumbers);
+
+  // Numbers of loops stay without gaps, too.
+  std::vector<std::uint32_t> left(loop);
+  std::sort(left.begin(), left.end());
+  left.erase(std::unique(left.begin(), left.end()), left.end());
+  for (std::uint32_t& number : loop)
+    number = static_cast<std::uint32_t>(std::lower_bound(left.begin(), left.end(), number) -
+                                        left.begin());
+}
+
+void ContactSurfaces::renumberNodes(std::span<const NodeId> renumbered, std::size_t nodeCount) {
+  nodeSegment.assign(nodeCount, SegmentId::none());
+  for (std::size_t s = 0; s < segments(); ++s) {
+    segmentNode[s] = renumbered[segmentNode[s].value];
+    assert(segmentNode[s].value < nodeCount);  // a node of a loop cannot be gone
+    nodeSegment[segmentNode[s].value] = SegmentId(s);
+  }
+}
+
+int ContactSurfaces::pieceNodes(EntryId entry, NodeId (&nodes)[3]) const {
+  const SegmentId segment = entrySegment[entry.value];
+  const SegmentId following = segmentNext[segment.value];
+  nodes[0] = segmentNode[segment.value];
+  nodes[1] = segmentNode[following.value];
+  if (piece[entry.value] != Piece::kArc) return 2;
+  nodes[2] = segmentNode[segmentNext[following.value].value];
+  return 3;
+}
+
+Stencil ContactSurfaces::slave(EntryId entry) const {
+  const SegmentId segment = entrySegment[entry.value];
+  const NodeId a = segmentNode[segment.value];
+  const Piece kind = piece[entry.value];
+  if (kind == Piece::kSegment || kind == Piece::kFirstHalf) return {{a, {}, {}}, {1, 0, 0}, 1};
+  return onSegment(a, segmentNode[segmentNext[segment.value].value], .5);
+}
+
+Stencil ContactSurfaces::master(EntryId entry, double xi) const {
+  NodeId nodes[3];
+  if (pieceNodes(entry, nodes) == 2) return onSegment(nodes[0], nodes[1], xi);
+  const ArcWeights h = arcShape(xi);
+  return {{nodes[0], nodes[1], nodes[2]}, {h[0], h[1], h[2]}, 3};
+}
+
+}  // namespace yadefrag

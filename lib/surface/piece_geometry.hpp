@@ -1,0 +1,74 @@
+#pragma once
+// What a contact surface's entry looks like at given node positions (m).
+
+#include <span>
+
+#include "core/box.hpp"
+#include "surface/bezier_arc.hpp"
+#include "surface/contact_surface.hpp"
+
+namespace yadefrag {
+
+/// ξ at which a piece begins and ends.
+struct PieceRange {
+  double begin = 0;
+  double end = 1;
+};
+
+inline PieceRange pieceRange(Piece piece) {
+  return {piece == Piece::kSecondHalf ? .5 : 0., piece == Piece::kFirstHalf ? .5 : 1.};
+}
+
+/// The point, or the displacement or velocity, that a stencil stands for.
+inline Vec2 combine(const Stencil& stencil, std::span<const Vec2> values) {
+  Vec2 sum = stencil.weight[0] * values[stencil.node[0].value];
+  for (int i = 1; i < stencil.count; ++i) sum += stencil.weight[i] * values[stencil.node[i].value];
+  return sum;
+}
+
+struct PieceEnds {
+  Vec2 begin, end;
+};
+
+class PieceGeometry {
+ public:
+  /// Both must outlive this object, which keeps no copy.
+  PieceGeometry(const ContactSurfaces& surfaces, std::span<const Vec2> positions)
+      : surfaces_(surfaces), positions_(positions) {}
+
+  [[nodiscard]] PieceEnds ends(EntryId entry) const;
+  /// Smallest box around a straight piece; of an arc, around its four control points. z = 0.
+  [[nodiscard]] Box box(EntryId entry) const;
+  /// m, along the piece (an arc's to 10⁻⁶ and better).
+  [[nodiscard]] double length(EntryId entry) const;
+  [[nodiscard]] Vec2 point(EntryId entry, double xi) const;
+  /// dx/dξ (m); of a straight piece the whole segment's.
+  [[nodiscard]] Vec2 tangent(EntryId entry, double xi) const;
+  /// Unit outward normal at ξ; zero if the tangent vanishes.
+  [[nodiscard]] Vec2 normal(EntryId entry, double xi) const;
+
+  /// The entry's sampling point.
+  [[nodiscard]] Vec2 slave(EntryId entry) const {
+    return combine(surfaces_.slave(entry), positions_);
+  }
+  /// Unit outward normal there: halfway between those of the two pieces that meet; at the tip of a
+  /// fold by 180° the direction in which it points.
+  [[nodiscard]] Vec2 slaveNormal(EntryId entry) const;
+
+  /// The foot of a point: on a straight piece with ξ of the whole segment, unclamped.
+  [[nodiscard]] Foot foot(EntryId entry, Vec2 point) const;
+  /// The quick test: false only if the point has no orthogonal foot with gap < 0 on the piece.
+  [[nodiscard]] bool mayPenetrate(EntryId entry, Vec2 point) const;
+
+ private:
+  struct Corners {
+    Vec2 a, b, c;
+    bool arc;
+  };
+  [[nodiscard]] Corners corners(EntryId entry) const;
+
+  const ContactSurfaces& surfaces_;
+  std::span<const Vec2> positions_;
+};
+
+}  // namespace yadefrag
