@@ -39,7 +39,7 @@ class PieceGeometry {
   [[nodiscard]] PieceEnds ends(EntryId entry) const;
   /// Smallest box around a straight piece; of an arc, around its four control points. z = 0.
   [[nodiscard]] Box box(EntryId entry) const;
-  /// m, along the piece (an arc's to 10⁻⁶ and better).
+  /// m, along the piece; an arc's by quadrature, to a thousandth even where it is sharp.
   [[nodiscard]] double length(EntryId entry) const;
   [[nodiscard]] Vec2 point(EntryId entry, double xi) const;
   /// dx/dξ (m); of a straight piece the whole segment's.

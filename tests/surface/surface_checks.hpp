@@ -1,0 +1,97 @@
+#pragma once
+// What must hold for every contact surface, at any time.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include "surface/contact_surface.hpp"
+#include "surface/piece_geometry.hpp"
+
+namespace yadefrag {
+
+inline ContactSurfaces oneLoop(const std::vector<std::uint8_t>& smooth) {
+  ContactSurfaces s;
+  std::vector<NodeId> nodes;
+  for (std::size_t i = 0; i < smooth.size(); ++i) nodes.emplace_back(i);
+  s.addLoop(nodes, smooth, ComponentId(std::size_t{0}));
+  return s;
+}
+
+inline void checkSegments(const ContactSurfaces& s) {
+  const std::size_t n = s.segments();
+  ASSERT_TRUE(s.segmentNext.size() == n && s.segmentPrev.size() == n &&
+              s.segmentSmooth.size() == n && s.segmentEntry.size() == n);
+  std::size_t withSegment = 0;
+  for (const SegmentId segment : s.nodeSegment) withSegment += segment != SegmentId::none();
+  ASSERT_EQ(withSegment, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    ASSERT_EQ(s.segmentPrev[s.segmentNext[i].value], SegmentId(i));
+    ASSERT_EQ(s.segmentNext[s.segmentPrev[i].value], SegmentId(i));
+    ASSERT_EQ(s.nodeSegment[s.segmentNode[i].value], SegmentId(i));
+    const EntryId entry = s.segmentEntry[i];
+    ASSERT_EQ(s.entrySegment[entry.value], SegmentId(i));
+    // The first one on its segment: the one before lies on the segment before.
+    ASSERT_EQ(s.entrySegment[s.prev[entry.value].value], s.segmentPrev[i]);
+    const bool onNode = s.slave(entry).count == 1;
+    ASSERT_EQ(onNode, s.segmentSmooth[i] == 0);
+  }
+}
+
+inline void checkEntries(const ContactSurfaces& s) {
+  const std::size_t n = s.entries();
+  ASSERT_TRUE(s.piece.size() == n && s.next.size() == n && s.prev.size() == n &&
+              s.loop.size() == n && s.component.size() == n);
+  std::set<std::uint32_t> loops;
+  std::size_t expected = 0;
+  for (std::size_t i = 0; i < s.segments(); ++i) {
+    const bool from = s.segmentSmooth[i];
+    const bool to = s.segmentSmooth[s.segmentNext[i].value];
+    expected += !from && to ? 2 : 1;
+  }
+  ASSERT_EQ(n, expected);
+  for (std::size_t e = 0; e < n; ++e) {
+    const EntryId next = s.next[e];
+    ASSERT_EQ(s.prev[next.value], EntryId(e));
+    ASSERT_EQ(s.next[s.prev[e].value], EntryId(e));
+    ASSERT_EQ(s.loop[next.value], s.loop[e]);
+    ASSERT_EQ(s.component[next.value], s.component[e]);
+    const SegmentId segment = s.entrySegment[e];
+    ASSERT_TRUE(s.entrySegment[next.value] == segment ||
+                s.entrySegment[next.value] == s.segmentNext[segment.value]);
+    loops.insert(s.loop[e]);
+  }
+  if (!loops.empty()) {
+    ASSERT_EQ(*loops.rbegin() + 1, loops.size());
+  }
+}
+
+inline void checkLinks(const ContactSurfaces& s) {
+  checkSegments(s);
+  if (!testing::Test::HasFatalFailure()) checkEntries(s);
+}
+
+inline std::map<std::uint32_t, double> weights(const Stencil& stencil) {
+  std::map<std::uint32_t, double> sum;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(i < stencil.count || stencil.weight[i] == 0);
+    if (stencil.weight[i] != 0) sum[stencil.node[i].value] += stencil.weight[i];
+  }
+  return sum;
+}
+
+/// Every piece begins at its own sampling point and ends at the next one's.
+inline void checkPiecesJoin(const ContactSurfaces& s) {
+  for (std::size_t e = 0; e < s.entries(); ++e) {
+    const PieceRange range = pieceRange(s.piece[e]);
+    const auto own = weights(s.slave(EntryId(e)));
+    const auto following = weights(s.slave(s.next[e]));
+    EXPECT_EQ(weights(s.master(EntryId(e), range.begin)), own);
+    EXPECT_EQ(weights(s.master(EntryId(e), range.end)), following);
+  }
+}
+
+}  // namespace yadefrag
