@@ -113,6 +113,10 @@ inline constexpr double kOpposed = -.1;
 /// which keeps the angular momentum; the shape functions go on linearly.
 inline constexpr double kFootBeyond = .25;
 
+/// (cosine) Two neighbouring pieces whose normals differ by less than 30° are one face for a slave
+/// that slides from one to the other.
+inline constexpr double kSameFace = .866;
+
 /// (of the shortest segment) Penetration that is left by the second-order remainder of the
 /// linearised condition and not worth another solve.
 inline constexpr double kPenetrationLeft = 1e-10;
@@ -145,5 +149,23 @@ inline constexpr std::size_t kChunkElements = 512;
 
 /// (count) Fewer elements than this per thread are not worth two meetings of the threads a step.
 inline constexpr std::size_t kElementsPerThread = 2048;
+
+/// (count) Triangles above this many are not counted by 32-bit numbers with a sign to spare.
+inline constexpr double kMostTriangles = 2147483648.;
+
+/// (of the largest coordinate) Smallest size of triangles: below, twelve bits of their sides would
+/// be left of the coordinates' 52.
+inline constexpr double kLeastSize = 0x1p-40;
+
+/// (m/m) Growth of the wanted edge length with the distance from a boundary of shorter edges.
+inline constexpr double kEdgeGrowth = .3;
+
+/// (of the wanted edge length) A new node keeps this distance from all others, and this one from
+/// the boundary's edges; a regular layout has 1 and 0.87.
+inline constexpr double kNodeClearance = .75, kBoundaryClearance = .6;
+
+/// (of the product of the four sides) An edge is flipped when the angles across it exceed 180° by
+/// more than rounding, so that two equal choices do not take turns.
+inline constexpr double kFlip = 1e-9;
 
 }  // namespace yadefrag::tolerance

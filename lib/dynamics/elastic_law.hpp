@@ -1,0 +1,63 @@
+#pragma once
+// The elastic law of an element: corotational, W = μ‖F − R‖² + λ/2 tr²(RᵀF − I), R the rotation
+// nearest to the deformation gradient F. Its force is the exact gradient of W, so that neither
+// energy nor angular momentum leaks in large rotation.
+//
+// tr(RᵀF) = √((F₁₁+F₂₂)² + (F₂₁−F₁₂)²): the plane needs no decomposition. All of it is inlined into
+// the vector loops of element_kernel.cpp.
+
+#include <cmath>
+
+#include "core/vec2.hpp"
+
+namespace yadefrag {
+
+/// A 2 × 2 matrix by rows.
+struct Matrix2 {
+  double xx, xy, yx, yy;
+
+  friend Matrix2 operator-(const Matrix2& a, const Matrix2& b) {
+    return {a.xx - b.xx, a.xy - b.xy, a.yx - b.yx, a.yy - b.yy};
+  }
+};
+
+[[gnu::always_inline]] inline double determinant(const Matrix2& a) {
+  return a.xx * a.yy - a.xy * a.yx;
+}
+/// a : b
+inline double contract(const Matrix2& a, const Matrix2& b) {
+  return a.xx * b.xx + a.xy * b.xy + a.yx * b.yx + a.yy * b.yy;
+}
+
+/// F = d·D⁻¹ from the present edges d₁ = x₁ − x₀, d₂ = x₂ − x₀ and D⁻¹ by rows.
+[[gnu::always_inline]] inline Matrix2 deformationGradient(double d1x, double d1y, double d2x,
+                                                          double d2y, double i11, double i12,
+                                                          double i21, double i22) {
+  return {d1x * i11 + d2x * i21, d1x * i12 + d2x * i22,  //
+          d1y * i11 + d2y * i21, d1y * i12 + d2y * i22};
+}
+
+/// (Pa) First Piola–Kirchhoff stress P = ∂W/∂F.
+[[gnu::always_inline]] inline Matrix2 firstPiola(const Matrix2& f, double lame, double shear) {
+  const double a = f.xx + f.yy;
+  const double b = f.yx - f.xy;
+  const double trace = std::sqrt(a * a + b * b);
+  const double inverse = 1 / trace;
+  const double cosine = a * inverse;
+  const double sine = b * inverse;
+  const double s = lame * (trace - 2);
+  const double m = 2 * shear;
+  return {m * (f.xx - cosine) + s * cosine, m * (f.xy + sine) - s * sine,
+          m * (f.yx - sine) + s * sine, m * (f.yy - cosine) + s * cosine};
+}
+
+/// (J/m³) W.
+inline double energyDensity(const Matrix2& f, double lame, double shear) {
+  const double a = f.xx + f.yy;
+  const double b = f.yx - f.xy;
+  const double trace = std::sqrt(a * a + b * b);
+  const Matrix2 strain = f - Matrix2{a / trace, -b / trace, b / trace, a / trace};
+  return shear * contract(strain, strain) + lame / 2 * (trace - 2) * (trace - 2);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,128 @@
+#include "dynamics/element_chunks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tolerances.hpp"
+
+namespace yadefrag {
+namespace {
+
+constexpr std::uint32_t kUnseen = 0xffffffff;
+
+Chunk chunkOf(const Component& c) {
+  const ElasticMaterial& m = c.material;
+  Chunk chunk{};
+  chunk.lame = m.lame();
+  chunk.shear = m.shearModulus();
+  chunk.density = m.density;
+  chunk.waveSpeed = std::sqrt(m.waveModulus() / m.density);
+  chunk.thickness = c.thickness;
+  return chunk;
+}
+
+bool sameMaterial(const Chunk& a, const Chunk& b) {
+  return a.lame == b.lame && a.shear == b.shear && a.density == b.density &&
+         a.thickness == b.thickness;
+}
+
+/// Cuts the elements into chunks. Small bodies of one material share chunks: a scene of a thousand
+/// rings is not a thousand beginnings of a loop.
+std::vector<Chunk> cutElements(const Model& model) {
+  std::vector<Chunk> chunks;
+  for (const Component& component : model.components) {
+    const Chunk kind = chunkOf(component);
+    for (std::uint32_t e = component.firstTriangle; e < component.lastTriangle; ++e) {
+      if (chunks.empty() || !sameMaterial(chunks.back(), kind) || e != chunks.back().lastElement ||
+          e - chunks.back().firstElement == tolerance::kChunkElements) {
+        chunks.push_back(kind);
+        chunks.back().firstElement = e;
+      }
+      chunks.back().lastElement = e + 1;
+    }
+  }
+  return chunks;
+}
+
+/// By node: is it used by more than one chunk?
+std::vector<std::uint8_t> findShared(const Model& model, const std::vector<Chunk>& chunks) {
+  std::vector<std::uint32_t> user(model.nodes.size(), kUnseen);
+  std::vector<std::uint8_t> shared(model.nodes.size(), 0);
+  for (std::uint32_t c = 0; c < chunks.size(); ++c)
+    for (std::uint32_t e = chunks[c].firstElement; e < chunks[c].lastElement; ++e)
+      for (const NodeId node : model.triangles.nodes[e]) {
+        if (user[node.value] != kUnseen && user[node.value] != c) shared[node.value] = 1;
+        user[node.value] = c;
+      }
+  return shared;
+}
+
+/// Appends the chunk's nodes in ascending order, own ones first; ascending, they are read and
+/// written nearly in sequence.
+void appendNodes(const Model& model, const std::vector<std::uint8_t>& shared, Chunk& chunk,
+                 std::vector<NodeId>& nodes) {
+  chunk.firstNode = static_cast<std::uint32_t>(nodes.size());
+  for (std::uint32_t e = chunk.firstElement; e < chunk.lastElement; ++e)
+    nodes.insert(nodes.end(), model.triangles.nodes[e].begin(), model.triangles.nodes[e].end());
+  const auto first = nodes.begin() + chunk.firstNode;
+  std::sort(first, nodes.end(), [&](NodeId a, NodeId b) {
+    return shared[a.value] != shared[b.value] ? shared[a.value] < shared[b.value] : a < b;
+  });
+  nodes.erase(std::unique(first, nodes.end()), nodes.end());
+  chunk.lastNode = static_cast<std::uint32_t>(nodes.size());
+  chunk.firstShared = static_cast<std::uint32_t>(
+      std::partition_point(nodes.begin() + chunk.firstNode, nodes.end(),
+                           [&](NodeId n) { return shared[n.value] == 0; }) -
+      nodes.begin());
+}
+
+void appendLanes(const Model& model, const std::vector<std::uint32_t>& local, Chunk& chunk,
+                 std::vector<ElementLanes>& lanes) {
+  const Triangles& triangles = model.triangles;
+  chunk.firstLanes = static_cast<std::uint32_t>(lanes.size());
+  for (std::uint32_t first = chunk.firstElement; first < chunk.lastElement; first += kLanes) {
+    ElementLanes& l = lanes.emplace_back();
+    for (std::uint32_t k = 0; k < kLanes; ++k) {
+      const std::uint32_t e = std::min(first + k, chunk.lastElement - 1);
+      for (int i = 0; i < 4; ++i) l.inverseEdges[i][k] = triangles.inverseEdges[e][i];
+      for (int i = 0; i < 3; ++i)
+        l.corner[i][k] = static_cast<std::uint16_t>(local[triangles.nodes[e][i].value]);
+      l.volume[k] = first + k < chunk.lastElement ? triangles.area[e] * chunk.thickness : 0;
+    }
+  }
+  chunk.lastLanes = static_cast<std::uint32_t>(lanes.size());
+}
+
+}  // namespace
+
+void ElementChunks::build(const Model& model) {
+  chunks = cutElements(model);
+  lanes.clear();
+  nodes.clear();
+  sharedNodes.clear();
+  partials = mostNodes = 0;
+  const std::vector<std::uint8_t> shared = findShared(model, chunks);
+  std::vector<std::uint32_t> local(model.nodes.size(), 0);  // then: place among the shared ones
+  std::vector<NodeId> partialNode;
+  for (Chunk& chunk : chunks) {
+    appendNodes(model, shared, chunk, nodes);
+    for (std::uint32_t i = chunk.firstNode; i < chunk.lastNode; ++i)
+      local[nodes[i].value] = i - chunk.firstNode;
+    appendLanes(model, local, chunk, lanes);
+    chunk.firstPartial = static_cast<std::uint32_t>(partialNode.size());
+    partialNode.insert(partialNode.end(), nodes.begin() + chunk.firstShared, nodes.end());
+    mostNodes = std::max<std::size_t>(mostNodes, chunk.lastNode - chunk.firstNode);
+  }
+  partials = partialNode.size();
+  for (std::size_t n = 0; n < shared.size(); ++n)
+    if (shared[n] != 0) {
+      local[n] = static_cast<std::uint32_t>(sharedNodes.size());
+      sharedNodes.emplace_back(n);
+    }
+  fillRows(
+      partialsOfShared, sharedNodes.size(), partials,
+      [&](std::size_t i) { return local[partialNode[i].value]; },
+      [](std::size_t i) { return static_cast<std::uint32_t>(i); });
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,35 @@
+#pragma once
+// The loops over a chunk's elements, compiled for several instruction sets and chosen at run time:
+// the library runs on any amd64. Every set gives the same bits, since the operations are the same,
+// element by element, and none are contracted (lib/CMakeLists.txt).
+
+#include "core/vec2.hpp"
+#include "dynamics/element_chunks.hpp"
+
+namespace yadefrag {
+
+enum class InstructionSet { kBaseline, kAvx2, kAvx512 };
+
+/// The widest one that this machine has.
+InstructionSet bestInstructionSet();
+
+/// Adds the elastic forces (N) of a chunk to `force`; positions and forces by local node number.
+/// Returns false if an element is inverted or not finite.
+bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
+                      const Vec2* position, Vec2* force);
+
+/// Coefficients of the bulk viscosity: a pressure −ρL(b₁cε̇) + ρ(b₂Lε̇)², ε̇ the rate of the volume
+/// strain and L the smallest altitude of the present triangle. The linear part acts in compression
+/// and in expansion, so that ringing is damped in both; the quadratic part in compression alone.
+struct BulkViscosity {
+  double linear = 0;     ///< b₁
+  double quadratic = 0;  ///< b₂
+
+  [[nodiscard]] bool isOn() const { return linear != 0 || quadratic != 0; }
+};
+
+/// Adds the forces (N) of the bulk viscosity of a chunk.
+void addViscousForces(const BulkViscosity& viscosity, const Chunk& chunk, const ElementLanes* lanes,
+                      const Vec2* position, const Vec2* velocity, Vec2* force);
+
+}  // namespace yadefrag

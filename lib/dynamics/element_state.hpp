@@ -1,0 +1,24 @@
+#pragma once
+// Deformation, stress and energy of single elements, for those who ask.
+
+#include <array>
+#include <vector>
+
+#include "dynamics/elastic_law.hpp"
+#include "mesh/model.hpp"
+
+namespace yadefrag {
+
+/// F at the present positions.
+Matrix2 deformationGradient(const Model& model, ElementId element);
+
+/// Δt Ḟ: the change of F over a step at the present velocities.
+Matrix2 deformationStep(const Model& model, ElementId element, double dt);
+
+/// (Pa) Cauchy stress xx, yy, xy of every element.
+std::vector<std::array<double, 3>> stresses(const Model& model);
+
+/// (J) Strain energy of every element at the present positions.
+std::vector<double> elementEnergies(const Model& model);
+
+}  // namespace yadefrag

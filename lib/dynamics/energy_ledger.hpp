@@ -1,0 +1,37 @@
+#pragma once
+// Where the energy went.
+//
+// The leapfrog has velocities at n−½ and positions at n. With v̄ = ½(vⁿ⁻½ + vⁿ⁺½), a step changes
+// the kinetic energy ½m|vⁿ⁻½|² by exactly Δt f·v̄. Works are therefore booked with v̄, and the strain
+// energy is that of the half step, between xⁿ⁻¹ = xⁿ − Δt vⁿ⁻½ and xⁿ:
+//   Σ V [½(W(F) + W(F')) − ¼(P − P') : (F − F')],   F at xⁿ, F' at xⁿ⁻¹.
+// For small strains the sum of the two is the leapfrog's invariant, constant to rounding at any
+// stable step; ½(W + W') alone would swing by up to the energy of the highest modes. In large
+// deformation what is left is of second order in Δt.
+
+#include "mesh/model.hpp"
+
+namespace yadefrag {
+
+/// J, summed since the start. Each is what left the bodies' kinetic and strain energy, except
+/// `external`, which is what came in.
+struct EnergyLedger {
+  double contact = 0;   ///< −ΣF·v̄Δt of normal contact forces
+  double friction = 0;  ///< −ΣF·v̄Δt of tangential contact forces
+  double fracture = 0;
+  double damping = 0;   ///< mass-proportional damping and bulk viscosity
+  double external = 0;  ///< gravity, loads, forces from outside, prescribed motion
+
+  /// J, constant to the scheme's order.
+  [[nodiscard]] double total(double kinetic, double strain) const {
+    return kinetic + strain + contact + friction + fracture + damping - external;
+  }
+};
+
+/// J, at n − ½.
+double kineticEnergy(const Nodes& nodes);
+
+/// J, at n − ½; Δt is that of the last step.
+double strainEnergy(const Model& model, double dt);
+
+}  // namespace yadefrag

@@ -1,0 +1,232 @@
+#include "dynamics/explicit_dynamics.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cassert>
+#include <sstream>
+
+#include "core/errors.hpp"
+#include "core/tolerances.hpp"
+#include "dynamics/element_state.hpp"
+
+namespace yadefrag {
+namespace {
+
+std::string at(Vec2 where) {
+  std::ostringstream text;
+  text << " at (" << where.x << ", " << where.y << ") m";
+  return text.str();
+}
+
+/// Sums the partial forces of shared nodes in the order of their chunks.
+void addUp(const ElementChunks& elements, const std::vector<Vec2>& partial, std::size_t row,
+           std::vector<Vec2>& force) {
+  Vec2 sum;
+  for (const std::uint32_t i : elements.partialsOfShared.row(row)) sum += partial[i];
+  force[elements.sharedNodes[row].value] = sum;
+}
+
+void handOut(const ElementChunks& elements, const Chunk& chunk, const Vec2* local,
+             std::vector<Vec2>& force, std::vector<Vec2>& partial) {
+  for (std::uint32_t i = chunk.firstNode; i < chunk.firstShared; ++i)
+    force[elements.nodes[i].value] = *local++;
+  for (std::uint32_t i = 0; i < chunk.lastNode - chunk.firstShared; ++i)
+    partial[chunk.firstPartial + i] = *local++;
+}
+
+void fetchNodes(const ElementChunks& elements, const Chunk& chunk, const std::vector<Vec2>& values,
+                Vec2* local) {
+  for (std::uint32_t i = chunk.firstNode; i < chunk.lastNode; ++i)
+    *local++ = values[elements.nodes[i].value];
+}
+
+}  // namespace
+
+/// v ← kept·v + (rate/m)·f + fall, x ← x + Δt v
+struct ExplicitDynamics::Update {
+  double dt, kept, rate;
+  Vec2 fall;  // m/s
+  std::span<const Vec2> outer, load;
+  int threads;
+};
+
+void ExplicitDynamics::rebuild(const Model& model) {
+  elements_.build(model);
+  force_.assign(model.nodes.size(), {});
+  partialForce_.resize(elements_.partials);
+  viscousForce_.clear();
+  partialViscous_.clear();
+  previousVelocity_ = model.nodes.velocity;
+  scratch_.clear();
+}
+
+void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
+                                const BulkViscosity& viscosity, std::vector<Vec2>& scratch) {
+  const std::size_t count = chunk.lastNode - chunk.firstNode;
+  Vec2* position = scratch.data();
+  Vec2* force = position + elements_.mostNodes;
+  fetchNodes(elements_, chunk, model.nodes.position, position);
+  std::fill_n(force, count, Vec2{});
+  // Whoever comes first: that it failed is all that is told; the element is looked for afterwards.
+  if (!addElasticForces(set_, chunk, elements_.lanes.data(), position, force))
+#pragma omp atomic write
+    badElement_ = true;
+  if (viscosity.isOn()) {
+    Vec2* velocity = force + elements_.mostNodes;
+    Vec2* viscous = velocity + elements_.mostNodes;
+    fetchNodes(elements_, chunk, model.nodes.velocity, velocity);
+    std::fill_n(viscous, count, Vec2{});
+    addViscousForces(viscosity, chunk, elements_.lanes.data(), position, velocity, viscous);
+    for (std::size_t i = 0; i < count; ++i) force[i] += viscous[i];
+    handOut(elements_, chunk, viscous, viscousForce_, partialViscous_);
+  }
+  handOut(elements_, chunk, force, force_, partialForce_);
+}
+
+void ExplicitDynamics::sumShared(const BulkViscosity& viscosity, NodeId begin, NodeId end) {
+  const auto& shared = elements_.sharedNodes;
+  const auto first = std::lower_bound(shared.begin(), shared.end(), begin);
+  const auto last = std::lower_bound(first, shared.end(), end);
+  for (auto row = first - shared.begin(); row < last - shared.begin(); ++row) {
+    addUp(elements_, partialForce_, row, force_);
+    if (viscosity.isOn()) addUp(elements_, partialViscous_, row, viscousForce_);
+  }
+}
+
+bool ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begin,
+                            std::size_t end) {
+  bool good = true;
+  for (std::size_t n = begin; n < end; ++n) {
+    Vec2 force = force_[n];
+    if (!update.load.empty()) force += update.load[n];
+    if (!update.outer.empty()) force += update.outer[n];
+    const Vec2 before = nodes.velocity[n];
+    Vec2 v = update.kept * before + update.rate / nodes.mass[n] * force + update.fall;
+    if (nodes.held[n] != kFree) [[unlikely]] {
+      if ((nodes.held[n] & kHeldX) != 0) v.x = before.x;
+      if ((nodes.held[n] & kHeldY) != 0) v.y = before.y;
+    }
+    const Vec2 x = nodes.position[n] + update.dt * v;
+    previousVelocity_[n] = before;
+    nodes.velocity[n] = v;
+    if (isFinite(x)) [[likely]]
+      nodes.position[n] = x;
+    else
+      good = false;
+  }
+  return good;
+}
+
+void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscosity& viscosity) {
+  const std::size_t count = model.nodes.size();
+  const int most = static_cast<int>(model.triangles.size() / tolerance::kElementsPerThread);
+  const int threads = std::max(1, std::min(update.threads, most));
+  if (scratch_.size() < static_cast<std::size_t>(threads)) scratch_.resize(threads);
+    // One region for both loops: waking the threads twice would show in small scenes.
+#pragma omp parallel num_threads(threads) if (threads > 1)
+  {
+    const std::size_t part = omp_get_thread_num();
+    const std::size_t parts = omp_get_num_threads();
+    std::vector<Vec2>& scratch = scratch_[part];
+    scratch.resize((viscosity.isOn() ? 4 : 2) * elements_.mostNodes);
+    const std::size_t chunks = elements_.chunks.size();
+    for (std::size_t c = chunks * part / parts; c < chunks * (part + 1) / parts; ++c)
+      sumChunk(model, elements_.chunks[c], viscosity, scratch);
+#pragma omp barrier
+    const std::size_t begin = count * part / parts;
+    const std::size_t end = count * (part + 1) / parts;
+    sumShared(viscosity, NodeId(begin), NodeId(end));
+    if (!badElement_ && !move(model.nodes, update, begin, end))
+#pragma omp atomic write
+      badNode_ = true;
+  }
+}
+
+void ExplicitDynamics::predict(Model& model, double dt, const StepSettings& settings,
+                               std::span<const Vec2> outerForces, int threads) {
+  assert(force_.size() == model.nodes.size());
+  assert(outerForces.empty() || outerForces.size() == model.nodes.size());
+  const double d = settings.drag(dt);
+  const double rate = dt / (1 + d);
+  badElement_ = badNode_ = false;
+  viscousForce_.resize(settings.viscosity.isOn() ? force_.size() : 0);
+  partialViscous_.resize(settings.viscosity.isOn() ? elements_.partials : 0);
+  step(model,
+       {dt, (1 - d) / (1 + d), rate, rate * settings.gravity, outerForces, model.nodes.load,
+        threads},
+       settings.viscosity);
+  if (badElement_) refuseElement(model, dt);
+  if (badNode_) refuseNode(model, dt);
+}
+
+void ExplicitDynamics::finish(const Model& model, double dt, const StepSettings& settings,
+                              std::span<const Vec2> outerForces,
+                              std::span<const Vec2> contactForces, EnergyLedger& ledger) const {
+  const Nodes& nodes = model.nodes;
+  const bool pushed = settings.gravity != Vec2{} || !nodes.load.empty() || !outerForces.empty();
+  const bool held =
+      std::any_of(nodes.held.begin(), nodes.held.end(), [](std::uint8_t h) { return h != kFree; });
+  if (!pushed && !held && settings.damping == 0 && viscousForce_.empty()) return;
+  double external = 0;
+  double damping = 0;
+  const auto book = [&](std::size_t n, double Vec2::*axis, bool isHeld) {
+    const double mass = nodes.mass[n];
+    const double before = previousVelocity_[n].*axis;
+    const double after = nodes.velocity[n].*axis;
+    const double way = dt * (before + after) / 2;
+    if (!viscousForce_.empty()) damping -= viscousForce_[n].*axis * way;
+    if (isHeld) {
+      // The reaction is whatever the node needs to move as it does.
+      const double contact = contactForces.empty() ? 0 : contactForces[n].*axis;
+      external +=
+          mass * (after + before) * (after - before) / 2 - (force_[n].*axis + contact) * way;
+      return;
+    }
+    double force = mass * settings.gravity.*axis;
+    if (!nodes.load.empty()) force += nodes.load[n].*axis;
+    if (!outerForces.empty()) force += outerForces[n].*axis;
+    external += force * way;
+    damping += settings.damping * mass * way * way / dt;
+  };
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    book(n, &Vec2::x, (nodes.held[n] & kHeldX) != 0);
+    book(n, &Vec2::y, (nodes.held[n] & kHeldY) != 0);
+  }
+  ledger.external += external;
+  ledger.damping += damping;
+}
+
+void ExplicitDynamics::refuseElement(Model& model, double dt) const {
+  const Triangles& triangles = model.triangles;
+  std::size_t e = 0;
+  while (determinant(deformationGradient(model, ElementId(e))) > 0) ++e;
+  const auto det = determinant(deformationGradient(model, ElementId(e)));
+  for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+    const Vec2 back = model.nodes.position[n] - dt * model.nodes.velocity[n];
+    if (isFinite(back)) model.nodes.position[n] = back;
+  }
+  Vec2 centre;
+  for (const NodeId node : triangles.nodes[e]) centre += 1. / 3 * model.nodes.position[node.value];
+  throw RunError("element " + std::to_string(e) + " of component " +
+                 std::to_string(triangles.component[e].value) + at(centre) +
+                 (det <= 0 ? " is turned inside out." : " has a value that is not finite."));
+}
+
+void ExplicitDynamics::refuseNode(Model& model, double dt) const {
+  Nodes& nodes = model.nodes;
+  std::size_t bad = nodes.size();
+  for (std::size_t n = nodes.size(); n-- > 0;) {
+    // `move` left the position where the new one would not have been finite.
+    if (isFinite(nodes.position[n] + dt * nodes.velocity[n]))
+      nodes.position[n] -= dt * nodes.velocity[n];
+    else
+      bad = n;
+    nodes.velocity[n] = previousVelocity_[n];
+  }
+  throw RunError("node " + std::to_string(bad) + " of component " +
+                 std::to_string(nodes.component[bad].value) + at(nodes.position[bad]) +
+                 " has a force or a velocity that is not finite.");
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,73 @@
+#pragma once
+// The explicit time step of all bodies without contact (leapfrog):
+//   v* = [(1−d) vⁿ⁻½ + Δt f(xⁿ)/m] / (1+d), d = αΔt/2;  x* = xⁿ + Δt v*.
+// Contact then corrects x* and v*, and `finish` books the works of the whole step.
+
+#include <span>
+#include <vector>
+
+#include "dynamics/element_kernel.hpp"
+#include "dynamics/energy_ledger.hpp"
+#include "mesh/model.hpp"
+
+namespace yadefrag {
+
+struct StepSettings {
+  double damping = 0;  ///< 1/s, α of the mass-proportional damping
+  Vec2 gravity = {};   ///< m/s²
+  BulkViscosity viscosity = {};
+
+  /// d = αΔt/2
+  [[nodiscard]] double drag(double dt) const { return damping * dt / 2; }
+};
+
+class ExplicitDynamics {
+ public:
+  explicit ExplicitDynamics(InstructionSet set = bestInstructionSet()) : set_(set) {}
+
+  /// To be called after nodes or triangles came, went or were renumbered, before the next step.
+  void rebuild(const Model& model);
+
+  /// One step; `outerForces` (N, by node) may be empty. Held directions keep their velocity. The
+  /// result has the same bits for any number of threads.
+  /// Throws RunError with element or node and place, and leaves the last good state: where an
+  /// element is inverted or not finite at xⁿ, positions go back to xⁿ⁻¹ = xⁿ − Δt v; where a force
+  /// or a velocity is not finite, they stay at xⁿ. Velocities are those of n − ½ in both cases.
+  void predict(Model& model, double dt, const StepSettings& settings,
+               std::span<const Vec2> outerForces, int threads);
+
+  /// Books the works of gravity, loads, outer forces, damping, viscosity and prescribed motion,
+  /// once the velocities are corrected. `contactForces` (N, by node, empty: none) serve only to
+  /// find the reactions of held nodes: contact books its own work. Costs nothing where none of
+  /// these act.
+  void finish(const Model& model, double dt, const StepSettings& settings,
+              std::span<const Vec2> outerForces, std::span<const Vec2> contactForces,
+              EnergyLedger& ledger) const;
+
+  /// (m/s) vⁿ⁻½ by node, of the last step: v̄ = ½(previous + present) is what contact books with.
+  [[nodiscard]] std::span<const Vec2> previousVelocity() const { return previousVelocity_; }
+  /// (N) Elastic and viscous forces f(xⁿ) by node, of the last step.
+  [[nodiscard]] std::span<const Vec2> internalForces() const { return force_; }
+
+ private:
+  struct Update;
+
+  void sumChunk(const Model& model, const Chunk& chunk, const BulkViscosity& viscosity,
+                std::vector<Vec2>& scratch);
+  void sumShared(const BulkViscosity& viscosity, NodeId begin, NodeId end);
+  bool move(Nodes& nodes, const Update& update, std::size_t begin, std::size_t end);
+  void step(Model& model, const Update& update, const BulkViscosity& viscosity);
+  [[noreturn]] void refuseElement(Model& model, double dt) const;
+  [[noreturn]] void refuseNode(Model& model, double dt) const;
+
+  InstructionSet set_;
+  ElementChunks elements_;
+  std::vector<Vec2> force_, partialForce_;  // of all: N
+  std::vector<Vec2> viscousForce_,
+      partialViscous_;  // of the viscosity alone; empty while it is off
+  std::vector<Vec2> previousVelocity_;
+  std::vector<std::vector<Vec2>> scratch_;  // one per thread
+  bool badElement_ = false, badNode_ = false;
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,116 @@
+#include "mesh/assembly.hpp"
+
+#include <string>
+
+#include "core/errors.hpp"
+
+namespace yadefrag {
+namespace {
+
+void addMasses(Model& model, const Component& c) {
+  const double density = c.material.density * c.thickness;
+  for (std::size_t t = c.firstTriangle; t < c.lastTriangle; ++t)
+    for (const NodeId node : model.triangles.nodes[t])
+      model.nodes.mass[node.value] += density * model.triangles.area[t] / 3;
+}
+
+void checkTriangles(const TriangleMesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const double twice = cross(mesh.nodes[b] - mesh.nodes[a], mesh.nodes[c] - mesh.nodes[a]);
+    if (!(twice > 0))
+      throw InputError("triangle " + std::to_string(t) + " of the mesh has the area " +
+                       std::to_string(twice / 2) + " m²; it must be positive (counter-clockwise).");
+  }
+}
+
+void appendTriangle(Triangles& triangles, const std::array<Vec2, 3>& x) {
+  const Vec2 d1 = x[1] - x[0];
+  const Vec2 d2 = x[2] - x[0];
+  const double det = cross(d1, d2);
+  triangles.inverseEdges.push_back({d2.y / det, -d2.x / det, -d1.y / det, d1.x / det});
+  triangles.area.push_back(det / 2);
+}
+
+/// Keeps the items for which `keep(i)` holds, in order.
+template <class T, class Keep>
+void compact(std::vector<T>& items, Keep keep) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (keep(i)) items[kept++] = items[i];
+  items.resize(kept);
+}
+
+void removeTriangles(Model& model, Component& gone) {
+  Triangles& t = model.triangles;
+  const std::uint32_t first = gone.firstTriangle;
+  const std::uint32_t last = gone.lastTriangle;
+  t.nodes.erase(t.nodes.begin() + first, t.nodes.begin() + last);
+  t.inverseEdges.erase(t.inverseEdges.begin() + first, t.inverseEdges.begin() + last);
+  t.area.erase(t.area.begin() + first, t.area.begin() + last);
+  t.component.erase(t.component.begin() + first, t.component.begin() + last);
+  for (Component& c : model.components)
+    if (c.firstTriangle >= last) {
+      c.firstTriangle -= last - first;
+      c.lastTriangle -= last - first;
+    }
+  gone.firstTriangle = gone.lastTriangle = first;
+}
+
+}  // namespace
+
+ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component) {
+  checkTriangles(mesh);
+  const ComponentId id(model.components.size());
+  Nodes& nodes = model.nodes;
+  Triangles& triangles = model.triangles;
+  const std::size_t firstNode = nodes.size();
+  const std::size_t count = firstNode + mesh.nodes.size();
+
+  nodes.position.insert(nodes.position.end(), mesh.nodes.begin(), mesh.nodes.end());
+  nodes.velocity.resize(count);
+  nodes.mass.resize(count);
+  nodes.held.resize(count, kFree);
+  nodes.component.resize(count, id);
+  if (!nodes.load.empty()) nodes.load.resize(count);
+
+  Component added = component;
+  added.firstTriangle = static_cast<std::uint32_t>(triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    triangles.nodes.push_back(
+        {NodeId(firstNode + a), NodeId(firstNode + b), NodeId(firstNode + c)});
+    appendTriangle(triangles, {mesh.nodes[a], mesh.nodes[b], mesh.nodes[c]});
+  }
+  added.lastTriangle = static_cast<std::uint32_t>(triangles.size());
+  triangles.component.resize(triangles.size(), id);
+  model.components.push_back(added);
+  addMasses(model, added);
+  return id;
+}
+
+std::vector<NodeId> removeBody(Model& model, ComponentId component) {
+  removeTriangles(model, model.components[component.value]);
+  Nodes& nodes = model.nodes;
+  const auto stays = [&](std::size_t n) { return nodes.component[n] != component; };
+  std::vector<NodeId> renumbered(nodes.size(), NodeId::none());
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (stays(n)) renumbered[n] = NodeId(kept++);
+  for (auto& corners : model.triangles.nodes)
+    for (NodeId& node : corners) node = renumbered[node.value];
+  compact(nodes.position, stays);
+  compact(nodes.velocity, stays);
+  compact(nodes.mass, stays);
+  compact(nodes.held, stays);
+  if (!nodes.load.empty()) compact(nodes.load, stays);
+  // Last: the others ask it who stays.
+  compact(nodes.component, [&](std::size_t n) { return renumbered[n] != NodeId::none(); });
+  return renumbered;
+}
+
+void lumpMasses(Model& model) {
+  model.nodes.mass.assign(model.nodes.size(), 0);
+  for (const Component& c : model.components) addMasses(model, c);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,23 @@
+#pragma once
+// Bodies join and leave the model; its arrays stay without gaps.
+
+#include <vector>
+
+#include "mesh/model.hpp"
+#include "mesh/triangle_mesh.hpp"
+
+namespace yadefrag {
+
+/// Adds a mesh, at rest, free, and without stress where its nodes are, as a new component (the
+/// range of triangles in `component` is filled in). Throws InputError if a triangle has no positive
+/// area.
+ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component);
+
+/// Takes away a component's nodes and triangles; the others keep their order and components their
+/// ids. Returns the new number of each old node, none() for those that are gone.
+std::vector<NodeId> removeBody(Model& model, ComponentId component);
+
+/// Sets the mass of every node: a third of ρ·area·thickness of each of its triangles.
+void lumpMasses(Model& model);
+
+}  // namespace yadefrag
