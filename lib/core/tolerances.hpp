@@ -164,8 +164,44 @@ inline constexpr double kEdgeGrowth = .3;
 /// the boundary's edges; a regular layout has 1 and 0.87.
 inline constexpr double kNodeClearance = .75, kBoundaryClearance = .6;
 
+/// (of an edge's length) A point this near an edge of the boundary may be one that divides it.
+inline constexpr double kOnEdge = 1e-9;
+
 /// (of the product of the four sides) An edge is flipped when the angles across it exceed 180° by
 /// more than rounding, so that two equal choices do not take turns.
 inline constexpr double kFlip = 1e-9;
+
+/// (relative to max |g|) Error of the forces of a contact group, besides rounding.
+inline constexpr double kBoxResidual = 1e-13;
+
+/// (of the product of their diagonals) Two rows with a determinant above this are solved in closed
+/// form.
+inline constexpr double kIndependentRows = 1e-6;
+
+/// (relative to the diagonal) Proximal regularisation of a group's matrix; the next where pivoting
+/// cycles with the one before.
+inline constexpr double kProximal[] = {1e-7, 1e-5, 1e-3};
+
+/// (relative to the diagonal) The same for a group that has no solution: bounds the forces.
+inline constexpr double kCompromise = 1e-2;
+
+/// (relative to max |g|) A bound or a sign violated by less than this is no reason for a pivot.
+inline constexpr double kPivotSlack = 1e-15;
+
+/// (count) Pivots of all contradicted rows at once that may fail to reduce their number.
+inline constexpr int kBlocksWithoutGain = 4;
+
+/// (count) Pivots after which pivoting is said to cycle.
+inline constexpr int kMostPivots = 300;
+
+/// (count) Proximal iterations, and how many of them must at least halve the error.
+inline constexpr int kMostRefinements = 200, kRefinementsToHalve = 10;
+
+/// (count) Gauss–Seidel sweeps where all else fails.
+inline constexpr int kMostSweeps = 200;
+
+/// (rows) Up to the first a group's matrix is factored by plain loops, up to the second as a dense
+/// one; up to the third if more than a quarter of its entries are there.
+inline constexpr std::size_t kPlainCholesky = 16, kDenseRows = 48, kMostDenseRows = 1500;
 
 }  // namespace yadefrag::tolerance

@@ -1,0 +1,100 @@
+#include "mesh/divided_boundary.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "core/errors.hpp"
+#include "core/tolerances.hpp"
+#include "mesh/polygon.hpp"
+
+namespace yadefrag {
+namespace {
+
+std::string text(double value) {
+  std::array<char, 32> buffer;
+  (void)std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
+  return buffer.data();
+}
+
+double twiceArea(const std::vector<Vec2>& loop) {
+  double sum = 0;
+  for (std::size_t i = 2; i < loop.size(); ++i)
+    sum += cross(loop[i - 1] - loop[0], loop[i] - loop[0]);
+  return sum;
+}
+
+/// Sums over all loops.
+struct Extent {
+  double twiceArea = 0;
+  double parts = 0;     // of all edges
+  double farthest = 0;  // largest coordinate
+};
+
+void extend(Extent& extent, const std::vector<Vec2>& loop, double size) {
+  extent.twiceArea += twiceArea(loop);
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2 p = loop[i];
+    extent.parts += std::max(1., norm(loop[(i + 1) % loop.size()] - p) / size);
+    extent.farthest = std::max({extent.farthest, std::abs(p.x), std::abs(p.y)});
+  }
+}
+
+void checkSize(const Polygon& polygon, double size) {
+  Extent extent;
+  extend(extent, polygon.outline, size);
+  for (const auto& hole : polygon.holes) extend(extent, hole, size);
+  // Equilateral triangles, and at least one for each part of the boundary.
+  const double triangles =
+      std::max(extent.twiceArea / (std::sqrt(.75) * size * size), extent.parts);
+  if (!(triangles < tolerance::kMostTriangles))
+    throw InputError("Size " + text(size) + " m would give about " + text(triangles) +
+                     " triangles; a mesh can have " + text(tolerance::kMostTriangles) + ".");
+  if (size < tolerance::kLeastSize * extent.farthest)
+    throw InputError("Size " + text(size) + " m is lost in the rounding of coordinates of " +
+                     text(extent.farthest) +
+                     " m; move the polygon to the origin or use a size of " + "at least " +
+                     text(tolerance::kLeastSize * extent.farthest) + " m.");
+}
+
+/// The same from either end.
+Vec2 pointOnEdge(Vec2 a, Vec2 b, std::uint32_t part, std::uint32_t parts) {
+  const double n = parts;
+  if (2 * part == parts) return (a + b) * .5;
+  return 2 * part < parts ? a + (b - a) * (part / n) : b + (a - b) * ((parts - part) / n);
+}
+
+void appendLoop(DividedBoundary& boundary, const std::vector<Vec2>& loop,
+                const std::vector<Vec2>& given, double size) {
+  const auto count = static_cast<std::uint32_t>(loop.size());
+  const bool turned = loop[1] != given[1];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vec2 a = loop[i];
+    const Vec2 b = loop[(i + 1) % count];
+    const auto parts = static_cast<std::uint32_t>(std::max(1., std::round(norm(b - a) / size)));
+    for (std::uint32_t k = 0; k < parts; ++k) {
+      boundary.nodes.push_back(k == 0 ? a : pointOnEdge(a, b, k, parts));
+      boundary.vertex.push_back(turned && i > 0 ? count - i : i);
+    }
+  }
+  boundary.first.push_back(static_cast<std::uint32_t>(boundary.nodes.size()));
+}
+
+}  // namespace
+
+DividedBoundary divideBoundary(const Polygon& given, double size) {
+  if (!(size > 0) || !std::isfinite(size))
+    throw InputError("Size " + text(size) + " m must be positive and finite.");
+  const Polygon polygon = checkPolygon(given);
+  checkSize(polygon, size);
+  DividedBoundary boundary;
+  boundary.first.push_back(0);
+  appendLoop(boundary, polygon.outline, given.outline, size);
+  for (std::size_t i = 0; i < polygon.holes.size(); ++i)
+    appendLoop(boundary, polygon.holes[i], given.holes[i], size);
+  return boundary;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,32 @@
+#pragma once
+// The loops of a polygon with their long edges divided: all boundary nodes of its mesh.
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/triangle_mesh.hpp"
+
+namespace yadefrag {
+
+struct DividedBoundary {
+  std::vector<Vec2> nodes;            ///< m, loop by loop, material on the left
+  std::vector<std::uint32_t> first;   ///< of each loop, and one past the last
+  std::vector<std::uint32_t> vertex;  ///< of each node, see TriangleMesh::loopVertices
+
+  [[nodiscard]] std::size_t numLoops() const { return first.size() - 1; }
+
+  /// Calls `visit(begin, end)` for each edge.
+  template <class Visit>
+  void forEachEdge(Visit visit) const {
+    for (std::size_t loop = 0; loop + 1 < first.size(); ++loop)
+      for (std::uint32_t i = first[loop]; i < first[loop + 1]; ++i)
+        visit(i, i + 1 == first[loop + 1] ? first[loop] : i + 1);
+  }
+};
+
+/// Checks `given` and divides each edge into round(length/size) equal parts, at least one. Vertex
+/// numbers are those of `given`. InputError as checkPolygon, and for a size that is not positive
+/// and finite, or too small for 32-bit numbers or for the rounding of the coordinates.
+[[nodiscard]] DividedBoundary divideBoundary(const Polygon& given, double size);
+
+}  // namespace yadefrag

@@ -1,0 +1,167 @@
+#include "mesh/interior_front.hpp"
+
+#include <array>
+#include <deque>
+#include <map>
+
+#include "core/tolerances.hpp"
+#include "mesh/spacing_grid.hpp"
+
+namespace yadefrag {
+namespace {
+
+const double kHeight = std::sqrt(.75);  // of an equilateral triangle of side 1
+
+/// A node of the front: from it the next ones are proposed.
+struct Source {
+  Vec2 position;
+  Vec2 direction;  // of the row it is in, unit
+  double spacing;  // wanted edge length here
+};
+
+double distanceToSegment(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 edge = b - a;
+  const double t = std::clamp(dot(p - a, edge) / dot(edge, edge), 0., 1.);
+  return norm(p - a - t * edge);
+}
+
+/// Does the way from p to q leave the body through the edge a → b, which has the body on its left?
+/// p may be on the edge, to rounding.
+bool leaves(Vec2 p, Vec2 q, Vec2 a, Vec2 b) {
+  const Vec2 edge = b - a;
+  return cross(edge, q - a) < 0 && cross(edge, p - a) > -tolerance::kOnEdge * dot(edge, edge) &&
+         (cross(q - p, a - p) > 0) != (cross(q - p, b - p) > 0);
+}
+
+class Front {
+ public:
+  Front(const DividedBoundary& boundary, double size)
+      : boundary_(boundary), size_(size), nodeGrid_(size), edgeGrid_(size) {
+    boundary_.forEachEdge([&](std::uint32_t a, std::uint32_t b) {
+      after_.push_back(b);
+      length_.push_back(norm(boundary_.nodes[b] - boundary_.nodes[a]));
+    });
+    before_.resize(after_.size());
+    for (std::uint32_t i = 0; i < after_.size(); ++i) before_[after_[i]] = i;
+  }
+
+  std::vector<Vec2> fill() {
+    registerBoundary();
+    proposeFromEdges();
+    proposeFromNodes();
+    while (!queue_.empty()) {
+      auto& sources = queue_.begin()->second;
+      const Source source = sources.front();
+      sources.pop_front();
+      if (sources.empty()) queue_.erase(queue_.begin());
+      proposeFrom(source);
+    }
+    return std::move(inside_);
+  }
+
+ private:
+  [[nodiscard]] Vec2 boundaryNode(std::uint32_t i) const { return boundary_.nodes[i]; }
+  [[nodiscard]] double spacingAt(std::uint32_t i) const {
+    return (length_[before_[i]] + length_[i]) / 2;
+  }
+
+  void registerBoundary() {
+    for (std::uint32_t i = 0; i < after_.size(); ++i) {
+      nodes_.push_back(boundaryNode(i));
+      nodeGrid_.insert(nodes_.back(), spacingAt(i), i);
+      // In pieces no longer than the spacing at either end, to be found from there.
+      const Vec2 edge = boundaryNode(after_[i]) - boundaryNode(i);
+      const double piece = std::min({length_[i], spacingAt(i), spacingAt(after_[i])});
+      const int pieces = static_cast<int>(std::ceil(length_[i] / piece));
+      for (int k = 0; k < pieces; ++k)
+        edgeGrid_.insert(boundaryNode(i) + edge * ((k + .5) / pieces), piece, i);
+    }
+  }
+
+  /// Wanted edge length at a distance from where it is `spacing`.
+  [[nodiscard]] double grown(double spacing, double distance) const {
+    const double change = tolerance::kEdgeGrowth * distance;
+    return spacing < size_ ? std::min(size_, spacing + change) : std::max(size_, spacing - change);
+  }
+
+  void proposeFromEdges() {
+    for (std::uint32_t i = 0; i < after_.size(); ++i) {
+      const Vec2 a = boundaryNode(i);
+      const Vec2 along = (boundaryNode(after_[i]) - a) * (1 / length_[i]);
+      const double spacing = grown(length_[i], length_[i]);
+      const Vec2 middle = a + along * (length_[i] / 2);
+      const double height = kHeight * (length_[i] + spacing) / 2;
+      propose(middle, middle - rightOf(along) * height, along, spacing);
+    }
+  }
+
+  /// Fans at corners of more than 90°, which edges alone leave open.
+  void proposeFromNodes() {
+    for (std::uint32_t i = 0; i < after_.size(); ++i) {
+      const Vec2 p = boundaryNode(i);
+      const Vec2 in = boundaryNode(before_[i]) - p;
+      const Vec2 out = boundaryNode(after_[i]) - p;
+      double angle = std::atan2(cross(out, in), dot(out, in));
+      if (angle <= 0) angle += 2 * M_PI;
+      const int parts = static_cast<int>(std::lround(angle * 3 / M_PI));
+      const double step = grown(spacingAt(i), spacingAt(i));
+      for (int k = 1; k < parts; ++k) {
+        const double turn = angle * k / parts;
+        const Vec2 unit = out * (1 / norm(out));
+        const Vec2 direction = unit * std::cos(turn) - rightOf(unit) * std::sin(turn);
+        propose(p, p + direction * ((spacingAt(i) + step) / 2), direction, step);
+      }
+    }
+  }
+
+  void proposeFrom(const Source& source) {
+    Vec2 direction = source.direction;
+    const double spacing = grown(source.spacing, source.spacing);
+    for (int k = 0; k < 6; ++k) {
+      propose(source.position, source.position + direction * ((source.spacing + spacing) / 2),
+              source.direction, spacing);
+      direction = direction * .5 - rightOf(direction) * kHeight;
+    }
+  }
+
+  void propose(Vec2 from, Vec2 to, Vec2 direction, double spacing) {
+    const double clear = tolerance::kNodeClearance * spacing;
+    if (nodeGrid_.any(to, spacing, clear, [&](std::uint32_t i) {
+          const Vec2 d = nodes_[i] - to;
+          return dot(d, d) < clear * clear;
+        }))
+      return;
+    // Half a piece more than the step, since pieces are found by their middle.
+    const double reach = norm(to - from) + spacing;
+    if (edgeGrid_.any(to, spacing, reach, [&](std::uint32_t i) {
+          const Vec2 a = boundaryNode(i), b = boundaryNode(after_[i]);
+          return distanceToSegment(to, a, b) < tolerance::kBoundaryClearance * spacing ||
+                 leaves(from, to, a, b);
+        }))
+      return;
+    nodeGrid_.insert(to, spacing, static_cast<std::uint32_t>(nodes_.size()));
+    nodes_.push_back(to);
+    inside_.push_back(to);
+    // Fine regions first: a coarse front that came first would leave no room for them.
+    const int octave = static_cast<int>(std::lround(2 * std::log2(spacing / size_)));
+    queue_[octave].push_back({to, direction, spacing});
+  }
+
+  const DividedBoundary& boundary_;
+  double size_;
+  std::vector<std::uint32_t> after_, before_;  // boundary nodes
+  std::vector<double> length_;                 // of the edge from each boundary node
+  std::vector<Vec2> nodes_;                    // boundary nodes, then those inside
+  std::vector<Vec2> inside_;
+  SpacingGrid nodeGrid_;
+  SpacingGrid edgeGrid_;
+  std::map<int, std::deque<Source>> queue_;
+};
+
+}  // namespace
+
+std::vector<Vec2> fillInterior(const DividedBoundary& boundary, double size) {
+  return Front(boundary, size).fill();
+}
+
+}  // namespace yadefrag

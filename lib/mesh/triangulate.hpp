@@ -1,0 +1,14 @@
+#pragma once
+// A polygon becomes triangles.
+
+#include "mesh/triangle_mesh.hpp"
+
+namespace yadefrag {
+
+/// Constrained Delaunay triangles of edges about `size` (m). Each edge of the polygon is divided
+/// into round(length/size) equal parts, at least one; those are all of the boundary nodes. Where
+/// the edges are shorter than `size` the triangles are too, and grow inwards. The same input gives
+/// the same bits. InputError as divideBoundary.
+[[nodiscard]] TriangleMesh triangulate(const Polygon& polygon, double size);
+
+}  // namespace yadefrag
