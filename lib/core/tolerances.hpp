@@ -198,7 +198,7 @@ inline constexpr int kMostPivots = 300;
 inline constexpr int kMostRefinements = 200, kRefinementsToHalve = 10;
 
 /// (count) Gauss–Seidel sweeps where all else fails.
-inline constexpr int kMostSweeps = 200;
+inline constexpr int kMostSweeps = 100;
 
 /// (rows) Up to the first a group's matrix is factored by plain loops, up to the second as a dense
 /// one; up to the third if more than a quarter of its entries are there.

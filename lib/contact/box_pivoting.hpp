@@ -1,0 +1,50 @@
+#pragma once
+// Block principal pivoting for bounds (J. J. Júdice, F. M. Pires, Comput. Oper. Res. 21 (1994)
+// 587).
+
+#include <cstdint>
+#include <vector>
+
+#include "contact/solve_free_set.hpp"
+
+namespace yadefrag {
+
+/// The problem in units in which G has a unit diagonal.
+struct ScaledBox {
+  SparseView matrix;
+  std::vector<double> constant, lower, upper;
+  std::vector<double> slack;  ///< by row: errors of λ and r below this are rounding
+
+  [[nodiscard]] std::size_t size() const { return constant.size(); }
+};
+
+enum class RowState : std::uint8_t { kAtLower, kAtUpper, kFree };
+
+class BoxPivoting {
+ public:
+  /// Takes a new matrix and guesses the states from `lambda` (within the bounds).
+  void begin(const ScaledBox& box, const std::vector<double>& lambda, bool isGuess);
+  /// Solves with G + ε·1 and the constant g − ε·centre. False if pivoting cycles or a number is not
+  /// finite.
+  bool solve(const ScaledBox& box, double added, const std::vector<double>& centre,
+             std::vector<double>& lambda);
+
+  [[nodiscard]] int pivots() const { return pivots_; }
+
+ private:
+  bool solveForStates(const ScaledBox& box, double added, const std::vector<double>& centre,
+                      std::vector<double>& lambda);
+  void findWrong(const ScaledBox& box, double added, const std::vector<double>& centre,
+                 const std::vector<double>& lambda);
+  void pivot(const ScaledBox& box, std::uint32_t row, double lambda);
+
+  FreeSetFactor factor_;
+  std::vector<RowState> state_;
+  std::vector<std::uint8_t> isFree_;
+  std::vector<std::uint32_t> wrong_;  ///< rows whose state is contradicted
+  std::vector<double> side_;
+  double factored_ = -1;  ///< the ε of the factor of the present free rows, or negative
+  int pivots_ = 0;
+};
+
+}  // namespace yadefrag
