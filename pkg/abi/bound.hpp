@@ -17,12 +17,16 @@ class Bound : public Serializable, public Indexable {
 
   Bound() = delete;
   ~Bound() override;
+
+ protected:
+  int& modifyClassIndex() override;
+
+ public:
   const int& getClassIndex() const override;
   const int& getBaseClassIndex(int depth) const override;
   const int& getMaxCurrentlyUsedClassIndexOfKin() const override;
 
  protected:
-  int& modifyClassIndex() override;
   void incrementMaxCurrentlyUsedClassIndexOfKin() override;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Forces and torques per body and thread: an opaque member of Scene.
+// Forces and torques per body and thread: a member of Scene whose data stay hidden.
 
 #include "abi/basics.hpp"
 
@@ -13,6 +13,10 @@ class ForceContainer {
   ForceContainer(const ForceContainer&) = delete;
   ~ForceContainer();
   void addMaxId(int id);
+  // Sums up what the threads have added; to be called before reading.
+  void sync();
+  const Vector3r& getForce(int id);
+  const Vector3r& getTorque(int id);
 };
 
 }  // namespace yade

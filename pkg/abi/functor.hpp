@@ -1,7 +1,10 @@
 #pragma once
-// Functors that make the bounds of shapes.
+// Functors that make the bounds of shapes, and those that make the geometry of contacts.
 
-#include "abi/body.hpp"
+#include <stdexcept>
+
+#include "abi/functor_calls.hpp"
+#include "abi/interaction.hpp"
 #include "abi/timing.hpp"
 
 namespace yade {
@@ -9,21 +12,33 @@ namespace yade {
 class Functor : public Serializable {
  public:
   shared_ptr<TimingDeltas> timingDeltas;
-  Scene* scene;
+  Scene* scene = nullptr;
   string label;
 
-  Functor() = delete;
   ~Functor() override;
   virtual vector<string> getFunctorTypes() const;
+
+ protected:
+  Functor() = default;
 };
 
-// YADE puts two templates in between; the call table of the second one sits at byte 80.
-class BoundFunctor : public Functor {
-  void* callTable_;
-
+// YADE puts a template in between, which brings the call table at byte 80 and the names of the
+// types that a functor takes.
+class BoundFunctor : public Functor, public BoundCalls {
  public:
-  BoundFunctor() = delete;
   ~BoundFunctor() override;
+  string getBaseClassName(unsigned int i = 0) const override;
+  int getBaseClassNumber() const override;
+  string getClassName() const override;
+  void pySetAttr(const string& key, const py::object& value) override;
+  py::dict pyDict() const override;
+  void callPostLoad() override;
+  void pyRegisterClass(py::object scope) override;
+  vector<string> getFunctorTypes() const override { return {get1DFunctorType1()}; }
+  virtual string get1DFunctorType1() const { throw std::logic_error("takes no shape"); }
+
+ protected:
+  BoundFunctor() = default;
 };
 
 class Bo1_Sphere_Aabb : public BoundFunctor {
@@ -31,6 +46,27 @@ class Bo1_Sphere_Aabb : public BoundFunctor {
   Real aabbEnlargeFactor;
   Bo1_Sphere_Aabb() = delete;
   ~Bo1_Sphere_Aabb() override;
+};
+
+class IGeomFunctor : public Functor, public GeomCalls {
+ public:
+  ~IGeomFunctor() override;
+  string getBaseClassName(unsigned int i = 0) const override;
+  int getBaseClassNumber() const override;
+  string getClassName() const override;
+  void pySetAttr(const string& key, const py::object& value) override;
+  py::dict pyDict() const override;
+  void callPostLoad() override;
+  void pyRegisterClass(py::object scope) override;
+  vector<string> getFunctorTypes() const override {
+    return {get2DFunctorType1(), get2DFunctorType2()};
+  }
+  virtual string get2DFunctorType1() const { throw std::logic_error("takes no shapes"); }
+  virtual string get2DFunctorType2() const { throw std::logic_error("takes no shapes"); }
+  virtual void preStep();
+
+ protected:
+  IGeomFunctor() = default;
 };
 
 }  // namespace yade

@@ -80,6 +80,20 @@ CHECK_MEMBER(Functor, label);
 
 CHECK_SIZE(BoundFunctor);
 
+CHECK_SIZE(IGeomFunctor);
+
+CHECK_SIZE(IGeom);
+
+CHECK_SIZE(GenericSpheresContact);
+CHECK_MEMBER(GenericSpheresContact, normal);
+CHECK_MEMBER(GenericSpheresContact, contactPoint);
+CHECK_MEMBER(GenericSpheresContact, refR1);
+CHECK_MEMBER(GenericSpheresContact, refR2);
+
+CHECK_SIZE(ScGeom);
+CHECK_MEMBER(ScGeom, penetrationDepth);
+CHECK_MEMBER(ScGeom, shearInc);
+
 CHECK_SIZE(Bo1_Sphere_Aabb);
 CHECK_MEMBER(Bo1_Sphere_Aabb, aabbEnlargeFactor);
 
@@ -114,6 +128,13 @@ CHECK_SIZE(Material);
 CHECK_MEMBER(Material, id);
 CHECK_MEMBER(Material, label);
 CHECK_MEMBER(Material, density);
+
+CHECK_SIZE(ElastMat);
+CHECK_MEMBER(ElastMat, young);
+CHECK_MEMBER(ElastMat, poisson);
+
+CHECK_SIZE(FrictMat);
+CHECK_MEMBER(FrictMat, frictionAngle);
 
 CHECK_SIZE(State);
 CHECK_MEMBER(State, updateMutex);
@@ -188,6 +209,8 @@ CHECK_MEMBER(Cell, flipFlippable);
 
 CHECK_SIZE(ForceContainer);
 
+CHECK_SIZE(EnergyTracker);
+
 CHECK_SIZE(Scene);
 CHECK_MEMBER(Scene, forces);
 CHECK_MEMBER(Scene, SpeedElements);
@@ -225,6 +248,11 @@ CHECK_MEMBER(ClassFactory, pluginClasses);
 static_assert(offsetof(State, updateMutex) == 24 + sizeof(Indexable) + 2 * sizeof(void*));
 static_assert(sizeof(Se3r) == 56 && offsetof(Se3r, orientation) == 24);
 
+// Likewise the two of ScGeom.
+static_assert(offsetof(ScGeom, penetrationDepth) ==
+              yadefrag::layoutBytes("ScGeom", "orthonormal_axis") + sizeof(Vector3r) +
+                  2 * sizeof(void*));
+
 // BoundDispatcher's members begin after YADE's template.
 static_assert(sizeof(Dispatcher1D<BoundFunctor>) == 152);
 
@@ -236,6 +264,8 @@ struct LayoutProbe {
   CHECK_MEMBER(InteractionContainer, currSize);
   CHECK_MEMBER(InteractionContainer, empty);
   CHECK_MEMBER(InteractionContainer, interaction);
+  CHECK_MEMBER(ScGeom, twist_axis);
+  CHECK_MEMBER(ScGeom, orthonormal_axis);
   CHECK_MEMBER(Cell, _invTrsf);
   CHECK_MEMBER(Cell, _trsfInc);
   CHECK_MEMBER(Cell, _vGradTimesPrevH);

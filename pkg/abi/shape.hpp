@@ -13,18 +13,29 @@ class Shape : public Serializable, public Indexable {
  public:
   shared_ptr<BoundFunctor> boundFunctor;
   shared_ptr<InternalForceFunctor> internalforcefunctor;
-  Vector3r color;
-  bool wire;
-  bool highlight;
+  Vector3r color = Vector3r::Ones();
+  bool wire = false;
+  bool highlight = false;
 
-  Shape() = delete;
   ~Shape() override;
+  string getBaseClassName(unsigned int i = 0) const override;
+  int getBaseClassNumber() const override;
+  string getClassName() const override;
+  void pySetAttr(const string& key, const py::object& value) override;
+  py::dict pyDict() const override;
+  void callPostLoad() override;
+  void pyRegisterClass(py::object scope) override;
+
+ protected:
+  Shape() = default;
+  int& modifyClassIndex() override;
+
+ public:
   const int& getClassIndex() const override;
   const int& getBaseClassIndex(int depth) const override;
   const int& getMaxCurrentlyUsedClassIndexOfKin() const override;
 
  protected:
-  int& modifyClassIndex() override;
   void incrementMaxCurrentlyUsedClassIndexOfKin() override;
 };
 

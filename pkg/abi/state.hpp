@@ -38,12 +38,16 @@ class State : public Serializable, public Indexable {
 
   State();
   ~State() override;
+
+ protected:
+  int& modifyClassIndex() override;
+
+ public:
   const int& getClassIndex() const override;
   const int& getBaseClassIndex(int depth) const override;
   const int& getMaxCurrentlyUsedClassIndexOfKin() const override;
 
  protected:
-  int& modifyClassIndex() override;
   void incrementMaxCurrentlyUsedClassIndexOfKin() override;
 };
 

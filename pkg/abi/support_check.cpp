@@ -41,6 +41,9 @@ void checkShapes() {
   sphere.refuse("type", typeid(shape) != typeid(yade::Sphere) ||
                             dynamic_cast<const yade::Sphere*>(&shape) == nullptr ||
                             dynamic_cast<const yade::Box*>(&shape) != nullptr);
+  sphere.refuse("classIndex",
+                shape.getClassIndex() < 0 || shape.getBaseClassIndex(1) != -1 ||
+                    shape.getMaxCurrentlyUsedClassIndexOfKin() < shape.getClassIndex());
   const Scratch<yade::Box> box("Box");
   box.check("extents", box->extents, Vector3r(1, 2, 3));
   const Scratch<yade::Wall> wall("Wall");
@@ -70,6 +73,25 @@ void checkMaterial() {
   material.check("id", material->id, 3);
   material.check("label", material->label, "scratch");
   material.check("density", material->density, 2.5);
+  const Scratch<yade::FrictMat> friction("FrictMat");
+  friction.check("young", friction->young, 3.5);
+  friction.check("poisson", friction->poisson, .25);
+  friction.check("frictionAngle", friction->frictionAngle, .75);
+  // Its own index, that of ElastMat, and none for Material: what a new material goes on from.
+  const yade::Material& base = *friction;
+  friction.refuse("classIndex", base.getClassIndex() < 0 || base.getBaseClassIndex(1) < 0 ||
+                                    base.getBaseClassIndex(2) != -1);
+}
+
+void checkContactGeometry() {
+  const Scratch<yade::ScGeom> geom("ScGeom");
+  geom.check("normal", geom->normal, Vector3r(1, 2, 3));
+  geom.check("contactPoint", geom->contactPoint, Vector3r(4, 5, 6));
+  geom.check("refR1", geom->refR1, 7.5);
+  geom.check("refR2", geom->refR2, 8.5);
+  geom.check("penetrationDepth", geom->penetrationDepth, 9.5);
+  geom.check("shearInc", geom->shearInc, Vector3r(10, 11, 12));
+  geom.refuse("radius1", &geom->radius1 != &geom->refR1 || &geom->radius2 != &geom->refR2);
 }
 
 void checkBody() {
@@ -146,8 +168,15 @@ void checkCollider() {
   functor.check("label", functor->label, "scratch");
   const yade::BoundFunctor& base = *functor;
   functor.refuse("type", typeid(base) != typeid(yade::Bo1_Sphere_Aabb));
+  functor.refuse("get1DFunctorType1", base.get1DFunctorType1() != "Sphere");
+  functor.refuse("getFunctorTypes", base.getFunctorTypes() != std::vector<std::string>{"Sphere"});
   const auto& sphereFunctor = static_cast<const yade::Bo1_Sphere_Aabb&>(base);
   functor.check("aabbEnlargeFactor", sphereFunctor.aabbEnlargeFactor, 1.5);
+
+  const Scratch<yade::IGeomFunctor> wall("Ig2_Wall_Sphere_ScGeom");
+  wall.refuse("get2DFunctorType", wall->get2DFunctorType1() != "Wall" ||
+                                      wall->get2DFunctorType2() != "Sphere" ||
+                                      wall->checkOrder() != "Wall Sphere");
 
   const Scratch<yade::BoundDispatcher> bounds("BoundDispatcher");
   bounds.check("activated", bounds->activated, false);
@@ -191,6 +220,7 @@ void checkScene(const Scratch<yade::Scene>& scene) {
   one["engines"] = engines;
   scene->pyUpdateAttrs(one);
   scene.refuse("engines", scene->engines.size() != 1 || scene->engines[0] != engine.pointer());
+  scene.refuse("energy", scene->energy->getClassName() != "EnergyTracker");
   scene.refuse("bodies", scene->bodies->getClassName() != "BodyContainer");
   scene.refuse("interactions", scene->interactions->getClassName() != "InteractionContainer");
 }
@@ -260,6 +290,7 @@ void checkAll() {
   checkShapes();
   checkState();
   checkMaterial();
+  checkContactGeometry();
   checkBody();
   checkInteraction();
   checkCell();

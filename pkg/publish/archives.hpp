@@ -17,7 +17,12 @@
 
 namespace boost::archive::detail {
 
+YADEFRAG_YADE_ARCHIVES(yade::BoundFunctor)
 YADEFRAG_YADE_ARCHIVES(yade::Collider)
+YADEFRAG_YADE_ARCHIVES(yade::FrictMat)
+YADEFRAG_YADE_ARCHIVES(yade::GlobalEngine)
+YADEFRAG_YADE_ARCHIVES(yade::IGeomFunctor)
+YADEFRAG_YADE_ARCHIVES(yade::Shape)
 YADEFRAG_YADE_ARCHIVES(yade::Vector3r)
 YADEFRAG_YADE_ARCHIVES(yade::Matrix3r)
 

@@ -4,6 +4,9 @@
 
 #include "abi/support_check.hpp"
 #include "collider/colliders.hpp"
+#include "fe/materials.hpp"
+#include "fe/segment_functors.hpp"
+#include "fe/surface_segment.hpp"
 #include "publish/publish.hpp"
 
 namespace yadefrag {
@@ -17,7 +20,9 @@ struct ClassList {
 };
 
 // Every class that this project adds to YADE.
-using NewClasses = ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider>;
+using NewClasses =
+    ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider, FEMat, BrittleFEMat,
+              SurfaceSegment, Bo1_SurfaceSegment_Aabb, Ig2_Sphere_SurfaceSegment_ScGeom>;
 
 void toImportError(const UnsupportedYade& error) {
   PyErr_SetString(PyExc_ImportError, error.what());

@@ -17,6 +17,18 @@ from yadefrag import _yadefrag  # noqa: E402
 _yadefrag.checkRunningYade()
 __all__ = list(_yadefrag.publish())
 
+
+
+def _renewDispatchers():
+    """Dispatchers made before now have no room for the new shapes and materials."""
+    for engine in wrapper.Omega().engines:
+        for holder in ('boundDispatcher', 'geomDispatcher', 'physDispatcher', 'lawDispatcher'):
+            dispatcher = getattr(engine, holder, None)
+            if dispatcher is not None:
+                dispatcher.functors = dispatcher.functors
+
+
+_renewDispatchers()
 for _name in __all__:
     globals()[_name] = getattr(wrapper, _name)
     setattr(builtins, _name, globals()[_name])

@@ -1,0 +1,80 @@
+#pragma once
+// Second base, at byte 80, of the functors: the table through which dispatchers call them. It has
+// a slot for every number of arguments from one to seven; all but one stay unused.
+
+#include <stdexcept>
+
+#include "abi/body.hpp"
+
+namespace yade {
+
+class Interaction;
+
+class BoundCalls {
+ public:
+  virtual ~BoundCalls() = default;
+  virtual string checkOrder() const { return {}; }
+
+ private:
+  virtual void go1() { unused(); }
+  virtual void go2() { unused(); }
+  virtual void go3() { unused(); }
+
+ public:
+  virtual void go(const shared_ptr<Shape>&, shared_ptr<Bound>&, const Se3r&, const Body*) {
+    unused();
+  }
+
+ private:
+  virtual void go5() { unused(); }
+  virtual void go6() { unused(); }
+  virtual void go7() { unused(); }
+  virtual void goReverse1() { unused(); }
+  virtual void goReverse2() { unused(); }
+  virtual void goReverse3() { unused(); }
+  virtual void goReverse4() { unused(); }
+  virtual void goReverse5() { unused(); }
+  virtual void goReverse6() { unused(); }
+  virtual void goReverse7() { unused(); }
+  [[noreturn]] static void unused() { throw std::logic_error("a functor's unused slot is called"); }
+};
+
+class GeomCalls {
+ public:
+  virtual ~GeomCalls() = default;
+  virtual string checkOrder() const { return {}; }
+
+ private:
+  virtual bool go1() { unused(); }
+  virtual bool go2() { unused(); }
+  virtual bool go3() { unused(); }
+  virtual bool go4() { unused(); }
+  virtual bool go5() { unused(); }
+  virtual bool go6() { unused(); }
+
+ public:
+  virtual bool go(const shared_ptr<Shape>&, const shared_ptr<Shape>&, const State&, const State&,
+                  const Vector3r&, const bool&, const shared_ptr<Interaction>&) {
+    unused();
+  }
+
+ private:
+  virtual bool goReverse1() { unused(); }
+  virtual bool goReverse2() { unused(); }
+  virtual bool goReverse3() { unused(); }
+  virtual bool goReverse4() { unused(); }
+  virtual bool goReverse5() { unused(); }
+  virtual bool goReverse6() { unused(); }
+
+ public:
+  virtual bool goReverse(const shared_ptr<Shape>&, const shared_ptr<Shape>&, const State&,
+                         const State&, const Vector3r&, const bool&,
+                         const shared_ptr<Interaction>&) {
+    unused();
+  }
+
+ private:
+  [[noreturn]] static void unused() { throw std::logic_error("a functor's unused slot is called"); }
+};
+
+}  // namespace yade

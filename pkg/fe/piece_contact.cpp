@@ -1,0 +1,143 @@
+#include "fe/piece_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tolerances.hpp"
+
+namespace yadefrag {
+namespace {
+
+Vec2 unit(Vec2 a) {
+  const double length = norm(a);
+  return length > 0 ? (1 / length) * a : Vec2{};
+}
+
+bool isNone(Vec2 tangent) { return tangent == Vec2{}; }
+
+enum class Owner { kBefore, kCorner, kAfter, kBoth };
+
+/// A joint of two pieces as seen from a point. Both pieces ask with the same numbers, so that they
+/// agree to the last bit.
+struct Joint {
+  Vec2 from;           ///< from the corner to the point
+  Vec2 arrive, leave;  ///< tangents
+  double past, ahead;  ///< how far the point is past the end of one, and along the other
+
+  Joint(Vec2 corner, Vec2 t0, Vec2 t1, Vec2 point)
+      : from(point - corner), arrive(t0), leave(t1), past(dot(from, t0)), ahead(dot(from, t1)) {}
+
+  [[nodiscard]] bool isConcave() const { return cross(arrive, leave) < 0; }
+
+  [[nodiscard]] Owner owner() const {
+    if (past >= 0) return ahead < 0 ? Owner::kCorner : Owner::kAfter;
+    if (ahead < 0) return Owner::kBefore;
+    if (isConcave()) return Owner::kBoth;
+    // Inside a convex corner, or rounding on a flat joint: the side that is nearer to the void.
+    return dot(from, rightOf(arrive)) >= dot(from, rightOf(leave)) ? Owner::kBefore : Owner::kAfter;
+  }
+
+  /// Part of the overlap with the corner itself that the piece before gives up where both push. It
+  /// goes from nothing to all of it as the point moves out of that piece's reach.
+  [[nodiscard]] double sharedByBefore(double radius) const {
+    return overlap(radius) * ahead / (ahead - past);
+  }
+  [[nodiscard]] double sharedByAfter(double radius) const {
+    return overlap(radius) * -past / (ahead - past);
+  }
+
+  [[nodiscard]] DiscContact corner(Vec2 at, double radius) const {
+    const double distance = norm(from);
+    const Vec2 out = rightOf(arrive) + rightOf(leave);
+    const bool inside = dot(from, out) < 0 && (isConcave() || dot(arrive, leave) > 0);
+    const Vec2 normal = distance > 0 ? (1 / distance) * from : unit(out);
+    if (inside) return {radius + distance, -normal, at};
+    return {radius - distance, normal, at};
+  }
+
+ private:
+  [[nodiscard]] double overlap(double radius) const { return std::max(radius - norm(from), 0.); }
+};
+
+DiscContact freeEnd(Vec2 at, Vec2 outward, Vec2 centre, double radius) {
+  const Vec2 from = centre - at;
+  const double distance = norm(from);
+  return {radius - distance, distance > 0 ? (1 / distance) * from : outward, at};
+}
+
+/// Foot of the point on a piece that it is alongside of: the slope times the way to the point
+/// changes its sign between the ends, so Newton's steps can be kept inside a bracket.
+double footOn(const BoundaryPiece& piece, Vec2 point) {
+  const auto behind = [&](double xi) { return dot(piece.pointAt(xi) - point, piece.slopeAt(xi)); };
+  double low = 0, high = 1, xi = .5;
+  for (int i = 0; i < 60 && high - low > 4e-16; ++i) {
+    const double value = behind(xi);
+    (value < 0 ? low : high) = xi;
+    if (value == 0) break;
+    const Vec2 slope = piece.slopeAt(xi);
+    const double newton = xi - value / dot(slope, slope);  // without the curve's bend: the steps
+    xi = newton > low && newton < high ? newton : .5 * (low + high);  // shrink linearly, safely
+    if (i % 3 == 2) xi = .5 * (low + high);
+  }
+  return xi;
+}
+
+}  // namespace
+
+Vec2 BoundaryPiece::tangentAtStart() const { return unit((isArc ? middle : end) - start); }
+Vec2 BoundaryPiece::tangentAtEnd() const { return unit(end - (isArc ? middle : start)); }
+
+Vec2 BoundaryPiece::pointAt(double xi) const {
+  if (!isArc) return start + xi * (end - start);
+  // The inner control points lie halfway between the ends and the middle.
+  const double co = 1 - xi;
+  const double mid = 1.5 * xi * co;
+  return (co * co * co + mid * co) * start + mid * middle + (xi * xi * xi + mid * xi) * end;
+}
+
+Vec2 BoundaryPiece::slopeAt(double xi) const {
+  if (!isArc) return end - start;
+  const double co = 1 - xi;
+  const Vec2 first = .5 * (middle - start), last = .5 * (end - middle);
+  return 3 * (co * co * first + xi * co * (end - start) + xi * xi * last);
+}
+
+std::optional<DiscContact> discContact(const BoundaryPiece& piece, Vec2 centre, double radius) {
+  const Vec2 leave = piece.tangentAtStart(), arrive = piece.tangentAtEnd();
+  double shared = 0;
+  if (isNone(piece.before)) {
+    if (dot(centre - piece.start, leave) < 0) {
+      const DiscContact cap = freeEnd(piece.start, -leave, centre, radius);
+      return cap.penetration > 0 ? std::optional(cap) : std::nullopt;
+    }
+  } else {
+    const Joint joint(piece.start, piece.before, leave, centre);
+    const Owner owner = joint.owner();
+    if (owner == Owner::kBefore) return {};
+    if (owner == Owner::kCorner) {
+      const DiscContact corner = joint.corner(piece.start, radius);
+      const bool counts = corner.penetration > 0 && corner.penetration < 2 * radius;
+      return counts ? std::optional(corner) : std::nullopt;
+    }
+    if (owner == Owner::kBoth) shared += joint.sharedByAfter(radius);
+  }
+  if (isNone(piece.after)) {
+    if (dot(centre - piece.end, arrive) >= 0) {
+      const DiscContact cap = freeEnd(piece.end, arrive, centre, radius);
+      return cap.penetration > 0 ? std::optional(cap) : std::nullopt;
+    }
+  } else {
+    const Joint joint(piece.end, arrive, piece.after, centre);
+    const Owner owner = joint.owner();
+    if (owner == Owner::kAfter || owner == Owner::kCorner) return {};
+    if (owner == Owner::kBoth) shared += joint.sharedByBefore(radius);
+  }
+  const double xi = piece.isArc ? footOn(piece, centre) : 0;
+  const Vec2 normal = rightOf(unit(piece.slopeAt(xi)));
+  const double distance = dot(centre - piece.pointAt(xi), normal);
+  const double penetration = radius - distance - shared;
+  if (!(penetration > 0) || distance <= -radius) return {};
+  return DiscContact{penetration, normal, centre - distance * normal};
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,71 @@
+#pragma once
+// The shape of a surface entry's body: one piece of a boundary, material on the left.
+
+#include <tuple>
+
+#include "abi/yade.hpp"
+#include "fe/piece_contact.hpp"
+#include "publish/indexed.hpp"
+#include "publish/published.hpp"
+#include "surface/contact_surface.hpp"
+
+namespace yadefrag {
+
+/// Coordinates are those of the world: the body's own position and orientation say nothing about
+/// where the piece is. FESolver keeps all members up to date.
+class SurfaceSegment final
+    : public Published<SurfaceSegment, Indexed<SurfaceSegment, yade::Shape>, yade::Shape> {
+ public:
+  static constexpr const char* kName = "SurfaceSegment";
+  static constexpr const char* kDoc =
+      "One piece of the boundary of a finite-element body, in the plane z = const: a straight "
+      "segment or a Bezier arc, with the material on its left. Its coordinates are those of the "
+      "world; the position of its body does not matter. FESolver makes these and moves them; one "
+      "made by hand is a rigid wall.";
+
+  using Vector3r = yade::Vector3r;
+  Vector3r start = Vector3r::Zero(), end = Vector3r::Zero(), middle = Vector3r::Zero();
+  Vector3r before = Vector3r::Zero(), after = Vector3r::Zero();
+  int kind = static_cast<int>(Piece::kSegment);
+  double halo = 0;
+  int entry = -1, next = -1, component = -1;
+  bool selfContact = true;
+
+  [[nodiscard]] bool isArc() const { return kind == static_cast<int>(Piece::kArc); }
+  [[nodiscard]] BoundaryPiece piece() const {
+    const auto flat = [](const Vector3r& v) { return Vec2{v[0], v[1]}; };
+    return {flat(start), flat(middle), flat(end), flat(before), flat(after), isArc()};
+  }
+
+  static constexpr auto attributes();
+};
+
+constexpr auto SurfaceSegment::attributes() {
+  using C = SurfaceSegment;
+  return std::tuple(
+      attribute("start", &C::start, "Where the piece begins (m)."),
+      attribute("end", &C::end, "Where it ends (m)."),
+      attribute("middle", &C::middle,
+                "Of an arc: the node it goes around (m), at which the tangents of its two ends "
+                "meet."),
+      attribute(
+          "before", &C::before,
+          "Direction of travel (unit vector) in which the piece before reaches `start`; zero: "
+          "there is none, `start` is a free end."),
+      attribute("after", &C::after,
+                "Direction of travel (unit vector) in which the piece after leaves `end`; zero: "
+                "there is none."),
+      attribute("kind", &C::kind,
+                "0: a segment between two nodes, 1 and 2: its first and second half, 3: an arc "
+                "around a node."),
+      attribute("halo", &C::halo,
+                "Length (m) by which the bound is larger than the piece, on every side: how far "
+                "the piece may move before the next search."),
+      attribute("entry", &C::entry, "Number of the surface entry in its FESolver; -1: none."),
+      attribute("next", &C::next, "Number of the entry after this one; -1: none."),
+      attribute("component", &C::component, "Number of the finite-element body; -1: none."),
+      attribute("selfContact", &C::selfContact,
+                "May this piece touch other pieces of its own body."));
+}
+
+}  // namespace yadefrag

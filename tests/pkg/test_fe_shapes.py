@@ -1,0 +1,263 @@
+"""Surface segments, their bounds and their contacts with spheres: rigid chains made by hand."""
+import builtins
+import math
+import os
+
+import numpy as np
+import pytest
+
+import fe_chain as chain
+import yadefrag
+from yade import wrapper as w
+
+O = builtins.O
+RADIUS = .1
+
+
+def material(**attributes):
+    made = w.FEMat(young=1e6, poisson=.3, density=1000, frictionAngle=0, **attributes)
+    O.materials.append(made)
+    return made
+
+
+def hexagon():
+    return np.array([(math.cos(a), math.sin(a)) for a in np.arange(6) * math.pi / 3])
+
+
+@pytest.mark.parametrize('ending', ['.xml', '.yade.gz'])
+def test_allIsSavedAndLoaded(ending, folder):
+    brittle = w.BrittleFEMat(tensileStrength=3e8, fractureEnergy=50, shearFactor=2,
+                             weibullModulus=20, strengthScatter=.1, seed=7, planeStress=True,
+                             young=3e11, poisson=.2, density=3900, frictionAngle=.3, label='c')
+    O.materials.append(brittle)
+    O.bodies.append(chain.smooth(hexagon(), brittle, halo=.01, entry=3, next=4, component=1,
+                                 selfContact=False))
+    chain.engines()
+    wanted = [O.bodies[2].shape.dict(), O.materials['c'].dict()]
+    path = os.path.join(folder, 'scene' + ending)
+    O.save(path)
+    O.reset()
+    O.load(path)
+    shape = O.bodies[2].shape
+    assert [shape.dict(), O.materials['c'].dict()] == wanted
+    assert type(shape) is w.SurfaceSegment and type(O.materials['c']) is w.BrittleFEMat
+    assert type(O.bodies[2].material) is w.BrittleFEMat
+    functors = [type(f).__name__ for f in O.engines[1].boundDispatcher.functors]
+    assert 'Bo1_SurfaceSegment_Aabb' in functors
+    functors = [type(f).__name__ for f in O.engines[2].geomDispatcher.functors]
+    assert 'Ig2_Sphere_SurfaceSegment_ScGeom' in functors
+
+
+def test_boundOfASegment(collider):
+    O.bodies.append(chain.straight([(1, 2), (4, 1)], material(), halo=.25))
+    chain.engines(collider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()], verletDist=0))
+    O.step()
+    bound = O.bodies[0].bound
+    assert tuple(bound.min) == (.75, .75, -.25) and tuple(bound.max) == (4.25, 2.25, .25)
+
+
+def test_boundOfAnArcHoldsTheCurve():
+    O.bodies.append(chain.smooth(hexagon(), material()))
+    chain.engines()
+    O.step()
+    points = chain.arcPoints(hexagon(), 200).reshape(6, 200, 2)
+    for b, curve in zip(O.bodies, points):
+        assert (curve >= np.array(b.bound.min)[:2] - 1e-12).all()
+        assert (curve <= np.array(b.bound.max)[:2] + 1e-12).all()
+        # not the box of the node: the arc stays within its own control points
+        a, m, c = (np.array(p)[:2] for p in (b.shape.start, b.shape.middle, b.shape.end))
+        hull = np.array([a, (a + m) / 2, (m + c) / 2, c])
+        assert np.allclose(np.array(b.bound.min)[:2], hull.min(0))
+        assert np.allclose(np.array(b.bound.max)[:2], hull.max(0))
+
+
+def steps(count):
+    """O.run would sleep for 40 ms each time."""
+    for _ in range(count):
+        O.step()
+
+
+def bounce(makeFloor, segmentsFirst):
+    """Heights of a ball that falls onto a floor at y = 0 and comes back; one per 10 steps."""
+    O.reset()
+    O.dt = 2e-4
+    mat = material()
+    floor = makeFloor(mat)
+    ball = chain.ball((.237, .102), RADIUS, mat)
+    O.bodies.append(floor + [ball] if segmentsFirst else [ball] + floor)
+    ball.state.vel = (0, -1, 0)
+    ball.state.blockedDOFs = 'zXYZ'
+    chain.engines()
+    heights = []
+    for _ in range(60):
+        steps(10)
+        heights.append(ball.state.pos[1])
+    return np.array(heights), ball.state.vel
+
+
+@pytest.mark.parametrize('segmentsFirst', [True, False])
+def test_flatChainIsAWall(segmentsFirst):
+    def wall(mat):
+        from yade import utils
+        return [utils.wall(0, axis=1, material=mat)]
+
+    def segments(mat):
+        return chain.straight([(x, 0) for x in np.linspace(1, -1, 21)], mat)
+
+    ours, velocity = bounce(segments, segmentsFirst)
+    wanted, wallVelocity = bounce(wall, segmentsFirst)
+    assert wanted.min() < .95 * RADIUS and wanted[-1] > RADIUS
+    assert np.abs(ours - wanted).max() < 1e-12
+    assert abs(velocity[1] - wallVelocity[1]) < 1e-12 and velocity[0] == 0
+
+
+def forceAt(ball, centre):
+    """Force (2,) on a ball held at `centre`, from all interactions there."""
+    ball.state.pos = (centre[0], centre[1], 0)
+    O.step()
+    return np.array(O.forces.f(ball.id, True))[:2]
+
+
+def stiffness():
+    """Of a contact of two equal materials and radii, as Ip2_FrictMat_FrictMat_FrictPhys has it."""
+    return 1e6 * RADIUS
+
+
+def heldBall(bodies, mat):
+    ball = chain.ball((50, 50), RADIUS, mat)
+    ball.state.blockedDOFs = 'xyzXYZ'
+    O.bodies.append(bodies + [ball])
+    chain.engines(w.LebesgueCollider([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()],
+                                     verletDist=0), newton=False)
+    return ball
+
+
+def test_convexPolygonPushesByItsDistance():
+    """Along a path around the hexagon, past sides and corners: once, by the true distance."""
+    mat = material()
+    ball = heldBall(chain.straight(hexagon(), mat, closed=True), mat)
+    for angle in np.linspace(1e-3, 2 * math.pi, 331):
+        ray = np.array([math.cos(angle), math.sin(angle)])
+        for scale in (1.04, .95, .9):
+            centre = scale * ray
+            away = chain.distance(centre, hexagon())
+            inside = abs((angle % (math.pi / 3)) - math.pi / 6)
+            inside = scale * math.cos(inside) < math.sqrt(3) / 2
+            wanted = max(RADIUS + away if inside else RADIUS - away, 0)
+            force = np.linalg.norm(forceAt(ball, centre))
+            assert force == pytest.approx(stiffness() * wanted, abs=1e-6 * stiffness())
+
+
+def test_arcsPushByTheirDistance():
+    mat = material()
+    ball = heldBall(chain.smooth(hexagon(), mat), mat)
+    curve = chain.arcPoints(hexagon(), 2000)
+    for angle in np.linspace(0, 2 * math.pi, 301):
+        ray = np.array([math.cos(angle), math.sin(angle)])
+        centre = .97 * ray
+        force = forceAt(ball, centre)
+        wanted = max(RADIUS - chain.distance(centre, curve), 0)
+        assert np.linalg.norm(force) == pytest.approx(stiffness() * wanted,
+                                                      abs=1e-5 * stiffness())
+        if wanted > 0:
+            assert force @ ray > 0
+
+
+@pytest.mark.parametrize('bend', [0, 1e-9, 1e-3, .05, .5, 1.5, -1e-9, -1e-3, -.05, -.5])
+def test_forceIsContinuousOverAJoint(bend):
+    """A ball slides past the joint of two sides at angle `bend` (rad; positive: convex)."""
+    mat = material()
+    side = np.array([math.cos(bend), -math.sin(bend)])
+    ball = heldBall(chain.straight([side, (0, 0), (-1, 0)], mat), mat)
+    step = 2e-4
+    forces = []
+    for x in np.arange(-.05, .05, step):
+        uphill = -x * math.tan(bend) if bend < 0 < x else 0
+        forces.append(forceAt(ball, (x, .985 * RADIUS + uphill)))
+    forces = np.array(forces)
+    jumps = np.linalg.norm(np.diff(forces, axis=0), axis=1)
+    assert (forces[:, 1] > 0)[:len(forces) // 2].all()
+    assert jumps.max() < 4 * stiffness() * step
+    if abs(bend) < 1e-6:
+        assert np.allclose(forces[:, 1], stiffness() * .015 * RADIUS, rtol=1e-6)
+
+
+def test_bothSidesOfAConcaveCornerHoldABall():
+    mat = material()
+    ball = heldBall(chain.straight([(0, 1), (0, 0), (-1, 0)], mat), mat)
+    force = forceAt(ball, (-.09, .08))
+    assert force == pytest.approx(stiffness() * np.array([-.01, .02]), abs=1e-6 * stiffness())
+
+
+def test_deepBallIsPushedOut():
+    mat = material()
+    ball = heldBall(chain.straight([(x, 0) for x in np.linspace(1, -1, 9)], mat), mat)
+    for depth in (.2, .5, .9):
+        force = forceAt(ball, (.1, -depth * RADIUS))
+        assert force[1] == pytest.approx(stiffness() * RADIUS * (1 + depth), rel=1e-9)
+    assert (forceAt(ball, (.1, -1.1 * RADIUS)) == 0).all()
+
+
+def test_frictionlessRollKeepsItsEnergy():
+    """A ball slides along a bumpy closed chain of small segments, under no force but contact."""
+    O.dt = 1e-4
+    mat = material()
+    angles = np.arange(48) * 2 * math.pi / 48
+    ring = np.array([((1 + .02 * math.cos(8 * a)) * math.cos(a),
+                      (1 + .02 * math.cos(8 * a)) * math.sin(a)) for a in -angles])
+    O.bodies.append(chain.straight(ring, mat, closed=True))  # clockwise: a hole
+    ball = chain.ball((.7, 0), RADIUS, mat)
+    ball.state.blockedDOFs = 'zXYZ'
+    ball.state.vel = (.3, 1, 0)
+    O.bodies.append(ball)
+    chain.engines()
+    start = ball.state.vel.squaredNorm()
+    speeds = []
+    for _ in range(400):
+        steps(100)
+        if not len(list(O.interactions)):
+            speeds.append(ball.state.vel.squaredNorm() / start)
+        assert ball.state.pos.norm() < 1.05
+    assert O.iter == 40000 and len(speeds) > 10
+    assert np.abs(np.array(speeds) - 1).max() < .01
+
+
+def test_movingBoundaryDragsByFriction():
+    """The relative velocity is that at the contact point: a turning piece counts."""
+    mat = material()
+    mat.frictionAngle = .5
+    O.dt = 1e-5
+    floor = chain.straight([(1, 0), (-1, 0)], mat)
+    floor[0].state.vel = (.2, 0, 0)
+    floor[0].state.angVel = (0, 0, .5)
+    ball = heldBall(floor, mat)
+    ball.state.pos = (.3, .99 * RADIUS, 0)
+    O.step()
+    geom = O.interactions[0, 1].geom
+    incident = geom.incidentVel(O.interactions[0, 1], False)
+    # ball is body 1 of the contact; the piece at the foot moves at vel + ω × (foot - pos)
+    assert tuple(incident) == pytest.approx((.2, .5 * .3, 0), abs=1e-12)
+    assert tuple(geom.normal) == pytest.approx((0, -1, 0))
+    assert tuple(geom.contactPoint) == pytest.approx((.3, 0, 0))
+    assert tuple(geom.shearInc) == pytest.approx((.2 * O.dt, 0, 0), abs=1e-15)
+
+
+def test_explicitInteractionEitherWay():
+    from yade import utils
+    mat = material()
+    ball = heldBall(chain.straight([(1, 0), (-1, 0)], mat), mat)
+    ball.state.pos = (.1, .09, 0)
+    for ids in ((0, 1), (1, 0)):
+        O.interactions.clear()
+        made = utils.createInteraction(*ids)
+        assert (made.id1, made.id2) == (1, 0)
+        assert made.geom.penetrationDepth == pytest.approx(.01)
+
+
+def test_classesAreThere():
+    for name in ('FEMat', 'BrittleFEMat', 'SurfaceSegment', 'Bo1_SurfaceSegment_Aabb',
+                 'Ig2_Sphere_SurfaceSegment_ScGeom'):
+        assert name in yadefrag.__all__
+    assert w.BrittleFEMat().dispHierarchy() == ['BrittleFEMat', 'FEMat', 'FrictMat', 'ElastMat',
+                                                'Material']
+    assert w.SurfaceSegment().dispHierarchy() == ['SurfaceSegment', 'Shape']
