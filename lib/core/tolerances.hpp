@@ -143,8 +143,8 @@ inline constexpr double kHaloSteps = 20;
 /// (ratio) Spare for acceleration when it is foreseen whether the next step leaves the halo.
 inline constexpr double kHaloSpare = 1.1;
 
-/// (count) Elements whose forces are summed in one go: their nodes stay in the first-level cache, and
-/// few of them belong to another chunk too.
+/// (count) Elements whose forces are summed in one go: their nodes stay in the first-level cache,
+/// and few of them belong to another chunk too.
 inline constexpr std::size_t kChunkElements = 512;
 
 /// (count) Fewer elements than this per thread are not worth two meetings of the threads a step.
@@ -182,14 +182,16 @@ inline constexpr double kIndependentRows = 1e-6;
 /// cycles with the one before.
 inline constexpr double kProximal[] = {1e-7, 1e-5, 1e-3};
 
-/// (relative to the diagonal) The same for a group that has no solution: bounds the forces.
+/// (relative to the diagonal; count) The same for a group that has no solution, and how often it is
+/// taken out again: a force grows by 1/(2ε) of what would close the gap each time.
 inline constexpr double kCompromise = 1e-2;
+inline constexpr int kCompromiseSteps = 5;
 
 /// (relative to max |g|) A bound or a sign violated by less than this is no reason for a pivot.
 inline constexpr double kPivotSlack = 1e-15;
 
 /// (count) Pivots of all contradicted rows at once that may fail to reduce their number.
-inline constexpr int kBlocksWithoutGain = 4;
+inline constexpr int kBlocksWithoutGain = 10;
 
 /// (count) Pivots after which pivoting is said to cycle.
 inline constexpr int kMostPivots = 300;
@@ -197,11 +199,11 @@ inline constexpr int kMostPivots = 300;
 /// (count) Proximal iterations, and how many of them must at least halve the error.
 inline constexpr int kMostRefinements = 200, kRefinementsToHalve = 10;
 
-/// (count) Gauss–Seidel sweeps where all else fails.
-inline constexpr int kMostSweeps = 100;
+/// (count) Gauss–Seidel sweeps where all else fails, and between two looks at the error.
+inline constexpr int kMostSweeps = 100, kSweepsToCheck = 10;
 
 /// (rows) Up to the first a group's matrix is factored by plain loops, up to the second as a dense
 /// one; up to the third if more than a quarter of its entries are there.
-inline constexpr std::size_t kPlainCholesky = 16, kDenseRows = 48, kMostDenseRows = 1500;
+inline constexpr std::size_t kPlainCholesky = 16, kDenseRows = 40, kMostDenseRows = 1500;
 
 }  // namespace yadefrag::tolerance

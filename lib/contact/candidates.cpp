@@ -1,0 +1,63 @@
+#include "contact/candidates.hpp"
+
+#include <algorithm>
+
+#include "core/tolerances.hpp"
+#include "surface/piece_geometry.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+/// Walks through the rows of the former candidates in the order in which new pairs come.
+class FormerFlags {
+ public:
+  explicit FormerFlags(const Candidates& former) : former_(former) {}
+
+  /// The flag of a pair, or `unknown` if it was no candidate.
+  std::uint8_t find(const SlaveMaster& pair, std::uint8_t unknown) {
+    while (row_ < former_.slaves.size() && former_.slaves[row_] < pair.slave)
+      at_ = former_.offsets[++row_];
+    if (row_ == former_.slaves.size() || former_.slaves[row_] != pair.slave) return unknown;
+    const std::uint32_t end = former_.offsets[row_ + 1];
+    while (at_ < end && former_.masters[at_] < pair.master) ++at_;
+    return at_ < end && former_.masters[at_] == pair.master ? former_.outside[at_] : unknown;
+  }
+
+ private:
+  const Candidates& former_;
+  std::size_t row_ = 0;
+  std::uint32_t at_ = 0;
+};
+
+}  // namespace
+
+void Candidates::clear() { *this = {}; }
+
+void replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
+                       const ContactSurfaces& surfaces, std::span<const Vec2> before) {
+  std::sort(pairs.begin(), pairs.end());
+  constexpr std::uint8_t kUnknown = 2;
+  const PieceGeometry geometry(surfaces, before);
+  FormerFlags former(candidates);
+  Candidates next;
+  next.masters.reserve(pairs.size());
+  next.outside.reserve(pairs.size());
+  for (const SlaveMaster& pair : pairs) {
+    if (next.slaves.empty() || next.slaves.back() != pair.slave) {
+      next.slaves.push_back(pair.slave);
+      next.offsets.push_back(static_cast<std::uint32_t>(next.masters.size()));
+    }
+    std::uint8_t outside = former.find(pair, kUnknown);
+    if (outside == kUnknown) {
+      const double touching = tolerance::kTouching * geometry.length(pair.master);
+      outside = geometry.foot(pair.master, geometry.slave(pair.slave)).gap >= -touching ? 1 : 0;
+    }
+    next.masters.push_back(pair.master);
+    next.outside.push_back(outside);
+  }
+  next.offsets.push_back(static_cast<std::uint32_t>(next.masters.size()));
+  candidates = std::move(next);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,39 @@
+#pragma once
+// Which slaves may come to touch which masters until the next search, and on which side they are
+// (paper §3.2, §5.1).
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/vec2.hpp"
+#include "surface/contact_surface.hpp"
+
+namespace yadefrag {
+
+/// Rows by slave: of the masters of one slave, neighbours decide together which is active.
+struct Candidates {
+  std::vector<EntryId> slaves;         ///< those that have any, ascending
+  std::vector<std::uint32_t> offsets;  ///< row r: [offsets[r], offsets[r + 1])
+  std::vector<EntryId> masters;        ///< ascending within a row
+  /// Was the slave on the void side of the master (paper fig. 8) at the end of the last step.
+  std::vector<std::uint8_t> outside;
+
+  [[nodiscard]] std::size_t size() const { return masters.size(); }
+  void clear();
+};
+
+/// A slave and a master in whose halo it is.
+struct SlaveMaster {
+  EntryId slave;
+  EntryId master;
+  friend auto operator<=>(const SlaveMaster&, const SlaveMaster&) = default;
+};
+
+/// Sorts the pairs into rows. Outside flags of pairs that `candidates` had already are kept, those
+/// of new ones come from `before`, the positions at the end of the last step (m, by node).
+void replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
+                       const ContactSurfaces& surfaces, std::span<const Vec2> before);
+
+}  // namespace yadefrag

@@ -1,0 +1,187 @@
+#include "contact/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/row_builder.hpp"
+#include "core/tolerances.hpp"
+#include "mesh/mobility.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+SlaveMaster pairOf(const ContactRow& row) { return {row.slave, row.master}; }
+
+bool byPair(const ContactRow& a, const ContactRow& b) { return pairOf(a) < pairOf(b); }
+
+bool areNeighbours(const ContactSurfaces& surfaces, EntryId a, EntryId b) {
+  return surfaces.next[a.value] == b || surfaces.prev[a.value] == b;
+}
+
+}  // namespace
+
+void Contact::reset(std::size_t nodes) {
+  candidates.clear();
+  touches.clear();
+  rows_.clear();
+  touched_.clear();
+  forces_.clear();
+  displacement_.clear();
+  resize(nodes);
+}
+
+void Contact::resize(std::size_t nodes) {
+  forces_.resize(nodes);
+  displacement_.resize(nodes);
+}
+
+void Contact::correct(Model& model, const ContactSurfaces& surfaces,
+                      const ContactSettings& settings, const ContactStep& step) {
+  rows_.clear();
+  maxPenetration_ = residual_ = 0;
+  for (const NodeId node : touched_) forces_[node.value] = displacement_[node.value] = {};
+  touched_.clear();
+  double reach = step.reach;
+  search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads);
+  for (int detection = 0; detection < tolerance::kDetections; ++detection) {
+    const bool anyNew = addRows(model, surfaces, step);
+    if (rows_.empty()) break;
+    if (detection > 0) {
+      updateGaps(model, surfaces);
+      if (!anyNew && maxPenetration_ <= tolerance::kPenetrationLeft * step.shortest) break;
+      if (!anyNew && settings.correction == Correction::kPenalty) break;
+    }
+    if (settings.correction == Correction::kPenalty)
+      penalize(rows_, model.nodes, step.dt, step.drag, settings.penaltyFactor);
+    else
+      residual_ = lagrange_.solve(rows_, model.nodes, step.dt, step.drag);
+    // What the correction moved by more than the scan looked ahead is looked at again.
+    const double moved = move(model, step);
+    if (2 * moved > reach) {
+      reach = 2 * moved;
+      search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads);
+    }
+  }
+  finish(model, surfaces, step);
+}
+
+/// Adds a row for every active that has none; true if there was one.
+bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
+                      const ContactStep& step) {
+  if (!search_.anyNear()) return false;
+  actives_.clear();
+  search_.findActives(candidates, surfaces, model.nodes.position, actives_);
+  const PieceGeometry before(surfaces, step.before);
+  const std::size_t known = rows_.size();
+  for (const Active& active : actives_) {
+    const auto begin = rows_.begin(), end = begin + static_cast<std::ptrdiff_t>(known);
+    auto at = std::lower_bound(
+        begin, end, active.pair,
+        [](const ContactRow& row, SlaveMaster pair) { return row.slave < pair.slave; });
+    // A slave that the correction pushed on to the next master keeps its row: the two differ by the
+    // second-order remainder, and both together would hold it before a convex corner's both faces.
+    bool has = false;
+    for (; at != end && at->slave == active.pair.slave; ++at)
+      has = has || at->master == active.pair.master ||
+            areNeighbours(surfaces, at->master, active.pair.master);
+    if (has) continue;
+    ContactRow row = makeRow(surfaces, before, active);
+    startRow(row, model, surfaces, before, active, step);
+    rows_.push_back(row);
+  }
+  if (rows_.size() == known) return false;
+  std::sort(rows_.begin(), rows_.end(), byPair);
+  return true;
+}
+
+/// Friction, slip, and what the last step knows of the contact.
+void Contact::startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
+                       const PieceGeometry& before, const Active& active,
+                       const ContactStep& step) const {
+  const auto friction = [&](EntryId entry) {
+    return model.components[surfaces.component[entry.value].value].friction;
+  };
+  row.friction = std::min(friction(row.slave), friction(row.master));
+  const Vec2 corrected = relative(row, displacement_);
+  row.gap -= dot(corrected, row.normal);
+  if (row.friction > 0) {
+    Vec2 moved;
+    for (int k = 0; k < row.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const std::uint32_t node = row.node[at].value;
+      moved += row.weight[at] * (model.nodes.position[node] - step.before[node]);
+    }
+    row.slip = dot(moved - corrected, row.tangent());
+  }
+  const auto touch =
+      std::lower_bound(touches.begin(), touches.end(), active.pair.slave,
+                       [](const Touch& known, EntryId slave) { return known.pair.slave < slave; });
+  if (touch != touches.end() && touch->pair.slave == row.slave) {
+    row.allowed = std::min(0., touch->allowed * (1 - tolerance::kOverlapDecay));
+    for (auto same = touch; same != touches.end() && same->pair.slave == row.slave; ++same)
+      if (same->pair.master == row.master)
+        row.normalForce = same->normalForce, row.tangentForce = same->tangentForce;
+  } else if (surfaces.piece[row.master.value] == Piece::kArc) {
+    // No flag keeps a smooth master from a slave that was inside before: an old overlap is held.
+    const Foot foot = before.foot(row.master, before.slave(row.slave));
+    if (foot.inside) row.allowed = std::min(0., foot.gap);
+  }
+}
+
+/// The true gaps at the corrected positions, taken back to the predicted ones along the rows: the
+/// next solve then leaves a remainder of higher order.
+void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces) {
+  const PieceGeometry geometry(surfaces, model.nodes.position);
+  maxPenetration_ = 0;
+  for (ContactRow& row : rows_) {
+    const double gap = gapOf(row, geometry);
+    maxPenetration_ = std::max(maxPenetration_, row.allowed - gap);
+    row.gap = gap - dot(relative(row, displacement_), row.normal);
+  }
+}
+
+/// Moves the nodes from where they are to x* + u; returns the largest |u| (m).
+double Contact::move(Model& model, const ContactStep& step) {
+  for (const NodeId node : touched_) forces_[node.value] = {};
+  sumForces();
+  double largest = 0;
+  for (const NodeId node : touched_) {
+    const Vec2 mobile = mobility(model.nodes, node, step.drag);
+    const Vec2 force = forces_[node.value];
+    const Vec2 u{step.dt * step.dt * mobile.x * force.x, step.dt * step.dt * mobile.y * force.y};
+    model.nodes.position[node.value] += u - displacement_[node.value];
+    displacement_[node.value] = u;
+    largest = std::max(largest, norm(u));
+  }
+  return largest;
+}
+
+/// Eq. 7: Fᵢ = Σ weight × force of the rows.
+void Contact::sumForces() {
+  for (const ContactRow& row : rows_)
+    for (int k = 0; k < row.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      forces_[row.node[at].value] += row.weight[at] * row.force();
+      touched_.push_back(row.node[at]);
+    }
+  std::sort(touched_.begin(), touched_.end());
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+}
+
+/// Velocities, outside flags, and what the next step has to know.
+void Contact::finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
+  for (const NodeId node : touched_)
+    model.nodes.velocity[node.value] += (1 / step.dt) * displacement_[node.value];
+  if (!rows_.empty()) updateGaps(model, surfaces);
+  touches.clear();
+  std::vector<SlaveMaster> active;
+  active.reserve(rows_.size());
+  for (const ContactRow& row : rows_) {
+    touches.push_back({pairOf(row), row.normalForce, row.tangentForce, row.allowed});
+    active.push_back(pairOf(row));
+  }
+  if (search_.anyNear()) search_.settle(candidates, surfaces, model.nodes.position, active);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,77 @@
+#pragma once
+// Contact of all surfaces within one step: local search, then the Lagrangian correction of
+// positions and velocities, repeated while anything newly penetrates.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/candidates.hpp"
+#include "contact/contact_row.hpp"
+#include "contact/contact_settings.hpp"
+#include "contact/correction.hpp"
+#include "contact/local_search.hpp"
+#include "mesh/model.hpp"
+#include "surface/contact_surface.hpp"
+
+namespace yadefrag {
+
+/// What the next step has to know of an active.
+struct Touch {
+  SlaveMaster pair;
+  double normalForce, tangentForce;  ///< N, where the next solve starts from
+  double allowed;  ///< m, ≤ 0: what is left of an overlap older than the contact
+};
+
+/// The step that contact is part of. Spans are by node.
+struct ContactStep {
+  double dt;                     ///< s
+  double drag;                   ///< αΔt/2
+  double reach;                  ///< m, twice the largest displacement of a surface node
+  double shortest;               ///< m, shortest segment
+  std::span<const Vec2> before;  ///< m, xⁿ; of surface nodes only
+  int threads;
+};
+
+class Contact {
+ public:
+  /// From the predicted x* and v* of `model` to xⁿ⁺¹ and vⁿ⁺½.
+  void correct(Model& model, const ContactSurfaces& surfaces, const ContactSettings& settings,
+               const ContactStep& step);
+
+  /// After nodes or entries were renumbered or added: candidates and touches are void.
+  void reset(std::size_t nodes);
+  /// After nodes were added.
+  void resize(std::size_t nodes);
+
+  [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
+  /// (N) By node, of the last step.
+  [[nodiscard]] const std::vector<Vec2>& forces() const { return forces_; }
+  [[nodiscard]] double maxPenetration() const { return maxPenetration_; }
+  /// Largest residual of the last step's systems, relative to their largest gap.
+  [[nodiscard]] double residual() const { return residual_; }
+
+  Candidates candidates;
+  std::vector<Touch> touches;  ///< by pair
+
+ private:
+  bool addRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
+  void startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
+                const PieceGeometry& before, const Active& active, const ContactStep& step) const;
+  void updateGaps(const Model& model, const ContactSurfaces& surfaces);
+  double move(Model& model, const ContactStep& step);
+  void sumForces();
+  void finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
+
+  LocalSearch search_;
+  Lagrange lagrange_;
+  std::vector<Active> actives_;
+  std::vector<ContactRow> rows_;
+  std::vector<Vec2> forces_;        // N, by node
+  std::vector<Vec2> displacement_;  // m, by node: the correction u so far
+  std::vector<NodeId> touched_;     // nodes with a force
+  double maxPenetration_ = 0;
+  double residual_ = 0;
+};
+
+}  // namespace yadefrag

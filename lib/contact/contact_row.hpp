@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+
+#include "core/ids.hpp"
+#include "core/vec2.hpp"
+#include "surface/contact_surface.hpp"
+
+namespace yadefrag {
+
+/// One active: a slave that penetrates a master, as a row of its group's system. The relative
+/// displacement of slave to master is the sum of weight × displacement over the nodes.
+struct ContactRow {
+  EntryId slave;
+  EntryId master;
+  std::array<NodeId, 5> node;    ///< of the slave, then of the master
+  std::array<double, 5> weight;  ///< hᵢ of the slave, −hᵢ of the master (eq. 4, 6, 7)
+  int count = 0;
+  Vec2 normal;              ///< out of the master, at xⁿ
+  double gap = 0;           ///< m, at the predicted positions; negative: penetration
+  double allowed = 0;       ///< m, ≤ 0: an overlap older than this contact
+  double slip = 0;          ///< m, of the slave along `tangent()` in this step, without contact
+  double friction = 0;      ///< tan of the friction angle
+  double normalForce = 0;   ///< N, on the slave along the normal
+  double tangentForce = 0;  ///< N, on the slave along `tangent()`
+
+  [[nodiscard]] Vec2 tangent() const { return {-normal.y, normal.x}; }
+  [[nodiscard]] Vec2 force() const { return normalForce * normal + tangentForce * tangent(); }
+  void add(const Stencil& stencil, double sign);
+};
+
+/// Σ weight × field over the row's nodes.
+template <class Field>
+Vec2 relative(const ContactRow& row, const Field& field) {
+  Vec2 sum;
+  for (int k = 0; k < row.count; ++k) sum += row.weight[k] * field[row.node[k].value];
+  return sum;
+}
+
+}  // namespace yadefrag

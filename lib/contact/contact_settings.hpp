@@ -1,0 +1,19 @@
+#pragma once
+
+namespace yadefrag {
+
+enum class Correction {
+  kLagrange,  ///< non-penetration exactly, forces from a linear system (paper §2)
+  kPenalty,   ///< forces in proportion to penetration, for comparison
+};
+
+struct ContactSettings {
+  Correction correction = Correction::kLagrange;
+  /// 1: of two surfaces the finer one's points are slaves, and the other's sharp corners.
+  /// 2: every point of both.
+  int passes = 1;
+  /// Of the stiffness that would undo a penetration in one step.
+  double penaltyFactor = .2;
+};
+
+}  // namespace yadefrag

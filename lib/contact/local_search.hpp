@@ -1,0 +1,62 @@
+#pragma once
+// From candidates to actives (paper §5): a scan of all candidates that leaves the few which are
+// near, then, for each slave, the masters it is active on.
+
+#include <span>
+#include <vector>
+
+#include "contact/candidates.hpp"
+#include "surface/piece_geometry.hpp"
+
+namespace yadefrag {
+
+/// A slave that penetrates a master now, and where.
+struct Active {
+  SlaveMaster pair;
+  Foot foot;
+};
+
+class LocalSearch {
+ public:
+  /// First phase (§5.1) at `positions` (m, by node). A candidate is near if its slave is inside the
+  /// master's line or within `reach` (m) of it, beside the piece by no more than a few `reach`.
+  /// Outside flags of all that are not near are brought up to date.
+  void scan(Candidates& candidates, const ContactSurfaces& surfaces,
+            std::span<const Vec2> positions, double reach, int threads);
+
+  /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master.
+  void findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
+                   std::span<const Vec2> positions, std::vector<Active>& actives);
+
+  /// Outside flags of the near ones after the step, in which `touched` (ascending) were active:
+  /// those stay outside, however rounding has placed them.
+  void settle(Candidates& candidates, const ContactSurfaces& surfaces,
+              std::span<const Vec2> positions, std::span<const SlaveMaster> touched) const;
+
+  [[nodiscard]] bool anyNear() const { return !near_.empty(); }
+
+ private:
+  struct Near {
+    std::uint32_t row;
+    std::uint32_t candidate;
+  };
+  struct Trial {
+    EntryId master;
+    Foot foot;
+    bool outside;  ///< flag
+    bool opposed;
+    bool active;
+  };
+
+  void tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
+              const PieceGeometry& geometry, std::span<const Near> row);
+  void decide(const ContactSurfaces& surfaces, const PieceGeometry& geometry);
+  void decideNeighbours(const ContactSurfaces& surfaces, const PieceGeometry& geometry,
+                        Trial& first, Trial& second);
+
+  std::vector<Near> near_;
+  std::vector<std::vector<Near>> nearByPart_;
+  std::vector<Trial> trials_;
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,48 @@
+#include "contact/pass_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tolerances.hpp"
+#include "surface/piece_geometry.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+/// Does the boundary turn left by more than the tolerated angle where the entry begins.
+bool isSharp(const ContactSurfaces& surfaces, const PieceGeometry& geometry, EntryId entry) {
+  const EntryId former = surfaces.prev[entry.value];
+  if (surfaces.piece[entry.value] == Piece::kArc || surfaces.piece[former.value] == Piece::kArc)
+    return false;
+  const Vec2 in = geometry.tangent(former, 1);
+  const Vec2 out = geometry.tangent(entry, 0);
+  return std::atan2(cross(in, out), dot(in, out)) > tolerance::kSharpCorner;
+}
+
+}  // namespace
+
+void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
+                      int passes) {
+  passes_ = passes;
+  if (passes == 2) return;
+  const PieceGeometry geometry(surfaces, positions);
+  const std::size_t count = surfaces.entries();
+  std::uint32_t loops = 0;
+  for (const std::uint32_t loop : surfaces.loop) loops = std::max(loops, loop + 1);
+  fineness_.assign(loops, 0);
+  sharp_.resize(count);
+  std::vector<double> pieces(loops, 0);
+  for (std::size_t e = 0; e < count; ++e) {
+    const EntryId entry(e);
+    fineness_[surfaces.loop[e]] += geometry.length(entry);
+    pieces[surfaces.loop[e]] += 1;
+    sharp_[e] = isSharp(surfaces, geometry, entry) ? 1 : 0;
+  }
+  // Compared with a tolerance by rounding: equal meshes must not take turns as they deform.
+  for (std::uint32_t l = 0; l < loops; ++l)
+    if (pieces[l] > 0)
+      fineness_[l] = std::round(std::log2(fineness_[l] / pieces[l]) * tolerance::kFinenessSteps);
+}
+
+}  // namespace yadefrag

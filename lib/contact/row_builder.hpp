@@ -1,0 +1,20 @@
+#pragma once
+// Rows of the contact system from actives. Normal and foot are those at xⁿ, where the forces act:
+// the angular momentum is kept; the gap is that at the predicted positions.
+
+#include <span>
+
+#include "contact/contact_row.hpp"
+#include "contact/local_search.hpp"
+#include "surface/piece_geometry.hpp"
+
+namespace yadefrag {
+
+/// `before`: positions xⁿ. The row's gap is the active's; its `allowed` is 0, its friction unset.
+ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
+                   const Active& active);
+
+/// (m) The gap of a row's slave to its master's line or arc; negative: penetration.
+double gapOf(const ContactRow& row, const PieceGeometry& geometry);
+
+}  // namespace yadefrag

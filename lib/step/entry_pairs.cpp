@@ -1,0 +1,56 @@
+#include "step/entry_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/piece_geometry.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+/// Is a point in the strip of width δ around a piece; around an arc's control points at least.
+bool isInHalo(const PieceGeometry& geometry, const ContactSurfaces& surfaces,
+              std::span<const Vec2> positions, EntryId master, Vec2 point, double halo) {
+  const PieceEnds ends = geometry.ends(master);
+  double width = halo;
+  if (surfaces.piece[master.value] == Piece::kArc) {
+    NodeId nodes[3];
+    surfaces.pieceNodes(master, nodes);
+    width += norm(positions[nodes[1].value] - .5 * (ends.begin + ends.end));
+  }
+  const Vec2 along = ends.end - ends.begin;
+  const Vec2 from = point - ends.begin;
+  const double length = norm(along);
+  const double at = dot(along, from) / length;
+  return std::abs(cross(along, from)) <= width * length && at >= -width && at <= length + width;
+}
+
+}  // namespace
+
+Box entryBox(const ContactSurfaces& surfaces, std::span<const Vec2> positions, EntryId entry,
+             double halo) {
+  Box box = PieceGeometry(surfaces, positions).box(entry);
+  for (std::size_t axis = 0; axis < 2; ++axis) box.min[axis] -= halo / 2, box.max[axis] += halo / 2;
+  return box;
+}
+
+void selectPairs(const Model& model, const ContactSurfaces& surfaces, const PassRule& rule,
+                 std::span<const Vec2> positions, double halo, std::span<const BoxPair> overlapping,
+                 std::vector<SlaveMaster>& pairs) {
+  const PieceGeometry geometry(surfaces, positions);
+  const auto consider = [&](EntryId slave, EntryId master) {
+    if (surfaces.prev[slave.value] == master) return;  // its own end
+    if (!rule.mayBeSlave(slave, surfaces.loop[slave.value], surfaces.loop[master.value])) return;
+    if (isInHalo(geometry, surfaces, positions, master, geometry.slave(slave), halo))
+      pairs.push_back({slave, master});
+  };
+  for (const BoxPair& pair : overlapping) {
+    const EntryId a(pair.first.value), b(pair.second.value);
+    if (!mayTouch(model, surfaces.component[a.value], surfaces.component[b.value])) continue;
+    consider(a, b);
+    consider(b, a);
+  }
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,44 @@
+// One step of all bodies, in the order of the paper (§2, §4, §5).
+
+#include <sstream>
+
+#include "core/errors.hpp"
+#include "step/world.hpp"
+
+namespace yadefrag {
+
+void World::step(double dt) {
+  requireStableStep(dt);
+
+  // Where the surface is at xⁿ: contact forces act there, and a step that fails goes back there.
+  rememberSurface();
+
+  // Internal forces, then v* and x*, as if there were no contact.
+  try {
+    dynamics_.predict(model, dt, dynamicsSettings, outerForces, threads);
+  } catch (const RunError& error) {
+    std::ostringstream text;
+    text << "Step " << steps << ", time " << time << " s: " << error.what();
+    throw RunError(text.str());
+  }
+
+  // Global search, only if a node left the halo of the last one: mostly a collider has searched, or
+  // the last candidates still hold.
+  if (canTouch()) {
+    searchIfLeft();
+    // Local search and correction, from x*, v* to xⁿ⁺¹, vⁿ⁺½.
+    correctContact(dt);
+    bookContact(dt);
+  }
+
+  // Works of everything but contact, with the mean of both velocities.
+  dynamics_.finish(model, dt, dynamicsSettings, outerForces, contact.forces(), ledger);
+  ++steps;
+  time += dt;
+  lastDt = dt;
+  outerForces.clear();
+
+  if (canTouch()) foreseeSearch(dt);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,107 @@
+#include "step/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/errors.hpp"
+#include "dynamics/critical_time_step.hpp"
+#include "mesh/assembly.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+template <class Values>
+void requireLength(const char* name, const Values& values, const TriangleMesh& mesh) {
+  if (values.empty() || values.size() == mesh.nodes.size()) return;
+  std::ostringstream text;
+  text << name << " has " << values.size() << " values, but the mesh has " << mesh.nodes.size()
+       << " nodes.";
+  throw InputError(text.str());
+}
+
+}  // namespace
+
+ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
+  requireLength("velocity", spec.velocity, mesh);
+  requireLength("displacement", spec.displacement, mesh);
+  requireLength("held", spec.held, mesh);
+  requireLength("smoothNodes", spec.smoothNodes, mesh);
+  Component component;
+  component.material = spec.material;
+  component.thickness = spec.thickness;
+  component.friction = spec.friction;
+  component.selfContact = spec.selfContact;
+  const std::size_t first = model.nodes.size();
+  const ComponentId id = appendBody(model, mesh, component);
+  reference.insert(reference.end(), mesh.nodes.begin(), mesh.nodes.end());
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    if (!spec.displacement.empty()) model.nodes.position[first + i] += spec.displacement[i];
+    if (!spec.velocity.empty()) model.nodes.velocity[first + i] = spec.velocity[i];
+    if (!spec.held.empty()) model.nodes.held[first + i] = spec.held[i];
+  }
+  for (const auto& loop : mesh.loops) {
+    std::vector<NodeId> nodes;
+    std::vector<std::uint8_t> smooth;
+    for (const std::uint32_t node : loop) {
+      nodes.emplace_back(first + node);
+      smooth.push_back(spec.smoothNodes.empty() ? 0 : spec.smoothNodes[node]);
+    }
+    surfaces.addLoop(nodes, smooth, id);
+  }
+  rebuild();
+  search.isVoid = true;
+  return id;
+}
+
+void World::removeBody(ComponentId component) {
+  if (component.value >= model.components.size() ||
+      model.components[component.value].firstTriangle ==
+          model.components[component.value].lastTriangle) {
+    std::ostringstream text;
+    text << "There is no body " << component.value << " to remove.";
+    throw InputError(text.str());
+  }
+  const std::vector<NodeId> renumbered = yadefrag::removeBody(model, component);
+  for (std::size_t i = 0; i < renumbered.size(); ++i)
+    if (renumbered[i] != NodeId::none()) reference[renumbered[i].value] = reference[i];
+  reference.resize(model.nodes.size());
+  surfaces.removeComponent(component);
+  surfaces.renumberNodes(renumbered, model.nodes.size());
+  contact.reset(model.nodes.size());
+  rebuild();
+  search.isVoid = true;
+}
+
+void World::rebuild() {
+  dynamics_.rebuild(model);
+  before_.resize(model.nodes.size());
+  contact.resize(model.nodes.size());
+  surfaceNodes_.assign(surfaces.segmentNode.begin(), surfaces.segmentNode.end());
+  std::sort(surfaceNodes_.begin(), surfaceNodes_.end());
+  surfaceNodes_.erase(std::unique(surfaceNodes_.begin(), surfaceNodes_.end()), surfaceNodes_.end());
+  search_.reset();
+  stableStep_ = 0;
+}
+
+double World::criticalTimeStep() const {
+  return yadefrag::criticalTimeStep(model, dynamicsSettings.viscosity, threads);
+}
+
+/// Only before the first step, and when the step has grown or bodies came or went: a mesh that is
+/// compressed so far that this matters is the user's to watch.
+void World::requireStableStep(double dt) {
+  if (dt > 0 && dt <= stableStep_) return;
+  const double critical = criticalTimeStep();
+  if (!(dt > 0 && dt <= critical)) {
+    std::ostringstream text;
+    text.precision(6);
+    text << "The time step is " << dt << " s, but must be above 0 and at most " << critical
+         << " s, the critical step of the present mesh.";
+    throw InputError(text.str());
+  }
+  stableStep_ = dt;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,115 @@
+#pragma once
+// All state of the finite-element bodies of a scene, and the step that moves them (time_step.cpp).
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "contact/pass_rule.hpp"
+#include "dynamics/energy_ledger.hpp"
+#include "dynamics/explicit_dynamics.hpp"
+#include "mesh/model.hpp"
+#include "mesh/triangle_mesh.hpp"
+#include "search/contact_search.hpp"
+#include "surface/contact_surface.hpp"
+
+namespace yadefrag {
+
+/// What a body is beside its mesh. Arrays are by node of the mesh; empty ones stand for zeros.
+struct BodySpec {
+  ElasticMaterial material;
+  double friction = 0;   ///< tan of the friction angle
+  double thickness = 1;  ///< m
+  bool selfContact = true;
+  std::vector<Vec2> velocity;             ///< m/s
+  std::vector<Vec2> displacement;         ///< m, from the stress-free shape
+  std::vector<std::uint8_t> held;         ///< Held
+  std::vector<std::uint8_t> smoothNodes;  ///< is a boundary node on a C¹-smooth part
+};
+
+/// The state of the global search: what it covers, and until when.
+struct SearchState {
+  double halo = 0;              ///< m, δ of the last search
+  double shortest = 0;          ///< m, shortest boundary segment then
+  bool isDue = true;            ///< the next step may leave the halo
+  bool isVoid = true;           ///< entries came or went: there are no candidates to go on with
+  std::vector<Vec2> positions;  ///< m, of the surface nodes at the last search
+};
+
+class World {
+ public:
+  /// Both throw InputError before anything is changed.
+  ComponentId addBody(const TriangleMesh& mesh, const BodySpec& spec);
+  void removeBody(ComponentId component);
+
+  /// One step of Δt (s). Throws InputError for a step above the critical one, RunError where an
+  /// element or a value gives out: the last good state is then there to be looked at.
+  void step(double dt);
+
+  /// (s) From the present mesh; infinite without elements.
+  [[nodiscard]] double criticalTimeStep() const;
+
+  /// Half the halo around an entry's piece, for a search by somebody else (a collider). To be asked
+  /// before that search, if one is due: the halo's width follows the velocities.
+  [[nodiscard]] Box boxOf(EntryId entry) const;
+  void chooseHalo(double dt);
+  /// Takes pairs of entries whose boxes overlap at the present positions in place of the world's
+  /// own search.
+  void takePairs(std::span<const BoxPair> overlapping);
+
+  /// (J) At the last half step.
+  [[nodiscard]] double kineticEnergy() const { return yadefrag::kineticEnergy(model.nodes); }
+  [[nodiscard]] double strainEnergy() const { return yadefrag::strainEnergy(model, lastDt); }
+
+  /// What does not follow from the saved state, after it has been loaded.
+  void rebuild();
+
+  // --- settings
+  StepSettings dynamicsSettings;
+  ContactSettings contactSettings;
+  int threads = 1;
+  /// (N) By node, for the next step only; empty: none.
+  std::vector<Vec2> outerForces;
+
+  // --- state
+  Model model;
+  ContactSurfaces surfaces;
+  Contact contact;
+  SearchState search;
+  EnergyLedger ledger;
+  std::vector<Vec2> reference;  ///< m, stress-free positions by node
+  std::uint64_t steps = 0;
+  double time = 0;    ///< s
+  double lastDt = 0;  ///< s
+
+  // --- counters
+  std::uint64_t numSearches = 0;
+  [[nodiscard]] std::span<const NodeId> surfaceNodes() const { return surfaceNodes_; }
+
+ private:
+  void requireStableStep(double dt);
+  void rememberSurface();
+  void searchIfLeft();
+  void searchNow();
+  void considerPairs(std::span<const BoxPair> overlapping);
+  void correctContact(double dt);
+  void bookContact(double dt);
+  void foreseeSearch(double dt);
+  [[nodiscard]] bool canTouch() const;
+  [[nodiscard]] double largestMove() const;
+  [[nodiscard]] double fastest() const;
+
+  ExplicitDynamics dynamics_;
+  std::unique_ptr<ContactSearch> search_;
+  PassRule passRule_;
+  std::vector<NodeId> surfaceNodes_;
+  std::vector<Vec2> before_;  // m, xⁿ by node; of surface nodes only
+  std::vector<BoxPair> overlapping_;
+  std::vector<SlaveMaster> pairs_;
+  std::vector<Box> boxes_;
+  double stableStep_ = 0;  // s, the longest step that has been found stable
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,155 @@
+// The world's part in contact: when to search, whom to ask, what to book.
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tolerances.hpp"
+#include "step/entry_pairs.hpp"
+#include "step/world.hpp"
+#include "surface/piece_geometry.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+double shortestSegment(const ContactSurfaces& surfaces, std::span<const Vec2> positions) {
+  double least = INFINITY;
+  for (std::size_t s = 0; s < surfaces.segments(); ++s) {
+    const NodeId a = surfaces.segmentNode[s];
+    const NodeId b = surfaces.segmentNode[surfaces.segmentNext[s].value];
+    const Vec2 along = positions[b.value] - positions[a.value];
+    least = std::min(least, dot(along, along));
+  }
+  return std::sqrt(least);
+}
+
+}  // namespace
+
+/// One body that cannot touch itself needs neither search nor candidates.
+bool World::canTouch() const {
+  const std::vector<ComponentId>& owners = surfaces.component;
+  if (owners.empty()) return false;
+  return owners.front() != owners.back() || model.components[owners.front().value].selfContact;
+}
+
+void World::rememberSurface() {
+  if (!canTouch()) return;
+  for (const NodeId node : surfaceNodes_) before_[node.value] = model.nodes.position[node.value];
+}
+
+double World::largestMove() const {
+  double most = 0;
+  for (const NodeId node : surfaceNodes_) {
+    const Vec2 moved = model.nodes.position[node.value] - before_[node.value];
+    most = std::max(most, dot(moved, moved));
+  }
+  return std::sqrt(most);
+}
+
+double World::fastest() const {
+  double most = 0;
+  for (const NodeId node : surfaceNodes_) {
+    const Vec2 velocity = model.nodes.velocity[node.value];
+    most = std::max(most, dot(velocity, velocity));
+  }
+  return std::sqrt(most);
+}
+
+Box World::boxOf(EntryId entry) const {
+  return entryBox(surfaces, model.nodes.position, entry, search.halo);
+}
+
+/// δ for the next kHaloSteps steps, at most half the shortest segment (§4.1); only bodies so fast
+/// that they would leave it at once get a wider one.
+void World::chooseHalo(double dt) {
+  const double move = 2 * tolerance::kHaloSpare * fastest() * dt;
+  search.shortest = shortestSegment(surfaces, model.nodes.position);
+  const double wanted =
+      std::clamp(tolerance::kHaloSteps * move, tolerance::kNarrowestHalo * search.shortest,
+                 tolerance::kWidestHalo * search.shortest);
+  search.halo = std::max(wanted, 2 * move);
+}
+
+void World::takePairs(std::span<const BoxPair> overlapping) {
+  rememberSurface();
+  considerPairs(overlapping);
+}
+
+void World::considerPairs(std::span<const BoxPair> overlapping) {
+  passRule_.update(surfaces, model.nodes.position, contactSettings.passes);
+  pairs_.clear();
+  selectPairs(model, surfaces, passRule_, model.nodes.position, search.halo, overlapping, pairs_);
+  replaceCandidates(contact.candidates, pairs_, surfaces, before_);
+  search.positions.resize(surfaceNodes_.size());
+  for (std::size_t i = 0; i < surfaceNodes_.size(); ++i)
+    search.positions[i] = model.nodes.position[surfaceNodes_[i].value];
+  search.isDue = search.isVoid = false;
+  ++numSearches;
+}
+
+/// Nothing is missed: whatever was foreseen, x* itself decides.
+void World::searchIfLeft() {
+  if (!search.isDue && !search.isVoid) {
+    const double allowed = search.halo * search.halo / 4;
+    for (std::size_t i = 0; i < surfaceNodes_.size(); ++i) {
+      const Vec2 moved = model.nodes.position[surfaceNodes_[i].value] - search.positions[i];
+      if (!(dot(moved, moved) <= allowed)) return searchNow();
+    }
+    return;
+  }
+  searchNow();
+}
+
+/// The world's own search, at x*: all boxes, position codes moved, pairs.
+void World::searchNow() {
+  // As wide as the collider's would be, and at least as wide as this step's own motion.
+  search.shortest = shortestSegment(surfaces, model.nodes.position);
+  const double move = 2 * tolerance::kHaloSpare * largestMove();
+  search.halo =
+      std::max(std::clamp(tolerance::kHaloSteps * move, tolerance::kNarrowestHalo * search.shortest,
+                          tolerance::kWidestHalo * search.shortest),
+               2 * move);
+  if (!search_) search_ = makeSearch(SearchMethod::kLebesgue);
+  boxes_.resize(surfaces.entries());
+  for (std::size_t e = 0; e < boxes_.size(); ++e) boxes_[e] = boxOf(EntryId(e));
+  search_->setThreads(threads);
+  search_->update(boxes_);
+  overlapping_.clear();
+  search_->findPairs(overlapping_);
+  considerPairs(overlapping_);
+}
+
+void World::correctContact(double dt) {
+  const ContactStep now{dt,
+                        dynamicsSettings.damping * dt / 2,
+                        2 * largestMove() + tolerance::kTouching * search.shortest,
+                        search.shortest,
+                        before_,
+                        threads};
+  contact.correct(model, surfaces, contactSettings, now);
+}
+
+void World::bookContact(double dt) {
+  const std::span<const Vec2> former = dynamics_.previousVelocity();
+  for (const ContactRow& row : contact.rows()) {
+    const Vec2 mean = .5 * (relative(row, former) + relative(row, model.nodes.velocity));
+    ledger.contact -= row.normalForce * dot(mean, row.normal) * dt;
+    ledger.friction -= row.tangentForce * dot(mean, row.tangent()) * dt;
+  }
+}
+
+/// May the next step leave the halo?
+void World::foreseeSearch(double dt) {
+  if (search.isDue) return;
+  for (std::size_t i = 0; i < surfaceNodes_.size(); ++i) {
+    const std::uint32_t node = surfaceNodes_[i].value;
+    const double moved = norm(model.nodes.position[node] - search.positions[i]);
+    const double next = tolerance::kHaloSpare * norm(model.nodes.velocity[node]) * dt;
+    if (moved + next > search.halo / 2) {
+      search.isDue = true;
+      return;
+    }
+  }
+}
+
+}  // namespace yadefrag
