@@ -1,0 +1,34 @@
+"""Files for other programs."""
+
+import numpy
+
+_OF_NODES = (('displacement', 'displacements'), ('velocity', 'velocities'),
+             ('contact force', 'contactForces'))
+
+
+def _spatial(values):
+    """(n, 2) as (n, 3) with z = 0, which ParaView takes for vectors."""
+    values = numpy.asarray(values, dtype=float).reshape(-1, 2)
+    return numpy.column_stack([values, numpy.zeros(len(values))])
+
+
+def exportVTK(fe, file):
+    """Writes the bodies of an FESolver to `file` for ParaView, as an unstructured grid (.vtu).
+
+    Points are the nodes where they are now (m); at points: displacement from the stress-free shape
+    (m), velocity (m/s), contact force (N); in triangles: stress (xx, yy, xy in Pa) and component
+    (int). ValueError for another ending than .vtu and for a solver without bodies.
+    """
+    import meshio
+
+    if not str(file).endswith('.vtu'):
+        raise ValueError("file is %r, its name must end with '.vtu'." % str(file))
+    triangles = numpy.asarray(fe.triangles)
+    if len(triangles) == 0:
+        raise ValueError('fe has no bodies to write, add one with fe.addPolygon first.')
+    points = {name: _spatial(getattr(fe, attribute)) for name, attribute in _OF_NODES}
+    cells = {'stress': [numpy.asarray(fe.stress, dtype=float)],
+             'component': [numpy.asarray(fe.components, dtype=numpy.int32)]}
+    mesh = meshio.Mesh(_spatial(fe.nodes), [('triangle', triangles.astype(numpy.int64))],
+                       point_data=points, cell_data=cells)
+    mesh.write(str(file), file_format='vtu')

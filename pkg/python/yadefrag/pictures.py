@@ -1,0 +1,152 @@
+"""Pictures of the bodies of an FESolver, by Matplotlib."""
+
+import numpy
+
+_UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
+          'mises': 'von Mises stress (Pa)', 'speed': 'speed (m/s)', 'component': 'component'}
+
+
+def _stress(fe, field):
+    stress = numpy.asarray(fe.stress, dtype=float).reshape(-1, 3)
+    xx, yy, xy = stress.T
+    if field == 'mises':
+        return numpy.sqrt(xx**2 - xx * yy + yy**2 + 3 * xy**2)
+    return {'xx': xx, 'yy': yy, 'xy': xy}[field]
+
+
+def _values(fe, field):
+    """(values, are they one per node) of a field, both None for no field."""
+    if field is None:
+        return None, None
+    if isinstance(field, str):
+        if field == 'speed':
+            return numpy.linalg.norm(numpy.asarray(fe.velocities, dtype=float), axis=1), True
+        if field == 'component':
+            return numpy.asarray(fe.components, dtype=float), False
+        if field in _UNITS:
+            return _stress(fe, field), False
+        raise ValueError('field is %r, it must be one of %s, an array or None.' %
+                         (field, ', '.join(repr(name) for name in _UNITS)))
+    values = numpy.asarray(field, dtype=float)
+    nodes, triangles = len(fe.nodes), len(fe.triangles)
+    if values.shape == (triangles,):
+        return values, False
+    if values.shape == (nodes,):
+        return values, True
+    raise ValueError('field has the shape %r, it must be one number for each of the %d triangles '
+                     'or of the %d nodes.' % (values.shape, triangles, nodes))
+
+
+def plotMesh(fe, field=None, file=None, ax=None, limits=None):
+    """Draws the triangles of an FESolver where they are now; returns Matplotlib's axes.
+
+    field   None (no colours), 'xx', 'yy', 'xy' (Pa), 'mises' (Pa, of these three: with the stress
+            zz left out), 'speed' (m/s), 'component', or an array with one number for each triangle
+            or each node
+    file    where to write the picture; its ending says as what (.png, .pdf, .svg ...)
+    ax      axes to draw in, default new ones
+    limits  (lowest, highest) value of the colour scale, default those of the field
+    ValueError for any other field, and for a solver without bodies.
+    """
+    values, perNode = _values(fe, field)
+    if len(fe.triangles) == 0:
+        raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
+    if ax is None:
+        # Without pyplot: a picture for a file must not need, or open, a window.
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+        figure = Figure(figsize=(8, 6), layout='constrained')
+        FigureCanvasAgg(figure)
+        ax = figure.add_subplot()
+    _draw(ax, fe, field, values, perNode, limits)
+    if file is not None:
+        ax.figure.savefig(file, dpi=150)
+    return ax
+
+
+def _draw(ax, fe, field, values, perNode, limits):
+    x, y = numpy.asarray(fe.nodes, dtype=float).T
+    triangles = numpy.asarray(fe.triangles)
+    lines = .5 if len(triangles) < 2000 else .1
+    ax.set_aspect('equal')
+    ax.set_xlabel('x (m)')
+    ax.set_ylabel('y (m)')
+    if values is None:
+        ax.triplot(x, y, triangles, color='.3', linewidth=lines)
+        return
+    low, high = (None, None) if limits is None else limits
+    if perNode:
+        drawn = ax.tripcolor(x, y, values, triangles=triangles, shading='gouraud', vmin=low,
+                             vmax=high)
+    else:
+        drawn = ax.tripcolor(x, y, triangles=triangles, facecolors=values, vmin=low, vmax=high,
+                             edgecolors='k', linewidth=lines / 3)
+    label = _UNITS.get(field, '') if isinstance(field, str) else ''
+    ax.figure.colorbar(drawn, ax=ax, label=label)
+
+
+def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=20):
+    """Runs the scene for `steps` steps and writes a GIF with a frame at the start and after each
+    `every` steps; returns the number of frames.
+
+    field, limits  as in plotMesh, but no arrays; without limits the colours of each frame have
+                   their own scale
+    window         ((left, bottom), (right, top)) in m, default all nodes of the first frame and a
+                   quarter more on each side
+    rate           frames per second of the film
+    When the run is interrupted or fails, the frames until then are written. ValueError, before any
+    step, for counts that are not positive, a field as in plotMesh, a file that is no .gif.
+    """
+    from matplotlib.animation import PillowWriter
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    _checkFilm(fe, file, steps, every, field, rate)
+    figure = Figure(figsize=(8, 6), layout='constrained')
+    FigureCanvasAgg(figure)
+    low, high = _windowOf(fe) if window is None else window
+    writer = PillowWriter(fps=rate)
+    frames = 0
+    with writer.saving(figure, str(file), dpi=80):
+        for done in _runInParts(steps, every):
+            figure.clear()
+            ax = plotMesh(fe, field, ax=figure.add_subplot(), limits=limits)
+            ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), title='step %d' % done)
+            writer.grab_frame()
+            frames += 1
+    return frames
+
+
+def _checkFilm(fe, file, steps, every, field, rate):
+    for name, value in (('steps', steps), ('every', every), ('rate', rate)):
+        if not value > 0:
+            raise ValueError('%s is %r, it must be positive.' % (name, value))
+    if not str(file).endswith('.gif'):
+        raise ValueError("file is %r, its name must end with '.gif'." % str(file))
+    if field is not None and not isinstance(field, str):
+        raise ValueError('field is an array, which does not change with the film; it must be a '
+                         'name or None.')
+    _values(fe, field)
+
+
+def _windowOf(fe):
+    nodes = numpy.asarray(fe.nodes, dtype=float)
+    if len(nodes) == 0:
+        raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
+    low, high = nodes.min(axis=0), nodes.max(axis=0)
+    margin = (high - low).max() / 4
+    return low - margin, high + margin
+
+
+def _runInParts(steps, every):
+    """Runs YADE's scene; yields its step before the first part and after each."""
+    from yade.wrapper import Omega
+
+    scene = Omega()
+    yield scene.iter
+    done = 0
+    while done < steps:
+        part = min(every, steps - done)
+        scene.run(part, True)
+        done += part
+        yield scene.iter
