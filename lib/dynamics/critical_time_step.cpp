@@ -11,68 +11,112 @@
 namespace yadefrag {
 namespace {
 
-/// ω² of the fastest mode of one element with lumped mass. The elastic law is linear in F but for
-/// the rotation, so its stiffness is that of the stress-free shape: only there do the gradients ∇N
-/// of the shape functions count. With S = Σ∇N∇Nᵀ, tr S = Σl²/4A² and det S = 3/4A², the modes fall
-/// into two pairs: stretches, and shear with rotation, which stiffens where the element is drawn
-/// out.
-double squaredFrequency(const ElasticMaterial& material, const std::array<double, 4>& inverse,
-                        double area, const Matrix2& f) {
-  const double lame = material.lame();
-  const double shear = material.shearModulus();
+/// (1/m) Gradients ∇N of the shape functions in the stress-free shape.
+std::array<Vec2, 3> gradients(const Model& model, std::size_t element) {
+  const auto& inverse = model.triangles.inverseEdges[element];
   const Vec2 n1{inverse[0], inverse[1]};
   const Vec2 n2{inverse[2], inverse[3]};
-  const Vec2 n0 = -(n1 + n2);
-  const double trace = dot(n0, n0) + dot(n1, n1) + dot(n2, n2);
-  const double det = .75 / (area * area);
-  const double sum = (lame + 2 * shear) * trace;
-  const double product = 4 * shear * (lame + shear) * det;
+  return {-(n1 + n2), n1, n2};
+}
+
+const Component& componentOf(const Model& model, std::size_t element) {
+  return model.components[model.triangles.component[element].value];
+}
+
+/// (N/m) How stiffly an element holds its corners.
+std::array<double, 3> cornerStiffness(const Model& model, std::size_t element) {
+  const Component& c = componentOf(model, element);
+  const double modulus = c.material.waveModulus() * c.thickness * model.triangles.area[element];
+  std::array<double, 3> stiffness;
+  const auto gradient = gradients(model, element);
+  for (int i = 0; i < 3; ++i) stiffness[i] = modulus * dot(gradient[i], gradient[i]);
+  return stiffness;
+}
+
+/// (N/m) By node: all its elements together.
+std::vector<double> nodeStiffness(const Model& model) {
+  std::vector<double> sum(model.nodes.size(), 0);
+  for (std::size_t e = 0; e < model.triangles.size(); ++e) {
+    const auto stiffness = cornerStiffness(model, e);
+    for (int i = 0; i < 3; ++i) sum[model.triangles.nodes[e][i].value] += stiffness[i];
+  }
+  return sum;
+}
+
+using Masses = std::array<double, 3>;
+
+/// (kg) The element's share of its nodes' masses.
+Masses massShares(const Model& model, const std::vector<double>& nodeStiffness,
+                  std::size_t element) {
+  Masses shares = cornerStiffness(model, element);
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t n = model.triangles.nodes[element][i].value;
+    shares[i] *= model.nodes.mass[n] / nodeStiffness[n];
+  }
+  return shares;
+}
+
+/// ω² of the fastest mode of one element. The elastic law is linear in F but for the rotation, so
+/// its stiffness is that of the stress-free shape. With S = Σ∇N∇Nᵀ/m the modes fall into two pairs:
+/// stretches, and shear with rotation, which stiffens where the element is drawn out.
+double squaredFrequency(const Model& model, std::size_t element, const Masses& mass) {
+  const Component& c = componentOf(model, element);
+  const double lame = c.material.lame();
+  const double shear = c.material.shearModulus();
+  const auto gradient = gradients(model, element);
+  double xx = 0;
+  double yy = 0;
+  double xy = 0;
+  for (int i = 0; i < 3; ++i) {
+    xx += gradient[i].x * gradient[i].x / mass[i];
+    yy += gradient[i].y * gradient[i].y / mass[i];
+    xy += gradient[i].x * gradient[i].y / mass[i];
+  }
+  const double sum = (lame + 2 * shear) * (xx + yy);
+  const double product = 4 * shear * (lame + shear) * (xx * yy - xy * xy);
   const double stretch = (sum + std::sqrt(std::max(0., sum * sum - 4 * product))) / 2;
+  const Matrix2 f = deformationGradient(model, ElementId(element));
   const double drawn = std::hypot(f.xx + f.yy, f.yx - f.xy);  // 2 where there is no stretch
-  const double turn = (shear + std::max(0., (lame + shear) * (1 - 2 / drawn))) * trace;
-  return 3 / material.density * std::max(stretch, turn);
+  const double turn = (shear + std::max(0., (lame + shear) * (1 - 2 / drawn))) * (xx + yy);
+  return c.thickness * model.triangles.area[element] * std::max(stretch, turn);
 }
 
 /// (1/s) The fastest decay rate of the element's bulk viscosity, of its present shape.
-double viscousRate(const BulkViscosity& viscosity, const Model& model, ElementId element) {
-  const ElasticMaterial& material =
-      model.components[model.triangles.component[element.value].value].material;
-  const auto& nodes = model.triangles.nodes[element.value];
-  double squares = 0;
-  double longest = 0;
-  double growth = 0;  // of twice the area, m²/s
+double viscousRate(const BulkViscosity& viscosity, const Model& model, std::size_t element,
+                   const Masses& mass) {
+  const Component& c = componentOf(model, element);
+  const auto& nodes = model.triangles.nodes[element];
   std::array<Vec2, 3> x;
   for (int i = 0; i < 3; ++i) x[i] = model.nodes.position[nodes[i].value];
+  const double twiceArea = cross(x[1] - x[0], x[2] - x[0]);
+  double longest = 0;
+  double rate = 0;  // of the volume strain, 1/s
+  double sum = 0;   // of |∇N|²/m
   for (int i = 0; i < 3; ++i) {
     const Vec2 edge = x[(i + 2) % 3] - x[(i + 1) % 3];
-    squares += dot(edge, edge);
     longest = std::max(longest, norm(edge));
-    growth -= dot(model.nodes.velocity[nodes[i].value], rightOf(edge));
+    rate -= dot(model.nodes.velocity[nodes[i].value], rightOf(edge)) / twiceArea;
+    sum += dot(edge, edge) / (twiceArea * twiceArea * mass[i]);
   }
-  const double twiceArea = cross(x[1] - x[0], x[2] - x[0]);
   const double length = twiceArea / longest;
-  const double squeezed = std::max(0., -growth / twiceArea);
-  const double wave = std::sqrt(material.waveModulus() / material.density);
-  const double kinematic = length * (viscosity.linear * wave +
-                                     viscosity.quadratic * viscosity.quadratic * length * squeezed);
-  // The mass is that of the stress-free shape, the volume the present one.
-  const double volumes = twiceArea / 2 / model.triangles.area[element.value];
-  return 3 * kinematic * squares / (twiceArea * twiceArea) * volumes;
+  const double wave = std::sqrt(c.material.waveModulus() / c.material.density);
+  const double squeeze = viscosity.quadratic * viscosity.quadratic * length * std::max(0., -rate);
+  return c.thickness * twiceArea / 2 * c.material.density * length *
+         (viscosity.linear * wave + squeeze) * sum;
 }
 
 }  // namespace
 
 double criticalTimeStep(const Model& model, const BulkViscosity& viscosity, int threads) {
-  const Triangles& triangles = model.triangles;
+  const std::vector<double> stiffness = nodeStiffness(model);
   std::vector<double> least(std::max(1, threads), std::numeric_limits<double>::infinity());
-  forEachPart(triangles.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
+  forEachPart(model.triangles.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
     double step = least[part];
     for (std::size_t e = begin; e < end; ++e) {
-      const ElementId id(e);
-      const double omega = std::sqrt(squaredFrequency(
-          model.components[triangles.component[e].value].material, triangles.inverseEdges[e],
-          triangles.area[e], deformationGradient(model, id)));
-      const double zeta = viscosity.isOn() ? viscousRate(viscosity, model, id) / (2 * omega) : 0;
+      const Masses mass = massShares(model, stiffness, e);
+      const double omega = std::sqrt(squaredFrequency(model, e, mass));
+      const double zeta =
+          viscosity.isOn() ? viscousRate(viscosity, model, e, mass) / (2 * omega) : 0;
       step = std::min(step, 2 / omega * (std::sqrt(1 + zeta * zeta) - zeta));
     }
     least[part] = step;

@@ -1,0 +1,79 @@
+#pragma once
+// Bodies for the tests of the dynamics.
+
+#include <numbers>
+#include <random>
+#include <span>
+
+#include "dynamics/critical_time_step.hpp"
+#include "dynamics/explicit_dynamics.hpp"
+#include "mesh/assembly.hpp"
+#include "mesh/structured.hpp"
+
+namespace yadefrag {
+
+/// Steel: no round numbers, and every term of the law counts.
+inline constexpr ElasticMaterial kSteel{
+    .young = 210e9, .poisson = .3, .density = 7800, .planeStress = false};
+
+/// Appends nx × ny quads, whose inner nodes are moved about by up to a fifth of a quad.
+inline ComponentId appendBlock(Model& model, Vec2 low, Vec2 high, int nx, int ny,
+                               const ElasticMaterial& material = kSteel, double thickness = 1) {
+  TriangleMesh mesh = structuredRectangle(low, high, nx, ny);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> shift(-.2, .2);
+  for (Vec2& x : mesh.nodes) {
+    const Vec2 by{shift(random) * (high.x - low.x) / nx, shift(random) * (high.y - low.y) / ny};
+    if (x.x > low.x && x.x < high.x && x.y > low.y && x.y < high.y) x += by;
+  }
+  Component component;
+  component.material = material;
+  component.thickness = thickness;
+  return appendBody(model, mesh, component);
+}
+
+/// A square of 20 mm.
+inline Model square(int side = 8, const ElasticMaterial& material = kSteel, double thickness = 1) {
+  Model model;
+  appendBlock(model, {-.01, -.01}, {.01, .01}, side, side, material, thickness);
+  return model;
+}
+
+/// Velocities without any pattern, up to `most` in each direction.
+inline void shake(Model& model, double most) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> any(-most, most);
+  for (Vec2& v : model.nodes.velocity) v = {any(random), any(random)};
+}
+
+/// A model, its solver and its ledger, stepped together.
+struct Stepper {
+  Model model;
+  double dt;
+  StepSettings settings = {};
+  int threads = 1;
+  InstructionSet set = bestInstructionSet();
+  EnergyLedger ledger = {};
+  ExplicitDynamics dynamics = ExplicitDynamics(set);
+
+  void start() { dynamics.rebuild(model); }
+  void step(int count = 1, std::span<const Vec2> outer = {}) {
+    for (int i = 0; i < count; ++i) {
+      dynamics.predict(model, dt, settings, outer, threads);
+      dynamics.finish(model, dt, settings, outer, {}, ledger);
+    }
+  }
+  [[nodiscard]] double kinetic() const { return kineticEnergy(model.nodes); }
+  [[nodiscard]] double strain() const { return strainEnergy(model, dt); }
+  [[nodiscard]] double total() const { return ledger.total(kinetic(), strain()); }
+};
+
+/// A run of a model at `factor` of its critical step.
+inline Stepper runOf(Model model, double factor, const StepSettings& settings = {}) {
+  const double dt = factor * criticalTimeStep(model, settings.viscosity);
+  Stepper run{.model = std::move(model), .dt = dt, .settings = settings};
+  run.start();
+  return run;
+}
+
+}  // namespace yadefrag
