@@ -24,7 +24,7 @@ class BoxPivoting {
  public:
   /// Takes a new matrix and guesses the states from `lambda` (within the bounds).
   void begin(const ScaledBox& box, const std::vector<double>& lambda, bool isGuess);
-  /// Solves with G + ε·1 and the constant g − ε·centre. False if pivoting cycles or a number is not
+  /// Solves with H = G + ε·1 and c = g − ε·centre. False if it takes too long or a number is not
   /// finite.
   bool solve(const ScaledBox& box, double added, const std::vector<double>& centre,
              std::vector<double>& lambda);
@@ -32,17 +32,27 @@ class BoxPivoting {
   [[nodiscard]] int pivots() const { return pivots_; }
 
  private:
-  bool solveForStates(const ScaledBox& box, double added, const std::vector<double>& centre,
-                      std::vector<double>& lambda);
-  void findWrong(const ScaledBox& box, double added, const std::vector<double>& centre,
-                 const std::vector<double>& lambda);
-  void pivot(const ScaledBox& box, std::uint32_t row, double lambda);
+  /// What is solved: H and c.
+  struct Shifted {
+    const ScaledBox& box;
+    double added;
+    const std::vector<double>& centre;
+
+    [[nodiscard]] double residual(std::size_t i, const std::vector<double>& lambda) const;
+  };
+  bool solveForStates(const Shifted& shifted, std::vector<double>& lambda);
+  void findWrong(const Shifted& shifted, const std::vector<double>& lambda);
+  void flip(const ScaledBox& box, std::uint32_t row, double lambda);
+  void beginDescent(const Shifted& shifted, const std::vector<double>& lambda);
+  bool descend(const Shifted& shifted, const std::vector<double>& target);
+  void readStates(const Shifted& shifted);
 
   FreeSetFactor factor_;
   std::vector<RowState> state_;
   std::vector<std::uint8_t> isFree_;
   std::vector<std::uint32_t> wrong_;  ///< rows whose state is contradicted
   std::vector<double> side_;
+  std::vector<double> current_, slope_, step_;  ///< of the descent: λ, r there, way to the next λ
   double factored_ = -1;  ///< the ε of the factor of the present free rows, or negative
   int pivots_ = 0;
 };

@@ -66,7 +66,7 @@ struct BoxSolver::Work {
   bool check();
   bool iterate(double added, bool isGuess);
   bool sweep(int sweeps);
-  void fallBack();
+  bool fallBack();
 };
 
 BoxSolver::BoxSolver() : work_(std::make_unique<Work>()) {}
@@ -179,30 +179,32 @@ bool BoxSolver::Work::sweep(int sweeps) {
       const double r = box.matrix.rowTimes(i, lambda.data()) + box.constant[i];
       lambda[i] = std::clamp(lambda[i] - r, box.lower[i], box.upper[i]);
     }
-    if (s % 10 == 9 && check()) return true;
+    if (s % tolerance::kSweepsToCheck == 0 && check()) return true;
   }
   return false;
 }
 
-/// Where nothing converges: perhaps there is no solution, and λ has grown without bound. A
-/// compromise that is bounded is preferred unless it is clearly worse.
-void BoxSolver::Work::fallBack() {
+/// Where nothing converges, perhaps there is no solution, and λ has grown without bound: a few
+/// steps with a large ε satisfy the rows that can be, and bound the others' forces. True if the
+/// error is small enough after all.
+bool BoxSolver::Work::fallBack() {
   const double firmError = bestError;
   const std::vector<double> firm = best;
   bestError = kNoBound;
   for (std::size_t i = 0; i < lambda.size(); ++i)
     best[i] = lambda[i] = std::clamp(0., box.lower[i], box.upper[i]);
   pivoting.begin(box, lambda, false);
-  centre = lambda;
-  if (pivoting.solve(box, tolerance::kCompromise, centre, lambda)) check();
+  for (int i = 0; i < tolerance::kCompromiseSteps; ++i) {
+    centre = lambda;
+    if (!pivoting.solve(box, tolerance::kCompromise, centre, lambda)) break;
+    bool enough;
+    bestError = errorOf(enough), best = lambda;
+    if (enough) break;
+  }
   pivots += pivoting.pivots();
-  lambda = best;
-  sweep(tolerance::kMostSweeps);
-  // The sweeps put rows right that have a solution, while the largest error stays that of the others.
-  bool enough;
-  if (const double error = errorOf(enough); error <= 1.01 * bestError)
-    bestError = error, best = lambda;
   if (firmError < .5 * bestError) best = firm, bestError = firmError;
+  lambda = best;
+  return sweep(tolerance::kMostSweeps);
 }
 
 const BoxResult& BoxSolver::solve(const BoxProblem& problem, std::span<const double> start) {
@@ -221,10 +223,7 @@ const BoxResult& BoxSolver::solve(const BoxProblem& problem, std::span<const dou
     result_.converged = w.iterate(added, isGuess);
     isGuess = false;
   }
-  if (!result_.converged) {
-    w.lambda = w.best;
-    w.fallBack();
-  }
+  if (!result_.converged) result_.converged = w.fallBack();
 
   result_.lambda.resize(n);
   for (std::size_t i = 0; i < n; ++i)

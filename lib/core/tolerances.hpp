@@ -158,7 +158,7 @@ inline constexpr double kMostTriangles = 2147483648.;
 inline constexpr double kLeastSize = 0x1p-40;
 
 /// (m/m) Growth of the wanted edge length with the distance from a boundary of shorter edges.
-inline constexpr double kEdgeGrowth = .3;
+inline constexpr double kEdgeGrowth = .25;
 
 /// (of the wanted edge length) A new node keeps this distance from all others, and this one from
 /// the boundary's edges; a regular layout has 1 and 0.87.
@@ -193,7 +193,10 @@ inline constexpr double kPivotSlack = 1e-15;
 /// (count) Pivots of all contradicted rows at once that may fail to reduce their number.
 inline constexpr int kBlocksWithoutGain = 10;
 
-/// (count) Pivots after which pivoting is said to cycle.
+/// (part of a Newton step) Below this a step that lowers the energy is lost in rounding.
+inline constexpr double kLeastDescent = 1e-9;
+
+/// (count) Factors of one solve after which the next regularisation is tried.
 inline constexpr int kMostPivots = 300;
 
 /// (count) Proximal iterations, and how many of them must at least halve the error.
@@ -204,6 +207,6 @@ inline constexpr int kMostSweeps = 100, kSweepsToCheck = 10;
 
 /// (rows) Up to the first a group's matrix is factored by plain loops, up to the second as a dense
 /// one; up to the third if more than a quarter of its entries are there.
-inline constexpr std::size_t kPlainCholesky = 16, kDenseRows = 40, kMostDenseRows = 1500;
+inline constexpr std::size_t kPlainCholesky = 16, kDenseRows = 32, kMostDenseRows = 1500;
 
 }  // namespace yadefrag::tolerance
