@@ -150,6 +150,9 @@ inline constexpr std::size_t kChunkElements = 512;
 /// (count) Fewer elements than this per thread are not worth two meetings of the threads a step.
 inline constexpr std::size_t kElementsPerThread = 2048;
 
+/// (count) Nodes whose works are summed in one go: sums do not depend on the number of threads.
+inline constexpr std::size_t kNodesPerSum = 2048;
+
 /// (count) Triangles above this many are not counted by 32-bit numbers with a sign to spare.
 inline constexpr double kMostTriangles = 2147483648.;
 
@@ -191,7 +194,7 @@ inline constexpr int kCompromiseSteps = 5;
 inline constexpr double kPivotSlack = 1e-15;
 
 /// (count) Pivots of all contradicted rows at once that may fail to reduce their number.
-inline constexpr int kBlocksWithoutGain = 10;
+inline constexpr int kBlocksWithoutGain = 3;
 
 /// (part of a Newton step) Below this a step that lowers the energy is lost in rounding.
 inline constexpr double kLeastDescent = 1e-9;

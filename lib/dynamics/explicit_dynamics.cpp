@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <sstream>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/tolerances.hpp"
@@ -35,6 +36,11 @@ void handOut(const ElementChunks& elements, const Chunk& chunk, const Vec2* loca
     partial[chunk.firstPartial + i] = *local++;
 }
 
+bool anyHeld(const Nodes& nodes) {
+  return std::any_of(nodes.held.begin(), nodes.held.end(),
+                     [](std::uint8_t held) { return held != kFree; });
+}
+
 void fetchNodes(const ElementChunks& elements, const Chunk& chunk, const std::vector<Vec2>& values,
                 Vec2* local) {
   for (std::uint32_t i = chunk.firstNode; i < chunk.lastNode; ++i)
@@ -58,6 +64,8 @@ void ExplicitDynamics::rebuild(const Model& model) {
   viscousForce_.clear();
   partialViscous_.clear();
   previousVelocity_ = model.nodes.velocity;
+  heldVelocity_.clear();
+  if (anyHeld(model.nodes)) heldVelocity_ = model.nodes.velocity;
   scratch_.clear();
 }
 
@@ -94,6 +102,19 @@ void ExplicitDynamics::sumShared(const BulkViscosity& viscosity, NodeId begin, N
   }
 }
 
+/// Held directions move as the model says; returns how the node moved before, which may differ from
+/// what the model says now: that change, too, is work of whoever prescribes it.
+Vec2 ExplicitDynamics::holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity) {
+  Vec2 before = nodes.velocity[node];
+  for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}})
+    if ((nodes.held[node] & flag) != 0) {
+      velocity.*axis = before.*axis;
+      if (!heldVelocity_.empty())
+        before.*axis = std::exchange(heldVelocity_[node].*axis, velocity.*axis);
+    }
+  return before;
+}
+
 bool ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begin,
                             std::size_t end) {
   bool good = true;
@@ -103,12 +124,8 @@ bool ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begi
     if (!update.outer.empty()) force += update.outer[n];
     const Vec2 before = nodes.velocity[n];
     Vec2 v = update.kept * before + update.rate / nodes.mass[n] * force + update.fall;
-    if (nodes.held[n] != kFree) [[unlikely]] {
-      if ((nodes.held[n] & kHeldX) != 0) v.x = before.x;
-      if ((nodes.held[n] & kHeldY) != 0) v.y = before.y;
-    }
+    previousVelocity_[n] = nodes.held[n] == kFree ? before : holdBack(nodes, n, v);
     const Vec2 x = nodes.position[n] + update.dt * v;
-    previousVelocity_[n] = before;
     nodes.velocity[n] = v;
     if (isFinite(x)) [[likely]]
       nodes.position[n] = x;
@@ -160,41 +177,61 @@ void ExplicitDynamics::predict(Model& model, double dt, const StepSettings& sett
   if (badNode_) refuseNode(model, dt);
 }
 
-void ExplicitDynamics::finish(const Model& model, double dt, const StepSettings& settings,
-                              std::span<const Vec2> outerForces,
-                              std::span<const Vec2> contactForces, EnergyLedger& ledger) const {
-  const Nodes& nodes = model.nodes;
-  const bool pushed = settings.gravity != Vec2{} || !nodes.load.empty() || !outerForces.empty();
-  const bool held =
-      std::any_of(nodes.held.begin(), nodes.held.end(), [](std::uint8_t h) { return h != kFree; });
-  if (!pushed && !held && settings.damping == 0 && viscousForce_.empty()) return;
-  double external = 0;
-  double damping = 0;
-  const auto book = [&](std::size_t n, double Vec2::*axis, bool isHeld) {
+/// The works on single nodes, in one direction.
+struct ExplicitDynamics::Works {
+  const ExplicitDynamics& dynamics;
+  const Nodes& nodes;
+  double dt;
+  const StepSettings& settings;
+  std::span<const Vec2> outer, contact;
+
+  void addNode(std::size_t n, double Vec2::*axis, bool held, EnergyLedger& ledger) const {
     const double mass = nodes.mass[n];
-    const double before = previousVelocity_[n].*axis;
+    const double before = dynamics.previousVelocity_[n].*axis;
     const double after = nodes.velocity[n].*axis;
     const double way = dt * (before + after) / 2;
-    if (!viscousForce_.empty()) damping -= viscousForce_[n].*axis * way;
-    if (isHeld) {
+    if (!dynamics.viscousForce_.empty()) ledger.damping -= dynamics.viscousForce_[n].*axis * way;
+    if (held) {
       // The reaction is whatever the node needs to move as it does.
-      const double contact = contactForces.empty() ? 0 : contactForces[n].*axis;
-      external +=
-          mass * (after + before) * (after - before) / 2 - (force_[n].*axis + contact) * way;
+      const double pushed = dynamics.force_[n].*axis + (contact.empty() ? 0 : contact[n].*axis);
+      ledger.external += mass * (after + before) * (after - before) / 2 - pushed * way;
       return;
     }
     double force = mass * settings.gravity.*axis;
     if (!nodes.load.empty()) force += nodes.load[n].*axis;
-    if (!outerForces.empty()) force += outerForces[n].*axis;
-    external += force * way;
-    damping += settings.damping * mass * way * way / dt;
-  };
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    book(n, &Vec2::x, (nodes.held[n] & kHeldX) != 0);
-    book(n, &Vec2::y, (nodes.held[n] & kHeldY) != 0);
+    if (!outer.empty()) force += outer[n].*axis;
+    ledger.external += force * way;
+    ledger.damping += settings.damping * mass * way * way / dt;
   }
-  ledger.external += external;
-  ledger.damping += damping;
+};
+
+void ExplicitDynamics::finish(const Model& model, double dt, const StepSettings& settings,
+                              std::span<const Vec2> outerForces,
+                              std::span<const Vec2> contactForces, EnergyLedger& ledger,
+                              int threads) const {
+  const Nodes& nodes = model.nodes;
+  const bool all = settings.gravity != Vec2{} || !nodes.load.empty() || !outerForces.empty() ||
+                   settings.damping != 0 || !viscousForce_.empty();
+  if (!all && !anyHeld(nodes)) return;
+  const Works works{*this, nodes, dt, settings, outerForces, contactForces};
+  // Summed by blocks of a fixed length, which do not depend on the number of threads.
+  const std::size_t blocks = (nodes.size() + tolerance::kNodesPerSum - 1) / tolerance::kNodesPerSum;
+  std::vector<EnergyLedger> sums(blocks);
+  const bool many = model.triangles.size() >= 2 * tolerance::kElementsPerThread;
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1 && many)
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const std::size_t begin = block * tolerance::kNodesPerSum;
+    const std::size_t end = std::min(nodes.size(), begin + tolerance::kNodesPerSum);
+    for (std::size_t n = begin; n < end; ++n) {
+      if (!all && nodes.held[n] == kFree) continue;
+      works.addNode(n, &Vec2::x, (nodes.held[n] & kHeldX) != 0, sums[block]);
+      works.addNode(n, &Vec2::y, (nodes.held[n] & kHeldY) != 0, sums[block]);
+    }
+  }
+  for (const EnergyLedger& sum : sums) {
+    ledger.external += sum.external;
+    ledger.damping += sum.damping;
+  }
 }
 
 void ExplicitDynamics::refuseElement(Model& model, double dt) const {

@@ -42,7 +42,7 @@ class ExplicitDynamics {
   /// these act.
   void finish(const Model& model, double dt, const StepSettings& settings,
               std::span<const Vec2> outerForces, std::span<const Vec2> contactForces,
-              EnergyLedger& ledger) const;
+              EnergyLedger& ledger, int threads = 1) const;
 
   /// (m/s) vⁿ⁻½ by node, of the last step: v̄ = ½(previous + present) is what contact books with.
   [[nodiscard]] std::span<const Vec2> previousVelocity() const { return previousVelocity_; }
@@ -51,9 +51,11 @@ class ExplicitDynamics {
 
  private:
   struct Update;
+  struct Works;
 
   void sumChunk(const Model& model, const Chunk& chunk, const BulkViscosity& viscosity,
                 std::vector<Vec2>& scratch);
+  Vec2 holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity);
   void sumShared(const BulkViscosity& viscosity, NodeId begin, NodeId end);
   bool move(Nodes& nodes, const Update& update, std::size_t begin, std::size_t end);
   void step(Model& model, const Update& update, const BulkViscosity& viscosity);
@@ -66,6 +68,7 @@ class ExplicitDynamics {
   std::vector<Vec2> viscousForce_,
       partialViscous_;  // of the viscosity alone; empty while it is off
   std::vector<Vec2> previousVelocity_;
+  std::vector<Vec2> heldVelocity_;  // of held nodes in the last step; empty if none was held
   std::vector<std::vector<Vec2>> scratch_;  // one per thread
   bool badElement_ = false, badNode_ = false;
 };

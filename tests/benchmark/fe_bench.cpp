@@ -31,7 +31,11 @@ void stepBlock(benchmark::State& state, const StepSettings& settings) {
   dynamics.rebuild(model);
   const double dt = .8 * criticalTimeStep(model, settings.viscosity);
   const int threads = static_cast<int>(state.range(1));
-  for ([[maybe_unused]] auto once : state) dynamics.predict(model, dt, settings, {}, threads);
+  EnergyLedger ledger;
+  for ([[maybe_unused]] auto once : state) {
+    dynamics.predict(model, dt, settings, {}, threads);
+    dynamics.finish(model, dt, settings, {}, {}, ledger, threads);
+  }
   const auto steps = static_cast<double>(model.triangles.size() * state.iterations());
   state.counters["time/element"] =
       benchmark::Counter(steps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
@@ -40,9 +44,16 @@ void stepBlock(benchmark::State& state, const StepSettings& settings) {
 void plainStep(benchmark::State& state) { stepBlock(state, {}); }
 void viscousStep(benchmark::State& state) { stepBlock(state, {.viscosity = {.06, 1.2}}); }
 
+void gravityStep(benchmark::State& state) { stepBlock(state, {.gravity = {0, -9.81}}); }
+
 BENCHMARK(plainStep)
     ->Name("step")
     ->ArgsProduct({{10000, 100000, 1000000}, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(gravityStep)
+    ->Name("step with gravity")
+    ->ArgsProduct({{100000}, {1, 2}})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK(viscousStep)

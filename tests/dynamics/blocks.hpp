@@ -60,7 +60,7 @@ struct Stepper {
   void step(int count = 1, std::span<const Vec2> outer = {}) {
     for (int i = 0; i < count; ++i) {
       dynamics.predict(model, dt, settings, outer, threads);
-      dynamics.finish(model, dt, settings, outer, {}, ledger);
+      dynamics.finish(model, dt, settings, outer, {}, ledger, threads);
     }
   }
   [[nodiscard]] double kinetic() const { return kineticEnergy(model.nodes); }
