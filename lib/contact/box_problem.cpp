@@ -209,15 +209,16 @@ bool BoxSolver::Work::fallBack() {
 
 const BoxResult& BoxSolver::solve(const BoxProblem& problem, std::span<const double> start) {
   const std::size_t n = problem.size();
-  assert(problem.offsets.size() == n + 1 && problem.lower.size() == n &&
+  assert((n == 0 || problem.offsets.size() == n + 1) && problem.lower.size() == n &&
          problem.upper.size() == n && (start.empty() || start.size() == n));
-  if (n <= 2 && n > 0 && solveSmall(problem, result_)) return result_;
+  if (n == 0) return result_ = {{}, 0, 0, 0, true};
+  if (n <= 2 && solveSmall(problem, result_)) return result_;
 
   Work& w = *work_;
   w.scale(problem);
   w.startAt(problem, start);
   bool isGuess = !start.empty();
-  result_.converged = n == 0;
+  result_.converged = false;
   for (const double added : tolerance::kProximal) {
     if (result_.converged) break;
     result_.converged = w.iterate(added, isGuess);
@@ -231,7 +232,6 @@ const BoxResult& BoxSolver::solve(const BoxProblem& problem, std::span<const dou
                             ? std::clamp(w.best[i] / w.root[i], problem.lower[i], problem.upper[i])
                             : std::clamp(0., problem.lower[i], problem.upper[i]);
   result_.residual = w.largest > 0 ? w.bestError / w.largest : w.bestError;
-  if (n == 0) result_.residual = 0;
   result_.pivots = w.pivots;
   result_.refinements = w.refinements;
   return result_;

@@ -122,10 +122,10 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
     for (auto same = touch; same != touches.end() && same->pair.slave == row.slave; ++same)
       if (same->pair.master == row.master)
         row.normalForce = same->normalForce, row.tangentForce = same->tangentForce;
-  } else if (surfaces.piece[row.master.value] == Piece::kArc) {
+  } else if (active.cameAside || surfaces.piece[row.master.value] == Piece::kArc) {
     // No flag keeps a smooth master from a slave that was inside before: an old overlap is held.
     const Foot foot = before.foot(row.master, before.slave(row.slave));
-    if (foot.inside) row.allowed = std::min(0., foot.gap);
+    if (foot.inside || active.cameAside) row.allowed = std::min(0., foot.gap);
   }
 }
 

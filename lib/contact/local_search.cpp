@@ -111,7 +111,7 @@ void LocalSearch::findActives(const Candidates& candidates, const ContactSurface
     tryRow(candidates, surfaces, geometry, near.subspan(begin, end - begin));
     const EntryId slave = candidates.slaves[near[begin].row];
     for (const Trial& trial : trials_)
-      if (trial.active) actives.push_back({{slave, trial.master}, trial.foot});
+      if (trial.active) actives.push_back({{slave, trial.master}, trial.foot, trial.cameAside});
   }
 }
 
@@ -124,7 +124,7 @@ void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& su
   bool anyInside = false;
   for (const Near& near : row) {
     const EntryId master = candidates.masters[near.candidate];
-    Trial trial{master, {}, candidates.outside[near.candidate] != 0, false, false};
+    Trial trial{master, {}, candidates.outside[near.candidate] != 0, false, false, false};
     // The quick test spares the iteration.
     if (isArcAmongArcs(surfaces, master) && !geometry.mayPenetrate(master, point)) continue;
     trial.foot = geometry.foot(master, point);
@@ -156,28 +156,32 @@ void LocalSearch::decide(const ContactSurfaces& surfaces, const PieceGeometry& g
 /// `second` follows `first` on their surface.
 void LocalSearch::decideNeighbours(const ContactSurfaces& surfaces, const PieceGeometry& geometry,
                                    Trial& first, Trial& second) {
-  if (first.foot.gap >= 0 || second.foot.gap >= 0) return;
   const PieceRange range = pieceRange(surfaces.piece[first.master.value]);
   const PieceRange rangeAfter = pieceRange(surfaces.piece[second.master.value]);
-  const bool concave = cross(geometry.tangent(first.master, range.end),
-                             geometry.tangent(second.master, rangeAfter.begin)) < 0;
   const bool pastFirst = isBehindEnd(surfaces, first.master, first.foot);
   const bool pastSecond = isBeforeBegin(surfaces, second.master, second.foot);
-  if (concave) {
+  enterFromNeighbour(first, second, pastFirst, isOver(surfaces, second.master, second.foot));
+  enterFromNeighbour(second, first, pastSecond, isOver(surfaces, first.master, first.foot));
+  if (first.foot.gap >= 0 || second.foot.gap >= 0) return;
+  const bool concave = cross(geometry.tangent(first.master, range.end),
+                             geometry.tangent(second.master, rangeAfter.begin)) < 0;
+  if (concave && pastFirst && pastSecond && (first.outside || second.outside)) {
     // No orthogonal correction is possible: to the corner, which both masters' rows together do.
-    if (pastFirst && pastSecond && (first.outside || second.outside))
-      first.active = first.opposed, second.active = second.opposed;
-    return;
-  }
-  // Round a convex corner: a slave that was outside one master and is past its end came in there.
-  const bool over = isOver(surfaces, second.master, second.foot);
-  const bool overFirst = isOver(surfaces, first.master, first.foot);
-  if (pastFirst && over && first.outside && second.opposed) second.active = true;
-  if (pastSecond && overFirst && second.outside && first.opposed) first.active = true;
-  if (first.active && second.active) {
+    first.active = first.opposed, second.active = second.opposed;
+  } else if (!concave && first.active && second.active) {
     const bool firstIsNearer = first.foot.gap >= second.foot.gap;
     (firstIsNearer ? second : first).active = false;
   }
+}
+
+/// A slave that was outside `from` is now inside `to`, whose flag says that it was behind its line
+/// before: it came in past the end of `from`, along which it may have slid, or, a corner that
+/// grazes a corner, through `from` itself, a lateral face that does not oppose it.
+void LocalSearch::enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom, bool overTo) {
+  if (!from.outside || !overTo || !to.opposed || to.active || to.foot.gap >= 0) return;
+  if (!pastFrom && (from.opposed || from.foot.gap >= 0)) return;
+  to.active = true;
+  to.cameAside = !pastFrom;
 }
 
 void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces,

@@ -14,6 +14,8 @@ namespace yadefrag {
 struct Active {
   SlaveMaster pair;
   Foot foot;
+  bool
+      cameAside;  ///< through a face that does not oppose it: the overlap is older than the contact
 };
 
 class LocalSearch {
@@ -46,6 +48,7 @@ class LocalSearch {
     bool outside;  ///< flag
     bool opposed;
     bool active;
+    bool cameAside;
   };
 
   void tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
@@ -53,6 +56,7 @@ class LocalSearch {
   void decide(const ContactSurfaces& surfaces, const PieceGeometry& geometry);
   void decideNeighbours(const ContactSurfaces& surfaces, const PieceGeometry& geometry,
                         Trial& first, Trial& second);
+  static void enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom, bool overTo);
 
   std::vector<Near> near_;
   std::vector<std::vector<Near>> nearByPart_;

@@ -130,8 +130,8 @@ inline constexpr double kOverlapDecay = .02;
 
 /// (relative to the largest bound) Change of the friction bounds at which their iteration ends, and
 /// how often it may go round.
-inline constexpr double kFrictionBound = 1e-9;
-inline constexpr int kFrictionRounds = 60;
+inline constexpr double kFrictionBound = 1e-6;
+inline constexpr int kFrictionRounds = 25;
 
 /// (of the shortest segment) The halo's width: at most half, so that three adjacent halos do not
 /// overlap (paper §4.1); at least a twentieth, below which nothing is saved.
