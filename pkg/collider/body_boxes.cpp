@@ -5,6 +5,7 @@
 
 #include "collider/complaints.hpp"
 #include "core/parallel.hpp"
+#include "fe/surface_segment.hpp"
 
 namespace yadefrag {
 namespace {
@@ -146,7 +147,11 @@ void BodyBoxes::updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatch
   dispatcher.targetInterv = -1;
   turning_.clear();
   undo_.clear();
+  segments_.clear();
+  segmentCount_ = 0;
+  hasOthers_ = false;
   for (std::size_t id = 0; id < kinds_.size(); ++id) {
+    hasOthers_ |= kinds_[id] == Kind::kSphere;
     if (kinds_[id] != Kind::kOther) continue;
     const auto& body = scene.bodies->body[id];
     undo_.emplace_back(*body);
@@ -161,14 +166,28 @@ void BodyBoxes::takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene&
   if (!isGood(toBox(bound.min, bound.max))) complainOfBound(id, bound);
   // A body that no longer asks for a bound keeps the one it has, as in YADE.
   if (body->shape && body->isBounded()) {
-    const double sweep = sweepOfOther(*body, undo_.back().existed);
-    bound.min -= (sweep + cellSlack_) * sweepFactor_;
-    bound.max += (sweep + cellSlack_) * sweepFactor_;
-    bound.sweepLength = sweep;
+    if (shapeKinds_.of(*body->shape) == ShapeKind::kSegment) {
+      takeSegment(*body);
+    } else {
+      hasOthers_ = true;
+      const double sweep = sweepOfOther(*body, undo_.back().existed);
+      bound.min -= (sweep + cellSlack_) * sweepFactor_;
+      bound.max += (sweep + cellSlack_) * sweepFactor_;
+      bound.sweepLength = sweep;
+    }
     bound.refPos = body->state->se3.position;
     bound.lastUpdateIter = static_cast<int>(scene.iter);
   }
   boxes_[id] = toBox(bound.min, bound.max);
+}
+
+/// The halo is in the bound already, and what the piece may move by.
+void BodyBoxes::takeSegment(const yade::Body& body) {
+  if (segments_.empty()) segments_.resize(kinds_.size(), nullptr);
+  const auto& segment = static_cast<const SurfaceSegment&>(*body.shape);
+  segments_[static_cast<std::size_t>(body.id)] = &segment;
+  body.bound->sweepLength = segment.halo;
+  ++segmentCount_;
 }
 
 double BodyBoxes::sweepOfOther(const yade::Body& body, bool hadBound) {

@@ -11,6 +11,8 @@
 
 namespace yadefrag {
 
+class SurfaceSegment;
+
 /// Centre and radius of a body that is exactly a sphere, for the test of the true halo.
 struct Ball {
   yade::Vector3r centre;
@@ -39,6 +41,10 @@ class BodyBoxes {
   [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
   [[nodiscard]] const std::vector<Ball>& balls() const { return balls_; }
   [[nodiscard]] const std::vector<Turning>& turning() const { return turning_; }
+  /// By body id, null where the body is no surface segment; empty if none is.
+  [[nodiscard]] const std::vector<const SurfaceSegment*>& segments() const { return segments_; }
+  /// True if surface segments are all there is.
+  [[nodiscard]] bool onlySegments() const { return segmentCount_ > 0 && !hasOthers_; }
 
  private:
   enum class Kind : unsigned char { kNone, kSphere, kOther };
@@ -59,6 +65,7 @@ class BodyBoxes {
   void updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   void takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene);
   [[nodiscard]] std::optional<double> boundRadius(const yade::Body& body) const;
+  void takeSegment(const yade::Body& body);
   double sweepOfOther(const yade::Body& body, bool hadBound);
   void checkPositions(const yade::Scene& scene) const;
 
@@ -66,6 +73,9 @@ class BodyBoxes {
   std::vector<Ball> balls_;
   std::vector<Kind> kinds_;
   std::vector<Turning> turning_;
+  std::vector<const SurfaceSegment*> segments_;
+  std::size_t segmentCount_ = 0;
+  bool hasOthers_ = false;
   std::vector<OldBound> undo_;
   ShapeKinds shapeKinds_;
 

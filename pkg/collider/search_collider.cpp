@@ -11,6 +11,7 @@
 #include "collider/nearest_image.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances.hpp"
+#include "fe/surface_segment.hpp"
 #include "search/periodic_overlap.hpp"
 
 namespace yadefrag {
@@ -29,11 +30,12 @@ void SearchCollider::action() {
     boxes_.prepare(*scene, *boundDispatcher, rule, slack_, threads);
     startSearchIfNeeded();
     updateSearch(threads);
+    takeEntryPairs();
     findNeighbours(threads);
   } catch (...) {
     boxes_.rollBack();
     search_.reset();  // it looks at boxes that are no longer those of the last search
-    strideActive_ = false;
+    strideActive_ = onlySegments_ = false;
     throw;
   }
   boxes_.commit(*scene, threads);
@@ -114,6 +116,24 @@ void SearchCollider::updateSearch(int threads) {
   comparisonsTotal += comparisons;
 }
 
+/// Pairs of surface segments leave `pairs_` for a list of their own.
+void SearchCollider::takeEntryPairs() {
+  entryPairs_.clear();
+  const auto& segments = boxes_.segments();
+  if (segments.empty()) return;
+  const auto& bodies = scene->bodies->body;
+  const auto isEntryPair = [&](const BoxPair& pair) {
+    const SurfaceSegment* first = segments[pair.first.value];
+    const SurfaceSegment* second = segments[pair.second.value];
+    if (!first || !second) return false;
+    if (first->mayTouch(*second) && mayCollide(bodies[pair.first.value].get(),
+                                               bodies[pair.second.value].get(), scene->subdomain))
+      entryPairs_.push_back(pair);
+    return true;
+  };
+  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), isEntryPair), pairs_.end());
+}
+
 void SearchCollider::findNeighbours(int threads) {
   const Halo halo(boxes_.balls(), 2 * slack_);
   near_.clear();
@@ -176,6 +196,7 @@ void SearchCollider::sceneIsSearched() {
   numBodies_ = scene->bodies->body.size();
   periodic_ = scene->isPeriodic;
   strideActive_ = verletDist > 0;
+  onlySegments_ = boxes_.onlySegments();
   keepListsShort = scene->bodies->useRedirection;
   scene->doSort = false;
   scene->interactions->dirty = false;
@@ -190,9 +211,11 @@ void SearchCollider::sceneIsSearched() {
 }
 
 bool SearchCollider::isActivated() {
-  if (!strideActive_ || doSort || scene->doSort || scene->interactions->dirty ||
-      periodic_ != scene->isPeriodic || numBodies_ != scene->bodies->body.size())
+  if (doSort || scene->doSort || scene->interactions->dirty || periodic_ != scene->isPeriodic ||
+      numBodies_ != scene->bodies->body.size())
     return true;
+  if (onlySegments_) return false;
+  if (!strideActive_) return true;
   newton = MotionWatch::findIntegrator(*scene);
   if (newton) fastestBodyMaxDist = MotionWatch::fastestBody(*newton);
   sweepsEnded_ = watch_.boundsBroken(*scene);

@@ -50,6 +50,11 @@ class SearchCollider : public yade::Collider {
   long comparisonsTotal = 0;
   yade::shared_ptr<yade::NewtonIntegrator> newton;
 
+  /// Pairs of surface segments whose bounds overlapped at the last search, by body id and in the
+  /// order of the search. They are no interactions: FESolver takes them from here.
+  [[nodiscard]] const std::vector<BoxPair>& entryPairs() const { return entryPairs_; }
+  /// Step of the last search; -1: none since the collider was made or loaded.
+  [[nodiscard]] long lastSearch() const { return lastIter_; }
   [[nodiscard]] bool strideActive() const { return strideActive_; }
   [[nodiscard]] bool periodic() const { return periodic_; }
 
@@ -62,6 +67,7 @@ class SearchCollider : public yade::Collider {
   void chooseInterval();
   void startSearchIfNeeded();
   void updateSearch(int threads);
+  void takeEntryPairs();
   void findNeighbours(int threads);
   bool isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const;
   [[nodiscard]] bool ballsFit(const BoxPair& pair) const;
@@ -77,6 +83,7 @@ class SearchCollider : public yade::Collider {
   MotionWatch watch_;
   InteractionUpdate interactions_;
   std::vector<BoxPair> pairs_;
+  std::vector<BoxPair> entryPairs_;
   std::vector<Neighbours> near_;
   std::vector<std::vector<Neighbours>> nearByPart_;
   std::size_t pairsOfHalf_ = 0;  // near only because the sweeps are not half as long
@@ -86,6 +93,7 @@ class SearchCollider : public yade::Collider {
   std::size_t numBodies_ = 0;    // at the last search
   bool periodic_ = false;
   bool strideActive_ = false;
+  bool onlySegments_ = false;  // FESolver alone says when a search is due
 };
 
 }  // namespace yadefrag

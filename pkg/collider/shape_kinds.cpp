@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "fe/surface_segment.hpp"
+
 namespace yadefrag {
 
 ShapeKind ShapeKinds::find(const yade::Shape& shape) {
@@ -13,6 +15,7 @@ ShapeKind ShapeKinds::find(const yade::Shape& shape) {
       "GridNode", "LevelSet", "Cylinder", "PotentialBlock", "PotentialParticle"};
   const std::string name = shape.getClassName();
   if (name == "Sphere") return ShapeKind::kSphere;
+  if (name == SurfaceSegment::kName) return ShapeKind::kSegment;
   const bool isRigid = std::find(rigid.begin(), rigid.end(), name) != rigid.end();
   return isRigid ? ShapeKind::kRigid : ShapeKind::kFollower;
 }

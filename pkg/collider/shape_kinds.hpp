@@ -11,6 +11,7 @@ enum class ShapeKind : signed char {
   kUnknown,
   kSphere,   ///< exactly YADE's Sphere: turning does not change its bound
   kRigid,    ///< its points move only with its own body's position and orientation
+  kSegment,  ///< SurfaceSegment: FESolver moves it, and says when a search is due
   kFollower  ///< anything else: grid connections and facets, chained cylinders, other plugins'
              ///< shapes
 };

@@ -28,10 +28,14 @@ class SurfaceSegment final
   Vector3r before = Vector3r::Zero(), after = Vector3r::Zero();
   int kind = static_cast<int>(Piece::kSegment);
   double halo = 0;
-  int entry = -1, next = -1, component = -1;
+  int entry = -1, component = -1;
   bool selfContact = true;
 
   [[nodiscard]] bool isArc() const { return kind == static_cast<int>(Piece::kArc); }
+  /// Could these two touch each other? Pieces made by hand are one rigid body.
+  [[nodiscard]] bool mayTouch(const SurfaceSegment& other) const {
+    return component != other.component || (component >= 0 && selfContact);
+  }
   [[nodiscard]] BoundaryPiece piece() const {
     const auto flat = [](const Vector3r& v) { return Vec2{v[0], v[1]}; };
     return {flat(start), flat(middle), flat(end), flat(before), flat(after), isArc()};
@@ -62,7 +66,6 @@ constexpr auto SurfaceSegment::attributes() {
                 "Length (m) by which the bound is larger than the piece, on every side: how far "
                 "the piece may move before the next search."),
       attribute("entry", &C::entry, "Number of the surface entry in its FESolver; -1: none."),
-      attribute("next", &C::next, "Number of the entry after this one; -1: none."),
       attribute("component", &C::component, "Number of the finite-element body; -1: none."),
       attribute("selfContact", &C::selfContact,
                 "May this piece touch other pieces of its own body."));

@@ -30,7 +30,7 @@ def test_allIsSavedAndLoaded(ending, folder):
                              weibullModulus=20, strengthScatter=.1, seed=7, planeStress=True,
                              young=3e11, poisson=.2, density=3900, frictionAngle=.3, label='c')
     O.materials.append(brittle)
-    O.bodies.append(chain.smooth(hexagon(), brittle, halo=.01, entry=3, next=4, component=1,
+    O.bodies.append(chain.smooth(hexagon(), brittle, halo=.01, entry=3, component=1,
                                  selfContact=False))
     chain.engines()
     wanted = [O.bodies[2].shape.dict(), O.materials['c'].dict()]
