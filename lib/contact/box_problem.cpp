@@ -118,7 +118,7 @@ void BoxSolver::Work::startAt(const BoxProblem& p, std::span<const double> start
 
 /// The true error of `lambda`, which is clamped into the box; is it within tolerance or rounding.
 double BoxSolver::Work::errorOf(bool& enough) {
-  constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
+  constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
   double error = 0;
   enough = true;
   for (std::size_t i = 0; i < lambda.size(); ++i)
