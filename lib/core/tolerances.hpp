@@ -122,7 +122,7 @@ inline constexpr double kSameFace = .866;
 inline constexpr double kPenetrationLeft = 1e-10;
 
 /// (count) Most detections in one step.
-inline constexpr int kDetections = 5;
+inline constexpr int kDetections = 10;
 
 /// (ratio) An overlap older than its contact is let out by this part in every step: all at once it
 /// would become a velocity, and energy out of nothing.

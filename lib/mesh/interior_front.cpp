@@ -41,6 +41,7 @@ class Front {
       after_.push_back(b);
       length_.push_back(norm(boundary_.nodes[b] - boundary_.nodes[a]));
     });
+    low_ = high_ = boundaryNode(0);
     before_.resize(after_.size());
     for (std::uint32_t i = 0; i < after_.size(); ++i) before_[after_[i]] = i;
   }
@@ -67,14 +68,12 @@ class Front {
 
   void registerBoundary() {
     for (std::uint32_t i = 0; i < after_.size(); ++i) {
-      nodes_.push_back(boundaryNode(i));
+      const Vec2 p = boundaryNode(i);
+      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+      high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+      nodes_.push_back(p);
       nodeGrid_.insert(nodes_.back(), spacingAt(i), i);
-      // In pieces no longer than the spacing at either end, to be found from there.
-      const Vec2 edge = boundaryNode(after_[i]) - boundaryNode(i);
-      const double piece = std::min({length_[i], spacingAt(i), spacingAt(after_[i])});
-      const int pieces = static_cast<int>(std::ceil(length_[i] / piece));
-      for (int k = 0; k < pieces; ++k)
-        edgeGrid_.insert(boundaryNode(i) + edge * ((k + .5) / pieces), piece, i);
+      edgeGrid_.insert((p + boundaryNode(after_[i])) * .5, length_[i], i);
     }
   }
 
@@ -125,15 +124,14 @@ class Front {
   }
 
   void propose(Vec2 from, Vec2 to, Vec2 direction, double spacing) {
+    if (to.x < low_.x || to.y < low_.y || to.x > high_.x || to.y > high_.y) return;
     const double clear = tolerance::kNodeClearance * spacing;
-    if (nodeGrid_.any(to, spacing, clear, [&](std::uint32_t i) {
+    if (nodeGrid_.any(to, spacing, clear, 0, [&](std::uint32_t i) {
           const Vec2 d = nodes_[i] - to;
           return dot(d, d) < clear * clear;
         }))
       return;
-    // Half a piece more than the step, since pieces are found by their middle.
-    const double reach = norm(to - from) + spacing;
-    if (edgeGrid_.any(to, spacing, reach, [&](std::uint32_t i) {
+    if (edgeGrid_.any(to, spacing, norm(to - from), .5, [&](std::uint32_t i) {
           const Vec2 a = boundaryNode(i), b = boundaryNode(after_[i]);
           return distanceToSegment(to, a, b) < tolerance::kBoundaryClearance * spacing ||
                  leaves(from, to, a, b);
@@ -149,6 +147,7 @@ class Front {
 
   const DividedBoundary& boundary_;
   double size_;
+  Vec2 low_, high_;  // corners of the boundary: rounding cannot make a front run away
   std::vector<std::uint32_t> after_, before_;  // boundary nodes
   std::vector<double> length_;                 // of the edge from each boundary node
   std::vector<Vec2> nodes_;                    // boundary nodes, then those inside
