@@ -1,7 +1,7 @@
 """The paper's figure 14: scripts/bench figure14 [--repeat 3] [--out FOLDER] ...
 
 Comparisons and time of one global search in the scenes squares, rings and bars, for the printed
-Lebesgue search (SPC), the same with a directory, rows (LPC), the hierarchy (HO) and sweep-and-prune;
+Lebesgue search (SPC), the same with a directory, rows (LPC), the hierarchy (HO), sweep-and-prune;
 beside them the time of YADE's collider and of LebesgueCollider inside YADE, on the same motion. The
 scenes and our searches are in figure14_bench.cpp, the runs inside YADE in figure14_yade.py.
 
@@ -138,7 +138,8 @@ def markdown(rows, machine, options):
     out = ['# Figure 14', '', report.line(machine) + f'; medians of {options.repeat} runs.', '',
            RULES, '']
     for scene in SCENES:
-        out += [f'## {scene}', '', f'{EDGES[scene]}; {_settings(rows, scene)}', ''] + _table(rows, scene) + ['']
+        out += [f'## {scene}', '', f'{EDGES[scene]}; {_settings(rows, scene)}', '']
+        out += _table(rows, scene) + ['']
     return '\n'.join(out + _growthTable(rows))
 
 
@@ -166,8 +167,8 @@ def _table(rows, scene):
 
 
 def _growthTable(rows):
-    out = ['## Growth', '', 'Comparisons per segment, relative; in brackets without the look at the '
-           'nodes found. Exponent: of all comparisons in the number of segments.', '',
+    out = ['## Growth', '', 'Comparisons per segment, relative; in brackets without the look at '
+           'the nodes found. Exponent: of all comparisons in the number of segments.', '',
            '| scene | segments | ' + ' | '.join(f'{m} | exponent' for m in COUNTED) + ' |',
            '|---|--:|' + '--:|--:|' * len(COUNTED)]
     for scene, small, large in GROWTH:
@@ -207,8 +208,8 @@ EDGES = {'squares': 'b: side of a square', 'rings': 'b: shortest segment',
 CAPTION = """\
 Comparison: of two integers or two coordinates. Codes: 4 a node and 1 a level crossed; 1 each code \
 looked at to place a moved code or a range; 5 a node in a range.
-HO: 4 a tree node refitted, 4 a pair of groups, 4 a node met. Sweep-and-prune: 1 each two bounds, 4 \
-an overlap test. δ: half the shortest segment. SPC, LPC and HO find the same candidates."""
+HO: 4 a tree node refitted, 4 a pair of groups, 4 a node met. Sweep-and-prune: 1 each two bounds, \
+4 an overlap test. δ: half the shortest segment. SPC, LPC and HO find the same candidates."""
 
 
 def draw(file, rows, machine):
