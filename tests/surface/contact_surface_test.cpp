@@ -48,8 +48,8 @@ TEST(ContactSurfaces, PiecesJoinWithoutGaps) {
   // The end of every piece is the sampling point of the next entry, for every pattern of corners.
   for (std::size_t n = 3; n <= 7; ++n)
     for (unsigned pattern = 0; pattern < (1U << n); ++pattern) {
-      std::vector<std::uint8_t> smooth(n);
-      for (std::size_t i = 0; i < n; ++i) smooth[i] = (pattern >> i) & 1;
+      std::vector<std::uint8_t> smooth;
+      for (std::size_t i = 0; i < n; ++i) smooth.push_back((pattern >> i) & 1);
       const ContactSurfaces s = oneLoop(smooth);
       checkLinks(s);
       checkPiecesJoin(s);
