@@ -21,8 +21,8 @@ class Grid {
       for (int i = 0; i < nx_; ++i)
         pattern == QuadPattern::kCrossed ? addCrossed(i, j) : addDiagonal(i, j);
     addLoop();
-    mesh_.minAngle = minAngle(mesh_.nodes, mesh_.triangles);
     numberAlongCurve(mesh_);
+    mesh_.minAngle = minAngle(mesh_.nodes, mesh_.triangles);
     return std::move(mesh_);
   }
 

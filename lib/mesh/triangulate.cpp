@@ -25,8 +25,8 @@ TriangleMesh triangulate(const Polygon& polygon, double size) {
     std::iota(loop.begin(), loop.end(), begin);
     mesh.loopVertices.emplace_back(boundary.vertex.begin() + begin, boundary.vertex.begin() + end);
   }
-  mesh.minAngle = minAngle(mesh.nodes, mesh.triangles);
   numberAlongCurve(mesh);
+  mesh.minAngle = minAngle(mesh.nodes, mesh.triangles);
   return mesh;
 }
 
