@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "contact/row_builder.hpp"
 #include "core/tolerances.hpp"
@@ -15,8 +16,13 @@ SlaveMaster pairOf(const ContactRow& row) { return {row.slave, row.master}; }
 
 bool byPair(const ContactRow& a, const ContactRow& b) { return pairOf(a) < pairOf(b); }
 
-bool areNeighbours(const ContactSurfaces& surfaces, EntryId a, EntryId b) {
-  return surfaces.next[a.value] == b || surfaces.prev[a.value] == b;
+/// Do two pieces meet in a joint that does not turn towards the void?
+bool meetInConvexJoint(const ContactSurfaces& surfaces, const PieceGeometry& geometry, EntryId a,
+                       EntryId b) {
+  if (surfaces.next[b.value] == a) std::swap(a, b);
+  if (surfaces.next[a.value] != b) return false;
+  return cross(geometry.tangent(a, pieceRange(surfaces.piece[a.value]).end),
+               geometry.tangent(b, pieceRange(surfaces.piece[b.value]).begin)) >= 0;
 }
 
 }  // namespace
@@ -84,7 +90,7 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
     bool has = false;
     for (; at != end && at->slave == active.pair.slave; ++at)
       has = has || at->master == active.pair.master ||
-            areNeighbours(surfaces, at->master, active.pair.master);
+            meetInConvexJoint(surfaces, before, at->master, active.pair.master);
     if (has) continue;
     ContactRow row = makeRow(surfaces, before, active);
     startRow(row, model, surfaces, before, active, step);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 #include "core/errors.hpp"
@@ -81,6 +82,9 @@ void World::rebuild() {
   surfaceNodes_.assign(surfaces.segmentNode.begin(), surfaces.segmentNode.end());
   std::sort(surfaceNodes_.begin(), surfaceNodes_.end());
   surfaceNodes_.erase(std::unique(surfaceNodes_.begin(), surfaceNodes_.end()), surfaceNodes_.end());
+  const auto& owners = surfaces.component;
+  severalBodies_ =
+      std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();
   search_.reset();
   stableStep_ = 0;
 }

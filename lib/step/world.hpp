@@ -109,6 +109,7 @@ class World {
   std::vector<BoxPair> overlapping_;
   std::vector<SlaveMaster> pairs_;
   std::vector<Box> boxes_;
+  bool severalBodies_ = false;
   double stableStep_ = 0;  // s, the longest step that has been found stable
 };
 

@@ -29,7 +29,7 @@ double shortestSegment(const ContactSurfaces& surfaces, std::span<const Vec2> po
 bool World::canTouch() const {
   const std::vector<ComponentId>& owners = surfaces.component;
   if (owners.empty()) return false;
-  return owners.front() != owners.back() || model.components[owners.front().value].selfContact;
+  return model.components[owners.front().value].selfContact || severalBodies_;
 }
 
 void World::rememberSurface() {
