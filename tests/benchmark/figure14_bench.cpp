@@ -179,7 +179,7 @@ bool registerAll() {
   const char* folder = std::getenv("FIGURE14_FRAMES");
   for (const SceneKind& kind : scenes())
     for (const int size : kind.sizes) {
-      const std::string end = "/" + std::to_string(size);
+      const std::string end = std::string("/").append(std::to_string(size));
       const std::string start = std::string("figure14/") + kind.name + "/";
       for (const Method& m : kMethods)
         add(start + m.name + end, [&kind, size, m](State& state) {
