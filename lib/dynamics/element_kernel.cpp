@@ -84,20 +84,12 @@ bool addBaseline(const Chunk& chunk, const ElementLanes* lanes, const Vec2* posi
                                      const Vec2* position, Vec2* force) {
   return addChunk(chunk, lanes, position, force);
 }
-
-[[gnu::target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")]] bool addAvx512(
-    const Chunk& chunk, const ElementLanes* lanes, const Vec2* position, Vec2* force) {
-  return addChunk(chunk, lanes, position, force);
-}
 #endif
 
 }  // namespace
 
 InstructionSet bestInstructionSet() {
 #ifdef __x86_64__
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl"))
-    return InstructionSet::kAvx512;
   if (__builtin_cpu_supports("avx2")) return InstructionSet::kAvx2;
 #endif
   return InstructionSet::kBaseline;
@@ -106,7 +98,6 @@ InstructionSet bestInstructionSet() {
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const Vec2* position, Vec2* force) {
 #ifdef __x86_64__
-  if (set == InstructionSet::kAvx512) return addAvx512(chunk, lanes, position, force);
   if (set == InstructionSet::kAvx2) return addAvx2(chunk, lanes, position, force);
 #endif
   static_cast<void>(set);

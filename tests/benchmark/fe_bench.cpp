@@ -1,6 +1,6 @@
 // Finite-element bodies without contact: time of one explicit step, per element.
 //
-// Names: step/<elements>/<threads>.
+// Names: step/<elements>/<threads>; ledger included.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -25,9 +25,10 @@ Model spinningBlock(std::int64_t elements) {
   return model;
 }
 
-void stepBlock(benchmark::State& state, const StepSettings& settings) {
+void stepBlock(benchmark::State& state, const StepSettings& settings,
+               InstructionSet set = bestInstructionSet()) {
   Model model = spinningBlock(state.range(0));
-  ExplicitDynamics dynamics;
+  ExplicitDynamics dynamics(set);
   dynamics.rebuild(model);
   const double dt = .8 * criticalTimeStep(model, settings.viscosity);
   const int threads = static_cast<int>(state.range(1));
@@ -46,6 +47,8 @@ void viscousStep(benchmark::State& state) { stepBlock(state, {.viscosity = {.06,
 
 void gravityStep(benchmark::State& state) { stepBlock(state, {.gravity = {0, -9.81}}); }
 
+void baselineStep(benchmark::State& state) { stepBlock(state, {}, InstructionSet::kBaseline); }
+
 BENCHMARK(plainStep)
     ->Name("step")
     ->ArgsProduct({{10000, 100000, 1000000}, {1, 2}})
@@ -62,5 +65,10 @@ BENCHMARK(viscousStep)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
+BENCHMARK(baselineStep)
+    ->Name("step without AVX")
+    ->Args({100000, 1})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 }  // namespace
 }  // namespace yadefrag

@@ -150,9 +150,6 @@ TEST(ExplicitDynamics, TheSameBitsWithAnyInstructionSet) {
   if (best >= InstructionSet::kAvx2) {
     EXPECT_EQ(stateAfterSteps(1, InstructionSet::kAvx2), baseline);
   }
-  if (best >= InstructionSet::kAvx512) {
-    EXPECT_EQ(stateAfterSteps(1, InstructionSet::kAvx512), baseline);
-  }
 }
 
 TEST(ExplicitDynamics, BodiesDoNotFeelEachOther) {
