@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -143,7 +144,9 @@ void runSweep(benchmark::State& state, const SceneKind& kind, int size) {
 void writeFrames(benchmark::State& state, const SceneKind& kind, int size,
                  const std::string& folder) {
   for ([[maybe_unused]] auto once : state) {
-    const std::string file = folder + "/" + kind.name + "_" + std::to_string(size) + ".f64";
+    std::ostringstream name;
+    name << folder << '/' << kind.name << '_' << size << ".f64";
+    const std::string file = name.str();
     std::ofstream out(file, std::ios::binary);
     const auto scene = kind.make(size);
     forEachSearch(*scene, kind.searches, [&](const MovingOutlines& now, double halo) {
@@ -156,6 +159,12 @@ void writeFrames(benchmark::State& state, const SceneKind& kind, int size,
     if (!out) state.SkipWithError(("cannot write " + file).c_str());
     state.counters["segments"] = static_cast<double>(scene->points().size());
   }
+}
+
+std::string nameOf(const char* first, const char* second, int size) {
+  std::ostringstream name;
+  name << "figure14/" << first << '/' << second << '/' << size;
+  return name.str();
 }
 
 void add(const std::string& name, const std::function<void(benchmark::State&)>& run) {
@@ -179,15 +188,14 @@ bool registerAll() {
   const char* folder = std::getenv("FIGURE14_FRAMES");
   for (const SceneKind& kind : scenes())
     for (const int size : kind.sizes) {
-      const std::string end = std::string("/").append(std::to_string(size));
-      const std::string start = std::string("figure14/") + kind.name + "/";
       for (const Method& m : kMethods)
-        add(start + m.name + end, [&kind, size, m](State& state) {
+        add(nameOf(kind.name, m.name, size), [&kind, size, m](State& state) {
           runPoints(state, kind, size, m.method, m.directory);
         });
-      add(start + "sweep" + end, [&kind, size](State& state) { runSweep(state, kind, size); });
+      add(nameOf(kind.name, "sweep", size),
+          [&kind, size](State& state) { runSweep(state, kind, size); });
       if (folder)
-        add(std::string("figure14/frames/") + kind.name + end,
+        add(nameOf("frames", kind.name, size),
             [&kind, size, folder = std::string(folder)](State& state) {
               writeFrames(state, kind, size, folder);
             });
