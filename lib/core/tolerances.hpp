@@ -133,6 +133,10 @@ inline constexpr double kOverlapDecay = .02;
 inline constexpr double kFrictionBound = 1e-6;
 inline constexpr int kFrictionRounds = 25;
 
+/// (ratio) Normal forces above this many times the largest that one row of their group needs by itself
+/// are a jam's, and bound friction no further.
+inline constexpr double kJam = 100;
+
 /// (of the shortest segment) The halo's width: at most half, so that three adjacent halos do not
 /// overlap (paper §4.1); at least a twentieth, below which nothing is saved.
 inline constexpr double kWidestHalo = .5, kNarrowestHalo = .05;
@@ -159,6 +163,10 @@ inline constexpr double kMostTriangles = 2147483648.;
 /// (of the largest coordinate) Smallest size of triangles: below, twelve bits of their sides would
 /// be left of the coordinates' 52.
 inline constexpr double kLeastSize = 0x1p-40;
+
+/// (rad) A triangle with a smaller angle has no area to speak of: of its 52 bits, about half are
+/// rounding.
+inline constexpr double kLeastAngle = 1e-8;
 
 /// (m/m) Growth of the wanted edge length with the distance from a boundary of shorter edges.
 inline constexpr double kEdgeGrowth = .25;

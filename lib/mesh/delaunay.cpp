@@ -99,9 +99,12 @@ class Builder {
       if (face->vertex(Triangulation::ccw(index)) != vertices_[a]) face = face->neighbor(index);
       visit(face);
     });
-    for (std::size_t i = 0; i < faces_.size(); ++i)
+    std::size_t done = 0;
+    while (done < faces_.size()) {
+      const Face face = faces_[done++];
       for (int k = 0; k < 3; ++k)
-        if (!faces_[i]->is_constrained(k)) visit(faces_[i]->neighbor(k));
+        if (!face->is_constrained(k)) visit(face->neighbor(k));
+    }
   }
 
   void visit(Face face) {

@@ -1,7 +1,12 @@
 #include "mesh/triangulate.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <numeric>
 
+#include "core/errors.hpp"
+#include "core/tolerances.hpp"
 #include "mesh/delaunay.hpp"
 #include "mesh/divided_boundary.hpp"
 #include "mesh/interior_front.hpp"
@@ -10,6 +15,25 @@
 #include "mesh/quality.hpp"
 
 namespace yadefrag {
+namespace {
+
+void checkThinnest(const TriangleMesh& mesh) {
+  if (mesh.minAngle > tolerance::kLeastAngle) return;
+  const auto thinnest = std::min_element(
+      mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& a, const auto& b) {
+        return tanMinAngle(mesh.nodes[a[0]], mesh.nodes[a[1]], mesh.nodes[a[2]]) <
+               tanMinAngle(mesh.nodes[b[0]], mesh.nodes[b[1]], mesh.nodes[b[2]]);
+      });
+  const Vec2 p = mesh.nodes[(*thinnest)[0]];
+  std::array<char, 256> text;
+  (void)std::snprintf(text.data(), text.size(),
+                      "Polygon: at (%.9g, %.9g) it is so thin that a triangle would have no area; "
+                      "move its vertices and edges farther apart there.",
+                      p.x, p.y);
+  throw InputError(text.data());
+}
+
+}  // namespace
 
 TriangleMesh triangulate(const Polygon& polygon, double size) {
   const DividedBoundary boundary = divideBoundary(polygon, size);
@@ -27,6 +51,7 @@ TriangleMesh triangulate(const Polygon& polygon, double size) {
   }
   numberAlongCurve(mesh);
   mesh.minAngle = minAngle(mesh.nodes, mesh.triangles);
+  checkThinnest(mesh);
   return mesh;
 }
 

@@ -8,7 +8,8 @@ namespace yadefrag {
 /// Constrained Delaunay triangles of edges about `size` (m). Each edge of the polygon is divided
 /// into round(length/size) equal parts, at least one; those are all of the boundary nodes. Where
 /// the edges are shorter than `size` the triangles are too, and grow inwards. The same input gives
-/// the same bits. InputError as divideBoundary.
+/// the same bits. InputError as divideBoundary, and where the polygon is thinner than its
+/// coordinates' rounding.
 [[nodiscard]] TriangleMesh triangulate(const Polygon& polygon, double size);
 
 }  // namespace yadefrag

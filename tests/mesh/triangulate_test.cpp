@@ -131,6 +131,22 @@ TEST(Triangulate, RandomStarsWithHoles) {
   }
 }
 
+TEST(Triangulate, EdgesOneRoundingApartAreRefused) {
+  std::mt19937 random(9);
+  for (int k = 0; k < 300; ++k) {
+    const Vec2 tip = {1, std::uniform_real_distribution(.1, .9)(random)};
+    const Vec2 onEdge = std::uniform_real_distribution(.1, .9)(random) * tip;
+    const auto holeAt = [&](Vec2 p) {
+      return Polygon{{{0, 0}, tip, {0, 3}}, {{p, p + Vec2{.01, .05}, p + Vec2{0, .1}}}};
+    };
+    expectSound(triangulate(holeAt(onEdge + Vec2{0, 1e-6}), .13));
+    Vec2 near = onEdge;
+    while (cross(tip, near) <= 0) near.y = std::nextafter(near.y, 1.);
+    EXPECT_THROW((void)triangulate(holeAt(near), .13), InputError);
+    if (HasFailure()) FAIL() << "hole " << k;
+  }
+}
+
 TEST(Triangulate, NodesInsideAreNotOnTheBoundary) {
   const double size = .1;
   const TriangleMesh mesh = triangulate({box({0, 0}, {2, 1}), {}}, size);
