@@ -168,6 +168,10 @@ inline constexpr double kLeastSize = 0x1p-40;
 /// rounding.
 inline constexpr double kLeastAngle = 1e-8;
 
+/// (tangent) Of the smallest angle, 35°, from which on nodes are moved to even the triangles out,
+/// though a smallest angle may shrink down to this.
+inline constexpr double kGoodTan = .7;
+
 /// (m/m) Growth of the wanted edge length with the distance from a boundary of shorter edges.
 inline constexpr double kEdgeGrowth = .25;
 

@@ -114,7 +114,7 @@ class Improver {
     const Vec2 q = p + sum * (1 / area);
     const double now = worst(ring, p);
     const double then = worst(ring, q);
-    if (then >= std::min(now, kGood)) mesh_.nodes[node] = q;
+    if (then >= std::min(now, tolerance::kGoodTan)) mesh_.nodes[node] = q;
   }
 
   /// Where an angle is still small: a search for a place where the smallest is larger.
@@ -122,7 +122,7 @@ class Improver {
     const auto ring = ringOf(node);
     Vec2 p = mesh_.nodes[node];
     double best = worst(ring, p);
-    if (best > kGood) return;
+    if (best > tolerance::kGoodTan) return;
     double step = .2 * norm(ring[0].first - p);
     for (int halving = 0; halving < 6; ++halving, step /= 2)
       for (int tries = 0; tries < 8; ++tries) {
@@ -138,8 +138,6 @@ class Improver {
       }
     mesh_.nodes[node] = p;
   }
-
-  static constexpr double kGood = .7;  // tan 35°
 
   LinkedTriangles& mesh_;
   std::vector<std::uint32_t> triangleOf_;  // one at each node
