@@ -79,26 +79,47 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
   actives_.clear();
   search_.findActives(candidates, surfaces, model.nodes.position, actives_);
   const PieceGeometry before(surfaces, step.before);
-  const std::size_t known = rows_.size();
+  bool anyNew = false;
   for (const Active& active : actives_) {
-    const auto begin = rows_.begin(), end = begin + static_cast<std::ptrdiff_t>(known);
-    auto at = std::lower_bound(
-        begin, end, active.pair,
-        [](const ContactRow& row, SlaveMaster pair) { return row.slave < pair.slave; });
-    // A slave that the correction pushed on to the next master keeps its row: the two differ by the
-    // second-order remainder, and both together would hold it before a convex corner's both faces.
-    bool has = false;
-    for (; at != end && at->slave == active.pair.slave; ++at)
-      has = has || at->master == active.pair.master ||
-            meetInConvexJoint(surfaces, before, at->master, active.pair.master);
-    if (has) continue;
+    if (hasRow(surfaces, before, active.pair)) continue;
     ContactRow row = makeRow(surfaces, before, active);
     startRow(row, model, surfaces, before, active, step);
-    rows_.push_back(row);
+    if (contradicts(surfaces, row)) row.friction = 0;
+    rows_.insert(std::upper_bound(rows_.begin(), rows_.end(), row, byPair), row);
+    anyNew = true;
   }
-  if (rows_.size() == known) return false;
-  std::sort(rows_.begin(), rows_.end(), byPair);
-  return true;
+  return anyNew;
+}
+
+std::span<const ContactRow> Contact::rowsOf(EntryId slave) const {
+  const auto begin =
+      std::lower_bound(rows_.begin(), rows_.end(), slave,
+                       [](const ContactRow& row, EntryId entry) { return row.slave < entry; });
+  auto end = begin;
+  while (end != rows_.end() && end->slave == slave) ++end;
+  return {begin, end};
+}
+
+/// A slave that the correction pushed on to the next master keeps its row: the two differ by the
+/// second-order remainder, and both together would hold it before a convex corner's both faces.
+bool Contact::hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
+                     SlaveMaster pair) const {
+  return std::ranges::any_of(rowsOf(pair.slave), [&](const ContactRow& row) {
+    return row.master == pair.master ||
+           meetInConvexJoint(surfaces, before, row.master, pair.master);
+  });
+}
+
+/// Two corners that met past each other: each is behind a face of the other, and the two rows push
+/// the same way. With friction on both, their forces would hold each other up without bound.
+bool Contact::contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const {
+  for (const EntryId end : {row.master, surfaces.next[row.master.value]})
+    for (const ContactRow& other : rowsOf(end)) {
+      const bool exchanged =
+          other.master == row.slave || surfaces.next[other.master.value] == row.slave;
+      if (exchanged && dot(other.normal, row.normal) > 0) return true;
+    }
+  return false;
 }
 
 /// Friction, slip, and what the last step knows of the contact.

@@ -55,6 +55,9 @@ class Contact {
   std::vector<Touch> touches;  ///< by pair
 
  private:
+  [[nodiscard]] std::span<const ContactRow> rowsOf(EntryId slave) const;
+  bool hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair) const;
+  bool contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const;
   bool addRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
                 const PieceGeometry& before, const Active& active, const ContactStep& step) const;

@@ -14,6 +14,16 @@ constexpr std::uint32_t kNone = 0xffffffff;
 
 double weighted(Vec2 a, Vec2 mobile, Vec2 b) { return a.x * mobile.x * b.x + a.y * mobile.y * b.y; }
 
+/// (N) The largest force that undoes one row's gap or slip by itself.
+double forceScale(const BoxProblem& problem) {
+  double scale = 0;
+  for (std::size_t i = 0; i < problem.size(); ++i)
+    for (std::uint32_t k = problem.offsets[i]; k < problem.offsets[i + 1]; ++k)
+      if (problem.columns[k] == i && problem.values[k] > 0)
+        scale = std::max(scale, std::abs(problem.constant[i]) / problem.values[k]);
+  return scale;
+}
+
 }  // namespace
 
 double Lagrange::solve(std::span<ContactRow> rows, const Nodes& nodes, double dt, double drag) {
@@ -67,6 +77,7 @@ void Lagrange::assemble(std::span<const ContactRow> rows, const Nodes& nodes, st
         addPair(rows[links[p].row], rows[links[q].row], links[p], links[q], mobile);
   }
   problem_.setMatrix(problem_.constant.size(), entries_);
+  mostForce_ = tolerance::kJam * forceScale(problem_);
 }
 
 void Lagrange::addPair(const ContactRow& a, const ContactRow& b, const RowNode& p, const RowNode& q,
@@ -102,7 +113,9 @@ double Lagrange::solveGroup(std::span<ContactRow> rows, std::span<const std::uin
   return result->residual;
 }
 
-/// Sets |τ| ≤ μλ; true if a bound has changed by more than the tolerance.
+/// Sets |τ| ≤ μλ; true if a bound has changed by more than the tolerance. Normal forces of bodies
+/// that friction jams between each other grow from round to round: beyond any sense they bound no
+/// more.
 bool Lagrange::boundFriction(std::span<const ContactRow> rows,
                              std::span<const std::uint32_t> members,
                              std::span<const double> lambda) {
@@ -110,7 +123,7 @@ bool Lagrange::boundFriction(std::span<const ContactRow> rows,
   for (const std::uint32_t r : members) {
     const std::uint32_t tangent = tangentOf_[r];
     if (tangent == kNone) continue;
-    const double bound = rows[r].friction * lambda[normalOf_[r]];
+    const double bound = rows[r].friction * std::min(lambda[normalOf_[r]], mostForce_);
     largest = std::max(largest, bound);
     change = std::max(change, std::abs(bound - problem_.upper[tangent]));
     problem_.lower[tangent] = -bound;

@@ -36,6 +36,7 @@ class Lagrange {
   std::vector<MatrixEntry> entries_;
   std::vector<std::uint32_t> normalOf_, tangentOf_;  // unknowns of a row, by row
   std::vector<double> start_;
+  double mostForce_ = 0;  // N, what bounds friction in the group at hand
 };
 
 /// Penalty: each row by itself, the force that would undo `factor` of its penetration in one step.
