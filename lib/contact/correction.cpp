@@ -102,7 +102,8 @@ double Lagrange::solveGroup(std::span<ContactRow> rows, std::span<const std::uin
   for (int round = 0; round < tolerance::kFrictionRounds; ++round) {
     result = &solver_.solve(problem_, start_);
     if (problem_.size() == members.size() || !boundFriction(rows, members, result->lambda)) break;
-    start_ = result->lambda;
+    for (std::size_t i = 0; i < start_.size(); ++i)
+      start_[i] = std::clamp(result->lambda[i], problem_.lower[i], problem_.upper[i]);
   }
   for (const std::uint32_t r : members) {
     rows[r].normalForce = result->lambda[normalOf_[r]];

@@ -130,8 +130,8 @@ inline constexpr double kOverlapDecay = .02;
 
 /// (relative to the largest bound) Change of the friction bounds at which their iteration ends, and
 /// how often it may go round.
-inline constexpr double kFrictionBound = 1e-6;
-inline constexpr int kFrictionRounds = 25;
+inline constexpr double kFrictionBound = 1e-4;
+inline constexpr int kFrictionRounds = 8;
 
 /// (ratio) Normal forces above this many times the largest that one row of their group needs by itself
 /// are a jam's, and bound friction no further.
