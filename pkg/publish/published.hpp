@@ -33,6 +33,7 @@ boost::shared_ptr<Self> makeFromPython(py::tuple args, py::dict kw) {
 //   kName, kDoc          what Python calls the class, and its docstring
 //   attributes()         static constexpr: a tuple of attribute(...); a Base may supply it
 //   postLoad(Self&)      optional, public: called after attributes changed or were loaded
+//   archiveMore(archive) optional, public, template: state that is no attribute, both ways
 //   pyExtra(pyClass)     optional, public, static template: more definitions for Python
 // Base may be a class that YADE does not know; YadeBase is the nearest one that it does.
 template <class Self, class Base, class YadeBase = Base>
@@ -111,6 +112,7 @@ class Published : public Base {
     forEach([&](const auto& attr) {
       if (!attr.has(yade::Attr::noSave)) archive& make_nvp(attr.name, self().*attr.member);
     });
+    if constexpr (requires { self().archiveMore(archive); }) self().archiveMore(archive);
     if constexpr (Archive::is_loading::value) ownPostLoad();
   }
 };

@@ -4,6 +4,7 @@
 
 #include "abi/support_check.hpp"
 #include "collider/colliders.hpp"
+#include "fe/fe_solver.hpp"
 #include "fe/materials.hpp"
 #include "fe/segment_functors.hpp"
 #include "fe/surface_segment.hpp"
@@ -22,7 +23,7 @@ struct ClassList {
 // Every class that this project adds to YADE.
 using NewClasses =
     ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider, FEMat, BrittleFEMat,
-              SurfaceSegment, Bo1_SurfaceSegment_Aabb, Ig2_Sphere_SurfaceSegment_ScGeom>;
+              SurfaceSegment, Bo1_SurfaceSegment_Aabb, Ig2_Sphere_SurfaceSegment_ScGeom, FESolver>;
 
 void toImportError(const UnsupportedYade& error) {
   PyErr_SetString(PyExc_ImportError, error.what());
@@ -35,6 +36,8 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::register_exception_translator<yadefrag::UnsupportedYade>(&yadefrag::toImportError);
   py::def("checkRunningYade", &yadefrag::checkRunningYade,
           "Raises ImportError unless YADE's classes are laid out as this extension declares them.");
+  py::def("meshOfPolygon", &yadefrag::meshOfPolygon);
+  py::def("meshOfRectangle", &yadefrag::meshOfRectangle);
   py::def("publish", &yadefrag::NewClasses::publishAll,
           "Adds the new classes to YADE, once; returns their names.");
 }

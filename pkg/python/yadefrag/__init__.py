@@ -1,4 +1,4 @@
-"""Contact search for YADE: colliders that take the place of InsertionSortCollider.
+"""Contact search and finite-element bodies for YADE.
 
 `import yadefrag` in a script run by `yade` adds the classes to yade.wrapper, as YADE does with its
 own, and to the names that every script sees. ImportError, in one sentence, in any other YADE.
@@ -17,6 +17,12 @@ from yadefrag import _yadefrag  # noqa: E402
 _yadefrag.checkRunningYade()
 __all__ = list(_yadefrag.publish())
 
+# Only now: FESolver is there.
+from yadefrag import solver  # noqa: E402
+from yadefrag.export import exportVTK  # noqa: E402
+from yadefrag.geometry import circle, readPolygon, rectangle, ring  # noqa: E402
+from yadefrag.pictures import animate, plotMesh  # noqa: E402
+from yadefrag.solver import rectangleMesh  # noqa: E402
 
 
 def _renewDispatchers():
@@ -28,7 +34,11 @@ def _renewDispatchers():
                 dispatcher.functors = dispatcher.functors
 
 
+solver.install()
 _renewDispatchers()
 for _name in __all__:
     globals()[_name] = getattr(wrapper, _name)
     setattr(builtins, _name, globals()[_name])
+
+__all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'rectangleMesh', 'plotMesh', 'animate',
+            'exportVTK']

@@ -1,0 +1,51 @@
+#pragma once
+// The YADE bodies of surface entries: made, moved, asked for the forces on them, and taken away.
+
+#include <vector>
+
+#include "abi/yade.hpp"
+#include "fe/surface_segment.hpp"
+#include "step/world.hpp"
+
+namespace yadefrag {
+
+/// One body per entry, in the order of the entries. Its state says where the middle of the piece is
+/// and how it moves and turns there, so that contacts with spheres see the right velocities.
+class EntryBodies {
+ public:
+  /// Bodies of all entries that have none yet, into the scene that `O` stands for.
+  void add(yade::Scene& scene, const World& world,
+           const yade::shared_ptr<yade::Material>& material);
+  /// Takes the bodies of a component out of the scene. To be called before the world forgets it.
+  void remove(yade::Scene& scene, const World& world, ComponentId component);
+
+  /// Throws RunError if a body is not in this scene any more.
+  void requireAll(const yade::Scene& scene);
+  /// Shapes and states as of now. `dt`: what an integrator will still move the bodies by (s), 0:
+  /// nothing will.
+  void update(const World& world, double dt, int threads);
+  void setHalo(double halfHalo);
+  /// Forces and torques on the bodies, as forces on the nodes: their sum, their moment and their
+  /// power are kept. Leaves `forces` empty if there are none.
+  void collectForces(yade::Scene& scene, const World& world, std::vector<Vec2>& forces) const;
+
+  /// none() for a body that is not one of these.
+  [[nodiscard]] EntryId entryOf(yade::Body::id_t id) const {
+    const auto place = static_cast<std::size_t>(id);
+    return place < entries_.size() ? entries_[place] : EntryId::none();
+  }
+  [[nodiscard]] const std::vector<yade::Body::id_t>& ids() const { return ids_; }
+  [[nodiscard]] const yade::Body& body(EntryId entry) const { return *bodies_[entry.value]; }
+
+  /// For archives: the bodies are found in the scene again when they are asked for.
+  void restore(std::vector<yade::Body::id_t> ids);
+
+ private:
+  void mapEntries();
+
+  std::vector<yade::Body::id_t> ids_;
+  std::vector<yade::shared_ptr<yade::Body>> bodies_;
+  std::vector<EntryId> entries_;  // by body id
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,136 @@
+#pragma once
+// All of a world's state in YADE's archives, as columns of plain numbers: the run continues with
+// the same bits from binary files and from XML, which has all of a number's digits.
+
+#include <boost/serialization/nvp.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+#include "step/world.hpp"
+
+namespace yadefrag {
+
+template <class Archive>
+class WorldArchive {
+ public:
+  explicit WorldArchive(Archive& archive) : archive_(archive) {}
+
+  void run(World& world) {
+    nodes(world.model.nodes);
+    triangles(world.model.triangles);
+    components(world.model.components);
+    surfaces(world.surfaces);
+    contact(world.contact);
+    search(world.search);
+    EnergyLedger& ledger = world.ledger;
+    value("contactEnergy", ledger.contact), value("frictionEnergy", ledger.friction);
+    value("fractureEnergy", ledger.fracture), value("dampingEnergy", ledger.damping);
+    value("externalEnergy", ledger.external);
+    column<double>("reference", world.reference);
+    value("steps", world.steps), value("time", world.time), value("lastDt", world.lastDt);
+    value("numSearches", world.numSearches);
+    if constexpr (Archive::is_loading::value) world.rebuild();
+  }
+
+ private:
+  template <class Value>
+  void value(const char* name, Value& value) {
+    archive_& boost::serialization::make_nvp(name, value);
+  }
+
+  /// A column of structures that are made of `Scalar` alone.
+  template <class Scalar, class Element>
+  void column(const char* name, std::vector<Element>& column) {
+    static_assert(std::is_trivially_copyable_v<Element> && sizeof(Element) % sizeof(Scalar) == 0);
+    std::vector<Scalar> flat(column.size() * (sizeof(Element) / sizeof(Scalar)));
+    if (!column.empty()) std::memcpy(flat.data(), column.data(), flat.size() * sizeof(Scalar));
+    value(name, flat);
+    column.resize(flat.size() * sizeof(Scalar) / sizeof(Element));
+    if (!column.empty())
+      std::memcpy(static_cast<void*>(column.data()), flat.data(), flat.size() * sizeof(Scalar));
+  }
+
+  /// One member of structures of several kinds.
+  template <class Element, class Read>
+  void member(const char* name, std::vector<Element>& rows, Read read) {
+    using Value = std::remove_cvref_t<decltype(read(rows.front()))>;
+    std::vector<Value> flat;
+    for (Element& row : rows) flat.push_back(read(row));
+    value(name, flat);
+    rows.resize(flat.size());
+    for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i];
+  }
+
+  void nodes(Nodes& nodes) {
+    column<double>("position", nodes.position), column<double>("velocity", nodes.velocity);
+    column<double>("mass", nodes.mass), column<double>("load", nodes.load);
+    column<std::uint8_t>("held", nodes.held);
+    column<std::uint32_t>("nodeComponent", nodes.component);
+  }
+
+  void triangles(Triangles& triangles) {
+    column<std::uint32_t>("triangles", triangles.nodes);
+    column<double>("inverseEdges", triangles.inverseEdges), column<double>("area", triangles.area);
+    column<std::uint32_t>("triangleComponent", triangles.component);
+  }
+
+  void components(std::vector<Component>& rows) {
+    using C = Component;
+    member("young", rows, [](C& c) -> double& { return c.material.young; });
+    member("poisson", rows, [](C& c) -> double& { return c.material.poisson; });
+    member("density", rows, [](C& c) -> double& { return c.material.density; });
+    member("thickness", rows, [](C& c) -> double& { return c.thickness; });
+    member("friction", rows, [](C& c) -> double& { return c.friction; });
+    member("firstTriangle", rows, [](C& c) -> std::uint32_t& { return c.firstTriangle; });
+    member("lastTriangle", rows, [](C& c) -> std::uint32_t& { return c.lastTriangle; });
+    flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
+    flags("selfContact", rows, [](C& c) -> bool& { return c.selfContact; });
+  }
+
+  /// Of rows that are there already: a vector of bool has no elements to refer to.
+  template <class Element, class Read>
+  void flags(const char* name, std::vector<Element>& rows, Read read) {
+    std::vector<std::uint8_t> flat;
+    for (Element& row : rows) flat.push_back(read(row) ? 1 : 0);
+    value(name, flat);
+    for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i] != 0;
+  }
+
+  void surfaces(ContactSurfaces& s) {
+    using Index = std::uint32_t;
+    column<Index>("segmentNode", s.segmentNode);
+    column<Index>("segmentNext", s.segmentNext), column<Index>("segmentPrev", s.segmentPrev);
+    column<std::uint8_t>("segmentSmooth", s.segmentSmooth);
+    column<Index>("segmentEntry", s.segmentEntry), column<Index>("nodeSegment", s.nodeSegment);
+    column<Index>("entrySegment", s.entrySegment), column<std::uint8_t>("piece", s.piece);
+    column<Index>("next", s.next), column<Index>("prev", s.prev);
+    column<Index>("loop", s.loop), column<Index>("entryComponent", s.component);
+  }
+
+  void contact(Contact& contact) {
+    using Index = std::uint32_t;
+    Candidates& candidates = contact.candidates;
+    column<Index>("slaves", candidates.slaves), column<Index>("offsets", candidates.offsets);
+    column<Index>("masters", candidates.masters);
+    column<std::uint8_t>("outside", candidates.outside);
+    auto& rows = contact.touches;
+    member("touchSlave", rows, [](Touch& t) -> Index& { return t.pair.slave.value; });
+    member("touchMaster", rows, [](Touch& t) -> Index& { return t.pair.master.value; });
+    member("touchNormal", rows, [](Touch& t) -> double& { return t.normalForce; });
+    member("touchTangent", rows, [](Touch& t) -> double& { return t.tangentForce; });
+    member("touchAllowed", rows, [](Touch& t) -> double& { return t.allowed; });
+  }
+
+  void search(SearchState& search) {
+    value("halo", search.halo), value("shortest", search.shortest);
+    value("isDue", search.isDue), value("isVoid", search.isVoid);
+    column<double>("searchPositions", search.positions);
+  }
+
+  Archive& archive_;
+};
+
+}  // namespace yadefrag

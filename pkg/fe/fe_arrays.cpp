@@ -1,0 +1,158 @@
+#include "fe/fe_arrays.hpp"
+
+#include "dynamics/element_state.hpp"
+#include "fe/fe_solver.hpp"
+#include "fe/fragments.hpp"
+#include "mesh/polygon.hpp"
+#include "mesh/structured.hpp"
+#include "mesh/triangulate.hpp"
+
+namespace yadefrag {
+
+namespace py = yade::py;
+
+py::object toArray(const void* data, std::size_t bytes, const char* dtype, std::size_t rows,
+                   int columns) {
+  // An array over a bytearray of its own can be written to, like any other.
+  const py::object buffer{py::handle<>(PyByteArray_FromStringAndSize(
+      static_cast<const char*>(data), static_cast<Py_ssize_t>(bytes)))};
+  const py::object numpy = py::import("numpy");
+  if (bytes == 0) {
+    return columns > 0 ? numpy.attr("empty")(py::make_tuple(rows, columns), dtype)
+                       : numpy.attr("empty")(rows, dtype);
+  }
+  const py::object flat = numpy.attr("frombuffer")(buffer, dtype);
+  return columns > 0 ? flat.attr("reshape")(rows, columns) : flat;
+}
+
+namespace {
+
+constexpr const char* kReal = "float64";
+constexpr const char* kIndex = "uint32";
+
+py::dict toDict(const TriangleMesh& mesh) {
+  py::dict result;
+  py::list loops, vertices;
+  for (const auto& loop : mesh.loops) loops.append(toArray(loop, kIndex, 0));
+  for (const auto& loop : mesh.loopVertices) vertices.append(toArray(loop, kIndex, 0));
+  result["nodes"] = toArray(mesh.nodes, kReal, 2);
+  result["triangles"] = toArray(mesh.triangles, kIndex, 3);
+  result["loops"] = loops;
+  result["loopVertices"] = vertices;
+  return result;
+}
+
+}  // namespace
+
+py::dict meshOfPolygon(const py::object& outline, const py::list& holes, double size) {
+  return asValueError([&] {
+    Polygon polygon;
+    polygon.outline = fromBytes<Vec2>(outline);
+    for (int i = 0; i < py::len(holes); ++i) polygon.holes.push_back(fromBytes<Vec2>(holes[i]));
+    return toDict(triangulate(checkPolygon(std::move(polygon)), size));
+  });
+}
+
+py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
+                         bool crossed) {
+  const QuadPattern pattern = crossed ? QuadPattern::kCrossed : QuadPattern::kUnionJack;
+  return toDict(structuredRectangle({left, bottom}, {right, top}, nx, ny, pattern));
+}
+
+int addMesh(FESolver& solver, const py::dict& input) {
+  TriangleMesh mesh;
+  mesh.nodes = fromBytes<Vec2>(input["nodes"]);
+  mesh.triangles = fromBytes<std::array<std::uint32_t, 3>>(input["triangles"]);
+  const py::list loops(input["loops"]);
+  for (int i = 0; i < py::len(loops); ++i) mesh.loops.push_back(fromBytes<std::uint32_t>(loops[i]));
+  BodySpec spec;
+  spec.velocity = fromBytes<Vec2>(input["velocity"]);
+  spec.displacement = fromBytes<Vec2>(input["displacement"]);
+  spec.held = fromBytes<std::uint8_t>(input["held"]);
+  spec.smoothNodes = fromBytes<std::uint8_t>(input["smooth"]);
+  spec.thickness = py::extract<double>(input["thickness"]);
+  spec.selfContact = py::extract<bool>(input["selfContact"]);
+  const yade::shared_ptr<FEMat> material = py::extract<yade::shared_ptr<FEMat>>(input["material"]);
+  return asValueError([&] { return solver.addBody(mesh, std::move(spec), material); });
+}
+
+py::object nodesOf(const FESolver& solver) {
+  return toArray(solver.world().model.nodes.position, kReal, 2);
+}
+py::object velocitiesOf(const FESolver& solver) {
+  return toArray(solver.world().model.nodes.velocity, kReal, 2);
+}
+py::object massesOf(const FESolver& solver) {
+  return toArray(solver.world().model.nodes.mass, kReal, 0);
+}
+py::object trianglesOf(const FESolver& solver) {
+  return toArray(solver.world().model.triangles.nodes, kIndex, 3);
+}
+py::object stressOf(const FESolver& solver) {
+  return toArray(stresses(solver.world().model), kReal, 3);
+}
+py::object componentsOf(const FESolver& solver) {
+  return toArray(solver.world().model.triangles.component, kIndex, 0);
+}
+
+py::object displacementsOf(const FESolver& solver) {
+  std::vector<Vec2> moved = solver.world().model.nodes.position;
+  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= solver.world().reference[i];
+  return toArray(moved, kReal, 2);
+}
+
+py::object contactForcesOf(const FESolver& solver) {
+  std::vector<Vec2> forces = solver.world().contact.forces();
+  forces.resize(solver.world().model.nodes.size());  // before the first step there are none
+  return toArray(forces, kReal, 2);
+}
+
+py::list surfacesOf(const FESolver& solver) {
+  const ContactSurfaces& surfaces = solver.world().surfaces;
+  std::vector<bool> seen(surfaces.segments());
+  py::list loops;
+  for (std::size_t first = 0; first < seen.size(); ++first) {
+    if (seen[first]) continue;
+    std::vector<NodeId> loop;
+    for (std::size_t s = first; !seen[s]; s = surfaces.segmentNext[s].value) {
+      seen[s] = true;
+      loop.push_back(surfaces.segmentNode[s]);
+    }
+    loops.append(toArray(loop, kIndex, 0));
+  }
+  return loops;
+}
+
+py::dict energyOf(const FESolver& solver) {
+  const World& world = solver.world();
+  const EnergyLedger& ledger = world.ledger;
+  const double kinetic = world.kineticEnergy();
+  const double strain = world.strainEnergy();
+  py::dict result;
+  result["kinetic"] = kinetic;
+  result["strain"] = strain;
+  result["contact"] = ledger.contact;
+  result["friction"] = ledger.friction;
+  result["fracture"] = ledger.fracture;
+  result["damping"] = ledger.damping;
+  result["external"] = ledger.external;
+  result["total"] = ledger.total(kinetic, strain);
+  return result;
+}
+
+py::list fragmentsOf(const FESolver& solver) {
+  py::list result;
+  for (const Fragment& fragment : findFragments(solver.world().model)) {
+    py::dict one;
+    one["component"] = fragment.component.value;
+    one["mass"] = fragment.mass;
+    one["area"] = fragment.area;
+    one["centroid"] = py::make_tuple(fragment.centroid.x, fragment.centroid.y);
+    one["velocity"] = py::make_tuple(fragment.velocity.x, fragment.velocity.y);
+    one["spin"] = fragment.spin;
+    result.append(one);
+  }
+  return result;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,68 @@
+#pragma once
+// Arrays between C++ and Python: NumPy arrays out, as copies, and bytes of such arrays in.
+
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+#include "abi/yade.hpp"
+#include "core/errors.hpp"
+
+namespace yadefrag {
+
+class FESolver;
+
+/// A new NumPy array of `dtype`, of `rows` rows and, unless it is 0, `columns` columns.
+yade::py::object toArray(const void* data, std::size_t bytes, const char* dtype, std::size_t rows,
+                         int columns);
+
+template <class Element>
+yade::py::object toArray(const std::vector<Element>& column, const char* dtype, int columns) {
+  return toArray(column.data(), column.size() * sizeof(Element), dtype, column.size(), columns);
+}
+
+/// What is in a Python `bytes`, as elements.
+template <class Element>
+std::vector<Element> fromBytes(const yade::py::object& bytes) {
+  char* data = nullptr;
+  Py_ssize_t size = 0;
+  if (PyBytes_AsStringAndSize(bytes.ptr(), &data, &size) != 0) yade::py::throw_error_already_set();
+  std::vector<Element> column(static_cast<std::size_t>(size) / sizeof(Element));
+  if (!column.empty())
+    std::memcpy(static_cast<void*>(column.data()), data, column.size() * sizeof(Element));
+  return column;
+}
+
+/// The mesh of a polygon, as a dict of arrays: nodes, triangles, loops, loopVertices.
+yade::py::dict meshOfPolygon(const yade::py::object& outline, const yade::py::list& holes,
+                             double size);
+/// A regular mesh of a rectangle, likewise.
+yade::py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
+                               bool crossed);
+
+/// `FESolver._addMesh` of yadefrag/solver.py, which has checked all input.
+int addMesh(FESolver& solver, const yade::py::dict& input);
+
+yade::py::object nodesOf(const FESolver& solver);
+yade::py::object velocitiesOf(const FESolver& solver);
+yade::py::object displacementsOf(const FESolver& solver);
+yade::py::object massesOf(const FESolver& solver);
+yade::py::object trianglesOf(const FESolver& solver);
+yade::py::object stressOf(const FESolver& solver);
+yade::py::object componentsOf(const FESolver& solver);
+yade::py::object contactForcesOf(const FESolver& solver);
+yade::py::list surfacesOf(const FESolver& solver);
+yade::py::dict energyOf(const FESolver& solver);
+yade::py::list fragmentsOf(const FESolver& solver);
+
+/// Runs `work`, and turns an InputError into Python's ValueError.
+template <class Work>
+auto asValueError(Work&& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw std::invalid_argument(error.what());
+  }
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,54 @@
+#pragma once
+// FESolver's values and methods as Python sees them; addPolygon and the like are Python
+// (python/yadefrag/solver.py).
+
+#include "fe/fe_arrays.hpp"
+
+namespace yadefrag {
+
+template <class PyClass>
+void FESolver::pyExtra(PyClass& pyClass) {
+  pyClass.def("_addMesh", &addMesh)
+      .def(
+          "removeBody",
+          +[](FESolver& self, int component) { asValueError([&] { self.removeBody(component); }); },
+          yade::py::args("component"),
+          "Takes a whole body, and its surface's bodies, out of the scene; the numbers of the "
+          "others stay.")
+      .def("criticalTimeStep", &FESolver::criticalTimeStep,
+           "Longest stable time step (s) of the present mesh; infinite without bodies.")
+      .def("fragments", &fragmentsOf,
+           "List of dicts, one per part that hangs together: component, mass (kg), area (m²), "
+           "centroid (m), velocity (m/s), spin (rad/s).")
+      .add_property("nodes", &nodesOf, "Positions (m), array (n, 2); a copy, as all arrays.")
+      .add_property("velocities", &velocitiesOf, "Of the nodes (m/s), array (n, 2).")
+      .add_property("displacements", &displacementsOf,
+                    "Of the nodes, from the stress-free shape (m), array (n, 2).")
+      .add_property("masses", &massesOf, "Of the nodes (kg), array (n).")
+      .add_property("triangles", &trianglesOf, "Node numbers, counter-clockwise, array (m, 3).")
+      .add_property("stress", &stressOf,
+                    "Cauchy stress xx, yy, xy (Pa) of the triangles, array (m, 3).")
+      .add_property("components", &componentsOf, "Number of each triangle's body, array (m).")
+      .add_property("contactForces", &contactForcesOf,
+                    "Of contact between bodies of this engine, on the nodes, in the last step (N), "
+                    "array (n, 2).")
+      .add_property("surfaces", &surfacesOf,
+                    "List of closed loops, each an array of node numbers, material on the left.")
+      .add_property("energy", &energyOf,
+                    "Dict of J: kinetic, strain, contact, friction, fracture, damping, external "
+                    "(what came in from outside), total (constant).")
+      .add_property(
+          "numSearches", +[](const FESolver& self) { return self.world().numSearches; },
+          "Contact searches so far.")
+      .add_property(
+          "numActives", +[](const FESolver& self) { return self.world().contact.rows().size(); },
+          "Points in contact in the last step.")
+      .add_property(
+          "maxPenetration",
+          +[](const FESolver& self) { return self.world().contact.maxPenetration(); },
+          "Deepest penetration (m) that was left in the last step.")
+      .add_property(
+          "numCracks", +[](const FESolver&) { return 0; }, "Cracked edges so far.");
+}
+
+}  // namespace yadefrag

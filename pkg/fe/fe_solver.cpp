@@ -1,0 +1,159 @@
+#include "fe/fe_solver.hpp"
+
+#include <omp.h>
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "collider/motion_watch.hpp"
+#include "core/errors.hpp"
+#include "fe/pair_source.hpp"
+
+namespace yadefrag {
+
+/// One step: from the forces that spheres and others have put on the boundary in this step to the
+/// boundary's new place.
+void FESolver::action() {
+  if (bodies_.ids().empty()) return;
+  if (scene->isPeriodic)
+    throw std::invalid_argument("FESolver: the scene is periodic, which its bodies cannot be.");
+  bodies_.requireAll(*scene);
+  giveSettings();
+  if (world_.search.isDue || world_.search.isVoid) {
+    if (pairsOfCollider(*scene, *this, bodies_, pairs_)) world_.takePairs(pairs_);
+  }
+  bodies_.collectForces(*scene, world_, world_.outerForces);
+  try {
+    world_.step(scene->dt);
+  } catch (const InputError& error) {
+    throw std::invalid_argument("O.dt: " + std::string(error.what()));
+  }
+  bodies_.update(world_, timeToIntegrate(), world_.threads);
+  prepareSearch();
+  if (scene->trackEnergy) trackEnergy();
+}
+
+/// Where the collider is to search in the next step, it must find bounds that hold for long enough.
+void FESolver::prepareSearch() {
+  if (!world_.search.isDue && !world_.search.isVoid) return;
+  world_.chooseHalo(scene->dt);
+  bodies_.setHalo(.5 * world_.search.halo);
+  scene->doSort = true;
+}
+
+/// What an integrator behind this engine moves the bodies by: it moves those that obey no forces
+/// too, by velocity times step.
+double FESolver::timeToIntegrate() const {
+  bool passed = false;
+  for (const auto& engine : scene->engines) {
+    if (engine.get() == this) passed = true;
+    const auto* newton = dynamic_cast<const yade::NewtonIntegrator*>(engine.get());
+    if (!newton || newton->dead || !passed) continue;
+    if (newton->mask <= 0 || (newton->mask & bodies_.body(EntryId(0)).groupMask) != 0)
+      return scene->dt;
+  }
+  return 0;
+}
+
+void FESolver::trackEnergy() const {
+  const EnergyLedger& ledger = world_.ledger;
+  const auto set = [this](const char* name, double value) {
+    scene->energy->setItem_py(name, value);
+  };
+  set("feKinetic", world_.kineticEnergy());
+  set("feStrain", world_.strainEnergy());
+  set("feContact", ledger.contact);
+  set("feFriction", ledger.friction);
+  set("feFracture", ledger.fracture);
+  set("feDamping", ledger.damping);
+  set("feExternal", -ledger.external);  // so that the sum of all is constant
+}
+
+int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
+                      const yade::shared_ptr<FEMat>& material) {
+  yade::Scene& here = *yade::Omega::instance().getScene();
+  if (here.isPeriodic) throw InputError("The scene is periodic, which FESolver cannot be.");
+  bodies_.requireAll(here);
+  spec.material = {material->young, material->poisson, material->density, material->planeStress};
+  spec.friction = std::tan(material->frictionAngle);
+  const ComponentId component = world_.addBody(mesh, spec);
+  scene = &here;
+  bodies_.add(here, world_, material);
+  prepareSearch();
+  return static_cast<int>(component.value);
+}
+
+void FESolver::removeBody(int component) {
+  yade::Scene& here = *yade::Omega::instance().getScene();
+  bodies_.requireAll(here);
+  const auto& components = world_.model.components;
+  const auto index = static_cast<std::size_t>(component);
+  if (component < 0 || index >= components.size() ||
+      components[index].firstTriangle == components[index].lastTriangle) {
+    std::ostringstream text;
+    text << "component is " << component << ", which is no body of this FESolver.";
+    throw InputError(text.str());
+  }
+  bodies_.remove(here, world_, ComponentId(index));
+  world_.removeBody(ComponentId(index));
+}
+
+double FESolver::criticalTimeStep() {
+  giveSettings();
+  return world_.criticalTimeStep();
+}
+
+void FESolver::checkSettings() const {
+  const auto refuse = [](const char* name, const auto& value, const char* right) {
+    std::ostringstream text;
+    text << "FESolver." << name << " is " << value << ", it must be " << right << ".";
+    throw std::invalid_argument(text.str());
+  };
+  if (correction != "lagrange" && correction != "penalty")
+    refuse("correction", "'" + correction + "'", "'lagrange' or 'penalty'");
+  if (passes != 1 && passes != 2) refuse("passes", passes, "1 or 2");
+  if (!(penaltyFactor > 0 && penaltyFactor <= 1))
+    refuse("penaltyFactor", penaltyFactor, "above 0 and at most 1");
+  if (!(damping >= 0 && std::isfinite(damping))) refuse("damping", damping, "0 or positive");
+  if (!gravity.allFinite()) refuse("gravity", gravity.transpose(), "finite");
+  if (!(linearViscosity >= 0 && std::isfinite(linearViscosity)))
+    refuse("linearViscosity", linearViscosity, "0 or positive");
+  if (!(quadraticViscosity >= 0 && std::isfinite(quadraticViscosity)))
+    refuse("quadraticViscosity", quadraticViscosity, "0 or positive");
+}
+
+void FESolver::postLoad(FESolver& /*self*/) {
+  try {
+    checkSettings();
+  } catch (const std::invalid_argument&) {
+    // What was there before is still in the world.
+    const StepSettings& step = world_.dynamicsSettings;
+    correction = world_.contactSettings.correction == Correction::kPenalty ? "penalty" : "lagrange";
+    passes = world_.contactSettings.passes;
+    penaltyFactor = world_.contactSettings.penaltyFactor;
+    damping = step.damping;
+    gravity = yade::Vector3r(step.gravity.x, step.gravity.y, 0);
+    linearViscosity = step.viscosity.linear, quadraticViscosity = step.viscosity.quadratic;
+    throw;
+  }
+  giveSettings();
+}
+
+void FESolver::giveSettings() {
+  world_.contactSettings.correction =
+      correction == "penalty" ? Correction::kPenalty : Correction::kLagrange;
+  world_.contactSettings.passes = passes;
+  world_.contactSettings.penaltyFactor = penaltyFactor;
+  world_.dynamicsSettings.damping = damping;
+  world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
+  world_.dynamicsSettings.viscosity = {linearViscosity, quadraticViscosity};
+  world_.threads = threadsToUse();
+}
+
+int FESolver::threadsToUse() const {
+  const int most = omp_get_max_threads();
+  return ompThreads > 0 ? std::min(ompThreads, most) : most;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,103 @@
+#pragma once
+// The engine that moves finite-element bodies.
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "abi/yade.hpp"
+#include "fe/entry_bodies.hpp"
+#include "fe/fe_archive.hpp"
+#include "fe/materials.hpp"
+#include "publish/published.hpp"
+#include "step/world.hpp"
+
+namespace yadefrag {
+
+class FESolver final : public Published<FESolver, yade::GlobalEngine> {
+ public:
+  static constexpr const char* kName = "FESolver";
+  static constexpr const char* kDoc =
+      "Finite-element bodies in the plane z = 0: explicit dynamics, and contact without "
+      "interpenetration between them. Stands behind the collider and the InteractionLoop in "
+      "O.engines, and before NewtonIntegrator. Raises ValueError for a time step above "
+      "criticalTimeStep(), RuntimeError naming the element or node where a run cannot go on.";
+
+  void action() override;
+  void postLoad(FESolver& self);
+
+  /// Adds a body, and its entries' bodies to the scene that `O` stands for; InputError before
+  /// anything is changed.
+  int addBody(const TriangleMesh& mesh, BodySpec spec, const yade::shared_ptr<FEMat>& material);
+  void removeBody(int component);
+
+  [[nodiscard]] double criticalTimeStep();
+  [[nodiscard]] const World& world() const { return world_; }
+  [[nodiscard]] const EntryBodies& entryBodies() const { return bodies_; }
+
+  std::string correction = "lagrange";
+  int passes = 1;
+  double penaltyFactor = ContactSettings().penaltyFactor;
+  double damping = 0;
+  yade::Vector3r gravity = yade::Vector3r::Zero();
+  double linearViscosity = 0;
+  double quadraticViscosity = 0;
+
+  static constexpr auto attributes();
+  template <class PyClass>
+  static void pyExtra(PyClass& pyClass);
+  template <class Archive>
+  void archiveMore(Archive& archive);
+
+ private:
+  void checkSettings() const;
+  void giveSettings();
+  void prepareSearch();
+  [[nodiscard]] double timeToIntegrate() const;
+  void trackEnergy() const;
+  [[nodiscard]] int threadsToUse() const;
+
+  World world_;
+  EntryBodies bodies_;
+  std::vector<BoxPair> pairs_;
+};
+
+constexpr auto FESolver::attributes() {
+  using C = FESolver;
+  using yade::Attr::triggerPostLoad;
+  return std::tuple(
+      attribute("correction", &C::correction,
+                "'lagrange': contact by forces that just prevent interpenetration; 'penalty': by "
+                "forces in proportion to it, to compare with.",
+                triggerPostLoad),
+      attribute("passes", &C::passes,
+                "1: of two surfaces the finer one's points must not penetrate the other; 2: the "
+                "points of both.",
+                triggerPostLoad),
+      attribute("penaltyFactor", &C::penaltyFactor,
+                "Of correction='penalty': the stiffness, as a share of the one that would undo a "
+                "penetration within a step.",
+                triggerPostLoad),
+      attribute("damping", &C::damping, "Mass-proportional damping (1/s).", triggerPostLoad),
+      attribute("gravity", &C::gravity, "Acceleration of all bodies of this engine (m/s²).",
+                triggerPostLoad),
+      attribute("linearViscosity", &C::linearViscosity,
+                "Coefficient of the linear bulk viscosity; 0: none, .06 is usual.",
+                triggerPostLoad),
+      attribute("quadraticViscosity", &C::quadraticViscosity,
+                "Coefficient of the quadratic bulk viscosity, in compression; 0: none, 1.2 is "
+                "usual.",
+                triggerPostLoad));
+}
+
+template <class Archive>
+void FESolver::archiveMore(Archive& archive) {
+  WorldArchive<Archive>(archive).run(world_);
+  std::vector<yade::Body::id_t> ids = bodies_.ids();
+  archive& boost::serialization::make_nvp("entryBodies", ids);
+  if constexpr (Archive::is_loading::value) bodies_.restore(std::move(ids));
+}
+
+}  // namespace yadefrag
+
+#include "fe/fe_python.hpp"

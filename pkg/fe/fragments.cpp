@@ -1,0 +1,71 @@
+#include "fe/fragments.hpp"
+
+#include <numeric>
+
+namespace yadefrag {
+namespace {
+
+/// Sets of nodes that grow together; the smallest number stands for all.
+class NodeSets {
+ public:
+  explicit NodeSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  std::uint32_t find(std::uint32_t node) {
+    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
+    return node;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a), b = find(b);
+    parent_[a < b ? b : a] = a < b ? a : b;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace
+
+std::vector<Fragment> findFragments(const Model& model) {
+  const Nodes& nodes = model.nodes;
+  NodeSets sets(nodes.size());
+  for (const auto& [a, b, c] : model.triangles.nodes) {
+    sets.join(a.value, b.value);
+    sets.join(a.value, c.value);
+  }
+  std::vector<Fragment> fragments;
+  constexpr std::uint32_t none = 0xffffffff;
+  std::vector<std::uint32_t> number(nodes.size(), none);
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    const auto& [a, b, c] = model.triangles.nodes[t];
+    std::uint32_t& index = number[sets.find(a.value)];
+    if (index == none) {
+      index = static_cast<std::uint32_t>(fragments.size());
+      fragments.emplace_back().component = model.triangles.component[t];
+    }
+    const Vec2 at = nodes.position[a.value];
+    fragments[index].area += .5 * cross(nodes.position[b.value] - at, nodes.position[c.value] - at);
+  }
+  const auto forNodes = [&](const auto& work) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const std::uint32_t index = number[sets.find(static_cast<std::uint32_t>(i))];
+      if (index != none) work(fragments[index], i);
+    }
+  };
+  forNodes([&](Fragment& f, std::size_t i) {
+    f.mass += nodes.mass[i];
+    f.centroid += nodes.mass[i] * nodes.position[i];
+    f.velocity += nodes.mass[i] * nodes.velocity[i];
+  });
+  for (Fragment& f : fragments) f.centroid *= 1 / f.mass, f.velocity *= 1 / f.mass;
+  std::vector<double> inertia(fragments.size());
+  forNodes([&](Fragment& f, std::size_t i) {
+    const Vec2 arm = nodes.position[i] - f.centroid;
+    f.spin += nodes.mass[i] * cross(arm, nodes.velocity[i] - f.velocity);
+    inertia[static_cast<std::size_t>(&f - fragments.data())] += nodes.mass[i] * dot(arm, arm);
+  });
+  for (std::size_t i = 0; i < fragments.size(); ++i) fragments[i].spin /= inertia[i];
+  return fragments;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,22 @@
+#pragma once
+// Parts of the mesh that hang together.
+
+#include <vector>
+
+#include "mesh/model.hpp"
+
+namespace yadefrag {
+
+struct Fragment {
+  ComponentId component;
+  double mass = 0;  ///< kg
+  double area = 0;  ///< m², at the present positions
+  Vec2 centroid;    ///< m, of the mass
+  Vec2 velocity;    ///< m/s, of the centroid
+  double spin = 0;  ///< rad/s: angular momentum over moment of inertia
+};
+
+/// All fragments, by their first triangle. Triangles with a common node hang together.
+std::vector<Fragment> findFragments(const Model& model);
+
+}  // namespace yadefrag
