@@ -90,6 +90,16 @@ CHECK_MEMBER(GenericSpheresContact, contactPoint);
 CHECK_MEMBER(GenericSpheresContact, refR1);
 CHECK_MEMBER(GenericSpheresContact, refR2);
 
+CHECK_SIZE(IPhys);
+
+CHECK_SIZE(NormPhys);
+CHECK_MEMBER(NormPhys, kn);
+CHECK_MEMBER(NormPhys, normalForce);
+
+CHECK_SIZE(NormShearPhys);
+CHECK_MEMBER(NormShearPhys, ks);
+CHECK_MEMBER(NormShearPhys, shearForce);
+
 CHECK_SIZE(ScGeom);
 CHECK_MEMBER(ScGeom, penetrationDepth);
 CHECK_MEMBER(ScGeom, shearInc);

@@ -91,6 +91,11 @@ void checkContactGeometry() {
   geom.check("refR2", geom->refR2, 8.5);
   geom.check("penetrationDepth", geom->penetrationDepth, 9.5);
   geom.check("shearInc", geom->shearInc, Vector3r(10, 11, 12));
+  const Scratch<yade::NormShearPhys> forces("NormShearPhys");
+  forces.check("kn", forces->kn, 13.5);
+  forces.check("ks", forces->ks, 14.5);
+  forces.check("normalForce", forces->normalForce, Vector3r(15, 16, 17));
+  forces.check("shearForce", forces->shearForce, Vector3r(18, 19, 20));
   geom.refuse("radius1", &geom->radius1 != &geom->refR1 || &geom->radius2 != &geom->refR2);
 }
 

@@ -8,6 +8,7 @@
 #include "abi/cell.hpp"
 #include "abi/collider.hpp"
 #include "abi/contact_geometry.hpp"
+#include "abi/contact_physics.hpp"
 #include "abi/dispatcher.hpp"
 #include "abi/energy_tracker.hpp"
 #include "abi/engine.hpp"

@@ -47,6 +47,30 @@ void setState(yade::State& state, const Frame& frame, const Nodes& nodes, double
   state.se3.position = inSpace(combine(frame.middle, nodes.position)) - dt * state.vel;
 }
 
+/// Moment about `about` of the forces on a body. YADE's laws may take both bodies of a contact for
+/// spheres, and then put a force that acts at the contact point on the body's own position: where
+/// there are contacts, their points are taken.
+double momentAbout(Vec2 about, const yade::Body& body, Vec2 force, double torque) {
+  Vec2 explained, points;
+  double moment = 0;
+  int count = 0;
+  for (const auto& [other, contact] : body.intrs) {
+    if (!contact->isReal()) continue;
+    const auto* geom = dynamic_cast<const yade::ScGeom*>(contact->geom.get());
+    const auto* phys = dynamic_cast<const yade::NormShearPhys*>(contact->phys.get());
+    if (!geom || !phys) continue;
+    const double sign = contact->getId2() == body.getId() ? 1 : -1;
+    const Vec2 part = sign * inPlane(phys->normalForce + phys->shearForce);
+    const Vec2 point = inPlane(geom->contactPoint);
+    explained += part;
+    points += point;
+    moment += cross(point - about, part);
+    ++count;
+  }
+  if (count == 0) return torque + cross(inPlane(body.state->se3.position) - about, force);
+  return moment + cross((1. / count) * points - about, force - explained);
+}
+
 SurfaceSegment& shapeOf(yade::Body& body) { return static_cast<SurfaceSegment&>(*body.shape); }
 
 }  // namespace
@@ -145,11 +169,10 @@ void EntryBodies::collectForces(yade::Scene& scene, const World& world,
     const Frame frame(world.surfaces, EntryId(e));
     for (int k = 0; k < frame.middle.count; ++k)
       forces[frame.middle.node[k].value] += frame.middle.weight[k] * force;
-    // The torque is about where the body is, which may be off the middle by rounding.
-    const Vec2 off =
-        inPlane(bodies_[e]->state->se3.position) - combine(frame.middle, nodes.position);
+    const Vec2 middle = combine(frame.middle, nodes.position);
+    const double moment = momentAbout(middle, *bodies_[e], force, torque);
     const Vec2 along = nodes.position[frame.last.value] - nodes.position[frame.first.value];
-    const Vec2 pair = (-(torque + cross(off, force)) / dot(along, along)) * rightOf(along);
+    const Vec2 pair = (-moment / dot(along, along)) * rightOf(along);
     forces[frame.last.value] += pair;
     forces[frame.first.value] -= pair;
   }

@@ -46,13 +46,13 @@ struct Joint {
     return overlap(radius) * -past / (ahead - past);
   }
 
-  [[nodiscard]] DiscContact corner(Vec2 at, double radius) const {
+  [[nodiscard]] DiscContact corner(double radius) const {
     const double distance = norm(from);
     const Vec2 out = rightOf(arrive) + rightOf(leave);
     const bool inside = dot(from, out) < 0 && (isConcave() || dot(arrive, leave) > 0);
     const Vec2 normal = distance > 0 ? (1 / distance) * from : unit(out);
-    if (inside) return {radius + distance, -normal, at};
-    return {radius - distance, normal, at};
+    if (inside) return {radius + distance, -normal};
+    return {radius - distance, normal};
   }
 
  private:
@@ -62,7 +62,7 @@ struct Joint {
 DiscContact freeEnd(Vec2 at, Vec2 outward, Vec2 centre, double radius) {
   const Vec2 from = centre - at;
   const double distance = norm(from);
-  return {radius - distance, distance > 0 ? (1 / distance) * from : outward, at};
+  return {radius - distance, distance > 0 ? (1 / distance) * from : outward};
 }
 
 /// Foot of the point on a piece that it is alongside of: the slope times the way to the point
@@ -115,7 +115,7 @@ std::optional<DiscContact> discContact(const BoundaryPiece& piece, Vec2 centre, 
     const Owner owner = joint.owner();
     if (owner == Owner::kBefore) return {};
     if (owner == Owner::kCorner) {
-      const DiscContact corner = joint.corner(piece.start, radius);
+      const DiscContact corner = joint.corner(radius);
       const bool counts = corner.penetration > 0 && corner.penetration < 2 * radius;
       return counts ? std::optional(corner) : std::nullopt;
     }
@@ -137,7 +137,7 @@ std::optional<DiscContact> discContact(const BoundaryPiece& piece, Vec2 centre, 
   const double distance = dot(centre - piece.pointAt(xi), normal);
   const double penetration = radius - distance - shared;
   if (!(penetration > 0) || distance <= -radius) return {};
-  return DiscContact{penetration, normal, centre - distance * normal};
+  return DiscContact{penetration, normal};
 }
 
 }  // namespace yadefrag

@@ -22,7 +22,6 @@ struct BoundaryPiece {
 struct DiscContact {
   double penetration;  ///< m, positive: overlap
   Vec2 normal;         ///< unit, out of the material
-  Vec2 foot;           ///< m, on the piece
 };
 
 /// The contact that this piece has with a disc; none where it does not touch or where the place

@@ -47,8 +47,9 @@ bool Ig2_Sphere_SurfaceSegment_ScGeom::go(const yade::shared_ptr<yade::Shape>& s
   auto& geom = static_cast<yade::ScGeom&>(*contact->geom);
   geom.radius1 = geom.radius2 = radius;
   geom.penetrationDepth = touch->penetration;
-  geom.contactPoint = Vector3r(touch->foot.x, touch->foot.y, centre[2]) + shift2;
   const Vector3r normal(-touch->normal.x, -touch->normal.y, 0);
+  // Halfway into the overlap, where laws for spheres take it to be.
+  geom.contactPoint = state1.se3.position + (radius - .5 * touch->penetration) * normal;
   geom.precompute(state1, state2, scene, contact, normal, isNew, shift2, false);
   return true;
 }

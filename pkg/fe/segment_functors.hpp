@@ -30,8 +30,8 @@ class Ig2_Sphere_SurfaceSegment_ScGeom final
   static constexpr const char* kDoc =
       "Makes the ScGeom of a Sphere and a SurfaceSegment. Distances are those in the plane: the "
       "boundary is a prism along z. As with Ig2_Wall_Sphere_ScGeom the boundary counts with the "
-      "sphere's own radius, so that a flat one is as stiff as a Wall; the contact point is on the "
-      "boundary. Along a chain of segments every place belongs to one of them: no double force at "
+      "sphere's own radius, so that a flat one is as stiff as a Wall. Along a chain of segments "
+      "every place belongs to one of them: no double force at "
       "a flat or convex joint, two forces in a concave corner.";
   static constexpr auto attributes() { return std::tuple(); }
 

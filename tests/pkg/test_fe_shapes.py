@@ -235,11 +235,13 @@ def test_movingBoundaryDragsByFriction():
     O.step()
     geom = O.interactions[0, 1].geom
     incident = geom.incidentVel(O.interactions[0, 1], False)
-    # ball is body 1 of the contact; the piece at the foot moves at vel + ω × (foot - pos)
-    assert tuple(incident) == pytest.approx((.2, .5 * .3, 0), abs=1e-12)
+    # ball is body 1 of the contact; the piece moves at vel + ω × (point - pos) there, halfway into
+    # the overlap; its position is the origin, though the piece goes from 1 to -1
+    depth = .005 * RADIUS
+    assert tuple(incident) == pytest.approx((.2 + .5 * depth, .5 * .3, 0), abs=1e-12)
     assert tuple(geom.normal) == pytest.approx((0, -1, 0))
-    assert tuple(geom.contactPoint) == pytest.approx((.3, 0, 0))
-    assert tuple(geom.shearInc) == pytest.approx((.2 * O.dt, 0, 0), abs=1e-15)
+    assert tuple(geom.contactPoint) == pytest.approx((.3, -depth, 0))
+    assert tuple(geom.shearInc) == pytest.approx(((.2 + .5 * depth) * O.dt, 0, 0), abs=1e-15)
 
 
 def test_explicitInteractionEitherWay():
