@@ -49,35 +49,47 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
   for (const NodeId node : touched_) forces_[node.value] = displacement_[node.value] = {};
   touched_.clear();
   double reach = step.reach;
-  search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads);
+  scan(model, surfaces, step, reach);
   for (int detection = 0; detection < tolerance::kDetections; ++detection) {
     const bool anyNew = addRows(model, surfaces, step);
     if (rows_.empty()) break;
     if (detection > 0) {
-      updateGaps(model, surfaces);
+      updateGaps(model, surfaces, step);
       if (!anyNew && maxPenetration_ <= tolerance::kPenetrationLeft * step.shortest) break;
       if (!anyNew && settings.correction == Correction::kPenalty) break;
     }
-    if (settings.correction == Correction::kPenalty)
-      penalize(rows_, model.nodes, step.dt, step.drag, settings.penaltyFactor);
-    else
-      residual_ = lagrange_.solve(rows_, model.nodes, step.dt, step.drag);
+    solve(model, settings, step);
     // What the correction moved by more than the scan looked ahead is looked at again.
     const double moved = move(model, step);
     if (2 * moved > reach) {
       reach = 2 * moved;
-      search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads);
+      scan(model, surfaces, step, reach);
     }
   }
   finish(model, surfaces, step);
+}
+
+void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
+                   double reach) {
+  const StageTimer timer(step.times, &StageTimes::localSearch);
+  search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads);
+}
+
+void Contact::solve(const Model& model, const ContactSettings& settings, const ContactStep& step) {
+  const StageTimer timer(step.times, &StageTimes::correction);
+  if (settings.correction == Correction::kPenalty)
+    penalize(rows_, model.nodes, step.dt, step.drag, settings.penaltyFactor);
+  else
+    residual_ = lagrange_.solve(rows_, model.nodes, step.dt, step.drag);
 }
 
 /// Adds a row for every active that has none; true if there was one.
 bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
                       const ContactStep& step) {
   if (!search_.anyNear()) return false;
+  const StageTimer timer(step.times, &StageTimes::localSearch);
   actives_.clear();
-  search_.findActives(candidates, surfaces, model.nodes.position, actives_);
+  search_.findActives(candidates, surfaces, model.nodes.position, step.halo, actives_);
   const PieceGeometry before(surfaces, step.before);
   bool anyNew = false;
   for (const Active& active : actives_) {
@@ -158,7 +170,9 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
 
 /// The true gaps at the corrected positions, taken back to the predicted ones along the rows: the
 /// next solve then leaves a remainder of higher order.
-void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces) {
+void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces,
+                         const ContactStep& step) {
+  const StageTimer timer(step.times, &StageTimes::localSearch);
   const PieceGeometry geometry(surfaces, model.nodes.position);
   maxPenetration_ = 0;
   for (ContactRow& row : rows_) {
@@ -170,6 +184,7 @@ void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces) {
 
 /// Moves the nodes from where they are to x* + u; returns the largest |u| (m).
 double Contact::move(Model& model, const ContactStep& step) {
+  const StageTimer timer(step.times, &StageTimes::correction);
   for (const NodeId node : touched_) forces_[node.value] = {};
   sumForces();
   double largest = 0;
@@ -200,7 +215,8 @@ void Contact::sumForces() {
 void Contact::finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   for (const NodeId node : touched_)
     model.nodes.velocity[node.value] += (1 / step.dt) * displacement_[node.value];
-  if (!rows_.empty()) updateGaps(model, surfaces);
+  if (!rows_.empty()) updateGaps(model, surfaces, step);
+  const StageTimer timer(step.times, &StageTimes::localSearch);
   touches.clear();
   std::vector<SlaveMaster> active;
   active.reserve(rows_.size());

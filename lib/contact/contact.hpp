@@ -11,6 +11,7 @@
 #include "contact/contact_settings.hpp"
 #include "contact/correction.hpp"
 #include "contact/local_search.hpp"
+#include "core/stage_times.hpp"
 #include "mesh/model.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -29,8 +30,10 @@ struct ContactStep {
   double drag;                   ///< αΔt/2
   double reach;                  ///< m, twice the largest displacement of a surface node
   double shortest;               ///< m, shortest segment
+  double halo;                   ///< m, δ
   std::span<const Vec2> before;  ///< m, xⁿ; of surface nodes only
   int threads;
+  StageTimes* times = nullptr;  ///< null: not measured
 };
 
 class Contact {
@@ -55,13 +58,16 @@ class Contact {
   std::vector<Touch> touches;  ///< by pair
 
  private:
+  void scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
+            double reach);
+  void solve(const Model& model, const ContactSettings& settings, const ContactStep& step);
   [[nodiscard]] std::span<const ContactRow> rowsOf(EntryId slave) const;
   bool hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair) const;
   bool contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const;
   bool addRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
                 const PieceGeometry& before, const Active& active, const ContactStep& step) const;
-  void updateGaps(const Model& model, const ContactSurfaces& surfaces);
+  void updateGaps(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   double move(Model& model, const ContactStep& step);
   void sumForces();
   void finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);

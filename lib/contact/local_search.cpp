@@ -103,12 +103,13 @@ void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
 }
 
 void LocalSearch::findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
-                              std::span<const Vec2> positions, std::vector<Active>& actives) {
+                              std::span<const Vec2> positions, double halo,
+                              std::vector<Active>& actives) {
   const PieceGeometry geometry(surfaces, positions);
   const std::span<const Near> near(near_);
   for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
     while (end < near.size() && near[end].row == near[begin].row) ++end;
-    tryRow(candidates, surfaces, geometry, near.subspan(begin, end - begin));
+    tryRow(candidates, surfaces, geometry, near.subspan(begin, end - begin), halo);
     const EntryId slave = candidates.slaves[near[begin].row];
     for (const Trial& trial : trials_)
       if (trial.active) actives.push_back({{slave, trial.master}, trial.foot, trial.cameAside});
@@ -117,7 +118,7 @@ void LocalSearch::findActives(const Candidates& candidates, const ContactSurface
 
 /// One slave and all masters that it is near to.
 void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
-                         const PieceGeometry& geometry, std::span<const Near> row) {
+                         const PieceGeometry& geometry, std::span<const Near> row, double halo) {
   const EntryId slave = candidates.slaves[row.front().row];
   const Vec2 point = geometry.slave(slave);
   trials_.clear();
@@ -137,16 +138,20 @@ void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& su
   }
   const SlaveNormals normals = slaveNormals(surfaces, geometry, slave);
   for (Trial& trial : trials_) trial.opposed = normals.oppose(trial.foot.normal);
-  decide(surfaces, geometry);
+  decide(surfaces, geometry, halo);
 }
 
 /// The outside-inside criterion (§5.1), then the exceptions where two masters meet (§5.2). A smooth
-/// master needs no flag (§5.3): its normal always exists and is unique.
-void LocalSearch::decide(const ContactSurfaces& surfaces, const PieceGeometry& geometry) {
-  for (Trial& trial : trials_)
-    trial.active = trial.opposed && trial.foot.gap < 0 &&
-                   (trial.outside || isArc(surfaces, trial.master)) &&
-                   isOver(surfaces, trial.master, trial.foot);
+/// master needs no flag (§5.3): its normal always exists and is unique. But where a body folds up,
+/// the normals of a tight arc reach far into it and out at the other side: a depth beyond the halo
+/// is none.
+void LocalSearch::decide(const ContactSurfaces& surfaces, const PieceGeometry& geometry,
+                         double halo) {
+  for (Trial& trial : trials_) {
+    const bool arc = isArc(surfaces, trial.master);
+    trial.active = trial.opposed && trial.foot.gap < 0 && (arc || trial.outside) &&
+                   (!arc || trial.foot.gap >= -halo) && isOver(surfaces, trial.master, trial.foot);
+  }
   for (Trial& first : trials_)
     for (Trial& second : trials_)
       if (surfaces.next[first.master.value] == second.master)

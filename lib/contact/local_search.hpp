@@ -26,9 +26,10 @@ class LocalSearch {
   void scan(Candidates& candidates, const ContactSurfaces& surfaces,
             std::span<const Vec2> positions, double reach, int threads);
 
-  /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master.
+  /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master. None is deeper
+  /// in a smooth master than `halo` (m).
   void findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
-                   std::span<const Vec2> positions, std::vector<Active>& actives);
+                   std::span<const Vec2> positions, double halo, std::vector<Active>& actives);
 
   /// Outside flags of the near ones after the step, in which `touched` (ascending) were active:
   /// those stay outside, however rounding has placed them.
@@ -52,8 +53,8 @@ class LocalSearch {
   };
 
   void tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
-              const PieceGeometry& geometry, std::span<const Near> row);
-  void decide(const ContactSurfaces& surfaces, const PieceGeometry& geometry);
+              const PieceGeometry& geometry, std::span<const Near> row, double halo);
+  void decide(const ContactSurfaces& surfaces, const PieceGeometry& geometry, double halo);
   void decideNeighbours(const ContactSurfaces& surfaces, const PieceGeometry& geometry,
                         Trial& first, Trial& second);
   static void enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom, bool overTo);

@@ -14,13 +14,7 @@ void World::step(double dt) {
   rememberSurface();
 
   // Internal forces, then v* and x*, as if there were no contact.
-  try {
-    dynamics_.predict(model, dt, dynamicsSettings, outerForces, threads);
-  } catch (const RunError& error) {
-    std::ostringstream text;
-    text << "Step " << steps << ", time " << time << " s: " << error.what();
-    throw RunError(text.str());
-  }
+  predict(dt);
 
   // Global search, only if a node left the halo of the last one: mostly a collider has searched, or
   // the last candidates still hold.
@@ -32,13 +26,29 @@ void World::step(double dt) {
   }
 
   // Works of everything but contact, with the mean of both velocities.
-  dynamics_.finish(model, dt, dynamicsSettings, outerForces, contact.forces(), ledger);
+  finish(dt);
   ++steps;
   time += dt;
   lastDt = dt;
   outerForces.clear();
 
   if (canTouch()) foreseeSearch(dt);
+}
+
+void World::predict(double dt) {
+  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
+  try {
+    dynamics_.predict(model, dt, dynamicsSettings, outerForces, threads);
+  } catch (const RunError& error) {
+    std::ostringstream text;
+    text << "Step " << steps << ", time " << time << " s: " << error.what();
+    throw RunError(text.str());
+  }
+}
+
+void World::finish(double dt) {
+  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
+  dynamics_.finish(model, dt, dynamicsSettings, outerForces, contact.forces(), ledger, threads);
 }
 
 }  // namespace yadefrag

@@ -8,6 +8,7 @@
 
 #include "contact/contact.hpp"
 #include "contact/pass_rule.hpp"
+#include "core/stage_times.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "mesh/model.hpp"
@@ -70,6 +71,7 @@ class World {
   StepSettings dynamicsSettings;
   ContactSettings contactSettings;
   int threads = 1;
+  bool timing = false;  ///< fill `times`
   /// (N) By node, for the next step only; empty: none.
   std::vector<Vec2> outerForces;
 
@@ -86,6 +88,7 @@ class World {
 
   // --- counters
   std::uint64_t numSearches = 0;
+  StageTimes times;
   [[nodiscard]] std::span<const NodeId> surfaceNodes() const { return surfaceNodes_; }
 
  private:
@@ -100,6 +103,9 @@ class World {
   [[nodiscard]] bool canTouch() const;
   [[nodiscard]] double largestMove() const;
   [[nodiscard]] double fastest() const;
+  void predict(double dt);
+  void finish(double dt);
+  [[nodiscard]] StageTimes* timesIfAsked() { return timing ? &times : nullptr; }
 
   ExplicitDynamics dynamics_;
   std::unique_ptr<ContactSearch> search_;

@@ -34,6 +34,7 @@ bool World::canTouch() const {
 
 void World::rememberSurface() {
   if (!canTouch()) return;
+  const StageTimer timer(timesIfAsked(), &StageTimes::search);
   for (const NodeId node : surfaceNodes_) before_[node.value] = model.nodes.position[node.value];
 }
 
@@ -89,6 +90,7 @@ void World::considerPairs(std::span<const BoxPair> overlapping) {
 
 /// Nothing is missed: whatever was foreseen, x* itself decides.
 void World::searchIfLeft() {
+  const StageTimer timer(timesIfAsked(), &StageTimes::search);
   if (!search.isDue && !search.isVoid) {
     const double allowed = search.halo * search.halo / 4;
     for (std::size_t i = 0; i < surfaceNodes_.size(); ++i) {
@@ -124,12 +126,15 @@ void World::correctContact(double dt) {
                         dynamicsSettings.damping * dt / 2,
                         2 * largestMove() + tolerance::kTouching * search.shortest,
                         search.shortest,
+                        search.halo,
                         before_,
-                        threads};
+                        threads,
+                        timesIfAsked()};
   contact.correct(model, surfaces, contactSettings, now);
 }
 
 void World::bookContact(double dt) {
+  const StageTimer timer(timesIfAsked(), &StageTimes::correction);
   const std::span<const Vec2> former = dynamics_.previousVelocity();
   for (const ContactRow& row : contact.rows()) {
     const Vec2 mean = .5 * (relative(row, former) + relative(row, model.nodes.velocity));
@@ -141,6 +146,7 @@ void World::bookContact(double dt) {
 /// May the next step leave the halo?
 void World::foreseeSearch(double dt) {
   if (search.isDue) return;
+  const StageTimer timer(timesIfAsked(), &StageTimes::search);
   for (std::size_t i = 0; i < surfaceNodes_.size(); ++i) {
     const std::uint32_t node = surfaceNodes_[i].value;
     const double moved = norm(model.nodes.position[node] - search.positions[i]);
