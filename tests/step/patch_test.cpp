@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kPressure = 1e6;  // Pa
 constexpr double kSide = 1;        // m, of each of the two blocks
-constexpr double kRest = 100;      // side/c, time until all is at rest
+constexpr double kRest = 120;      // side/c, time until all is at rest
 
 struct Patch {
   int lower, upper;     ///< quads along the interface
