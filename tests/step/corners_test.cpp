@@ -1,0 +1,100 @@
+// Corners: where node against segment has the most ways to go wrong.
+
+#include <gtest/gtest.h>
+
+#include "mesh/polygon.hpp"
+#include "step/course.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+/// A node a thousandth of a segment inside is not on the wrong side: a corner that grazes a corner
+/// is held where it came in and let out by 2 % a step (lib/contact), and Newton's remainder is
+/// smaller.
+constexpr double kWrongSide = 1e-3;
+/// Kinetic and strain energy may exceed the start's by this much.
+constexpr double kGrowth = 5e-3;
+
+TriangleMesh meshOf(std::vector<Vec2> outline, double size) {
+  return triangulate(checkPolygon({std::move(outline), {}}), size);
+}
+
+World twoPasses() {
+  World world;
+  world.contactSettings.passes = 2;
+  return world;
+}
+
+void expectSound(const Course& course) {
+  EXPECT_LE(course.deepest, kWrongSide);
+  EXPECT_LE(course.growth, kGrowth);
+  EXPECT_LE(course.drift, kGrowth);
+  EXPECT_GT(course.touched, 0U);
+}
+
+class CornerOnCorner : public testing::TestWithParam<double> {};
+
+/// Blocks one on the other, their lateral faces aligned but for an offset.
+TEST_P(CornerOnCorner, BlockOnBlock) {
+  World world = twoPasses();
+  const TriangleMesh low = structuredRectangle({0, 0}, {1, 1}, 6, 6);
+  const TriangleMesh high = structuredRectangle({GetParam(), 1}, {1 + GetParam(), 2}, 8, 8);
+  world.addBody(low, moving(low, rubber(), {0, 0}));
+  world.addBody(high, moving(high, rubber(), {0, -10}));
+  expectSound(watch(world, 2000, 10));
+}
+
+/// Squares that meet tip to tip.
+TEST_P(CornerOnCorner, TipOnTip) {
+  const double off = GetParam();
+  World world = twoPasses();
+  const TriangleMesh left = meshOf({{0, -1}, {1, 0}, {0, 1}, {-1, 0}}, .2);
+  const TriangleMesh right =
+      meshOf({{2.05, off - 1}, {3.05, off}, {2.05, off + 1}, {1.05, off}}, .17);
+  world.addBody(left, moving(left, rubber(), {0, 0}));
+  world.addBody(right, moving(right, rubber(), {-10, 0}));
+  expectSound(watch(world, 2000, 10));
+}
+
+INSTANTIATE_TEST_SUITE_P(Offsets, CornerOnCorner,
+                         testing::Values(0., 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, .02, -.1, .3));
+
+class SharpCorner : public testing::TestWithParam<std::tuple<double, int>> {};
+
+/// A wedge of 20°, held at its base, hit near its tip from above and from below.
+TEST_P(SharpCorner, IsHitNearItsTip) {
+  const auto [x, side] = GetParam();
+  World world = twoPasses();
+  const TriangleMesh wedge = meshOf({{0, -.18}, {1, 0}, {0, .18}}, .06);
+  BodySpec held = moving(wedge, rubber(), {0, 0});
+  hold(held, wedge, kHeldXY, [](Vec2 at) { return at.x < 1e-9; });
+  const double y = .5 * side;
+  const TriangleMesh block =
+      meshOf({{x - .3, y - .25}, {x + .3, y - .25}, {x + .3, y + .25}, {x - .3, y + .25}}, .1);
+  world.addBody(wedge, held);
+  world.addBody(block, moving(block, rubber(), {0, -5. * side}));
+  expectSound(watch(world, 6000, 20));
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, SharpCorner,
+                         testing::Combine(testing::Values(.9, .98, 1.02), testing::Values(1, -1)));
+
+class ConcaveCorner : public testing::TestWithParam<double> {};
+
+/// A tip that falls into a notch, in the middle and aside.
+TEST_P(ConcaveCorner, TakesATip) {
+  const double off = GetParam();
+  World world = twoPasses();
+  const TriangleMesh notch = meshOf({{-1, -1}, {1, -1}, {1, 1}, {0, 0}, {-1, 1}}, .15);
+  BodySpec held = moving(notch, rubber(), {0, 0});
+  hold(held, notch, kHeldXY, [](Vec2 at) { return at.y < -1 + 1e-9; });
+  const TriangleMesh tip = meshOf({{off, .3}, {.4 + off, .9}, {-.4 + off, .9}}, .1);
+  world.addBody(notch, held);
+  world.addBody(tip, moving(tip, rubber(), {0, -10}));
+  expectSound(watch(world, 4000, 20));
+}
+
+INSTANTIATE_TEST_SUITE_P(Offsets, ConcaveCorner, testing::Values(0., 1e-6, .05));
+
+}  // namespace
+}  // namespace yadefrag::test

@@ -1,0 +1,146 @@
+// Many blows in a small space: nothing gets out, nothing gets in, no energy appears.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "mesh/polygon.hpp"
+#include "step/course.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+std::vector<Vec2> circle(Vec2 centre, double radius, int count) {
+  std::vector<Vec2> points;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    points.push_back(centre + radius * Vec2{std::cos(angle), std::sin(angle)});
+  }
+  return points;
+}
+
+TriangleMesh ring(double inner, double outer, int count, int countInside) {
+  return triangulate(checkPolygon({circle({}, outer, count), {circle({}, inner, countInside)}}),
+                     2 * std::numbers::pi * outer / count);
+}
+
+/// 20 squares between rigid walls. Coarse meshes lose most of the energy in their blows (the part
+/// of a contact node at touch); it is booked as contact, and the total stays within 0.5 %.
+TEST(Enclosures, TwentySquaresInABox) {
+  World world;
+  world.contactSettings.passes = 2;
+  const TriangleMesh frame =
+      triangulate(checkPolygon({{{-1, -1}, {6.5, -1}, {6.5, 5.5}, {-1, 5.5}},
+                                {{{-.2, -.2}, {-.2, 4.8}, {5.8, 4.8}, {5.8, -.2}}}}),
+                  .5);
+  BodySpec rigid = moving(frame, rubber(), {0, 0});
+  hold(rigid, frame, kHeldXY, [](Vec2) { return true; });
+  world.addBody(frame, rigid);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> speed(-10, 10);
+  for (int i = 0; i < 20; ++i) {
+    const Vec2 low{1.1 * (i % 5) + .1, 1.1 * (i / 5) + .1};
+    const TriangleMesh square = structuredRectangle(low, low + Vec2{1, 1}, 4, 4);
+    world.addBody(square, moving(square, rubber(), {speed(random), speed(random)}));
+  }
+  const Course course = watch(world, 100000, 200);
+  EXPECT_LE(course.deepest, 5e-3) << "of the shortest segment";
+  EXPECT_LE(course.growth, 5e-3);
+  EXPECT_LE(course.drift, 5e-3);
+  EXPECT_GT(course.touched, 1000U);
+}
+
+class DiscInARing : public testing::TestWithParam<bool> {};
+
+TEST_P(DiscInARing, Rattles) {
+  World world;
+  world.contactSettings.passes = 2;
+  const TriangleMesh outer = ring(1, 1.3, 80, 64);
+  const TriangleMesh disc = triangulate(checkPolygon({circle({.2, .1}, .6, 48), {}}), .0785);
+  BodySpec hollow = moving(outer, rubber(), {0, 0});
+  BodySpec full = moving(disc, rubber(), {15, 7});
+  if (GetParam()) smoothAll(hollow, outer), smoothAll(full, disc);
+  world.addBody(outer, hollow);
+  world.addBody(disc, full);
+  const Course course = watch(world, 10000, 50);
+  // A smooth surface bulges over its segments, so nodes are inside the other's polygon by the
+  // sagitta of an arc, up to a 16th of a segment here; halfpoints are what is held outside the
+  // arcs.
+  EXPECT_LE(GetParam() ? course.penetration : course.deepest, 1e-6) << "of the shortest segment";
+  EXPECT_LE(course.deepest, GetParam() ? 1. / 16 : 1e-6);
+  EXPECT_LE(course.growth, 5e-3);
+  EXPECT_LE(course.drift, 5e-3);
+  EXPECT_GT(course.touched, 1000U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, DiscInARing, testing::Bool(),
+                         [](const auto& info) { return info.param ? "Smooth" : "Straight"; });
+
+double signedArea(const Loop& loop) {
+  double sum = 0;
+  for (std::size_t i = 0; i < loop.points.size(); ++i)
+    sum += cross(loop.points[i], loop.points[(i + 1) % loop.points.size()]) / 2;
+  return sum;
+}
+
+double distanceToLine(Vec2 point, Vec2 a, Vec2 b) {
+  return std::abs(cross(b - a, point - a)) / norm(b - a);
+}
+
+/// (m) How deep a loop's segments cross one another: the end that is least far through.
+double selfCrossing(const Loop& loop) {
+  const auto& p = loop.points;
+  const std::size_t n = p.size();
+  double deepest = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if (i == 0 && j + 1 == n) continue;
+      const Vec2 a = p[i], b = p[(i + 1) % n], c = p[j], d = p[(j + 1) % n];
+      const bool cross1 = (cross(b - a, c - a) > 0) != (cross(b - a, d - a) > 0);
+      const bool cross2 = (cross(d - c, a - c) > 0) != (cross(d - c, b - c) > 0);
+      if (cross1 && cross2)
+        deepest = std::max(deepest, std::min({distanceToLine(a, c, d), distanceToLine(b, c, d),
+                                              distanceToLine(c, a, b), distanceToLine(d, a, b)}));
+    }
+  return deepest;
+}
+
+class BucklingRing : public testing::TestWithParam<bool> {};
+
+/// A ring that is squeezed until its inner face lies on itself, and springs back.
+TEST_P(BucklingRing, TouchesItself) {
+  World world;
+  const TriangleMesh mesh = ring(.85, 1, 80, 72);
+  BodySpec spec = moving(mesh, rubber(), {0, 0});
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+    spec.velocity[i] = 25. * Vec2{mesh.nodes[i].x, -mesh.nodes[i].y};
+  if (GetParam()) smoothAll(spec, mesh);
+  world.addBody(mesh, spec);
+  const double dt = .25 * world.criticalTimeStep();
+  const double start = totalEnergy(world);
+  double least = INFINITY, growth = 0, crossed = 0;
+  std::size_t touched = 0;
+  for (int i = 0; i < 4000; ++i) {
+    world.step(dt);
+    touched += world.contact.rows().size();
+    if (i % 20 != 0) continue;
+    for (const Loop& loop : loopsOf(world)) {
+      crossed = std::max(crossed, selfCrossing(loop) / world.search.shortest);
+      least = std::min(least, std::abs(signedArea(loop)));
+    }
+    growth = std::max(growth, (world.kineticEnergy() + world.strainEnergy()) / start - 1);
+  }
+  // The straight polygon of a smooth surface may overlap by its sagittas.
+  EXPECT_LE(crossed, GetParam() ? 1. / 8 : 1e-6) << "of the shortest segment";
+  EXPECT_GT(touched, 100U);
+  EXPECT_LT(least, .3) << "m², the hole at its smallest: it was 2.27";
+  EXPECT_LE(growth, 5e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, BucklingRing, testing::Bool(),
+                         [](const auto& info) { return info.param ? "Smooth" : "Straight"; });
+
+}  // namespace
+}  // namespace yadefrag::test
