@@ -1,0 +1,38 @@
+#pragma once
+// Where the time of a step goes. Nothing is measured unless somebody asks.
+
+#include <chrono>
+
+namespace yadefrag {
+
+/// (s) Summed over the steps.
+struct StageTimes {
+  double forces = 0;       ///< internal forces, motion, works
+  double search = 0;       ///< global search, and whether one is due
+  double localSearch = 0;  ///< candidates → actives
+  double correction = 0;   ///< actives → contact forces, positions, velocities
+
+  [[nodiscard]] double contact() const { return search + localSearch + correction; }
+};
+
+/// Adds the time until it goes out of scope to one stage.
+class StageTimer {
+ public:
+  /// `times` is null where nothing is measured.
+  StageTimer(StageTimes* times, double StageTimes::*stage)
+      : sum_(times ? &(times->*stage) : nullptr) {
+    if (sum_) start_ = Clock::now();
+  }
+  ~StageTimer() {
+    if (sum_) *sum_ += std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double* sum_;
+  Clock::time_point start_;
+};
+
+}  // namespace yadefrag
