@@ -28,21 +28,10 @@ struct Frame {
   }
 };
 
-void setShape(SurfaceSegment& shape, const ContactSurfaces& surfaces, const PieceGeometry& geometry,
-              std::span<const Vec2> positions, EntryId entry) {
-  shape.start = inSpace(geometry.slave(entry));
-  shape.end = inSpace(geometry.slave(surfaces.next[entry.value]));
-  if (surfaces.piece[entry.value] != Piece::kArc) return;
-  NodeId nodes[3];
-  surfaces.pieceNodes(entry, nodes);
-  shape.middle = inSpace(positions[nodes[1].value]);
-}
-
 void setState(yade::State& state, const Frame& frame, const Nodes& nodes, double dt) {
-  const Vec2 velocity = combine(frame.middle, nodes.velocity);
   const Vec2 along = nodes.position[frame.last.value] - nodes.position[frame.first.value];
   const Vec2 apart = nodes.velocity[frame.last.value] - nodes.velocity[frame.first.value];
-  state.vel = inSpace(velocity);
+  state.vel = inSpace(combine(frame.middle, nodes.velocity));
   state.angVel = Vector3r(0, 0, cross(along, apart) / dot(along, along));
   state.se3.position = inSpace(combine(frame.middle, nodes.position)) - dt * state.vel;
 }
@@ -71,7 +60,12 @@ double momentAbout(Vec2 about, const yade::Body& body, Vec2 force, double torque
   return moment + cross((1. / count) * points - about, force - explained);
 }
 
-SurfaceSegment& shapeOf(yade::Body& body) { return static_cast<SurfaceSegment&>(*body.shape); }
+[[noreturn]] void complainOfMissing(yade::Body::id_t id) {
+  std::ostringstream text;
+  text << "Body #" << id << " is not in the scene any more, but it is part of the boundary of a "
+       << "body of FESolver: take away whole ones, by FESolver.removeBody.";
+  throw RunError(text.str());
+}
 
 }  // namespace
 
@@ -91,6 +85,8 @@ void EntryBodies::add(yade::Scene& scene, const World& world,
     body->state->blockedDOFs = yade::State::DOF_ALL;
     ids_.push_back(scene.bodies->insert(body));
     bodies_.push_back(body);
+    shapes_.push_back(shape);
+    states_.push_back(body->state);
   }
   mapEntries();
   update(world, 0, 1);
@@ -103,57 +99,94 @@ void EntryBodies::remove(yade::Scene& scene, const World& world, ComponentId com
       scene.bodies->erase(ids_[e], false);
       continue;
     }
-    shapeOf(*bodies_[e]).entry = static_cast<int>(kept);
+    shapes_[e]->entry = static_cast<int>(kept);
     ids_[kept] = ids_[e];
+    shapes_[kept] = shapes_[e];
+    states_[kept] = states_[e];
     bodies_[kept++] = bodies_[e];
   }
   ids_.resize(kept);
   bodies_.resize(kept);
+  shapes_.resize(kept);
+  states_.resize(kept);
   mapEntries();
   scene.doSort = true;
 }
 
 void EntryBodies::requireAll(const yade::Scene& scene) {
+  if (bodies_.empty()) findBodies(scene);
   const auto& present = scene.bodies->body;
-  const bool find = bodies_.empty();
-  bodies_.resize(ids_.size());
   for (std::size_t e = 0; e < ids_.size(); ++e) {
     const auto id = static_cast<std::size_t>(ids_[e]);
-    if (find && id < present.size() && present[id] &&
-        dynamic_cast<SurfaceSegment*>(present[id]->shape.get()))
-      bodies_[e] = present[id];
-    if (bodies_[e] && id < present.size() && present[id] == bodies_[e]) continue;
-    if (find) bodies_.clear();
-    std::ostringstream text;
-    text << "Body #" << ids_[e] << " is not in the scene any more, but it is part of the boundary "
-         << "of a body of FESolver: take away whole ones, by FESolver.removeBody.";
-    throw RunError(text.str());
+    if (id >= present.size() || present[id] != bodies_[e]) complainOfMissing(ids_[e]);
   }
 }
 
+void EntryBodies::findBodies(const yade::Scene& scene) {
+  const auto& present = scene.bodies->body;
+  std::vector<yade::shared_ptr<yade::Body>> bodies;
+  std::vector<yade::shared_ptr<SurfaceSegment>> shapes;
+  std::vector<yade::shared_ptr<yade::State>> states;
+  for (const yade::Body::id_t id : ids_) {
+    const auto place = static_cast<std::size_t>(id);
+    if (place >= present.size() || !present[place]) complainOfMissing(id);
+    bodies.push_back(present[place]);
+    shapes.push_back(boost::dynamic_pointer_cast<SurfaceSegment>(present[place]->shape));
+    states.push_back(present[place]->state);
+    if (!shapes.back()) complainOfMissing(id);
+  }
+  bodies_.swap(bodies);
+  shapes_.swap(shapes);
+  states_.swap(states);
+}
+
+/// In two passes: a neighbour's tangent must be the very number that the neighbour computes itself.
 void EntryBodies::update(const World& world, double dt, int threads) {
-  const PieceGeometry geometry(world.surfaces, world.model.nodes.position);
+  const ContactSurfaces& surfaces = world.surfaces;
+  const Nodes& nodes = world.model.nodes;
+  const PieceGeometry geometry(surfaces, nodes.position);
+  pieces_.resize(ids_.size());
   const auto inParts = [&](const auto& work) {
     forEachPart(ids_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
-      for (std::size_t e = begin; e < end; ++e) work(EntryId(e));
+      for (std::size_t e = begin; e < end; ++e) work(e);
     });
   };
-  inParts([&](EntryId e) {
-    yade::Body& body = *bodies_[e.value];
-    setShape(shapeOf(body), world.surfaces, geometry, world.model.nodes.position, e);
-    setState(*body.state, Frame(world.surfaces, e), world.model.nodes, dt);
+  inParts([&](std::size_t e) {
+    const EntryId entry(e);
+    BoundaryPiece& piece = pieces_[e];
+    piece.start = geometry.slave(entry);
+    piece.end = geometry.slave(surfaces.next[e]);
+    piece.isArc = surfaces.piece[e] == Piece::kArc;
+    if (piece.isArc) {
+      NodeId around[3];
+      surfaces.pieceNodes(entry, around);
+      piece.middle = nodes.position[around[1].value];
+    }
   });
-  // A neighbour's tangent must be the very number that the neighbour computes itself.
-  inParts([&](EntryId e) {
-    SurfaceSegment& shape = shapeOf(*bodies_[e.value]);
-    const auto at = [&](EntryId other) { return shapeOf(*bodies_[other.value]).piece(); };
-    shape.before = inSpace(at(world.surfaces.prev[e.value]).tangentAtEnd());
-    shape.after = inSpace(at(world.surfaces.next[e.value]).tangentAtStart());
+  inParts([&](std::size_t e) {
+    // Bodies lie anywhere in memory: ask for them early.
+    constexpr std::size_t ahead = 6;
+    if (e + ahead < shapes_.size()) {
+      const auto prefetch = [](const void* object) {
+        const char* at = static_cast<const char*>(object);
+        for (int line = 1; line < 5; ++line) __builtin_prefetch(at + 64 * line, 1);
+      };
+      prefetch(shapes_[e + ahead].get());
+      prefetch(states_[e + ahead].get());
+    }
+    const BoundaryPiece& piece = pieces_[e];
+    SurfaceSegment& shape = *shapes_[e];
+    shape.start = inSpace(piece.start);
+    shape.end = inSpace(piece.end);
+    shape.middle = inSpace(piece.middle);
+    shape.before = inSpace(pieces_[surfaces.prev[e].value].tangentAtEnd());
+    shape.after = inSpace(pieces_[surfaces.next[e].value].tangentAtStart());
+    setState(*states_[e], Frame(surfaces, EntryId(e)), nodes, dt);
   });
 }
 
 void EntryBodies::setHalo(double halfHalo) {
-  for (const auto& body : bodies_) shapeOf(*body).halo = halfHalo;
+  for (const auto& shape : shapes_) shape->halo = halfHalo;
 }
 
 void EntryBodies::collectForces(yade::Scene& scene, const World& world,
@@ -181,6 +214,8 @@ void EntryBodies::collectForces(yade::Scene& scene, const World& world,
 void EntryBodies::restore(std::vector<yade::Body::id_t> ids) {
   ids_ = std::move(ids);
   bodies_.clear();
+  shapes_.clear();
+  states_.clear();
   mapEntries();
 }
 

@@ -41,10 +41,14 @@ class EntryBodies {
   void restore(std::vector<yade::Body::id_t> ids);
 
  private:
+  void findBodies(const yade::Scene& scene);
   void mapEntries();
 
   std::vector<yade::Body::id_t> ids_;
   std::vector<yade::shared_ptr<yade::Body>> bodies_;
+  std::vector<yade::shared_ptr<SurfaceSegment>> shapes_;  // of the bodies
+  std::vector<yade::shared_ptr<yade::State>> states_;
+  std::vector<BoundaryPiece> pieces_;
   std::vector<EntryId> entries_;  // by body id
 };
 
