@@ -1,0 +1,93 @@
+#pragma once
+// Surfaces of given points, and needles: bodies of which one point is looked at.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "contact/candidates.hpp"
+#include "mesh/model.hpp"
+#include "surface/piece_geometry.hpp"
+
+namespace yadefrag::test {
+
+using Random = std::mt19937_64;
+
+inline double even(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+struct SurfaceScene {
+  ContactSurfaces surfaces;
+  std::vector<Vec2> at;  ///< m, by node
+  std::uint32_t components = 0;
+
+  /// A body of one loop (material on the left), without smooth nodes unless told; its first entry.
+  EntryId addBody(const std::vector<Vec2>& points, std::vector<std::uint8_t> smooth = {}) {
+    const EntryId first(surfaces.entries());
+    std::vector<NodeId> nodes;
+    for (const Vec2 point : points) {
+      nodes.emplace_back(at.size());
+      at.push_back(point);
+    }
+    smooth.resize(points.size(), 0);
+    surfaces.addLoop(nodes, smooth, ComponentId(std::size_t{components++}));
+    return first;
+  }
+
+  /// A thin triangle of length 2 with its tip at the origin, towards `direction`; moved by
+  /// `moveNeedle`. Its first entry is the tip's.
+  EntryId addNeedle(Vec2 direction) {
+    const Vec2 back = (-2 / norm(direction)) * direction, aside = .05 * rightOf(back);
+    return addBody({{0, 0}, back - aside, back + aside});
+  }
+
+  void moveNeedle(EntryId tip, Vec2 to) {
+    const std::uint32_t node = surfaces.slave(tip).node[0].value;
+    const Vec2 by = to - at[node];
+    for (std::uint32_t k = 0; k < 3; ++k) at[node + k] += by;
+  }
+
+  [[nodiscard]] PieceGeometry geometry() const { return {surfaces, at}; }
+};
+
+inline EntryId operator+(EntryId entry, std::size_t by) { return EntryId(entry.value + by); }
+
+/// Every slave with every master, but for the two that it is an end of; `selfContact`: also within
+/// a body.
+inline std::vector<SlaveMaster> allPairs(const ContactSurfaces& surfaces, bool selfContact) {
+  std::vector<SlaveMaster> pairs;
+  for (std::size_t s = 0; s < surfaces.entries(); ++s)
+    for (std::size_t m = 0; m < surfaces.entries(); ++m) {
+      if (!selfContact && surfaces.component[s] == surfaces.component[m]) continue;
+      if (s != m && surfaces.prev[s].value != m) pairs.push_back({EntryId(s), EntryId(m)});
+    }
+  return pairs;
+}
+
+/// A star around `centre`: corners at even angles, at random distances.
+inline std::vector<Vec2> star(Random& random, Vec2 centre, double radius, int corners,
+                              double roughness) {
+  std::vector<Vec2> points;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    const double far = radius * even(random, 1 - roughness, 1);
+    points.push_back(centre + far * Vec2{std::cos(angle), std::sin(angle)});
+  }
+  return points;
+}
+
+/// Nodes of mass 1, free.
+inline Nodes plainNodes(std::size_t count) {
+  Nodes nodes;
+  nodes.position.resize(count);
+  nodes.velocity.resize(count);
+  nodes.mass.assign(count, 1);
+  nodes.held.assign(count, kFree);
+  nodes.component.resize(count);
+  return nodes;
+}
+
+}  // namespace yadefrag::test
