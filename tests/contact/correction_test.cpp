@@ -1,0 +1,277 @@
+// Forces of actives where they are known in closed form.
+
+#include "contact/correction.hpp"
+
+#include <gtest/gtest.h>
+
+#include "contact/contact_scenes.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+constexpr double kDt = 1e-3;
+
+/// Node `slave` on the segment of nodes a and b at ξ.
+ContactRow onSegment(std::size_t slave, std::size_t a, std::size_t b, double xi, double gap,
+                     double friction = 0, double slip = 0) {
+  ContactRow row;
+  row.normal = {0, 1};
+  row.gap = gap;
+  row.friction = friction;
+  row.slip = slip;
+  row.add({{NodeId(slave), {}, {}}, {1, 0, 0}, 1}, 1);
+  row.add({{NodeId(a), NodeId(b), {}}, {1 - xi, xi, 0}, 2}, -1);
+  return row;
+}
+
+/// (m) What the rows' forces move a node by: u = Δt² F/[m(1+d)].
+std::vector<Vec2> displacements(const std::vector<ContactRow>& rows, const Nodes& nodes,
+                                double drag = 0) {
+  std::vector<Vec2> u(nodes.size());
+  for (const ContactRow& row : rows)
+    for (int k = 0; k < row.count; ++k) {
+      const std::uint32_t n = row.node[k].value;
+      const double rate = kDt * kDt / (nodes.mass[n] * (1 + drag));
+      const Vec2 by = rate * row.weight[k] * row.force();
+      if ((nodes.held[n] & kHeldX) == 0) u[n].x += by.x;
+      if ((nodes.held[n] & kHeldY) == 0) u[n].y += by.y;
+    }
+  return u;
+}
+
+double gapAfter(const ContactRow& row, const std::vector<Vec2>& u) {
+  return row.gap + dot(relative(row, u), row.normal);
+}
+double slipAfter(const ContactRow& row, const std::vector<Vec2>& u) {
+  return row.slip + dot(relative(row, u), row.tangent());
+}
+
+Nodes threeNodes() {
+  Nodes nodes = plainNodes(3);
+  nodes.mass = {2, 3, 5};
+  return nodes;
+}
+
+/// F = p / {Δt² [1/m_S + (1−ξ)²/m_A + ξ²/m_B]} (eq. 3 to 7 for one active).
+TEST(Correction, OneNodeOnASegment) {
+  const Nodes nodes = threeNodes();
+  for (const double xi : {0., .25, .5, 1.}) {
+    std::vector<ContactRow> rows{onSegment(0, 1, 2, xi, -1e-4)};
+    Lagrange lagrange;
+    EXPECT_LE(lagrange.solve(rows, nodes, kDt, 0), 1e-14);
+    const double mobile = 1. / 2 + (1 - xi) * (1 - xi) / 3 + xi * xi / 5;
+    EXPECT_NEAR(rows[0].normalForce * kDt * kDt * mobile / 1e-4, 1, 1e-14);
+    EXPECT_EQ(rows[0].tangentForce, 0);
+    EXPECT_NEAR(gapAfter(rows[0], displacements(rows, nodes)), 0, 1e-18);
+  }
+}
+
+TEST(Correction, DampingAddsToTheMass) {
+  const Nodes nodes = threeNodes();
+  std::vector<ContactRow> plain{onSegment(0, 1, 2, .3, -1e-4)}, damped = plain;
+  Lagrange lagrange;
+  lagrange.solve(plain, nodes, kDt, 0);
+  lagrange.solve(damped, nodes, kDt, .25);
+  EXPECT_NEAR(damped[0].normalForce / plain[0].normalForce, 1.25, 1e-14);
+  EXPECT_NEAR(gapAfter(damped[0], displacements(damped, nodes, .25)), 0, 1e-18);
+}
+
+TEST(Correction, NothingPullsAndAnOldOverlapIsLeft) {
+  const Nodes nodes = threeNodes();
+  std::vector<ContactRow> rows{onSegment(0, 1, 2, .5, 1e-4)};
+  Lagrange lagrange;
+  lagrange.solve(rows, nodes, kDt, 0);
+  EXPECT_EQ(rows[0].normalForce, 0);
+  rows[0].gap = -1e-4;
+  rows[0].allowed = -9e-5;
+  lagrange.solve(rows, nodes, kDt, 0);
+  EXPECT_NEAR(gapAfter(rows[0], displacements(rows, nodes)), -9e-5, 1e-18);
+  rows[0].allowed = -2e-4;
+  lagrange.solve(rows, nodes, kDt, 0);
+  EXPECT_EQ(rows[0].normalForce, 0);
+}
+
+/// A held node has infinite mass, in each direction by itself.
+TEST(Correction, InfiniteMasses) {
+  Nodes nodes = threeNodes();
+  nodes.held = {kFree, kHeldXY, kHeldY};
+  std::vector<ContactRow> rows{onSegment(0, 1, 2, .4, -1e-4)};
+  Lagrange lagrange;
+  lagrange.solve(rows, nodes, kDt, 0);
+  EXPECT_NEAR(rows[0].normalForce * kDt * kDt / 2 / 1e-4, 1, 1e-14) << "the slave alone gives way";
+  nodes.held[0] = kHeldXY;
+  rows[0].normalForce = 0;
+  EXPECT_EQ(lagrange.solve(rows, nodes, kDt, 0), 0) << "nobody can give way";
+  EXPECT_EQ(rows[0].normalForce, 0);
+}
+
+TEST(Correction, MomentumOfTwoBodiesIsKept) {
+  Random random(31);
+  Lagrange lagrange;
+  for (int scene = 0; scene < 300; ++scene) {
+    const std::size_t slaves = 1 + random() % 9, masters = 2 + random() % 9;
+    Nodes nodes = plainNodes(slaves + masters);
+    for (double& mass : nodes.mass) mass = even(random, .2, 3);
+    std::vector<ContactRow> rows;
+    for (std::size_t s = 0; s < slaves; ++s) {
+      const std::size_t a = slaves + random() % (masters - 1);
+      rows.push_back(onSegment(s, a, a + 1, even(random, 0, 1), even(random, -2e-4, 1e-4),
+                               scene % 2 == 0 ? 0 : .4, even(random, -1e-4, 1e-4)));
+      const double angle = even(random, 0, 7);
+      rows.back().normal = {std::cos(angle), std::sin(angle)};
+    }
+    EXPECT_LE(lagrange.solve(rows, nodes, kDt, 0), 1e-10);
+    const std::vector<Vec2> u = displacements(rows, nodes);
+    Vec2 sum;
+    double size = 0;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      sum += nodes.mass[n] * u[n];
+      size += nodes.mass[n] * norm(u[n]);
+    }
+    EXPECT_LE(norm(sum), 1e-14 * size);
+    // Bounds of friction are known to 1e-4; the next detection of the step solves for the rest.
+    const double left = scene % 2 == 0 ? 1e-15 : 2e-8;
+    for (const ContactRow& row : rows) {
+      EXPECT_GE(row.normalForce, 0);
+      EXPECT_GE(gapAfter(row, u), -left);
+      EXPECT_LE(std::abs(row.tangentForce), row.friction * row.normalForce);
+      if (row.normalForce > 0) {
+        EXPECT_NEAR(gapAfter(row, u), 0, left);
+      }
+    }
+  }
+}
+
+class Friction : public testing::TestWithParam<double> {};
+
+/// μ = .5, a penetration of 1e-4: in one direction as mobile as in the other, the node sticks if
+/// the slip is at most 5e-5, else the friction force is μ times the normal one, against the slip.
+TEST_P(Friction, SticksOrSlips) {
+  const double slip = GetParam();
+  const Nodes nodes = threeNodes();
+  std::vector<ContactRow> rows{onSegment(0, 1, 2, .25, -1e-4, .5, slip)};
+  Lagrange lagrange;
+  EXPECT_LE(lagrange.solve(rows, nodes, kDt, 0), 1e-12);
+  const std::vector<Vec2> u = displacements(rows, nodes);
+  EXPECT_NEAR(gapAfter(rows[0], u), 0, 1e-18);
+  if (std::abs(slip) <= 5e-5) {
+    EXPECT_NEAR(slipAfter(rows[0], u), 0, 1e-18);
+  } else {
+    EXPECT_NEAR(rows[0].tangentForce, std::copysign(.5 * rows[0].normalForce, -slip),
+                1e-14 * rows[0].normalForce);
+    EXPECT_NEAR(slipAfter(rows[0], u), std::copysign(std::abs(slip) - 5e-5, slip), 1e-17);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Slips, Friction,
+                         testing::Values(0., 1e-5, -4.9e-5, 4.9e-5, 5.1e-5, -2e-4, 1e-3));
+
+/// Both corners of a block of two nodes on one rigid floor, tilted: where normal and tangential
+/// forces meet in one node, all conditions hold together.
+TEST(Correction, FrictionOfCoupledRows) {
+  Nodes nodes = plainNodes(5);
+  nodes.held[2] = nodes.held[3] = nodes.held[4] = kHeldXY;
+  std::vector<ContactRow> rows{onSegment(0, 2, 3, .5, -1e-4, .3, 8e-5),
+                               onSegment(0, 3, 4, .5, -5e-5, .3, -2e-5),
+                               onSegment(1, 3, 4, .5, -1e-4, .3, 1e-5)};
+  rows[1].normal = {.6, .8};
+  Lagrange lagrange;
+  EXPECT_LE(lagrange.solve(rows, nodes, kDt, 0), 1e-10);
+  const std::vector<Vec2> u = displacements(rows, nodes);
+  for (const ContactRow& row : rows) {
+    const double most = row.friction * row.normalForce;
+    EXPECT_GE(gapAfter(row, u), -1e-8);
+    EXPECT_LE(std::abs(row.tangentForce), most);
+    // Within the bounds there is no slip, at a bound it is against the force. The bounds are known
+    // to 1e-4.
+    if (std::abs(row.tangentForce) < most * (1 - 1e-3)) {
+      EXPECT_NEAR(slipAfter(row, u), 0, 1e-8);
+    } else {
+      EXPECT_LE(slipAfter(row, u) * row.tangentForce, 0);
+    }
+  }
+}
+
+/// Rows twice over, and both exchanges of master and slave of faces whose nodes meet: the sum of
+/// the forces is that of one row, and none pulls.
+TEST(Correction, RedundantRows) {
+  const Nodes nodes = threeNodes();
+  std::vector<ContactRow> single{onSegment(0, 1, 2, .25, -1e-4)};
+  std::vector<ContactRow> twice{single[0], single[0], single[0]};
+  Lagrange lagrange;
+  lagrange.solve(single, nodes, kDt, 0);
+  EXPECT_LE(lagrange.solve(twice, nodes, kDt, 0), 1e-12);
+  double sum = 0;
+  for (const ContactRow& row : twice) {
+    EXPECT_GE(row.normalForce, 0);
+    sum += row.normalForce;
+  }
+  EXPECT_NEAR(sum / single[0].normalForce, 1, 1e-10);
+}
+
+TEST(Correction, BothPassesOfMatchingFaces) {
+  constexpr std::size_t kNodes = 40;  // of each face; node i of one lies on node i of the other
+  Nodes nodes = plainNodes(2 * kNodes);
+  std::vector<ContactRow> rows;
+  for (std::size_t i = 0; i + 1 < kNodes; ++i) {
+    rows.push_back(onSegment(i, kNodes + i, kNodes + i + 1, 0, -1e-4));
+    rows.push_back(onSegment(kNodes + i, i, i + 1, 0, -1e-4));
+    rows.back().normal = {0, -1};
+  }
+  Lagrange lagrange;
+  EXPECT_LE(lagrange.solve(rows, nodes, kDt, 0), 1e-10);
+  const std::vector<Vec2> u = displacements(rows, nodes);
+  for (std::size_t i = 0; i + 1 < kNodes; ++i) {
+    EXPECT_GE(rows[2 * i].normalForce, 0);
+    EXPECT_GE(rows[2 * i + 1].normalForce, 0);
+    EXPECT_NEAR(u[i].y, 5e-5, 1e-13);
+    EXPECT_NEAR(u[kNodes + i].y, -5e-5, 1e-13);
+  }
+}
+
+/// Groups that share no node get what they would get alone.
+TEST(Correction, GroupsAreSolvedByThemselves) {
+  Nodes nodes = plainNodes(6);
+  nodes.mass = {1, 2, 3, 4, 5, 6};
+  std::vector<ContactRow> first{onSegment(0, 1, 2, .3, -1e-4, .2, 1e-5)};
+  std::vector<ContactRow> second{onSegment(3, 4, 5, .7, -1e-9, .2, 1e-5)};
+  std::vector<ContactRow> both{first[0], second[0]};
+  Lagrange lagrange;
+  lagrange.solve(first, nodes, kDt, 0);
+  lagrange.solve(second, nodes, kDt, 0);
+  lagrange.solve(both, nodes, kDt, 0);
+  EXPECT_EQ(both[0].normalForce, first[0].normalForce);
+  EXPECT_EQ(both[0].tangentForce, first[0].tangentForce);
+  EXPECT_EQ(both[1].normalForce, second[0].normalForce);
+  EXPECT_EQ(both[1].tangentForce, second[0].tangentForce);
+}
+
+TEST(Correction, PenaltyUndoesItsFactorOfThePenetration) {
+  const Nodes nodes = threeNodes();
+  for (const double factor : {.1, .2, 1.}) {
+    std::vector<ContactRow> rows{onSegment(0, 1, 2, .25, -1e-4)};
+    penalize(rows, nodes, kDt, 0, factor);
+    EXPECT_NEAR(gapAfter(rows[0], displacements(rows, nodes)), -1e-4 * (1 - factor), 1e-18);
+    EXPECT_EQ(rows[0].tangentForce, 0);
+    rows[0].gap = 1e-5;
+    penalize(rows, nodes, kDt, 0, factor);
+    EXPECT_EQ(rows[0].normalForce, 0);
+  }
+}
+
+TEST(Correction, PenaltyWithFrictionAndHeldNodes) {
+  Nodes nodes = threeNodes();
+  std::vector<ContactRow> rows{onSegment(0, 1, 2, .25, -1e-4, .5, 2e-5)};
+  penalize(rows, nodes, kDt, 0, .2);
+  EXPECT_NEAR(slipAfter(rows[0], displacements(rows, nodes)), 2e-5 * .8, 1e-18);
+  rows[0].slip = 1e-3;
+  penalize(rows, nodes, kDt, 0, .2);
+  EXPECT_NEAR(rows[0].tangentForce, -.5 * rows[0].normalForce, 1e-14 * rows[0].normalForce);
+  nodes.held.assign(3, kHeldXY);
+  penalize(rows, nodes, kDt, 0, .2);
+  EXPECT_EQ(rows[0].normalForce, 0);
+  EXPECT_EQ(rows[0].tangentForce, 0);
+}
+
+}  // namespace
+}  // namespace yadefrag::test
