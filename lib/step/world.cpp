@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "dynamics/critical_time_step.hpp"
@@ -75,6 +77,38 @@ void World::removeBody(ComponentId component) {
   search.isVoid = true;
 }
 
+void World::setLoads(std::vector<Vec2> loads) {
+  if (!loads.empty() && loads.size() != model.nodes.size())
+    throw InputError("There are " + std::to_string(loads.size()) + " loads, but " +
+                     std::to_string(model.nodes.size()) + " nodes.");
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    if (!isFinite(loads[i]))
+      throw InputError("The load of node " + std::to_string(i) + " is not finite.");
+  model.nodes.load = std::move(loads);
+}
+
+void World::prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 velocity) {
+  for (const NodeId node : nodes)
+    if (node.value >= model.nodes.size())
+      throw InputError("There is no node " + std::to_string(node.value) + ": there are " +
+                       std::to_string(model.nodes.size()) + " nodes.");
+  if (!isFinite(velocity)) throw InputError("The prescribed velocity is not finite.");
+  const auto isNew = [&](NodeId node) { return model.nodes.held[node.value] != held; };
+  const bool changed = std::any_of(nodes.begin(), nodes.end(), isNew);
+  for (const NodeId node : nodes) {
+    Vec2& present = model.nodes.velocity[node.value];
+    const Vec2 former = present;
+    model.nodes.held[node.value] = held;
+    if ((held & kHeldX) != 0) present.x = velocity.x;
+    if ((held & kHeldY) != 0) present.y = velocity.y;
+    // The dynamics book a jump of nodes that were held before; after a rebuild they know of none.
+    if (changed)
+      ledger.external +=
+          model.nodes.mass[node.value] / 2 * (dot(present, present) - dot(former, former));
+  }
+  if (changed) dynamics_.rebuild(model);
+}
+
 void World::rebuild() {
   dynamics_.rebuild(model);
   before_.resize(model.nodes.size());
@@ -87,6 +121,7 @@ void World::rebuild() {
       std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();
   search_.reset();
   stableStep_ = 0;
+  farthest_ = INFINITY;
 }
 
 double World::criticalTimeStep() const {

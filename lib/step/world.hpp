@@ -1,6 +1,7 @@
 #pragma once
 // All state of the finite-element bodies of a scene, and the step that moves them (time_step.cpp).
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -44,6 +45,12 @@ class World {
   /// Both throw InputError before anything is changed.
   ComponentId addBody(const TriangleMesh& mesh, const BodySpec& spec);
   void removeBody(ComponentId component);
+
+  /// (N) Constant outer forces by node; empty: none. InputError unless one per node, all finite.
+  void setLoads(std::vector<Vec2> loads);
+  /// From now on the nodes move at `velocity` (m/s) in the directions `held`, and freely in the
+  /// others.
+  void prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 velocity);
 
   /// One step of Δt (s). Throws InputError for a step above the critical one, RunError where an
   /// element or a value gives out: the last good state is then there to be looked at.
@@ -101,7 +108,7 @@ class World {
   void bookContact(double dt);
   void foreseeSearch(double dt);
   [[nodiscard]] bool canTouch() const;
-  [[nodiscard]] double largestMove() const;
+  void measureMove();
   [[nodiscard]] double fastest() const;
   void predict(double dt);
   void finish(double dt);
@@ -116,6 +123,9 @@ class World {
   std::vector<SlaveMaster> pairs_;
   std::vector<Box> boxes_;
   bool severalBodies_ = false;
+  double largestMove_ = 0;  // m, of a surface node from xⁿ to x*
+  double farthest_ =
+      INFINITY;            // m, no surface node is farther from where it was at the last search
   double stableStep_ = 0;  // s, the longest step that has been found stable
 };
 

@@ -44,11 +44,13 @@ class WorldArchive {
   /// A column of structures that are made of `Scalar` alone.
   template <class Scalar, class Element>
   void column(const char* name, std::vector<Element>& column) {
-    static_assert(std::is_trivially_copyable_v<Element> && sizeof(Element) % sizeof(Scalar) == 0);
-    std::vector<Scalar> flat(column.size() * (sizeof(Element) / sizeof(Scalar)));
+    constexpr std::size_t each = sizeof(Element) / sizeof(Scalar);
+    static_assert(std::is_trivially_copyable_v<Element> &&
+                  sizeof(Element) == each * sizeof(Scalar));
+    std::vector<Scalar> flat(column.size() * each);
     if (!column.empty()) std::memcpy(flat.data(), column.data(), flat.size() * sizeof(Scalar));
     value(name, flat);
-    column.resize(flat.size() * sizeof(Scalar) / sizeof(Element));
+    column.resize(flat.size() / each);
     if (!column.empty())
       std::memcpy(static_cast<void*>(column.data()), flat.data(), flat.size() * sizeof(Scalar));
   }
@@ -57,8 +59,8 @@ class WorldArchive {
   template <class Element, class Read>
   void member(const char* name, std::vector<Element>& rows, Read read) {
     using Value = std::remove_cvref_t<decltype(read(rows.front()))>;
-    std::vector<Value> flat;
-    for (Element& row : rows) flat.push_back(read(row));
+    std::vector<Value> flat(rows.size());
+    for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = read(rows[i]);
     value(name, flat);
     rows.resize(flat.size());
     for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i];
@@ -93,8 +95,8 @@ class WorldArchive {
   /// Of rows that are there already: a vector of bool has no elements to refer to.
   template <class Element, class Read>
   void flags(const char* name, std::vector<Element>& rows, Read read) {
-    std::vector<std::uint8_t> flat;
-    for (Element& row : rows) flat.push_back(read(row) ? 1 : 0);
+    std::vector<std::uint8_t> flat(rows.size());
+    for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = read(rows[i]) ? 1 : 0;
     value(name, flat);
     for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i] != 0;
   }

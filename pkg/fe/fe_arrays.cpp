@@ -76,6 +76,23 @@ int addMesh(FESolver& solver, const py::dict& input) {
   return asValueError([&] { return solver.addBody(mesh, std::move(spec), material); });
 }
 
+void setLoads(FESolver& solver, const py::object& loads) {
+  asValueError([&] { solver.changeWorld().setLoads(fromBytes<Vec2>(loads)); });
+}
+
+void prescribe(FESolver& solver, const py::object& nodes, int held, double vx, double vy) {
+  asValueError([&] {
+    solver.changeWorld().prescribe(fromBytes<NodeId>(nodes), static_cast<std::uint8_t>(held),
+                                   {vx, vy});
+  });
+}
+
+py::object loadsOf(const FESolver& solver) {
+  const Nodes& nodes = solver.world().model.nodes;
+  if (!nodes.load.empty()) return toArray(nodes.load, kReal, 2);
+  return toArray(std::vector<Vec2>(nodes.size()), kReal, 2);
+}
+
 py::object nodesOf(const FESolver& solver) {
   return toArray(solver.world().model.nodes.position, kReal, 2);
 }

@@ -43,6 +43,11 @@ yade::py::dict meshOfRectangle(double left, double bottom, double right, double 
 /// `FESolver._addMesh` of yadefrag/solver.py, which has checked all input.
 int addMesh(FESolver& solver, const yade::py::dict& input);
 
+/// `FESolver._setLoads` and `_prescribe`, likewise.
+void setLoads(FESolver& solver, const yade::py::object& loads);
+void prescribe(FESolver& solver, const yade::py::object& nodes, int held, double vx, double vy);
+
+yade::py::object loadsOf(const FESolver& solver);
 yade::py::object nodesOf(const FESolver& solver);
 yade::py::object velocitiesOf(const FESolver& solver);
 yade::py::object displacementsOf(const FESolver& solver);

@@ -20,6 +20,9 @@ void FESolver::pyExtra(PyClass& pyClass) {
       .def("fragments", &fragmentsOf,
            "List of dicts, one per part that hangs together: component, mass (kg), area (m²), "
            "centroid (m), velocity (m/s), spin (rad/s).")
+      .def("_setLoads", &setLoads)
+      .def("_prescribe", &prescribe)
+      .add_property("_loads", &loadsOf)
       .add_property("nodes", &nodesOf, "Positions (m), array (n, 2); a copy, as all arrays.")
       .add_property("velocities", &velocitiesOf, "Of the nodes (m/s), array (n, 2).")
       .add_property("displacements", &displacementsOf,

@@ -70,11 +70,24 @@ void FESolver::trackEnergy() const {
   set("feExternal", -ledger.external);  // so that the sum of all is constant
 }
 
+/// Bodies of two solvers would not see each other.
+void FESolver::requireAlone(const yade::Scene& here) const {
+  for (const auto& body : here.bodies->body) {
+    if (!body || bodies_.entryOf(body->id) != EntryId::none()) continue;
+    const auto* segment = dynamic_cast<const SurfaceSegment*>(body->shape.get());
+    if (segment && segment->entry >= 0)
+      throw InputError(
+          "The scene has bodies of another FESolver; add this one to that solver, or they would "
+          "not touch each other.");
+  }
+}
+
 int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
                       const yade::shared_ptr<FEMat>& material) {
   yade::Scene& here = *yade::Omega::instance().getScene();
   if (here.isPeriodic) throw InputError("The scene is periodic, which FESolver cannot be.");
   bodies_.requireAll(here);
+  requireAlone(here);
   spec.material = {material->young, material->poisson, material->density, material->planeStress};
   spec.friction = std::tan(material->frictionAngle);
   const ComponentId component = world_.addBody(mesh, spec);

@@ -33,6 +33,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
 
   [[nodiscard]] double criticalTimeStep();
   [[nodiscard]] const World& world() const { return world_; }
+  [[nodiscard]] World& changeWorld() { return world_; }
   [[nodiscard]] const EntryBodies& entryBodies() const { return bodies_; }
 
   std::string correction = "lagrange";
@@ -50,6 +51,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void archiveMore(Archive& archive);
 
  private:
+  void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
   void giveSettings();
   void prepareSearch();

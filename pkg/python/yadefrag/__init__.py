@@ -22,6 +22,7 @@ from yadefrag import solver  # noqa: E402
 from yadefrag.export import exportVTK  # noqa: E402
 from yadefrag.geometry import circle, readPolygon, rectangle, ring  # noqa: E402
 from yadefrag.pictures import animate, plotMesh  # noqa: E402
+from yadefrag.progress import runSteps  # noqa: E402
 from yadefrag.solver import rectangleMesh  # noqa: E402
 
 
@@ -41,4 +42,4 @@ for _name in __all__:
     setattr(builtins, _name, globals()[_name])
 
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'rectangleMesh', 'plotMesh', 'animate',
-            'exportVTK']
+            'exportVTK', 'runSteps']

@@ -247,6 +247,50 @@ def _boundaryLoops(count, triangles):
     return loops
 
 
+def _getLoads(self):
+    """Constant outer forces on the nodes (N), array (n, 2); to be set as a whole, or None for none.
+
+    A copy: `loads = fe.loads; loads[top] = (0, -1); fe.loads = loads`. ValueError unless there is
+    one finite pair for each node.
+    """
+    return self._loads
+
+
+def _setLoads(self, loads):
+    values = numpy.zeros((0, 2)) if loads is None else numpy.asarray(loads, dtype=float)
+    if values.ndim != 2 or values.shape[1] != 2:
+        raise ValueError('loads has the shape %r, it must be (n, 2).' % (values.shape,))
+    self._setLoads(numpy.ascontiguousarray(values).tobytes())
+
+
+def prescribe(self, nodes, vx=None, vy=None):
+    """From now on the nodes move at vx, vy (m/s); None: free in that direction.
+
+    nodes  node numbers, a flag for each node, or a function (x, y) → bool of the present positions.
+    Call it again to change the motion, from a PyRunner for one that varies in time; the forces that
+    it takes are in `energy['external']`. ValueError before anything changes.
+    """
+    places = self.nodes
+    if callable(nodes):
+        chosen = numpy.array([bool(nodes(x, y)) for x, y in places], dtype=bool)
+    else:
+        chosen = numpy.asarray(nodes)
+    if chosen.dtype == bool:
+        if chosen.shape != (len(places),):
+            raise ValueError('nodes has %d flags, it must have one for each of the %d nodes.' %
+                             (chosen.size, len(places)))
+        chosen = numpy.nonzero(chosen)[0]
+    if chosen.ndim != 1 or (chosen.size and not numpy.issubdtype(chosen.dtype, numpy.integer)):
+        raise ValueError('nodes must be node numbers, a flag for each node, or a function (x, y).')
+    if chosen.size and (chosen.min() < 0 or chosen.max() >= len(places)):
+        raise ValueError('nodes has numbers from %d to %d, but there are %d nodes.' %
+                         (chosen.min(), chosen.max(), len(places)))
+    speeds = [0. if v is None else _number(name, v, math.isfinite, 'a finite number (m/s) or None')
+              for name, v in (('vx', vx), ('vy', vy))]
+    held = (0 if vx is None else 1) | (0 if vy is None else 2)
+    self._prescribe(chosen.astype(numpy.uint32).tobytes(), held, *speeds)
+
+
 def rectangleMesh(low, high, nx, ny, crossed=False):
     """A regular mesh for addTriangles: (nodes (n, 2), triangles (m, 3)) of nx × ny quads.
 
@@ -281,4 +325,6 @@ def install():
     """Gives FESolver its methods, and keeps O.bodies.erase off its bodies."""
     wrapper.FESolver.addPolygon = addPolygon
     wrapper.FESolver.addTriangles = addTriangles
+    wrapper.FESolver.prescribe = prescribe
+    wrapper.FESolver.loads = property(_getLoads, _setLoads, doc=_getLoads.__doc__)
     wrapper.BodyContainer.erase = _guardErase(wrapper.BodyContainer.erase)

@@ -1,0 +1,79 @@
+"""Long runs: a bar of progress on a terminal, and Ctrl-C between two steps."""
+
+import sys
+import time
+
+from yade import wrapper
+
+
+def runSteps(steps, every=None, call=None):
+    """Runs `steps` steps of the scene; returns how many were done.
+
+    every, call  if given, call() is called after each `every` steps
+    On a terminal a bar shows steps, simulated time and time left. Ctrl-C stops after a whole step,
+    with the scene as it is then; the run can be taken up again. RuntimeError where an engine
+    stopped the run, with what it said in YADE's own message.
+    """
+    steps = _count('steps', steps)
+    every = None if every is None else _count('every', every)
+    if call is not None and (every is None or not callable(call)):
+        raise ValueError('call is %r with every=%r: give a function and after how many steps it is '
+                         'to be called.' % (call, every))
+    omega = wrapper.Omega()
+    done, begin = 0, omega.iter
+    bar = _Bar(steps)
+    try:
+        portion = 1
+        while done < steps:
+            now = min(portion, steps - done, every - done % every if every else steps)
+            start = time.perf_counter()
+            omega.run(now, True)
+            expected = done + now
+            done = omega.iter - begin
+            bar.show(done, omega.time)
+            if done < expected:
+                raise RuntimeError('The run stopped at step %d of %d.' % (done, steps))
+            if call is not None and done % every == 0:
+                call()
+            # Portions of about a tenth of a second: Ctrl-C is heard between them.
+            portion = _portion(now, time.perf_counter() - start)
+    except KeyboardInterrupt:
+        omega.pause()
+        done = omega.iter - begin
+        bar.close()
+        print('Stopped after %d of %d steps, at %.6g s.' % (done, steps, omega.time),
+              file=sys.stderr)
+        return done
+    finally:
+        bar.close()
+    return done
+
+
+def _count(name, value):
+    if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+        raise ValueError('%s is %r, it must be a positive whole number.' % (name, value))
+    return value
+
+
+def _portion(steps, seconds):
+    return max(1, min(2 * steps, int(.1 * steps / max(seconds, 1e-9))))
+
+
+class _Bar:
+    """Nothing unless standard error is a terminal."""
+
+    def __init__(self, steps):
+        self.bar = None
+        if sys.stderr is not None and sys.stderr.isatty():
+            import tqdm  # only where it is seen
+            self.bar = tqdm.tqdm(total=steps, unit='step', file=sys.stderr)
+
+    def show(self, done, seconds):
+        if self.bar is not None:
+            self.bar.set_postfix_str('t = %.4g s' % seconds, refresh=False)
+            self.bar.update(done - self.bar.n)
+
+    def close(self):
+        if self.bar is not None:
+            self.bar.close()
+            self.bar = None

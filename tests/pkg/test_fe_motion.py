@@ -1,0 +1,118 @@
+"""Loads, prescribed motion, and long runs."""
+
+import os
+import signal
+import threading
+
+import numpy
+import pytest
+
+from yade import O
+from yadefrag import *
+from yade.wrapper import *
+
+
+def clampedBlock(top):
+    """A block of 1 m held at its bottom, at rest under `top` (a function of the solver)."""
+    O.materials.append(FEMat(young=1e7, poisson=0, density=1000, frictionAngle=0, label='rubber'))
+    fe = FESolver(damping=60)
+    fe.addPolygon(rectangle((0, 0), (1, 1)), size=.1, material='rubber')
+    O.engines = [ForceResetter(), LebesgueCollider([Bo1_SurfaceSegment_Aabb()]),
+                 InteractionLoop([], [], []), fe]
+    O.dt = .8 * fe.criticalTimeStep()
+    fe.prescribe(lambda x, y: y < 1e-9, vy=0)
+    top(fe)
+    return fe
+
+
+def isTop(fe):
+    return fe.nodes[:, 1] > 1 - 1e-9
+
+
+def test_loadsStretchABlock():
+    def pull(fe):
+        loads = fe.loads
+        top = isTop(fe)
+        # Uniform traction: half as much at the two corners.
+        share = numpy.where(numpy.isclose(fe.nodes[top][:, 0] % 1, 0), .5, 1)
+        loads[top, 1] = 1e4 * share / share.sum()
+        fe.loads = loads
+
+    fe = clampedBlock(pull)
+    runSteps(6000)
+    # ν = 0: σ = 10⁴ Pa everywhere, but for the change of area (none) and of length (10⁻³ of it).
+    assert numpy.allclose(fe.stress[:, 1], 1e4, rtol=2e-3)
+    assert numpy.allclose(fe.displacements[isTop(fe)][:, 1], 1e-3, rtol=2e-3)
+    energy = fe.energy
+    assert abs(energy['total']) < 1e-4 * energy['external']
+    fe.loads = None
+    assert not fe.loads.any()
+
+
+def test_prescribedMotionDoesItsWork():
+    fe = clampedBlock(lambda fe: fe.prescribe(isTop(fe), vx=0, vy=.1))
+    before = fe.nodes[isTop(fe)][0, 1]
+    steps = int(.02 / O.dt)
+    runSteps(steps)
+    moving = numpy.argmax(fe.nodes[:, 1])
+    assert fe.nodes[moving, 1] == pytest.approx(before + .1 * steps * O.dt, rel=1e-12)
+    energy = fe.energy
+    assert energy['external'] > 0
+    assert abs(energy['total']) < 1e-4 * energy['external']
+    fe.prescribe([int(moving)])
+    speed = fe.velocities[moving, 1]
+    runSteps(5)
+    assert fe.velocities[moving, 1] != speed
+
+
+@pytest.mark.parametrize('wrong, sentence', [
+    (lambda fe: fe.prescribe([99999], vx=0), 'there are'),
+    (lambda fe: fe.prescribe([True], vx=0), 'one for each'),
+    (lambda fe: fe.prescribe([0.5], vx=0), 'node numbers'),
+    (lambda fe: fe.prescribe([0], vx='fast'), "vx is 'fast'"),
+    (lambda fe: fe.prescribe([0], vy=float('nan')), 'vy is nan'),
+    (lambda fe: setattr(fe, 'loads', numpy.zeros((3, 2))), '3 loads'),
+    (lambda fe: setattr(fe, 'loads', numpy.zeros(3)), 'must be (n, 2)'),
+    (lambda fe: setattr(fe, 'loads', numpy.full_like(fe.loads, numpy.inf)), 'not finite'),
+    (lambda fe: runSteps(0), 'steps is 0'),
+    (lambda fe: runSteps(10, every=5, call=3), 'call is 3'),
+])
+def test_wrongMotionIsRefused(wrong, sentence):
+    fe = clampedBlock(lambda fe: None)
+    with pytest.raises(ValueError) as error:
+        wrong(fe)
+    assert sentence in str(error.value)
+    assert not fe.loads.any()
+
+
+def test_loadsAndMotionAreSaved(tmp_path):
+    def pull(fe):
+        loads = fe.loads
+        loads[isTop(fe), 1] = 1e3
+        fe.loads = loads
+
+    fe = clampedBlock(pull)
+    runSteps(50)
+    O.save(str(tmp_path / 'scene.yade.gz'))
+    runSteps(50)
+    wanted = fe.nodes
+    O.load(str(tmp_path / 'scene.yade.gz'))
+    runSteps(50)
+    loaded = [engine for engine in O.engines if isinstance(engine, FESolver)][0]
+    assert (loaded.nodes == wanted).all()
+
+
+def test_runCallsInBetween():
+    clampedBlock(lambda fe: None)
+    called = []
+    assert runSteps(25, every=10, call=lambda: called.append(O.iter)) == 25
+    assert called == [10, 20] and O.iter == 25
+
+
+def test_interruptedRunGoesOn(capsys):
+    clampedBlock(lambda fe: None)
+    threading.Timer(.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    done = runSteps(10**9)
+    assert 0 < done < 10**9 and done == O.iter
+    assert 'Stopped after %d' % done in capsys.readouterr().err
+    assert runSteps(10) == 10 and O.iter == done + 10
