@@ -6,6 +6,7 @@ given and what would be right.
 
 import math
 import numbers
+import warnings
 
 import numpy
 
@@ -70,6 +71,8 @@ def _material(material):
             'above -1 and below 0.5')
     _number("the material's frictionAngle", found.frictionAngle, lambda v: 0 <= v < math.pi / 2,
             'at least 0 and below π/2 (rad)')
+    if isinstance(found, wrapper.BrittleFEMat):
+        warnings.warn('BrittleFEMat does not crack yet: the body stays elastic.', stacklevel=4)
     return found
 
 
