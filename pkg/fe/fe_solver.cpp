@@ -30,14 +30,14 @@ void FESolver::action() {
     throw std::invalid_argument("O.dt: " + std::string(error.what()));
   }
   bodies_.update(world_, timeToIntegrate(), world_.threads);
-  prepareSearch();
+  prepareSearch(scene->dt);
   if (scene->trackEnergy) trackEnergy();
 }
 
 /// Where the collider is to search in the next step, it must find bounds that hold for long enough.
-void FESolver::prepareSearch() {
+void FESolver::prepareSearch(double dt) {
   if (!world_.search.isDue && !world_.search.isVoid) return;
-  world_.chooseHalo(scene->dt);
+  world_.chooseHalo(dt);
   bodies_.setHalo(.5 * world_.search.halo);
   scene->doSort = true;
 }
@@ -93,7 +93,7 @@ int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
   const ComponentId component = world_.addBody(mesh, spec);
   scene = &here;
   bodies_.add(here, world_, material);
-  prepareSearch();
+  prepareSearch(world_.lastDt);  // O.dt may not be set yet
   return static_cast<int>(component.value);
 }
 

@@ -54,7 +54,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
   void giveSettings();
-  void prepareSearch();
+  void prepareSearch(double dt);
   [[nodiscard]] double timeToIntegrate() const;
   void trackEnergy() const;
   [[nodiscard]] int threadsToUse() const;
