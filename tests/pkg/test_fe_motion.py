@@ -116,3 +116,13 @@ def test_interruptedRunGoesOn(capsys):
     assert 0 < done < 10**9 and done == O.iter
     assert 'Stopped after %d' % done in capsys.readouterr().err
     assert runSteps(10) == 10 and O.iter == done + 10
+
+
+def test_minimalAngle():
+    O.materials.append(FEMat(young=1e7, density=1000, label='m'))
+    fe = FESolver()
+    assert fe.minAngle == numpy.inf
+    fe.addTriangles([(0, 0), (1, 0), (1, 1)], [(0, 1, 2)], material='m')
+    assert fe.minAngle == pytest.approx(numpy.pi / 4)
+    fe.addPolygon(rectangle((2, 0), (3, 1)), size=.1, material='m')
+    assert numpy.pi / 6 < fe.minAngle <= numpy.pi / 4 + 1e-12

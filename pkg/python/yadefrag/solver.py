@@ -294,6 +294,20 @@ def prescribe(self, nodes, vx=None, vy=None):
     self._prescribe(chosen.astype(numpy.uint32).tobytes(), held, *speeds)
 
 
+def _minAngle(self):
+    """Smallest angle (rad) of any triangle now; inf without bodies."""
+    corners = self.nodes[self.triangles]
+    if not len(corners):
+        return math.inf
+    edges = numpy.roll(corners, -1, axis=1) - corners
+    lengths = numpy.linalg.norm(edges, axis=2)
+    a, b, c = lengths.T
+    # Opposite the shortest edge; by the law of cosines.
+    short, middle, long = numpy.sort(numpy.stack([a, b, c]), axis=0)
+    cosine = (middle**2 + long**2 - short**2) / (2 * middle * long)
+    return float(numpy.arccos(numpy.clip(cosine, -1, 1)).min())
+
+
 def rectangleMesh(low, high, nx, ny, crossed=False):
     """A regular mesh for addTriangles: (nodes (n, 2), triangles (m, 3)) of nx × ny quads.
 
@@ -329,5 +343,6 @@ def install():
     wrapper.FESolver.addPolygon = addPolygon
     wrapper.FESolver.addTriangles = addTriangles
     wrapper.FESolver.prescribe = prescribe
+    wrapper.FESolver.minAngle = property(_minAngle, doc=_minAngle.__doc__)
     wrapper.FESolver.loads = property(_getLoads, _setLoads, doc=_getLoads.__doc__)
     wrapper.BodyContainer.erase = _guardErase(wrapper.BodyContainer.erase)
