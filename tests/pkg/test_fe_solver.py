@@ -539,3 +539,37 @@ def test_clockwiseOutlineKeepsItsFlags():
                 for b in O.bodies if b.shape.kind == 3}
         kinds.append(arcs)
     assert kinds[0] == kinds[1] == {(0, 0), (0, .5), (0, 1)}
+
+
+def rain(name, smooth):
+    """Heights of spheres that fall onto a clamped beam; the same engines whatever the collider."""
+    O.reset()
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((-.2, -.05), (.2, 0)), size=.02, material='m',
+                      smooth=smooth, fixed=lambda x, y: abs(x) > .199)
+    rng = np.random.default_rng(1)
+    for i in range(8):
+        for j in range(2):
+            ball = chain.ball((-.17 + .047 * i, .021 + .045 * j + .002 * rng.uniform()), .02,
+                              O.materials['m'])
+            ball.state.vel = (.2 * rng.normal(), -1, 0)
+            ball.state.blockedDOFs = 'zXY'
+            O.bodies.append(ball)
+    run(solver, finder(name), spheres=True, factor=.3)
+    contacts = 0
+    for _ in range(1500):
+        O.step()
+        contacts = max(contacts, len(list(O.interactions)))
+    assert contacts > 4 and solver.energy['external'] > 0
+    return np.array([b.state.pos[1] for b in O.bodies if isinstance(b.shape, w.Sphere)]), \
+        solver.nodes
+
+
+@pytest.mark.parametrize('smooth', [False, True])
+def test_spheresRainOnABeam(smooth):
+    wanted = rain('InsertionSortCollider', smooth)
+    assert wanted[0].min() > .01
+    for name in ('LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider'):
+        found = rain(name, smooth)
+        assert np.abs(found[0] - wanted[0]).max() < 1e-9, name
+        assert np.abs(found[1] - wanted[1]).max() < 1e-9, name
