@@ -45,11 +45,11 @@ struct BoxResult {
   bool converged = false;  ///< residual within tolerance or what rounding allows
 };
 
-/// Solves one problem after another and keeps its memory; the answer depends on the arguments alone.
-/// Block principal pivoting on G + ε·diag(G), which is definite, with projected Newton steps where it
-/// stalls; proximal iterations take ε out again; a larger ε if they fail, Gauss–Seidel sweeps if that
-/// fails, too. A problem without a solution (a node pinched between walls) ends with a bounded
-/// compromise and `converged` false. Never throws on numbers, not even on NaN.
+/// Solves one problem after another and keeps its memory; the answer depends on the arguments
+/// alone. Block principal pivoting on G + ε·diag(G), which is definite, with projected Newton steps
+/// where it stalls; proximal iterations take ε out again; a larger ε if they fail, Gauss–Seidel
+/// sweeps if that fails, too. A problem without a solution (a node pinched between walls) ends with
+/// a bounded compromise and `converged` false. Never throws on numbers, not even on NaN.
 class BoxSolver {
  public:
   BoxSolver();

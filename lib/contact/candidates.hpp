@@ -19,6 +19,9 @@ struct Candidates {
   std::vector<EntryId> masters;        ///< ascending within a row
   /// Was the slave on the void side of the master (paper fig. 8) at the end of the last step.
   std::vector<std::uint8_t> outside;
+  /// By row: the way of the fastest node up to which nothing can come of it (LocalSearch::scan);
+  /// empty: unknown. Follows from the rest.
+  std::vector<double> asleep;
 
   [[nodiscard]] std::size_t size() const { return masters.size(); }
   void clear();

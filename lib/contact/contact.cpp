@@ -16,6 +16,11 @@ SlaveMaster pairOf(const ContactRow& row) { return {row.slave, row.master}; }
 
 bool byPair(const ContactRow& a, const ContactRow& b) { return pairOf(a) < pairOf(b); }
 
+/// (m) Penetration that is worth another solve.
+double worthwhile(const ContactStep& step) {
+  return std::max(tolerance::kRemainder * step.move, tolerance::kPenetrationLeft * step.shortest);
+}
+
 /// Do two pieces meet in a joint that does not turn towards the void?
 bool meetInConvexJoint(const ContactSurfaces& surfaces, const PieceGeometry& geometry, EntryId a,
                        EntryId b) {
@@ -34,53 +39,67 @@ void Contact::reset(std::size_t nodes) {
   touched_.clear();
   forces_.clear();
   displacement_.clear();
+  isTouched_.clear();
   resize(nodes);
 }
 
 void Contact::resize(std::size_t nodes) {
   forces_.resize(nodes);
   displacement_.resize(nodes);
+  isTouched_.resize(nodes);
 }
 
 void Contact::correct(Model& model, const ContactSurfaces& surfaces,
                       const ContactSettings& settings, const ContactStep& step) {
   rows_.clear();
-  maxPenetration_ = residual_ = 0;
-  for (const NodeId node : touched_) forces_[node.value] = displacement_[node.value] = {};
+  const double moved = step.move + largestCorrection_;
+  maxPenetration_ = residual_ = largestCorrection_ = 0;
+  known_.clear();
+  for (const NodeId node : touched_) {
+    forces_[node.value] = displacement_[node.value] = {};
+    isTouched_[node.value] = 0;
+  }
   touched_.clear();
+  bool gapsAreKnown = false;
   double reach = step.reach;
-  scan(model, surfaces, step, reach);
+  scan(model, surfaces, step, reach, moved);
   for (int detection = 0; detection < tolerance::kDetections; ++detection) {
     const bool anyNew = addRows(model, surfaces, step);
     if (rows_.empty()) break;
     if (detection > 0) {
       updateGaps(model, surfaces, step);
-      if (!anyNew && maxPenetration_ <= tolerance::kPenetrationLeft * step.shortest) break;
+      gapsAreKnown = true;
+      if (!anyNew && maxPenetration_ <= worthwhile(step)) break;
       if (!anyNew && settings.correction == Correction::kPenalty) break;
     }
-    solve(model, settings, step);
+    solve(model, settings, step, anyNew);
     // What the correction moved by more than the scan looked ahead is looked at again.
-    const double moved = move(model, step);
-    if (2 * moved > reach) {
-      reach = 2 * moved;
-      scan(model, surfaces, step, reach);
+    move(model, step);
+    gapsAreKnown = false;
+    if (2 * largestCorrection_ > reach) {
+      reach = 2 * largestCorrection_;
+      scan(model, surfaces, step, reach, largestCorrection_);
     }
   }
+  if (!rows_.empty() && !gapsAreKnown) updateGaps(model, surfaces, step);
   finish(model, surfaces, step);
 }
 
 void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
-                   double reach) {
+                   double reach, double moved) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
-  search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads);
+  search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads, moved);
 }
 
-void Contact::solve(const Model& model, const ContactSettings& settings, const ContactStep& step) {
+void Contact::solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
+                    bool anyNew) {
   const StageTimer timer(step.times, &StageTimes::correction);
   if (settings.correction == Correction::kPenalty)
     penalize(rows_, model.nodes, step.dt, step.drag, settings.penaltyFactor);
-  else
-    residual_ = lagrange_.solve(rows_, model.nodes, step.dt, step.drag);
+  else {
+    if (anyNew) lagrange_.setRows(rows_, model.nodes, step.dt, step.drag);
+    residual_ = lagrange_.solve(rows_, worthwhile(step));
+  }
 }
 
 /// Adds a row for every active that has none; true if there was one.
@@ -89,7 +108,7 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
   if (!search_.anyNear()) return false;
   const StageTimer timer(step.times, &StageTimes::localSearch);
   actives_.clear();
-  search_.findActives(candidates, surfaces, model.nodes.position, step.halo, actives_);
+  search_.findActives(candidates, surfaces, model.nodes.position, step.halo, actives_, known_);
   const PieceGeometry before(surfaces, step.before);
   bool anyNew = false;
   for (const Active& active : actives_) {
@@ -97,10 +116,21 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
     ContactRow row = makeRow(surfaces, before, active);
     startRow(row, model, surfaces, before, active, step);
     if (contradicts(surfaces, row)) row.friction = 0;
+    for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
+    // Actives come in order: only the rows of a later detection go between others.
     rows_.insert(std::upper_bound(rows_.begin(), rows_.end(), row, byPair), row);
     anyNew = true;
   }
+  if (anyNew) {
+    known_.clear();
+    for (const ContactRow& row : rows_) known_.push_back(pairOf(row));
+  }
   return anyNew;
+}
+
+void Contact::touch(NodeId node) {
+  if (isTouched_[node.value] == 0) touched_.push_back(node);
+  isTouched_[node.value] = 1;
 }
 
 std::span<const ContactRow> Contact::rowsOf(EntryId slave) const {
@@ -178,12 +208,13 @@ void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces,
   for (ContactRow& row : rows_) {
     const double gap = gapOf(row, geometry);
     maxPenetration_ = std::max(maxPenetration_, row.allowed - gap);
+    if (std::isfinite(row.left)) row.left = row.allowed - gap;
     row.gap = gap - dot(relative(row, displacement_), row.normal);
   }
 }
 
-/// Moves the nodes from where they are to x* + u; returns the largest |u| (m).
-double Contact::move(Model& model, const ContactStep& step) {
+/// Moves the nodes from where they are to x* + u.
+void Contact::move(Model& model, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
   for (const NodeId node : touched_) forces_[node.value] = {};
   sumForces();
@@ -194,37 +225,31 @@ double Contact::move(Model& model, const ContactStep& step) {
     const Vec2 u{step.dt * step.dt * mobile.x * force.x, step.dt * step.dt * mobile.y * force.y};
     model.nodes.position[node.value] += u - displacement_[node.value];
     displacement_[node.value] = u;
-    largest = std::max(largest, norm(u));
+    largest = std::max(largest, dot(u, u));
   }
-  return largest;
+  largestCorrection_ = std::sqrt(largest);
 }
 
 /// Eq. 7: Fᵢ = Σ weight × force of the rows.
 void Contact::sumForces() {
-  for (const ContactRow& row : rows_)
+  for (const ContactRow& row : rows_) {
+    const Vec2 force = row.force();
     for (int k = 0; k < row.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      forces_[row.node[at].value] += row.weight[at] * row.force();
-      touched_.push_back(row.node[at]);
+      forces_[row.node[at].value] += row.weight[at] * force;
     }
-  std::sort(touched_.begin(), touched_.end());
-  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  }
 }
 
 /// Velocities, outside flags, and what the next step has to know.
 void Contact::finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   for (const NodeId node : touched_)
     model.nodes.velocity[node.value] += (1 / step.dt) * displacement_[node.value];
-  if (!rows_.empty()) updateGaps(model, surfaces, step);
   const StageTimer timer(step.times, &StageTimes::localSearch);
   touches.clear();
-  std::vector<SlaveMaster> active;
-  active.reserve(rows_.size());
-  for (const ContactRow& row : rows_) {
+  for (const ContactRow& row : rows_)
     touches.push_back({pairOf(row), row.normalForce, row.tangentForce, row.allowed});
-    active.push_back(pairOf(row));
-  }
-  if (search_.anyNear()) search_.settle(candidates, surfaces, model.nodes.position, active);
+  if (search_.anyNear()) search_.settle(candidates, surfaces, model.nodes.position, known_);
 }
 
 }  // namespace yadefrag

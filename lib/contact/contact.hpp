@@ -28,6 +28,7 @@ struct Touch {
 struct ContactStep {
   double dt;                     ///< s
   double drag;                   ///< αΔt/2
+  double move;                   ///< m, largest displacement of a surface node
   double reach;                  ///< m, twice the largest displacement of a surface node
   double shortest;               ///< m, shortest segment
   double halo;                   ///< m, δ
@@ -50,6 +51,8 @@ class Contact {
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
   /// (N) By node, of the last step.
   [[nodiscard]] const std::vector<Vec2>& forces() const { return forces_; }
+  /// (m) Of a node, in the last step.
+  [[nodiscard]] double largestCorrection() const { return largestCorrection_; }
   [[nodiscard]] double maxPenetration() const { return maxPenetration_; }
   /// Largest residual of the last step's systems, relative to their largest gap.
   [[nodiscard]] double residual() const { return residual_; }
@@ -59,8 +62,9 @@ class Contact {
 
  private:
   void scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
-            double reach);
-  void solve(const Model& model, const ContactSettings& settings, const ContactStep& step);
+            double reach, double moved);
+  void solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
+             bool anyNew);
   [[nodiscard]] std::span<const ContactRow> rowsOf(EntryId slave) const;
   bool hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair) const;
   bool contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const;
@@ -68,7 +72,8 @@ class Contact {
   void startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
                 const PieceGeometry& before, const Active& active, const ContactStep& step) const;
   void updateGaps(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
-  double move(Model& model, const ContactStep& step);
+  void move(Model& model, const ContactStep& step);
+  void touch(NodeId node);
   void sumForces();
   void finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
 
@@ -76,9 +81,12 @@ class Contact {
   Lagrange lagrange_;
   std::vector<Active> actives_;
   std::vector<ContactRow> rows_;
-  std::vector<Vec2> forces_;        // N, by node
-  std::vector<Vec2> displacement_;  // m, by node: the correction u so far
-  std::vector<NodeId> touched_;     // nodes with a force
+  std::vector<SlaveMaster> known_;       // of the rows
+  std::vector<Vec2> forces_;             // N, by node
+  std::vector<Vec2> displacement_;       // m, by node: the correction u so far
+  std::vector<NodeId> touched_;          // nodes of a row
+  std::vector<std::uint8_t> isTouched_;  // by node
+  double largestCorrection_ = 0;
   double maxPenetration_ = 0;
   double residual_ = 0;
 };

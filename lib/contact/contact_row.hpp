@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "core/ids.hpp"
 #include "core/vec2.hpp"
@@ -16,9 +17,11 @@ struct ContactRow {
   std::array<NodeId, 5> node;    ///< of the slave, then of the master
   std::array<double, 5> weight;  ///< hᵢ of the slave, −hᵢ of the master (eq. 4, 6, 7)
   int count = 0;
-  Vec2 normal;              ///< out of the master, at xⁿ
-  double gap = 0;           ///< m, at the predicted positions; negative: penetration
-  double allowed = 0;       ///< m, ≤ 0: an overlap older than this contact
+  Vec2 normal;         ///< out of the master, at xⁿ
+  double gap = 0;      ///< m, at the predicted positions; negative: penetration
+  double allowed = 0;  ///< m, ≤ 0: an overlap older than this contact
+  /// (m) Penetration beyond `allowed` when last looked at; infinite before the first solve.
+  double left = std::numeric_limits<double>::infinity();
   double slip = 0;          ///< m, of the slave along `tangent()` in this step, without contact
   double friction = 0;      ///< tan of the friction angle
   double normalForce = 0;   ///< N, on the slave along the normal

@@ -12,6 +12,11 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 
+/// Does a row penetrate, or push a slave farther out than it need be.
+bool isOpen(const ContactRow& row, double tolerance) {
+  return row.left > tolerance || (row.left < -tolerance && row.normalForce > 0);
+}
+
 double weighted(Vec2 a, Vec2 mobile, Vec2 b) { return a.x * mobile.x * b.x + a.y * mobile.y * b.y; }
 
 /// (N) The largest force that undoes one row's gap or slip by itself.
@@ -26,45 +31,42 @@ double forceScale(const BoxProblem& problem) {
 
 }  // namespace
 
-double Lagrange::solve(std::span<ContactRow> rows, const Nodes& nodes, double dt, double drag) {
+void Lagrange::setRows(std::span<const ContactRow> rows, const Nodes& nodes, double dt,
+                       double drag) {
   findContactGroups(rows, nodes, groups_);
   normalOf_.resize(rows.size());
   tangentOf_.resize(rows.size());
+  const std::size_t groups = groups_.rows.rows();
+  if (systems_.size() < groups) systems_.resize(groups);
+  for (std::size_t group = 0; group < groups; ++group) assemble(rows, nodes, group, dt, drag);
+}
+
+double Lagrange::solve(std::span<ContactRow> rows, double tolerance) {
   double residual = 0;
   for (std::size_t group = 0; group < groups_.rows.rows(); ++group) {
-    const auto members = groups_.rows.row(group);
-    numberUnknowns(rows, members);
-    assemble(rows, nodes, group, dt, drag);
-    residual = std::max(residual, solveGroup(rows, members));
+    const Members members = groups_.rows.row(group);
+    System& system = systems_[group];
+    if (std::ranges::any_of(members, [&](std::uint32_t r) { return isOpen(rows[r], tolerance); }))
+      solveGroup(rows, members, system);
+    residual = std::max(residual, system.residual);
   }
   return residual;
 }
 
-/// Normal forces first; tangential ones only where there is friction.
-void Lagrange::numberUnknowns(std::span<const ContactRow> rows,
-                              std::span<const std::uint32_t> members) {
+/// Normal forces first; tangential ones only where there is friction. Returns how many.
+std::size_t Lagrange::numberUnknowns(std::span<const ContactRow> rows, Members members) {
   std::uint32_t count = 0;
   for (const std::uint32_t r : members) normalOf_[r] = count++;
   for (const std::uint32_t r : members) tangentOf_[r] = rows[r].friction > 0 ? count++ : kNone;
-  problem_.constant.resize(count);
-  problem_.lower.resize(count);
-  problem_.upper.resize(count);
-  start_.resize(count);
-  for (const std::uint32_t r : members) {
-    const std::uint32_t normal = normalOf_[r], tangent = tangentOf_[r];
-    problem_.constant[normal] = rows[r].gap - rows[r].allowed;
-    problem_.lower[normal] = 0;
-    problem_.upper[normal] = kNoBound;
-    start_[normal] = rows[r].normalForce;
-    if (tangent == kNone) continue;
-    problem_.constant[tangent] = rows[r].slip;
-    start_[tangent] = rows[r].tangentForce;
-  }
+  return count;
 }
 
 /// G = Δt² W M⁻¹ Wᵀ: two rows act on one another through every node that they share.
 void Lagrange::assemble(std::span<const ContactRow> rows, const Nodes& nodes, std::size_t group,
                         double dt, double drag) {
+  System& system = systems_[group];
+  const Members members = groups_.rows.row(group);
+  const std::size_t unknowns = numberUnknowns(rows, members);
   entries_.clear();
   const std::span<const RowNode> links(groups_.links);
   for (const std::uint32_t begin : groups_.spans.row(group)) {
@@ -76,8 +78,28 @@ void Lagrange::assemble(std::span<const ContactRow> rows, const Nodes& nodes, st
       for (std::size_t q = begin; q < end; ++q)
         addPair(rows[links[p].row], rows[links[q].row], links[p], links[q], mobile);
   }
-  problem_.setMatrix(problem_.constant.size(), entries_);
-  mostForce_ = tolerance::kJam * forceScale(problem_);
+  system.problem.setMatrix(unknowns, entries_);
+  setGaps(rows, members, system.problem);
+  system.mostForce = tolerance::kJam * forceScale(system.problem);
+  system.residual = 0;
+}
+
+void Lagrange::setGaps(std::span<const ContactRow> rows, Members members, BoxProblem& problem) {
+  const std::size_t unknowns = problem.offsets.size() - 1;
+  problem.constant.resize(unknowns);
+  problem.lower.resize(unknowns);
+  problem.upper.resize(unknowns);
+  start_.resize(unknowns);
+  for (const std::uint32_t r : members) {
+    const std::uint32_t normal = normalOf_[r], tangent = tangentOf_[r];
+    problem.constant[normal] = rows[r].gap - rows[r].allowed;
+    problem.lower[normal] = 0;
+    problem.upper[normal] = kNoBound;
+    start_[normal] = rows[r].normalForce;
+    if (tangent == kNone) continue;
+    problem.constant[tangent] = rows[r].slip;
+    start_[tangent] = rows[r].tangentForce;
+  }
 }
 
 void Lagrange::addPair(const ContactRow& a, const ContactRow& b, const RowNode& p, const RowNode& q,
@@ -96,39 +118,43 @@ void Lagrange::addPair(const ContactRow& a, const ContactRow& b, const RowNode& 
 /// ones: a sequence of solves with given bounds, which starts from the last step's forces and ends
 /// where bounds and forces agree. Rejected: slip forces as −μ sgn(v)|F·e| in the matrix (eq. 8)
 /// make it unsymmetric, and the sign has to be known beforehand.
-double Lagrange::solveGroup(std::span<ContactRow> rows, std::span<const std::uint32_t> members) {
+void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& system) {
+  BoxProblem& problem = system.problem;
+  setGaps(rows, members, problem);
+  boundFriction(rows, members, system, start_);
   const BoxResult* result = nullptr;
-  boundFriction(rows, members, start_);
   for (int round = 0; round < tolerance::kFrictionRounds; ++round) {
-    result = &solver_.solve(problem_, start_);
-    if (problem_.size() == members.size() || !boundFriction(rows, members, result->lambda)) break;
+    result = &solver_.solve(problem, start_);
+    if (problem.size() == members.size() || !boundFriction(rows, members, system, result->lambda))
+      break;
     for (std::size_t i = 0; i < start_.size(); ++i)
-      start_[i] = std::clamp(result->lambda[i], problem_.lower[i], problem_.upper[i]);
+      start_[i] = std::clamp(result->lambda[i], problem.lower[i], problem.upper[i]);
   }
   for (const std::uint32_t r : members) {
+    rows[r].left = 0;
     rows[r].normalForce = result->lambda[normalOf_[r]];
     if (tangentOf_[r] == kNone) continue;
     const double most = rows[r].friction * rows[r].normalForce;
     rows[r].tangentForce = std::clamp(result->lambda[tangentOf_[r]], -most, most);
   }
-  return result->residual;
+  system.residual = result->residual;
 }
 
 /// Sets |τ| ≤ μλ; true if a bound has changed by more than the tolerance. Normal forces of bodies
 /// that friction jams between each other grow from round to round: beyond any sense they bound no
 /// more.
-bool Lagrange::boundFriction(std::span<const ContactRow> rows,
-                             std::span<const std::uint32_t> members,
-                             std::span<const double> lambda) {
+bool Lagrange::boundFriction(std::span<const ContactRow> rows, Members members, System& system,
+                             std::span<const double> lambda) const {
+  BoxProblem& problem = system.problem;
   double largest = 0, change = 0;
   for (const std::uint32_t r : members) {
     const std::uint32_t tangent = tangentOf_[r];
     if (tangent == kNone) continue;
-    const double bound = rows[r].friction * std::min(lambda[normalOf_[r]], mostForce_);
+    const double bound = rows[r].friction * std::min(lambda[normalOf_[r]], system.mostForce);
     largest = std::max(largest, bound);
-    change = std::max(change, std::abs(bound - problem_.upper[tangent]));
-    problem_.lower[tangent] = -bound;
-    problem_.upper[tangent] = bound;
+    change = std::max(change, std::abs(bound - problem.upper[tangent]));
+    problem.lower[tangent] = -bound;
+    problem.upper[tangent] = bound;
   }
   return change > tolerance::kFrictionBound * largest;
 }

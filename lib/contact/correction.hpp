@@ -16,27 +16,37 @@ namespace yadefrag {
 /// the tangential ones |τ| ≤ μλ, and no slip where less is enough.
 class Lagrange {
  public:
-  /// Sets the forces of all rows, starting from those they have. Returns the largest residual of
-  /// any group, relative to its largest gap.
-  double solve(std::span<ContactRow> rows, const Nodes& nodes, double dt, double drag);
+  /// New rows, or the same ones in another order: finds their groups and systems.
+  void setRows(std::span<const ContactRow> rows, const Nodes& nodes, double dt, double drag);
+  /// Sets the forces of all rows, starting from those they have; groups in which no more than
+  /// `tolerance` (m) is `left` keep theirs. Returns the largest residual of any group, relative to
+  /// its largest gap.
+  double solve(std::span<ContactRow> rows, double tolerance);
 
  private:
-  void numberUnknowns(std::span<const ContactRow> rows, std::span<const std::uint32_t> members);
+  struct System {
+    BoxProblem problem;
+    double mostForce = 0;  ///< N, what bounds friction
+    double residual = 0;
+  };
+  using Members = std::span<const std::uint32_t>;
+
+  std::size_t numberUnknowns(std::span<const ContactRow> rows, Members members);
   void assemble(std::span<const ContactRow> rows, const Nodes& nodes, std::size_t group, double dt,
                 double drag);
   void addPair(const ContactRow& a, const ContactRow& b, const RowNode& p, const RowNode& q,
                Vec2 mobile);
-  double solveGroup(std::span<ContactRow> rows, std::span<const std::uint32_t> members);
-  bool boundFriction(std::span<const ContactRow> rows, std::span<const std::uint32_t> members,
-                     std::span<const double> lambda);
+  void setGaps(std::span<const ContactRow> rows, Members members, BoxProblem& problem);
+  void solveGroup(std::span<ContactRow> rows, Members members, System& system);
+  bool boundFriction(std::span<const ContactRow> rows, Members members, System& system,
+                     std::span<const double> lambda) const;
 
   ContactGroups groups_;
-  BoxProblem problem_;
+  std::vector<System> systems_;  // of the groups; more than there are, to keep their memory
   BoxSolver solver_;
   std::vector<MatrixEntry> entries_;
   std::vector<std::uint32_t> normalOf_, tangentOf_;  // unknowns of a row, by row
   std::vector<double> start_;
-  double mostForce_ = 0;  // N, what bounds friction in the group at hand
 };
 
 /// Penalty: each row by itself, the force that would undo `factor` of its penetration in one step.

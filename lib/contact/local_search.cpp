@@ -24,6 +24,13 @@ bool isArcAmongArcs(const ContactSurfaces& surfaces, EntryId entry) {
 struct Beside {
   double gap;     ///< m
   double beyond;  ///< m, by how much it is past an end; negative: over the piece
+  double length;  ///< m, of the chord
+
+  /// (m/m) Change of the gap, and of an arc's bulge, for a motion of all points by no more than 1,
+  /// as long as the gap is open: beside its ends a chord swings farther than they move.
+  [[nodiscard]] double leverage(bool arc) const {
+    return (arc ? 4 : 2) + 2 * (std::max(0., beyond) + std::abs(gap)) / length;
+  }
 };
 
 Beside besideChord(const PieceEnds& ends, Vec2 point) {
@@ -31,7 +38,7 @@ Beside besideChord(const PieceEnds& ends, Vec2 point) {
   const double length = norm(along);
   const Vec2 from = point - ends.begin;
   const double at = dot(along, from) / length;
-  return {cross(from, along) / length, std::max(-at, at - length)};
+  return {cross(from, along) / length, std::max(-at, at - length), length};
 }
 
 /// How far an arc bulges over its chord: near an arc is near its chord by that much more.
@@ -43,10 +50,13 @@ double bulge(const ContactSurfaces& surfaces, std::span<const Vec2> positions, E
   return norm(positions[nodes[1].value] - .5 * (ends.begin + ends.end));
 }
 
-/// The slave's outward normals, of the piece before it and of its own: a corner has two.
+/// The slave's outward normals, of the piece before it and of its own: a corner has two, and if it
+/// is convex all between them. The two sides of a splinter do not oppose what its tip pricks.
 struct SlaveNormals {
   Vec2 before, after;
   [[nodiscard]] bool oppose(Vec2 normal) const {
+    const bool convex = cross(before, after) > 0;
+    if (convex && cross(normal, before) >= 0 && cross(after, normal) >= 0) return true;
     return std::min(dot(before, normal), dot(after, normal)) < tolerance::kOpposed;
   }
 };
@@ -74,43 +84,67 @@ bool isBeforeBegin(const ContactSurfaces& surfaces, EntryId master, const Foot& 
 }  // namespace
 
 void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
-                       std::span<const Vec2> positions, double reach, int threads) {
-  const PieceGeometry geometry(surfaces, positions);
+                       std::span<const Vec2> positions, double reach, int threads, double moved) {
+  reach_ = reach;
+  const std::size_t rows = candidates.slaves.size();
+  way_ += moved;
+  if (candidates.asleep.size() != rows || !std::isfinite(way_))
+    candidates.asleep.assign(rows, 0), way_ = 0;
   near_.clear();
   nearByPart_.resize(static_cast<std::size_t>(std::max(threads, 1)));
   const auto work = [&](std::size_t begin, std::size_t end, int part) {
     std::vector<Near>& found = nearByPart_[static_cast<std::size_t>(part)];
     found.clear();
     for (std::size_t r = begin; r < end; ++r) {
-      const Vec2 point = geometry.slave(candidates.slaves[r]);
-      for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
-        const EntryId master = candidates.masters[c];
-        const PieceEnds ends = geometry.ends(master);
-        const Beside beside = besideChord(ends, point);
-        const double wide = reach + bulge(surfaces, positions, master, ends);
-        if (beside.gap < wide && beside.beyond < 4 * wide)
-          found.push_back({static_cast<std::uint32_t>(r), c});
-        else
-          candidates.outside[c] = beside.gap >= 0 ? 1 : 0;
-      }
+      if (candidates.asleep[r] > way_ + reach) continue;
+      candidates.asleep[r] = way_ + scanRow(candidates, surfaces, positions, reach,
+                                            static_cast<std::uint32_t>(r), found);
     }
   };
-  const int parts = forEachPart(candidates.slaves.size(), threads, work);
+  const int parts = forEachPart(rows, threads, work);
   for (int part = 0; part < parts; ++part) {
     const auto& found = nearByPart_[static_cast<std::size_t>(part)];
     near_.insert(near_.end(), found.begin(), found.end());
   }
 }
 
+double LocalSearch::scanRow(Candidates& candidates, const ContactSurfaces& surfaces,
+                            std::span<const Vec2> positions, double reach, std::uint32_t row,
+                            std::vector<Near>& found) {
+  const PieceGeometry geometry(surfaces, positions);
+  const Vec2 point = geometry.slave(candidates.slaves[row]);
+  double clear = INFINITY;
+  for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c) {
+    const EntryId master = candidates.masters[c];
+    const PieceEnds ends = geometry.ends(master);
+    const Beside beside = besideChord(ends, point);
+    const double bulging = bulge(surfaces, positions, master, ends);
+    const double wide = reach + bulging;
+    if (beside.gap < wide && beside.beyond < 4 * wide)
+      found.push_back({row, c});
+    else
+      candidates.outside[c] = beside.gap >= 0 ? 1 : 0;
+    clear = std::min(clear, (beside.gap - bulging) / beside.leverage(isArc(surfaces, master)));
+  }
+  return clear;
+}
+
 void LocalSearch::findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
                               std::span<const Vec2> positions, double halo,
-                              std::vector<Active>& actives) {
+                              std::vector<Active>& actives, std::span<const SlaveMaster> known) {
   const PieceGeometry geometry(surfaces, positions);
   const std::span<const Near> near(near_);
+  auto next = known.begin();
   for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
-    while (end < near.size() && near[end].row == near[begin].row) ++end;
-    tryRow(candidates, surfaces, geometry, near.subspan(begin, end - begin), halo);
     const EntryId slave = candidates.slaves[near[begin].row];
+    bool allKnown = true;
+    for (; end < near.size() && near[end].row == near[begin].row; ++end) {
+      const SlaveMaster pair{slave, candidates.masters[near[end].candidate]};
+      while (next != known.end() && *next < pair) ++next;
+      allKnown = allKnown && next != known.end() && *next == pair;
+    }
+    if (allKnown) continue;
+    tryRow(candidates, surfaces, geometry, near.subspan(begin, end - begin), halo);
     for (const Trial& trial : trials_)
       if (trial.active) actives.push_back({{slave, trial.master}, trial.foot, trial.cameAside});
   }
@@ -122,6 +156,12 @@ void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& su
   const EntryId slave = candidates.slaves[row.front().row];
   const Vec2 point = geometry.slave(slave);
   trials_.clear();
+  // The quick test first: most slaves are outside all masters.
+  if (std::ranges::none_of(row, [&](const Near& near) {
+        const EntryId master = candidates.masters[near.candidate];
+        return isArc(surfaces, master) || geometry.mayPenetrate(master, point);
+      }))
+    return;
   bool anyInside = false;
   for (const Near& near : row) {
     const EntryId master = candidates.masters[near.candidate];
@@ -152,10 +192,27 @@ void LocalSearch::decide(const ContactSurfaces& surfaces, const PieceGeometry& g
     trial.active = trial.opposed && trial.foot.gap < 0 && (arc || trial.outside) &&
                    (!arc || trial.foot.gap >= -halo) && isOver(surfaces, trial.master, trial.foot);
   }
+  // All that came in past an end before any choice: else one neighbour would bring back what the
+  // other one is nearer to.
+  for (Trial& first : trials_)
+    for (Trial& second : trials_)
+      if (surfaces.next[first.master.value] == second.master)
+        enterAtJoint(surfaces, first, second, halo);
   for (Trial& first : trials_)
     for (Trial& second : trials_)
       if (surfaces.next[first.master.value] == second.master)
         decideNeighbours(surfaces, geometry, first, second);
+}
+
+/// `second` follows `first` on their surface.
+void LocalSearch::enterAtJoint(const ContactSurfaces& surfaces, Trial& first, Trial& second,
+                               double halo) const {
+  const bool overFirst = isOver(surfaces, first.master, first.foot);
+  const bool overSecond = isOver(surfaces, second.master, second.foot);
+  const bool pastFirst = isBehindEnd(surfaces, first.master, first.foot);
+  const bool pastSecond = isBeforeBegin(surfaces, second.master, second.foot);
+  if (overSecond && second.foot.gap >= -halo) enterFromNeighbour(first, second, pastFirst);
+  if (overFirst && first.foot.gap >= -halo) enterFromNeighbour(second, first, pastSecond);
 }
 
 /// `second` follows `first` on their surface.
@@ -165,14 +222,16 @@ void LocalSearch::decideNeighbours(const ContactSurfaces& surfaces, const PieceG
   const PieceRange rangeAfter = pieceRange(surfaces.piece[second.master.value]);
   const bool pastFirst = isBehindEnd(surfaces, first.master, first.foot);
   const bool pastSecond = isBeforeBegin(surfaces, second.master, second.foot);
-  enterFromNeighbour(first, second, pastFirst, isOver(surfaces, second.master, second.foot));
-  enterFromNeighbour(second, first, pastSecond, isOver(surfaces, first.master, first.foot));
-  if (first.foot.gap >= 0 || second.foot.gap >= 0) return;
   const bool concave = cross(geometry.tangent(first.master, range.end),
                              geometry.tangent(second.master, rangeAfter.begin)) < 0;
-  if (concave && pastFirst && pastSecond && (first.outside || second.outside)) {
-    // No orthogonal correction is possible: to the corner, which both masters' rows together do.
-    first.active = first.opposed, second.active = second.opposed;
+  if (concave && pastFirst && pastSecond) {
+    // No orthogonal correction is possible: to the corner, which both masters' rows together do. In
+    // a notch narrower than a right angle the slave may be behind one of them only.
+    const bool both = first.foot.gap < 0 && second.foot.gap < 0;
+    const bool wasOutside = first.outside || second.outside;
+    for (Trial* trial : {&first, &second})
+      if (trial->foot.gap < 0 && (both ? wasOutside : trial->outside))
+        trial->active = trial->opposed;
   } else if (!concave && first.active && second.active) {
     const bool firstIsNearer = first.foot.gap >= second.foot.gap;
     (firstIsNearer ? second : first).active = false;
@@ -181,10 +240,12 @@ void LocalSearch::decideNeighbours(const ContactSurfaces& surfaces, const PieceG
 
 /// A slave that was outside `from` is now inside `to`, whose flag says that it was behind its line
 /// before: it came in past the end of `from`, along which it may have slid, or, a corner that
-/// grazes a corner, through `from` itself, a lateral face that does not oppose it.
-void LocalSearch::enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom, bool overTo) {
-  if (!from.outside || !overTo || !to.opposed || to.active || to.foot.gap >= 0) return;
+/// grazes a corner, through `from` itself, a lateral face that does not oppose it. Nothing slides
+/// deeper in a step than it moves.
+void LocalSearch::enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom) const {
+  if (!from.outside || !to.opposed || to.active || to.foot.gap >= 0) return;
   if (!pastFrom && (from.opposed || from.foot.gap >= 0)) return;
+  if (pastFrom && to.foot.gap < -2 * reach_) return;
   to.active = true;
   to.cameAside = !pastFrom;
 }

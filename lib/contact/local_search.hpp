@@ -2,6 +2,7 @@
 // From candidates to actives (paper §5): a scan of all candidates that leaves the few which are
 // near, then, for each slave, the masters it is active on.
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -22,14 +23,18 @@ class LocalSearch {
  public:
   /// First phase (§5.1) at `positions` (m, by node). A candidate is near if its slave is inside the
   /// master's line or within `reach` (m) of it, beside the piece by no more than a few `reach`.
-  /// Outside flags of all that are not near are brought up to date.
+  /// Outside flags of all that are not near are brought up to date. No surface node has moved by
+  /// more than `moved` (m) since the last scan: rows too far away to become near by all the ways
+  /// since they were looked at are left alone. Infinite: nothing is known.
   void scan(Candidates& candidates, const ContactSurfaces& surfaces,
-            std::span<const Vec2> positions, double reach, int threads);
+            std::span<const Vec2> positions, double reach, int threads, double moved = INFINITY);
 
   /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master. None is deeper
-  /// in a smooth master than `halo` (m).
+  /// in a smooth master than `halo` (m). Slaves `known` (ascending) to be active on all masters
+  /// that they are near to are left out.
   void findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
-                   std::span<const Vec2> positions, double halo, std::vector<Active>& actives);
+                   std::span<const Vec2> positions, double halo, std::vector<Active>& actives,
+                   std::span<const SlaveMaster> known = {});
 
   /// Outside flags of the near ones after the step, in which `touched` (ascending) were active:
   /// those stay outside, however rounding has placed them.
@@ -43,6 +48,10 @@ class LocalSearch {
     std::uint32_t row;
     std::uint32_t candidate;
   };
+  /// What `scan` does with one slave; returns how far everything may move before it is near.
+  static double scanRow(Candidates& candidates, const ContactSurfaces& surfaces,
+                        std::span<const Vec2> positions, double reach, std::uint32_t row,
+                        std::vector<Near>& found);
   struct Trial {
     EntryId master;
     Foot foot;
@@ -57,8 +66,12 @@ class LocalSearch {
   void decide(const ContactSurfaces& surfaces, const PieceGeometry& geometry, double halo);
   void decideNeighbours(const ContactSurfaces& surfaces, const PieceGeometry& geometry,
                         Trial& first, Trial& second);
-  static void enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom, bool overTo);
+  void enterAtJoint(const ContactSurfaces& surfaces, Trial& first, Trial& second,
+                    double halo) const;
+  void enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom) const;
 
+  double way_ = 0;    // m, of the fastest node since the candidates were found
+  double reach_ = 0;  // m, of the last scan
   std::vector<Near> near_;
   std::vector<std::vector<Near>> nearByPart_;
   std::vector<Trial> trials_;

@@ -117,9 +117,10 @@ inline constexpr double kFootBeyond = .25;
 /// that slides from one to the other.
 inline constexpr double kSameFace = .866;
 
-/// (of the shortest segment) Penetration that is left by the second-order remainder of the
-/// linearised condition and not worth another solve.
-inline constexpr double kPenetrationLeft = 1e-10;
+/// (of the largest displacement in the step; of the shortest segment) Penetration that is left by
+/// the second-order remainder of the linearised condition and not worth another solve: an error of
+/// so much in velocities, and what rounding leaves.
+inline constexpr double kRemainder = 1e-5, kPenetrationLeft = 1e-10;
 
 /// (count) Most detections in one step.
 inline constexpr int kDetections = 10;
@@ -133,8 +134,8 @@ inline constexpr double kOverlapDecay = .02;
 inline constexpr double kFrictionBound = 1e-4;
 inline constexpr int kFrictionRounds = 8;
 
-/// (ratio) Normal forces above this many times the largest that one row of their group needs by itself
-/// are a jam's, and bound friction no further.
+/// (ratio) Normal forces above this many times the largest that one row of their group needs by
+/// itself are a jam's, and bound friction no further.
 inline constexpr double kJam = 100;
 
 /// (of the shortest segment) The halo's width: at most half, so that three adjacent halos do not

@@ -19,6 +19,7 @@ void World::step(double dt) {
   // Global search, only if a node left the halo of the last one: mostly a collider has searched, or
   // the last candidates still hold.
   if (canTouch()) {
+    measureMove();
     searchIfLeft();
     // Local search and correction, from x*, v* to xⁿ⁺¹, vⁿ⁺½.
     correctContact(dt);

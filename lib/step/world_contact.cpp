@@ -38,13 +38,18 @@ void World::rememberSurface() {
   for (const NodeId node : surfaceNodes_) before_[node.value] = model.nodes.position[node.value];
 }
 
-double World::largestMove() const {
+/// Between two searches most steps need no look at all nodes: the sum of the largest moves is bound
+/// enough.
+void World::measureMove() {
+  if (!canTouch()) return;
+  const StageTimer timer(timesIfAsked(), &StageTimes::search);
   double most = 0;
   for (const NodeId node : surfaceNodes_) {
     const Vec2 moved = model.nodes.position[node.value] - before_[node.value];
     most = std::max(most, dot(moved, moved));
   }
-  return std::sqrt(most);
+  largestMove_ = std::sqrt(most);
+  farthest_ += largestMove_;
 }
 
 double World::fastest() const {
@@ -84,6 +89,7 @@ void World::considerPairs(std::span<const BoxPair> overlapping) {
   search.positions.resize(surfaceNodes_.size());
   for (std::size_t i = 0; i < surfaceNodes_.size(); ++i)
     search.positions[i] = model.nodes.position[surfaceNodes_[i].value];
+  farthest_ = 0;
   search.isDue = search.isVoid = false;
   ++numSearches;
 }
@@ -91,22 +97,22 @@ void World::considerPairs(std::span<const BoxPair> overlapping) {
 /// Nothing is missed: whatever was foreseen, x* itself decides.
 void World::searchIfLeft() {
   const StageTimer timer(timesIfAsked(), &StageTimes::search);
-  if (!search.isDue && !search.isVoid) {
-    const double allowed = search.halo * search.halo / 4;
-    for (std::size_t i = 0; i < surfaceNodes_.size(); ++i) {
-      const Vec2 moved = model.nodes.position[surfaceNodes_[i].value] - search.positions[i];
-      if (!(dot(moved, moved) <= allowed)) return searchNow();
-    }
-    return;
+  if (search.isDue || search.isVoid) return searchNow();
+  if (farthest_ <= search.halo / 2) return;
+  double most = 0;
+  for (std::size_t i = 0; i < surfaceNodes_.size(); ++i) {
+    const Vec2 moved = model.nodes.position[surfaceNodes_[i].value] - search.positions[i];
+    most = std::max(most, dot(moved, moved));
   }
-  searchNow();
+  farthest_ = std::sqrt(most);
+  if (!(farthest_ <= search.halo / 2)) searchNow();
 }
 
 /// The world's own search, at x*: all boxes, position codes moved, pairs.
 void World::searchNow() {
   // As wide as the collider's would be, and at least as wide as this step's own motion.
   search.shortest = shortestSegment(surfaces, model.nodes.position);
-  const double move = 2 * tolerance::kHaloSpare * largestMove();
+  const double move = 2 * tolerance::kHaloSpare * largestMove_;
   search.halo =
       std::max(std::clamp(tolerance::kHaloSteps * move, tolerance::kNarrowestHalo * search.shortest,
                           tolerance::kWidestHalo * search.shortest),
@@ -124,13 +130,15 @@ void World::searchNow() {
 void World::correctContact(double dt) {
   const ContactStep now{dt,
                         dynamicsSettings.damping * dt / 2,
-                        2 * largestMove() + tolerance::kTouching * search.shortest,
+                        largestMove_,
+                        2 * largestMove_ + tolerance::kTouching * search.shortest,
                         search.shortest,
                         search.halo,
                         before_,
                         threads,
                         timesIfAsked()};
   contact.correct(model, surfaces, contactSettings, now);
+  farthest_ += contact.largestCorrection();
 }
 
 void World::bookContact(double dt) {
@@ -147,15 +155,20 @@ void World::bookContact(double dt) {
 void World::foreseeSearch(double dt) {
   if (search.isDue) return;
   const StageTimer timer(timesIfAsked(), &StageTimes::search);
+  const double most = largestMove_ + contact.largestCorrection();
+  if (farthest_ + tolerance::kHaloSpare * most <= search.halo / 2) return;
+  double farthest = 0;
   for (std::size_t i = 0; i < surfaceNodes_.size(); ++i) {
     const std::uint32_t node = surfaceNodes_[i].value;
     const double moved = norm(model.nodes.position[node] - search.positions[i]);
+    farthest = std::max(farthest, moved);
     const double next = tolerance::kHaloSpare * norm(model.nodes.velocity[node]) * dt;
     if (moved + next > search.halo / 2) {
       search.isDue = true;
       return;
     }
   }
+  farthest_ = farthest;
 }
 
 }  // namespace yadefrag

@@ -20,19 +20,8 @@ Vec2 unitOrZero(Vec2 a) {
 
 }  // namespace
 
-PieceGeometry::Corners PieceGeometry::corners(EntryId entry) const {
-  NodeId nodes[3];
-  const bool arc = surfaces_.pieceNodes(entry, nodes) == 3;
-  return {positions_[nodes[0].value], positions_[nodes[1].value],
-          arc ? positions_[nodes[2].value] : Vec2{}, arc};
-}
-
 Vec2 PieceGeometry::point(EntryId entry, double xi) const {
   return combine(surfaces_.master(entry, xi), positions_);
-}
-
-PieceEnds PieceGeometry::ends(EntryId entry) const {
-  return {slave(entry), slave(surfaces_.next[entry.value])};
 }
 
 Box PieceGeometry::box(EntryId entry) const {

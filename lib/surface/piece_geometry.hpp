@@ -36,7 +36,9 @@ class PieceGeometry {
   PieceGeometry(const ContactSurfaces& surfaces, std::span<const Vec2> positions)
       : surfaces_(surfaces), positions_(positions) {}
 
-  [[nodiscard]] PieceEnds ends(EntryId entry) const;
+  [[nodiscard]] PieceEnds ends(EntryId entry) const {
+    return {slave(entry), slave(surfaces_.next[entry.value])};
+  }
   /// Smallest box around a straight piece; of an arc, around its four control points. z = 0.
   [[nodiscard]] Box box(EntryId entry) const;
   /// m, along the piece; an arc's by quadrature, to a thousandth even where it is sharp.
@@ -47,9 +49,14 @@ class PieceGeometry {
   /// Unit outward normal at ξ; zero if the tangent vanishes.
   [[nodiscard]] Vec2 normal(EntryId entry, double xi) const;
 
-  /// The entry's sampling point.
+  /// The entry's sampling point: what `ContactSurfaces::slave` stands for, without the stencil.
   [[nodiscard]] Vec2 slave(EntryId entry) const {
-    return combine(surfaces_.slave(entry), positions_);
+    const SegmentId segment = surfaces_.entrySegment[entry.value];
+    const Vec2 a = positions_[surfaces_.segmentNode[segment.value].value];
+    const Piece piece = surfaces_.piece[entry.value];
+    if (piece == Piece::kSegment || piece == Piece::kFirstHalf) return a;
+    const SegmentId following = surfaces_.segmentNext[segment.value];
+    return .5 * a + .5 * positions_[surfaces_.segmentNode[following.value].value];
   }
   /// Unit outward normal there: halfway between those of the two pieces that meet; at the tip of a
   /// fold by 180° the direction in which it points.
@@ -65,7 +72,15 @@ class PieceGeometry {
     Vec2 a, b, c;
     bool arc;
   };
-  [[nodiscard]] Corners corners(EntryId entry) const;
+  [[nodiscard]] Corners corners(EntryId entry) const {
+    const SegmentId segment = surfaces_.entrySegment[entry.value];
+    const SegmentId second = surfaces_.segmentNext[segment.value];
+    const Vec2 a = positions_[surfaces_.segmentNode[segment.value].value];
+    const Vec2 b = positions_[surfaces_.segmentNode[second.value].value];
+    if (surfaces_.piece[entry.value] != Piece::kArc) return {a, b, {}, false};
+    const SegmentId third = surfaces_.segmentNext[second.value];
+    return {a, b, positions_[surfaces_.segmentNode[third.value].value], true};
+  }
 
   const ContactSurfaces& surfaces_;
   std::span<const Vec2> positions_;

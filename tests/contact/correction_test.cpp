@@ -11,6 +11,12 @@ namespace {
 
 constexpr double kDt = 1e-3;
 
+double solveAll(Lagrange& lagrange, std::span<ContactRow> rows, const Nodes& nodes, double drag) {
+  for (ContactRow& row : rows) row.left = INFINITY;
+  lagrange.setRows(rows, nodes, kDt, drag);
+  return lagrange.solve(rows, 0);
+}
+
 /// Node `slave` on the segment of nodes a and b at ξ.
 ContactRow onSegment(std::size_t slave, std::size_t a, std::size_t b, double xi, double gap,
                      double friction = 0, double slip = 0) {
@@ -58,7 +64,7 @@ TEST(Correction, OneNodeOnASegment) {
   for (const double xi : {0., .25, .5, 1.}) {
     std::vector<ContactRow> rows{onSegment(0, 1, 2, xi, -1e-4)};
     Lagrange lagrange;
-    EXPECT_LE(lagrange.solve(rows, nodes, kDt, 0), 1e-14);
+    EXPECT_LE(solveAll(lagrange, rows, nodes, 0), 1e-14);
     const double mobile = 1. / 2 + (1 - xi) * (1 - xi) / 3 + xi * xi / 5;
     EXPECT_NEAR(rows[0].normalForce * kDt * kDt * mobile / 1e-4, 1, 1e-14);
     EXPECT_EQ(rows[0].tangentForce, 0);
@@ -70,8 +76,8 @@ TEST(Correction, DampingAddsToTheMass) {
   const Nodes nodes = threeNodes();
   std::vector<ContactRow> plain{onSegment(0, 1, 2, .3, -1e-4)}, damped = plain;
   Lagrange lagrange;
-  lagrange.solve(plain, nodes, kDt, 0);
-  lagrange.solve(damped, nodes, kDt, .25);
+  solveAll(lagrange, plain, nodes, 0);
+  solveAll(lagrange, damped, nodes, .25);
   EXPECT_NEAR(damped[0].normalForce / plain[0].normalForce, 1.25, 1e-14);
   EXPECT_NEAR(gapAfter(damped[0], displacements(damped, nodes, .25)), 0, 1e-18);
 }
@@ -80,14 +86,14 @@ TEST(Correction, NothingPullsAndAnOldOverlapIsLeft) {
   const Nodes nodes = threeNodes();
   std::vector<ContactRow> rows{onSegment(0, 1, 2, .5, 1e-4)};
   Lagrange lagrange;
-  lagrange.solve(rows, nodes, kDt, 0);
+  solveAll(lagrange, rows, nodes, 0);
   EXPECT_EQ(rows[0].normalForce, 0);
   rows[0].gap = -1e-4;
   rows[0].allowed = -9e-5;
-  lagrange.solve(rows, nodes, kDt, 0);
+  solveAll(lagrange, rows, nodes, 0);
   EXPECT_NEAR(gapAfter(rows[0], displacements(rows, nodes)), -9e-5, 1e-18);
   rows[0].allowed = -2e-4;
-  lagrange.solve(rows, nodes, kDt, 0);
+  solveAll(lagrange, rows, nodes, 0);
   EXPECT_EQ(rows[0].normalForce, 0);
 }
 
@@ -97,11 +103,11 @@ TEST(Correction, InfiniteMasses) {
   nodes.held = {kFree, kHeldXY, kHeldY};
   std::vector<ContactRow> rows{onSegment(0, 1, 2, .4, -1e-4)};
   Lagrange lagrange;
-  lagrange.solve(rows, nodes, kDt, 0);
+  solveAll(lagrange, rows, nodes, 0);
   EXPECT_NEAR(rows[0].normalForce * kDt * kDt / 2 / 1e-4, 1, 1e-14) << "the slave alone gives way";
   nodes.held[0] = kHeldXY;
   rows[0].normalForce = 0;
-  EXPECT_EQ(lagrange.solve(rows, nodes, kDt, 0), 0) << "nobody can give way";
+  EXPECT_EQ(solveAll(lagrange, rows, nodes, 0), 0) << "nobody can give way";
   EXPECT_EQ(rows[0].normalForce, 0);
 }
 
@@ -120,7 +126,7 @@ TEST(Correction, MomentumOfTwoBodiesIsKept) {
       const double angle = even(random, 0, 7);
       rows.back().normal = {std::cos(angle), std::sin(angle)};
     }
-    EXPECT_LE(lagrange.solve(rows, nodes, kDt, 0), 1e-10);
+    EXPECT_LE(solveAll(lagrange, rows, nodes, 0), 1e-10);
     const std::vector<Vec2> u = displacements(rows, nodes);
     Vec2 sum;
     double size = 0;
@@ -151,7 +157,7 @@ TEST_P(Friction, SticksOrSlips) {
   const Nodes nodes = threeNodes();
   std::vector<ContactRow> rows{onSegment(0, 1, 2, .25, -1e-4, .5, slip)};
   Lagrange lagrange;
-  EXPECT_LE(lagrange.solve(rows, nodes, kDt, 0), 1e-12);
+  EXPECT_LE(solveAll(lagrange, rows, nodes, 0), 1e-12);
   const std::vector<Vec2> u = displacements(rows, nodes);
   EXPECT_NEAR(gapAfter(rows[0], u), 0, 1e-18);
   if (std::abs(slip) <= 5e-5) {
@@ -176,7 +182,7 @@ TEST(Correction, FrictionOfCoupledRows) {
                                onSegment(1, 3, 4, .5, -1e-4, .3, 1e-5)};
   rows[1].normal = {.6, .8};
   Lagrange lagrange;
-  EXPECT_LE(lagrange.solve(rows, nodes, kDt, 0), 1e-10);
+  EXPECT_LE(solveAll(lagrange, rows, nodes, 0), 1e-10);
   const std::vector<Vec2> u = displacements(rows, nodes);
   for (const ContactRow& row : rows) {
     const double most = row.friction * row.normalForce;
@@ -199,8 +205,8 @@ TEST(Correction, RedundantRows) {
   std::vector<ContactRow> single{onSegment(0, 1, 2, .25, -1e-4)};
   std::vector<ContactRow> twice{single[0], single[0], single[0]};
   Lagrange lagrange;
-  lagrange.solve(single, nodes, kDt, 0);
-  EXPECT_LE(lagrange.solve(twice, nodes, kDt, 0), 1e-12);
+  solveAll(lagrange, single, nodes, 0);
+  EXPECT_LE(solveAll(lagrange, twice, nodes, 0), 1e-12);
   double sum = 0;
   for (const ContactRow& row : twice) {
     EXPECT_GE(row.normalForce, 0);
@@ -219,7 +225,7 @@ TEST(Correction, BothPassesOfMatchingFaces) {
     rows.back().normal = {0, -1};
   }
   Lagrange lagrange;
-  EXPECT_LE(lagrange.solve(rows, nodes, kDt, 0), 1e-10);
+  EXPECT_LE(solveAll(lagrange, rows, nodes, 0), 1e-10);
   const std::vector<Vec2> u = displacements(rows, nodes);
   for (std::size_t i = 0; i + 1 < kNodes; ++i) {
     EXPECT_GE(rows[2 * i].normalForce, 0);
@@ -237,9 +243,9 @@ TEST(Correction, GroupsAreSolvedByThemselves) {
   std::vector<ContactRow> second{onSegment(3, 4, 5, .7, -1e-9, .2, 1e-5)};
   std::vector<ContactRow> both{first[0], second[0]};
   Lagrange lagrange;
-  lagrange.solve(first, nodes, kDt, 0);
-  lagrange.solve(second, nodes, kDt, 0);
-  lagrange.solve(both, nodes, kDt, 0);
+  solveAll(lagrange, first, nodes, 0);
+  solveAll(lagrange, second, nodes, 0);
+  solveAll(lagrange, both, nodes, 0);
   EXPECT_EQ(both[0].normalForce, first[0].normalForce);
   EXPECT_EQ(both[0].tangentForce, first[0].tangentForce);
   EXPECT_EQ(both[1].normalForce, second[0].normalForce);

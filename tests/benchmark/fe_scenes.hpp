@@ -1,0 +1,103 @@
+#pragma once
+// Elastic bodies in contact: the scenes of the paper's figures 11 and 12 and an impact, with
+// meshes. Lengths in mm of steel.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "mesh/structured.hpp"
+#include "mesh/triangulate.hpp"
+#include "step/world.hpp"
+
+namespace yadefrag::fescenes {
+
+inline constexpr double kSpeed = 20;  // m/s
+
+inline BodySpec steelBody(const TriangleMesh& mesh, Vec2 velocity) {
+  BodySpec spec;
+  spec.material = {210e9, .3, 7800, false};
+  spec.selfContact = false;
+  spec.velocity.assign(mesh.nodes.size(), velocity);
+  return spec;
+}
+
+inline Vec2 someDirection(std::mt19937_64& random) {
+  const double angle = std::uniform_real_distribution<double>(0, 2 * std::numbers::pi)(random);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+inline std::vector<Vec2> circle(Vec2 centre, double radius, double size) {
+  const int count = static_cast<int>(std::lround(2 * std::numbers::pi * radius / size));
+  std::vector<Vec2> points;
+  for (int k = 0; k < count; ++k) {
+    const double a = 2 * std::numbers::pi * k / count;
+    points.push_back(centre + radius * Vec2{std::cos(a), std::sin(a)});
+  }
+  return points;
+}
+
+/// Fig. 12: concentric rings, 1 mm thick, 0.1 mm apart, two and a half triangles thick; each starts
+/// in a direction of its own.
+inline void addRings(World& world, int count, bool smooth) {
+  constexpr double kInnermost = 4e-3, kThickness = 1e-3, kGap = .1e-3, kSize = .4e-3;
+  std::mt19937_64 random(12);
+  for (int i = 0; i < count; ++i) {
+    const double inner = kInnermost + i * (kThickness + kGap);
+    Polygon ring;
+    ring.outline = circle({}, inner + kThickness, kSize);
+    std::vector<Vec2> hole = circle({}, inner, kSize);
+    std::reverse(hole.begin(), hole.end());
+    ring.holes.push_back(hole);
+    const TriangleMesh mesh = triangulate(ring, kSize);
+    BodySpec spec = steelBody(mesh, kSpeed * someDirection(random));
+    if (smooth) spec.smoothNodes.assign(mesh.nodes.size(), 1);
+    world.addBody(mesh, spec);
+  }
+}
+
+/// Fig. 11: n × n squares of 1 mm and 8 × 8 × 2 triangles in a frame that is held, 0.1 mm apart; a
+/// quarter of them moves.
+inline void addSquares(World& world, int n) {
+  constexpr double kEdge = 1e-3, kGap = .1e-3, kPitch = kEdge + kGap, kWall = .5e-3;
+  constexpr int kCells = 8;
+  std::mt19937_64 random(11);
+  std::vector<Vec2> velocities(static_cast<std::size_t>(n * n));
+  for (std::size_t i = 0; i < velocities.size() / 4; ++i)
+    velocities[i] = kSpeed * someDirection(random);
+  std::shuffle(velocities.begin(), velocities.end(), random);
+  for (int k = 0; k < n * n; ++k) {
+    const Vec2 low{kGap + kPitch * (k % n), kGap + kPitch * (k / n)};
+    const TriangleMesh mesh = structuredRectangle(low, low + Vec2{kEdge, kEdge}, kCells, kCells);
+    world.addBody(mesh, steelBody(mesh, velocities[static_cast<std::size_t>(k)]));
+  }
+  const double inside = kPitch * n + kGap, far = inside + kWall;
+  const Polygon frame{{{-kWall, -kWall}, {far, -kWall}, {far, far}, {-kWall, far}},
+                      {{{0, 0}, {0, inside}, {inside, inside}, {inside, 0}}}};
+  const TriangleMesh mesh = triangulate(frame, .3e-3);
+  BodySpec spec = steelBody(mesh, {});
+  spec.held.assign(mesh.nodes.size(), kHeldXY);
+  world.addBody(mesh, spec);
+}
+
+/// A cylinder of 10 mm on a block of 40 × 20 mm whose lower side is held, `size` (m) the triangles'
+/// edges.
+inline void addImpact(World& world, double size, bool smooth) {
+  constexpr double kRadius = 5e-3, kWide = 40e-3, kHigh = 20e-3;
+  const TriangleMesh block = triangulate(
+      {{{-kWide / 2, -kHigh}, {kWide / 2, -kHigh}, {kWide / 2, 0}, {-kWide / 2, 0}}, {}}, size);
+  BodySpec blockSpec = steelBody(block, {});
+  blockSpec.held.assign(block.nodes.size(), kFree);
+  for (std::size_t i = 0; i < block.nodes.size(); ++i)
+    if (block.nodes[i].y < -kHigh + 1e-9) blockSpec.held[i] = kHeldXY;
+  world.addBody(block, blockSpec);
+  const TriangleMesh cylinder =
+      triangulate({circle({0, kRadius * 1.001}, kRadius, size), {}}, size);
+  BodySpec cylinderSpec = steelBody(cylinder, {0, -kSpeed});
+  if (smooth) cylinderSpec.smoothNodes.assign(cylinder.nodes.size(), 1);
+  world.addBody(cylinder, cylinderSpec);
+}
+
+}  // namespace yadefrag::fescenes
