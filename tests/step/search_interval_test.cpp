@@ -1,0 +1,191 @@
+// When the world searches, and that nothing is missed until it does.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "core/tolerances.hpp"
+#include "mesh/polygon.hpp"
+#include "step/course.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+std::vector<SlaveMaster> activesOf(const World& world) {
+  std::vector<SlaveMaster> pairs;
+  for (const ContactRow& row : world.contact.rows()) pairs.push_back({row.slave, row.master});
+  return pairs;
+}
+
+/// Blocks in a row, fast enough that a step takes a good part of the halo.
+World row(double speed, int passes) {
+  World world;
+  world.contactSettings.passes = passes;
+  for (int k = 0; k < 4; ++k) {
+    const Vec2 low{1.2 * k, .13 * k};
+    const TriangleMesh mesh = structuredRectangle(low, low + Vec2{1, 1}, 4 + k, 4 + k);
+    world.addBody(mesh, moving(mesh, rubber(), {k < 2 ? speed : -speed, 0}));
+  }
+  return world;
+}
+
+double shortestNow(const World& world) {
+  double least = INFINITY;
+  const ContactSurfaces& s = world.surfaces;
+  for (std::size_t i = 0; i < s.segments(); ++i)
+    least = std::min(least,
+                     norm(world.model.nodes.position[s.segmentNode[i].value] -
+                          world.model.nodes.position[s.segmentNode[s.segmentNext[i].value].value]));
+  return least;
+}
+
+/// (m) How far the farthest surface node is from where it was at the last search.
+double farthest(const World& world) {
+  double most = 0;
+  for (std::size_t i = 0; i < world.surfaceNodes().size(); ++i)
+    most = std::max(most, norm(world.model.nodes.position[world.surfaceNodes()[i].value] -
+                               world.search.positions[i]));
+  return most;
+}
+
+/// (m) The farthest that contact moves a node by in a step.
+double largestCorrection(const World& world, double dt) {
+  double most = 0;
+  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
+    most = std::max(most, dt * dt / world.model.nodes.mass[n] * norm(world.contact.forces()[n]));
+  return most;
+}
+
+class Intervals : public testing::TestWithParam<std::tuple<double, int>> {};
+
+/// Speeds up to 60 m/s, where sound is at 116 m/s, under forces that throw every node about at
+/// random. A second world, put into the first one's state before each step, searches each time.
+TEST_P(Intervals, NothingIsMissedAtTheLargestVelocities) {
+  const auto [speed, passes] = GetParam();
+  World seldom = row(speed, passes), often = row(speed, passes);
+  const double dt = .3 * seldom.criticalTimeStep();
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const int steps = static_cast<int>(.25 / (speed * dt)) + 8;
+  std::size_t touched = 0;
+  for (int i = 0; i < steps; ++i) {
+    std::vector<Vec2> forces(seldom.model.nodes.size());
+    for (std::size_t n = 0; n < forces.size(); ++n)
+      forces[n] = .02 * speed / dt * seldom.model.nodes.mass[n] * Vec2{any(random), any(random)};
+    seldom.outerForces = often.outerForces = forces;
+    often.search.isDue = true;
+    seldom.step(dt);
+    often.step(dt);
+    ASSERT_EQ(activesOf(seldom), activesOf(often)) << "step " << i;
+    touched += seldom.contact.rows().size();
+    // Only what is left of a penetration depends on the shortest segment at the search.
+    for (std::size_t n = 0; n < seldom.model.nodes.size(); ++n)
+      ASSERT_LE(norm(seldom.model.nodes.position[n] - often.model.nodes.position[n]), 1e-8);
+    often.model.nodes.position = seldom.model.nodes.position;
+    often.model.nodes.velocity = seldom.model.nodes.velocity;
+  }
+  EXPECT_GT(touched, 50U);
+  EXPECT_LT(seldom.numSearches, often.numSearches);
+}
+
+INSTANTIATE_TEST_SUITE_P(SpeedsAndPasses, Intervals,
+                         testing::Combine(testing::Values(10., 40., 60.), testing::Values(1, 2)));
+
+/// δ is at most half the shortest segment, at least a twentieth, and wide enough for twenty steps
+/// at the largest velocity if that is less; only a motion of more than that in one step widens it.
+TEST(SearchInterval, WidthOfTheHalo) {
+  for (const double speed : {.001, 1., 5., 10., 40., 100.}) {
+    World world = row(speed, 1);
+    const double dt = .3 * world.criticalTimeStep();
+    const double shortest = shortestNow(world);
+    world.chooseHalo(dt);
+    EXPECT_NEAR(world.search.shortest, shortest, 1e-15);
+    const double move = 2 * tolerance::kHaloSpare * speed * dt;
+    EXPECT_GE(world.search.halo, .05 * shortest * (1 - 1e-12));
+    EXPECT_GE(world.search.halo, 2 * move * (1 - 1e-12));
+    EXPECT_LE(world.search.halo, std::max(.5 * shortest, 2 * move) * (1 + 1e-12));
+    if (20 * move > .05 * shortest && 20 * move < .5 * shortest) {
+      EXPECT_NEAR(world.search.halo / (20 * move), 1, 1e-12);
+    }
+  }
+}
+
+/// During a run: half the shortest segment at most, nobody leaves it by more than the correction of
+/// the step at hand, and it is renewed no more often than the motion asks for.
+TEST(SearchInterval, HaloHoldsUntilTheNextSearch) {
+  for (const double speed : {1., 10.}) {
+    World world = row(speed, 2);
+    const double dt = .5 * world.criticalTimeStep();
+    const int steps = static_cast<int>(.6 / (speed * dt));
+    for (int i = 0; i < steps; ++i) {
+      world.step(dt);
+      ASSERT_LE(world.search.halo, .5 * world.search.shortest * (1 + 1e-12));
+      ASSERT_LE(farthest(world), world.search.halo / 2 + largestCorrection(world, dt));
+    }
+    EXPECT_GT(world.numSearches, 1U);
+    // k = δ/(2 u) steps (§4.1) hold at the fastest; blows make some nodes faster for a while.
+    EXPECT_LE(world.numSearches, steps / 4U) << speed;
+  }
+}
+
+/// A body at rest is searched once.
+TEST(SearchInterval, NoMotionNoSearch) {
+  World world = row(0, 2);
+  const double dt = .5 * world.criticalTimeStep();
+  for (int i = 0; i < 500; ++i) world.step(dt);
+  EXPECT_EQ(world.numSearches, 1U);
+}
+
+/// The collider has searched, but a force throws a node across the halo in the same step: the step
+/// itself searches again, at x*, and finds what it threw it into.
+TEST(SearchInterval, EmergencySearch) {
+  World world;
+  const TriangleMesh left = structuredRectangle({0, 0}, {1, 1}, 4, 4);
+  const TriangleMesh right = structuredRectangle({1.03, .1}, {2.03, 1.1}, 5, 5);
+  world.contactSettings.passes = 2;
+  world.addBody(left, moving(left, rubber(), {0, 0}));
+  const ComponentId thrown = world.addBody(right, moving(right, rubber(), {0, 0}));
+  const double dt = .5 * world.criticalTimeStep();
+  world.chooseHalo(dt);
+  EXPECT_LT(world.search.halo, .03) << "too narrow for the gap";
+  world.takePairs({});
+  EXPECT_EQ(world.numSearches, 1U);
+  EXPECT_EQ(world.contact.candidates.size(), 0U);
+  world.outerForces.assign(world.model.nodes.size(), {});
+  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
+    if (world.model.nodes.component[n] == thrown)
+      world.outerForces[n] = {-world.model.nodes.mass[n] * .05 / (dt * dt), 0};
+  world.step(dt);
+  EXPECT_EQ(world.numSearches, 2U);
+  EXPECT_FALSE(world.contact.rows().empty());
+  EXPECT_LE(deepestNode(world), 1e-6);
+  EXPECT_GE(world.search.halo, 2 * .05) << "as wide as the motion demands";
+}
+
+/// Without a force nothing is searched twice, and a collider's pairs serve until they are due.
+TEST(SearchInterval, ColliderIsAskedOnlyWhenDue) {
+  World world = row(10, 2);
+  const double dt = .5 * world.criticalTimeStep();
+  std::uint64_t taken = 0;
+  for (int i = 0; i < 200; ++i) {
+    if (world.search.isDue) {
+      world.chooseHalo(dt);
+      std::vector<Box> boxes;
+      for (std::size_t e = 0; e < world.surfaces.entries(); ++e)
+        boxes.push_back(world.boxOf(EntryId(e)));
+      const auto search = makeSearch(SearchMethod::kBruteForce);
+      std::vector<BoxPair> overlapping;
+      search->update(boxes);
+      search->findPairs(overlapping);
+      world.takePairs(overlapping);
+      ++taken;
+    }
+    world.step(dt);
+  }
+  EXPECT_LT(taken, 50U);
+  EXPECT_LE(world.numSearches - taken, taken / 4) << "searches in the midst of a step are rare";
+}
+
+}  // namespace
+}  // namespace yadefrag::test
