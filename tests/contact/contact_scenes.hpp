@@ -41,7 +41,7 @@ struct SurfaceScene {
   /// `moveNeedle`. Its first entry is the tip's.
   EntryId addNeedle(Vec2 direction) {
     const Vec2 back = (-2 / norm(direction)) * direction, aside = .05 * rightOf(back);
-    return addBody({{0, 0}, back - aside, back + aside});
+    return addBody({{0, 0}, back + aside, back - aside});
   }
 
   void moveNeedle(EntryId tip, Vec2 to) {
@@ -64,6 +64,20 @@ inline std::vector<SlaveMaster> allPairs(const ContactSurfaces& surfaces, bool s
       if (!selfContact && surfaces.component[s] == surfaces.component[m]) continue;
       if (s != m && surfaces.prev[s].value != m) pairs.push_back({EntryId(s), EntryId(m)});
     }
+  return pairs;
+}
+
+/// Those of a slave no farther than `halo` (m) from the master.
+inline std::vector<SlaveMaster> nearPairs(const SurfaceScene& scene, bool selfContact,
+                                          double halo) {
+  std::vector<SlaveMaster> pairs = allPairs(scene.surfaces, selfContact);
+  const PieceGeometry geometry = scene.geometry();
+  std::erase_if(pairs, [&](const SlaveMaster& pair) {
+    const Vec2 point = geometry.slave(pair.slave);
+    const PieceRange range = pieceRange(scene.surfaces.piece[pair.master.value]);
+    const double xi = std::clamp(geometry.foot(pair.master, point).xi, range.begin, range.end);
+    return norm(point - geometry.point(pair.master, xi)) > halo;
+  });
   return pairs;
 }
 

@@ -1,0 +1,346 @@
+// Bodies come and go, steps are refused, and a scene pays only for what is in it.
+
+#include "step/world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "core/errors.hpp"
+#include "dynamics/element_state.hpp"
+#include "step/course.hpp"
+#include "surface/surface_checks.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+TriangleMesh block(Vec2 low, int parts) {
+  return structuredRectangle(low, low + Vec2{1, 1}, parts, parts);
+}
+
+template <class Error, class Call>
+std::string sentence(Call call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(WorldBodies, ArraysOfAnotherLengthAreRefused) {
+  World world;
+  const TriangleMesh mesh = block({0, 0}, 3);
+  world.addBody(mesh, moving(mesh, rubber(), {1, 0}));
+  const auto refused = [&](const char* name, const auto& change) {
+    BodySpec spec = moving(mesh, rubber(), {0, 0});
+    change(spec);
+    const std::string text = sentence<InputError>([&] { world.addBody(mesh, spec); });
+    EXPECT_TRUE(contains(text, name) && contains(text, "7 values") && contains(text, "16 nodes"))
+        << text;
+  };
+  refused("velocity", [](BodySpec& spec) { spec.velocity.resize(7); });
+  refused("displacement", [](BodySpec& spec) { spec.displacement.resize(7); });
+  refused("held", [](BodySpec& spec) { spec.held.resize(7); });
+  refused("smoothNodes", [](BodySpec& spec) { spec.smoothNodes.resize(7); });
+  TriangleMesh turned = mesh;
+  std::swap(turned.triangles[2][0], turned.triangles[2][1]);
+  const std::string text = sentence<InputError>([&] {
+    world.addBody(turned, moving(turned, rubber(), {0, 0}));
+  });
+  EXPECT_TRUE(contains(text, "triangle 2")) << text;
+  // Nothing has changed.
+  EXPECT_EQ(world.model.nodes.size(), 16U);
+  EXPECT_EQ(world.reference.size(), 16U);
+  EXPECT_EQ(world.model.components.size(), 1U);
+  EXPECT_EQ(world.surfaces.segments(), 12U);
+  world.step(.5 * world.criticalTimeStep());
+}
+
+TEST(WorldBodies, OnlyABodyThatIsThereCanBeRemoved) {
+  World world;
+  EXPECT_TRUE(
+      contains(sentence<InputError>([&] { world.removeBody(ComponentId(0UL)); }), "body 0"));
+  const TriangleMesh mesh = block({0, 0}, 3);
+  const ComponentId id = world.addBody(mesh, moving(mesh, rubber(), {1, 0}));
+  EXPECT_TRUE(
+      contains(sentence<InputError>([&] { world.removeBody(ComponentId(1UL)); }), "body 1"));
+  world.removeBody(id);
+  EXPECT_TRUE(contains(sentence<InputError>([&] { world.removeBody(id); }), "body 0"));
+  EXPECT_EQ(world.model.nodes.size(), 0U);
+  EXPECT_EQ(world.surfaces.entries(), 0U);
+}
+
+/// What a body is, wherever its nodes are numbered.
+struct BodyState {
+  std::vector<Vec2> position, velocity, reference;
+  std::vector<std::vector<Vec2>> loops;
+  friend bool operator==(const BodyState&, const BodyState&) = default;
+};
+
+BodyState stateOf(const World& world, ComponentId component) {
+  BodyState state;
+  for (std::size_t n = 0; n < world.model.nodes.size(); ++n) {
+    if (world.model.nodes.component[n] != component) continue;
+    state.position.push_back(world.model.nodes.position[n]);
+    state.velocity.push_back(world.model.nodes.velocity[n]);
+    state.reference.push_back(world.reference[n]);
+  }
+  for (const Loop& loop : loopsOf(world))
+    if (loop.component == component) state.loops.push_back(loop.points);
+  return state;
+}
+
+/// Bodies of different meshes, straight, smooth, with a load; they move and touch.
+World threeBodies() {
+  World world;
+  for (int k = 0; k < 3; ++k) {
+    const TriangleMesh mesh = block({1.01 * k, .1 * k}, 3 + k);
+    BodySpec spec = moving(mesh, rubber(), {2. - 2 * k, 0});
+    if (k == 1) smoothAll(spec, mesh);
+    world.addBody(mesh, spec);
+  }
+  return world;
+}
+
+TEST(WorldBodies, RemovingOneLeavesTheOthersAsTheyAre) {
+  for (std::uint32_t gone = 0; gone < 3; ++gone) {
+    World world = threeBodies();
+    const double dt = .5 * world.criticalTimeStep();
+    for (int i = 0; i < 60; ++i) world.step(dt);
+    std::vector<BodyState> before;
+    for (std::size_t k = 0; k < 3; ++k) before.push_back(stateOf(world, ComponentId(k)));
+    const std::size_t nodes = world.model.nodes.size();
+    const std::size_t left = nodes - before[gone].position.size();
+    world.removeBody(ComponentId(std::size_t{gone}));
+    EXPECT_EQ(world.model.nodes.size(), left);
+    EXPECT_EQ(world.reference.size(), left);
+    EXPECT_EQ(world.contact.forces().size(), left);
+    checkLinks(world.surfaces);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(stateOf(world, ComponentId(k)), k == gone ? BodyState{} : before[k]);
+    }
+    for (int i = 0; i < 60; ++i) world.step(dt);
+    const TriangleMesh mesh = block({5, 5}, 2);
+    EXPECT_EQ(world.addBody(mesh, moving(mesh, rubber(), {0, 0})), ComponentId(3UL))
+        << "numbers of removed bodies are not used again";
+    checkLinks(world.surfaces);
+    world.step(dt);
+  }
+}
+
+/// Two bodies press on each other while others, far off, come and go: nothing of that is felt.
+TEST(WorldBodies, ContactGoesOnWhileOthersComeAndGo) {
+  const auto bystander = [](double x) { return block({x, 7}, 4); };
+  const auto run = [&](bool others) {
+    World world;
+    world.contactSettings.passes = 2;
+    if (others) world.addBody(bystander(0), moving(bystander(0), rubber(), {1, 0}));
+    const TriangleMesh low = block({0, 0}, 4), high = block({.13, 1.001}, 5);
+    world.addBody(low, moving(low, rubber(), {0, 1}));
+    world.addBody(high, moving(high, rubber(), {0, -1}));
+    const double dt = 4e-4;
+    EXPECT_LT(dt, world.criticalTimeStep());
+    for (int i = 0; i < 40; ++i) {
+      if (others && i == 12) world.addBody(bystander(4), moving(bystander(4), rubber(), {0, 0}));
+      if (others && i == 25) world.removeBody(ComponentId(0UL));
+      world.step(dt);
+      if (i >= 10) {
+        EXPECT_FALSE(world.contact.rows().empty()) << "step " << i;
+      }
+    }
+    return world;
+  };
+  const World alone = run(false), among = run(true);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const BodyState a = stateOf(alone, ComponentId(k)), b = stateOf(among, ComponentId(k + 1));
+    ASSERT_EQ(a.position.size(), b.position.size());
+    for (std::size_t n = 0; n < a.position.size(); ++n)
+      ASSERT_LE(norm(a.position[n] - b.position[n]), 1e-9);
+  }
+}
+
+std::string number(double value) {
+  std::ostringstream text;
+  text.precision(6);
+  text << value;
+  return text.str();
+}
+
+TEST(WorldStep, AboveTheCriticalStepIsRefusedBeforeAnythingChanges) {
+  World world = threeBodies();
+  const double critical = world.criticalTimeStep();
+  const BodyState before = stateOf(world, ComponentId(1UL));
+  for (const double dt : {1.001 * critical, 10 * critical, 0., -critical, double(NAN)}) {
+    const std::string text = sentence<InputError>([&] { world.step(dt); });
+    EXPECT_TRUE(contains(text, number(dt)) && contains(text, number(critical))) << text;
+  }
+  EXPECT_EQ(stateOf(world, ComponentId(1UL)), before);
+  EXPECT_EQ(world.steps, 0U);
+  EXPECT_EQ(world.time, 0);
+  EXPECT_EQ(world.numSearches, 0U);
+  world.step(critical);
+  EXPECT_EQ(world.steps, 1U);
+  EXPECT_EQ(world.time, critical);
+}
+
+TEST(WorldStep, AFinerBodyLowersTheLimit) {
+  World world = threeBodies();
+  const double dt = .9 * world.criticalTimeStep();
+  world.step(dt);
+  const TriangleMesh fine = block({9, 9}, 20);
+  const ComponentId id = world.addBody(fine, moving(fine, rubber(), {0, 0}));
+  EXPECT_TRUE(contains(sentence<InputError>([&] { world.step(dt); }), number(dt)));
+  EXPECT_EQ(world.steps, 1U);
+  world.removeBody(id);
+  world.step(dt);
+  EXPECT_EQ(world.steps, 2U);
+}
+
+TEST(WorldStep, AnElementTurnedInsideOutStopsTheRun) {
+  World world;
+  const TriangleMesh mesh = block({0, 0}, 6);
+  BodySpec spec = moving(mesh, rubber(), {0, 0});
+  // All nodes rush to the middle at more than the speed of sound.
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    spec.velocity[n] = -1000. * (mesh.nodes[n] - Vec2{.5, .5});
+  world.addBody(mesh, spec);
+  const double dt = .5 * world.criticalTimeStep();
+  std::string text;
+  for (int i = 0; i < 1000 && text.empty(); ++i) try {
+      world.step(dt);
+    } catch (const RunError& error) {
+      text = error.what();
+    }
+  ASSERT_FALSE(text.empty());
+  EXPECT_TRUE(contains(text, "Step " + std::to_string(world.steps))) << text;
+  EXPECT_TRUE(contains(text, "element ") && contains(text, "inside out")) << text;
+  std::ostringstream when;
+  when << "time " << world.time << " s";
+  EXPECT_TRUE(contains(text, when.str())) << text;
+  // The last good state can be looked at.
+  for (std::size_t e = 0; e < world.model.triangles.size(); ++e) {
+    const auto& corner = world.model.triangles.nodes[e];
+    const auto at = [&](int k) { return world.model.nodes.position[corner[k].value]; };
+    EXPECT_GT(cross(at(1) - at(0), at(2) - at(0)), 0) << e;
+  }
+  EXPECT_TRUE(std::isfinite(world.kineticEnergy()));
+  EXPECT_TRUE(std::isfinite(world.strainEnergy()));
+}
+
+TEST(WorldStep, AForceThatIsNotFiniteStopsTheRun) {
+  World world = threeBodies();
+  const double dt = .5 * world.criticalTimeStep();
+  for (int i = 0; i < 20; ++i) world.step(dt);
+  const std::vector<Vec2> before = world.model.nodes.position;
+  world.outerForces.assign(world.model.nodes.size(), {});
+  world.outerForces[17].y = NAN;
+  const std::string text = sentence<RunError>([&] { world.step(dt); });
+  EXPECT_TRUE(contains(text, "Step 20") && contains(text, "node 17")) << text;
+  EXPECT_EQ(world.steps, 20U);
+  for (std::size_t n = 0; n < before.size(); ++n)
+    EXPECT_LE(norm(world.model.nodes.position[n] - before[n]), 1e-15);
+  world.outerForces.clear();
+  world.step(dt);
+  EXPECT_EQ(world.steps, 21U) << "without that force the run goes on";
+}
+
+// "Model only what the scene requires."
+
+TEST(WorldPays, OneBodyThatCannotTouchItselfIsNotSearched) {
+  for (const bool selfContact : {false, true}) {
+    World world;
+    const TriangleMesh mesh = block({0, 0}, 8);
+    BodySpec spec = moving(mesh, rubber(), {10, 3});
+    spec.selfContact = selfContact;
+    world.addBody(mesh, spec);
+    world.timing = true;
+    const double dt = .5 * world.criticalTimeStep();
+    for (int i = 0; i < 100; ++i) world.step(dt);
+    EXPECT_EQ(world.numSearches > 0, selfContact);
+    EXPECT_EQ(world.search.positions.empty(), !selfContact);
+    EXPECT_EQ(world.contact.candidates.offsets.empty(), !selfContact);
+    EXPECT_TRUE(world.contact.rows().empty());
+    EXPECT_EQ(world.times.contact() > 0, selfContact);
+    EXPECT_GT(world.times.forces, 0);
+  }
+}
+
+TEST(WorldPays, BodiesThatCannotTouchThemselvesHaveNoCandidatesOfTheirOwn) {
+  World world;
+  for (int k = 0; k < 2; ++k) {
+    const TriangleMesh mesh = block({1.001 * k, 0}, 6);
+    BodySpec spec = moving(mesh, rubber(), {1. - 2 * k, 0});
+    spec.selfContact = false;
+    world.addBody(mesh, spec);
+  }
+  world.step(.5 * world.criticalTimeStep());
+  const Candidates& candidates = world.contact.candidates;
+  EXPECT_GT(candidates.size(), 0U);
+  for (std::size_t row = 0; row < candidates.slaves.size(); ++row)
+    for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c)
+      EXPECT_NE(world.surfaces.component[candidates.slaves[row].value],
+                world.surfaces.component[candidates.masters[c].value]);
+}
+
+/// Slip is only computed, and tangential forces only solved for, where both bodies are rough.
+TEST(WorldPays, NoFrictionNoTangentialUnknowns) {
+  for (const bool rough : {false, true}) {
+    World world;
+    for (int k = 0; k < 2; ++k) {
+      const TriangleMesh mesh = block({.1 * k, 1.0001 * k}, 4 + k);
+      BodySpec spec = moving(mesh, rubber(), {1. - 2 * k, 1. - 2 * k});
+      spec.friction = k == 0 || rough ? .3 : 0;
+      world.addBody(mesh, spec);
+    }
+    const double dt = .5 * world.criticalTimeStep();
+    std::size_t rows = 0, tangential = 0;
+    for (int i = 0; i < 40; ++i) {
+      world.step(dt);
+      for (const ContactRow& row : world.contact.rows()) {
+        ++rows;
+        tangential += row.friction > 0 || row.slip != 0 || row.tangentForce != 0;
+      }
+    }
+    EXPECT_GT(rows, 100U);
+    EXPECT_EQ(tangential, rough ? rows : 0U);
+    EXPECT_EQ(world.ledger.friction != 0, rough);
+  }
+}
+
+TEST(WorldPays, NoLoadsNoArrays) {
+  World world = threeBodies();
+  const double dt = .5 * world.criticalTimeStep();
+  world.step(dt);
+  EXPECT_EQ(world.model.nodes.load.capacity(), 0U);
+  EXPECT_EQ(world.outerForces.capacity(), 0U);
+  EXPECT_EQ(world.ledger.external, 0);
+  EXPECT_EQ(world.ledger.damping, 0);
+  world.outerForces.assign(world.model.nodes.size(), {1, 0});
+  world.step(dt);
+  EXPECT_TRUE(world.outerForces.empty()) << "for one step only";
+}
+
+TEST(WorldPays, NoSmoothNodesNoArcs) {
+  World world;
+  const TriangleMesh mesh = block({0, 0}, 5);
+  world.addBody(mesh, moving(mesh, rubber(), {0, 0}));
+  EXPECT_EQ(world.surfaces.entries(), world.surfaces.segments());
+  for (const Piece piece : world.surfaces.piece) EXPECT_EQ(piece, Piece::kSegment);
+}
+
+TEST(WorldPays, AnEmptyWorldSteps) {
+  World world;
+  EXPECT_EQ(world.criticalTimeStep(), INFINITY);
+  world.step(1);
+  EXPECT_EQ(world.time, 1);
+  EXPECT_EQ(world.numSearches, 0U);
+}
+
+}  // namespace
+}  // namespace yadefrag::test
