@@ -44,9 +44,9 @@ std::vector<std::uint8_t> randomFlags(Random& random, std::size_t count, int kin
 }
 
 std::vector<Active> find(LocalSearch& search, Candidates& candidates, const SurfaceScene& scene,
-                         double reach, double halo) {
+                         double reach, double halo, double moved = INFINITY) {
   std::vector<Active> actives;
-  search.scan(candidates, scene.surfaces, scene.at, reach, 1);
+  search.scan(candidates, scene.surfaces, scene.at, reach, 1, moved);
   search.findActives(candidates, scene.surfaces, scene.at, halo, actives);
   return actives;
 }
@@ -139,7 +139,8 @@ class TwoSearches {
       left = std::max(left, norm(now[n] - searched_[n]));
     }
     if (left > halo_ / 2) renew(before);
-    const std::vector<Active> actives = find(search_, candidates_, scene_, 2 * moved + 1e-9, halo_);
+    const std::vector<Active> actives =
+        find(search_, candidates_, scene_, 2 * moved + 1e-9, halo_, moved);
     const std::vector<Active> wanted = find(searchAll_, all_, scene_, 2 * moved + 1e-9, halo_);
     EXPECT_EQ(pairsOf(actives), pairsOf(wanted));
     search_.settle(candidates_, scene_.surfaces, scene_.at, pairsOf(actives));
