@@ -1,0 +1,188 @@
+"""What the finite-element examples share: options, engines, the run itself, the report."""
+import argparse
+import hashlib
+import math
+import os
+import sys
+
+import numpy as np
+import yadefrag  # noqa: F401  (adds its classes to yade.wrapper)
+from yade import O, wrapper as w
+
+COLLIDERS = dict(Lebesgue='LebesgueCollider', LinearCode='LinearCodeCollider',
+                 Hierarchy='HierarchyCollider', InsertionSort='InsertionSortCollider')
+
+
+class Options(argparse.ArgumentParser):
+    """The options of an example, with those that all have."""
+
+    def __init__(self, doc, steps):
+        script = sys.argv[0]
+        super().__init__(prog=os.path.basename(script), description=doc.split('\n')[0])
+        self.add_argument('--steps', type=wholeNumber, default=steps, help=f'default: {steps}')
+        self.add_argument('--out', default=os.path.dirname(os.path.abspath(script)),
+                          metavar='FOLDER', help='for the pictures; default: next to the script')
+        self.add_argument('--collider', choices=COLLIDERS, default='Lebesgue')
+        self.add_argument('--passes', type=int, choices=(1, 2), default=1,
+                          help='1: the finer of two surfaces must not penetrate the other; 2: both')
+        self.add_argument('--no-pictures', action='store_true')
+
+    def parse(self):
+        options = self.parse_args(sys.argv[1:])
+        if not options.no_pictures:
+            try:
+                os.makedirs(options.out, exist_ok=True)
+            except OSError as error:
+                self.error(f'--out is {options.out!r}, which is no folder that can be written to '
+                           f'({error.strerror})')
+        return options
+
+
+def wholeNumber(text, least=1):
+    """An option's value as an int of at least `least`; argparse tells what is wrong."""
+    try:
+        value = int(text)
+    except ValueError:
+        value = least - 1
+    if value < least:
+        raise argparse.ArgumentTypeError(
+            f'it is {text!r}, it must be a whole number of at least {least}')
+    return value
+
+
+def atLeast(least):
+    """`wholeNumber` with another least value, for add_argument(type=...)."""
+    return lambda text: wholeNumber(text, least)
+
+
+def positive(text):
+    """An option's value as a positive float."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value > 0):
+        raise argparse.ArgumentTypeError(f'it is {text!r}, it must be a positive number')
+    return value
+
+
+def setEngines(fe, collider):
+    """The usual loop around the solver `fe`, and a time step of 0.8 of the critical one."""
+    finder = getattr(w, COLLIDERS[collider])
+    O.engines = [
+        w.ForceResetter(),
+        finder([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()], label='collider'),
+        w.InteractionLoop([w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom()],
+                          [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                          [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
+        fe,
+        w.NewtonIntegrator(),
+    ]
+    O.dt = .8 * fe.criticalTimeStep()
+    O.timingEnabled = True
+
+
+class Run:
+    """A run that is watched: the deepest penetration of all steps, and the energies over time."""
+
+    def __init__(self, fe):
+        self.fe = fe
+        self.segment = shortestSegment(fe)  # m
+        self.deepest = 0.  # m
+        self.mostActives = 0
+        self.interrupted = False
+        self.history = []
+        self.remember()
+
+    def remember(self):
+        self.history.append(dict(self.fe.energy, time=O.time, actives=self.fe.numActives))
+
+    def go(self, steps, moments=(), show=None, every=50, each=None):
+        """Runs `steps` steps; Ctrl-C ends the run after a step, with all that was found so far.
+
+        Calls show() before the first step and after each of the steps in `moments`, each() after
+        every step, and remembers the energies after each `every` steps.
+        """
+        fe, moments = self.fe, set(moments)
+        if show:
+            show()
+        try:
+            for step in progress(steps):
+                O.step()
+                self.deepest = max(self.deepest, fe.maxPenetration)
+                self.mostActives = max(self.mostActives, fe.numActives)
+                if each:
+                    each()
+                if step % every == 0 or step == steps:
+                    self.remember()
+                if step in moments and show:
+                    show()
+        except KeyboardInterrupt:
+            self.interrupted = True
+            print(f'Interrupted after {O.iter} steps.')
+            self.remember()
+            if show:
+                show()
+        return self
+
+    def series(self, name):
+        """(n) of one of the remembered values: an energy (J), 'time' (s), 'actives'."""
+        return np.array([moment[name] for moment in self.history])
+
+    def report(self):
+        """Prints what the run was, and what came out; one value on a line."""
+        fe, total = self.fe, self.series('total')
+        lost = self.history[-1]['contact'] - self.history[0]['contact']
+        scale = max(abs(total).max(), np.finfo(float).tiny)
+        rows = [('elements', f'{len(fe.triangles):,}'),
+                ('surface entries', f'{sum(map(len, fe.surfaces)):,}'),
+                ('steps', f'{O.iter:,} of {1e9 * O.dt:.4g} ns'),
+                ('searches', f'{fe.numSearches:,}'),
+                ('actives, last and most', f'{fe.numActives:,} {self.mostActives:,}'),
+                ('deepest penetration', f'{self.deepest / self.segment:.2e} of the shortest '
+                                        f'segment, {1e3 * self.segment:.3g} mm'),
+                ('energy at the start', f'{total[0]:.6g} J'),
+                ('energy drift', f'{(total[-1] - total[0]) / scale:+.1e} at the end, '
+                                 f'{(total - total[0]).max() / scale:+.1e} at most'),
+                ('lost at touch', f'{lost / scale:+.2%} of the energy'),
+                ('lost by friction', f'{self.history[-1]["friction"] / scale:+.2%} of the energy'),
+                ('positions (md5)', hashlib.md5(fe.nodes.tobytes()).hexdigest())]
+        print('\n'.join(f'{name + ":":24}{value}' for name, value in rows))
+        print(timeSplit())
+
+
+def shortestSegment(fe):
+    """(m) of all surfaces."""
+    nodes = fe.nodes
+    return min(np.linalg.norm(nodes[loop] - nodes[np.roll(loop, -1)], axis=1).min()
+               for loop in fe.surfaces)
+
+
+def timeSplit():
+    """The engines' shares of the time, from YADE's timing, as text."""
+    seconds = {type(e).__name__: 1e-9 * e.execTime for e in O.engines}
+    whole = sum(seconds.values()) or 1
+    return '\n'.join(f'{"  " + name:24}{value:7.2f} s  {value / whole:6.1%}'
+                     for name, value in seconds.items())
+
+
+def progress(steps):
+    """1 … steps; with a bar of steps and time left if standard error is a terminal."""
+    counted = range(1, steps + 1)
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        return counted
+    return tqdm(counted, unit='step', disable=None, mininterval=.3)
+
+
+def moments(steps, count):
+    """`count` steps from the first to the last, evenly (the start is not one of them)."""
+    return [round(steps * (k + 1) / count) for k in range(count)]
+
+
+def tell(options, *names):
+    """Prints which pictures were written."""
+    if not options.no_pictures:
+        files = ', '.join(os.path.relpath(os.path.join(options.out, name)) for name in names)
+        print(f'{"written:":24}{files}')
