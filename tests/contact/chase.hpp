@@ -13,6 +13,7 @@ constexpr double kUnlimited = 1e9;
 
 inline std::vector<SlaveMaster> pairsOf(const std::vector<Active>& actives) {
   std::vector<SlaveMaster> pairs;
+  pairs.reserve(actives.size());
   for (const Active& active : actives) pairs.push_back(active.pair);
   return pairs;
 }
@@ -38,7 +39,7 @@ class Chase {
     Candidates all = candidates_;
     const std::vector<Active> wanted = find(all, kUnlimited);
     // As far as World looks ahead: twice the largest displacement.
-    const std::vector<Active> actives = find(candidates_, 2 * norm(predicted - at_) + 1e-9);
+    std::vector<Active> actives = find(candidates_, 2 * norm(predicted - at_) + 1e-9);
     EXPECT_EQ(pairsOf(actives), pairsOf(wanted));
     scene_.moveNeedle(tip_, corrected);
     at_ = corrected;

@@ -1,10 +1,13 @@
 #pragma once
 // Surfaces of given points, and needles: bodies of which one point is looked at.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "contact/candidates.hpp"
@@ -85,12 +88,24 @@ inline std::vector<SlaveMaster> nearPairs(const SurfaceScene& scene, bool selfCo
 inline std::vector<Vec2> star(Random& random, Vec2 centre, double radius, int corners,
                               double roughness) {
   std::vector<Vec2> points;
+  points.reserve(static_cast<std::size_t>(corners));
   for (int k = 0; k < corners; ++k) {
     const double angle = 2 * std::numbers::pi * k / corners;
     const double far = radius * even(random, 1 - roughness, 1);
     points.push_back(centre + far * Vec2{std::cos(angle), std::sin(angle)});
   }
   return points;
+}
+
+/// Which nodes are smooth. 0: none, 1: all, 2: some.
+inline std::vector<std::uint8_t> smoothFlags(Random& random, std::size_t count, int kind) {
+  std::vector<std::uint8_t> smooth(count);
+  for (std::uint8_t& flag : smooth)
+    flag = static_cast<std::uint8_t>(kind == 2 ? random() % 2 : static_cast<std::uint64_t>(kind));
+  return smooth;
+}
+inline std::string smoothName(const testing::TestParamInfo<int>& info) {
+  return info.param == 0 ? "Straight" : info.param == 1 ? "Smooth" : "Mixed";
 }
 
 /// Nodes of mass 1, free.

@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "contact/contact_scenes.hpp"
+#include "core/tolerances.hpp"
 
 namespace yadefrag::test {
 namespace {
 
 constexpr double kDt = 1e-3;
+/// (of the largest gap) What larger groups may leave.
+constexpr double kLeft = 4 * tolerance::kBoxResidual + 1e-11;
 
 double solveAll(Lagrange& lagrange, std::span<ContactRow> rows, const Nodes& nodes, double drag) {
   for (ContactRow& row : rows) row.left = INFINITY;
@@ -126,7 +129,7 @@ TEST(Correction, MomentumOfTwoBodiesIsKept) {
       const double angle = even(random, 0, 7);
       rows.back().normal = {std::cos(angle), std::sin(angle)};
     }
-    EXPECT_LE(solveAll(lagrange, rows, nodes, 0), 1e-10);
+    EXPECT_LE(solveAll(lagrange, rows, nodes, 0), kLeft);
     const std::vector<Vec2> u = displacements(rows, nodes);
     Vec2 sum;
     double size = 0;
@@ -136,7 +139,7 @@ TEST(Correction, MomentumOfTwoBodiesIsKept) {
     }
     EXPECT_LE(norm(sum), 1e-14 * size);
     // Bounds of friction are known to 1e-4; the next detection of the step solves for the rest.
-    const double left = scene % 2 == 0 ? 1e-15 : 2e-8;
+    const double left = scene % 2 == 0 ? 2e-4 * kLeft : 2e-8;
     for (const ContactRow& row : rows) {
       EXPECT_GE(row.normalForce, 0);
       EXPECT_GE(gapAfter(row, u), -left);
@@ -157,7 +160,7 @@ TEST_P(Friction, SticksOrSlips) {
   const Nodes nodes = threeNodes();
   std::vector<ContactRow> rows{onSegment(0, 1, 2, .25, -1e-4, .5, slip)};
   Lagrange lagrange;
-  EXPECT_LE(solveAll(lagrange, rows, nodes, 0), 1e-12);
+  EXPECT_LE(solveAll(lagrange, rows, nodes, 0), kLeft);
   const std::vector<Vec2> u = displacements(rows, nodes);
   EXPECT_NEAR(gapAfter(rows[0], u), 0, 1e-18);
   if (std::abs(slip) <= 5e-5) {
@@ -182,7 +185,7 @@ TEST(Correction, FrictionOfCoupledRows) {
                                onSegment(1, 3, 4, .5, -1e-4, .3, 1e-5)};
   rows[1].normal = {.6, .8};
   Lagrange lagrange;
-  EXPECT_LE(solveAll(lagrange, rows, nodes, 0), 1e-10);
+  EXPECT_LE(solveAll(lagrange, rows, nodes, 0), kLeft);
   const std::vector<Vec2> u = displacements(rows, nodes);
   for (const ContactRow& row : rows) {
     const double most = row.friction * row.normalForce;
@@ -206,13 +209,13 @@ TEST(Correction, RedundantRows) {
   std::vector<ContactRow> twice{single[0], single[0], single[0]};
   Lagrange lagrange;
   solveAll(lagrange, single, nodes, 0);
-  EXPECT_LE(solveAll(lagrange, twice, nodes, 0), 1e-12);
+  EXPECT_LE(solveAll(lagrange, twice, nodes, 0), kLeft);
   double sum = 0;
   for (const ContactRow& row : twice) {
     EXPECT_GE(row.normalForce, 0);
     sum += row.normalForce;
   }
-  EXPECT_NEAR(sum / single[0].normalForce, 1, 1e-10);
+  EXPECT_NEAR(sum / single[0].normalForce, 1, 10 * kLeft);
 }
 
 TEST(Correction, BothPassesOfMatchingFaces) {
@@ -225,13 +228,13 @@ TEST(Correction, BothPassesOfMatchingFaces) {
     rows.back().normal = {0, -1};
   }
   Lagrange lagrange;
-  EXPECT_LE(solveAll(lagrange, rows, nodes, 0), 1e-10);
+  EXPECT_LE(solveAll(lagrange, rows, nodes, 0), kLeft);
   const std::vector<Vec2> u = displacements(rows, nodes);
   for (std::size_t i = 0; i + 1 < kNodes; ++i) {
     EXPECT_GE(rows[2 * i].normalForce, 0);
     EXPECT_GE(rows[2 * i + 1].normalForce, 0);
-    EXPECT_NEAR(u[i].y, 5e-5, 1e-13);
-    EXPECT_NEAR(u[kNodes + i].y, -5e-5, 1e-13);
+    EXPECT_NEAR(u[i].y, 5e-5, 1e-4 * 100 * kLeft);
+    EXPECT_NEAR(u[kNodes + i].y, -5e-5, 1e-4 * 100 * kLeft);
   }
 }
 

@@ -36,13 +36,6 @@ TEST(LocalSearch, ArcsNeedNoFlags) {
   }
 }
 
-std::vector<std::uint8_t> randomFlags(Random& random, std::size_t count, int kind) {
-  std::vector<std::uint8_t> smooth;
-  for (std::size_t i = 0; i < count; ++i)
-    smooth.push_back(static_cast<std::uint8_t>(kind == 2 ? random() % 2 : kind));
-  return smooth;
-}
-
 std::vector<Active> find(LocalSearch& search, Candidates& candidates, const SurfaceScene& scene,
                          double reach, double halo, double moved = INFINITY) {
   std::vector<Active> actives;
@@ -57,7 +50,7 @@ TEST(LocalSearch, EveryPieceOfAnySurfaceKeepsPointsOut) {
   std::map<Piece, int> seen;
   for (int scene = 0; scene < 300; ++scene) {
     SurfaceScene s;
-    const EntryId body = s.addBody(star(random, {}, 1, 9, .3), randomFlags(random, 9, scene % 3));
+    const EntryId body = s.addBody(star(random, {}, 1, 9, .3), smoothFlags(random, 9, scene % 3));
     const std::size_t pieces = s.surfaces.entries() - body.value;
     for (std::size_t k = 0; k < pieces; ++k) {
       SurfaceScene with = s;
@@ -90,7 +83,7 @@ TEST(LocalSearch, JointsAtHalfpointsAreTight) {
   for (int scene = 0; scene < 200; ++scene) {
     SurfaceScene s;
     const EntryId body =
-        s.addBody(star(random, {}, 1, 9, .3), randomFlags(random, 9, 1 + scene % 2));
+        s.addBody(star(random, {}, 1, 9, .3), smoothFlags(random, 9, 1 + scene % 2));
     const std::size_t pieces = s.surfaces.entries();
     for (std::size_t k = 0; k < pieces; ++k) {
       if (s.surfaces.slave(body + k).count != 2) continue;
@@ -118,8 +111,7 @@ TEST(LocalSearch, JointsAtHalfpointsAreTight) {
 /// the other as World does: candidates in the halo, renewed when somebody may have left it.
 class TwoSearches {
  public:
-  TwoSearches(SurfaceScene& scene, bool selfContact, double halo)
-      : scene_(scene), selfContact_(selfContact), halo_(halo) {
+  TwoSearches(SurfaceScene& scene, bool selfContact, double halo) : scene_(scene), halo_(halo) {
     for (std::uint32_t c = 0; c < scene.components; ++c) {
       model_.components.emplace_back();
       model_.components.back().selfContact = selfContact;
@@ -139,7 +131,7 @@ class TwoSearches {
       left = std::max(left, norm(now[n] - searched_[n]));
     }
     if (left > halo_ / 2) renew(before);
-    const std::vector<Active> actives =
+    std::vector<Active> actives =
         find(search_, candidates_, scene_, 2 * moved + 1e-9, halo_, moved);
     const std::vector<Active> wanted = find(searchAll_, all_, scene_, 2 * moved + 1e-9, halo_);
     EXPECT_EQ(pairsOf(actives), pairsOf(wanted));
@@ -167,7 +159,6 @@ class TwoSearches {
   }
 
   SurfaceScene& scene_;
-  bool selfContact_;
   double halo_;
   Model model_;
   PassRule rule_;
@@ -185,13 +176,13 @@ TEST_P(EverySlaveAndMaster, TwoBodies) {
   for (int run = 0; run < 400; ++run) {
     SurfaceScene scene;
     const int corners = 5 + static_cast<int>(random() % 10);
-    scene.addBody(star(random, {}, 1, corners, .4), randomFlags(random, corners, GetParam()));
+    scene.addBody(star(random, {}, 1, corners, .4), smoothFlags(random, corners, GetParam()));
     const std::size_t others = scene.at.size();
     const double angle = even(random, 0, 7);
     const Vec2 way{std::cos(angle), std::sin(angle)};
     const double aside = even(random, -1.5, 1.5);
     scene.addBody(star(random, 2.1 * way + aside * rightOf(way), 1, 8, .4),
-                  randomFlags(random, 8, GetParam()));
+                  smoothFlags(random, 8, GetParam()));
     constexpr double kSpeed = .01;
     TwoSearches both(scene, false, .08);
     for (int i = 0; i < 150; ++i) {
@@ -223,7 +214,7 @@ TEST_P(EverySlaveAndMaster, OneBodyAndItself) {
     for (int k = 5; k > 0; --k) points.push_back({.5 * k, even(random, .8, 1)});
     for (int k = 1; k < 6; ++k) points.push_back({.5 * k, even(random, 1.2, 1.4)});
     points.insert(points.end(), {{3, 1.3}, {3, 2.2}, {0, 2.2}});
-    scene.addBody(points, randomFlags(random, points.size(), GetParam()));
+    scene.addBody(points, smoothFlags(random, points.size(), GetParam()));
     const std::vector<Vec2> start = scene.at;
     TwoSearches both(scene, true, .08);
     bool touched = false;
@@ -252,7 +243,7 @@ TEST_P(EverySlaveAndMaster, NothingTouchesItselfAtRest) {
   for (int run = 0; run < 300; ++run) {
     SurfaceScene scene;
     const int corners = 6 + static_cast<int>(random() % 15);
-    scene.addBody(star(random, {}, 1, corners, .6), randomFlags(random, corners, GetParam()));
+    scene.addBody(star(random, {}, 1, corners, .6), smoothFlags(random, corners, GetParam()));
     const std::vector<Vec2> start = scene.at;
     TwoSearches both(scene, true, .1);
     for (int i = 0; i < 20; ++i) {
@@ -264,11 +255,7 @@ TEST_P(EverySlaveAndMaster, NothingTouchesItselfAtRest) {
   }
 }
 
-std::string nameOf(const testing::TestParamInfo<int>& info) {
-  return info.param == 0 ? "Straight" : info.param == 1 ? "Smooth" : "Mixed";
-}
-
-INSTANTIATE_TEST_SUITE_P(Surfaces, EverySlaveAndMaster, testing::Values(0, 1, 2), nameOf);
+INSTANTIATE_TEST_SUITE_P(Surfaces, EverySlaveAndMaster, testing::Values(0, 1, 2), smoothName);
 
 }  // namespace
 }  // namespace yadefrag::test

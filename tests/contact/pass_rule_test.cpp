@@ -65,9 +65,9 @@ TEST(PassRule, OfEqualSurfacesOneIsTheSlaveAndStaysIt) {
 TEST(PassRule, EachPairHasExactlyOneSlave) {
   Random random(9);
   SurfaceScene scene;
-  std::vector<EntryId> flat;
-  for (int body = 0; body < 8; ++body)
-    flat.push_back(scene.addBody(squareOf(2 + static_cast<int>(random() % 9))) + 1);
+  EntryId flat[8];
+  for (EntryId& entry : flat)
+    entry = scene.addBody(squareOf(2 + static_cast<int>(random() % 9))) + 1;
   PassRule rule;
   rule.update(scene.surfaces, scene.at, 1);
   for (std::uint32_t a = 0; a < 8; ++a)

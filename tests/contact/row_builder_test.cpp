@@ -9,13 +9,6 @@
 namespace yadefrag::test {
 namespace {
 
-std::vector<std::uint8_t> someSmooth(Random& random, int count, int kind) {
-  std::vector<std::uint8_t> smooth;
-  for (int i = 0; i < count; ++i)
-    smooth.push_back(static_cast<std::uint8_t>(kind == 2 ? random() % 2 : kind));
-  return smooth;
-}
-
 /// A body and a point near it, which goes from `from` to `to`.
 struct Approach {
   SurfaceScene scene;
@@ -53,7 +46,7 @@ TEST(RowBuilder, WeightsSumToZeroOnAnyPiece) {
     const auto points = star(random, {}, 1, corners, .5);
     const Vec2 from{even(random, -1.2, 1.2), even(random, -1.2, 1.2)};
     const Vec2 to = from + Vec2{even(random, -.1, .1), even(random, -.1, .1)};
-    const Approach a(points, someSmooth(random, corners, scene % 3), from, to);
+    const Approach a(points, smoothFlags(random, corners, scene % 3), from, to);
     for (EntryId master = a.body; master < a.tip; master = master + 1) {
       const ContactRow row = a.row(master);
       double sum = 0, largest = 0;
@@ -81,7 +74,7 @@ TEST(RowBuilder, ForcesGiveNoMomentWhereThePointWasOverTheFoot) {
     const auto points = star(random, {}, 1, corners, .4);
     const Vec2 from{even(random, -1.2, 1.2), even(random, -1.2, 1.2)};
     const Vec2 to = from + Vec2{even(random, -.02, .02), even(random, -.02, .02)};
-    const Approach a(points, someSmooth(random, corners, scene % 3), from, to);
+    const Approach a(points, smoothFlags(random, corners, scene % 3), from, to);
     const PieceGeometry then(a.scene.surfaces, a.before), now = a.scene.geometry();
     for (EntryId master = a.body; master < a.tip; master = master + 1) {
       // Over the piece now and before.

@@ -22,11 +22,9 @@ struct RandomBodies {
   RandomBodies(Random& random, int kind) {
     for (int body = 0; body < 4; ++body) {
       const int corners = 5 + static_cast<int>(random() % 12);
-      std::vector<std::uint8_t> smooth;
-      for (int i = 0; i < corners; ++i)
-        smooth.push_back(static_cast<std::uint8_t>(kind == 2 ? random() % 2 : kind));
       const Vec2 centre{even(random, -1, 1), even(random, -1, 1)};
-      scene.addBody(star(random, centre, even(random, .3, 1), corners, .4), smooth);
+      scene.addBody(star(random, centre, even(random, .3, 1), corners, .4),
+                    smoothFlags(random, corners, kind));
       model.components.emplace_back();
       model.components.back().selfContact = random() % 2 == 0;
     }
@@ -170,11 +168,7 @@ TEST_P(EntryPairs, BoxCoversThePieceAndHalfTheHalo) {
   }
 }
 
-std::string nameOf(const testing::TestParamInfo<int>& info) {
-  return info.param == 0 ? "Straight" : info.param == 1 ? "Smooth" : "Mixed";
-}
-
-INSTANTIATE_TEST_SUITE_P(Surfaces, EntryPairs, testing::Values(0, 1, 2), nameOf);
+INSTANTIATE_TEST_SUITE_P(Surfaces, EntryPairs, testing::Values(0, 1, 2), smoothName);
 
 }  // namespace
 }  // namespace yadefrag::test

@@ -92,8 +92,9 @@ TEST_P(Intervals, NothingIsMissedAtTheLargestVelocities) {
 INSTANTIATE_TEST_SUITE_P(SpeedsAndPasses, Intervals,
                          testing::Combine(testing::Values(10., 40., 60.), testing::Values(1, 2)));
 
-/// δ is at most half the shortest segment, at least a twentieth, and wide enough for twenty steps
-/// at the largest velocity if that is less; only a motion of more than that in one step widens it.
+/// δ is at most half the shortest segment, at least a twentieth, and wide enough for some dozen
+/// steps at the largest velocity if that is less; only a motion of more than that in one step
+/// widens it.
 TEST(SearchInterval, WidthOfTheHalo) {
   for (const double speed : {.001, 1., 5., 10., 40., 100.}) {
     World world = row(speed, 1);
@@ -105,8 +106,9 @@ TEST(SearchInterval, WidthOfTheHalo) {
     EXPECT_GE(world.search.halo, .05 * shortest * (1 - 1e-12));
     EXPECT_GE(world.search.halo, 2 * move * (1 - 1e-12));
     EXPECT_LE(world.search.halo, std::max(.5 * shortest, 2 * move) * (1 + 1e-12));
-    if (20 * move > .05 * shortest && 20 * move < .5 * shortest) {
-      EXPECT_NEAR(world.search.halo / (20 * move), 1, 1e-12);
+    const double steps = tolerance::kHaloSteps;
+    if (steps * move > .05 * shortest && steps * move < .5 * shortest) {
+      EXPECT_NEAR(world.search.halo / (steps * move), 1, 1e-12);
     }
   }
 }
