@@ -106,13 +106,19 @@ void World::prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 vel
       ledger.external +=
           model.nodes.mass[node.value] / 2 * (dot(present, present) - dot(former, former));
   }
-  if (changed) dynamics_.rebuild(model);
+  if (changed) isBuilt_ = false;
 }
 
 void World::rebuild() {
+  contact.resize(model.nodes.size());
+  isBuilt_ = false;
+}
+
+void World::buildIfChanged() {
+  if (isBuilt_) return;
+  isBuilt_ = true;
   dynamics_.rebuild(model);
   before_.resize(model.nodes.size());
-  contact.resize(model.nodes.size());
   surfaceNodes_.assign(surfaces.segmentNode.begin(), surfaces.segmentNode.end());
   std::sort(surfaceNodes_.begin(), surfaceNodes_.end());
   surfaceNodes_.erase(std::unique(surfaceNodes_.begin(), surfaceNodes_.end()), surfaceNodes_.end());
@@ -131,6 +137,7 @@ double World::criticalTimeStep() const {
 /// Only before the first step, and when the step has grown or bodies came or went: a mesh that is
 /// compressed so far that this matters is the user's to watch.
 void World::requireStableStep(double dt) {
+  buildIfChanged();
   if (dt > 0 && dt <= stableStep_) return;
   const double critical = criticalTimeStep();
   if (!(dt > 0 && dt <= critical)) {

@@ -99,6 +99,7 @@ class World {
   [[nodiscard]] std::span<const NodeId> surfaceNodes() const { return surfaceNodes_; }
 
  private:
+  void buildIfChanged();
   void requireStableStep(double dt);
   void rememberSurface();
   void searchIfLeft();
@@ -122,6 +123,8 @@ class World {
   std::vector<BoxPair> overlapping_;
   std::vector<SlaveMaster> pairs_;
   std::vector<Box> boxes_;
+  bool isBuilt_ =
+      false;  // do the arrays below fit the model: many bodies join, then one step comes
   bool severalBodies_ = false;
   double largestMove_ = 0;  // m, of a surface node from xⁿ to x*
   double farthest_ =

@@ -54,7 +54,7 @@ void World::measureMove() {
 
 double World::fastest() const {
   double most = 0;
-  for (const NodeId node : surfaceNodes_) {
+  for (const NodeId node : surfaces.segmentNode) {
     const Vec2 velocity = model.nodes.velocity[node.value];
     most = std::max(most, dot(velocity, velocity));
   }
@@ -77,6 +77,7 @@ void World::chooseHalo(double dt) {
 }
 
 void World::takePairs(std::span<const BoxPair> overlapping) {
+  buildIfChanged();
   rememberSurface();
   considerPairs(overlapping);
 }
