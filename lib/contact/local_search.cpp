@@ -22,23 +22,24 @@ bool isArcAmongArcs(const ContactSurfaces& surfaces, EntryId entry) {
 
 /// Where a point lies beside the chord of a piece.
 struct Beside {
-  double gap;     ///< m
-  double beyond;  ///< m, by how much it is past an end; negative: over the piece
-  double length;  ///< m, of the chord
+  double gap;      ///< m
+  double beyond;   ///< m, by how much it is past an end; negative: over the piece
+  double inverse;  ///< 1/m, of the chord's length
 
   /// (m/m) Change of the gap, and of an arc's bulge, for a motion of all points by no more than 1,
   /// as long as the gap is open: beside its ends a chord swings farther than they move.
   [[nodiscard]] double leverage(bool arc) const {
-    return (arc ? 4 : 2) + 2 * (std::max(0., beyond) + std::abs(gap)) / length;
+    return (arc ? 4 : 2) + 2 * (std::max(0., beyond) + std::abs(gap)) * inverse;
   }
 };
 
 Beside besideChord(const PieceEnds& ends, Vec2 point) {
   const Vec2 along = ends.end - ends.begin;
-  const double length = norm(along);
+  const double inverse = 1 / norm(along);
   const Vec2 from = point - ends.begin;
-  const double at = dot(along, from) / length;
-  return {cross(from, along) / length, std::max(-at, at - length), length};
+  const double at = dot(along, from) * inverse;
+  const double past = dot(along, point - ends.end) * inverse;
+  return {cross(from, along) * inverse, std::max(-at, past), inverse};
 }
 
 /// How far an arc bulges over its chord: near an arc is near its chord by that much more.
@@ -254,9 +255,11 @@ void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces
                          std::span<const Vec2> positions,
                          std::span<const SlaveMaster> touched) const {
   const PieceGeometry geometry(surfaces, positions);
+  auto next = touched.begin();
   for (const Near& near : near_) {
     const SlaveMaster pair{candidates.slaves[near.row], candidates.masters[near.candidate]};
-    const bool active = std::binary_search(touched.begin(), touched.end(), pair);
+    while (next != touched.end() && *next < pair) ++next;
+    const bool active = next != touched.end() && *next == pair;
     candidates.outside[near.candidate] =
         active || geometry.foot(pair.master, geometry.slave(pair.slave)).gap >= 0 ? 1 : 0;
   }
