@@ -39,6 +39,15 @@ double usableXi(const ContactSurfaces& surfaces, EntryId master, double xi, bool
   return std::clamp(xi, range.begin, range.end);
 }
 
+/// Does the boundary go on past that end of a piece without a corner worth the name?
+bool goesOn(const ContactSurfaces& surfaces, const PieceGeometry& before, EntryId master, double xi,
+            Vec2 slave) {
+  const bool atBegin = xi < pieceRange(surfaces.piece[master.value]).begin;
+  const EntryId neighbour = atBegin ? surfaces.prev[master.value] : surfaces.next[master.value];
+  return dot(before.foot(neighbour, slave).normal, before.foot(master, slave).normal) >
+         tolerance::kSameFace;
+}
+
 }  // namespace
 
 ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
@@ -47,8 +56,10 @@ ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
   const Vec2 point = before.slave(active.pair.slave);
   const PieceRange range = pieceRange(surfaces.piece[active.pair.master.value]);
   // Active without a foot on the piece: corrected to the node of a concave corner.
-  const bool atCorner = active.foot.xi < range.begin - tolerance::kFootRange ||
-                        active.foot.xi > range.end + tolerance::kFootRange;
+  const bool past = active.foot.xi < range.begin - tolerance::kFootRange ||
+                    active.foot.xi > range.end + tolerance::kFootRange;
+  const bool atCorner =
+      past && !goesOn(surfaces, before, active.pair.master, active.foot.xi, point);
   const FootOn on = atCorner ? FootOn{active.pair.master, active.foot}
                              : footBefore(surfaces, before, active.pair.master, point);
   ContactRow row;

@@ -126,6 +126,7 @@ void World::buildIfChanged() {
   severalBodies_ =
       std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();
   search_.reset();
+  finest_ = finestSegment();
   stableStep_ = 0;
   farthest_ = INFINITY;
 }

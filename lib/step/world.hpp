@@ -108,6 +108,7 @@ class World {
   void correctContact(double dt);
   void bookContact(double dt);
   void foreseeSearch(double dt);
+  [[nodiscard]] double finestSegment() const;
   [[nodiscard]] bool canTouch() const;
   void measureMove();
   [[nodiscard]] double fastest() const;
@@ -129,6 +130,7 @@ class World {
   double largestMove_ = 0;  // m, of a surface node from xⁿ to x*
   double farthest_ =
       INFINITY;            // m, no surface node is farther from where it was at the last search
+  double finest_ = 0;      // m, shortest stress-free segment: does not hang on when was searched
   double stableStep_ = 0;  // s, the longest step that has been found stable
 };
 

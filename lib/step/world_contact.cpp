@@ -25,6 +25,10 @@ double shortestSegment(const ContactSurfaces& surfaces, std::span<const Vec2> po
 
 }  // namespace
 
+double World::finestSegment() const {
+  return surfaces.entries() == 0 ? 0 : shortestSegment(surfaces, reference);
+}
+
 /// One body that cannot touch itself needs neither search nor candidates.
 bool World::canTouch() const {
   const std::vector<ComponentId>& owners = surfaces.component;
@@ -132,8 +136,8 @@ void World::correctContact(double dt) {
   const ContactStep now{dt,
                         dynamicsSettings.damping * dt / 2,
                         largestMove_,
-                        2 * largestMove_ + tolerance::kTouching * search.shortest,
-                        search.shortest,
+                        2 * largestMove_ + tolerance::kTouching * finest_,
+                        finest_,
                         search.halo,
                         before_,
                         threads,

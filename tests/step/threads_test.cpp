@@ -72,12 +72,6 @@ bool sameBits(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec2)) == 0;
 }
 
-double largestDifference(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, norm(a[i] - b[i]));
-  return most;
-}
-
 void expectSame(const End& a, const End& b) {
   EXPECT_TRUE(sameBits(a.position, b.position));
   EXPECT_TRUE(sameBits(a.velocity, b.velocity));
@@ -142,8 +136,8 @@ End runWithSearches(bool forced, double speed, int passes, int count) {
   return end;
 }
 
-// The same pairs are active in each step. The forces are not quite the same: the penetration left
-// that ends a step's solves is a part of the shortest segment at the last search.
+// The same pairs are active in each step, and the runs have the same bits: nothing but the candidates
+// hangs on when was searched.
 class Searches : public ::testing::TestWithParam<std::pair<double, int>> {};
 
 TEST_P(Searches, NothingIsMissedBetweenTwo) {
@@ -157,8 +151,7 @@ TEST_P(Searches, NothingIsMissedBetweenTwo) {
   ASSERT_GT(often.contact, 0);
   EXPECT_LT(2 * seldom.searches, often.searches);
   EXPECT_TRUE(often.actives == seldom.actives);
-  figure("largest_difference_in_m", largestDifference(often.position, seldom.position), 0,
-         1e-6 * kSide);
+  expectSame(often, seldom);
 }
 
 INSTANTIATE_TEST_SUITE_P(SpeedsAndPasses, Searches,
