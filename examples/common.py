@@ -24,7 +24,8 @@ class Options(argparse.ArgumentParser):
                           metavar='FOLDER', help='for the pictures; default: next to the script')
         self.add_argument('--collider', choices=COLLIDERS, default='Lebesgue')
         self.add_argument('--passes', type=int, choices=(1, 2), default=1,
-                          help='1: the finer of two surfaces must not penetrate the other; 2: both')
+                          help='1: the finer of two surfaces must not penetrate the other; 2: both; '
+                               'default: %(default)s')
         self.add_argument('--no-pictures', action='store_true')
 
     def parse(self):

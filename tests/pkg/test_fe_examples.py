@@ -1,0 +1,139 @@
+"""The finite-element examples, short, each in a yade of its own: they run, and the physics is right."""
+import os
+import re
+import signal
+import subprocess
+import time
+
+import pytest
+
+from test_threads import yadeCommand
+
+kExamples = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'examples')
+kColliders = ('Lebesgue', 'LinearCode', 'Hierarchy', 'InsertionSort')
+kShort = {
+    'squares': ['--n', '3', '--steps', '3000'],
+    'rings': ['--n', '3', '--steps', '2000'],
+    'bars': ['--n', '3', '--steps', '2000'],
+    'cylinder': ['--size', '1e-3', '--steps', '400'],
+    'rolling': ['--segments', '32', '--block', '.5', '--steps', '4000'],
+}
+kPictures = {
+    'squares': ['squares.png'],
+    'rings': ['rings.png'],
+    'bars': ['bars.png'],
+    'cylinder': ['cylinder.gif', 'cylinder.png', 'cylinder_force.png', 'state.vtu'],
+    'rolling': ['rolling.png'],
+}
+
+
+def start(name, *options):
+    # One thread: what OMP leaves behind must not slow down the tests.
+    return subprocess.Popen(
+        [*yadeCommand(), '-j1', os.path.join(kExamples, name, name + '.py'), *options],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def run(name, *options, status=0):
+    """(standard output, standard error) of an example."""
+    done = start(name, *options)
+    out, complaints = done.communicate(timeout=120)
+    assert done.returncode == status, out[-1500:] + complaints[-1500:]
+    return out, complaints
+
+
+def rows(text):
+    """The lines 'name: value' of all reports in `text`, as a list of dicts, one per report."""
+    reports, found = [], {}
+    for line in text.splitlines():
+        match = re.match(r'(\w[^:]*):\s+(\S.*)', line)
+        if match:
+            found[match[1]] = match[2]
+            if match[1] == 'positions (md5)':
+                reports.append(found)
+                found = {}
+    return reports
+
+
+def numbers(text):
+    return [float(n) for n in re.findall(r'[+-]?\d+\.?\d*(?:e[+-]?\d+)?', text.replace(',', ''))]
+
+
+@pytest.mark.parametrize('passes', ['1', '2'])
+@pytest.mark.parametrize('name', kShort)
+def test_physicsOfTheExample(name, passes):
+    out, _ = run(name, *kShort[name], '--passes', passes, '--no-pictures')
+    reports = rows(out)
+    assert len(reports) == (2 if name == 'rolling' else 1)
+    for report in reports:
+        atEnd, atMost = numbers(report['energy drift'])
+        assert abs(atEnd) < 5e-3 and atMost < 5e-3
+        assert numbers(report['lost at touch'])[0] > -.5
+        assert numbers(report['actives, last and most'])[1] > 0
+        assert 0 < numbers(report['searches'])[0] < numbers(report['steps'])[0]
+        if passes == '2':
+            assert numbers(report['deepest penetration'])[0] < 1e-3
+
+
+@pytest.mark.parametrize('name', kShort)
+def test_collidersGiveTheSameRun(name):
+    found = {}
+    for collider in kColliders:
+        out, _ = run(name, *kShort[name], '--collider', collider, '--no-pictures')
+        keys = ('searches', 'actives, last and most', 'positions (md5)')
+        found[collider] = [[report[key] for key in keys] for report in rows(out)]
+    assert all(values == found['Lebesgue'] for values in found.values()), found
+
+
+def test_impulseOnTheCylinder():
+    out, _ = run('cylinder', '--no-pictures')
+    report = rows(out)[0]
+    back, ratio = numbers(report['cylinder at the end'])
+    assert 150 < back < 200 and ratio == pytest.approx(1, abs=1e-5)
+    assert 8 < numbers(report['contact'])[1] < 11
+    assert 40 < numbers(report['largest force'])[0] < 48
+
+
+def test_smoothCylinderRollsMoreEvenly():
+    out, _ = run('rolling', '--no-pictures')
+    ripples = [numbers(report['ripple'])[0] for report in rows(out)]
+    assert ripples[0] > 2 * ripples[1]
+    for report in rows(out):
+        assert numbers(report['mean force / weight'])[0] == pytest.approx(1, abs=.01)
+        speed, surface = numbers(report['rolls at'])
+        assert speed == pytest.approx(surface, rel=.03) and speed == pytest.approx(.25, rel=.1)
+
+
+@pytest.mark.parametrize('name', kShort)
+def test_picturesAreWritten(name, folder):
+    options = ['--out', folder]
+    if name == 'cylinder':
+        options += ['--gif', '--vtk', os.path.join(folder, 'state.vtu')]
+    run(name, *kShort[name], *options)
+    assert sorted(os.listdir(folder)) == kPictures[name]
+    assert all(os.path.getsize(os.path.join(folder, f)) > 5000 for f in kPictures[name])
+
+
+@pytest.mark.parametrize('name, options, sentence', [
+    ('squares', ['--n', '0'], 'whole number of at least 1'),
+    ('rings', ['--steps', 'many'], "it is 'many', it must be a whole number of at least 1"),
+    ('bars', ['--collider', 'Sweep'], "invalid choice: 'Sweep'"),
+    ('bars', ['--passes', '3'], 'invalid choice: 3'),
+    ('cylinder', ['--size', '-1'], "it is '-1', it must be a positive number"),
+    ('cylinder', ['--size', '1'], '--size is 1 m, it must be at most 0.0025 m'),
+    ('cylinder', ['--vtk', 'a.txt'], "its name must end with '.vtu'"),
+    ('rolling', ['--out', '/dev/null/x'], "--out is '/dev/null/x', which is no folder"),
+])
+def test_wrongOptions(name, options, sentence):
+    _, complaints = run(name, *options, status=2)
+    assert sentence in complaints
+
+
+def test_interruptedRunStillReports(folder):
+    running = start('squares', '--n', '4', '--steps', '10000000', '--out', folder)
+    time.sleep(6)
+    running.send_signal(signal.SIGINT)
+    out, complaints = running.communicate(timeout=60)
+    assert running.returncode == 0, complaints[-1500:]
+    assert 'Interrupted after' in out and rows(out)
+    assert os.listdir(folder) == ['squares.png']
