@@ -21,7 +21,7 @@ using NodeId = Id<struct NodeTag>;            ///< of a mesh
 using ElementId = Id<struct ElementTag>;      ///< a triangle
 using ComponentId = Id<struct ComponentTag>;  ///< a body of triangles
 using SegmentId = Id<struct SegmentTag>;      ///< of a mesh's boundary
-using EntryId = Id<struct EntryTag>;          ///< of a contact surface: a sampling point and a piece
+using EntryId = Id<struct EntryTag>;  ///< of a contact surface: a sampling point and a piece
 
 /// A slot in the array of boxes given to a search.
 using BoxId = Id<struct BoxTag>;

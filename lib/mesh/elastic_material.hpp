@@ -4,7 +4,7 @@ namespace yadefrag {
 
 /// Isotropic elasticity of a plane body.
 struct ElasticMaterial {
-  double young = 0;    ///< Pa
+  double young = 0;  ///< Pa
   double poisson = 0;
   double density = 0;  ///< kg/m³
   bool planeStress = false;

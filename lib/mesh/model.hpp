@@ -15,12 +15,12 @@ namespace yadefrag {
 enum Held : std::uint8_t { kFree = 0, kHeldX = 1, kHeldY = 2, kHeldXY = 3 };
 
 struct Nodes {
-  std::vector<Vec2> position;        ///< m, xⁿ
-  std::vector<Vec2> velocity;        ///< m/s, vⁿ⁻½; of a held direction: the prescribed one
-  std::vector<double> mass;          ///< kg, lumped
-  std::vector<std::uint8_t> held;    ///< Held
+  std::vector<Vec2> position;      ///< m, xⁿ
+  std::vector<Vec2> velocity;      ///< m/s, vⁿ⁻½; of a held direction: the prescribed one
+  std::vector<double> mass;        ///< kg, lumped
+  std::vector<std::uint8_t> held;  ///< Held
   std::vector<ComponentId> component;
-  std::vector<Vec2> load;            ///< N, constant outer force; empty if there is none in the scene
+  std::vector<Vec2> load;  ///< N, constant outer force; empty if there is none in the scene
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
 };

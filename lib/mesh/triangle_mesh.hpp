@@ -9,7 +9,8 @@
 
 namespace yadefrag {
 
-/// An outline and its holes; after `checkPolygon` the outline is counter-clockwise, holes clockwise.
+/// An outline and its holes; after `checkPolygon` the outline is counter-clockwise, holes
+/// clockwise.
 struct Polygon {
   std::vector<Vec2> outline;
   std::vector<std::vector<Vec2>> holes;
@@ -17,7 +18,7 @@ struct Polygon {
 
 /// Node and triangle numbers follow the Lebesgue curve, so that neighbours are near in memory.
 struct TriangleMesh {
-  std::vector<Vec2> nodes;                               ///< m
+  std::vector<Vec2> nodes;                              ///< m
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise
   /// Boundary nodes in order, material on the left: first the outline, then the holes as given.
   std::vector<std::vector<std::uint32_t>> loops;

@@ -1,6 +1,6 @@
 #pragma once
-// The two layers of a boundary (paper §3.1): the mesh's boundary segments, and above them the contact
-// surface ("virtual surface") with one entry for each sampling point.
+// The two layers of a boundary (paper §3.1): the mesh's boundary segments, and above them the
+// contact surface ("virtual surface") with one entry for each sampling point.
 //
 //   mesh       a ───────── b ───────── c ─────     segments, one per boundary node
 //   contact    a ───────── b ─── H ⌒⌒⌒ H ⌒⌒     entries: a, b corners; c, … smooth; H a halfpoint
@@ -47,8 +47,8 @@ class ContactSurfaces {
   std::vector<NodeId> segmentNode;
   std::vector<SegmentId> segmentNext, segmentPrev;
   std::vector<std::uint8_t> segmentSmooth;  ///< is its first node smooth
-  std::vector<EntryId> segmentEntry;        ///< its first entry: the one on its first node or halfpoint
-  std::vector<SegmentId> nodeSegment;       ///< by node: the segment that leaves it, or none()
+  std::vector<EntryId> segmentEntry;   ///< its first entry: the one on its first node or halfpoint
+  std::vector<SegmentId> nodeSegment;  ///< by node: the segment that leaves it, or none()
 
   // Second layer.
   std::vector<SegmentId> entrySegment;  ///< the segment in which it begins

@@ -3,6 +3,7 @@
 // (python/yadefrag/solver.py).
 
 #include "fe/fe_arrays.hpp"
+#include "fe/fe_solver.hpp"
 
 namespace yadefrag {
 

@@ -136,8 +136,8 @@ End runWithSearches(bool forced, double speed, int passes, int count) {
   return end;
 }
 
-// The same pairs are active in each step, and the runs have the same bits: nothing but the candidates
-// hangs on when was searched.
+// The same pairs are active in each step, and the runs have the same bits: nothing but the
+// candidates hangs on when was searched.
 class Searches : public ::testing::TestWithParam<std::pair<double, int>> {};
 
 TEST_P(Searches, NothingIsMissedBetweenTwo) {
