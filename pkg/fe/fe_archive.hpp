@@ -44,6 +44,7 @@ class WorldArchive {
   /// A column of structures that are made of `Scalar` alone.
   template <class Scalar, class Element>
   void column(const char* name, std::vector<Element>& column) {
+    // NOLINTNEXTLINE(bugprone-sizeof-expression): true also where the column holds plain numbers
     constexpr std::size_t each = sizeof(Element) / sizeof(Scalar);
     static_assert(std::is_trivially_copyable_v<Element> &&
                   sizeof(Element) == each * sizeof(Scalar));

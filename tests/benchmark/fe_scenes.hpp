@@ -69,7 +69,8 @@ inline void addSquares(World& world, int n) {
     velocities[i] = kSpeed * someDirection(random);
   std::shuffle(velocities.begin(), velocities.end(), random);
   for (int k = 0; k < n * n; ++k) {
-    const Vec2 low{kGap + kPitch * (k % n), kGap + kPitch * (k / n)};
+    const int column = k % n, row = k / n;
+    const Vec2 low{kGap + kPitch * column, kGap + kPitch * row};
     const TriangleMesh mesh = structuredRectangle(low, low + Vec2{kEdge, kEdge}, kCells, kCells);
     world.addBody(mesh, steelBody(mesh, velocities[static_cast<std::size_t>(k)]));
   }

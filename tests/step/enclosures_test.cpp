@@ -41,7 +41,8 @@ TEST(Enclosures, TwentySquaresInABox) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> speed(-10, 10);
   for (int i = 0; i < 20; ++i) {
-    const Vec2 low{1.1 * (i % 5) + .1, 1.1 * (i / 5) + .1};
+    const int column = i % 5, row = i / 5;
+    const Vec2 low{1.1 * column + .1, 1.1 * row + .1};
     const TriangleMesh square = structuredRectangle(low, low + Vec2{1, 1}, 4, 4);
     world.addBody(square, moving(square, rubber(), {speed(random), speed(random)}));
   }
