@@ -7,6 +7,9 @@ elements do not take an initial velocity together with explicit contact (the vel
 cylinder is spoiled in the first increment), so each triangle becomes a wedge C3D6 between two layers
 of nodes that are held in z, which is plane strain with twice the nodes. Contact is its penalty
 contact NODE TO SURFACE, ours without penetration. It chooses its own increment (DIRECT stops it).
+Its explicit contact stays soft whatever stiffness is asked for (10¹⁴ to 10¹⁶ Pa/m give the same
+contact of 15 µs instead of 11): a plain explicit code of 50 lines on the same mesh gave our course
+with springs of 10¹² N/m a node and CalculiX's with 10¹¹ N/m. So the answers differ by that.
 """
 import argparse
 import json
