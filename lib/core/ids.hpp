@@ -20,6 +20,7 @@ struct Id {
 using NodeId = Id<struct NodeTag>;            ///< of a mesh
 using ElementId = Id<struct ElementTag>;      ///< a triangle
 using ComponentId = Id<struct ComponentTag>;  ///< a body of triangles
+using EdgeId = Id<struct EdgeTag>;            ///< between two triangles that may crack
 using SegmentId = Id<struct SegmentTag>;      ///< of a mesh's boundary
 using EntryId = Id<struct EntryTag>;  ///< of a contact surface: a sampling point and a piece
 

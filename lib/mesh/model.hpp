@@ -7,6 +7,7 @@
 
 #include "core/ids.hpp"
 #include "core/vec2.hpp"
+#include "mesh/brittle_material.hpp"
 #include "mesh/elastic_material.hpp"
 
 namespace yadefrag {
@@ -23,6 +24,17 @@ struct Nodes {
   std::vector<Vec2> load;  ///< N, constant outer force; empty if there is none in the scene
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
+  /// A further node where `node` is, that moves as it does; its mass is still to be set.
+  NodeId duplicate(NodeId node) {
+    const std::uint32_t i = node.value;
+    position.push_back(Vec2(position[i]));
+    velocity.push_back(Vec2(velocity[i]));
+    mass.push_back(0);
+    held.push_back(std::uint8_t{held[i]});
+    component.push_back(ComponentId(component[i]));
+    if (!load.empty()) load.push_back(Vec2(load[i]));
+    return NodeId(size() - 1);
+  }
 };
 
 struct Triangles {
@@ -38,6 +50,7 @@ struct Triangles {
 /// What all triangles of one body share. A removed component keeps its slot with no triangles.
 struct Component {
   ElasticMaterial material;
+  BrittleMaterial brittle;
   double thickness = 1;     ///< m
   double friction = 0;      ///< tan of the friction angle
   bool selfContact = true;  ///< may its surfaces touch each other

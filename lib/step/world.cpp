@@ -33,6 +33,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   requireLength("smoothNodes", spec.smoothNodes, mesh);
   Component component;
   component.material = spec.material;
+  component.brittle = spec.brittle;
   component.thickness = spec.thickness;
   component.friction = spec.friction;
   component.selfContact = spec.selfContact;

@@ -22,6 +22,7 @@ namespace yadefrag {
 /// What a body is beside its mesh. Arrays are by node of the mesh; empty ones stand for zeros.
 struct BodySpec {
   ElasticMaterial material;
+  BrittleMaterial brittle;
   double friction = 0;   ///< tan of the friction angle
   double thickness = 1;  ///< m
   bool selfContact = true;
