@@ -1,0 +1,173 @@
+#include "surface/relink.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace yadefrag {
+namespace {
+
+constexpr std::uint32_t kNoLoop = 0xffffffff;
+
+class Relinking {
+ public:
+  Relinking(ContactSurfaces& surfaces, std::span<const SurfaceSide> sides)
+      : s_(surfaces), sides_(sides) {}
+
+  void run() {
+    takeSegments();
+    placeSegments();
+    makeCorners();
+    // Only now is it known at which ends a segment still is smooth.
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+      sides_[i].segment == SegmentId::none() ? appendFace(i) : divide(ends_[i]);
+    for (const Ends& ends : ends_)
+      link(lastEntry(ends.segment), s_.segmentEntry[s_.segmentNext[ends.segment.value].value]);
+    numberLoops();
+  }
+
+ private:
+  /// A listed segment, and what its ends were before.
+  struct Ends {
+    SegmentId segment;
+    bool fromSmooth = false;
+    bool toSmooth = false;
+  };
+
+  /// Reads all that is about to change, and takes the listed segments off their nodes.
+  void takeSegments() {
+    ends_.reserve(sides_.size());
+    std::size_t appended = s_.segments();
+    for (const SurfaceSide& side : sides_) {
+      if (side.segment == SegmentId::none()) {
+        ends_.push_back({SegmentId(appended++)});
+        corners_.push_back(side.first);
+        corners_.push_back(side.last);
+        continue;
+      }
+      const SegmentId following = s_.segmentNext[side.segment.value];
+      ends_.push_back({side.segment, s_.segmentSmooth[side.segment.value] != 0,
+                       s_.segmentSmooth[following.value] != 0});
+      if (s_.segmentNode[side.segment.value] != side.first) corners_.push_back(side.first);
+      if (s_.segmentNode[following.value] != side.last) corners_.push_back(side.last);
+    }
+    for (const SurfaceSide& side : sides_)
+      if (side.segment != SegmentId::none())
+        s_.nodeSegment[s_.segmentNode[side.segment.value].value] = SegmentId::none();
+    appendSegments(appended);
+  }
+
+  void appendSegments(std::size_t count) {
+    s_.segmentNode.resize(count);
+    s_.segmentNext.resize(count, SegmentId::none());
+    s_.segmentPrev.resize(count, SegmentId::none());
+    s_.segmentSmooth.resize(count, 0);
+    s_.segmentEntry.resize(count, EntryId::none());
+    std::size_t nodes = s_.nodeSegment.size();
+    for (const SurfaceSide& side : sides_)
+      nodes = std::max<std::size_t>(nodes, std::max(side.first, side.last).value + std::size_t{1});
+    s_.nodeSegment.resize(nodes, SegmentId::none());
+  }
+
+  void placeSegments() {
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      const SegmentId segment = ends_[i].segment;
+      const NodeId first = sides_[i].first;
+      assert(s_.nodeSegment[first.value] == SegmentId::none());  // one side leaves a node
+      s_.segmentNode[segment.value] = first;
+      s_.nodeSegment[first.value] = segment;
+    }
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      const SegmentId segment = ends_[i].segment;
+      const SegmentId following = s_.nodeSegment[sides_[i].last.value];
+      assert(following != SegmentId::none());
+      s_.segmentNext[segment.value] = following;
+      s_.segmentPrev[following.value] = segment;
+    }
+  }
+
+  void makeCorners() {
+    for (const NodeId node : corners_) s_.segmentSmooth[s_.nodeSegment[node.value].value] = 0;
+  }
+
+  EntryId append(SegmentId segment, Piece piece, ComponentId component, std::uint32_t loop) {
+    const EntryId entry(s_.entries());
+    s_.entrySegment.push_back(segment);
+    s_.piece.push_back(piece);
+    s_.next.push_back(entry);
+    s_.prev.push_back(entry);
+    s_.loop.push_back(loop);
+    s_.component.push_back(component);
+    s_.segmentEntry[segment.value] = entry;
+    return entry;
+  }
+
+  void appendFace(std::size_t side) {
+    append(ends_[side].segment, Piece::kSegment, sides_[side].component, kNoLoop);
+  }
+
+  /// At a node that is smooth no more: the arc around it ends where it began, and the piece from
+  /// the node to the halfpoint after it is missing.
+  void divide(const Ends& before) {
+    const SegmentId segment = before.segment;
+    const bool fromSmooth = s_.segmentSmooth[segment.value] != 0;
+    const bool toSmooth = s_.segmentSmooth[s_.segmentNext[segment.value].value] != 0;
+    if (before.toSmooth && !toSmooth) s_.piece[lastEntry(segment).value] = Piece::kSecondHalf;
+    if (before.fromSmooth && !fromSmooth) {
+      const EntryId rest = s_.segmentEntry[segment.value];
+      link(append(segment, Piece::kFirstHalf, s_.component[rest.value], s_.loop[rest.value]), rest);
+    }
+  }
+
+  [[nodiscard]] EntryId lastEntry(SegmentId segment) const {
+    const EntryId first = s_.segmentEntry[segment.value];
+    return s_.piece[first.value] == Piece::kFirstHalf ? s_.next[first.value] : first;
+  }
+
+  void link(EntryId entry, EntryId following) {
+    s_.next[entry.value] = following;
+    s_.prev[following.value] = entry;
+  }
+
+  void numberLoops() {
+    // The segment before a row of new faces ends where one begins, so it is listed.
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      const EntryId last = lastEntry(ends_[i].segment);
+      if (s_.loop[last.value] != kNoLoop) numberAfter(last, s_.loop[last.value]);
+    }
+    for (const Ends& ends : ends_) {
+      const EntryId entry = s_.segmentEntry[ends.segment.value];
+      if (s_.loop[entry.value] == kNoLoop)
+        numberAfter(entry, lowestLoop(s_.component[entry.value]));
+    }
+  }
+
+  void numberAfter(EntryId entry, std::uint32_t number) {
+    for (entry = s_.next[entry.value]; s_.loop[entry.value] == kNoLoop;
+         entry = s_.next[entry.value])
+      s_.loop[entry.value] = number;
+  }
+
+  /// That of its first entry: addLoop numbers loops in ascending order.
+  [[nodiscard]] std::uint32_t lowestLoop(ComponentId component) const {
+    const auto first = std::ranges::find(s_.component, component);
+    const std::uint32_t number = s_.loop[static_cast<std::size_t>(first - s_.component.begin())];
+    assert(number != kNoLoop);  // a crack is inside a body that has an outline
+    return number == kNoLoop ? 0 : number;
+  }
+
+  ContactSurfaces& s_;
+  std::span<const SurfaceSide> sides_;
+  std::vector<Ends> ends_;       ///< by side
+  std::vector<NodeId> corners_;  ///< some repeatedly
+};
+
+}  // namespace
+
+void relink(ContactSurfaces& surfaces, std::span<const SurfaceSide> sides) {
+  Relinking(surfaces, sides).run();
+}
+
+}  // namespace yadefrag
