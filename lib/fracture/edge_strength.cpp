@@ -1,0 +1,50 @@
+#include "fracture/edge_strength.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace yadefrag {
+namespace {
+
+constexpr std::uint64_t kStride = 0x9e3779b97f4a7c15;  // odd, near 2⁶⁴ over the golden ratio
+
+/// The finisher of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, "Fast splittable pseudorandom
+/// number generators", fig. 14): every bit of the result hangs on every bit of x.
+std::uint64_t mix(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
+
+/// The scatters are drawn apart, so that both may be set.
+enum Stream : std::uint64_t { kWeibull = 1, kEven = 2 };
+
+/// Even in (0, 1), never an end: number `edge` of SplitMix64's sequence, reached by one jump.
+double uniform(std::uint64_t seed, Stream stream, std::uint64_t edge) {
+  // Neighbouring seeds would else share their sequences, shifted by one edge.
+  const std::uint64_t start = mix(mix(seed + kStride) + stream * kStride);
+  const std::uint64_t bits = mix(start + (edge + 1) * kStride);
+  return (static_cast<double>(bits >> 12) + .5) * 0x1p-52;  // 53 bits: exact
+}
+
+}  // namespace
+
+double edgeStrength(const BrittleMaterial& material, std::uint64_t edge) {
+  double strength = material.tensileStrength;
+  if (material.weibullModulus > 0)
+    strength *=
+        std::pow(-std::log1p(-uniform(material.seed, kWeibull, edge)), 1 / material.weibullModulus);
+  if (material.strengthScatter > 0)
+    strength *= 1 + material.strengthScatter * (2 * uniform(material.seed, kEven, edge) - 1);
+  return strength;
+}
+
+double likelyLargestStrength(const BrittleMaterial& material, std::size_t edges) {
+  double strength = material.tensileStrength * (1 + material.strengthScatter);
+  if (material.weibullModulus > 0)  // of one or two edges: no less than the scale
+    strength *=
+        std::pow(std::max(1., std::log(static_cast<double>(edges))), 1 / material.weibullModulus);
+  return strength;
+}
+
+}  // namespace yadefrag

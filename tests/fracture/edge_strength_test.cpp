@@ -1,0 +1,176 @@
+#include "fracture/edge_strength.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <thread>
+#include <vector>
+
+namespace yadefrag {
+namespace {
+
+constexpr std::size_t kEdges = 100000;
+constexpr double kStrength = 300e6;
+// Kolmogorov–Smirnov: a fair sample lies farther off than 1.63/√n once in a hundred times.
+const double kFarthest = 1.63 / std::sqrt(kEdges);
+
+BrittleMaterial weibull(double modulus, std::uint64_t seed = 7) {
+  return {.tensileStrength = kStrength, .weibullModulus = modulus, .seed = seed};
+}
+
+BrittleMaterial even(double scatter, std::uint64_t seed = 7) {
+  return {.tensileStrength = kStrength, .strengthScatter = scatter, .seed = seed};
+}
+
+std::vector<double> strengths(const BrittleMaterial& material) {
+  std::vector<double> result(kEdges);
+  for (std::size_t i = 0; i < kEdges; ++i) result[i] = edgeStrength(material, i);
+  return result;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return sum / values.size();
+}
+
+double deviation(const std::vector<double>& values) {
+  const double middle = mean(values);
+  double sum = 0;
+  for (const double v : values) sum += (v - middle) * (v - middle);
+  return std::sqrt(sum / values.size());
+}
+
+/// Correlation of a with b, which are equally long.
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const double middleA = mean(a);
+  const double middleB = mean(b);
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - middleA) * (b[i] - middleB);
+  return sum / (a.size() * deviation(a) * deviation(b));
+}
+
+/// Largest distance of the sample's distribution from the wanted one.
+double farthest(std::vector<double> values, const std::function<double(double)>& distribution) {
+  std::sort(values.begin(), values.end());
+  double most = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double wanted = distribution(values[i]);
+    most = std::max({most, std::abs(wanted - static_cast<double>(i) / values.size()),
+                     std::abs(wanted - static_cast<double>(i + 1) / values.size())});
+  }
+  return most;
+}
+
+TEST(EdgeStrength, FollowsTheWeibullDistribution) {
+  for (const double m : {1., 2., 20., 50.}) {
+    const std::vector<double> sample = strengths(weibull(m));
+    EXPECT_LT(farthest(sample, [&](double s) { return -std::expm1(-std::pow(s / kStrength, m)); }),
+              kFarthest);
+    const double first = std::tgamma(1 + 1 / m);
+    const double spread = std::sqrt(std::tgamma(1 + 2 / m) - first * first);
+    // Three deviations of the mean; that of the spread's is up to √2 times as wide (m = 1).
+    const double tolerance = 3 * spread / std::sqrt(kEdges);
+    EXPECT_NEAR(mean(sample) / kStrength, first, tolerance) << m;
+    EXPECT_NEAR(deviation(sample) / kStrength, spread, 1.5 * tolerance) << m;
+  }
+}
+
+TEST(EdgeStrength, Has63PercentOfTheEdgesBelowTheScale) {
+  const std::vector<double> sample = strengths(weibull(10));
+  const auto below = std::count_if(sample.begin(), sample.end(),
+                                   [](double strength) { return strength < kStrength; });
+  EXPECT_NEAR(static_cast<double>(below) / kEdges, 1 - std::exp(-1.), .005);
+}
+
+TEST(EdgeStrength, FollowsTheEvenDistribution) {
+  const double s = .3;
+  const std::vector<double> sample = strengths(even(s));
+  EXPECT_LT(farthest(sample, [&](double x) { return (x / kStrength - 1 + s) / (2 * s); }),
+            kFarthest);
+  EXPECT_NEAR(mean(sample) / kStrength, 1, 3 * s / std::sqrt(3. * kEdges));
+  EXPECT_NEAR(deviation(sample) / kStrength, s / std::sqrt(3.), 3 * s / std::sqrt(3. * kEdges));
+  EXPECT_GT(*std::min_element(sample.begin(), sample.end()), (1 - s) * kStrength);
+  EXPECT_LT(*std::max_element(sample.begin(), sample.end()), (1 + s) * kStrength);
+}
+
+TEST(EdgeStrength, IsTheScaleWithoutScatter) {
+  for (const std::uint64_t edge : {0ull, 1ull, 1ull << 40})
+    EXPECT_EQ(edgeStrength({.tensileStrength = kStrength, .seed = 3}, edge), kStrength);
+}
+
+TEST(EdgeStrength, OfBothScattersIsTheirProduct) {
+  BrittleMaterial both = weibull(20);
+  both.strengthScatter = .1;
+  for (std::uint64_t edge = 0; edge < 1000; ++edge)
+    EXPECT_NEAR(edgeStrength(both, edge),
+                edgeStrength(weibull(20), edge) * edgeStrength(even(.1), edge) / kStrength,
+                1e-15 * 2 * kStrength);
+}
+
+TEST(EdgeStrength, DrawsEdgesSeedsAndScattersApart) {
+  const double limit = 4 / std::sqrt(kEdges);
+  const std::vector<double> a = strengths(weibull(1, 7));
+  const std::vector<double> next = strengths(weibull(1, 8));
+  const std::vector<double> other = strengths(even(.5, 7));
+  EXPECT_LT(std::abs(correlation(a, next)), limit);
+  EXPECT_LT(std::abs(correlation(a, other)), limit);
+  for (std::size_t lag : {1, 2, 64}) {
+    const std::vector<double> head(a.begin(), a.end() - lag);
+    const std::vector<double> tail(a.begin() + lag, a.end());
+    const std::vector<double> shifted(next.begin() + lag, next.end());
+    EXPECT_LT(std::abs(correlation(head, tail)), limit) << lag;
+    EXPECT_LT(std::abs(correlation(head, shifted)), limit) << lag;
+  }
+}
+
+TEST(EdgeStrength, IsTheSameForTheSameSeedInAnyOrderAndOnAnyThread) {
+  const BrittleMaterial material = weibull(20);
+  const std::vector<double> forward = strengths(material);
+  std::vector<double> backward(kEdges);
+  std::thread other([&] {
+    for (std::size_t i = kEdges; i-- > 0;) backward[i] = edgeStrength(material, i);
+  });
+  other.join();
+  EXPECT_EQ(forward, backward);
+  const std::vector<double> reseeded = strengths(weibull(20, 8));
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < kEdges; ++i) same += forward[i] == reseeded[i] ? 1 : 0;
+  EXPECT_EQ(same, 0u);
+}
+
+TEST(EdgeStrength, KeepsItsNumbersFromReleaseToRelease) {
+  // A saved scene and a published run name a seed only.
+  EXPECT_NEAR(edgeStrength(weibull(20, 0), 0) / kStrength, .9092983083681552, 1e-12);
+  EXPECT_NEAR(edgeStrength(weibull(20, 7), 12345) / kStrength, 1.021994820635705, 1e-12);
+  EXPECT_NEAR(edgeStrength(even(.3, 7), 12345) / kStrength, .7437226364983984, 1e-12);
+}
+
+TEST(EdgeStrength, IsPositiveAndFiniteForAnySeedAndNumber) {
+  for (const std::uint64_t extreme : {std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max()})
+    for (const double m : {.5, 50.}) {
+      const double strength = edgeStrength(weibull(m, extreme), extreme);
+      EXPECT_GT(strength, 0);
+      EXPECT_TRUE(std::isfinite(strength));
+    }
+}
+
+TEST(LikelyLargestStrength, IsExceededByOneEdgeOnAverage) {
+  std::size_t above = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const BrittleMaterial material = weibull(10, seed);
+    const double largest = likelyLargestStrength(material, 1000);
+    for (std::uint64_t edge = 0; edge < 1000; ++edge)
+      above += edgeStrength(material, edge) > largest ? 1 : 0;
+  }
+  EXPECT_NEAR(above, 100, 30);  // three deviations of a Poisson number
+  EXPECT_DOUBLE_EQ(likelyLargestStrength(even(.3), 1000), 1.3 * kStrength);
+  EXPECT_EQ(likelyLargestStrength(even(0), 1000), kStrength);
+  EXPECT_EQ(likelyLargestStrength(weibull(10), 1), kStrength);
+}
+
+}  // namespace
+}  // namespace yadefrag
