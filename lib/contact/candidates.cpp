@@ -1,6 +1,8 @@
 #include "contact/candidates.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "core/tolerances.hpp"
 #include "surface/piece_geometry.hpp"
@@ -30,13 +32,9 @@ class FormerFlags {
   std::uint32_t at_ = 0;
 };
 
-}  // namespace
-
-void Candidates::clear() { *this = {}; }
-
-void replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
-                       const ContactSurfaces& surfaces, std::span<const Vec2> before) {
-  std::sort(pairs.begin(), pairs.end());
+/// The pairs, ascending, as rows.
+void fill(Candidates& candidates, const std::vector<SlaveMaster>& pairs,
+          const ContactSurfaces& surfaces, std::span<const Vec2> before) {
   constexpr std::uint8_t kUnknown = 2;
   const PieceGeometry geometry(surfaces, before);
   FormerFlags former(candidates);
@@ -58,6 +56,29 @@ void replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
   }
   next.offsets.push_back(static_cast<std::uint32_t>(next.masters.size()));
   candidates = std::move(next);
+}
+
+}  // namespace
+
+void Candidates::clear() { *this = {}; }
+
+void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
+                   const ContactSurfaces& surfaces, std::span<const Vec2> before) {
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<SlaveMaster> former, all;
+  former.reserve(candidates.size());
+  for (std::size_t r = 0; r < candidates.slaves.size(); ++r)
+    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c)
+      former.push_back({candidates.slaves[r], candidates.masters[c]});
+  all.reserve(former.size() + pairs.size());
+  std::set_union(former.begin(), former.end(), pairs.begin(), pairs.end(), std::back_inserter(all));
+  fill(candidates, all, surfaces, before);
+}
+
+void replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
+                       const ContactSurfaces& surfaces, std::span<const Vec2> before) {
+  std::sort(pairs.begin(), pairs.end());
+  fill(candidates, pairs, surfaces, before);
 }
 
 }  // namespace yadefrag

@@ -39,4 +39,8 @@ struct SlaveMaster {
 void replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
                        const ContactSurfaces& surfaces, std::span<const Vec2> before);
 
+/// The same, but in addition to what is there already.
+void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
+                   const ContactSurfaces& surfaces, std::span<const Vec2> before);
+
 }  // namespace yadefrag

@@ -11,6 +11,7 @@ struct StageTimes {
   double search = 0;       ///< global search, and whether one is due
   double localSearch = 0;  ///< candidates → actives
   double correction = 0;   ///< actives → contact forces, positions, velocities
+  double fracture = 0;     ///< strength check, cohesion, cracks and all that follows them
 
   [[nodiscard]] double contact() const { return search + localSearch + correction; }
 };

@@ -226,4 +226,10 @@ inline constexpr int kMostSweeps = 100, kSweepsToCheck = 10;
 /// one; up to the third if more than a quarter of its entries are there.
 inline constexpr std::size_t kPlainCholesky = 16, kDenseRows = 32, kMostDenseRows = 1500;
 
+/// (of the strength; count) Change of cohesive tractions at which the sweeps over all of them end,
+/// and how many there may be: cracks influence each other through one node at most, so the error
+/// falls tenfold in a few sweeps.
+inline constexpr double kCohesionChange = 1e-8;
+inline constexpr int kCohesionSweeps = 100;
+
 }  // namespace yadefrag::tolerance

@@ -31,6 +31,13 @@ Matrix2 deformationStep(const Model& model, ElementId element, double dt) {
   return {dt * rate.xx, dt * rate.xy, dt * rate.yx, dt * rate.yy};
 }
 
+std::array<double, 3> stressOf(const Model& model, ElementId element) {
+  const ComponentId body = model.triangles.component[element.value];
+  const ElasticMaterial& material = model.components[body.value].material;
+  const Matrix2 f = deformationGradient(model, element);
+  return cauchy(firstPiola(f, material.lame(), material.shearModulus()), f);
+}
+
 std::vector<std::array<double, 3>> stresses(const Model& model) {
   std::vector<std::array<double, 3>> result(model.triangles.size());
   for (const Component& c : model.components) {

@@ -15,7 +15,10 @@ Matrix2 deformationGradient(const Model& model, ElementId element);
 /// Δt Ḟ: the change of F over a step at the present velocities.
 Matrix2 deformationStep(const Model& model, ElementId element, double dt);
 
-/// (Pa) Cauchy stress xx, yy, xy of every element.
+/// (Pa) Cauchy stress xx, yy, xy of one element.
+std::array<double, 3> stressOf(const Model& model, ElementId element);
+
+/// The same of every element.
 std::vector<std::array<double, 3>> stresses(const Model& model);
 
 /// (J) Strain energy of every element at the present positions.

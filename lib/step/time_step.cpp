@@ -16,6 +16,9 @@ void World::step(double dt) {
   // Internal forces, then v* and x*, as if there were no contact.
   predict(dt);
 
+  // What still holds cracks together.
+  cohere(dt);
+
   // Global search, only if a node left the halo of the last one: mostly a collider has searched, or
   // the last candidates still hold.
   if (canTouch()) {
@@ -28,10 +31,14 @@ void World::step(double dt) {
 
   // Works of everything but contact, with the mean of both velocities.
   finish(dt);
+  bookFracture(dt);
   ++steps;
   time += dt;
   lastDt = dt;
   outerForces.clear();
+
+  // Cracks at xⁿ⁺¹: nodes split, surfaces are linked anew, and the new faces are candidates.
+  crack();
 
   if (canTouch()) foreseeSearch(dt);
 }

@@ -36,7 +36,8 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   component.brittle = spec.brittle;
   component.thickness = spec.thickness;
   component.friction = spec.friction;
-  component.selfContact = spec.selfContact;
+  // What comes off a body touches what is left of it.
+  component.selfContact = spec.selfContact || spec.brittle.cracks();
   const std::size_t first = model.nodes.size();
   const ComponentId id = appendBody(model, mesh, component);
   reference.insert(reference.end(), mesh.nodes.begin(), mesh.nodes.end());
@@ -54,6 +55,8 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
     }
     surfaces.addLoop(nodes, smooth, id);
   }
+  fracture.addBody(model, id);
+  search.nodes.clear();
   rebuild();
   search.isVoid = true;
   return id;
@@ -67,7 +70,11 @@ void World::removeBody(ComponentId component) {
     text << "There is no body " << component.value << " to remove.";
     throw InputError(text.str());
   }
+  const ElementId first(model.components[component.value].firstTriangle);
+  const ElementId last(model.components[component.value].lastTriangle);
   const std::vector<NodeId> renumbered = yadefrag::removeBody(model, component);
+  fracture.removeBody(model, first, last, renumbered);
+  search.nodes.clear();
   for (std::size_t i = 0; i < renumbered.size(); ++i)
     if (renumbered[i] != NodeId::none()) reference[renumbered[i].value] = reference[i];
   reference.resize(model.nodes.size());
@@ -120,9 +127,10 @@ void World::buildIfChanged() {
   isBuilt_ = true;
   dynamics_.rebuild(model);
   before_.resize(model.nodes.size());
-  surfaceNodes_.assign(surfaces.segmentNode.begin(), surfaces.segmentNode.end());
-  std::sort(surfaceNodes_.begin(), surfaceNodes_.end());
-  surfaceNodes_.erase(std::unique(surfaceNodes_.begin(), surfaceNodes_.end()), surfaceNodes_.end());
+  if (search.nodes.empty()) {
+    search.nodes = surfaces.segmentNode;
+    std::sort(search.nodes.begin(), search.nodes.end());
+  }
   const auto& owners = surfaces.component;
   severalBodies_ =
       std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();

@@ -12,6 +12,7 @@
 #include "core/stage_times.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "dynamics/explicit_dynamics.hpp"
+#include "fracture/fracture.hpp"
 #include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "search/contact_search.hpp"
@@ -38,7 +39,8 @@ struct SearchState {
   double shortest = 0;          ///< m, shortest boundary segment then
   bool isDue = true;            ///< the next step may leave the halo
   bool isVoid = true;           ///< entries came or went: there are no candidates to go on with
-  std::vector<Vec2> positions;  ///< m, of the surface nodes at the last search
+  std::vector<NodeId> nodes;    ///< of the surfaces; those that came by cracks are the last ones
+  std::vector<Vec2> positions;  ///< m, of those nodes at the last search, or when they came
 };
 
 class World {
@@ -88,6 +90,7 @@ class World {
   ContactSurfaces surfaces;
   Contact contact;
   SearchState search;
+  Fracture fracture;
   EnergyLedger ledger;
   std::vector<Vec2> reference;  ///< m, stress-free positions by node
   std::uint64_t steps = 0;
@@ -97,7 +100,7 @@ class World {
   // --- counters
   std::uint64_t numSearches = 0;
   StageTimes times;
-  [[nodiscard]] std::span<const NodeId> surfaceNodes() const { return surfaceNodes_; }
+  [[nodiscard]] std::span<const NodeId> surfaceNodes() const { return search.nodes; }
 
  private:
   void buildIfChanged();
@@ -109,6 +112,11 @@ class World {
   void correctContact(double dt);
   void bookContact(double dt);
   void foreseeSearch(double dt);
+  void cohere(double dt);
+  void bookFracture(double dt);
+  void crack();
+  void followSplit();
+  void addCrackCandidates();
   [[nodiscard]] double finestSegment() const;
   [[nodiscard]] bool canTouch() const;
   void measureMove();
@@ -120,7 +128,8 @@ class World {
   ExplicitDynamics dynamics_;
   std::unique_ptr<ContactSearch> search_;
   PassRule passRule_;
-  std::vector<NodeId> surfaceNodes_;
+  SplitResult split_;
+  std::vector<StressedRange> stressed_;
   std::vector<Vec2> before_;  // m, xⁿ by node; of surface nodes only
   std::vector<BoxPair> overlapping_;
   std::vector<SlaveMaster> pairs_;

@@ -39,7 +39,7 @@ bool World::canTouch() const {
 void World::rememberSurface() {
   if (!canTouch()) return;
   const StageTimer timer(timesIfAsked(), &StageTimes::search);
-  for (const NodeId node : surfaceNodes_) before_[node.value] = model.nodes.position[node.value];
+  for (const NodeId node : search.nodes) before_[node.value] = model.nodes.position[node.value];
 }
 
 /// Between two searches most steps need no look at all nodes: the sum of the largest moves is bound
@@ -48,7 +48,7 @@ void World::measureMove() {
   if (!canTouch()) return;
   const StageTimer timer(timesIfAsked(), &StageTimes::search);
   double most = 0;
-  for (const NodeId node : surfaceNodes_) {
+  for (const NodeId node : search.nodes) {
     const Vec2 moved = model.nodes.position[node.value] - before_[node.value];
     most = std::max(most, dot(moved, moved));
   }
@@ -91,9 +91,9 @@ void World::considerPairs(std::span<const BoxPair> overlapping) {
   pairs_.clear();
   selectPairs(model, surfaces, passRule_, model.nodes.position, search.halo, overlapping, pairs_);
   replaceCandidates(contact.candidates, pairs_, surfaces, before_);
-  search.positions.resize(surfaceNodes_.size());
-  for (std::size_t i = 0; i < surfaceNodes_.size(); ++i)
-    search.positions[i] = model.nodes.position[surfaceNodes_[i].value];
+  search.positions.resize(search.nodes.size());
+  for (std::size_t i = 0; i < search.nodes.size(); ++i)
+    search.positions[i] = model.nodes.position[search.nodes[i].value];
   farthest_ = 0;
   search.isDue = search.isVoid = false;
   ++numSearches;
@@ -105,8 +105,8 @@ void World::searchIfLeft() {
   if (search.isDue || search.isVoid) return searchNow();
   if (farthest_ <= search.halo / 2) return;
   double most = 0;
-  for (std::size_t i = 0; i < surfaceNodes_.size(); ++i) {
-    const Vec2 moved = model.nodes.position[surfaceNodes_[i].value] - search.positions[i];
+  for (std::size_t i = 0; i < search.nodes.size(); ++i) {
+    const Vec2 moved = model.nodes.position[search.nodes[i].value] - search.positions[i];
     most = std::max(most, dot(moved, moved));
   }
   farthest_ = std::sqrt(most);
@@ -163,8 +163,8 @@ void World::foreseeSearch(double dt) {
   const double most = largestMove_ + contact.largestCorrection();
   if (farthest_ + tolerance::kHaloSpare * most <= search.halo / 2) return;
   double farthest = 0;
-  for (std::size_t i = 0; i < surfaceNodes_.size(); ++i) {
-    const std::uint32_t node = surfaceNodes_[i].value;
+  for (std::size_t i = 0; i < search.nodes.size(); ++i) {
+    const std::uint32_t node = search.nodes[i].value;
     const double moved = norm(model.nodes.position[node] - search.positions[i]);
     farthest = std::max(farthest, moved);
     const double next = tolerance::kHaloSpare * norm(model.nodes.velocity[node]) * dt;

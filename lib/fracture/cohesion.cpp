@@ -1,0 +1,168 @@
+#include "fracture/cohesion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tolerances.hpp"
+#include "fracture/cohesive_law.hpp"
+#include "mesh/mobility.hpp"
+
+namespace yadefrag {
+namespace {
+
+/// The nodes at one end of an edge: those of its first and second triangle.
+std::array<NodeId, 2> nodesAt(const Model& model, const CrackEdges& edges, EdgeId edge, int end) {
+  const Side first = edges.side(edge, 0), second = edges.side(edge, 1);
+  if (end == 0) return {firstNode(model, first), lastNode(model, second)};
+  return {lastNode(model, first), firstNode(model, second)};
+}
+
+const BrittleMaterial& materialOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const ElementId element = edges.side(edge, 0).element;
+  return model.components[model.triangles.component[element.value].value].brittle;
+}
+
+}  // namespace
+
+void Cohesion::add(const Model& model, const CrackEdges& edges, EdgeId cracked,
+                   std::span<const Vec2> reference) {
+  const Side side = edges.side(cracked, 0);
+  const Vec2 along =
+      reference[lastNode(model, side).value] - reference[firstNode(model, side).value];
+  const ComponentId body = model.triangles.component[side.element.value];
+  edge.push_back(cracked);
+  largest.push_back({0, 0});
+  area.push_back(norm(along) / 2 * model.components[body.value].thickness);
+}
+
+void Cohesion::renumberEdges(std::span<const EdgeId> renumbered) {
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < edge.size(); ++c) {
+    const EdgeId now = renumbered[edge[c].value];
+    if (now == EdgeId::none()) continue;
+    edge[kept] = now, largest[kept] = largest[c], area[kept++] = area[c];
+  }
+  edge.resize(kept), largest.resize(kept), area.resize(kept);
+}
+
+void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before,
+                       double dt, double drag) {
+  points_.clear();
+  for (std::uint32_t c = 0; c < edge.size(); ++c) {
+    const auto [a, b] = nodesAt(model, edges, edge[c], 0);
+    const auto [d, e] = nodesAt(model, edges, edge[c], 1);
+    if (a == b && d == e) continue;
+    const BrittleMaterial& material = materialOf(model, edges, edge[c]);
+    const Vec2 across =
+        rightOf((before[d.value] - before[a.value]) + (before[e.value] - before[b.value]));
+    for (std::uint32_t end = 0; end < 2; ++end) {
+      const NodeId here = end == 0 ? a : d, there = end == 0 ? b : e;
+      const double critical = 2 * material.fractureEnergy / edges.strength[edge[c].value];
+      if (here == there || largest[c][end] >= critical) continue;
+      const Vec2 mobile = dt * dt * area[c] *
+                          (mobility(model.nodes, here, drag) + mobility(model.nodes, there, drag));
+      points_.push_back({here,
+                         there,
+                         (1 / norm(across)) * across,
+                         mobile,
+                         area[c],
+                         edges.strength[edge[c].value],
+                         critical,
+                         material.shearFactor,
+                         largest[c][end],
+                         {},
+                         {},
+                         c,
+                         end});
+    }
+  }
+}
+
+/// The effective opening √(δₙ² + β²δₛ²) of faces that are `apart` (m); its direction is that of the
+/// traction.
+double Cohesion::openingOf(const Point& point, Vec2 apart, Vec2& direction) {
+  const Vec2 tangent = -rightOf(point.normal);
+  const double beta = point.shearFactor;
+  const double normal = std::max(0., dot(apart, point.normal));
+  const double shear = dot(apart, tangent);
+  const double effective = std::hypot(normal, beta * shear);
+  direction = {};
+  if (effective > 0)
+    direction = (normal / effective) * point.normal + (beta * beta * shear / effective) * tangent;
+  return effective;
+}
+
+/// Sets one point's traction right, the others being what they are; returns its change (Pa).
+double Cohesion::relax(Model& model, Point& point) const {
+  std::vector<Vec2>& position = model.nodes.position;
+  const Vec2 own{point.compliance.x * point.traction.x, point.compliance.y * point.traction.y};
+  point.opening = position[point.there.value] - position[point.here.value] + own;
+  Vec2 direction;
+  const double trial = openingOf(point, point.opening, direction);
+  const double compliance = point.compliance.x * direction.x * direction.x +
+                            point.compliance.y * direction.y * direction.y;
+  const double size =
+      trial > 0 ? cohesiveTraction(point.strength, point.critical, point.largest, trial, compliance)
+                : 0;
+  const Vec2 traction = size * direction;
+  const Vec2 change = traction - point.traction;
+  point.traction = traction;
+  const double rate = dt_ * dt_ * point.area;
+  const Vec2 here = mobility(model.nodes, point.here, drag_);
+  const Vec2 there = mobility(model.nodes, point.there, drag_);
+  position[point.here.value] += rate * Vec2{here.x * change.x, here.y * change.y};
+  position[point.there.value] -= rate * Vec2{there.x * change.x, there.y * change.y};
+  return norm(change);
+}
+
+double Cohesion::correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
+                         double dt, double drag) {
+  if (edge.empty()) return 0;
+  dt_ = dt, drag_ = drag;
+  collect(model, edges, before, dt, drag);
+  for (int sweep = 0; sweep < tolerance::kCohesionSweeps; ++sweep) {
+    double worst = 0;
+    for (Point& point : points_) worst = std::max(worst, relax(model, point) / point.strength);
+    if (worst <= tolerance::kCohesionChange) break;
+  }
+  double most = 0;
+  for (const Point& point : points_) {
+    Vec2 direction;
+    const Vec2 apart =
+        model.nodes.position[point.there.value] - model.nodes.position[point.here.value];
+    double& widest = largest[point.crack][point.end];
+    widest = std::max(widest, openingOf(point, apart, direction));
+    for (const double sign : {1., -1.}) {
+      const NodeId node = sign > 0 ? point.here : point.there;
+      const Vec2 mobile = mobility(model.nodes, node, drag);
+      const Vec2 u = sign * dt * dt * point.area *
+                     Vec2{mobile.x * point.traction.x, mobile.y * point.traction.y};
+      model.nodes.velocity[node.value] += (1 / dt) * u;
+      most = std::max(most, norm(u));
+    }
+  }
+  return most;
+}
+
+double Cohesion::book(const Model& model, const CrackEdges& edges,
+                      std::span<const Vec2> previousVelocity, double dt) {
+  double work = 0;
+  for (const Point& point : points_) {
+    const auto mean = [&](NodeId node) {
+      return .5 * (previousVelocity[node.value] + model.nodes.velocity[node.value]);
+    };
+    work += dt * point.area * dot(point.traction, mean(point.there) - mean(point.here));
+  }
+  points_.clear();
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < edge.size(); ++c) {
+    const double critical =
+        2 * materialOf(model, edges, edge[c]).fractureEnergy / edges.strength[edge[c].value];
+    if (largest[c][0] >= critical && largest[c][1] >= critical) continue;
+    edge[kept] = edge[c], largest[kept] = largest[c], area[kept++] = area[c];
+  }
+  edge.resize(kept), largest.resize(kept), area.resize(kept);
+  return work;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,59 @@
+#pragma once
+// What still holds the two faces of a crack that has not opened wide (extrinsic linear cohesive
+// law, Camacho and Ortiz 1996). The law holds at the end of the step, for all cracks together: so
+// a crack that has hardly opened, whose unloading is stiffer than any step resolves, is held like
+// a contact by whatever traction keeps it as it is, up to what the law allows.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "fracture/crack_edges.hpp"
+
+namespace yadefrag {
+
+class Cohesion {
+ public:
+  /// From now on the crack holds together as the law says. `reference`: m, stress-free, by node.
+  void add(const Model& model, const CrackEdges& edges, EdgeId edge,
+           std::span<const Vec2> reference);
+  /// Edges are known by new numbers, none() if they are gone.
+  void renumberEdges(std::span<const EdgeId> renumbered);
+
+  /// From the predicted x* and v* without cohesion to those with it; `before`: m, xⁿ, for the
+  /// normals. Returns the largest correction of a position (m).
+  double correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before, double dt,
+                 double drag);
+
+  /// (J) What the tractions of the last step took, with the mean velocity of the step; then those
+  /// that hold nothing any more are forgotten.
+  double book(const Model& model, const CrackEdges& edges, std::span<const Vec2> previousVelocity,
+              double dt);
+
+  // By crack that holds; both ends of an edge have an opening of their own.
+  std::vector<EdgeId> edge;
+  std::vector<std::array<double, 2>> largest;  ///< m, δmax
+  std::vector<double> area;                    ///< m², half the face's
+
+ private:
+  struct Point {
+    NodeId here, there;  // of the edge's first and second triangle
+    Vec2 normal;         // out of the first
+    Vec2 compliance;     // m/Pa, by axis
+    double area, strength, critical, shearFactor;
+    double largest;
+    Vec2 traction{};  // Pa, on `here`
+    Vec2 opening{};   // m, without this point's own traction
+    std::uint32_t crack, end;
+  };
+
+  void collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before, double dt,
+               double drag);
+  double relax(Model& model, Point& point) const;
+  static double openingOf(const Point& point, Vec2 apart, Vec2& direction);
+
+  std::vector<Point> points_;
+  double dt_ = 0, drag_ = 0;
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,125 @@
+#include "fracture/crack_edges.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "fracture/edge_strength.hpp"
+
+namespace yadefrag {
+namespace {
+
+constexpr std::array<EdgeId, 3> kNoEdges{EdgeId::none(), EdgeId::none(), EdgeId::none()};
+
+struct KeyedSide {
+  NodeId low, high;
+  Side side;
+  friend auto operator<=>(const KeyedSide&, const KeyedSide&) = default;
+};
+
+/// Pairs of sides between the same two nodes, in the order of the triangles.
+std::vector<std::array<Side, 2>> innerEdges(const Model& model, const Component& body) {
+  std::vector<KeyedSide> sides;
+  for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e)
+    for (std::uint8_t c = 0; c < 3; ++c) {
+      const Side side{ElementId(e), c};
+      const auto [low, high] = std::minmax(firstNode(model, side), lastNode(model, side));
+      sides.push_back({low, high, side});
+    }
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::array<Side, 2>> inner;
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    if (sides[i].low == sides[i - 1].low && sides[i].high == sides[i - 1].high)
+      inner.push_back({sides[i - 1].side, sides[i].side});
+  std::sort(inner.begin(), inner.end());
+  return inner;
+}
+
+}  // namespace
+
+int cornerOf(const Model& model, ElementId element, NodeId node) {
+  const auto& nodes = model.triangles.nodes[element.value];
+  const int corner = nodes[0] == node ? 0 : nodes[1] == node ? 1 : 2;
+  assert(nodes[static_cast<std::size_t>(corner)] == node);
+  return corner;
+}
+
+void CrackEdges::addBody(const Model& model, ComponentId component) {
+  const Component& body = model.components[component.value];
+  ofElement.resize(model.triangles.size(), kNoEdges);
+  ofNode.resize(model.nodes.size(), ElementId::none());
+  for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e)
+    for (const NodeId node : model.triangles.nodes[e]) ofNode[node.value] = ElementId(e);
+  std::uint64_t number = 0;
+  for (const auto& [a, b] : innerEdges(model, body)) {
+    ofElement[a.element.value][a.corner] = ofElement[b.element.value][b.corner] = EdgeId(size());
+    element.push_back({a.element, b.element});
+    corner.push_back({a.corner, b.corner});
+    strength.push_back(edgeStrength(body.brittle, number++));
+    cracked.push_back(0);
+  }
+}
+
+std::vector<EdgeId> CrackEdges::removeBody(const Model& model, ElementId first, ElementId last,
+                                           std::span<const NodeId> renumberedNodes) {
+  const std::uint32_t gone = last.value - first.value;
+  const auto shifted = [&](ElementId e) { return e < last ? e : ElementId(e.value - gone); };
+  std::size_t kept = 0;
+  std::vector<EdgeId> renumbered(size(), EdgeId::none());
+  ofElement.assign(model.triangles.size(), kNoEdges);
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (element[i][0] >= first && element[i][0] < last) continue;
+    element[kept] = {shifted(element[i][0]), shifted(element[i][1])};
+    corner[kept] = corner[i];
+    strength[kept] = strength[i];
+    cracked[kept] = cracked[i];
+    for (std::size_t k = 0; k < 2; ++k)
+      ofElement[element[kept][k].value][corner[kept][k]] = EdgeId(kept);
+    renumbered[i] = EdgeId(kept++);
+  }
+  element.resize(kept), corner.resize(kept), strength.resize(kept), cracked.resize(kept);
+  for (std::size_t n = 0; n < ofNode.size(); ++n)
+    if (renumberedNodes[n] != NodeId::none())
+      ofNode[renumberedNodes[n].value] =
+          ofNode[n] == ElementId::none() ? ofNode[n] : shifted(ofNode[n]);
+  ofNode.resize(model.nodes.size());
+  return renumbered;
+}
+
+Side CrackEdges::twin(Side side) const {
+  const EdgeId edge = ofElement[side.element.value][side.corner];
+  if (edge == EdgeId::none()) return {ElementId::none(), 0};
+  return this->side(edge, element[edge.value][0] == side.element ? 1 : 0);
+}
+
+ElementId CrackEdges::across(Side side) const {
+  const EdgeId edge = ofElement[side.element.value][side.corner];
+  if (edge == EdgeId::none() || cracked[edge.value] != 0) return ElementId::none();
+  const auto& both = element[edge.value];
+  return both[0] == side.element ? both[1] : both[0];
+}
+
+bool CrackEdges::appendFan(const Model& model, NodeId node, std::vector<ElementId>& fan) const {
+  const ElementId start = ofNode[node.value];
+  assert(start != ElementId::none());
+  const auto clockwise = [&](ElementId e) {
+    return across({e, static_cast<std::uint8_t>(cornerOf(model, e, node))});
+  };
+  const auto counterClockwise = [&](ElementId e) {
+    return across({e, beforeCorner(cornerOf(model, e, node))});
+  };
+  ElementId first = start;
+  for (ElementId e = clockwise(start); e != ElementId::none(); e = clockwise(e)) {
+    if (e == start) break;
+    first = e;
+  }
+  const bool ring = clockwise(first) == start && first != start;
+  fan.push_back(ring ? start : first);
+  for (ElementId e = counterClockwise(fan.back()); e != ElementId::none();
+       e = counterClockwise(e)) {
+    if (ring && e == start) break;
+    fan.push_back(e);
+  }
+  return ring;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,39 @@
+#include "fracture/fracture.hpp"
+
+#include <algorithm>
+
+namespace yadefrag {
+
+void Fracture::addBody(const Model& model, ComponentId component) {
+  if (model.components[component.value].brittle.cracks()) edges.addBody(model, component);
+}
+
+void Fracture::removeBody(const Model& model, ElementId first, ElementId last,
+                          std::span<const NodeId> renumberedNodes) {
+  if (!isOn()) return;
+  const std::vector<EdgeId> renumbered = edges.removeBody(model, first, last, renumberedNodes);
+  cohesion.renumberEdges(renumbered);
+}
+
+bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
+                     std::span<const StressedRange> where, SplitResult& result) {
+  cracks_.clear();
+  if (where.empty() || numCracks_ >= maxCracks) return false;
+  cracks_ = check_.overstressed(model, edges, where);
+  if (cracks_.size() > maxCracks - numCracks_) cracks_.resize(maxCracks - numCracks_);
+  if (cracks_.empty()) return false;
+  numCracks_ += cracks_.size();
+  splitNodes(model, edges, surfaces, cracks_, result);
+  return !result.sides.empty();
+}
+
+void Fracture::cohere(const Model& model, std::span<const Vec2> reference) {
+  for (const EdgeId edge : cracks_) {
+    const ElementId element = edges.side(edge, 0).element;
+    const ComponentId body = model.triangles.component[element.value];
+    if (model.components[body.value].brittle.fractureEnergy > 0)
+      cohesion.add(model, edges, edge, reference);
+  }
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,49 @@
+#pragma once
+// Everything about cracks: which edges may crack, which have, what still holds them together.
+
+#include <span>
+#include <vector>
+
+#include "dynamics/explicit_dynamics.hpp"
+#include "fracture/cohesion.hpp"
+#include "fracture/crack_edges.hpp"
+#include "fracture/node_splitting.hpp"
+#include "fracture/strength_check.hpp"
+
+namespace yadefrag {
+
+class Fracture {
+ public:
+  /// A body has joined the model; nothing happens unless it can crack.
+  void addBody(const Model& model, ComponentId component);
+  /// A body has left it: its triangles were [first, last).
+  void removeBody(const Model& model, ElementId first, ElementId last,
+                  std::span<const NodeId> renumberedNodes);
+
+  /// Is there anything that may crack.
+  [[nodiscard]] bool isOn() const { return edges.size() != 0; }
+
+  /// Cracks what has reached its strength at the present positions, and splits nodes. True if
+  /// `result` has anything in it that others must follow.
+  bool crack(Model& model, const ContactSurfaces& surfaces, std::span<const StressedRange> where,
+             SplitResult& result);
+  /// To be called after the reference positions of new nodes are there: cracks that were made hold
+  /// as their law says.
+  void cohere(const Model& model, std::span<const Vec2> reference);
+
+  [[nodiscard]] std::uint64_t numCracks() const { return numCracks_; }
+  void restore(std::uint64_t numCracks) { numCracks_ = numCracks; }
+
+  /// No more edges crack than this, all in all.
+  std::uint64_t maxCracks = ~std::uint64_t{0};
+
+  CrackEdges edges;
+  Cohesion cohesion;
+
+ private:
+  StrengthCheck check_;
+  std::vector<EdgeId> cracks_;
+  std::uint64_t numCracks_ = 0;
+};
+
+}  // namespace yadefrag

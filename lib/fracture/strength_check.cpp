@@ -1,0 +1,94 @@
+#include "fracture/strength_check.hpp"
+
+#include <algorithm>
+
+#include "fracture/separation.hpp"
+
+namespace yadefrag {
+
+std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackEdges& edges,
+                                                std::span<const StressedRange> where) {
+  begin(model, edges);
+  found_.clear();
+  for (const StressedRange& range : where)
+    for (std::uint32_t e = range.first.value; e < range.last.value; ++e)
+      for (const EdgeId edge : edges.ofElement[e]) {
+        if (edge == EdgeId::none() || edges.cracked[edge.value] != 0) continue;
+        if (edgeSeen_[edge.value] == call_) continue;
+        edgeSeen_[edge.value] = call_;
+        const double ratio = ratioOf(model, edges, edge);
+        if (ratio >= 1) found_.push_back({ratio, edge});
+      }
+  return pickApart(model, edges);
+}
+
+void StrengthCheck::begin(const Model& model, const CrackEdges& edges) {
+  ++call_;
+  elementSeen_.resize(model.triangles.size());
+  elementStress_.resize(model.triangles.size());
+  nodeSeen_.resize(model.nodes.size());
+  nodeStress_.resize(model.nodes.size());
+  nodeTaken_.resize(model.nodes.size());
+  edgeSeen_.resize(edges.size());
+}
+
+const StrengthCheck::Stress& StrengthCheck::stressOf(const Model& model, ElementId element) {
+  Stress& stress = elementStress_[element.value];
+  if (elementSeen_[element.value] == call_) return stress;
+  elementSeen_[element.value] = call_;
+  return stress = yadefrag::stressOf(model, element);
+}
+
+const StrengthCheck::Stress& StrengthCheck::stressAt(const Model& model, const CrackEdges& edges,
+                                                     NodeId node) {
+  Stress& mean = nodeStress_[node.value];
+  if (nodeSeen_[node.value] == call_) return mean;
+  nodeSeen_[node.value] = call_;
+  fan_.clear();
+  edges.appendFan(model, node, fan_);
+  mean = {};
+  double whole = 0;
+  for (const ElementId element : fan_) {
+    const double area = model.triangles.area[element.value];
+    const Stress& stress = stressOf(model, element);
+    for (std::size_t i = 0; i < 3; ++i) mean[i] += area * stress[i];
+    whole += area;
+  }
+  for (double& component : mean) component /= whole;
+  return mean;
+}
+
+double StrengthCheck::ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const Side side = edges.side(edge, 0);
+  const NodeId a = firstNode(model, side), b = lastNode(model, side);
+  Stress mean = stressAt(model, edges, a);
+  const Stress& other = stressAt(model, edges, b);
+  for (std::size_t i = 0; i < 3; ++i) mean[i] = .5 * (mean[i] + other[i]);
+  const Vec2 across = rightOf(model.nodes.position[b.value] - model.nodes.position[a.value]);
+  const Traction traction = tractionOn(mean, (1 / norm(across)) * across);
+  const Component& body = model.components[model.triangles.component[side.element.value].value];
+  return effectiveTraction(traction.normal, traction.shear, body.brittle, body.friction) /
+         edges.strength[edge.value];
+}
+
+std::vector<EdgeId> StrengthCheck::pickApart(const Model& model, const CrackEdges& edges) {
+  std::sort(found_.begin(), found_.end(), [](const Overstressed& a, const Overstressed& b) {
+    return a.ratio != b.ratio ? a.ratio > b.ratio : a.edge < b.edge;
+  });
+  std::vector<EdgeId> picked;
+  for (const Overstressed& one : found_) {
+    const Side side = edges.side(one.edge, 0);
+    const Component& body = model.components[model.triangles.component[side.element.value].value];
+    if (body.brittle.fractureEnergy == 0) {
+      std::uint32_t& first = nodeTaken_[firstNode(model, side).value];
+      std::uint32_t& last = nodeTaken_[lastNode(model, side).value];
+      if (first == call_ || last == call_) continue;
+      first = last = call_;
+    }
+    picked.push_back(one.edge);
+  }
+  std::sort(picked.begin(), picked.end());
+  return picked;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,47 @@
+#pragma once
+// Which edges reach their strength: the stress at a node is that of the triangles around it, by
+// area; at an edge it is the mean of its ends'.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "dynamics/element_state.hpp"
+#include "fracture/crack_edges.hpp"
+
+namespace yadefrag {
+
+/// Successive triangles.
+struct StressedRange {
+  ElementId first, last;  ///< one past
+};
+
+class StrengthCheck {
+ public:
+  /// The edges of these triangles that crack now, ascending. Where a crack opens at once, of all
+  /// edges that meet at a node only the most overstressed one: its opening unloads the others.
+  std::vector<EdgeId> overstressed(const Model& model, const CrackEdges& edges,
+                                   std::span<const StressedRange> where);
+
+ private:
+  using Stress = std::array<double, 3>;
+  struct Overstressed {
+    double ratio;
+    EdgeId edge;
+  };
+
+  void begin(const Model& model, const CrackEdges& edges);
+  const Stress& stressOf(const Model& model, ElementId element);
+  const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
+  double ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge);
+  std::vector<EdgeId> pickApart(const Model& model, const CrackEdges& edges);
+
+  // Looked at in this call if the mark is the call's number.
+  std::uint32_t call_ = 0;
+  std::vector<std::uint32_t> elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_;
+  std::vector<Stress> elementStress_, nodeStress_;  // Pa: xx, yy, xy
+  std::vector<ElementId> fan_;
+  std::vector<Overstressed> found_;
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,58 @@
+#include "step/crack_candidates.hpp"
+
+#include <algorithm>
+
+#include "search/contact_search.hpp"
+#include "step/entry_pairs.hpp"
+
+namespace yadefrag {
+namespace {
+
+void sortUnique(std::vector<EntryId>& entries) {
+  std::sort(entries.begin(), entries.end());
+  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+}
+
+}  // namespace
+
+std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, const Candidates& candidates,
+                                   std::span<const SurfaceSide> sides) {
+  std::vector<EntryId> own;
+  for (const SurfaceSide& side : sides) {
+    const EntryId entry = surfaces.segmentEntry[surfaces.nodeSegment[side.first.value].value];
+    // A segment has two entries at most; so far the neighbours' are reached as well.
+    EntryId at = surfaces.prev[surfaces.prev[entry.value].value];
+    for (int k = 0; k < 6; ++k, at = surfaces.next[at.value]) own.push_back(at);
+  }
+  sortUnique(own);
+  const auto isOwn = [&](EntryId entry) {
+    return std::binary_search(own.begin(), own.end(), entry);
+  };
+  std::vector<EntryId> around(own);
+  for (std::size_t r = 0; r < candidates.slaves.size(); ++r) {
+    const bool ownSlave = isOwn(candidates.slaves[r]);
+    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
+      if (ownSlave) around.push_back(candidates.masters[c]);
+      if (isOwn(candidates.masters[c])) around.push_back(candidates.slaves[r]);
+    }
+  }
+  sortUnique(around);
+  return around;
+}
+
+std::vector<BoxPair> overlapsAmong(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
+                                   std::span<const EntryId> entries, double halo) {
+  std::vector<Box> boxes;
+  boxes.reserve(entries.size());
+  for (const EntryId entry : entries) boxes.push_back(entryBox(surfaces, positions, entry, halo));
+  const std::unique_ptr<ContactSearch> search = makeSearch(SearchMethod::kLebesgue);
+  search->update(boxes);
+  std::vector<BoxPair> pairs;
+  search->findPairs(pairs);
+  for (BoxPair& pair : pairs)
+    pair = orderedPair(BoxId(entries[pair.first.value].value),
+                       BoxId(entries[pair.second.value].value));
+  return pairs;
+}
+
+}  // namespace yadefrag

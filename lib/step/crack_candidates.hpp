@@ -1,0 +1,22 @@
+#pragma once
+// Candidates of faces that have just come to light, without a search of the whole scene.
+
+#include <span>
+#include <vector>
+
+#include "contact/candidates.hpp"
+#include "core/vec2.hpp"
+#include "surface/relink.hpp"
+
+namespace yadefrag {
+
+/// The entries of `sides`, of the segments before and after them, and those that are candidates
+/// with any of these: ascending.
+std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, const Candidates& candidates,
+                                   std::span<const SurfaceSide> sides);
+
+/// Pairs of these entries whose boxes, with half the halo around, overlap.
+std::vector<BoxPair> overlapsAmong(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
+                                   std::span<const EntryId> entries, double halo);
+
+}  // namespace yadefrag

@@ -1,0 +1,69 @@
+// The world's part in fracture: what has to follow when nodes split.
+
+#include <algorithm>
+
+#include "step/crack_candidates.hpp"
+#include "step/entry_pairs.hpp"
+#include "step/world.hpp"
+
+namespace yadefrag {
+
+void World::cohere(double dt) {
+  if (fracture.cohesion.edge.empty()) return;
+  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
+  fracture.cohesion.correct(model, fracture.edges, before_, dt, dynamicsSettings.damping * dt / 2);
+}
+
+void World::bookFracture(double dt) {
+  if (fracture.cohesion.edge.empty()) return;
+  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
+  ledger.fracture +=
+      fracture.cohesion.book(model, fracture.edges, dynamics_.previousVelocity(), dt);
+}
+
+void World::crack() {
+  if (!fracture.isOn()) return;
+  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
+  stressed_.clear();
+  for (const Component& body : model.components)
+    if (body.brittle.cracks())
+      stressed_.push_back({ElementId(body.firstTriangle), ElementId(body.lastTriangle)});
+  const bool opened = fracture.crack(model, surfaces, stressed_, split_);
+  if (opened) followSplit();
+  fracture.cohere(model, reference);
+}
+
+/// Everybody who keeps something by node, triangle or entry.
+void World::followSplit() {
+  for (const NodeId original : split_.originals)
+    reference.push_back(Vec2(reference[original.value]));
+  const std::size_t count = model.nodes.size();
+  contact.resize(count);
+  before_.resize(count);
+  dynamics_.rebuild(model);
+  const EntryId firstNew(surfaces.entries());
+  relink(surfaces, split_.sides);
+  const auto appear = [&](NodeId node) {
+    search.nodes.push_back(node);
+    search.positions.push_back(model.nodes.position[node.value]);
+  };
+  for (const NodeId node : split_.onSurface) appear(node);
+  for (std::size_t n = count - split_.originals.size(); n < count; ++n) appear(NodeId(n));
+  for (const SurfaceSide& side : split_.sides)
+    if (side.segment == SegmentId::none())
+      finest_ = std::min(finest_, norm(reference[side.last.value] - reference[side.first.value]));
+  addCrackCandidates();
+}
+
+/// New faces, and all that came near them: what is within the halo of an old piece beside the crack
+/// now may be in that of a new one.
+void World::addCrackCandidates() {
+  passRule_.update(surfaces, model.nodes.position, contactSettings.passes);
+  pairs_.clear();
+  const std::vector<EntryId> around = entriesAround(surfaces, contact.candidates, split_.sides);
+  selectPairs(model, surfaces, passRule_, model.nodes.position, search.halo,
+              overlapsAmong(surfaces, model.nodes.position, around, search.halo), pairs_);
+  addCandidates(contact.candidates, pairs_, surfaces, model.nodes.position);
+}
+
+}  // namespace yadefrag
