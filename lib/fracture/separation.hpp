@@ -1,0 +1,35 @@
+#pragma once
+// When an edge opens: its effective traction against its strength.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/vec2.hpp"
+#include "mesh/brittle_material.hpp"
+
+namespace yadefrag {
+
+/// (Pa) What one side of a line does to the other.
+struct Traction {
+  double normal;  ///< positive: pulls
+  double shear;   ///< along the normal turned left
+};
+
+/// Cauchy: t = σn, of a stress (Pa: xx, yy, xy) on a line with the unit normal n.
+[[nodiscard]] inline Traction tractionOn(const std::array<double, 3>& stress, Vec2 normal) {
+  const Vec2 t{stress[0] * normal.x + stress[2] * normal.y,
+               stress[2] * normal.x + stress[1] * normal.y};
+  return {dot(normal, t), cross(normal, t)};
+}
+
+/// (Pa) Camacho and Ortiz 1996 (Int. J. Solids Struct. 33, 2899), the fracture criterion: under
+/// tension √(σₙ² + (τ/β)²), under compression what friction leaves of the shear, max(0, |τ| −
+/// μ|σₙ|)/β. Both are |τ|/β where σₙ = 0. An edge opens where this reaches its strength.
+[[nodiscard]] inline double effectiveTraction(double normal, double shear,
+                                              const BrittleMaterial& material, double friction) {
+  if (normal >= 0) return std::hypot(normal, shear / material.shearFactor);
+  return std::max(0., std::abs(shear) + friction * normal) / material.shearFactor;
+}
+
+}  // namespace yadefrag
