@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/csr.hpp"
 #include "core/tolerances.hpp"
 
 namespace yadefrag {
@@ -76,8 +77,7 @@ void appendNodes(const Model& model, const std::vector<std::uint8_t>& shared, Ch
       nodes.begin());
 }
 
-void appendLanes(const Model& model, const std::vector<std::uint32_t>& local, Chunk& chunk,
-                 std::vector<ElementLanes>& lanes) {
+void appendLanes(const Model& model, Chunk& chunk, std::vector<ElementLanes>& lanes) {
   const Triangles& triangles = model.triangles;
   chunk.firstLanes = static_cast<std::uint32_t>(lanes.size());
   for (std::uint32_t first = chunk.firstElement; first < chunk.lastElement; first += kLanes) {
@@ -85,8 +85,6 @@ void appendLanes(const Model& model, const std::vector<std::uint32_t>& local, Ch
     for (std::uint32_t k = 0; k < kLanes; ++k) {
       const std::uint32_t e = std::min(first + k, chunk.lastElement - 1);
       for (int i = 0; i < 4; ++i) l.inverseEdges[i][k] = triangles.inverseEdges[e][i];
-      for (int i = 0; i < 3; ++i)
-        l.corner[i][k] = static_cast<std::uint16_t>(local[triangles.nodes[e][i].value]);
       l.volume[k] = first + k < chunk.lastElement ? triangles.area[e] * chunk.thickness : 0;
     }
   }
@@ -99,30 +97,52 @@ void ElementChunks::build(const Model& model) {
   chunks = cutElements(model);
   lanes.clear();
   nodes.clear();
-  sharedNodes.clear();
-  partials = mostNodes = 0;
+  mostNodes = 0;
   const std::vector<std::uint8_t> shared = findShared(model, chunks);
-  std::vector<std::uint32_t> local(model.nodes.size(), 0);  // then: place among the shared ones
-  std::vector<NodeId> partialNode;
+  local_.resize(model.nodes.size());
   for (Chunk& chunk : chunks) {
     appendNodes(model, shared, chunk, nodes);
-    for (std::uint32_t i = chunk.firstNode; i < chunk.lastNode; ++i)
-      local[nodes[i].value] = i - chunk.firstNode;
-    appendLanes(model, local, chunk, lanes);
-    chunk.firstPartial = static_cast<std::uint32_t>(partialNode.size());
-    partialNode.insert(partialNode.end(), nodes.begin() + chunk.firstShared, nodes.end());
+    chunk.endOfRoom = chunk.lastNode;
+    appendLanes(model, chunk, lanes);
+    numberCorners(model, chunk);
     mostNodes = std::max<std::size_t>(mostNodes, chunk.lastNode - chunk.firstNode);
   }
-  partials = partialNode.size();
+  placePartials(shared);
+}
+
+void ElementChunks::placePartials(const std::vector<std::uint8_t>& shared) {
+  std::vector<std::uint32_t>& rowOf = local_;
+  sharedNodes.clear();
   for (std::size_t n = 0; n < shared.size(); ++n)
     if (shared[n] != 0) {
-      local[n] = static_cast<std::uint32_t>(sharedNodes.size());
+      rowOf[n] = static_cast<std::uint32_t>(sharedNodes.size());
       sharedNodes.emplace_back(n);
     }
+  std::vector<std::uint32_t> places;  // in `nodes`
+  for (const Chunk& chunk : chunks)
+    for (std::uint32_t i = chunk.firstShared; i < chunk.lastNode; ++i) places.push_back(i);
+  Csr<std::uint32_t> rows;
   fillRows(
-      partialsOfShared, sharedNodes.size(), partials,
-      [&](std::size_t i) { return local[partialNode[i].value]; },
-      [](std::size_t i) { return static_cast<std::uint32_t>(i); });
+      rows, sharedNodes.size(), places.size(),
+      [&](std::size_t i) { return rowOf[nodes[places[i]].value]; },
+      [&](std::size_t i) { return places[i]; });
+  partialOf.resize(nodes.size());
+  for (std::uint32_t partial = 0; partial < rows.values.size(); ++partial)
+    partialOf[rows.values[partial]] = partial;
+  firstPartial = std::move(rows.offsets);
+}
+
+void ElementChunks::numberCorners(const Model& model, const Chunk& chunk) {
+  for (std::uint32_t i = chunk.firstNode; i < chunk.lastNode; ++i)
+    local_[nodes[i].value] = i - chunk.firstNode;
+  for (std::uint32_t first = chunk.firstElement; first < chunk.lastElement; first += kLanes) {
+    ElementLanes& l = lanes[chunk.firstLanes + (first - chunk.firstElement) / kLanes];
+    for (std::uint32_t k = 0; k < kLanes; ++k) {
+      const auto& corners = model.triangles.nodes[std::min(first + k, chunk.lastElement - 1)];
+      for (int i = 0; i < 3; ++i)
+        l.corner[i][k] = static_cast<std::uint16_t>(local_[corners[i].value]);
+    }
+  }
 }
 
 }  // namespace yadefrag

@@ -2,12 +2,13 @@
 // The elements as the vector loops want them. Chunks of successive elements of one material have
 // local node numbers: forces are summed in a small buffer, whole for nodes that no other chunk
 // touches, the rest as partial sums that are added in a fixed order. So the result has the same
-// bits for any number of threads, and the node arrays are read and written about once.
+// bits for any number of threads, and the node arrays are read and written about once. Nodes that
+// split change only the chunks of their elements.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "core/csr.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -28,21 +29,46 @@ struct Chunk {
   double thickness;           ///< m
   std::uint32_t firstElement, lastElement;
   std::uint32_t firstLanes, lastLanes;
-  /// Its nodes in `ElementChunks::nodes`: first the own ones, then those shared with other chunks.
-  std::uint32_t firstNode, firstShared, lastNode;
-  std::uint32_t firstPartial;  ///< where its partial sums go, one per shared node
+  /// Its nodes in `ElementChunks::nodes`: first the own ones, then those shared with other chunks;
+  /// both ascending. There is room for more up to `endOfRoom`.
+  std::uint32_t firstNode, firstShared, lastNode, endOfRoom;
 };
 
 struct ElementChunks {
-  std::vector<Chunk> chunks;
+  std::vector<Chunk> chunks;  ///< by ascending elements
   std::vector<ElementLanes> lanes;
-  std::vector<NodeId> nodes;            ///< by chunk and local number
-  std::vector<NodeId> sharedNodes;      ///< ascending
-  Csr<std::uint32_t> partialsOfShared;  ///< by place in `sharedNodes`
-  std::size_t partials = 0;
+  std::vector<NodeId> nodes;             ///< by chunk and local number
+  std::vector<std::uint32_t> partialOf;  ///< parallel to `nodes`: where a shared one's sum goes
+  std::vector<NodeId> sharedNodes;       ///< ascending
+  /// Where the partial sums of `sharedNodes[i]` begin, one for each of its chunks in ascending
+  /// order; those of the next shared node follow.
+  std::vector<std::uint32_t> firstPartial;
   std::size_t mostNodes = 0;  ///< of a chunk
 
   void build(const Model& model);
+  /// Builds anew the chunks that hold `changed` elements, some of whose corners became nodes from
+  /// `firstNew` on, and returns how many these are. Sums have the same bits as after `build`: old
+  /// nodes stay shared though only one chunk may be left to them. Partial sums nobody writes any
+  /// more are appended to `abandoned` and must be set to zero.
+  std::size_t follow(const Model& model, std::span<const ElementId> changed, NodeId firstNew,
+                     std::vector<std::uint32_t>& abandoned);
+
+  [[nodiscard]] std::size_t partials() const {
+    return firstPartial.empty() ? 0 : firstPartial.back();
+  }
+
+ private:
+  struct NewPlace;
+  struct NodeList;
+
+  void placePartials(const std::vector<std::uint8_t>& shared);
+  void numberCorners(const Model& model, const Chunk& chunk);
+  void shareNewNodes(std::span<NewPlace> places);
+  void listNodes(const Model& model, const Chunk& chunk, std::span<const NewPlace> added,
+                 NodeList& list, std::vector<std::uint32_t>& abandoned);
+  void replaceNodes(Chunk& chunk, const NodeList& list);
+
+  std::vector<std::uint32_t> local_;  // by node; only what was just written is ever read
 };
 
 }  // namespace yadefrag

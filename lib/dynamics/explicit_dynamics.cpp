@@ -24,7 +24,8 @@ std::string at(Vec2 where) {
 void addUp(const ElementChunks& elements, const std::vector<Vec2>& partial, std::size_t row,
            std::vector<Vec2>& force) {
   Vec2 sum;
-  for (const std::uint32_t i : elements.partialsOfShared.row(row)) sum += partial[i];
+  for (std::uint32_t i = elements.firstPartial[row]; i < elements.firstPartial[row + 1]; ++i)
+    sum += partial[i];
   force[elements.sharedNodes[row].value] = sum;
 }
 
@@ -32,8 +33,8 @@ void handOut(const ElementChunks& elements, const Chunk& chunk, const Vec2* loca
              std::vector<Vec2>& force, std::vector<Vec2>& partial) {
   for (std::uint32_t i = chunk.firstNode; i < chunk.firstShared; ++i)
     force[elements.nodes[i].value] = *local++;
-  for (std::uint32_t i = 0; i < chunk.lastNode - chunk.firstShared; ++i)
-    partial[chunk.firstPartial + i] = *local++;
+  for (std::uint32_t i = chunk.firstShared; i < chunk.lastNode; ++i)
+    partial[elements.partialOf[i]] = *local++;
 }
 
 bool anyHeld(const Nodes& nodes) {
@@ -60,13 +61,33 @@ struct ExplicitDynamics::Update {
 void ExplicitDynamics::rebuild(const Model& model) {
   elements_.build(model);
   force_.assign(model.nodes.size(), {});
-  partialForce_.resize(elements_.partials);
+  partialForce_.resize(elements_.partials());
   viscousForce_.clear();
   partialViscous_.clear();
   previousVelocity_ = model.nodes.velocity;
   heldVelocity_.clear();
   if (anyHeld(model.nodes)) heldVelocity_ = model.nodes.velocity;
   scratch_.clear();
+}
+
+std::size_t ExplicitDynamics::follow(const Model& model, std::span<const ElementId> changed,
+                                     std::span<const NodeId> originals) {
+  const NodeId firstNew(force_.size());
+  assert(firstNew.value + originals.size() == model.nodes.size());
+  std::vector<std::uint32_t> abandoned;
+  const std::size_t chunks = elements_.follow(model, changed, firstNew, abandoned);
+  for (std::vector<Vec2>* partial : {&partialForce_, &partialViscous_})
+    if (!partial->empty()) {
+      partial->resize(elements_.partials());
+      for (const std::uint32_t i : abandoned) (*partial)[i] = {};
+    }
+  force_.resize(model.nodes.size());
+  if (!viscousForce_.empty()) viscousForce_.resize(model.nodes.size());
+  for (const NodeId original : originals) {
+    previousVelocity_.push_back(Vec2(previousVelocity_[original.value]));
+    if (!heldVelocity_.empty()) heldVelocity_.push_back(Vec2(heldVelocity_[original.value]));
+  }
+  return chunks;
 }
 
 void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
@@ -168,7 +189,7 @@ void ExplicitDynamics::predict(Model& model, double dt, const StepSettings& sett
   const double rate = dt / (1 + d);
   badElement_ = badNode_ = false;
   viscousForce_.resize(settings.viscosity.isOn() ? force_.size() : 0);
-  partialViscous_.resize(settings.viscosity.isOn() ? elements_.partials : 0);
+  partialViscous_.resize(settings.viscosity.isOn() ? elements_.partials() : 0);
   step(model,
        {dt, (1 - d) / (1 + d), rate, rate * settings.gravity, outerForces, model.nodes.load,
         threads},

@@ -28,6 +28,13 @@ class ExplicitDynamics {
   /// To be called after nodes or triangles came, went or were renumbered, before the next step.
   void rebuild(const Model& model);
 
+  /// The same where nodes only split, at a cost that grows with the number of changed elements: new
+  /// nodes were appended, and corners of the `changed` elements became new nodes. `originals[i]` is
+  /// what the i-th new node was copied from. All later steps have the same bits as after `rebuild`.
+  /// Returns how many chunks of elements were built anew.
+  std::size_t follow(const Model& model, std::span<const ElementId> changed,
+                     std::span<const NodeId> originals);
+
   /// One step; `outerForces` (N, by node) may be empty. Held directions keep their velocity. The
   /// result has the same bits for any number of threads.
   /// Throws RunError with element or node and place, and leaves the last good state: where an
