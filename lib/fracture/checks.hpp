@@ -1,0 +1,30 @@
+#pragma once
+// Brittle materials that cannot be, and fracture energies that a mesh or a step cannot resolve.
+
+#include <string>
+
+#include "core/ids.hpp"
+#include "mesh/brittle_material.hpp"
+#include "mesh/model.hpp"
+
+namespace yadefrag {
+
+/// Throws InputError unless the material can crack and every value can be meant: for the callers
+/// that were asked for a brittle one, since a strength of 0 elsewhere says that there is none.
+void checkBrittle(const BrittleMaterial& material);
+
+/// Throws InputError if, between two triangles of the component, a step would cross the cohesive
+/// law's whole opening: k·σ/δc < 1 must hold, δc = 2Gc/σ, σ the strength that the strongest edge is
+/// likely to have. k = Δt²(L/2)·thickness·(1/m₁ + 1/m₂) is what 1 Pa takes from the opening at one
+/// end of an edge of length L, whose half it is (see cohesive_law.hpp), and m a third of a
+/// triangle's mass: no node ends up with less. The explicit law needs a quarter of it, for the
+/// leapfrog is stable up to ω = 2/Δt. Without a fracture energy there is nothing to resolve.
+void checkCohesiveResolution(const Model& model, ComponentId component, double dt);
+
+/// A sentence where the zone in which a crack's faces still hold is shorter than three elements, so
+/// that the energy of a running crack hangs on the mesh; else empty. Its length is E·Gc/σc²
+/// (Hillerborg, Modéer and Petersson 1976, Cem. Concr. Res. 6, 773), an element's the mean of the
+/// component's edges.
+[[nodiscard]] std::string cohesiveZoneWarning(const Model& model, ComponentId component);
+
+}  // namespace yadefrag

@@ -1,0 +1,196 @@
+#include "fracture/checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "core/errors.hpp"
+#include "dynamics/critical_time_step.hpp"
+#include "fracture/edge_strength.hpp"
+#include "mesh/assembly.hpp"
+#include "mesh/structured.hpp"
+
+namespace yadefrag {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr ElasticMaterial kCeramic{.young = 275e9, .poisson = 0, .density = 2750};
+constexpr BrittleMaterial kBrittle{.tensileStrength = 300e6, .fractureEnergy = 100};
+constexpr ComponentId kBody(std::size_t{0});
+
+/// What is said when the call throws InputError; empty if it does not.
+std::string saidBy(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::string saidOf(const BrittleMaterial& material) {
+  return saidBy([&] { checkBrittle(material); });
+}
+
+/// The number in a sentence that follows the words.
+double numberAfter(const std::string& sentence, const std::string& words) {
+  const std::size_t at = sentence.find(words);
+  EXPECT_NE(at, std::string::npos) << sentence;
+  return at == std::string::npos ? kNan : std::stod(sentence.substr(at + words.size()));
+}
+
+/// A square of 10 mm in `side` × `side` quads of two triangles.
+Model body(int side, const BrittleMaterial& brittle, double thickness = 1) {
+  Component component;
+  component.material = kCeramic;
+  component.brittle = brittle;
+  component.thickness = thickness;
+  Model model;
+  appendBody(model, structuredRectangle({0, 0}, {.01, .01}, side, side), component);
+  return model;
+}
+
+/// What the step takes from an opening held by the strength, over the critical one, from the
+/// formula: legs h, diagonals √2h between triangles of h²/2, lumped by thirds.
+double crossedOf(double h, double dt, double strength) {
+  const double node = kCeramic.density * h * h / 2 / 3;
+  const double compliance = dt * dt * (std::sqrt(2.) * h / 2) * (2 / node);
+  return compliance * strength / (2 * kBrittle.fractureEnergy / strength);
+}
+
+std::string saidAtStep(const Model& model, double dt) {
+  return saidBy([&] { checkCohesiveResolution(model, kBody, dt); });
+}
+
+TEST(CheckBrittle, LetsPassWhatCanBe) {
+  EXPECT_EQ(saidOf(kBrittle), "");
+  EXPECT_EQ(saidOf({.tensileStrength = 1}), "");
+  EXPECT_EQ(saidOf({.tensileStrength = 1, .weibullModulus = .5, .strengthScatter = .999}), "");
+}
+
+TEST(CheckBrittle, NamesArgumentValueAndWhatIsRight) {
+  EXPECT_EQ(saidOf({.tensileStrength = 0}),
+            "tensileStrength is 0 Pa; it must be positive and finite for a material that cracks.");
+  EXPECT_EQ(saidOf({.tensileStrength = -3e8}),
+            "tensileStrength is -3e+08 Pa; it must be positive and finite for a material that "
+            "cracks.");
+  EXPECT_EQ(saidOf({.tensileStrength = 1, .fractureEnergy = -50}),
+            "fractureEnergy is -50 J/m²; it must be positive and finite, or 0 for cracks that open "
+            "at once.");
+  EXPECT_EQ(saidOf({.tensileStrength = 1, .shearFactor = 0}),
+            "shearFactor is 0; it must be positive and finite.");
+  EXPECT_EQ(saidOf({.tensileStrength = 1, .weibullModulus = -20}),
+            "weibullModulus is -20; it must be positive and finite, or 0 for strengths without "
+            "this scatter.");
+  EXPECT_EQ(saidOf({.tensileStrength = 1, .strengthScatter = 1}),
+            "strengthScatter is 1; it must be at least 0 and below 1.");
+  EXPECT_EQ(saidOf({.tensileStrength = 1, .strengthScatter = -.1}),
+            "strengthScatter is -0.1; it must be at least 0 and below 1.");
+}
+
+TEST(CheckBrittle, RefusesWhatIsNotFinite) {
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    EXPECT_NE(saidOf({.tensileStrength = bad}), "");
+    EXPECT_NE(saidOf({.tensileStrength = 1, .fractureEnergy = bad}), "");
+    EXPECT_NE(saidOf({.tensileStrength = 1, .shearFactor = bad}), "");
+    EXPECT_NE(saidOf({.tensileStrength = 1, .weibullModulus = bad}), "");
+    EXPECT_NE(saidOf({.tensileStrength = 1, .strengthScatter = bad}), "");
+  }
+}
+
+TEST(CheckCohesiveResolution, RefusesFromTheStepOfTheFormulaOn) {
+  const Model model = body(20, kBrittle);
+  const double limit = 1e-8 / std::sqrt(crossedOf(5e-4, 1e-8, kBrittle.tensileStrength));
+  EXPECT_EQ(saidAtStep(model, .9999 * limit), "");
+  EXPECT_NE(saidAtStep(model, 1.0001 * limit), "");
+  EXPECT_NE(saidAtStep(body(20, kBrittle, .001), 1.0001 * limit), "");  // thickness cancels
+  EXPECT_EQ(saidAtStep(body(20, kBrittle, .001), .9999 * limit), "");
+}
+
+TEST(CheckCohesiveResolution, GoesByTheStrongestEdge) {
+  BrittleMaterial scattered = kBrittle;
+  scattered.weibullModulus = 5;
+  scattered.strengthScatter = .1;
+  const double strongest = likelyLargestStrength(scattered, 20 * 20 + 2 * 20 * 19);
+  EXPECT_GT(strongest, 1.5 * kBrittle.tensileStrength);
+  const double limit = 1e-8 / std::sqrt(crossedOf(5e-4, 1e-8, strongest));
+  EXPECT_EQ(saidAtStep(body(20, scattered), .9999 * limit), "");
+  EXPECT_NE(saidAtStep(body(20, scattered), 1.0001 * limit), "");
+}
+
+TEST(CheckCohesiveResolution, TheSentenceSaysWhatWouldDoAndItDoes) {
+  const Model model = body(20, kBrittle);
+  const double dt = 1e-7;
+  const std::string sentence = saidAtStep(model, dt);
+  EXPECT_EQ(sentence.substr(0, sentence.find(';')),
+            "fractureEnergy is 100 J/m² in component 0: a crack holds up to an opening of "
+            "6.667e-07 m, which a step of 1e-07 s does not resolve");
+  const double step = numberAfter(sentence, "a step of at most ");
+  EXPECT_EQ(saidAtStep(model, step), "");
+  EXPECT_NE(saidAtStep(model, 1.03 * step), "");
+  const double now = numberAfter(sentence, "(now ");
+  EXPECT_NEAR(now, 5e-4 * (2 + std::sqrt(2.)) / 3, .02 * now);
+  const double size = numberAfter(sentence, "elements of at most ");
+  const int side = static_cast<int>(std::ceil(20 * now / size));
+  EXPECT_EQ(saidAtStep(body(side, kBrittle), dt * 20 / side), "");
+  const int coarse = static_cast<int>(.95 * side);
+  EXPECT_NE(saidAtStep(body(coarse, kBrittle), dt * 20 / coarse), "");
+}
+
+TEST(CheckCohesiveResolution, LetsPassAStableStepWhereTheZoneIsResolved) {
+  for (const int side : {120, 200}) {  // the zone is 0.31 mm: 3 and more elements
+    const Model model = body(side, kBrittle);
+    ASSERT_EQ(cohesiveZoneWarning(model, kBody), "");
+    EXPECT_EQ(saidAtStep(model, criticalTimeStep(model)), "");
+  }
+}
+
+TEST(CheckCohesiveResolution, HasNothingToResolveWithoutAFractureEnergyOrAnInnerEdge) {
+  EXPECT_EQ(saidAtStep(body(4, {.tensileStrength = 300e6}), 1), "");
+  EXPECT_EQ(saidAtStep(body(4, {}), 1), "");
+  TriangleMesh mesh;
+  mesh.nodes = {{0, 0}, {.01, 0}, {0, .01}};
+  mesh.triangles = {{0, 1, 2}};
+  Component component;
+  component.material = kCeramic;
+  component.brittle = kBrittle;
+  Model one;
+  appendBody(one, mesh, component);
+  EXPECT_EQ(saidAtStep(one, 1), "");
+}
+
+TEST(CheckCohesiveResolution, LooksAtItsOwnComponentOnly) {
+  Model model = body(200, kBrittle);
+  Component coarse = model.components[0];
+  appendBody(model, structuredRectangle({1, 0}, {2, 1}, 2, 2), coarse);
+  const double dt = criticalTimeStep(body(200, kBrittle));
+  EXPECT_EQ(saidAtStep(model, dt), "");
+  EXPECT_EQ(cohesiveZoneWarning(model, kBody), "");
+  EXPECT_NE(cohesiveZoneWarning(model, ComponentId(std::size_t{1})).find("component 1"),
+            std::string::npos);
+}
+
+TEST(CohesiveZoneWarning, SaysZoneElementAndWhatWouldDo) {
+  const double zone = 275e9 * 100 / 9e16;
+  const std::string sentence = cohesiveZoneWarning(body(20, kBrittle), kBody);
+  EXPECT_EQ(sentence.substr(0, sentence.find(';')),
+            "fractureEnergy is 100 J/m² in component 0: the cohesive zone is 0.0003056 m long, "
+            "less than three elements of 0.0005668 m");
+  const double wanted = numberAfter(sentence, "at most ");
+  EXPECT_LT(wanted, zone / 3);
+  EXPECT_GT(wanted, .98 * zone / 3);
+  const double legToMean = (2 + std::sqrt(2.)) / 3;
+  EXPECT_EQ(cohesiveZoneWarning(body(std::ceil(.01 * legToMean / wanted), kBrittle), kBody), "");
+  EXPECT_NE(cohesiveZoneWarning(body(.01 * legToMean / wanted * .95, kBrittle), kBody), "");
+}
+
+TEST(CohesiveZoneWarning, IsEmptyWithoutAFractureEnergy) {
+  EXPECT_EQ(cohesiveZoneWarning(body(2, {.tensileStrength = 300e6}), kBody), "");
+  EXPECT_EQ(cohesiveZoneWarning(body(2, {}), kBody), "");
+}
+
+}  // namespace
+}  // namespace yadefrag
