@@ -275,23 +275,38 @@ TEST(Relink, TwoHalvesBetweenCornersAreTheSegment) {
 
 TEST(Relink, ContactTakesTwoHalvesBetweenCorners) {
   CutMesh mesh = square(4, {{2, 0}});
+  const ComponentId finer(std::size_t{1});
+  mesh.addBody(structuredRectangle({9, 0}, {10, 1}, 8, 8), finer, [](auto) { return false; });
   crack(mesh, {{{2, 0}, {2, 1}}});
   const EntryId first = firstAt(mesh, {1, 0}, {2, 0});
   const EntryId second = mesh.surfaces.next[first.value];
   PassRule rule;
   rule.update(mesh.surfaces, mesh.positions, 1);
-  // Straight on is no sharp corner: no slave of a finer loop's.
-  EXPECT_TRUE(rule.mayBeSlave(second, 0, 0));
+  // In a single pass the coarser body's slaves are its sharp corners: the crack's mouth on both
+  // sides, but not the point at which two halves go straight on.
+  const std::uint32_t coarse = mesh.surfaces.loop[second.value];
+  ASSERT_EQ(coarse, 0U);
+  EXPECT_TRUE(rule.mayBeSlave(second, coarse, coarse));
+  EXPECT_FALSE(rule.mayBeSlave(second, coarse, 1));
+  EXPECT_TRUE(rule.mayBeSlave(firstAt(mesh, {2, 0}, {2, 1}), coarse, 1));
+  EXPECT_TRUE(rule.mayBeSlave(firstAt(mesh, {2, 0}, {3, 0}), coarse, 1));
 
   Model model;
   Component component;
   component.selfContact = true;
   model.components.push_back(component);
-  std::vector<BoxPair> overlapping{orderedPair(BoxId(first.value), BoxId(second.value))};
+  const std::vector<BoxPair> overlapping{orderedPair(BoxId(first.value), BoxId(second.value))};
   std::vector<SlaveMaster> pairs;
   selectPairs(model, mesh.surfaces, rule, mesh.positions, .1, overlapping, pairs);
   // The halfpoint is the first half's own end; the corner is not near the second half.
   EXPECT_TRUE(pairs.empty());
+  // The two faces of the crack: each one's beginning is in the other's halo, as its end.
+  const EntryId in = firstAt(mesh, {2, 0}, {2, 1});
+  const EntryId out = firstAt(mesh, {2, 1}, {2, 0});
+  const std::vector<BoxPair> faces{orderedPair(BoxId(in.value), BoxId(out.value))};
+  selectPairs(model, mesh.surfaces, rule, mesh.positions, .1, faces, pairs);
+  ASSERT_EQ(pairs.size(), 1U);  // not the tip, where the one ends and the other begins
+  EXPECT_EQ(pairs[0], (SlaveMaster{in, out}));
 }
 
 TEST(Relink, CrackedBodyIsTakenAway) {
