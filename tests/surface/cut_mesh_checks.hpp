@@ -48,6 +48,7 @@ inline std::size_t countCycles(const std::vector<std::size_t>& next) {
 template <class IdType>
 std::size_t countLists(const std::vector<IdType>& links) {
   std::vector<std::size_t> next;
+  next.reserve(links.size());
   for (const IdType link : links) next.push_back(link.value);
   return countCycles(next);
 }

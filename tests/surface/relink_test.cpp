@@ -29,6 +29,7 @@ CutMesh square(int n, const std::vector<Vec2>& smooth = {}) {
 
 void crack(CutMesh& mesh, const std::vector<std::pair<Vec2, Vec2>>& edges) {
   std::vector<Side> sides;
+  sides.reserve(edges.size());
   for (const auto& [a, b] : edges) sides.push_back(mesh.sideAt(a, b));
   const ContactSurfaces before = mesh.surfaces;
   const auto listed = mesh.crackAndRelink(sides);
@@ -162,6 +163,7 @@ TEST(Relink, BodyIsCutInTwoAtOnceOrStepByStep) {
   for (const bool atOnce : {false, true}) {
     CutMesh mesh = square(4, {{2, 0}, {1, 4}, {2, 4}});
     std::vector<std::pair<Vec2, Vec2>> cut;
+    cut.reserve(4);
     for (int i = 0; i < 4; ++i) cut.push_back({{2, 1. * i}, {2, i + 1.}});
     if (atOnce) crack(mesh, cut);
     for (const auto& edge : cut)
