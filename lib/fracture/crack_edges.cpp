@@ -22,7 +22,7 @@ std::vector<std::array<Side, 2>> innerEdges(const Model& model, const Component&
   for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e)
     for (std::uint8_t c = 0; c < 3; ++c) {
       const Side side{ElementId(e), c};
-      const auto [low, high] = std::minmax(firstNode(model, side), lastNode(model, side));
+      const auto [low, high] = std::minmax({firstNode(model, side), lastNode(model, side)});
       sides.push_back({low, high, side});
     }
   std::sort(sides.begin(), sides.end());

@@ -127,8 +127,9 @@ class Splitting {
 
   NodeId duplicate(NodeId node) {
     result_.originals.push_back(node);
-    edges_.ofNode.push_back(ElementId::none());
-    return model_.nodes.duplicate(node);
+    const NodeId added = model_.nodes.duplicate(node);
+    edges_.ofNode.resize(model_.nodes.size(), ElementId::none());
+    return added;
   }
 
   /// `load` is per mass.
