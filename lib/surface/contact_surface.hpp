@@ -9,6 +9,9 @@
 // smooth node it is the Bézier arc from the halfpoint before to the halfpoint after; between a
 // corner and a halfpoint it is half the segment. Every entry is a slave (its sampling point, where
 // the piece begins) and a master (the piece up to the next entry's sampling point).
+//
+// Where a smooth node cracks it becomes a corner and its arc two halves (relink.hpp): a segment
+// between two corners is one entry, or a first and a second half.
 
 #include <cstdint>
 #include <span>
@@ -54,7 +57,9 @@ class ContactSurfaces {
   std::vector<SegmentId> entrySegment;  ///< the segment in which it begins
   std::vector<Piece> piece;
   std::vector<EntryId> next, prev;
-  std::vector<std::uint32_t> loop;  ///< number of its closed loop
+  /// Number of the loop in which it was made, by which single passing tells surfaces apart. Once
+  /// something has cracked the closed lists are others: those of `next` and `segmentNext`.
+  std::vector<std::uint32_t> loop;
   std::vector<ComponentId> component;
 
   [[nodiscard]] std::size_t segments() const { return segmentNode.size(); }
