@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace yadefrag {
@@ -16,7 +17,7 @@ class Relinking {
   Relinking(ContactSurfaces& surfaces, std::span<const SurfaceSide> sides)
       : s_(surfaces), sides_(sides) {}
 
-  void run() {
+  std::vector<EntryId> run() {
     takeSegments();
     placeSegments();
     makeCorners();
@@ -26,6 +27,7 @@ class Relinking {
     for (const Ends& ends : ends_)
       link(lastEntry(ends.segment), s_.segmentEntry[s_.segmentNext[ends.segment.value].value]);
     numberLoops();
+    return std::move(straightened_);
   }
 
  private:
@@ -114,7 +116,10 @@ class Relinking {
     const SegmentId segment = before.segment;
     const bool fromSmooth = s_.segmentSmooth[segment.value] != 0;
     const bool toSmooth = s_.segmentSmooth[s_.segmentNext[segment.value].value] != 0;
-    if (before.toSmooth && !toSmooth) s_.piece[lastEntry(segment).value] = Piece::kSecondHalf;
+    if (before.toSmooth && !toSmooth) {
+      straightened_.push_back(lastEntry(segment));
+      s_.piece[straightened_.back().value] = Piece::kSecondHalf;
+    }
     if (before.fromSmooth && !fromSmooth) {
       const EntryId rest = s_.segmentEntry[segment.value];
       link(append(segment, Piece::kFirstHalf, s_.component[rest.value], s_.loop[rest.value]), rest);
@@ -162,12 +167,13 @@ class Relinking {
   std::span<const SurfaceSide> sides_;
   std::vector<Ends> ends_;       ///< by side
   std::vector<NodeId> corners_;  ///< some repeatedly
+  std::vector<EntryId> straightened_;
 };
 
 }  // namespace
 
-void relink(ContactSurfaces& surfaces, std::span<const SurfaceSide> sides) {
-  Relinking(surfaces, sides).run();
+std::vector<EntryId> relink(ContactSurfaces& surfaces, std::span<const SurfaceSide> sides) {
+  return Relinking(surfaces, sides).run();
 }
 
 }  // namespace yadefrag

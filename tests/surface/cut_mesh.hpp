@@ -132,12 +132,6 @@ class CutMesh {
     return listed;
   }
 
-  std::vector<SurfaceSide> crackAndRelink(const std::vector<Side>& edges) {
-    std::vector<SurfaceSide> sides = crack(edges);
-    relink(surfaces, sides);
-    return sides;
-  }
-
  private:
   template <class Smooth>
   void addLoops(std::map<Row, Side> leaving, ComponentId component, Smooth isSmooth) {

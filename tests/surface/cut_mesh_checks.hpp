@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -96,14 +97,19 @@ inline void checkMesh(const CutMesh& mesh) {
 
 /// Numbers are for ever: what may differ after a relinking is little.
 inline void checkOnlyAppended(const ContactSurfaces& before, const ContactSurfaces& after,
-                              std::span<const SurfaceSide> sides) {
+                              std::span<const SurfaceSide> sides,
+                              std::vector<EntryId> straightened) {
+  std::sort(straightened.begin(), straightened.end());
+  std::vector<EntryId> expected;
   for (std::size_t e = 0; e < before.entries(); ++e) {
     ASSERT_TRUE(before.entrySegment[e] == after.entrySegment[e] &&
                 before.loop[e] == after.loop[e] && before.component[e] == after.component[e]);
     ASSERT_TRUE(before.piece[e] == after.piece[e] ||
                 (before.piece[e] == Piece::kArc && after.piece[e] == Piece::kSecondHalf));
+    if (before.piece[e] != after.piece[e]) expected.emplace_back(e);
     ASSERT_EQ(weights(before.slave(EntryId(e))).size(), weights(after.slave(EntryId(e))).size());
   }
+  ASSERT_EQ(straightened, expected);
   for (std::size_t e = before.entries(); e < after.entries(); ++e) {
     const bool isOld = after.entrySegment[e].value < before.segments();
     ASSERT_EQ(after.piece[e], isOld ? Piece::kFirstHalf : Piece::kSegment);

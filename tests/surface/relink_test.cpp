@@ -32,9 +32,10 @@ void crack(CutMesh& mesh, const std::vector<std::pair<Vec2, Vec2>>& edges) {
   sides.reserve(edges.size());
   for (const auto& [a, b] : edges) sides.push_back(mesh.sideAt(a, b));
   const ContactSurfaces before = mesh.surfaces;
-  const auto listed = mesh.crackAndRelink(sides);
+  const std::vector<SurfaceSide> listed = mesh.crack(sides);
+  const std::vector<EntryId> straightened = relink(mesh.surfaces, listed);
   checkMesh(mesh);
-  checkOnlyAppended(before, mesh.surfaces, listed);
+  checkOnlyAppended(before, mesh.surfaces, listed, straightened);
 }
 
 SegmentId segmentAt(const CutMesh& mesh, Vec2 a, Vec2 b) {
