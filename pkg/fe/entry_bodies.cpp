@@ -69,27 +69,55 @@ double momentAbout(Vec2 about, const yade::Body& body, Vec2 force, double torque
 
 }  // namespace
 
+void EntryBodies::append(yade::Scene& scene, const World& world, EntryId entry,
+                         const yade::shared_ptr<yade::Material>& material) {
+  const ComponentId component = world.surfaces.component[entry.value];
+  const yade::shared_ptr<SurfaceSegment> shape(new SurfaceSegment);
+  shape->entry = static_cast<int>(entry.value);
+  shape->component = static_cast<int>(component.value);
+  shape->selfContact = world.model.components[component.value].selfContact;
+  shape->halo = .5 * world.search.halo;
+  const yade::shared_ptr<yade::Body> body(new yade::Body);
+  body->shape = shape;
+  body->material = material;
+  body->state = material->newAssocState();
+  body->state->blockedDOFs = yade::State::DOF_ALL;
+  ids_.push_back(scene.bodies->insert(body));
+  bodies_.push_back(body);
+  shapes_.push_back(shape);
+  states_.push_back(body->state);
+}
+
 void EntryBodies::add(yade::Scene& scene, const World& world,
                       const yade::shared_ptr<yade::Material>& material) {
-  for (std::size_t e = bodies_.size(); e < world.surfaces.entries(); ++e) {
-    const yade::shared_ptr<SurfaceSegment> shape(new SurfaceSegment);
-    shape->kind = static_cast<int>(world.surfaces.piece[e]);
-    shape->entry = static_cast<int>(e);
-    const ComponentId component = world.surfaces.component[e];
-    shape->component = static_cast<int>(component.value);
-    shape->selfContact = world.model.components[component.value].selfContact;
-    const yade::shared_ptr<yade::Body> body(new yade::Body);
-    body->shape = shape;
-    body->material = material;
-    body->state = material->newAssocState();
-    body->state->blockedDOFs = yade::State::DOF_ALL;
-    ids_.push_back(scene.bodies->insert(body));
-    bodies_.push_back(body);
-    shapes_.push_back(shape);
-    states_.push_back(body->state);
-  }
-  mapEntries();
+  const std::size_t first = bodies_.size();
+  for (std::size_t e = first; e < world.surfaces.entries(); ++e)
+    append(scene, world, EntryId(e), material);
+  mapEntries(first);
   update(world, 0, 1);
+}
+
+void EntryBodies::follow(yade::Scene& scene, const World& world) {
+  const std::size_t first = bodies_.size();
+  if (first == world.surfaces.entries()) return;
+  for (std::size_t e = first; e < world.surfaces.entries(); ++e) {
+    const EntryId alike = firstOf(world, world.surfaces.component[e]);
+    append(scene, world, EntryId(e), bodies_[alike.value]->material);
+    bodies_[e]->groupMask = bodies_[alike.value]->groupMask;
+    shapes_[e]->color = shapes_[alike.value]->color;
+    shapes_[e]->wire = shapes_[alike.value]->wire;
+  }
+  mapEntries(first);
+}
+
+/// The entry that stands for its component: never one that came by a crack, for those are last.
+EntryId EntryBodies::firstOf(const World& world, ComponentId component) {
+  if (firstOf_.size() != world.model.components.size()) {
+    firstOf_.assign(world.model.components.size(), EntryId::none());
+    for (std::size_t e = bodies_.size(); e-- > 0;)
+      firstOf_[world.surfaces.component[e].value] = EntryId(e);
+  }
+  return firstOf_[component.value];
 }
 
 void EntryBodies::remove(yade::Scene& scene, const World& world, ComponentId component) {
@@ -109,7 +137,7 @@ void EntryBodies::remove(yade::Scene& scene, const World& world, ComponentId com
   bodies_.resize(kept);
   shapes_.resize(kept);
   states_.resize(kept);
-  mapEntries();
+  mapEntries(0);
   scene.doSort = true;
 }
 
@@ -176,6 +204,7 @@ void EntryBodies::update(const World& world, double dt, int threads) {
     }
     const BoundaryPiece& piece = pieces_[e];
     SurfaceSegment& shape = *shapes_[e];
+    shape.kind = static_cast<int>(surfaces.piece[e]);  // cracks turn arcs into straight pieces
     shape.start = inSpace(piece.start);
     shape.end = inSpace(piece.end);
     shape.middle = inSpace(piece.middle);
@@ -216,12 +245,16 @@ void EntryBodies::restore(std::vector<yade::Body::id_t> ids) {
   bodies_.clear();
   shapes_.clear();
   states_.clear();
-  mapEntries();
+  mapEntries(0);
 }
 
-void EntryBodies::mapEntries() {
-  entries_.clear();
-  for (std::size_t e = 0; e < ids_.size(); ++e) {
+/// `first`: those before it are where they were.
+void EntryBodies::mapEntries(std::size_t first) {
+  if (first == 0) {
+    entries_.clear();
+    firstOf_.clear();
+  }
+  for (std::size_t e = first; e < ids_.size(); ++e) {
     const auto id = static_cast<std::size_t>(ids_[e]);
     if (id >= entries_.size()) entries_.resize(id + 1, EntryId::none());
     entries_[id] = EntryId(e);

@@ -16,6 +16,10 @@ class EntryBodies {
   /// Bodies of all entries that have none yet, into the scene that `O` stands for.
   void add(yade::Scene& scene, const World& world,
            const yade::shared_ptr<yade::Material>& material);
+  /// Cracks have brought further entries, at the end: they get bodies that are like those that
+  /// their component has already (material, mask, colour). Does nothing, at no cost, if there are
+  /// none.
+  void follow(yade::Scene& scene, const World& world);
   /// Takes the bodies of a component out of the scene. To be called before the world forgets it.
   void remove(yade::Scene& scene, const World& world, ComponentId component);
 
@@ -41,8 +45,11 @@ class EntryBodies {
   void restore(std::vector<yade::Body::id_t> ids);
 
  private:
+  void append(yade::Scene& scene, const World& world, EntryId entry,
+              const yade::shared_ptr<yade::Material>& material);
   void findBodies(const yade::Scene& scene);
-  void mapEntries();
+  void mapEntries(std::size_t first);
+  [[nodiscard]] EntryId firstOf(const World& world, ComponentId component);
 
   std::vector<yade::Body::id_t> ids_;
   std::vector<yade::shared_ptr<yade::Body>> bodies_;
@@ -50,6 +57,7 @@ class EntryBodies {
   std::vector<yade::shared_ptr<yade::State>> states_;
   std::vector<BoundaryPiece> pieces_;
   std::vector<EntryId> entries_;  // by body id
+  std::vector<EntryId> firstOf_;  // by component, of those that were asked for; empty: none yet
 };
 
 }  // namespace yadefrag

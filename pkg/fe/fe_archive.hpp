@@ -25,9 +25,10 @@ class WorldArchive {
     surfaces(world.surfaces);
     contact(world.contact);
     search(world.search);
+    fracture(world.fracture);
     EnergyLedger& ledger = world.ledger;
     value("contactEnergy", ledger.contact), value("frictionEnergy", ledger.friction);
-    value("fractureEnergy", ledger.fracture), value("dampingEnergy", ledger.damping);
+    value("fractureWork", ledger.fracture), value("dampingEnergy", ledger.damping);
     value("externalEnergy", ledger.external);
     column<double>("reference", world.reference);
     value("steps", world.steps), value("time", world.time), value("lastDt", world.lastDt);
@@ -89,6 +90,12 @@ class WorldArchive {
     member("friction", rows, [](C& c) -> double& { return c.friction; });
     member("firstTriangle", rows, [](C& c) -> std::uint32_t& { return c.firstTriangle; });
     member("lastTriangle", rows, [](C& c) -> std::uint32_t& { return c.lastTriangle; });
+    member("tensileStrength", rows, [](C& c) -> double& { return c.brittle.tensileStrength; });
+    member("fractureEnergy", rows, [](C& c) -> double& { return c.brittle.fractureEnergy; });
+    member("shearFactor", rows, [](C& c) -> double& { return c.brittle.shearFactor; });
+    member("weibullModulus", rows, [](C& c) -> double& { return c.brittle.weibullModulus; });
+    member("strengthScatter", rows, [](C& c) -> double& { return c.brittle.strengthScatter; });
+    member("seed", rows, [](C& c) -> std::uint64_t& { return c.brittle.seed; });
     flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
     flags("selfContact", rows, [](C& c) -> bool& { return c.selfContact; });
   }
@@ -130,7 +137,23 @@ class WorldArchive {
   void search(SearchState& search) {
     value("halo", search.halo), value("shortest", search.shortest);
     value("isDue", search.isDue), value("isVoid", search.isVoid);
+    column<std::uint32_t>("searchNodes", search.nodes);
     column<double>("searchPositions", search.positions);
+  }
+
+  void fracture(Fracture& fracture) {
+    using Index = std::uint32_t;
+    CrackEdges& edges = fracture.edges;
+    column<Index>("crackElement", edges.element);
+    column<std::uint8_t>("crackCorner", edges.corner);
+    column<double>("crackStrength", edges.strength), column<std::uint8_t>("cracked", edges.cracked);
+    column<Index>("elementEdges", edges.ofElement), column<Index>("nodeElement", edges.ofNode);
+    column<Index>("cohesiveEdge", fracture.cohesion.edge);
+    column<double>("cohesiveLargest", fracture.cohesion.largest);
+    column<double>("cohesiveArea", fracture.cohesion.area);
+    std::uint64_t numCracks = fracture.numCracks();
+    value("numCracks", numCracks);
+    fracture.restore(numCracks);
   }
 
   Archive& archive_;

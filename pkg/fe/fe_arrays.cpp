@@ -105,7 +105,7 @@ py::object massesOf(const FESolver& solver) {
 py::object trianglesOf(const FESolver& solver) {
   return toArray(solver.world().model.triangles.nodes, kIndex, 3);
 }
-py::object stressOf(const FESolver& solver) {
+py::object stressArrayOf(const FESolver& solver) {
   return toArray(stresses(solver.world().model), kReal, 3);
 }
 py::object componentsOf(const FESolver& solver) {
@@ -122,6 +122,16 @@ py::object contactForcesOf(const FESolver& solver) {
   std::vector<Vec2> forces = solver.world().contact.forces();
   forces.resize(solver.world().model.nodes.size());  // before the first step there are none
   return toArray(forces, kReal, 2);
+}
+
+py::object fragmentOf(const FESolver& solver) {
+  std::vector<std::uint32_t> numbers;
+  findFragments(solver.world().model, &numbers);
+  return toArray(numbers, kIndex, 0);
+}
+
+py::object referenceOf(const FESolver& solver) {
+  return toArray(solver.world().reference, kReal, 2);
 }
 
 py::list surfacesOf(const FESolver& solver) {
@@ -162,6 +172,7 @@ py::list fragmentsOf(const FESolver& solver) {
   for (const Fragment& fragment : findFragments(solver.world().model)) {
     py::dict one;
     one["component"] = fragment.component.value;
+    one["triangles"] = fragment.triangles;
     one["mass"] = fragment.mass;
     one["area"] = fragment.area;
     one["centroid"] = py::make_tuple(fragment.centroid.x, fragment.centroid.y);

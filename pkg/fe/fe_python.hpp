@@ -4,6 +4,7 @@
 
 #include "fe/fe_arrays.hpp"
 #include "fe/fe_solver.hpp"
+#include "fracture/checks.hpp"
 
 namespace yadefrag {
 
@@ -19,8 +20,13 @@ void FESolver::pyExtra(PyClass& pyClass) {
       .def("criticalTimeStep", &FESolver::criticalTimeStep,
            "Longest stable time step (s) of the present mesh; infinite without bodies.")
       .def("fragments", &fragmentsOf,
-           "List of dicts, one per part that hangs together: component, mass (kg), area (m²), "
-           "centroid (m), velocity (m/s), spin (rad/s).")
+           "List of dicts, one per part that hangs together: component, triangles (how many), mass "
+           "(kg), area (m²), centroid (m), velocity (m/s), spin (rad/s).")
+      .def(
+          "_zoneWarning",
+          +[](const FESolver& self, int component) {
+            return cohesiveZoneWarning(self.world().model, ComponentId(component));
+          })
       .def("_setLoads", &setLoads)
       .def("_prescribe", &prescribe)
       .add_property("_loads", &loadsOf)
@@ -30,14 +36,20 @@ void FESolver::pyExtra(PyClass& pyClass) {
                     "Of the nodes, from the stress-free shape (m), array (n, 2).")
       .add_property("masses", &massesOf, "Of the nodes (kg), array (n).")
       .add_property("triangles", &trianglesOf, "Node numbers, counter-clockwise, array (m, 3).")
-      .add_property("stress", &stressOf,
+      .add_property("stress", &stressArrayOf,
                     "Cauchy stress xx, yy, xy (Pa) of the triangles, array (m, 3).")
       .add_property("components", &componentsOf, "Number of each triangle's body, array (m).")
+      .add_property("fragmentOf", &fragmentOf,
+                    "Number of each triangle's fragment, its place in fragments(), array (m).")
+      .add_property("_reference", &referenceOf)
       .add_property("contactForces", &contactForcesOf,
                     "Of contact between bodies of this engine, on the nodes, in the last step (N), "
                     "array (n, 2).")
       .add_property("surfaces", &surfacesOf,
                     "List of closed loops, each an array of node numbers, material on the left.")
+      .add_property(
+          "numSegments", +[](const FESolver& self) { return self.world().surfaces.segments(); },
+          "Segments of all surfaces: each crack that opens adds two.")
       .add_property("energy", &energyOf,
                     "Dict of J: kinetic, strain, contact, friction, fracture, damping, external "
                     "(what came in from outside), total (constant).")
@@ -52,7 +64,8 @@ void FESolver::pyExtra(PyClass& pyClass) {
           +[](const FESolver& self) { return self.world().contact.maxPenetration(); },
           "Deepest penetration (m) that was left in the last step.")
       .add_property(
-          "numCracks", +[](const FESolver&) { return 0; }, "Cracked edges so far.");
+          "numCracks", +[](const FESolver& self) { return self.world().fracture.numCracks(); },
+          "Cracked edges so far.");
 }
 
 }  // namespace yadefrag

@@ -3,12 +3,14 @@
 #include <omp.h>
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
 #include "collider/motion_watch.hpp"
 #include "core/errors.hpp"
 #include "fe/pair_source.hpp"
+#include "fracture/checks.hpp"
 
 namespace yadefrag {
 
@@ -24,14 +26,40 @@ void FESolver::action() {
     if (pairsOfCollider(*scene, *this, bodies_, pairs_)) world_.takePairs(pairs_);
   }
   bodies_.collectForces(*scene, world_, world_.outerForces);
+  requireResolution();
   try {
     world_.step(scene->dt);
   } catch (const InputError& error) {
     throw std::invalid_argument("O.dt: " + std::string(error.what()));
   }
+  followCracks();
   bodies_.update(world_, timeToIntegrate(), world_.threads);
   prepareSearch(scene->dt);
   if (scene->trackEnergy) trackEnergy();
+}
+
+/// Once for each body and step: the law's opening does not hang on how the run goes.
+void FESolver::requireResolution() {
+  const std::size_t count = world_.model.components.size();
+  if (scene->dt <= resolvedStep_ && count == resolvedBodies_) return;
+  const double critical = world_.criticalTimeStep();
+  if (!(scene->dt > 0 && scene->dt <= critical)) return;  // the world says so
+  try {
+    for (std::size_t c = 0; c < count; ++c)
+      checkCohesiveResolution(world_.model, ComponentId(c), scene->dt);
+  } catch (const InputError& error) {
+    throw std::invalid_argument("O.dt: " + std::string(error.what()));
+  }
+  resolvedStep_ = scene->dt;
+  resolvedBodies_ = count;
+}
+
+/// New faces get bodies. Among themselves and with the rest of the boundary they are in contact
+/// already; only where there is something else in the scene must the collider find it now.
+void FESolver::followCracks() {
+  const bool wasDue = scene->doSort;
+  bodies_.follow(*scene, world_);
+  if (scene->bodies->body.size() == bodies_.ids().size()) scene->doSort = wasDue;
 }
 
 /// Where the collider is to search in the next step, it must find bounds that hold for long enough.
@@ -90,6 +118,16 @@ int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
   requireAlone(here);
   spec.material = {material->young, material->poisson, material->density, material->planeStress};
   spec.friction = std::tan(material->frictionAngle);
+  if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(material.get())) {
+    spec.brittle = {brittle->tensileStrength, brittle->fractureEnergy,
+                    brittle->shearFactor,     brittle->weibullModulus,
+                    brittle->strengthScatter, static_cast<std::uint64_t>(brittle->seed)};
+    checkBrittle(spec.brittle);
+    if (!spec.selfContact)
+      throw InputError(
+          "selfContact is False, but the material is a BrittleFEMat, whose fragments must touch "
+          "each other; it must be True, or the material an FEMat.");
+  }
   const ComponentId component = world_.addBody(mesh, spec);
   scene = &here;
   bodies_.add(here, world_, material);
@@ -129,6 +167,7 @@ void FESolver::checkSettings() const {
   if (!(penaltyFactor > 0 && penaltyFactor <= 1))
     refuse("penaltyFactor", penaltyFactor, "above 0 and at most 1");
   if (!(damping >= 0 && std::isfinite(damping))) refuse("damping", damping, "0 or positive");
+  if (maxCracks < -1) refuse("maxCracks", maxCracks, "0 or positive, or -1 for no bound");
   if (!gravity.allFinite()) refuse("gravity", gravity.transpose(), "finite");
   if (!(linearViscosity >= 0 && std::isfinite(linearViscosity)))
     refuse("linearViscosity", linearViscosity, "0 or positive");
@@ -147,6 +186,8 @@ void FESolver::postLoad(FESolver& /*self*/) {
     penaltyFactor = world_.contactSettings.penaltyFactor;
     damping = step.damping;
     gravity = yade::Vector3r(step.gravity.x, step.gravity.y, 0);
+    const std::uint64_t most = world_.fracture.maxCracks;
+    maxCracks = most > std::numeric_limits<int>::max() ? -1 : static_cast<int>(most);
     linearViscosity = step.viscosity.linear, quadraticViscosity = step.viscosity.quadratic;
     throw;
   }
@@ -161,6 +202,8 @@ void FESolver::giveSettings() {
   world_.dynamicsSettings.damping = damping;
   world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
   world_.dynamicsSettings.viscosity = {linearViscosity, quadraticViscosity};
+  world_.fracture.maxCracks =
+      maxCracks < 0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(maxCracks);
   world_.threads = threadsToUse();
 }
 

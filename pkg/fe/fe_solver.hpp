@@ -43,6 +43,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   yade::Vector3r gravity = yade::Vector3r::Zero();
   double linearViscosity = 0;
   double quadraticViscosity = 0;
+  int maxCracks = -1;
 
   static constexpr auto attributes();
   template <class PyClass>
@@ -54,6 +55,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
   void giveSettings();
+  void requireResolution();
+  void followCracks();
   void prepareSearch(double dt);
   [[nodiscard]] double timeToIntegrate() const;
   void trackEnergy() const;
@@ -62,6 +65,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   World world_;
   EntryBodies bodies_;
   std::vector<BoxPair> pairs_;
+  double resolvedStep_ = 0;  // s, the longest step in which cohesive laws are known to be resolved
+  std::size_t resolvedBodies_ = 0;  // of which that is known
 };
 
 constexpr auto FESolver::attributes() {
@@ -89,7 +94,9 @@ constexpr auto FESolver::attributes() {
       attribute("quadraticViscosity", &C::quadraticViscosity,
                 "Coefficient of the quadratic bulk viscosity, in compression; 0: none, 1.2 is "
                 "usual.",
-                triggerPostLoad));
+                triggerPostLoad),
+      attribute("maxCracks", &C::maxCracks,
+                "No more edges than this crack, all in all; -1: no bound.", triggerPostLoad));
 }
 
 template <class Archive>

@@ -24,34 +24,9 @@ class NodeSets {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace
-
-std::vector<Fragment> findFragments(const Model& model) {
-  const Nodes& nodes = model.nodes;
-  NodeSets sets(nodes.size());
-  for (const auto& [a, b, c] : model.triangles.nodes) {
-    sets.join(a.value, b.value);
-    sets.join(a.value, c.value);
-  }
-  std::vector<Fragment> fragments;
-  constexpr std::uint32_t none = 0xffffffff;
-  std::vector<std::uint32_t> number(nodes.size(), none);
-  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
-    const auto& [a, b, c] = model.triangles.nodes[t];
-    std::uint32_t& index = number[sets.find(a.value)];
-    if (index == none) {
-      index = static_cast<std::uint32_t>(fragments.size());
-      fragments.emplace_back().component = model.triangles.component[t];
-    }
-    const Vec2 at = nodes.position[a.value];
-    fragments[index].area += .5 * cross(nodes.position[b.value] - at, nodes.position[c.value] - at);
-  }
-  const auto forNodes = [&](const auto& work) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const std::uint32_t index = number[sets.find(static_cast<std::uint32_t>(i))];
-      if (index != none) work(fragments[index], i);
-    }
-  };
+/// All that hangs on nodes, once it is known whose they are.
+template <class ForNodes>
+void sumNodes(const Nodes& nodes, const ForNodes& forNodes, std::vector<Fragment>& fragments) {
   forNodes([&](Fragment& f, std::size_t i) {
     f.mass += nodes.mass[i];
     f.centroid += nodes.mass[i] * nodes.position[i];
@@ -65,6 +40,41 @@ std::vector<Fragment> findFragments(const Model& model) {
     inertia[static_cast<std::size_t>(&f - fragments.data())] += nodes.mass[i] * dot(arm, arm);
   });
   for (std::size_t i = 0; i < fragments.size(); ++i) fragments[i].spin /= inertia[i];
+}
+
+}  // namespace
+
+std::vector<Fragment> findFragments(const Model& model, std::vector<std::uint32_t>* ofTriangle) {
+  const Nodes& nodes = model.nodes;
+  NodeSets sets(nodes.size());
+  for (const auto& [a, b, c] : model.triangles.nodes) {
+    sets.join(a.value, b.value);
+    sets.join(a.value, c.value);
+  }
+  std::vector<Fragment> fragments;
+  constexpr std::uint32_t none = 0xffffffff;
+  std::vector<std::uint32_t> number(nodes.size(), none);
+  if (ofTriangle) ofTriangle->resize(model.triangles.size());
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    const auto& [a, b, c] = model.triangles.nodes[t];
+    std::uint32_t& index = number[sets.find(a.value)];
+    if (index == none) {
+      index = static_cast<std::uint32_t>(fragments.size());
+      fragments.emplace_back().component = model.triangles.component[t];
+    }
+    const Vec2 at = nodes.position[a.value];
+    Fragment& fragment = fragments[index];
+    ++fragment.triangles;
+    fragment.area += .5 * cross(nodes.position[b.value] - at, nodes.position[c.value] - at);
+    if (ofTriangle) (*ofTriangle)[t] = index;
+  }
+  const auto forNodes = [&](const auto& work) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const std::uint32_t index = number[sets.find(static_cast<std::uint32_t>(i))];
+      if (index != none) work(fragments[index], i);
+    }
+  };
+  sumNodes(nodes, forNodes, fragments);
   return fragments;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Parts of the mesh that hang together.
 
+#include <cstdint>
 #include <vector>
 
 #include "mesh/model.hpp"
@@ -9,6 +10,7 @@ namespace yadefrag {
 
 struct Fragment {
   ComponentId component;
+  std::uint32_t triangles = 0;
   double mass = 0;  ///< kg
   double area = 0;  ///< m², at the present positions
   Vec2 centroid;    ///< m, of the mass
@@ -17,6 +19,8 @@ struct Fragment {
 };
 
 /// All fragments, by their first triangle. Triangles with a common node hang together.
-std::vector<Fragment> findFragments(const Model& model);
+/// `ofTriangle`, unless it is null: the number of each triangle's fragment.
+std::vector<Fragment> findFragments(const Model& model,
+                                    std::vector<std::uint32_t>* ofTriangle = nullptr);
 
 }  // namespace yadefrag

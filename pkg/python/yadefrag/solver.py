@@ -71,8 +71,6 @@ def _material(material):
             'above -1 and below 0.5')
     _number("the material's frictionAngle", found.frictionAngle, lambda v: 0 <= v < math.pi / 2,
             'at least 0 and below π/2 (rad)')
-    if isinstance(found, wrapper.BrittleFEMat):
-        warnings.warn('BrittleFEMat does not crack yet: the body stays elastic.', stacklevel=4)
     return found
 
 
@@ -160,13 +158,17 @@ def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickn
     def raw(values, dtype):
         return numpy.ascontiguousarray(values, dtype=dtype).tobytes()
 
-    return fe._addMesh(
+    number = fe._addMesh(
         dict(nodes=raw(nodes, 'float64'), triangles=raw(triangles, 'uint32'),
              loops=[raw(loop, 'uint32') for loop in mesh['loops']],
              velocity=raw(speed, 'float64'), displacement=raw(moved, 'float64'),
              held=raw(_heldNodes(fixed, nodes), 'uint8'), smooth=raw(smooth, 'uint8'),
              thickness=_positive('thickness', thickness, 'm'), selfContact=bool(selfContact),
              material=material))
+    problem = fe._zoneWarning(number)
+    if problem:
+        warnings.warn(problem, stacklevel=3)
+    return number
 
 
 def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocity=(0, 0), spin=0,
@@ -185,8 +187,10 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     fixed           None, or a function (x, y) that returns False, True, 'x' or 'y': the directions
                     in which a node there keeps its velocity whatever forces act
     thickness       m
-    selfContact     may the body's surfaces touch each other
-    Functions are called at the nodes of the stress-free shape. ValueError before anything changes.
+    selfContact     may the body's surfaces touch each other; those of a BrittleFEMat, whose
+                    fragments have to, always do: False is refused
+    Functions are called at the nodes of the stress-free shape. ValueError before anything changes;
+    a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks.
     """
     points = _points('outline', outline, 3)
     holePoints = [_points('holes[%d]' % i, hole, 3) for i, hole in enumerate(holes)]
