@@ -152,6 +152,10 @@ inline constexpr double kHaloSpare = 1.1;
 /// and few of them belong to another chunk too.
 inline constexpr std::size_t kChunkElements = 512;
 
+/// (ratio) Elements stressed to this part of their body's lowest strength are looked at more closely:
+/// the stress is that of the step before.
+inline constexpr double kStrengthLook = .9;
+
 /// (count) Fewer elements than this per thread are not worth two meetings of the threads a step.
 inline constexpr std::size_t kElementsPerThread = 2048;
 

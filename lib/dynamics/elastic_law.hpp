@@ -51,6 +51,23 @@ inline double contract(const Matrix2& a, const Matrix2& b) {
           m * (f.yx - sine) + s * sine, m * (f.yy - cosine) + s * cosine};
 }
 
+/// (Pa²) Squared stress measure for brittle materials, max(s₁, 0)² + (t/β)², of the greater
+/// principal stress s₁ and the greatest shear stress t of RᵀP. In no direction is the effective
+/// traction √(max(σₙ, 0)² + (τ/β)²) greater; it is convex, so that this goes for averages, too.
+/// `shearWeight` is 1/β².
+[[gnu::always_inline]] inline double squaredStress(const Matrix2& f, double lame, double shear,
+                                                   double shearWeight) {
+  const double a = f.xx + f.yy;
+  const double b = f.yx - f.xy;
+  const double c = f.xx - f.yy;
+  const double d = f.yx + f.xy;
+  // Sum and difference of the principal stretches are √(a² + b²) and √(c² + d²).
+  const double shearStress = shear * std::sqrt(c * c + d * d);
+  const double principal = (lame + shear) * (std::sqrt(a * a + b * b) - 2) + shearStress;
+  const double twicePull = principal + std::abs(principal);
+  return twicePull * twicePull / 4 + shearWeight * (shearStress * shearStress);
+}
+
 /// (J/m³) W.
 inline double energyDensity(const Matrix2& f, double lame, double shear) {
   const double a = f.xx + f.yy;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/csr.hpp"
 #include "core/tolerances.hpp"
@@ -10,6 +11,7 @@ namespace yadefrag {
 namespace {
 
 constexpr std::uint32_t kUnseen = 0xffffffff;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 Chunk chunkOf(const Component& c) {
   const ElasticMaterial& m = c.material;
@@ -19,27 +21,33 @@ Chunk chunkOf(const Component& c) {
   chunk.density = m.density;
   chunk.waveSpeed = std::sqrt(m.waveModulus() / m.density);
   chunk.thickness = c.thickness;
+  chunk.strength = c.brittle.cracks() ? c.brittle.tensileStrength : 0;
+  chunk.shearFactor = c.brittle.cracks() ? c.brittle.shearFactor : 0;
+  chunk.squaredLook = kNever;
   return chunk;
 }
 
 bool sameMaterial(const Chunk& a, const Chunk& b) {
   return a.lame == b.lame && a.shear == b.shear && a.density == b.density &&
-         a.thickness == b.thickness;
+         a.thickness == b.thickness && a.strength == b.strength && a.shearFactor == b.shearFactor;
 }
 
 /// Cuts the elements into chunks. Small bodies of one material share chunks: a scene of a thousand
 /// rings is not a thousand beginnings of a loop.
 std::vector<Chunk> cutElements(const Model& model) {
   std::vector<Chunk> chunks;
-  for (const Component& component : model.components) {
+  for (std::uint32_t c = 0; c < model.components.size(); ++c) {
+    const Component& component = model.components[c];
     const Chunk kind = chunkOf(component);
     for (std::uint32_t e = component.firstTriangle; e < component.lastTriangle; ++e) {
       if (chunks.empty() || !sameMaterial(chunks.back(), kind) || e != chunks.back().lastElement ||
           e - chunks.back().firstElement == tolerance::kChunkElements) {
         chunks.push_back(kind);
         chunks.back().firstElement = e;
+        chunks.back().firstComponent = c;
       }
       chunks.back().lastElement = e + 1;
+      chunks.back().lastComponent = c;
     }
   }
   return chunks;
@@ -130,6 +138,22 @@ void ElementChunks::placePartials(const std::vector<std::uint8_t>& shared) {
   for (std::uint32_t partial = 0; partial < rows.values.size(); ++partial)
     partialOf[rows.values[partial]] = partial;
   firstPartial = std::move(rows.offsets);
+}
+
+/// Bodies that share a chunk differ at most by the scatter of their strength; the weakest counts.
+bool ElementChunks::watch(const std::vector<double>& leastStrength) {
+  bool any = false;
+  for (Chunk& chunk : chunks) {
+    double least = kNever;
+    if (chunk.strength > 0)
+      for (std::size_t c = chunk.firstComponent;
+           c <= chunk.lastComponent && c < leastStrength.size(); ++c)
+        if (leastStrength[c] > 0) least = std::min(least, leastStrength[c]);
+    const double look = tolerance::kStrengthLook * least;
+    chunk.squaredLook = look * look;
+    any = any || chunk.squaredLook < kNever;
+  }
+  return any;
 }
 
 void ElementChunks::numberCorners(const Model& model, const Chunk& chunk) {

@@ -23,10 +23,21 @@ struct alignas(64) ElementLanes {
   std::uint16_t corner[3][kLanes];  ///< local number of the node
 };
 
+/// Successive elements, `lastElement` one past.
+struct ElementRange {
+  std::uint32_t firstElement, lastElement;
+  friend auto operator<=>(const ElementRange&, const ElementRange&) = default;
+};
+
 struct Chunk {
   double lame, shear;         ///< Pa
   double density, waveSpeed;  ///< kg/m³, m/s; for the bulk viscosity
   double thickness;           ///< m
+  /// Pa and β of a brittle material, 0 of others.
+  double strength, shearFactor;
+  /// (Pa²) Squared stress measure from which elements count as stressed; infinite: not watched.
+  double squaredLook;
+  std::uint32_t firstComponent, lastComponent;  ///< `lastComponent` itself included
   std::uint32_t firstElement, lastElement;
   std::uint32_t firstLanes, lastLanes;
   /// Its nodes in `ElementChunks::nodes`: first the own ones, then those shared with other chunks;
@@ -52,6 +63,9 @@ struct ElementChunks {
   /// more are appended to `abandoned` and must be set to zero.
   std::size_t follow(const Model& model, std::span<const ElementId> changed, NodeId firstNew,
                      std::vector<std::uint32_t>& abandoned);
+
+  /// Sets what is watched; `leastStrength` by component. Returns whether anything is.
+  bool watch(const std::vector<double>& leastStrength);
 
   [[nodiscard]] std::size_t partials() const {
     return firstPartial.empty() ? 0 : firstPartial.back();

@@ -1,7 +1,9 @@
 #include "dynamics/element_kernel.hpp"
 
 #include <algorithm>
+#include <array>
 
+#include "core/tolerances.hpp"
 #include "dynamics/elastic_law.hpp"
 
 namespace yadefrag {
@@ -33,11 +35,28 @@ struct alignas(64) Corners {
     }
 }
 
-/// Replaces the corners' coordinates by their forces; false if an element is bad.
-[[gnu::always_inline]] inline bool elasticForces(const ElementLanes& e, double lame, double shear,
-                                                 Corners& c) {
+/// Numbers of lanes that hold a stressed element.
+struct StressedLanes {
+  std::array<std::uint32_t, tolerance::kChunkElements / kLanes> lanes;
+  std::size_t count = 0;
+};
+
+/// Bad and stressed elements among kLanes.
+struct Findings {
+  int bad = 0, stressed = 0;
+};
+
+/// Replaces the corners' coordinates by their forces.
+template <bool kWatched>
+[[gnu::always_inline]] inline Findings elasticForces(const ElementLanes& e, const Chunk& chunk,
+                                                     Corners& c) {
+  const double lame = chunk.lame;
+  const double shear = chunk.shear;
+  const double shearWeight = 1 / (chunk.shearFactor * chunk.shearFactor);
+  const double look = chunk.squaredLook;
   int bad = 0;
-#pragma omp simd reduction(+ : bad)
+  int stressed = 0;
+#pragma omp simd reduction(+ : bad, stressed)
   for (std::size_t k = 0; k < kLanes; ++k) {
     const double i11 = e.inverseEdges[0][k];
     const double i12 = e.inverseEdges[1][k];
@@ -47,6 +66,7 @@ struct alignas(64) Corners {
                                           c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],  //
                                           i11, i12, i21, i22);
     bad += determinant(f) > 0 ? 0 : 1;  // NaN too
+    if constexpr (kWatched) stressed += squaredStress(f, lame, shear, shearWeight) >= look ? 1 : 0;
     const Matrix2 p = firstPiola(f, lame, shear);
     const double v = e.volume[k];
     const double f1x = -v * (p.xx * i11 + p.xy * i12);
@@ -60,31 +80,55 @@ struct alignas(64) Corners {
     c.x[2][k] = f2x;
     c.y[2][k] = f2y;
   }
+  return {bad, stressed};
+}
+
+/// Everything about one chunk and where its forces go, by local node number.
+struct Job {
+  const Chunk& chunk;
+  const ElementLanes* lanes;
+  const Vec2* position;
+  Vec2* force;
+};
+
+template <bool kWatched>
+[[gnu::always_inline]] inline bool addChunk(const Job& job, StressedLanes& stressed) {
+  int bad = 0;
+  Corners corners;
+  for (std::uint32_t l = job.chunk.firstLanes; l < job.chunk.lastLanes; ++l) {
+    gather(job.lanes[l], job.position, corners);
+    const Findings found = elasticForces<kWatched>(job.lanes[l], job.chunk, corners);
+    bad += found.bad;
+    if constexpr (kWatched) {
+      // No branch to be foretold wrongly: what is not counted is overwritten.
+      stressed.lanes[stressed.count] = l;
+      stressed.count += found.stressed != 0 ? 1 : 0;
+    }
+    scatter(job.lanes[l], corners, job.force);
+  }
   return bad == 0;
 }
 
-[[gnu::always_inline]] inline bool addChunk(const Chunk& chunk, const ElementLanes* lanes,
-                                            const Vec2* position, Vec2* force) {
-  bool good = true;
-  Corners corners;
-  for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l) {
-    gather(lanes[l], position, corners);
-    good &= elasticForces(lanes[l], chunk.lame, chunk.shear, corners);
-    scatter(lanes[l], corners, force);
-  }
-  return good;
-}
-
-bool addBaseline(const Chunk& chunk, const ElementLanes* lanes, const Vec2* position, Vec2* force) {
-  return addChunk(chunk, lanes, position, force);
+template <bool kWatched>
+bool addBaseline(const Job& job, StressedLanes& stressed) {
+  return addChunk<kWatched>(job, stressed);
 }
 
 #ifdef __x86_64__
-[[gnu::target("avx2")]] bool addAvx2(const Chunk& chunk, const ElementLanes* lanes,
-                                     const Vec2* position, Vec2* force) {
-  return addChunk(chunk, lanes, position, force);
+template <bool kWatched>
+[[gnu::target("avx2")]] bool addAvx2(const Job& job, StressedLanes& stressed) {
+  return addChunk<kWatched>(job, stressed);
 }
 #endif
+
+template <bool kWatched>
+bool add(InstructionSet set, const Job& job, StressedLanes& stressed) {
+#ifdef __x86_64__
+  if (set == InstructionSet::kAvx2) return addAvx2<kWatched>(job, stressed);
+#endif
+  static_cast<void>(set);
+  return addBaseline<kWatched>(job, stressed);
+}
 
 }  // namespace
 
@@ -97,11 +141,21 @@ InstructionSet bestInstructionSet() {
 
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const Vec2* position, Vec2* force) {
-#ifdef __x86_64__
-  if (set == InstructionSet::kAvx2) return addAvx2(chunk, lanes, position, force);
-#endif
-  static_cast<void>(set);
-  return addBaseline(chunk, lanes, position, force);
+  StressedLanes none;
+  return add<false>(set, {chunk, lanes, position, force}, none);
+}
+
+bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
+                      const Vec2* position, Vec2* force, std::vector<ElementRange>& stressed) {
+  StressedLanes found;
+  const bool good = add<true>(set, {chunk, lanes, position, force}, found);
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const auto first = static_cast<std::uint32_t>(chunk.firstElement +
+                                                  kLanes * (found.lanes[i] - chunk.firstLanes));
+    const auto end = static_cast<std::uint32_t>(first + kLanes);
+    stressed.push_back({first, std::min(end, chunk.lastElement)});
+  }
+  return good;
 }
 
 void addViscousForces(const BulkViscosity& viscosity, const Chunk& chunk, const ElementLanes* lanes,

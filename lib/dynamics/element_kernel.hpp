@@ -19,6 +19,11 @@ InstructionSet bestInstructionSet();
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const Vec2* position, Vec2* force);
 
+/// The same bits; appends also those ranges of up to kLanes elements, ascending, of which at least
+/// one is stressed (`Chunk::squaredLook`).
+bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
+                      const Vec2* position, Vec2* force, std::vector<ElementRange>& stressed);
+
 /// Coefficients of the bulk viscosity: a pressure −ρL(b₁cε̇) + ρ(b₂Lε̇)², ε̇ the rate of the volume
 /// strain and L the smallest altitude of the present triangle. The linear part acts in compression
 /// and in expansion, so that ringing is damped in both; the quadratic part in compression alone.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -60,6 +61,8 @@ struct ExplicitDynamics::Update {
 
 void ExplicitDynamics::rebuild(const Model& model) {
   elements_.build(model);
+  watching_ = elements_.watch(leastStrength_);
+  stressed_.clear();
   force_.assign(model.nodes.size(), {});
   partialForce_.resize(elements_.partials());
   viscousForce_.clear();
@@ -90,15 +93,23 @@ std::size_t ExplicitDynamics::follow(const Model& model, std::span<const Element
   return chunks;
 }
 
+void ExplicitDynamics::watchStress(std::vector<double> leastStrengthByComponent) {
+  leastStrength_ = std::move(leastStrengthByComponent);
+  watching_ = elements_.watch(leastStrength_);
+}
+
 void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
-                                const BulkViscosity& viscosity, std::vector<Vec2>& scratch) {
+                                const BulkViscosity& viscosity, Scratch& scratch) {
   const std::size_t count = chunk.lastNode - chunk.firstNode;
-  Vec2* position = scratch.data();
+  Vec2* position = scratch.values.data();
   Vec2* force = position + elements_.mostNodes;
   fetchNodes(elements_, chunk, model.nodes.position, position);
   std::fill_n(force, count, Vec2{});
   // Whoever comes first: that it failed is all that is told; the element is looked for afterwards.
-  if (!addElasticForces(set_, chunk, elements_.lanes.data(), position, force))
+  const ElementLanes* lanes = elements_.lanes.data();
+  if (!(std::isfinite(chunk.squaredLook)
+            ? addElasticForces(set_, chunk, lanes, position, force, scratch.stressed)
+            : addElasticForces(set_, chunk, lanes, position, force)))
 #pragma omp atomic write
     badElement_ = true;
   if (viscosity.isOn()) {
@@ -106,7 +117,7 @@ void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
     Vec2* viscous = velocity + elements_.mostNodes;
     fetchNodes(elements_, chunk, model.nodes.velocity, velocity);
     std::fill_n(viscous, count, Vec2{});
-    addViscousForces(viscosity, chunk, elements_.lanes.data(), position, velocity, viscous);
+    addViscousForces(viscosity, chunk, lanes, position, velocity, viscous);
     for (std::size_t i = 0; i < count; ++i) force[i] += viscous[i];
     handOut(elements_, chunk, viscous, viscousForce_, partialViscous_);
   }
@@ -161,13 +172,14 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
   const int most = static_cast<int>(model.triangles.size() / tolerance::kElementsPerThread);
   const int threads = std::max(1, std::min(update.threads, most));
   if (scratch_.size() < static_cast<std::size_t>(threads)) scratch_.resize(threads);
+  for (Scratch& scratch : scratch_) scratch.stressed.clear();
     // One region for both loops: waking the threads twice would show in small scenes.
 #pragma omp parallel num_threads(threads) if (threads > 1)
   {
     const std::size_t part = omp_get_thread_num();
     const std::size_t parts = omp_get_num_threads();
-    std::vector<Vec2>& scratch = scratch_[part];
-    scratch.resize((viscosity.isOn() ? 4 : 2) * elements_.mostNodes);
+    Scratch& scratch = scratch_[part];
+    scratch.values.resize((viscosity.isOn() ? 4 : 2) * elements_.mostNodes);
     const std::size_t chunks = elements_.chunks.size();
     for (std::size_t c = chunks * part / parts; c < chunks * (part + 1) / parts; ++c)
       sumChunk(model, elements_.chunks[c], viscosity, scratch);
@@ -194,6 +206,10 @@ void ExplicitDynamics::predict(Model& model, double dt, const StepSettings& sett
        {dt, (1 - d) / (1 + d), rate, rate * settings.gravity, outerForces, model.nodes.load,
         threads},
        settings.viscosity);
+  // Threads take successive chunks: theirs in turn are ascending.
+  stressed_.clear();
+  for (const Scratch& scratch : scratch_)
+    stressed_.insert(stressed_.end(), scratch.stressed.begin(), scratch.stressed.end());
   if (badElement_) refuseElement(model, dt);
   if (badNode_) refuseNode(model, dt);
 }

@@ -35,6 +35,13 @@ class ExplicitDynamics {
   std::size_t follow(const Model& model, std::span<const ElementId> changed,
                      std::span<const NodeId> originals);
 
+  /// From now on, steps look for brittle elements that are stressed nearly (`kStrengthLook`) up to
+  /// the lowest strength (Pa) of their component; 0 or infinite: not watched; empty: none is. That
+  /// costs nothing where nothing is watched. Holds on through `rebuild` and `follow`.
+  void watchStress(std::vector<double> leastStrengthByComponent);
+  /// Small ranges, ascending, that hold all elements found stressed in the last step, at its xⁿ.
+  [[nodiscard]] std::span<const ElementRange> stressed() const { return stressed_; }
+
   /// One step; `outerForces` (N, by node) may be empty. Held directions keep their velocity. The
   /// result has the same bits for any number of threads.
   /// Throws RunError with element or node and place, and leaves the last good state: where an
@@ -59,9 +66,14 @@ class ExplicitDynamics {
  private:
   struct Update;
   struct Works;
+  /// Of one thread.
+  struct alignas(64) Scratch {
+    std::vector<Vec2> values;
+    std::vector<ElementRange> stressed;
+  };
 
   void sumChunk(const Model& model, const Chunk& chunk, const BulkViscosity& viscosity,
-                std::vector<Vec2>& scratch);
+                Scratch& scratch);
   Vec2 holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity);
   void sumShared(const BulkViscosity& viscosity, NodeId begin, NodeId end);
   bool move(Nodes& nodes, const Update& update, std::size_t begin, std::size_t end);
@@ -75,8 +87,11 @@ class ExplicitDynamics {
   std::vector<Vec2> viscousForce_,
       partialViscous_;  // of the viscosity alone; empty while it is off
   std::vector<Vec2> previousVelocity_;
-  std::vector<Vec2> heldVelocity_;  // of held nodes in the last step; empty if none was held
-  std::vector<std::vector<Vec2>> scratch_;  // one per thread
+  std::vector<Vec2> heldVelocity_;     // of held nodes in the last step; empty if none was held
+  std::vector<Scratch> scratch_;       // one per thread
+  std::vector<double> leastStrength_;  // Pa, by component
+  std::vector<ElementRange> stressed_;
+  bool watching_ = false;
   bool badElement_ = false, badNode_ = false;
 };
 
