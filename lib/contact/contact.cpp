@@ -69,7 +69,8 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
     if (detection > 0) {
       updateGaps(model, surfaces, step);
       gapsAreKnown = true;
-      if (!anyNew && maxPenetration_ <= worthwhile(step)) break;
+      if (!anyNew && maxPenetration_ <= std::max(worthwhile(step), 2 * lagrange_.inexactness()))
+        break;
       if (!anyNew && settings.correction == Correction::kPenalty) break;
     }
     solve(model, settings, step, anyNew);

@@ -10,8 +10,6 @@ namespace yadefrag {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffff;
-
 /// Does a row penetrate, or push a slave farther out than it need be.
 bool isOpen(const ContactRow& row, double tolerance) {
   return row.left > tolerance || (row.left < -tolerance && row.normalForce > 0);
@@ -43,11 +41,12 @@ void Lagrange::setRows(std::span<const ContactRow> rows, const Nodes& nodes, dou
 
 double Lagrange::solve(std::span<ContactRow> rows, double tolerance) {
   double residual = 0;
+  inexact_ = 0;
   for (std::size_t group = 0; group < groups_.rows.rows(); ++group) {
     const Members members = groups_.rows.row(group);
     System& system = systems_[group];
     if (std::ranges::any_of(members, [&](std::uint32_t r) { return isOpen(rows[r], tolerance); }))
-      solveGroup(rows, members, system);
+      solveGroup(rows, members, system, tolerance);
     residual = std::max(residual, system.residual);
   }
   return residual;
@@ -57,7 +56,7 @@ double Lagrange::solve(std::span<ContactRow> rows, double tolerance) {
 std::size_t Lagrange::numberUnknowns(std::span<const ContactRow> rows, Members members) {
   std::uint32_t count = 0;
   for (const std::uint32_t r : members) normalOf_[r] = count++;
-  for (const std::uint32_t r : members) tangentOf_[r] = rows[r].friction > 0 ? count++ : kNone;
+  for (const std::uint32_t r : members) tangentOf_[r] = rows[r].friction > 0 ? count++ : kNoTangent;
   return count;
 }
 
@@ -96,7 +95,7 @@ void Lagrange::setGaps(std::span<const ContactRow> rows, Members members, BoxPro
     problem.lower[normal] = 0;
     problem.upper[normal] = kNoBound;
     start_[normal] = rows[r].normalForce;
-    if (tangent == kNone) continue;
+    if (tangent == kNoTangent) continue;
     problem.constant[tangent] = rows[r].slip;
     start_[tangent] = rows[r].tangentForce;
   }
@@ -108,19 +107,26 @@ void Lagrange::addPair(const ContactRow& a, const ContactRow& b, const RowNode& 
   const std::uint32_t na = normalOf_[p.row], nb = normalOf_[q.row];
   const std::uint32_t ta = tangentOf_[p.row], tb = tangentOf_[q.row];
   entries_.push_back({na, nb, weighted(a.normal, scaled, b.normal)});
-  if (tb != kNone) entries_.push_back({na, tb, weighted(a.normal, scaled, b.tangent())});
-  if (ta == kNone) return;
+  if (tb != kNoTangent) entries_.push_back({na, tb, weighted(a.normal, scaled, b.tangent())});
+  if (ta == kNoTangent) return;
   entries_.push_back({ta, nb, weighted(a.tangent(), scaled, b.normal)});
-  if (tb != kNone) entries_.push_back({ta, tb, weighted(a.tangent(), scaled, b.tangent())});
+  if (tb != kNoTangent) entries_.push_back({ta, tb, weighted(a.tangent(), scaled, b.tangent())});
 }
 
 /// Without friction one solve. With it, the bounds of the tangential forces depend on the normal
 /// ones: a sequence of solves with given bounds, which starts from the last step's forces and ends
 /// where bounds and forces agree. Rejected: slip forces as −μ sgn(v)|F·e| in the matrix (eq. 8)
 /// make it unsymmetric, and the sign has to be known beforehand.
-void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& system) {
+void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& system,
+                          double tolerance) {
   BoxProblem& problem = system.problem;
   setGaps(rows, members, problem);
+  if (problem.size() >= tolerance::kSweptUnknowns && problem.size() > members.size() &&
+      trySweeps(rows, members, system, tolerance)) {
+    takeForces(rows, members, swept_);
+    system.residual = 0;
+    return;
+  }
   boundFriction(rows, members, system, start_);
   const BoxResult* result = nullptr;
   for (int round = 0; round < tolerance::kFrictionRounds; ++round) {
@@ -130,14 +136,34 @@ void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& s
     for (std::size_t i = 0; i < start_.size(); ++i)
       start_[i] = std::clamp(result->lambda[i], problem.lower[i], problem.upper[i]);
   }
+  takeForces(rows, members, result->lambda);
+  system.residual = result->residual;
+}
+
+/// Large groups with friction. What sweeps leave becomes a gap of the next step; so it may be more
+/// than what is worth another solve, but no velocity to speak of.
+bool Lagrange::trySweeps(std::span<const ContactRow> rows, Members members, const System& system,
+                         double tolerance) {
+  contacts_.clear();
+  for (const std::uint32_t r : members)
+    contacts_.push_back({normalOf_[r], tangentOf_[r], rows[r].friction});
+  swept_ = start_;
+  const double change =
+      sweepFriction(system.problem, contacts_, system.mostForce, tolerance, swept_);
+  if (!(change <= tolerance::kSweptEnough * tolerance)) return false;
+  inexact_ = std::max(inexact_, change);
+  return true;
+}
+
+void Lagrange::takeForces(std::span<ContactRow> rows, Members members,
+                          std::span<const double> lambda) const {
   for (const std::uint32_t r : members) {
     rows[r].left = 0;
-    rows[r].normalForce = result->lambda[normalOf_[r]];
-    if (tangentOf_[r] == kNone) continue;
+    rows[r].normalForce = lambda[normalOf_[r]];
+    if (tangentOf_[r] == kNoTangent) continue;
     const double most = rows[r].friction * rows[r].normalForce;
-    rows[r].tangentForce = std::clamp(result->lambda[tangentOf_[r]], -most, most);
+    rows[r].tangentForce = std::clamp(lambda[tangentOf_[r]], -most, most);
   }
-  system.residual = result->residual;
 }
 
 /// Sets |τ| ≤ μλ; true if a bound has changed by more than the tolerance. Normal forces of bodies
@@ -149,7 +175,7 @@ bool Lagrange::boundFriction(std::span<const ContactRow> rows, Members members, 
   double largest = 0, change = 0;
   for (const std::uint32_t r : members) {
     const std::uint32_t tangent = tangentOf_[r];
-    if (tangent == kNone) continue;
+    if (tangent == kNoTangent) continue;
     const double bound = rows[r].friction * std::min(lambda[normalOf_[r]], system.mostForce);
     largest = std::max(largest, bound);
     change = std::max(change, std::abs(bound - problem.upper[tangent]));

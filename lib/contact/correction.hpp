@@ -8,6 +8,7 @@
 #include "contact/box_problem.hpp"
 #include "contact/contact_groups.hpp"
 #include "contact/contact_row.hpp"
+#include "contact/friction_sweeps.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -23,6 +24,9 @@ class Lagrange {
   /// its largest gap.
   double solve(std::span<ContactRow> rows, double tolerance);
 
+  /// (m) By how much gaps of groups that were solved by sweeps may still be wrong.
+  [[nodiscard]] double inexactness() const { return inexact_; }
+
  private:
   struct System {
     BoxProblem problem;
@@ -37,7 +41,11 @@ class Lagrange {
   void addPair(const ContactRow& a, const ContactRow& b, const RowNode& p, const RowNode& q,
                Vec2 mobile);
   void setGaps(std::span<const ContactRow> rows, Members members, BoxProblem& problem);
-  void solveGroup(std::span<ContactRow> rows, Members members, System& system);
+  void solveGroup(std::span<ContactRow> rows, Members members, System& system, double tolerance);
+  bool trySweeps(std::span<const ContactRow> rows, Members members, const System& system,
+                 double tolerance);
+  void takeForces(std::span<ContactRow> rows, Members members,
+                  std::span<const double> lambda) const;
   bool boundFriction(std::span<const ContactRow> rows, Members members, System& system,
                      std::span<const double> lambda) const;
 
@@ -46,7 +54,9 @@ class Lagrange {
   BoxSolver solver_;
   std::vector<MatrixEntry> entries_;
   std::vector<std::uint32_t> normalOf_, tangentOf_;  // unknowns of a row, by row
-  std::vector<double> start_;
+  std::vector<double> start_, swept_;
+  std::vector<ContactUnknowns> contacts_;
+  double inexact_ = 0;
 };
 
 /// Penalty: each row by itself, the force that would undo `factor` of its penetration in one step.
