@@ -66,7 +66,7 @@ template <bool kWatched>
                                           c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],  //
                                           i11, i12, i21, i22);
     bad += determinant(f) > 0 ? 0 : 1;  // NaN too
-    if constexpr (kWatched) stressed += squaredStress(f, lame, shear, shearWeight) >= look ? 1 : 0;
+    if constexpr (kWatched) stressed += isStressed(f, lame, shear, shearWeight, look) ? 1 : 0;
     const Matrix2 p = firstPiola(f, lame, shear);
     const double v = e.volume[k];
     const double f1x = -v * (p.xx * i11 + p.xy * i12);
