@@ -99,7 +99,7 @@ void Contact::solve(const Model& model, const ContactSettings& settings, const C
     penalize(rows_, model.nodes, step.dt, step.drag, settings.penaltyFactor);
   else {
     if (anyNew) lagrange_.setRows(rows_, model.nodes, step.dt, step.drag);
-    residual_ = lagrange_.solve(rows_, worthwhile(step));
+    residual_ = lagrange_.solve(rows_, worthwhile(step), step.rubble);
   }
 }
 
@@ -251,6 +251,27 @@ void Contact::finish(Model& model, const ContactSurfaces& surfaces, const Contac
   for (const ContactRow& row : rows_)
     touches.push_back({pairOf(row), row.normalForce, row.tangentForce, row.allowed});
   if (search_.anyNear()) search_.settle(candidates, surfaces, model.nodes.position, known_);
+}
+
+void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
+                            std::span<const EntryId> masters) {
+  if (masters.empty()) return;
+  const PieceGeometry geometry(surfaces, positions);
+  for (std::size_t r = 0; r < candidates.slaves.size(); ++r)
+    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
+      const SlaveMaster pair{candidates.slaves[r], candidates.masters[c]};
+      if (candidates.outside[c] == 0 || std::ranges::find(masters, pair.master) == masters.end())
+        continue;
+      const double gap = geometry.foot(pair.master, geometry.slave(pair.slave)).gap;
+      if (gap >= 0) continue;
+      const auto at =
+          std::lower_bound(touches.begin(), touches.end(), pair,
+                           [](const Touch& t, const SlaveMaster& p) { return t.pair < p; });
+      if (at != touches.end() && at->pair == pair)
+        at->allowed = std::min(at->allowed, gap);
+      else
+        touches.insert(at, {pair, 0, 0, gap});
+    }
 }
 
 }  // namespace yadefrag

@@ -34,6 +34,7 @@ struct ContactStep {
   double halo;                   ///< m, δ
   std::span<const Vec2> before;  ///< m, xⁿ; of surface nodes only
   int threads;
+  bool rubble;                  ///< do faces of cracks take part
   StageTimes* times = nullptr;  ///< null: not measured
 };
 
@@ -47,6 +48,11 @@ class Contact {
   void reset(std::size_t nodes);
   /// After nodes were added.
   void resize(std::size_t nodes);
+
+  /// Masters that came nearer to their slaves because they changed their form, at `positions`
+  /// (m, by node): what they overlap by is let out in time, not pushed out in one step.
+  void allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
+                     std::span<const EntryId> masters);
 
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
   /// (N) By node, of the last step.

@@ -39,14 +39,14 @@ void Lagrange::setRows(std::span<const ContactRow> rows, const Nodes& nodes, dou
   for (std::size_t group = 0; group < groups; ++group) assemble(rows, nodes, group, dt, drag);
 }
 
-double Lagrange::solve(std::span<ContactRow> rows, double tolerance) {
+double Lagrange::solve(std::span<ContactRow> rows, double tolerance, bool rubble) {
   double residual = 0;
   inexact_ = 0;
   for (std::size_t group = 0; group < groups_.rows.rows(); ++group) {
     const Members members = groups_.rows.row(group);
     System& system = systems_[group];
     if (std::ranges::any_of(members, [&](std::uint32_t r) { return isOpen(rows[r], tolerance); }))
-      solveGroup(rows, members, system, tolerance);
+      solveGroup(rows, members, system, tolerance, rubble);
     residual = std::max(residual, system.residual);
   }
   return residual;
@@ -118,15 +118,11 @@ void Lagrange::addPair(const ContactRow& a, const ContactRow& b, const RowNode& 
 /// where bounds and forces agree. Rejected: slip forces as −μ sgn(v)|F·e| in the matrix (eq. 8)
 /// make it unsymmetric, and the sign has to be known beforehand.
 void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& system,
-                          double tolerance) {
+                          double tolerance, bool rubble) {
   BoxProblem& problem = system.problem;
   setGaps(rows, members, problem);
-  if (problem.size() >= tolerance::kSweptUnknowns && problem.size() > members.size() &&
-      trySweeps(rows, members, system, tolerance)) {
-    takeForces(rows, members, swept_);
-    system.residual = 0;
-    return;
-  }
+  if (rubble && problem.size() > members.size() && problem.size() >= tolerance::kSweptUnknowns)
+    return sweepGroup(rows, members, system, tolerance);
   boundFriction(rows, members, system, start_);
   const BoxResult* result = nullptr;
   for (int round = 0; round < tolerance::kFrictionRounds; ++round) {
@@ -140,19 +136,17 @@ void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& s
   system.residual = result->residual;
 }
 
-/// Large groups with friction. What sweeps leave becomes a gap of the next step; so it may be more
-/// than what is worth another solve, but no velocity to speak of.
-bool Lagrange::trySweeps(std::span<const ContactRow> rows, Members members, const System& system,
-                         double tolerance) {
+/// What sweeps leave becomes a gap of the next step; so it may be more than what is worth another
+/// solve here.
+void Lagrange::sweepGroup(std::span<ContactRow> rows, Members members, System& system,
+                          double tolerance) {
   contacts_.clear();
   for (const std::uint32_t r : members)
     contacts_.push_back({normalOf_[r], tangentOf_[r], rows[r].friction});
-  swept_ = start_;
-  const double change =
-      sweepFriction(system.problem, contacts_, system.mostForce, tolerance, swept_);
-  if (!(change <= tolerance::kSweptEnough * tolerance)) return false;
-  inexact_ = std::max(inexact_, change);
-  return true;
+  inexact_ = std::max(
+      inexact_, sweepFriction(system.problem, contacts_, system.mostForce, tolerance, start_));
+  takeForces(rows, members, start_);
+  system.residual = 0;
 }
 
 void Lagrange::takeForces(std::span<ContactRow> rows, Members members,

@@ -20,9 +20,9 @@ class Lagrange {
   /// New rows, or the same ones in another order: finds their groups and systems.
   void setRows(std::span<const ContactRow> rows, const Nodes& nodes, double dt, double drag);
   /// Sets the forces of all rows, starting from those they have; groups in which no more than
-  /// `tolerance` (m) is `left` keep theirs. Returns the largest residual of any group, relative to
-  /// its largest gap.
-  double solve(std::span<ContactRow> rows, double tolerance);
+  /// `tolerance` (m) is `left` keep theirs. In `rubble`, friction is solved by sweeps. Returns the
+  /// largest residual of any group, relative to its largest gap.
+  double solve(std::span<ContactRow> rows, double tolerance, bool rubble = false);
 
   /// (m) By how much gaps of groups that were solved by sweeps may still be wrong.
   [[nodiscard]] double inexactness() const { return inexact_; }
@@ -41,9 +41,9 @@ class Lagrange {
   void addPair(const ContactRow& a, const ContactRow& b, const RowNode& p, const RowNode& q,
                Vec2 mobile);
   void setGaps(std::span<const ContactRow> rows, Members members, BoxProblem& problem);
-  void solveGroup(std::span<ContactRow> rows, Members members, System& system, double tolerance);
-  bool trySweeps(std::span<const ContactRow> rows, Members members, const System& system,
-                 double tolerance);
+  void solveGroup(std::span<ContactRow> rows, Members members, System& system, double tolerance,
+                  bool rubble);
+  void sweepGroup(std::span<ContactRow> rows, Members members, System& system, double tolerance);
   void takeForces(std::span<ContactRow> rows, Members members,
                   std::span<const double> lambda) const;
   bool boundFriction(std::span<const ContactRow> rows, Members members, System& system,
@@ -54,7 +54,7 @@ class Lagrange {
   BoxSolver solver_;
   std::vector<MatrixEntry> entries_;
   std::vector<std::uint32_t> normalOf_, tangentOf_;  // unknowns of a row, by row
-  std::vector<double> start_, swept_;
+  std::vector<double> start_;
   std::vector<ContactUnknowns> contacts_;
   double inexact_ = 0;
 };

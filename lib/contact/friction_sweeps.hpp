@@ -1,8 +1,10 @@
 #pragma once
-// Normal forces and friction of a large group by sweeps from contact to contact (nonlinear block
-// Gauss–Seidel of Moreau and Jean's contact dynamics). In rubble, with both faces of every crack,
-// each contact shares nodes with a dozen others, and the bounds of friction change with every
-// normal force: the exact solves for given bounds then take a hundred times longer.
+// Normal forces and friction of a group in rubble by sweeps from contact to contact (nonlinear
+// block Gauss–Seidel of Moreau and Jean's contact dynamics). With both faces of every crack, each
+// contact shares nodes with a dozen others, many of them say the same, and bounds of friction
+// change with every normal force. The exact solves for given bounds then take ten times longer, and
+// where pieces jam they grow forces that cancel each other, which friction turns into energy.
+// Sweeps from the last step's forces stay near them.
 
 #include <cstdint>
 #include <span>

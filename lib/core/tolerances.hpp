@@ -134,12 +134,10 @@ inline constexpr double kOverlapDecay = .02;
 inline constexpr double kFrictionBound = 1e-4;
 inline constexpr int kFrictionRounds = 8;
 
-/// (count; count; ratio) Contact groups with friction and at least this many unknowns are first tried
-/// by sweeps, at most so many. Their result is taken if the last sweep moved nothing by more than
-/// this many times the penetration that is worth another solve: 0.3 % of the largest motion.
-inline constexpr std::size_t kSweptUnknowns = 64;
+/// (count) Contact groups of rubble with friction and at least this many unknowns are solved by
+/// sweeps, at most so many.
+inline constexpr std::size_t kSweptUnknowns = 12;
 inline constexpr int kFrictionSweeps = 100;
-inline constexpr double kSweptEnough = 300;
 
 /// (ratio) Normal forces above this many times the largest that one row of their group needs by
 /// itself are a jam's, and bound friction no further.

@@ -49,7 +49,8 @@ void CrackEdges::addBody(const Model& model, ComponentId component) {
   ofNode.resize(model.nodes.size(), ElementId::none());
   for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e)
     for (const NodeId node : model.triangles.nodes[e]) ofNode[node.value] = ElementId(e);
-  std::uint64_t number = 0;
+  // Two bodies of one material do not crack alike.
+  std::uint64_t number = std::uint64_t{component.value} << 32;
   for (const auto& [a, b] : innerEdges(model, body)) {
     ofElement[a.element.value][a.corner] = ofElement[b.element.value][b.corner] = EdgeId(size());
     element.push_back({a.element, b.element});

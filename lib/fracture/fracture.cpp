@@ -16,7 +16,7 @@ void Fracture::removeBody(const Model& model, ElementId first, ElementId last,
 }
 
 bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
-                     std::span<const StressedRange> where, SplitResult& result) {
+                     std::span<const ElementRange> where, SplitResult& result) {
   cracks_.clear();
   if (where.empty() || numCracks_ >= maxCracks) return false;
   cracks_ = check_.overstressed(model, edges, where);

@@ -25,7 +25,7 @@ class Fracture {
 
   /// Cracks what has reached its strength at the present positions, and splits nodes. True if
   /// `result` has anything in it that others must follow.
-  bool crack(Model& model, const ContactSurfaces& surfaces, std::span<const StressedRange> where,
+  bool crack(Model& model, const ContactSurfaces& surfaces, std::span<const ElementRange> where,
              SplitResult& result);
   /// To be called after the reference positions of new nodes are there: cracks that were made hold
   /// as their law says.

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 
+#include "dynamics/element_state.hpp"
 #include "fracture/separation.hpp"
 
 namespace yadefrag {
 
 std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackEdges& edges,
-                                                std::span<const StressedRange> where) {
+                                                std::span<const ElementRange> where) {
   begin(model, edges);
   found_.clear();
-  for (const StressedRange& range : where)
-    for (std::uint32_t e = range.first.value; e < range.last.value; ++e)
+  for (const ElementRange& range : where)
+    for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e)
       for (const EdgeId edge : edges.ofElement[e]) {
         if (edge == EdgeId::none() || edges.cracked[edge.value] != 0) continue;
         if (edgeSeen_[edge.value] == call_) continue;

@@ -6,22 +6,17 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/element_state.hpp"
+#include "dynamics/element_kernel.hpp"
 #include "fracture/crack_edges.hpp"
 
 namespace yadefrag {
-
-/// Successive triangles.
-struct StressedRange {
-  ElementId first, last;  ///< one past
-};
 
 class StrengthCheck {
  public:
   /// The edges of these triangles that crack now, ascending. Where a crack opens at once, of all
   /// edges that meet at a node only the most overstressed one: its opening unloads the others.
   std::vector<EdgeId> overstressed(const Model& model, const CrackEdges& edges,
-                                   std::span<const StressedRange> where);
+                                   std::span<const ElementRange> where);
 
  private:
   using Stress = std::array<double, 3>;

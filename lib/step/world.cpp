@@ -9,6 +9,7 @@
 
 #include "core/errors.hpp"
 #include "dynamics/critical_time_step.hpp"
+#include "fracture/checks.hpp"
 #include "mesh/assembly.hpp"
 
 namespace yadefrag {
@@ -134,10 +135,23 @@ void World::buildIfChanged() {
   const auto& owners = surfaces.component;
   severalBodies_ =
       std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();
+  watchStrengths();
   search_.reset();
   finest_ = finestSegment();
   stableStep_ = 0;
   farthest_ = INFINITY;
+}
+
+/// Only what may crack is looked at, and only where it is stressed nearly up to its weakest edge.
+void World::watchStrengths() {
+  std::vector<double> least;
+  if (fracture.isOn()) least.assign(model.components.size(), INFINITY);
+  const CrackEdges& edges = fracture.edges;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const ComponentId body = model.triangles.component[edges.element[i][0].value];
+    least[body.value] = std::min(least[body.value], edges.strength[i]);
+  }
+  dynamics_.watchStress(std::move(least));
 }
 
 double World::criticalTimeStep() const {
@@ -157,6 +171,8 @@ void World::requireStableStep(double dt) {
          << " s, the critical step of the present mesh.";
     throw InputError(text.str());
   }
+  for (std::size_t c = 0; c < model.components.size(); ++c)
+    if (model.components[c].brittle.cracks()) checkCohesiveResolution(model, ComponentId(c), dt);
   stableStep_ = dt;
 }
 

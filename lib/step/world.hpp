@@ -105,6 +105,7 @@ class World {
  private:
   void buildIfChanged();
   void requireStableStep(double dt);
+  void watchStrengths();
   void rememberSurface();
   void searchIfLeft();
   void searchNow();
@@ -129,7 +130,6 @@ class World {
   std::unique_ptr<ContactSearch> search_;
   PassRule passRule_;
   SplitResult split_;
-  std::vector<StressedRange> stressed_;
   std::vector<Vec2> before_;  // m, xⁿ by node; of surface nodes only
   std::vector<BoxPair> overlapping_;
   std::vector<SlaveMaster> pairs_;

@@ -141,6 +141,7 @@ void World::correctContact(double dt) {
                         search.halo,
                         before_,
                         threads,
+                        fracture.numCracks() > 0,
                         timesIfAsked()};
   contact.correct(model, surfaces, contactSettings, now);
   farthest_ += contact.largestCorrection();

@@ -24,11 +24,7 @@ void World::bookFracture(double dt) {
 void World::crack() {
   if (!fracture.isOn()) return;
   const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
-  stressed_.clear();
-  for (const Component& body : model.components)
-    if (body.brittle.cracks())
-      stressed_.push_back({ElementId(body.firstTriangle), ElementId(body.lastTriangle)});
-  const bool opened = fracture.crack(model, surfaces, stressed_, split_);
+  const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), split_);
   if (opened) followSplit();
   fracture.cohere(model, reference);
 }
@@ -40,9 +36,8 @@ void World::followSplit() {
   const std::size_t count = model.nodes.size();
   contact.resize(count);
   before_.resize(count);
-  dynamics_.rebuild(model);
-  const EntryId firstNew(surfaces.entries());
-  relink(surfaces, split_.sides);
+  dynamics_.follow(model, split_.changed, split_.originals);
+  const std::vector<EntryId> straightened = relink(surfaces, split_.sides);
   const auto appear = [&](NodeId node) {
     search.nodes.push_back(node);
     search.positions.push_back(model.nodes.position[node.value]);
@@ -53,6 +48,7 @@ void World::followSplit() {
     if (side.segment == SegmentId::none())
       finest_ = std::min(finest_, norm(reference[side.last.value] - reference[side.first.value]));
   addCrackCandidates();
+  contact.allowOverlaps(surfaces, model.nodes.position, straightened);
 }
 
 /// New faces, and all that came near them: what is within the halo of an old piece beside the crack
