@@ -210,9 +210,22 @@ void SearchCollider::sceneIsSearched() {
   watch_.start(*scene, boxes_, slack_, span);
 }
 
+/// Faces of cracks do not count where segments are all there is: FESolver knows them already.
+bool SearchCollider::bodiesCame() const {
+  const auto& bodies = scene->bodies->body;
+  if (!onlySegments_ || bodies.size() < numBodies_) return bodies.size() != numBodies_;
+  const auto isOther = [](const yade::shared_ptr<Body>& body) {
+    if (!body) return false;
+    const auto* segment = dynamic_cast<const SurfaceSegment*>(body->shape.get());
+    return !segment || segment->entry < 0;
+  };
+  return std::any_of(bodies.begin() + static_cast<std::ptrdiff_t>(numBodies_), bodies.end(),
+                     isOther);
+}
+
 bool SearchCollider::isActivated() {
   if (doSort || scene->doSort || scene->interactions->dirty || periodic_ != scene->isPeriodic ||
-      numBodies_ != scene->bodies->body.size())
+      bodiesCame())
     return true;
   if (onlySegments_) return false;
   if (!strideActive_) return true;

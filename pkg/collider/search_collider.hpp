@@ -72,6 +72,7 @@ class SearchCollider : public yade::Collider {
   bool isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const;
   [[nodiscard]] bool ballsFit(const BoxPair& pair) const;
   void sceneIsSearched();
+  [[nodiscard]] bool bodiesCame() const;
   [[nodiscard]] double cellSlack() const;
   [[nodiscard]] int threadsToUse() const;
 

@@ -21,7 +21,7 @@ def makeSolver():
         contactForces=numpy.array([[0., 0], [0, 5], [0, 0], [-1, 0]]),
         triangles=numpy.array([[0, 1, 2], [0, 2, 3]]),
         stress=numpy.array([[1e6, 2e6, 3e6], [-1e6, 0, 0]]),
-        components=numpy.array([0, 1]))
+        components=numpy.array([0, 1]), fragmentOf=numpy.array([0, 1]))
 
 
 def makeEmpty():
@@ -29,7 +29,7 @@ def makeEmpty():
         nodes=numpy.empty((0, 2)), displacements=numpy.empty((0, 2)),
         velocities=numpy.empty((0, 2)), contactForces=numpy.empty((0, 2)),
         triangles=numpy.empty((0, 3), dtype=int), stress=numpy.empty((0, 3)),
-        components=numpy.empty(0, dtype=int))
+        components=numpy.empty(0, dtype=int), fragmentOf=numpy.empty(0, dtype=int))
 
 
 def test_vtkFileHoldsEverything(folder):
@@ -45,6 +45,7 @@ def test_vtkFileHoldsEverything(folder):
         assert not mesh.point_data[name][:, 2].any()
     assert numpy.array_equal(mesh.cell_data['stress'][0], fe.stress)
     assert numpy.array_equal(mesh.cell_data['component'][0], fe.components)
+    assert numpy.array_equal(mesh.cell_data['fragment'][0], fe.fragmentOf)
 
 
 def test_vtkFileIsRefusedInOneSentence(folder):

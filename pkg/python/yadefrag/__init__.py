@@ -20,6 +20,8 @@ __all__ = list(_yadefrag.publish())
 # Only now: FESolver is there.
 from yadefrag import solver  # noqa: E402
 from yadefrag.export import exportVTK  # noqa: E402
+from yadefrag.fragments import (fragmentTable, plotFracture, plotFragmentSizes,  # noqa: E402
+                                 recordFracture)
 from yadefrag.geometry import circle, readPolygon, rectangle, ring  # noqa: E402
 from yadefrag.pictures import animate, plotMesh  # noqa: E402
 from yadefrag.progress import runSteps  # noqa: E402
@@ -42,4 +44,5 @@ for _name in __all__:
     setattr(builtins, _name, globals()[_name])
 
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'rectangleMesh', 'plotMesh', 'animate',
-            'exportVTK', 'runSteps']
+            'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
+            'plotFracture']

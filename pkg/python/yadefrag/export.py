@@ -16,8 +16,8 @@ def exportVTK(fe, file):
     """Writes the bodies of an FESolver to `file` for ParaView, as an unstructured grid (.vtu).
 
     Points are the nodes where they are now (m); at points: displacement from the stress-free shape
-    (m), velocity (m/s), contact force (N); in triangles: stress (xx, yy, xy in Pa) and component
-    (int). ValueError for another ending than .vtu and for a solver without bodies.
+    (m), velocity (m/s), contact force (N); in triangles: stress (xx, yy, xy in Pa), component and
+    fragment (int). ValueError for another ending than .vtu and for a solver without bodies.
     """
     import meshio
 
@@ -28,7 +28,8 @@ def exportVTK(fe, file):
         raise ValueError('fe has no bodies to write, add one with fe.addPolygon first.')
     points = {name: _spatial(getattr(fe, attribute)) for name, attribute in _OF_NODES}
     cells = {'stress': [numpy.asarray(fe.stress, dtype=float)],
-             'component': [numpy.asarray(fe.components, dtype=numpy.int32)]}
+             'component': [numpy.asarray(fe.components, dtype=numpy.int32)],
+             'fragment': [numpy.asarray(fe.fragmentOf, dtype=numpy.int32)]}
     mesh = meshio.Mesh(_spatial(fe.nodes), [('triangle', triangles.astype(numpy.int64))],
                        point_data=points, cell_data=cells)
     mesh.write(str(file), file_format='vtu')

@@ -3,7 +3,8 @@
 import numpy
 
 _UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
-          'mises': 'von Mises stress (Pa)', 'speed': 'speed (m/s)', 'component': 'component'}
+          'mises': 'von Mises stress (Pa)', 'speed': 'speed (m/s)', 'component': 'component',
+          'fragment': 'fragment'}
 
 
 def _stress(fe, field):
@@ -23,6 +24,8 @@ def _values(fe, field):
             return numpy.linalg.norm(numpy.asarray(fe.velocities, dtype=float), axis=1), True
         if field == 'component':
             return numpy.asarray(fe.components, dtype=float), False
+        if field == 'fragment':
+            return _fragmentColours(fe) % 20, False
         if field in _UNITS:
             return _stress(fe, field), False
         raise ValueError('field is %r, it must be one of %s, an array or None.' %
@@ -41,8 +44,9 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None):
     """Draws the triangles of an FESolver where they are now; returns Matplotlib's axes.
 
     field   None (no colours), 'xx', 'yy', 'xy' (Pa), 'mises' (Pa, of these three: with the stress
-            zz left out), 'speed' (m/s), 'component', or an array with one number for each triangle
-            or each node
+            zz left out), 'speed' (m/s), 'component', 'fragment' (colours without a meaning, of
+            which neighbours have different ones), or an array with one number for each triangle or
+            each node
     file    where to write the picture; its ending says as what (.png, .pdf, .svg ...)
     ax      axes to draw in, default new ones
     limits  (lowest, highest) value of the colour scale, default those of the field
@@ -51,17 +55,32 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None):
     values, perNode = _values(fe, field)
     if len(fe.triangles) == 0:
         raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
-    if ax is None:
-        # Without pyplot: a picture for a file must not need, or open, a window.
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-        figure = Figure(figsize=(8, 6), layout='constrained')
-        FigureCanvasAgg(figure)
-        ax = figure.add_subplot()
+    ax = newAxes() if ax is None else ax
     _draw(ax, fe, field, values, perNode, limits)
     if file is not None:
         ax.figure.savefig(file, dpi=150)
     return ax
+
+
+def _fragmentColours(fe, former=None):
+    from yadefrag.fragments import fragmentColours
+    return fragmentColours(fe, former)
+
+
+def _palette():
+    """Twenty colours, the ten strong ones first."""
+    from matplotlib import colormaps
+    pairs = colormaps['tab20'].colors
+    return [*pairs[::2], *pairs[1::2]]
+
+
+def newAxes():
+    """Axes of a new figure. Without pyplot: a file's picture must not need, or open, a window."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    figure = Figure(figsize=(8, 6), layout='constrained')
+    FigureCanvasAgg(figure)
+    return figure.add_subplot()
 
 
 def _draw(ax, fe, field, values, perNode, limits):
@@ -73,6 +92,11 @@ def _draw(ax, fe, field, values, perNode, limits):
     ax.set_ylabel('y (m)')
     if values is None:
         ax.triplot(x, y, triangles, color='.3', linewidth=lines)
+        return
+    if isinstance(field, str) and field == 'fragment':
+        from matplotlib.colors import ListedColormap, NoNorm
+        ax.tripcolor(x, y, triangles=triangles, facecolors=values, norm=NoNorm(),
+                     cmap=ListedColormap(_palette()), edgecolors='k', linewidth=lines / 3)
         return
     low, high = (None, None) if limits is None else limits
     if perNode:
@@ -106,11 +130,16 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
     FigureCanvasAgg(figure)
     low, high = _windowOf(fe) if window is None else window
     writer = PillowWriter(fps=rate)
-    frames = 0
+    frames, colours = 0, None
     with writer.saving(figure, str(file), dpi=80):
         for done in _runInParts(steps, every):
             figure.clear()
-            ax = plotMesh(fe, field, ax=figure.add_subplot(), limits=limits)
+            ax = figure.add_subplot()
+            if field == 'fragment':  # a fragment keeps its colour from frame to frame
+                colours = _fragmentColours(fe, colours)
+                _draw(ax, fe, field, colours % 20, False, None)
+            else:
+                plotMesh(fe, field, ax=ax, limits=limits)
             ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), title='step %d' % done)
             writer.grab_frame()
             frames += 1

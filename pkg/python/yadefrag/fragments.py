@@ -1,0 +1,177 @@
+"""Fragments of an FESolver's bodies: tables, pictures of their sizes, a record over time."""
+
+import os
+
+import numpy
+
+_COLUMNS = (('fragment', '', int), ('component', '', int), ('triangles', '', int),
+            ('mass', 'kg', float), ('area', 'm²', float), ('size', 'm', float), ('x', 'm', float),
+            ('y', 'm', float), ('vx', 'm/s', float), ('vy', 'm/s', float), ('spin', 'rad/s', float))
+_ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'external', 'total')
+_COUNTS = ('step', 'time (s)', 'cracks', 'segments', 'fragments')
+
+
+def _heading(name, unit):
+    return '%s (%s)' % (name, unit) if unit else name
+
+
+def _csvName(file):
+    if not str(file).endswith('.csv'):
+        raise ValueError("file is %r, its name must end with '.csv'." % str(file))
+    return str(file)
+
+
+def fragmentTable(fe, file=None):
+    """All fragments, the largest area first, as a NumPy array with named columns (k).
+
+    Columns: fragment (its place in fe.fragments(), the number in fe.fragmentOf), component,
+    triangles (how many), mass (kg), area (m², in the plane), size (√area, m), x, y (centroid, m),
+    vx, vy (m/s), spin (rad/s).
+    file  where to write it besides, a .csv with the units in its first line
+    ValueError for another ending, before anything is written.
+    """
+    name = None if file is None else _csvName(file)
+    rows = [(number, f['component'], f['triangles'], f['mass'], f['area'],
+             numpy.sqrt(max(f['area'], 0)), *f['centroid'], *f['velocity'], f['spin'])
+            for number, f in enumerate(fe.fragments())]
+    table = numpy.array(rows, dtype=[(name, kind) for name, _, kind in _COLUMNS])
+    table = table[numpy.argsort(-table['area'], kind='stable')]
+    if name is not None:
+        with open(name, 'w', encoding='utf-8') as out:
+            out.write(','.join(_heading(name, unit) for name, unit, _ in _COLUMNS) + '\n')
+            for row in table.tolist():
+                out.write(','.join(map(repr, row)) + '\n')
+    return table
+
+
+def plotFragmentSizes(fe, file=None, ax=None, components=None):
+    """Draws how many fragments are at least as large as a size, both on logarithmic scales; returns
+    Matplotlib's axes.
+
+    file        where to write the picture; its ending says as what (.png, .pdf, .svg ...)
+    ax          axes to draw in, default new ones
+    components  numbers of the bodies whose fragments count, default those that are in pieces
+    ValueError where there is no such body.
+    """
+    from yadefrag.pictures import newAxes
+
+    table = fragmentTable(fe)
+    if components is None:
+        numbers, pieces = numpy.unique(table['component'], return_counts=True)
+        components = numbers[pieces > 1]
+    chosen = table[numpy.isin(table['component'], components)]
+    if len(chosen) == 0:
+        raise ValueError('fe has no body that is in pieces: there are no sizes to draw.')
+    ax = newAxes() if ax is None else ax
+    # A step down behind each size: the point (size, number) is the last one on its level.
+    sizes = chosen['size'][::-1]
+    ax.step(sizes, numpy.arange(len(sizes), 0, -1), where='pre', marker='.', markersize=4,
+            linewidth=1)
+    ax.set(xscale='log', yscale='log', xlabel='size of a fragment, √area (m)',
+           ylabel='fragments at least as large')
+    ax.grid(True, which='both', linewidth=.3)
+    if file is not None:
+        ax.figure.savefig(file, dpi=150)
+    return ax
+
+
+def recordFracture(fe, file, append=False):
+    """A function that writes a line to `file` (.csv) each time it is called, and has done so once.
+
+    For runSteps, `runSteps(5000, every=100, call=recordFracture(fe, 'run.csv'))`, and for a
+    PyRunner, `record = recordFracture(fe, 'run.csv')` and
+    `PyRunner(command='record()', iterPeriod=100)`. A line has the step, the time (s), the numbers
+    of cracks, surface segments and fragments, and all of fe.energy (J). It is in the file when the
+    call returns. append=True goes on with the lines that are there, for a run that was loaded.
+    ValueError for another ending and for a file to go on with that has other columns.
+    """
+    name = _csvName(file)
+    heading = ','.join(_COUNTS + tuple('%s (J)' % e for e in _ENERGIES)) + '\n'
+    if append and os.path.exists(name) and os.path.getsize(name):
+        with open(name, encoding='utf-8') as lines:
+            if lines.readline() != heading:
+                raise ValueError('%s has other columns than recordFracture writes: take another '
+                                 'file, or append=False to write it anew.' % name)
+    else:
+        with open(name, 'w', encoding='utf-8') as out:
+            out.write(heading)
+
+    def record():
+        from yade.wrapper import Omega
+        scene, energy = Omega(), fe.energy
+        row = (scene.iter, scene.time, fe.numCracks, fe.numSegments, len(fe.fragments()),
+               *(energy[e] for e in _ENERGIES))
+        with open(name, 'a', encoding='utf-8') as out:
+            out.write(','.join(map(repr, row)) + '\n')
+
+    record()
+    return record
+
+
+def plotFracture(file, picture=None):
+    """Draws a file of recordFracture: counts and energies over time; returns both axes.
+
+    picture  where to write it; its ending says as what (.png, .pdf, .svg ...)
+    """
+    from yadefrag.pictures import newAxes
+
+    data = numpy.atleast_2d(numpy.loadtxt(_csvName(file), delimiter=',', skiprows=1)).T
+    time = 1e6 * data[1]
+    upper = newAxes()
+    figure = upper.figure
+    upper.remove()
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    for name, values in zip(_COUNTS[2:], data[2:5]):
+        upper.plot(time, values, label=name)
+    upper.set(ylabel='number', ylim=(0, None))
+    for name, values in zip(_ENERGIES, data[5:]):
+        lower.plot(time, values, label=name, color='k' if name == 'total' else None)
+    lower.set(xlabel='time (µs)', ylabel='energy (J)')
+    for ax in (upper, lower):
+        ax.legend(loc='center left', bbox_to_anchor=(1, .5))
+        ax.grid(True, linewidth=.3)
+    if picture is not None:
+        figure.savefig(picture, dpi=150)
+    return upper, lower
+
+
+def fragmentColours(fe, former=None):
+    """(m) a small number for each triangle: the same within a fragment, different beside it.
+
+    former  those of an earlier call: a fragment keeps its colour where it can
+    """
+    of = numpy.asarray(fe.fragmentOf, dtype=int)
+    count = int(of.max()) + 1 if len(of) else 0
+    beside = _neighbours(fe, of, count)
+    sizes = numpy.bincount(of, minlength=count)
+    firsts = numpy.full(count, len(of))
+    numpy.minimum.at(firsts, of, numpy.arange(len(of)))
+    colours = numpy.full(count, -1)
+    for fragment in numpy.argsort(-sizes, kind='stable'):
+        taken = {colours[other] for other in beside[fragment]}
+        wanted = -1 if former is None else int(former[firsts[fragment]])
+        if wanted < 0 or wanted in taken:
+            wanted = next(c for c in range(count + 1) if c not in taken)
+        colours[fragment] = wanted
+    return colours[of] if count else of
+
+
+def _neighbours(fe, of, count):
+    """For each fragment a set of those that share a place of the stress-free shape with it, or that
+    have come as near to it as an edge is long."""
+    triangles = numpy.asarray(fe.triangles, dtype=int)
+    nodes, reference = numpy.asarray(fe.nodes), numpy.asarray(fe._reference)
+    ofNode = numpy.zeros(len(nodes), dtype=int)
+    ofNode[triangles] = of[:, None]
+    edge = numpy.linalg.norm(reference[triangles[:, 0]] - reference[triangles[:, 1]], axis=1).mean()
+    beside = [set() for _ in range(count)]
+    for places in (reference, numpy.floor(nodes / edge)):
+        _, place = numpy.unique(places, axis=0, return_inverse=True)
+        pairs = numpy.unique(numpy.stack([place.ravel(), ofNode], axis=1), axis=0)
+        ends = numpy.nonzero(numpy.diff(pairs[:, 0]))[0] + 1
+        for group in numpy.split(pairs[:, 1], ends):
+            for fragment in group if len(group) > 1 else ():
+                beside[fragment].update(group)
+    for fragment, others in enumerate(beside):
+        others.discard(fragment)
+    return beside
