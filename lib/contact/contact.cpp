@@ -63,7 +63,8 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
   bool gapsAreKnown = false;
   double reach = step.reach;
   scan(model, surfaces, step, reach, moved);
-  for (int detection = 0; detection < tolerance::kDetections; ++detection) {
+  const int most = step.rubble ? tolerance::kRubbleDetections : tolerance::kDetections;
+  for (int detection = 0; detection < most; ++detection) {
     const bool anyNew = addRows(model, surfaces, step);
     if (rows_.empty()) break;
     if (detection > 0) {

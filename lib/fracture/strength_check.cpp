@@ -11,16 +11,29 @@ std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackE
                                                 std::span<const ElementRange> where) {
   begin(model, edges);
   found_.clear();
+  // The stress of a node that is looked at belongs to all edges that end there, whosever they are.
   for (const ElementRange& range : where)
     for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e)
-      for (const EdgeId edge : edges.ofElement[e]) {
-        if (edge == EdgeId::none() || edges.cracked[edge.value] != 0) continue;
-        if (edgeSeen_[edge.value] == call_) continue;
-        edgeSeen_[edge.value] = call_;
-        const double ratio = ratioOf(model, edges, edge);
-        if (ratio >= 1) found_.push_back({ratio, edge});
-      }
+      for (const NodeId node : model.triangles.nodes[e]) lookAround(model, edges, node);
   return pickApart(model, edges);
+}
+
+void StrengthCheck::lookAround(const Model& model, const CrackEdges& edges, NodeId node) {
+  if (nodeLookedAt_[node.value] == call_) return;
+  nodeLookedAt_[node.value] = call_;
+  around_.clear();
+  edges.appendFan(model, node, around_);
+  for (const ElementId element : around_) {
+    const int corner = cornerOf(model, element, node);
+    for (const int side : {corner, static_cast<int>(beforeCorner(corner))}) {
+      const EdgeId edge = edges.ofElement[element.value][static_cast<std::size_t>(side)];
+      if (edge == EdgeId::none() || edges.cracked[edge.value] != 0) continue;
+      if (edgeSeen_[edge.value] == call_) continue;
+      edgeSeen_[edge.value] = call_;
+      const double ratio = ratioOf(model, edges, edge);
+      if (ratio >= 1) found_.push_back({ratio, edge});
+    }
+  }
 }
 
 void StrengthCheck::begin(const Model& model, const CrackEdges& edges) {
@@ -30,6 +43,7 @@ void StrengthCheck::begin(const Model& model, const CrackEdges& edges) {
   nodeSeen_.resize(model.nodes.size());
   nodeStress_.resize(model.nodes.size());
   nodeTaken_.resize(model.nodes.size());
+  nodeLookedAt_.resize(model.nodes.size());
   edgeSeen_.resize(edges.size());
 }
 

@@ -13,8 +13,8 @@ namespace yadefrag {
 
 class StrengthCheck {
  public:
-  /// The edges of these triangles that crack now, ascending. Where a crack opens at once, of all
-  /// edges that meet at a node only the most overstressed one: its opening unloads the others.
+  /// The edges at these triangles' nodes that crack now, ascending. Where a crack opens at once, of
+  /// all edges that meet at a node only the most overstressed one: its opening unloads the others.
   std::vector<EdgeId> overstressed(const Model& model, const CrackEdges& edges,
                                    std::span<const ElementRange> where);
 
@@ -26,6 +26,7 @@ class StrengthCheck {
   };
 
   void begin(const Model& model, const CrackEdges& edges);
+  void lookAround(const Model& model, const CrackEdges& edges, NodeId node);
   const Stress& stressOf(const Model& model, ElementId element);
   const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
   double ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge);
@@ -33,9 +34,9 @@ class StrengthCheck {
 
   // Looked at in this call if the mark is the call's number.
   std::uint32_t call_ = 0;
-  std::vector<std::uint32_t> elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_;
+  std::vector<std::uint32_t> elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeLookedAt_;
   std::vector<Stress> elementStress_, nodeStress_;  // Pa: xx, yy, xy
-  std::vector<ElementId> fan_;
+  std::vector<ElementId> fan_, around_;
   std::vector<Overstressed> found_;
 };
 
