@@ -53,7 +53,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
                       const ContactSettings& settings, const ContactStep& step) {
   rows_.clear();
   const double moved = step.move + largestCorrection_;
-  maxPenetration_ = residual_ = largestCorrection_ = 0;
+  maxPenetration_ = residual_ = inexact_ = largestCorrection_ = 0;
   known_.clear();
   for (const NodeId node : touched_) {
     forces_[node.value] = displacement_[node.value] = {};
@@ -70,8 +70,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
     if (detection > 0) {
       updateGaps(model, surfaces, step);
       gapsAreKnown = true;
-      if (!anyNew && maxPenetration_ <= std::max(worthwhile(step), 2 * lagrange_.inexactness()))
-        break;
+      if (!anyNew && maxPenetration_ <= std::max(worthwhile(step), 2 * inexact_)) break;
       if (!anyNew && settings.correction == Correction::kPenalty) break;
     }
     solve(model, settings, step, anyNew);
@@ -98,9 +97,11 @@ void Contact::solve(const Model& model, const ContactSettings& settings, const C
   const StageTimer timer(step.times, &StageTimes::correction);
   if (settings.correction == Correction::kPenalty)
     penalize(rows_, model.nodes, step.dt, step.drag, settings.penaltyFactor);
+  else if (step.rubble)
+    inexact_ = sweeps_.solve(rows_, model.nodes, step.dt, step.drag, worthwhile(step));
   else {
     if (anyNew) lagrange_.setRows(rows_, model.nodes, step.dt, step.drag);
-    residual_ = lagrange_.solve(rows_, worthwhile(step), step.rubble);
+    residual_ = lagrange_.solve(rows_, worthwhile(step));
   }
 }
 

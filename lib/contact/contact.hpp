@@ -11,6 +11,7 @@
 #include "contact/contact_settings.hpp"
 #include "contact/correction.hpp"
 #include "contact/local_search.hpp"
+#include "contact/row_sweeps.hpp"
 #include "core/stage_times.hpp"
 #include "mesh/model.hpp"
 #include "surface/contact_surface.hpp"
@@ -85,6 +86,7 @@ class Contact {
 
   LocalSearch search_;
   Lagrange lagrange_;
+  RowSweeps sweeps_;
   std::vector<Active> actives_;
   std::vector<ContactRow> rows_;
   std::vector<SlaveMaster> known_;       // of the rows
@@ -95,6 +97,7 @@ class Contact {
   double largestCorrection_ = 0;
   double maxPenetration_ = 0;
   double residual_ = 0;
+  double inexact_ = 0;  // m, by how much sweeps may be wrong
 };
 
 }  // namespace yadefrag

@@ -10,6 +10,8 @@ namespace yadefrag {
 
 namespace {
 
+constexpr std::uint32_t kNone = 0xffffffff;
+
 /// Does a row penetrate, or push a slave farther out than it need be.
 bool isOpen(const ContactRow& row, double tolerance) {
   return row.left > tolerance || (row.left < -tolerance && row.normalForce > 0);
@@ -39,14 +41,13 @@ void Lagrange::setRows(std::span<const ContactRow> rows, const Nodes& nodes, dou
   for (std::size_t group = 0; group < groups; ++group) assemble(rows, nodes, group, dt, drag);
 }
 
-double Lagrange::solve(std::span<ContactRow> rows, double tolerance, bool rubble) {
+double Lagrange::solve(std::span<ContactRow> rows, double tolerance) {
   double residual = 0;
-  inexact_ = 0;
   for (std::size_t group = 0; group < groups_.rows.rows(); ++group) {
     const Members members = groups_.rows.row(group);
     System& system = systems_[group];
     if (std::ranges::any_of(members, [&](std::uint32_t r) { return isOpen(rows[r], tolerance); }))
-      solveGroup(rows, members, system, tolerance, rubble);
+      solveGroup(rows, members, system);
     residual = std::max(residual, system.residual);
   }
   return residual;
@@ -56,7 +57,7 @@ double Lagrange::solve(std::span<ContactRow> rows, double tolerance, bool rubble
 std::size_t Lagrange::numberUnknowns(std::span<const ContactRow> rows, Members members) {
   std::uint32_t count = 0;
   for (const std::uint32_t r : members) normalOf_[r] = count++;
-  for (const std::uint32_t r : members) tangentOf_[r] = rows[r].friction > 0 ? count++ : kNoTangent;
+  for (const std::uint32_t r : members) tangentOf_[r] = rows[r].friction > 0 ? count++ : kNone;
   return count;
 }
 
@@ -95,7 +96,7 @@ void Lagrange::setGaps(std::span<const ContactRow> rows, Members members, BoxPro
     problem.lower[normal] = 0;
     problem.upper[normal] = kNoBound;
     start_[normal] = rows[r].normalForce;
-    if (tangent == kNoTangent) continue;
+    if (tangent == kNone) continue;
     problem.constant[tangent] = rows[r].slip;
     start_[tangent] = rows[r].tangentForce;
   }
@@ -107,22 +108,19 @@ void Lagrange::addPair(const ContactRow& a, const ContactRow& b, const RowNode& 
   const std::uint32_t na = normalOf_[p.row], nb = normalOf_[q.row];
   const std::uint32_t ta = tangentOf_[p.row], tb = tangentOf_[q.row];
   entries_.push_back({na, nb, weighted(a.normal, scaled, b.normal)});
-  if (tb != kNoTangent) entries_.push_back({na, tb, weighted(a.normal, scaled, b.tangent())});
-  if (ta == kNoTangent) return;
+  if (tb != kNone) entries_.push_back({na, tb, weighted(a.normal, scaled, b.tangent())});
+  if (ta == kNone) return;
   entries_.push_back({ta, nb, weighted(a.tangent(), scaled, b.normal)});
-  if (tb != kNoTangent) entries_.push_back({ta, tb, weighted(a.tangent(), scaled, b.tangent())});
+  if (tb != kNone) entries_.push_back({ta, tb, weighted(a.tangent(), scaled, b.tangent())});
 }
 
 /// Without friction one solve. With it, the bounds of the tangential forces depend on the normal
 /// ones: a sequence of solves with given bounds, which starts from the last step's forces and ends
 /// where bounds and forces agree. Rejected: slip forces as −μ sgn(v)|F·e| in the matrix (eq. 8)
 /// make it unsymmetric, and the sign has to be known beforehand.
-void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& system,
-                          double tolerance, bool rubble) {
+void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& system) {
   BoxProblem& problem = system.problem;
   setGaps(rows, members, problem);
-  if (rubble && problem.size() > members.size() && problem.size() >= tolerance::kSweptUnknowns)
-    return sweepGroup(rows, members, system, tolerance);
   boundFriction(rows, members, system, start_);
   const BoxResult* result = nullptr;
   for (int round = 0; round < tolerance::kFrictionRounds; ++round) {
@@ -132,32 +130,14 @@ void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& s
     for (std::size_t i = 0; i < start_.size(); ++i)
       start_[i] = std::clamp(result->lambda[i], problem.lower[i], problem.upper[i]);
   }
-  takeForces(rows, members, result->lambda);
-  system.residual = result->residual;
-}
-
-/// What sweeps leave becomes a gap of the next step; so it may be more than what is worth another
-/// solve here.
-void Lagrange::sweepGroup(std::span<ContactRow> rows, Members members, System& system,
-                          double tolerance) {
-  contacts_.clear();
-  for (const std::uint32_t r : members)
-    contacts_.push_back({normalOf_[r], tangentOf_[r], rows[r].friction});
-  inexact_ = std::max(
-      inexact_, sweepFriction(system.problem, contacts_, system.mostForce, tolerance, start_));
-  takeForces(rows, members, start_);
-  system.residual = 0;
-}
-
-void Lagrange::takeForces(std::span<ContactRow> rows, Members members,
-                          std::span<const double> lambda) const {
   for (const std::uint32_t r : members) {
     rows[r].left = 0;
-    rows[r].normalForce = lambda[normalOf_[r]];
-    if (tangentOf_[r] == kNoTangent) continue;
+    rows[r].normalForce = result->lambda[normalOf_[r]];
+    if (tangentOf_[r] == kNone) continue;
     const double most = rows[r].friction * rows[r].normalForce;
-    rows[r].tangentForce = std::clamp(lambda[tangentOf_[r]], -most, most);
+    rows[r].tangentForce = std::clamp(result->lambda[tangentOf_[r]], -most, most);
   }
+  system.residual = result->residual;
 }
 
 /// Sets |τ| ≤ μλ; true if a bound has changed by more than the tolerance. Normal forces of bodies
@@ -169,7 +149,7 @@ bool Lagrange::boundFriction(std::span<const ContactRow> rows, Members members, 
   double largest = 0, change = 0;
   for (const std::uint32_t r : members) {
     const std::uint32_t tangent = tangentOf_[r];
-    if (tangent == kNoTangent) continue;
+    if (tangent == kNone) continue;
     const double bound = rows[r].friction * std::min(lambda[normalOf_[r]], system.mostForce);
     largest = std::max(largest, bound);
     change = std::max(change, std::abs(bound - problem.upper[tangent]));

@@ -8,7 +8,6 @@
 #include "contact/box_problem.hpp"
 #include "contact/contact_groups.hpp"
 #include "contact/contact_row.hpp"
-#include "contact/friction_sweeps.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -20,12 +19,9 @@ class Lagrange {
   /// New rows, or the same ones in another order: finds their groups and systems.
   void setRows(std::span<const ContactRow> rows, const Nodes& nodes, double dt, double drag);
   /// Sets the forces of all rows, starting from those they have; groups in which no more than
-  /// `tolerance` (m) is `left` keep theirs. In `rubble`, friction is solved by sweeps. Returns the
-  /// largest residual of any group, relative to its largest gap.
-  double solve(std::span<ContactRow> rows, double tolerance, bool rubble = false);
-
-  /// (m) By how much gaps of groups that were solved by sweeps may still be wrong.
-  [[nodiscard]] double inexactness() const { return inexact_; }
+  /// `tolerance` (m) is `left` keep theirs. Returns the largest residual of any group, relative to
+  /// its largest gap.
+  double solve(std::span<ContactRow> rows, double tolerance);
 
  private:
   struct System {
@@ -41,11 +37,7 @@ class Lagrange {
   void addPair(const ContactRow& a, const ContactRow& b, const RowNode& p, const RowNode& q,
                Vec2 mobile);
   void setGaps(std::span<const ContactRow> rows, Members members, BoxProblem& problem);
-  void solveGroup(std::span<ContactRow> rows, Members members, System& system, double tolerance,
-                  bool rubble);
-  void sweepGroup(std::span<ContactRow> rows, Members members, System& system, double tolerance);
-  void takeForces(std::span<ContactRow> rows, Members members,
-                  std::span<const double> lambda) const;
+  void solveGroup(std::span<ContactRow> rows, Members members, System& system);
   bool boundFriction(std::span<const ContactRow> rows, Members members, System& system,
                      std::span<const double> lambda) const;
 
@@ -55,8 +47,6 @@ class Lagrange {
   std::vector<MatrixEntry> entries_;
   std::vector<std::uint32_t> normalOf_, tangentOf_;  // unknowns of a row, by row
   std::vector<double> start_;
-  std::vector<ContactUnknowns> contacts_;
-  double inexact_ = 0;
 };
 
 /// Penalty: each row by itself, the force that would undo `factor` of its penetration in one step.

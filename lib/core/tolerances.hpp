@@ -134,11 +134,10 @@ inline constexpr double kOverlapDecay = .02;
 inline constexpr double kFrictionBound = 1e-4;
 inline constexpr int kFrictionRounds = 8;
 
-/// (count) Contact groups of rubble with friction and at least this many unknowns are solved by
-/// sweeps, so many at each of so many detections: with ten times as many of both the energies of an
-/// impact differ in the fourth digit, and a step takes ten times as long.
-inline constexpr std::size_t kSweptUnknowns = 12;
-inline constexpr int kFrictionSweeps = 20, kRubbleDetections = 4;
+/// (count) Contact in rubble is solved by so many sweeps at each of so many detections: with ten times
+/// as many of both, the energies of an impact differ in the fourth digit, and a step takes ten
+/// times as long.
+inline constexpr int kRowSweeps = 20, kRubbleDetections = 4;
 
 /// (ratio) Normal forces above this many times the largest that one row of their group needs by
 /// itself are a jam's, and bound friction no further.

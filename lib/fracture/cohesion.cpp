@@ -58,7 +58,7 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
     for (std::uint32_t end = 0; end < 2; ++end) {
       const NodeId here = end == 0 ? a : d, there = end == 0 ? b : e;
       const double critical = 2 * material.fractureEnergy / edges.strength[edge[c].value];
-      if (here == there || largest[c][end] >= critical) continue;
+      if (here == there) continue;
       const Vec2 mobile = dt * dt * area[c] *
                           (mobility(model.nodes, here, drag) + mobility(model.nodes, there, drag));
       points_.push_back({here,
@@ -70,7 +70,6 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
                          critical,
                          material.shearFactor,
                          largest[c][end],
-                         {},
                          {},
                          c,
                          end});
@@ -92,19 +91,36 @@ double Cohesion::openingOf(const Point& point, Vec2 apart, Vec2& direction) {
   return effective;
 }
 
+/// (m/Pa) What a traction in this direction takes from the opening along it.
+double Cohesion::complianceAlong(const Point& point, Vec2 direction) {
+  return point.compliance.x * direction.x * direction.x +
+         point.compliance.y * direction.y * direction.y;
+}
+
+/// What the law does to faces that would end up `opening` apart without it.
+Vec2 Cohesion::held(const Point& point, Vec2 opening) {
+  Vec2 direction;
+  const double trial = openingOf(point, opening, direction);
+  const double most = envelope(point.strength, point.critical, point.largest);
+  // Where that much would close the crack below the unloading line, what ends on that line.
+  const double kink = point.largest + most * complianceAlong(point, direction);
+  return (trial < kink ? most * (trial / kink) : most) * direction;
+}
+
+/// What keeps the faces from closing further than shut.
+Vec2 Cohesion::shut(const Point& point, Vec2 opening) {
+  const double gap = dot(opening, point.normal);
+  const double compliance = complianceAlong(point, point.normal);
+  if (gap >= 0 || compliance <= 0) return {};
+  return (gap / compliance) * point.normal;
+}
+
 /// Sets one point's traction right, the others being what they are; returns its change (Pa).
 double Cohesion::relax(Model& model, Point& point) const {
   std::vector<Vec2>& position = model.nodes.position;
   const Vec2 own{point.compliance.x * point.traction.x, point.compliance.y * point.traction.y};
-  point.opening = position[point.there.value] - position[point.here.value] + own;
-  Vec2 direction;
-  const double trial = openingOf(point, point.opening, direction);
-  const double compliance = point.compliance.x * direction.x * direction.x +
-                            point.compliance.y * direction.y * direction.y;
-  const double size =
-      trial > 0 ? cohesiveTraction(point.strength, point.critical, point.largest, trial, compliance)
-                : 0;
-  const Vec2 traction = size * direction;
+  const Vec2 opening = position[point.there.value] - position[point.here.value] + own;
+  const Vec2 traction = held(point, opening) + shut(point, opening);
   const Vec2 change = traction - point.traction;
   point.traction = traction;
   const double rate = dt_ * dt_ * point.area;
@@ -142,6 +158,13 @@ double Cohesion::correct(Model& model, const CrackEdges& edges, std::span<const 
     }
   }
   return most;
+}
+
+void Cohesion::addForces(std::vector<Vec2>& forces) const {
+  for (const Point& point : points_) {
+    forces[point.here.value] += point.area * point.traction;
+    forces[point.there.value] -= point.area * point.traction;
+  }
 }
 
 double Cohesion::book(const Model& model, const CrackEdges& edges,

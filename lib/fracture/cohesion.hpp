@@ -1,8 +1,17 @@
 #pragma once
 // What still holds the two faces of a crack that has not opened wide (extrinsic linear cohesive
-// law, Camacho and Ortiz 1996). The law holds at the end of the step, for all cracks together: so
-// a crack that has hardly opened, whose unloading is stiffer than any step resolves, is held like
-// a contact by whatever traction keeps it as it is, up to what the law allows.
+// law, Camacho and Ortiz 1996).
+//
+// A crack that opens further is pulled back by what the law gives for the opening at the step's
+// begin: the leapfrog then sums the work by the trapezoid rule, which is exact below a straight
+// line. Taken at the step's end, the law would spend 2Δδ/δc too little, Δδ the opening in a step.
+// But no crack is pulled below the unloading line: so one that has hardly opened, whose line is
+// stiffer than any step resolves, is held like a contact by whatever keeps it as it is, up to what
+// the law allows.
+//
+// As long as one end of a crack holds, its faces are opposite each other, node to node, and are
+// kept apart here, too: pulled together here and pushed apart by contact in turn, corner on corner,
+// they would slide past each other, and contact would push out what it has not kept out.
 
 #include <array>
 #include <span>
@@ -30,6 +39,9 @@ class Cohesion {
   double book(const Model& model, const CrackEdges& edges, std::span<const Vec2> previousVelocity,
               double dt);
 
+  /// (N) Adds the tractions of the present step, by node.
+  void addForces(std::vector<Vec2>& forces) const;
+
   // By crack that holds; both ends of an edge have an opening of their own.
   std::vector<EdgeId> edge;
   std::vector<std::array<double, 2>> largest;  ///< m, δmax
@@ -43,7 +55,6 @@ class Cohesion {
     double area, strength, critical, shearFactor;
     double largest;
     Vec2 traction{};  // Pa, on `here`
-    Vec2 opening{};   // m, without this point's own traction
     std::uint32_t crack, end;
   };
 
@@ -51,6 +62,9 @@ class Cohesion {
                double drag);
   double relax(Model& model, Point& point) const;
   static double openingOf(const Point& point, Vec2 apart, Vec2& direction);
+  static double complianceAlong(const Point& point, Vec2 direction);
+  static Vec2 held(const Point& point, Vec2 opening);
+  static Vec2 shut(const Point& point, Vec2 opening);
 
   std::vector<Point> points_;
   double dt_ = 0, drag_ = 0;

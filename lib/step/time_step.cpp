@@ -56,7 +56,14 @@ void World::predict(double dt) {
 
 void World::finish(double dt) {
   const StageTimer timer(timesIfAsked(), &StageTimes::forces);
-  dynamics_.finish(model, dt, dynamicsSettings, outerForces, contact.forces(), ledger, threads);
+  // Held nodes push back against contact and against cracks that still hold.
+  std::span<const Vec2> forces = contact.forces();
+  if (!fracture.cohesion.edge.empty()) {
+    surfaceForces_ = contact.forces();
+    fracture.cohesion.addForces(surfaceForces_);
+    forces = surfaceForces_;
+  }
+  dynamics_.finish(model, dt, dynamicsSettings, outerForces, forces, ledger, threads);
 }
 
 }  // namespace yadefrag

@@ -130,7 +130,8 @@ class World {
   std::unique_ptr<ContactSearch> search_;
   PassRule passRule_;
   SplitResult split_;
-  std::vector<Vec2> before_;  // m, xⁿ by node; of surface nodes only
+  std::vector<Vec2> surfaceForces_;  // N, by node, of contact and cohesion
+  std::vector<Vec2> before_;         // m, xⁿ by node; of surface nodes only
   std::vector<BoxPair> overlapping_;
   std::vector<SlaveMaster> pairs_;
   std::vector<Box> boxes_;
