@@ -19,7 +19,7 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
                      std::span<const ElementRange> where, SplitResult& result) {
   cracks_.clear();
   if (where.empty() || numCracks_ >= maxCracks) return false;
-  cracks_ = check_.overstressed(model, edges, where);
+  cracks_ = check_.overstressed(model, edges, where, leastStrength);
   if (cracks_.size() > maxCracks - numCracks_) cracks_.resize(maxCracks - numCracks_);
   if (cracks_.empty()) return false;
   numCracks_ += cracks_.size();

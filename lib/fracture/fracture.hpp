@@ -38,6 +38,7 @@ class Fracture {
   std::uint64_t maxCracks = ~std::uint64_t{0};
 
   CrackEdges edges;
+  std::vector<double> leastStrength;  ///< Pa, by component; follows from the edges
   Cohesion cohesion;
 
  private:

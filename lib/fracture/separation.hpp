@@ -32,4 +32,18 @@ struct Traction {
   return std::max(0., std::abs(shear) + friction * normal) / material.shearFactor;
 }
 
+/// (Pa) A bound of the effective traction on all planes, from Mohr's circle with centre c and
+/// radius r: √((c + r)² + ((r√(1 + μ²) + μc)/β)²), either part if positive. |τ| + μσₙ is largest
+/// where the second part says, so |τ| is below it where σₙ ≥ 0, and |τ| − μ|σₙ| where σₙ < 0. It is
+/// convex: a mean of stresses has no more than the largest of them.
+[[nodiscard]] inline double largestTraction(const std::array<double, 3>& stress,
+                                            const BrittleMaterial& material, double friction) {
+  const double centre = .5 * (stress[0] + stress[1]);
+  const double radius = std::hypot(.5 * (stress[0] - stress[1]), stress[2]);
+  const double tension = std::max(0., centre + radius);
+  const double shear =
+      std::max(0., radius * std::sqrt(1 + friction * friction) + friction * centre);
+  return std::hypot(tension, shear / material.shearFactor);
+}
+
 }  // namespace yadefrag

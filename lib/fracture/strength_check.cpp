@@ -8,19 +8,28 @@
 namespace yadefrag {
 
 std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackEdges& edges,
-                                                std::span<const ElementRange> where) {
+                                                std::span<const ElementRange> where,
+                                                std::span<const double> leastStrength) {
   begin(model, edges);
   found_.clear();
   // The stress of a node that is looked at belongs to all edges that end there, whosever they are.
   for (const ElementRange& range : where)
     for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e)
-      for (const NodeId node : model.triangles.nodes[e]) lookAround(model, edges, node);
+      for (const NodeId node : model.triangles.nodes[e])
+        lookAround(model, edges, node, leastStrength);
   return pickApart(model, edges);
 }
 
-void StrengthCheck::lookAround(const Model& model, const CrackEdges& edges, NodeId node) {
+void StrengthCheck::lookAround(const Model& model, const CrackEdges& edges, NodeId node,
+                               std::span<const double> leastStrength) {
   if (nodeLookedAt_[node.value] == call_) return;
   nodeLookedAt_[node.value] = call_;
+  // Of an edge's two ends one at least bears as much by itself as their mean.
+  const ComponentId body = model.nodes.component[node.value];
+  const Component& component = model.components[body.value];
+  if (largestTraction(stressAt(model, edges, node), component.brittle, component.friction) <
+      leastStrength[body.value])
+    return;
   around_.clear();
   edges.appendFan(model, node, around_);
   for (const ElementId element : around_) {

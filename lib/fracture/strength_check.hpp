@@ -16,7 +16,8 @@ class StrengthCheck {
   /// The edges at these triangles' nodes that crack now, ascending. Where a crack opens at once, of
   /// all edges that meet at a node only the most overstressed one: its opening unloads the others.
   std::vector<EdgeId> overstressed(const Model& model, const CrackEdges& edges,
-                                   std::span<const ElementRange> where);
+                                   std::span<const ElementRange> where,
+                                   std::span<const double> leastStrength);
 
  private:
   using Stress = std::array<double, 3>;
@@ -26,7 +27,8 @@ class StrengthCheck {
   };
 
   void begin(const Model& model, const CrackEdges& edges);
-  void lookAround(const Model& model, const CrackEdges& edges, NodeId node);
+  void lookAround(const Model& model, const CrackEdges& edges, NodeId node,
+                  std::span<const double> leastStrength);
   const Stress& stressOf(const Model& model, ElementId element);
   const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
   double ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge);

@@ -144,14 +144,14 @@ void World::buildIfChanged() {
 
 /// Only what may crack is looked at, and only where it is stressed nearly up to its weakest edge.
 void World::watchStrengths() {
-  std::vector<double> least;
-  if (fracture.isOn()) least.assign(model.components.size(), INFINITY);
+  std::vector<double>& least = fracture.leastStrength;
+  least.assign(fracture.isOn() ? model.components.size() : 0, INFINITY);
   const CrackEdges& edges = fracture.edges;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const ComponentId body = model.triangles.component[edges.element[i][0].value];
     least[body.value] = std::min(least[body.value], edges.strength[i]);
   }
-  dynamics_.watchStress(std::move(least));
+  dynamics_.watchStress(least);
 }
 
 double World::criticalTimeStep() const {

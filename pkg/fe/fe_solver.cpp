@@ -26,7 +26,6 @@ void FESolver::action() {
     if (pairsOfCollider(*scene, *this, bodies_, pairs_)) world_.takePairs(pairs_);
   }
   bodies_.collectForces(*scene, world_, world_.outerForces);
-  requireResolution();
   try {
     world_.step(scene->dt);
   } catch (const InputError& error) {
@@ -36,22 +35,6 @@ void FESolver::action() {
   bodies_.update(world_, timeToIntegrate(), world_.threads);
   prepareSearch(scene->dt);
   if (scene->trackEnergy) trackEnergy();
-}
-
-/// Once for each body and step: the law's opening does not hang on how the run goes.
-void FESolver::requireResolution() {
-  const std::size_t count = world_.model.components.size();
-  if (scene->dt <= resolvedStep_ && count == resolvedBodies_) return;
-  const double critical = world_.criticalTimeStep();
-  if (!(scene->dt > 0 && scene->dt <= critical)) return;  // the world says so
-  try {
-    for (std::size_t c = 0; c < count; ++c)
-      checkCohesiveResolution(world_.model, ComponentId(c), scene->dt);
-  } catch (const InputError& error) {
-    throw std::invalid_argument("O.dt: " + std::string(error.what()));
-  }
-  resolvedStep_ = scene->dt;
-  resolvedBodies_ = count;
 }
 
 /// New faces get bodies. Among themselves and with the rest of the boundary they are in contact

@@ -55,7 +55,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
   void giveSettings();
-  void requireResolution();
   void followCracks();
   void prepareSearch(double dt);
   [[nodiscard]] double timeToIntegrate() const;
@@ -65,8 +64,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   World world_;
   EntryBodies bodies_;
   std::vector<BoxPair> pairs_;
-  double resolvedStep_ = 0;  // s, the longest step in which cohesive laws are known to be resolved
-  std::size_t resolvedBodies_ = 0;  // of which that is known
 };
 
 constexpr auto FESolver::attributes() {
