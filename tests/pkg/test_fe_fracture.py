@@ -1,0 +1,392 @@
+"""Brittle bodies in YADE: faces of cracks as bodies, any collider, saving, fragments, records."""
+import builtins
+import os
+
+import numpy as np
+import pytest
+
+import fe_chain as chain
+import yadefrag
+from yadefrag import fragments, pictures
+from yade import wrapper as w
+
+O = builtins.O
+
+
+def brittle(**values):
+    given = dict(young=30e9, poisson=.2, density=2500, frictionAngle=0, tensileStrength=20e6)
+    given.update(values)
+    return w.BrittleFEMat(**given)
+
+
+def engines(solver, finder='LebesgueCollider', factor=.5):
+    made = [w.ForceResetter()]
+    if finder:
+        made.append(getattr(w, finder)([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()]))
+    made += [w.InteractionLoop(
+        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom()],
+        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
+        solver, w.NewtonIntegrator(damping=0)]
+    O.engines = made
+    O.dt = factor * solver.criticalTimeStep()
+
+
+def impact(finder='LebesgueCollider', threads=1, speed=20, smooth=True, **values):
+    """A disc that hits a block and cracks it, ready to run."""
+    O.materials.append(w.FEMat(young=50e9, poisson=.25, density=7800, frictionAngle=0, label='m'))
+    O.materials.append(brittle(label='b', **values))
+    solver = w.FESolver(ompThreads=threads)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.04, .03)), size=.002, material='b',
+                      smooth=smooth, fixed=lambda x, y: y < 1e-9)
+    solver.addPolygon(yadefrag.circle((.0213, .0352), .005, 32), size=.002, material='m',
+                      smooth=True, velocity=(0, -speed))
+    engines(solver, finder)
+    return solver
+
+
+def steps(count):
+    for _ in range(count):
+        O.step()
+
+
+def state(solver):
+    return (solver.nodes, solver.velocities, solver.masses, solver.triangles,
+            np.concatenate(solver.surfaces), solver.fragmentOf)
+
+
+def areSame(a, b):
+    return all(np.array_equal(x, y) for x, y in zip(a, b))
+
+
+def requireBodiesAreEntries(solver):
+    """One body for each piece, of the right kind, in closed chains on the nodes' places."""
+    pieces = sorted((b.shape for b in O.bodies if isinstance(b.shape, w.SurfaceSegment)),
+                    key=lambda shape: shape.entry)
+    assert [shape.entry for shape in pieces] == list(range(len(pieces)))
+    starts, ends = {}, {}
+    for shape in pieces:
+        starts[tuple(shape.start)] = starts.get(tuple(shape.start), 0) + 1
+        ends[tuple(shape.end)] = ends.get(tuple(shape.end), 0) + 1
+    assert starts == ends
+    places = {tuple(x) for x in solver.nodes[np.concatenate(solver.surfaces)]}
+    for shape in pieces:
+        if shape.kind in (0, 1):
+            assert tuple(shape.start)[:2] in places
+        if shape.kind in (0, 2):
+            assert tuple(shape.end)[:2] in places
+        if shape.kind == 3:
+            assert tuple(shape.middle)[:2] in places
+    # Each segment counts once: whole, in two halves, or in two of three shares of arcs.
+    share = {0: 2, 1: 1, 2: 1, 3: 2}
+    assert sum(share[shape.kind] for shape in pieces) == 2 * solver.numSegments
+
+
+# --- input
+
+@pytest.mark.parametrize('wrong, sentence', [
+    (dict(tensileStrength=0), 'tensileStrength is 0 Pa; it must be positive'),
+    (dict(tensileStrength=-1), 'tensileStrength is -1 Pa'),
+    (dict(tensileStrength=float('nan')), 'tensileStrength is nan'),
+    (dict(fractureEnergy=-5), 'fractureEnergy is -5 J/m²; it must be'),
+    (dict(shearFactor=0), 'shearFactor is 0; it must be'),
+    (dict(weibullModulus=-2), 'weibullModulus is -2; it must be'),
+    (dict(strengthScatter=1), 'strengthScatter is 1; it must be'),
+])
+def test_badMaterialIsRefused(wrong, sentence):
+    solver = w.FESolver()
+    with pytest.raises(ValueError, match=sentence) as error:
+        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material=brittle(**wrong))
+    assert str(error.value).count('. ') == 0
+    assert len(O.bodies) == 0 and len(solver.nodes) == 0
+
+
+def test_fragmentsAlwaysTouch():
+    """selfContact=False with a material that cracks is a contradiction."""
+    solver = w.FESolver()
+    with pytest.raises(ValueError, match='selfContact is False, but the material is a Brittle'):
+        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material=brittle(),
+                          selfContact=False)
+    assert len(O.bodies) == 0
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material=brittle())
+    assert O.bodies[0].shape.selfContact
+
+
+def test_coarseMeshIsWarnedOf():
+    with pytest.warns(UserWarning, match='less than three elements'):
+        impact(fractureEnergy=5)
+
+
+def test_openingThatNoStepResolvesIsRefused():
+    with pytest.warns(UserWarning):
+        impact(fractureEnergy=1e-6)
+    with pytest.raises((ValueError, RuntimeError), match='O.dt: .*a step of .* would do'):
+        O.step()
+
+
+def test_maxCracks():
+    with pytest.raises(ValueError, match='FESolver.maxCracks is -2'):
+        w.FESolver(maxCracks=-2)
+    solver = impact()
+    solver.maxCracks = 7
+    steps(200)
+    assert solver.numCracks == 7
+    solver.maxCracks = -1
+    steps(5)
+    assert solver.numCracks > 7
+
+
+# --- cracks
+
+@pytest.mark.parametrize('smooth', [False, True])
+def test_facesOfCracksAreBodies(smooth):
+    solver = impact(smooth=smooth)
+    for b in O.bodies:
+        b.mask = 5 if b.shape.component == 0 else 1
+    before = len(O.bodies)
+    masses, total = solver.masses.sum(), solver.energy['total']
+    cracked = 0
+    for _ in range(25):
+        steps(12)
+        assert solver.numCracks >= cracked
+        cracked = solver.numCracks
+        requireBodiesAreEntries(solver)
+    assert cracked > 30 and len(O.bodies) > before + 30
+    for b in O.bodies:
+        assert b.mask == (5 if b.shape.component == 0 else 1)
+        assert b.material.label == ('b' if b.shape.component == 0 else 'm')
+        assert b.state.blockedDOFs == 'xyzXYZ' and b.shape.selfContact
+    parts = solver.fragments()
+    assert len(parts) > 2
+    assert sum(p['mass'] for p in parts) == pytest.approx(masses, rel=1e-13)
+    assert sum(p['triangles'] for p in parts) == len(solver.triangles)
+    assert solver.energy['total'] == pytest.approx(total, rel=.01)
+    of = solver.fragmentOf
+    assert np.array_equal(np.bincount(of), [p['triangles'] for p in parts])
+    assert all(len(set(of[(solver.triangles == n).any(1)])) == 1 
+               for n in range(0, len(solver.masses), 7))
+
+
+def test_newFacesTouchEachOther():
+    """No piece of a block that is crushed ends up inside another."""
+    solver = impact()
+    deepest = 0
+    for _ in range(300):
+        O.step()
+        deepest = max(deepest, solver.maxPenetration)
+    assert solver.numCracks > 30 and solver.numActives > 10
+    assert deepest < 1e-6
+
+
+@pytest.mark.parametrize('finder', ['LebesgueCollider', 'InsertionSortCollider'])
+def test_spheresTouchNewFaces(finder):
+    """A bar is torn apart; a sphere that then falls into the gap touches the crack's faces."""
+    O.materials.append(brittle(label='b'))
+    solver = w.FESolver()
+    nodes, triangles = yadefrag.rectangleMesh((-.02, 0), (.02, .01), 16, 4)
+    solver.addTriangles(nodes, triangles, material='b', velocity=lambda x, y: (40 * x / .02, 0),
+                        fixed=lambda x, y: 'x' if abs(x) > .0199 else False)
+    engines(solver, finder)
+    old = len(O.bodies)
+    cracked = 0
+    while O.iter < 4000 and len(solver.fragments()) < 2:
+        O.step()
+        cracked = solver.numCracks
+    assert cracked >= 4
+    steps(1500)
+    faces = [b for b in O.bodies if b.id >= old and abs(b.shape.start[0] - b.shape.end[0]) < 1e-3]
+    widest = max(faces, key=lambda b: abs(b.state.vel[0]))
+    middle = np.array(widest.state.pos)[:2]
+    travel = np.array(widest.shape.end - widest.shape.start)[:2]
+    outward = np.array([travel[1], -travel[0]]) / np.linalg.norm(travel)
+    ball = chain.ball(middle + outward * .9e-4, 1e-4, O.materials['b'])
+    ball.state.blockedDOFs = 'xyzXYZ'
+    O.bodies.append(ball)
+    O.step()
+    assert widest.id in [i.id1 for i in O.interactions] + [i.id2 for i in O.interactions]
+    assert np.linalg.norm(O.forces.f(ball.id)) > 0
+
+
+@pytest.mark.parametrize('finder', ['LebesgueCollider', 'InsertionSortCollider'])
+def test_spheresOnABodyThatCracks(finder):
+    """A heap of spheres on the block: pieces that change their kind keep carrying them."""
+    solver = impact(finder)
+    for i in range(6):
+        ball = chain.ball((.003 + .0045 * i + .01 * (i > 3), .0319), .002, O.materials['m'])
+        ball.state.blockedDOFs = 'zXY'
+        ball.state.vel = (0, -5, 0)
+        O.bodies.append(ball)
+    O.dt *= .5
+    touched = 0
+    for _ in range(30):
+        steps(20)
+        touched += sum(i.isReal for i in O.interactions)
+    requireBodiesAreEntries(solver)
+    assert touched > 20 and solver.numCracks > 20
+    for b in O.bodies:
+        if isinstance(b.shape, w.Sphere):
+            assert b.state.pos[1] > .02
+
+
+def test_cracksAreTheSameWithAnyColliderAndThreads():
+    wanted = None
+    for finder, threads in ((None, 1), ('LebesgueCollider', 1), ('LebesgueCollider', 2),
+                            ('InsertionSortCollider', 1)):
+        O.reset()
+        solver = impact(finder, threads)
+        counts = []
+        for _ in range(20):
+            steps(10)
+            counts.append((solver.numCracks, solver.numSegments))
+        found = counts, solver.fragmentOf, solver.nodes
+        wanted = wanted or found
+        assert counts[-1][0] > 20
+        assert found[0] == wanted[0], (finder, threads)
+        assert np.array_equal(found[1], wanted[1]), (finder, threads)
+        assert np.abs(found[2] - wanted[2]).max() < 1e-12, (finder, threads)
+
+
+def test_threadsGiveTheSameBits():
+    runs = []
+    for threads in (1, 2):
+        O.reset()
+        solver = impact(threads=threads)
+        steps(200)
+        runs.append(state(solver))
+    assert areSame(*runs)
+
+
+def test_facesOfCracksStartNoSearch():
+    """Where there is nothing but FE bodies, the collider need not look when an edge cracks."""
+    solver = impact()
+    collider = O.engines[1]
+    steps(250)
+    assert solver.numCracks > 30
+    assert collider.numAction <= solver.numSearches + 1
+
+
+def test_brittleBodyIsRemoved():
+    solver = impact()
+    steps(150)
+    assert solver.numCracks > 10
+    solver.removeBody(0)
+    assert len([b for b in O.bodies if b]) == len([b for b in O.bodies if b and
+                                                   b.shape.component == 1])
+    steps(20)
+    assert len(solver.fragments()) == 1
+
+
+# --- saving and loading
+
+@pytest.mark.parametrize('ending', ['.xml', '.yade.gz'])
+@pytest.mark.parametrize('energy', [0, 500])
+@pytest.mark.filterwarnings('ignore:fractureEnergy')
+def test_savedRunGoesOnBitForBit(ending, energy, folder):
+    solver = impact(fractureEnergy=energy, weibullModulus=10, seed=3)
+    count = 120 if energy == 0 else 250
+    steps(count)
+    assert solver.numCracks > 5
+    path = os.path.join(folder, 'scene' + ending)
+    O.save(path)
+    saved = state(solver), solver.numCracks, solver.energy
+    steps(150)
+    wanted = state(solver), solver.numCracks, solver.energy, solver.numSearches, len(O.bodies)
+    assert wanted[1] > saved[1]
+    O.reset()
+    O.load(path)
+    solver = [e for e in O.engines if isinstance(e, w.FESolver)][0]
+    assert areSame(state(solver), saved[0]) and (solver.numCracks, solver.energy) == saved[1:]
+    steps(150)
+    assert solver.numCracks == wanted[1]
+    assert areSame(state(solver), wanted[0])
+    assert (solver.energy, solver.numSearches, len(O.bodies)) == wanted[2:]
+    requireBodiesAreEntries(solver)
+    assert O.bodies[len(O.bodies) - 1].material.label == 'b'
+
+
+# --- fragments and records
+
+def test_fragmentTableAndSizes(folder):
+    solver = impact()
+    with pytest.raises(ValueError, match='no body that is in pieces'):
+        yadefrag.plotFragmentSizes(solver)
+    steps(300)
+    with pytest.raises(ValueError, match=r"its name must end with '\.csv'"):
+        yadefrag.fragmentTable(solver, folder + '/table.txt')
+    table = yadefrag.fragmentTable(solver, folder + '/table.csv')
+    parts = solver.fragments()
+    assert len(table) == len(parts) and (np.diff(table['area']) <= 0).all()
+    for row in table:
+        part = parts[row['fragment']]
+        assert row['mass'] == part['mass'] and (row['x'], row['y']) == part['centroid']
+        assert row['size']**2 == pytest.approx(part['area'])
+    read = np.genfromtxt(folder + '/table.csv', delimiter=',', names=True)
+    assert np.array_equal(read['mass_kg'], table['mass'])
+    ax = yadefrag.plotFragmentSizes(solver, folder + '/sizes.png')
+    sizes, counts = ax.lines[0].get_data()
+    assert counts[0] == (table['component'] == 0).sum() and counts[-1] == 1
+    assert (np.diff(sizes) >= 0).all()
+    assert ax.get_xscale() == ax.get_yscale() == 'log' and '(m)' in ax.get_xlabel()
+
+
+def test_recordOfARun(folder):
+    solver = impact()
+    file = folder + '/run.csv'
+    record = yadefrag.recordFracture(solver, file)
+    yadefrag.runSteps(200, every=50, call=record)
+    data = np.genfromtxt(file, delimiter=',', names=True)
+    assert list(data['step']) == [0, 50, 100, 150, 200]
+    assert data['time_s'][-1] == pytest.approx(O.time)
+    assert data['cracks'][-1] == solver.numCracks > data['cracks'][0] == 0
+    assert data['segments'][-1] == sum(map(len, solver.surfaces))
+    assert data['fragments'][-1] == len(solver.fragments())
+    assert data['total_J'][-1] == solver.energy['total']
+    again = yadefrag.recordFracture(solver, file, append=True)
+    again()
+    assert len(open(file).readlines()) == 8
+    with open(folder + '/other.csv', 'w') as other:
+        other.write('a,b\n')
+    with pytest.raises(ValueError, match='other columns'):
+        yadefrag.recordFracture(solver, folder + '/other.csv', append=True)
+    upper, lower = yadefrag.plotFracture(file, folder + '/run.png')
+    assert '(J)' in lower.get_ylabel() and os.path.getsize(folder + '/run.png') > 1000
+
+
+def test_recordByPyRunner(folder):
+    import __main__
+    solver = impact()
+    __main__.recordOfTest = yadefrag.recordFracture(solver, folder + '/run.csv')
+    O.engines = O.engines + [w.PyRunner(command='recordOfTest()', iterPeriod=10)]
+    O.run(31, True)
+    del __main__.recordOfTest
+    assert len(open(folder + '/run.csv').readlines()) >= 5
+
+
+def test_neighboursHaveDifferentColours(folder):
+    solver = impact()
+    steps(250)
+    of, colours = solver.fragmentOf, fragments.fragmentColours(solver)
+    assert colours.max() < 20 and of.max() > 3
+    for number in range(of.max() + 1):
+        assert len(set(colours[of == number])) == 1
+    reference = np.round(solver.nodes - solver.displacements, 9)
+    at = {}
+    for t, corners in enumerate(solver.triangles):
+        for n in corners:
+            at.setdefault(tuple(reference[n]), set()).add((of[t], colours[t]))
+    for here in at.values():
+        assert len({c for _, c in here}) == len(here)
+    steps(3)
+    later = fragments.fragmentColours(solver, colours)
+    assert (later == colours).mean() > .9
+    pictures.plotMesh(solver, 'fragment', folder + '/fragments.png')
+    assert os.path.getsize(folder + '/fragments.png') > 1000
+    assert yadefrag.animate(solver, folder + '/film.gif', 6, 3, field='fragment') == 3
+
+
+def test_vtkHasFragments(folder):
+    meshio = pytest.importorskip('meshio')
+    solver = impact()
+    steps(200)
+    yadefrag.exportVTK(solver, folder + '/out.vtu')
+    found = meshio.read(folder + '/out.vtu').cell_data['fragment'][0]
+    assert np.array_equal(found, solver.fragmentOf) and found.max() > 1
