@@ -76,7 +76,7 @@ def requireBodiesAreEntries(solver):
             assert tuple(shape.end)[:2] in places
         if shape.kind == 3:
             assert tuple(shape.middle)[:2] in places
-    # Each segment counts once: whole, in two halves, or in two of three shares of arcs.
+    # In half segments: an arc takes one half of each of two segments.
     share = {0: 2, 1: 1, 2: 1, 3: 2}
     assert sum(share[shape.kind] for shape in pieces) == 2 * solver.numSegments
 
