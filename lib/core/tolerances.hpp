@@ -241,4 +241,7 @@ inline constexpr std::size_t kPlainCholesky = 16, kDenseRows = 32, kMostDenseRow
 inline constexpr double kCohesionChange = 1e-8;
 inline constexpr int kCohesionSweeps = 100;
 
+/// (one in so many) Room for nodes that cracks add, beside those that are there.
+inline constexpr std::size_t kSpareNodes = 8;
+
 }  // namespace yadefrag::tolerance

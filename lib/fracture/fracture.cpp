@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/tolerances.hpp"
 namespace yadefrag {
 
 void Fracture::addBody(const Model& model, ComponentId component) {
@@ -13,6 +14,13 @@ void Fracture::removeBody(const Model& model, ElementId first, ElementId last,
   if (!isOn()) return;
   const std::vector<EdgeId> renumbered = edges.removeBody(model, first, last, renumberedNodes);
   cohesion.renumberEdges(renumbered);
+}
+
+void Fracture::prepare(Model& model) {
+  const std::size_t count = model.nodes.size();
+  model.nodes.reserve(count + count / tolerance::kSpareNodes);
+  edges.ofNode.reserve(count + count / tolerance::kSpareNodes);
+  check_.prepare(model, edges);
 }
 
 bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,

@@ -23,6 +23,8 @@ class Fracture {
   /// Is there anything that may crack.
   [[nodiscard]] bool isOn() const { return edges.size() != 0; }
 
+  /// Room for what cracks may add, so that the first of them do not wait for it.
+  void prepare(Model& model);
   /// Cracks what has reached its strength at the present positions, and splits nodes. True if
   /// `result` has anything in it that others must follow.
   bool crack(Model& model, const ContactSurfaces& surfaces, std::span<const ElementRange> where,

@@ -10,7 +10,8 @@ namespace yadefrag {
 std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackEdges& edges,
                                                 std::span<const ElementRange> where,
                                                 std::span<const double> leastStrength) {
-  begin(model, edges);
+  prepare(model, edges);
+  ++call_;
   found_.clear();
   // The stress of a node that is looked at belongs to all edges that end there, whosever they are.
   for (const ElementRange& range : where)
@@ -45,8 +46,7 @@ void StrengthCheck::lookAround(const Model& model, const CrackEdges& edges, Node
   }
 }
 
-void StrengthCheck::begin(const Model& model, const CrackEdges& edges) {
-  ++call_;
+void StrengthCheck::prepare(const Model& model, const CrackEdges& edges) {
   elementSeen_.resize(model.triangles.size());
   elementStress_.resize(model.triangles.size());
   nodeSeen_.resize(model.nodes.size());

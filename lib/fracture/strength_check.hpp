@@ -18,6 +18,8 @@ class StrengthCheck {
   std::vector<EdgeId> overstressed(const Model& model, const CrackEdges& edges,
                                    std::span<const ElementRange> where,
                                    std::span<const double> leastStrength);
+  /// Makes room for all that may be looked at.
+  void prepare(const Model& model, const CrackEdges& edges);
 
  private:
   using Stress = std::array<double, 3>;
@@ -26,7 +28,6 @@ class StrengthCheck {
     EdgeId edge;
   };
 
-  void begin(const Model& model, const CrackEdges& edges);
   void lookAround(const Model& model, const CrackEdges& edges, NodeId node,
                   std::span<const double> leastStrength);
   const Stress& stressOf(const Model& model, ElementId element);

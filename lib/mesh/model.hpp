@@ -24,6 +24,11 @@ struct Nodes {
   std::vector<Vec2> load;  ///< N, constant outer force; empty if there is none in the scene
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
+  void reserve(std::size_t count) {
+    position.reserve(count), velocity.reserve(count), mass.reserve(count);
+    held.reserve(count), component.reserve(count);
+    if (!load.empty()) load.reserve(count);
+  }
   /// A further node where `node` is, that moves as it does; its mass is still to be set.
   NodeId duplicate(NodeId node) {
     const std::uint32_t i = node.value;

@@ -128,6 +128,11 @@ void World::buildIfChanged() {
   isBuilt_ = true;
   dynamics_.rebuild(model);
   before_.resize(model.nodes.size());
+  if (fracture.isOn()) {
+    fracture.prepare(model);
+    reference.reserve(model.nodes.position.capacity());
+    before_.reserve(model.nodes.position.capacity());
+  }
   if (search.nodes.empty()) {
     search.nodes = surfaces.segmentNode;
     std::sort(search.nodes.begin(), search.nodes.end());

@@ -1,0 +1,74 @@
+// Bodies that crack: what a crack costs, in blocks of more and more triangles that crack alike.
+//
+// Names: fracture/<law>/<triangles, about>. A steel cylinder hits a brittle block; the triangles'
+// edges are the same in all sizes, only the block is larger. Counters: `crack` is the time of
+// strength check, cracks, relinking and candidates (µs for each crack); `share` is its part in the
+// step, `contact` that of search, local search and correction.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "benchmark/fe_scenes.hpp"
+
+namespace yadefrag {
+namespace {
+
+constexpr double kSize = .4e-3;  // m
+constexpr int kSteps = 400;
+
+void addBrittleImpact(World& world, double triangles, double fractureEnergy) {
+  constexpr double kRadius = 2e-3;
+  // An equilateral triangle takes √3/4·size².
+  const double high = std::sqrt(triangles * .433 * kSize * kSize / 2);
+  const TriangleMesh block =
+      triangulate({{{-high, -high}, {high, -high}, {high, 0}, {-high, 0}}, {}}, kSize);
+  BodySpec spec = fescenes::steelBody(block, {});
+  spec.material = {370e9, .22, 3900, false};
+  spec.brittle.tensileStrength = 300e6;
+  spec.brittle.fractureEnergy = fractureEnergy;
+  spec.brittle.strengthScatter = .1;
+  spec.friction = .3;
+  spec.held.assign(block.nodes.size(), kFree);
+  for (std::size_t i = 0; i < block.nodes.size(); ++i)
+    if (block.nodes[i].y < -high + 1e-9) spec.held[i] = kHeldXY;
+  world.addBody(block, spec);
+  const TriangleMesh cylinder =
+      triangulate({fescenes::circle({0, kRadius * 1.001}, kRadius, kSize), {}}, kSize);
+  world.addBody(cylinder, fescenes::steelBody(cylinder, {0, -50}));
+}
+
+void crackSteps(benchmark::State& state, double fractureEnergy) {
+  World world;
+  addBrittleImpact(world, static_cast<double>(state.range(0)), fractureEnergy);
+  const double dt = .8 * world.criticalTimeStep();
+  world.step(dt);
+  world.timing = true;
+  const std::size_t segments = world.surfaces.segments();
+  for ([[maybe_unused]] auto once : state) world.step(dt);
+  const StageTimes& t = world.times;
+  const double all = t.forces + t.contact() + t.fracture;
+  const auto cracks = static_cast<double>(world.fracture.numCracks());
+  state.counters["triangles"] = static_cast<double>(world.model.triangles.size());
+  state.counters["cracks"] = cracks;
+  state.counters["segments from"] = static_cast<double>(segments);
+  state.counters["to"] = static_cast<double>(world.surfaces.segments());
+  state.counters["crack"] = 1e6 * t.fracture / cracks;
+  state.counters["share"] = t.fracture / all;
+  state.counters["contact"] = t.contact() / all;
+}
+
+[[maybe_unused]] const bool kRegistered = [] {
+  for (const auto& [name, energy] : {std::pair{"instant", 0.}, std::pair{"cohesive", 500.}})
+    benchmark::RegisterBenchmark((std::string("fracture/") + name).c_str(), crackSteps, energy)
+        ->Arg(2000)
+        ->Arg(20000)
+        ->Arg(200000)
+        ->Arg(1000000)
+        ->Iterations(kSteps)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+  return true;
+}();
+
+}  // namespace
+}  // namespace yadefrag
