@@ -67,6 +67,11 @@ def positive(text):
     return value
 
 
+def notNegative(text):
+    """An option's value as a float of at least 0."""
+    return 0. if text.strip() in ('0', '0.', '0.0') else positive(text)
+
+
 def setEngines(fe, collider):
     """The usual loop around the solver `fe`, and a time step of 0.8 of the critical one."""
     finder = getattr(w, COLLIDERS[collider])

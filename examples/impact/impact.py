@@ -1,195 +1,136 @@
-"""A projectile into 20,000 spheres, with YADE's collider and with LebesgueCollider.
+"""An elastic cylinder drops on a block of brittle material, held at its bottom: it shatters.
 
     scripts/impact            sets up, builds and runs this
-    scripts/yade -n -x examples/impact/impact.py [--steps 1000] [--seed 1] [--colliders A,B]
+    scripts/yade -n -x examples/impact/impact.py [--size 5e-4] [--speed 150] [--steps 1500] …
 
-The same scene is run once with each collider. Prints a table and checks the contacts; writes
-out/impact.png and out/impact_times.png. Exit status 1 if a contact is missing anywhere.
-
-What agreement to expect. In each run, at each check, the contacts must be exactly the pairs of
-spheres that overlap there, which NumPy finds without any collider. Between the runs they are the
-same as long as the trajectories are. Those agree at first to the last digit or nearly so: colliders
-list the contacts in different orders, so the forces on a sphere are summed in different orders, and
-the rounding differs by 1e-16. An impact is chaotic, it multiplies such differences with each
-collision. A pair may then touch in one run and just not in the other; what it overlaps can be no
-more than the two spheres' positions differ, and that is checked.
+The impact of Diekmann et al., ECCOMAS 2000, §6, figure 15. Steel cylinder of 10 mm with a smooth
+surface, ceramic block of 40 × 20 mm that cracks along the edges of its triangles; what comes loose
+touches everything else from that step on. All in SI units, plane strain, per metre of thickness.
+Writes to out/impact/: impact.png (stress at six moments), impact_fragments.png (the pieces at the
+end), impact_course.png (surface segments, cracks, fragments, energies over time), impact_sizes.png,
+course.csv and fragments.csv.
 """
-import argparse
+import math
 import os
 import sys
 import time
 
-import matplotlib
 import numpy as np
 
-matplotlib.use('Agg')
-sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
-import drawing  # noqa: E402
-import overlaps  # noqa: E402
-import yade.wrapper  # noqa: E402
-from yade import O, utils  # noqa: E402
-from yade.wrapper import (  # noqa: E402
-    Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom,
-    Ig2_Wall_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
-    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator)
+HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
+sys.path[:0] = [HERE, os.path.join(HERE, '..')]
+import common  # noqa: E402
+from yade import O  # noqa: E402
+from yade.wrapper import BrittleFEMat, FEMat, FESolver  # noqa: E402
+from yadefrag import circle, fragmentTable, recordFracture, rectangle  # noqa: E402
+from yadefrag import plotFragmentSizes  # noqa: E402
 
-RADIUS = 5e-3  # m
-SHAPE = (40, 25, 20)  # spheres along x, y, z: 20,000
-SPEED = 80.  # m/s
-CHECKS = (0, .05, .15, .35, .65, 1)  # of the steps
-OUT = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', 'out')
-
-
-def build(seed):
-    """The scene: a bed of 20,000 spheres on a floor, and a steel ball above it; sets O.dt."""
-    O.reset()
-    sand = FrictMat(young=1e8, poisson=.3, density=2600, frictionAngle=.5, label='sand')
-    steel = FrictMat(young=1e9, poisson=.3, density=7800, frictionAngle=.3, label='steel')
-    O.materials.append(sand)
-    O.materials.append(steel)
-    centres = bed(seed)
-    for centre in centres.tolist():
-        O.bodies.append(utils.sphere(centre, RADIUS, material='sand', color=(.8, .7, .5)))
-    radius = 6 * RADIUS
-    top = centres[:, 2].max() + RADIUS
-    ball = O.bodies.append(utils.sphere((0, 0, top + radius + .5e-3), radius, material='steel'))
-    O.bodies[ball].state.vel = (.25 * SPEED, 0, -SPEED)
-    O.bodies.append(utils.wall(0, axis=2, material='sand'))
-    O.dt = .3 * RADIUS * (2600 / 1e8) ** .5
+RADIUS, BLOCK = 5e-3, (40e-3, 20e-3)  # m
+BRITTLE, CYLINDER = 0, 1  # components
+EVERY = 5  # steps between two lines of the record
+TOP = 3000  # MPa, of the colours
+SHARES = (.1, .2, .35, .5, .75, 1)  # of the steps: the moments to be seen
+CROP = ((-2.5, 42.5), (-.5, 31.))  # mm
+OUT = os.path.normpath(os.path.join(HERE, '..', '..', 'out', 'impact'))
+FILES = ('impact.png', 'impact_fragments.png', 'impact_course.png', 'impact_sizes.png',
+         'course.csv', 'fragments.csv')
 
 
-def bed(seed):
-    """Centres (20000, 3), m: hexagonal layers, spheres just apart and shaken by 1 % of a radius."""
-    i, j, k = (a.ravel() for a in np.meshgrid(*map(range, SHAPE), indexing='ij'))
-    x = 2 * i + (j + k) % 2
-    y = 3 ** .5 * (j + (k % 2) / 3)
-    z = 2 * (2 / 3) ** .5 * k
-    centres = np.stack([x, y, z], axis=1) * 1.012 * RADIUS
-    centres += np.random.default_rng(seed).uniform(-.01, .01, centres.shape) * RADIUS
-    centres[:, :2] -= (centres[:, :2].max(axis=0) + centres[:, :2].min(axis=0)) / 2
-    centres[:, 2] += RADIUS * 1.011 - centres[:, 2].min()
-    return centres
+def build(options):
+    """Block (body 0) and cylinder (body 1); returns the solver."""
+    O.materials.append(FEMat(young=210e9, poisson=.3, density=7800, frictionAngle=0, label='steel'))
+    O.materials.append(BrittleFEMat(
+        young=370e9, poisson=.22, density=3900, frictionAngle=.3, tensileStrength=options.strength,
+        fractureEnergy=options.fracture_energy, strengthScatter=.1, seed=options.seed,
+        label='ceramic'))
+    fe = FESolver(passes=options.passes)
+    fe.addPolygon(rectangle((0, 0), BLOCK), size=options.size, material='ceramic',
+                  fixed=lambda x, y: y < 1e-9)
+    points = round(2 * math.pi * RADIUS / options.size)
+    fe.addPolygon(circle((BLOCK[0] / 2, BLOCK[1] + RADIUS + 2e-5), RADIUS, points),
+                  size=options.size, material='steel', smooth=True, velocity=(0, -options.speed))
+    return fe
 
 
-def run(collider, seed, steps, checks, progress):
-    """Run the scene with this collider class; returns a dict of times, counts and snapshots."""
-    build(seed)
-    O.engines = [
-        ForceResetter(),
-        collider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], label='collider'),
-        InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
-                        [Ip2_FrictMat_FrictMat_FrictPhys()],
-                        [Law2_ScGeom_FrictPhys_CundallStrack()], label='loop'),
-        NewtonIntegrator(damping=.1, gravity=(0, 0, -9.81)),
-    ]
-    O.timingEnabled = True
-    result = dict(name=collider.__name__, seconds=0., snapshots=[])
-    for stop in checks:
-        while O.iter < stop - 1:
-            result['seconds'] += _timed(min(25, stop - 1 - O.iter))
-            progress(collider.__name__, O.iter)
-        before = overlaps.positions()  # the contacts of the next step are those of these positions
-        result['seconds'] += _timed(1)
-        result['snapshots'].append(overlaps.snapshot(before))
-    progress(collider.__name__, steps)
-    result.update(collider=O.engines[1].execTime * 1e-9, loop=O.engines[2].execTime * 1e-9,
-                  integrator=O.engines[3].execTime * 1e-9, activations=O.engines[1].execCount,
-                  interactions=len(O.interactions), real=O.interactions.countReal())
-    return result
+class Watch:
+    """Mass, momentum and the record of the run; to be called after every step."""
+
+    def __init__(self, fe, file):
+        self.fe, self.start = fe, time.process_time()
+        self.mass, self.segments = fe.masses.sum(), fe.numSegments
+        self.record = recordFracture(fe, file) if file else None
+        self.first = None  # step of the first crack
+
+    def __call__(self):
+        if self.first is None and self.fe.numCracks:
+            self.first = O.iter
+        if self.record and O.iter % EVERY == 0:
+            self.record()
+
+    def report(self):
+        """Prints what the cracks made of the block, and which time it took."""
+        fe = self.fe
+        table = fragmentTable(fe)
+        pieces = table[table['component'] == BRITTLE]
+        share = pieces['area'] / pieces['area'].sum()
+        back = table[table['component'] == CYLINDER]['vy'][0]
+        first = 'none' if self.first is None else f'{1e6 * self.first * O.dt:.3f} µs'
+        rows = [('surface segments', f'{self.segments:,} at the start, {fe.numSegments:,} at the '
+                                     f'end: {fe.numSegments / self.segments:.1f} times'),
+                ('cracks', f'{fe.numCracks:,}, the first at {first}'),
+                ('fragments', f'{len(pieces):,}, the largest {share[0]:.1%} of the block, '
+                              f'{(pieces["triangles"] == 1).sum():,} of one triangle'),
+                ('mass', f'{fe.masses.sum() / self.mass - 1:+.1e} of it changed'),
+                ('cylinder at the end', f'{back:+.2f} m/s'),
+                ('CPU time', f'{time.process_time() - self.start:.1f} s')]
+        print('\n'.join(f'{name + ":":24}{value}' for name, value in rows))
 
 
-def _timed(steps):
-    start = time.perf_counter()
-    O.run(steps, True)
-    return time.perf_counter() - start
+def arguments():
+    """The options, checked."""
+    parser = common.Options(__doc__, steps=1500)
+    parser.set_defaults(out=OUT)
+    parser.add_argument('--size', type=common.positive, default=5e-4,
+                        help='of the triangles, m; default: %(default)s')
+    parser.add_argument('--speed', type=common.positive, default=150.,
+                        help='of the cylinder, m/s; default: %(default)s')
+    parser.add_argument('--strength', type=common.positive, default=300e6,
+                        help='tensile strength, Pa; default: %(default)s')
+    parser.add_argument('--fracture-energy', type=common.notNegative, default=0., metavar='J/M²',
+                        help='of the cracks; default: 0, they open at once, as in the paper')
+    parser.add_argument('--seed', type=int, default=1, help='of the strengths; default: 1')
+    options = parser.parse()
+    if options.size > RADIUS / 2:
+        parser.error(f'--size is {options.size:g} m, it must be at most {RADIUS / 2:g} m')
+    return options
 
 
-def table(results):
-    """The comparison as text: a column per collider, and the ratio of the first to the last."""
-    rows = [('whole run, s', 'seconds'), ('collider, s', 'collider'),
-            ('interaction loop, s', 'loop'), ('integrator, s', 'integrator'),
-            ('collider activations', 'activations'), ('potential interactions', 'potential'),
-            ('real contacts', 'real')]
-    for r in results:
-        r['potential'] = r['interactions'] - r['real']
-    head = ['', *[r['name'] for r in results], *(['ratio'] if len(results) > 1 else [])]
-    lines = [head]
-    for title, key in rows:
-        values = [r[key] for r in results]
-        cells = [f'{v:.2f}' if isinstance(v, float) else f'{v:,}' for v in values]
-        if len(values) > 1:
-            cells.append(f'{values[0] / values[-1]:.2f}' if values[-1] else '')
-        lines.append([title, *cells])
-    widths = [max(len(line[i]) for line in lines) for i in range(len(head))]
-    return '\n'.join('  '.join(c.ljust(w) if i == 0 else c.rjust(w)
-                               for i, (c, w) in enumerate(zip(line, widths))) for line in lines)
+def main():
+    options = arguments()
+    fe = build(options)
+    common.setEngines(fe, options.collider)
+    path = lambda name: os.path.join(options.out, name)  # noqa: E731
+    watch = Watch(fe, None if options.no_pictures else path('course.csv'))
+    film = show = None
+    if not options.no_pictures:
+        import cracks
+        film = cracks.Films(fe)
+        show = film.take
+    shown = [round(share * options.steps) for share in SHARES]
+    run = common.Run(fe).go(options.steps, shown, show, every=EVERY, each=watch)
+    print(f'Cylinder on a brittle block, {options.speed:g} m/s, size {options.size:g} m, '
+          f'{options.fracture_energy:g} J/m², {options.collider}, passes={options.passes}')
+    watch.report()
+    run.report()
+    if film:
+        title = f'Steel cylinder on a brittle block, {options.speed:g} m/s'
+        fragmentTable(fe, path('fragments.csv'))
+        film.draw(path('impact.png'), path('impact_fragments.png'), title, CROP, TOP)
+        cracks.course(path('course.csv'), path('impact_course.png'), title)
+        if (np.bincount([f['component'] for f in fe.fragments()]) > 1).any():
+            plotFragmentSizes(fe, path('impact_sizes.png'))
+    common.tell(options, *FILES)
+    return fe
 
 
-def progressBar(total):
-    """A function (name, step) that shows progress when standard error is a terminal."""
-    try:
-        from tqdm import tqdm
-    except ImportError:
-        return lambda name, step: None
-    bars = {}
-
-    def show(name, step):
-        if name not in bars:
-            bars[name] = tqdm(total=total, desc=name, unit='step', disable=None)
-        bars[name].update(step - bars[name].n)
-        if step == total:
-            bars[name].close()
-    return show
-
-
-def findColliders(names):
-    """The classes of these names; those that do not exist are left out with a sentence."""
-    try:
-        import yadefrag
-    except ImportError as error:
-        yadefrag = None
-        print(f'yadefrag cannot be imported ({error}): only YADE\'s own colliders are run.')
-    found = []
-    for name in names:
-        collider = getattr(yadefrag, name, None) or getattr(yade.wrapper, name, None)
-        if collider:
-            found.append(collider)
-        elif yadefrag:
-            print(f'There is no collider {name}: left out.')
-    return found
-
-
-def main(arguments):
-    """Run, compare, print, draw; returns the exit status."""
-    parser = argparse.ArgumentParser(prog='impact.py', description=__doc__.split('\n')[0])
-    parser.add_argument('--steps', type=int, default=1000, help='default: 1000')
-    parser.add_argument('--seed', type=int, default=1, help='default: 1')
-    parser.add_argument('--colliders', default='InsertionSortCollider,LebesgueCollider',
-                        help='default: InsertionSortCollider,LebesgueCollider')
-    parser.add_argument('--out', default=OUT, help='folder for the pictures; default: out')
-    options = parser.parse_args(arguments)
-    if options.steps < 20:
-        parser.error(f'--steps is {options.steps}; it must be at least 20')
-    checks = [max(2, round(options.steps * share)) for share in CHECKS]
-    colliders = findColliders(options.colliders.split(','))
-    if not colliders:
-        print('There is no collider to run.')
-        return 2
-    progress = progressBar(options.steps)
-    results = [run(c, options.seed, options.steps, checks, progress) for c in colliders]
-    print(f'\nProjectile into 20,000 spheres, {options.steps} steps of {O.dt:.2g} s\n')
-    print(table(results), '\n')
-    missing = overlaps.compare(results, checks)
-    os.makedirs(options.out, exist_ok=True)
-    drawing.frames(results[-1], [c * O.dt for c in checks],
-                   os.path.join(options.out, 'impact.png'))
-    drawing.times(results, os.path.join(options.out, 'impact_times.png'))
-    print('Pictures:', ', '.join(os.path.relpath(os.path.join(options.out, name))
-                                 for name in ('impact.png', 'impact_times.png')))
-    return 1 if missing else 0
-
-
-if __name__ == '__main__':
-    status = main(sys.argv[1:])
-    sys.stdout.flush()
-    os._exit(status)  # yade -x alone would end with 0
+fe = main()

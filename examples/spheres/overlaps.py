@@ -75,7 +75,7 @@ def compare(results, checks):
     print('\nAll contacts are the pairs that overlap.' if not wrong
           else f'\n{wrong} contacts are WRONG.')
     if len(results) > 1:
-        print('(Positions differ since forces are summed in another order; see impact.py.)')
+        print('(Positions differ since forces are summed in another order; see spheres.py.)')
     return wrong
 
 

@@ -1,4 +1,4 @@
-"""The pictures of the impact example."""
+"""The pictures of the spheres example."""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection

@@ -1,0 +1,71 @@
+"""The pictures of the impact example."""
+import numpy as np
+import pictures
+from yadefrag.fragments import fragmentColours
+
+INTACT = '#d9d5cc'  # the largest piece of a body
+
+
+class Films:
+    """The stress at the moments that are to be seen, and the fragments at the last of them."""
+
+    def __init__(self, fe):
+        self.fe, self.film = fe, pictures.Film(fe, 'mises')
+
+    def take(self):
+        self.film.take()
+
+    def draw(self, stress, fragments, title, window, top):
+        """Writes both pictures; colours of the stress from 0 to `top`, MPa."""
+        chosen = pictures.Film(self.fe, 'mises')
+        chosen.shots = self.film.shots[-6:]
+        pictures.frames(chosen, stress, title, columns=3, top=top, window=window, cmap='inferno',
+                        outline=.35, width=15)
+        drawFragments(self.fe, chosen.shots[-1], fragments, title, window)
+
+
+def drawFragments(fe, shot, file, title, window):
+    """The pieces in colours, the largest of each body in a grey."""
+    of = fe.fragmentOf
+    colours = np.array(pictures.plt.get_cmap('tab20').colors)[fragmentColours(fe) % 20]
+    area = np.array([f['area'] for f in fe.fragments()])
+    component = np.array([f['component'] for f in fe.fragments()])
+    for body in np.unique(component):
+        here = np.flatnonzero(component == body)
+        colours[of == here[area[here].argmax()]] = pictures.matplotlib.colors.to_rgb(INTACT)
+    (left, right), (low, high) = window
+    figure, axis = pictures.plt.subplots(
+        figsize=(13, 13 * (high - low) / (right - left) + .3), layout='constrained')
+    axis.add_collection(pictures.PolyCollection(shot.corners, facecolors=colours,
+                                                edgecolors='none', antialiaseds=False))
+    axis.add_collection(pictures.LineCollection(shot.outlines, colors='k', linewidths=.5))
+    axis.set(aspect='equal', xlim=(left, right), ylim=(low, high), xlabel='x, mm', ylabel='y, mm')
+    axis.set_title(f'{title}: {len(area):,} pieces after {1e6 * shot.time:.1f} µs', loc='left')
+    figure.savefig(file, dpi=100)
+    pictures.plt.close(figure)
+
+
+def course(file, picture, title):
+    """Surface segments, cracks and fragments over time, and where the energy is, of a record."""
+    data = np.genfromtxt(file, delimiter=',', names=True, deletechars='')
+    time = 1e6 * data['time_(s)']
+    figure, axes = pictures.plt.subplots(2, 1, figsize=(9, 7.4), sharex=True, layout='constrained')
+    for name, label, colour in (('segments', 'surface segments', 'k'),
+                                ('cracks', 'cracks', '#d1495b'),
+                                ('fragments', 'fragments', '#3d8fb5')):
+        axes[0].plot(time, data[name], label=label, color=colour)
+    axes[0].set_ylabel('number')
+    for name, label, colour in (
+            ('total', 'total', 'k'), ('kinetic', 'kinetic', '#3d8fb5'),
+            ('strain', 'strain', '#edae49'), ('friction', 'lost by friction', '#8d6a9f'),
+            ('contact', 'lost at touch', '#66a182'), ('fracture', 'lost in cracks', '#d1495b')):
+        axes[1].plot(time, 1e-3 * data[f'{name}_(J)'], label=label, color=colour)
+    axes[1].set(xlabel='time, µs', ylabel='energy, kJ per m')
+    for axis in axes:
+        axis.legend(ncol=6, frameon=False, loc='lower center', bbox_to_anchor=(.5, 1), fontsize=9)
+        axis.spines[['top', 'right']].set_visible(False)
+        axis.set_ylim(bottom=0)
+    axes[1].set_xlim(0, time[-1])
+    figure.suptitle(title, fontsize=12)
+    figure.savefig(picture, dpi=110)
+    pictures.plt.close(figure)

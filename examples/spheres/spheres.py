@@ -1,0 +1,195 @@
+"""A projectile into 20,000 spheres, with YADE's collider and with LebesgueCollider.
+
+    scripts/spheres           sets up, builds and runs this
+    scripts/yade -n -x examples/spheres/spheres.py [--steps 1000] [--seed 1] [--colliders A,B]
+
+The same scene is run once with each collider. Prints a table and checks the contacts; writes
+out/spheres.png and out/spheres_times.png. Exit status 1 if a contact is missing anywhere.
+
+What agreement to expect. In each run, at each check, the contacts must be exactly the pairs of
+spheres that overlap there, which NumPy finds without any collider. Between the runs they are the
+same as long as the trajectories are. Those agree at first to the last digit or nearly so: colliders
+list the contacts in different orders, so the forces on a sphere are summed in different orders, and
+the rounding differs by 1e-16. An impact is chaotic, it multiplies such differences with each
+collision. A pair may then touch in one run and just not in the other; what it overlaps can be no
+more than the two spheres' positions differ, and that is checked.
+"""
+import argparse
+import os
+import sys
+import time
+
+import matplotlib
+import numpy as np
+
+matplotlib.use('Agg')
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+import drawing  # noqa: E402
+import overlaps  # noqa: E402
+import yade.wrapper  # noqa: E402
+from yade import O, utils  # noqa: E402
+from yade.wrapper import (  # noqa: E402
+    Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom,
+    Ig2_Wall_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
+    Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator)
+
+RADIUS = 5e-3  # m
+SHAPE = (40, 25, 20)  # spheres along x, y, z: 20,000
+SPEED = 80.  # m/s
+CHECKS = (0, .05, .15, .35, .65, 1)  # of the steps
+OUT = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', '..', 'out')
+
+
+def build(seed):
+    """The scene: a bed of 20,000 spheres on a floor, and a steel ball above it; sets O.dt."""
+    O.reset()
+    sand = FrictMat(young=1e8, poisson=.3, density=2600, frictionAngle=.5, label='sand')
+    steel = FrictMat(young=1e9, poisson=.3, density=7800, frictionAngle=.3, label='steel')
+    O.materials.append(sand)
+    O.materials.append(steel)
+    centres = bed(seed)
+    for centre in centres.tolist():
+        O.bodies.append(utils.sphere(centre, RADIUS, material='sand', color=(.8, .7, .5)))
+    radius = 6 * RADIUS
+    top = centres[:, 2].max() + RADIUS
+    ball = O.bodies.append(utils.sphere((0, 0, top + radius + .5e-3), radius, material='steel'))
+    O.bodies[ball].state.vel = (.25 * SPEED, 0, -SPEED)
+    O.bodies.append(utils.wall(0, axis=2, material='sand'))
+    O.dt = .3 * RADIUS * (2600 / 1e8) ** .5
+
+
+def bed(seed):
+    """Centres (20000, 3), m: hexagonal layers, spheres just apart and shaken by 1 % of a radius."""
+    i, j, k = (a.ravel() for a in np.meshgrid(*map(range, SHAPE), indexing='ij'))
+    x = 2 * i + (j + k) % 2
+    y = 3 ** .5 * (j + (k % 2) / 3)
+    z = 2 * (2 / 3) ** .5 * k
+    centres = np.stack([x, y, z], axis=1) * 1.012 * RADIUS
+    centres += np.random.default_rng(seed).uniform(-.01, .01, centres.shape) * RADIUS
+    centres[:, :2] -= (centres[:, :2].max(axis=0) + centres[:, :2].min(axis=0)) / 2
+    centres[:, 2] += RADIUS * 1.011 - centres[:, 2].min()
+    return centres
+
+
+def run(collider, seed, steps, checks, progress):
+    """Run the scene with this collider class; returns a dict of times, counts and snapshots."""
+    build(seed)
+    O.engines = [
+        ForceResetter(),
+        collider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], label='collider'),
+        InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
+                        [Ip2_FrictMat_FrictMat_FrictPhys()],
+                        [Law2_ScGeom_FrictPhys_CundallStrack()], label='loop'),
+        NewtonIntegrator(damping=.1, gravity=(0, 0, -9.81)),
+    ]
+    O.timingEnabled = True
+    result = dict(name=collider.__name__, seconds=0., snapshots=[])
+    for stop in checks:
+        while O.iter < stop - 1:
+            result['seconds'] += _timed(min(25, stop - 1 - O.iter))
+            progress(collider.__name__, O.iter)
+        before = overlaps.positions()  # the contacts of the next step are those of these positions
+        result['seconds'] += _timed(1)
+        result['snapshots'].append(overlaps.snapshot(before))
+    progress(collider.__name__, steps)
+    result.update(collider=O.engines[1].execTime * 1e-9, loop=O.engines[2].execTime * 1e-9,
+                  integrator=O.engines[3].execTime * 1e-9, activations=O.engines[1].execCount,
+                  interactions=len(O.interactions), real=O.interactions.countReal())
+    return result
+
+
+def _timed(steps):
+    start = time.perf_counter()
+    O.run(steps, True)
+    return time.perf_counter() - start
+
+
+def table(results):
+    """The comparison as text: a column per collider, and the ratio of the first to the last."""
+    rows = [('whole run, s', 'seconds'), ('collider, s', 'collider'),
+            ('interaction loop, s', 'loop'), ('integrator, s', 'integrator'),
+            ('collider activations', 'activations'), ('potential interactions', 'potential'),
+            ('real contacts', 'real')]
+    for r in results:
+        r['potential'] = r['interactions'] - r['real']
+    head = ['', *[r['name'] for r in results], *(['ratio'] if len(results) > 1 else [])]
+    lines = [head]
+    for title, key in rows:
+        values = [r[key] for r in results]
+        cells = [f'{v:.2f}' if isinstance(v, float) else f'{v:,}' for v in values]
+        if len(values) > 1:
+            cells.append(f'{values[0] / values[-1]:.2f}' if values[-1] else '')
+        lines.append([title, *cells])
+    widths = [max(len(line[i]) for line in lines) for i in range(len(head))]
+    return '\n'.join('  '.join(c.ljust(w) if i == 0 else c.rjust(w)
+                               for i, (c, w) in enumerate(zip(line, widths))) for line in lines)
+
+
+def progressBar(total):
+    """A function (name, step) that shows progress when standard error is a terminal."""
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        return lambda name, step: None
+    bars = {}
+
+    def show(name, step):
+        if name not in bars:
+            bars[name] = tqdm(total=total, desc=name, unit='step', disable=None)
+        bars[name].update(step - bars[name].n)
+        if step == total:
+            bars[name].close()
+    return show
+
+
+def findColliders(names):
+    """The classes of these names; those that do not exist are left out with a sentence."""
+    try:
+        import yadefrag
+    except ImportError as error:
+        yadefrag = None
+        print(f'yadefrag cannot be imported ({error}): only YADE\'s own colliders are run.')
+    found = []
+    for name in names:
+        collider = getattr(yadefrag, name, None) or getattr(yade.wrapper, name, None)
+        if collider:
+            found.append(collider)
+        elif yadefrag:
+            print(f'There is no collider {name}: left out.')
+    return found
+
+
+def main(arguments):
+    """Run, compare, print, draw; returns the exit status."""
+    parser = argparse.ArgumentParser(prog='spheres.py', description=__doc__.split('\n')[0])
+    parser.add_argument('--steps', type=int, default=1000, help='default: 1000')
+    parser.add_argument('--seed', type=int, default=1, help='default: 1')
+    parser.add_argument('--colliders', default='InsertionSortCollider,LebesgueCollider',
+                        help='default: InsertionSortCollider,LebesgueCollider')
+    parser.add_argument('--out', default=OUT, help='folder for the pictures; default: out')
+    options = parser.parse_args(arguments)
+    if options.steps < 20:
+        parser.error(f'--steps is {options.steps}; it must be at least 20')
+    checks = [max(2, round(options.steps * share)) for share in CHECKS]
+    colliders = findColliders(options.colliders.split(','))
+    if not colliders:
+        print('There is no collider to run.')
+        return 2
+    progress = progressBar(options.steps)
+    results = [run(c, options.seed, options.steps, checks, progress) for c in colliders]
+    print(f'\nProjectile into 20,000 spheres, {options.steps} steps of {O.dt:.2g} s\n')
+    print(table(results), '\n')
+    missing = overlaps.compare(results, checks)
+    os.makedirs(options.out, exist_ok=True)
+    drawing.frames(results[-1], [c * O.dt for c in checks],
+                   os.path.join(options.out, 'spheres.png'))
+    drawing.times(results, os.path.join(options.out, 'spheres_times.png'))
+    print('Pictures:', ', '.join(os.path.relpath(os.path.join(options.out, name))
+                                 for name in ('spheres.png', 'spheres_times.png')))
+    return 1 if missing else 0
+
+
+if __name__ == '__main__':
+    status = main(sys.argv[1:])
+    sys.stdout.flush()
+    os._exit(status)  # yade -x alone would end with 0
