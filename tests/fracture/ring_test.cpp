@@ -1,0 +1,132 @@
+// An expanding ring breaks to pieces: how large they are on the mean, against
+//   s/s₀ = 4.5 / (1 + 0.77 ė^0.25 + 5.4 ė^0.75), s₀ = E·Gc/σc², ė = ε̇/ė₀, ė₀ = c·σc³/(E²·Gc)
+// of Zhou, Molinari and Ramesh 2006 (Appl. Phys. Lett. 88, 261917: a ring in one dimension).
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "step/bodies.hpp"
+
+namespace yadefrag {
+namespace {
+
+constexpr ElasticMaterial kCeramic{275e9, 0, 2750, true};
+constexpr double kStrength = 300e6, kEnergy = 100;  // Pa, J/m²
+constexpr double kCircumference = 50e-3;            // m
+constexpr double kRadius = kCircumference / (2 * std::numbers::pi);
+
+/// (m) The mean size of a fragment, by the formula.
+double expectedSize(double rate) {
+  const double modulus = kCeramic.young, zone = modulus * kEnergy / (kStrength * kStrength);
+  const double wave = std::sqrt(modulus / kCeramic.density);
+  const double ratio = rate / (wave * std::pow(kStrength, 3) / (modulus * modulus * kEnergy));
+  return 4.5 * zone / (1 + .77 * std::pow(ratio, .25) + 5.4 * std::pow(ratio, .75));
+}
+
+Vec2 onCircle(double turns, double radius) {
+  const double angle = 2 * std::numbers::pi * turns;
+  return radius * Vec2{std::cos(angle), std::sin(angle)};
+}
+
+/// `count` square cells around, each cut in four about its middle. Cut in two, the ends of a radial
+/// edge would have one triangle at one of its ends and two at the other: the light one opens first,
+/// and the ring unfolds like a zigzag, hinged at the other ends.
+TriangleMesh ring(std::uint32_t count) {
+  const double width = kCircumference / count;
+  TriangleMesh mesh;
+  mesh.loops.resize(2);
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (const int side : {-1, 1})
+      mesh.nodes.push_back(onCircle(double(i) / count, kRadius + side * width / 2));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto middle = static_cast<std::uint32_t>(mesh.nodes.size());
+    mesh.nodes.push_back(onCircle((i + .5) / count, kRadius * std::cos(std::numbers::pi / count)));
+    const std::uint32_t next = (i + 1) % count;
+    const std::uint32_t corner[4] = {2 * i, 2 * i + 1, 2 * next + 1, 2 * next};
+    for (int k = 0; k < 4; ++k) mesh.triangles.push_back({corner[k], corner[(k + 1) % 4], middle});
+    mesh.loops[0].push_back(2 * i + 1);
+    mesh.loops[1].push_back(2 * (count - 1 - i));
+  }
+  mesh.loopVertices = mesh.loops;
+  return mesh;
+}
+
+/// Only radial edges crack: the formula is that of a bar.
+void crackOnlyAcross(World& world, std::uint32_t count) {
+  CrackEdges& edges = world.fracture.edges;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Side side = edges.side(EdgeId(i), 0);
+    const NodeId last = std::max(firstNode(world.model, side), lastNode(world.model, side));
+    if (last.value >= 2 * count) edges.strength[i] = INFINITY;
+  }
+}
+
+struct Case {
+  double rate;          // 1/s
+  std::uint32_t count;  // elements around
+  double duration;      // s, after which no further edge breaks
+};
+
+/// (m) Mean size of the fragments. The ring starts just below its strength: at 10³ s⁻¹ a free ring
+/// would swing back before it broke.
+double fragmentSize(const Case& one, std::uint64_t seed) {
+  const TriangleMesh mesh = ring(one.count);
+  BodySpec spec;
+  spec.material = kCeramic;
+  spec.brittle.tensileStrength = kStrength;
+  spec.brittle.fractureEnergy = kEnergy;
+  spec.brittle.strengthScatter = 1e-4;
+  spec.brittle.seed = seed;
+  for (const Vec2 x : mesh.nodes) {
+    const Vec2 out = (kRadius / norm(x)) * x;
+    spec.displacement.push_back(.98 * kStrength / kCeramic.young * out);
+    spec.velocity.push_back(one.rate * out);
+  }
+  World world;
+  world.addBody(mesh, spec);
+  crackOnlyAcross(world, one.count);
+  const double dt = .4 * world.criticalTimeStep();
+  world.step(dt);
+  const double start = test::totalEnergy(world);
+  while (world.time < one.duration) world.step(dt);
+  // 1 % is asked for. Strains are 10⁻³, of which the leapfrog's invariant neglects the square.
+  EXPECT_NEAR(test::totalEnergy(world) / start, 1, 1e-5) << one.rate << ' ' << seed;
+  const std::size_t broken = world.fracture.numCracks() - world.fracture.cohesion.edge.size();
+  EXPECT_GT(broken, 0U);
+  return kCircumference / static_cast<double>(broken);
+}
+
+/// Over what the formula says.
+double meanSize(const Case& one, std::uint64_t seeds) {
+  double sum = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) sum += fragmentSize(one, seed);
+  return sum / static_cast<double>(seeds) / expectedSize(one.rate);
+}
+
+// The two rings break to 118 and 115 pieces, 1.12 and 1.15 times as large as the formula's 132; as
+// much as a quarter is allowed, since it is a fit, and seeds differ by 5 %.
+TEST(Ring, PiecesAreAsLargeAsTheory) { EXPECT_NEAR(meanSize({1e4, 500, 1e-6}, 2), 1, .25); }
+
+// Measured, coarse and fine mesh: 1.08 and 1.09 at 10³ s⁻¹, 1.11 and 1.06 at 10⁴, 1.16 and 1.21 at
+// 10⁵. At 10³ a ring has only 60 pieces, and those that meet again break further: 40 % there.
+// Several minutes.
+TEST(Ring, ThreeRatesFiveSeedsTwoMeshes) {
+  if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
+  for (const Case& one : {Case{1e3, 500, 2.5e-6}, Case{1e4, 500, 1e-6}, Case{1e5, 2500, .3e-6}}) {
+    const double tolerance = one.rate < 5e3 ? .4 : .25;
+    const double coarse = meanSize(one, 5);
+    EXPECT_NEAR(coarse, 1, tolerance) << one.rate;
+    const double fine = meanSize({one.rate, 2 * one.count, one.duration}, 5);
+    EXPECT_NEAR(fine, 1, tolerance) << one.rate;
+    EXPECT_NEAR(fine / coarse, 1, .1) << one.rate;
+    RecordProperty("sizes at " + std::to_string(one.rate),
+                   std::to_string(coarse) + " " + std::to_string(fine));
+  }
+}
+
+}  // namespace
+}  // namespace yadefrag

@@ -1,0 +1,134 @@
+// A strip with a crack along half of its middle, pulled apart slowly: how much energy the loading
+// has to offer before the crack runs.
+//
+//   ▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔  clamped, moves up        far behind the tip nothing is stored, far
+//   ───────────┤ · · · · ·   slit | may crack     H  ahead ½(λ+2μ)ε² per volume: a crack that runs
+//   ▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁  clamped, moves down      on by dx gets G dx = ½(λ+2μ)ε²H dx from
+//   outside
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "step/bodies.hpp"
+
+namespace yadefrag {
+namespace {
+
+constexpr ElasticMaterial kGlass{32e9, .2, 2450, false};
+constexpr double kEnergy = 3, kZone = .01, kHeight = 4 * kZone;  // J/m², m, m
+constexpr int kLengthInHeights = 3;
+constexpr double kTip = 1.25 * kHeight;  // m
+
+/// A slit along the middle from the left end to the tip: its nodes double, the upper ones a little
+/// higher, so that no contact is involved.
+TriangleMesh slitStrip(int rows) {
+  TriangleMesh mesh =
+      structuredRectangle({0, -kHeight / 2}, {kLengthInHeights * kHeight, kHeight / 2},
+                          kLengthInHeights * rows, rows, QuadPattern::kCrossed);
+  const double size = kHeight / rows;
+  const auto isMiddle = [&](std::uint32_t n) { return std::abs(mesh.nodes[n].y) < size / 8; };
+  std::vector<std::uint32_t> lower;
+  for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n)
+    if (isMiddle(n) && mesh.nodes[n].x < kTip + size / 8) lower.push_back(n);
+  std::sort(lower.begin(), lower.end(),
+            [&](auto a, auto b) { return mesh.nodes[a].x < mesh.nodes[b].x; });
+  std::vector<std::uint32_t> upper(mesh.nodes.size());
+  std::vector<std::uint32_t> faces;  // of the slit, towards the tip and back
+  for (std::uint32_t n = 0; n < upper.size(); ++n) upper[n] = n;
+  const std::uint32_t tip = lower.back();
+  for (const std::uint32_t n : lower) {
+    if (n != tip) {
+      upper[n] = static_cast<std::uint32_t>(mesh.nodes.size());
+      mesh.nodes.push_back(mesh.nodes[n] + Vec2{0, 1e-3 * size});
+    }
+    faces.push_back(upper[n]);
+  }
+  faces.insert(faces.end(), lower.rbegin() + 1, lower.rend());
+  for (auto& triangle : mesh.triangles) {
+    double height = 0;
+    for (const std::uint32_t n : triangle) height += mesh.nodes[n].y;
+    if (height < 0) continue;
+    for (std::uint32_t& n : triangle) n = upper[n];
+  }
+  auto& loop = mesh.loops[0];
+  const auto end = loop.erase(std::find(loop.begin(), loop.end(), lower.front()));
+  loop.insert(end, faces.begin(), faces.end());
+  mesh.loopVertices = mesh.loops;
+  return mesh;
+}
+
+struct Outcome {
+  double release = 0;  // of Gc: G at the first break
+  double ledger = 0;   // change of the total, of the work put in
+};
+
+/// Edges along the middle may crack, and no other.
+void crackOnlyMiddle(World& world, double size) {
+  CrackEdges& edges = world.fracture.edges;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Side side = edges.side(EdgeId(i), 0);
+    for (const NodeId node : {firstNode(world.model, side), lastNode(world.model, side)})
+      if (std::abs(world.reference[node.value].y) > size / 8) edges.strength[i] = INFINITY;
+  }
+}
+
+Outcome pullUntilBreak(int rows) {
+  const TriangleMesh mesh = slitStrip(rows);
+  BodySpec spec;
+  spec.material = kGlass;
+  spec.brittle.tensileStrength = std::sqrt(kGlass.young * kEnergy / kZone);
+  spec.brittle.fractureEnergy = kEnergy;
+  World world;
+  world.addBody(mesh, spec);
+  crackOnlyMiddle(world, kHeight / rows);
+  std::vector<NodeId> grips[2];
+  for (std::uint32_t n = 0; n < mesh.nodes.size(); ++n)
+    if (std::abs(mesh.nodes[n].y) > .499 * kHeight) grips[mesh.nodes[n].y > 0].emplace_back(n);
+
+  const double crossing = kHeight / std::sqrt(kGlass.waveModulus() / kGlass.density);
+  world.dynamicsSettings.damping = .5 / crossing;
+  const double dt = .8 * world.criticalTimeStep();
+  const double modulus = kGlass.waveModulus();
+  const double critical = std::sqrt(2 * kEnergy / (modulus * kHeight));
+  const double duration = 200 * crossing;
+  Outcome outcome;
+  double strain = 0;
+  const auto broken = [&] {
+    return world.fracture.numCracks() - world.fracture.cohesion.edge.size();
+  };
+  while (broken() == 0 && world.time < duration) {
+    // From 0 up to 1.15 of what is needed.
+    const double rate = 1.15 * critical * std::numbers::pi / (2 * duration) *
+                        std::sin(std::numbers::pi * (world.time + dt / 2) / duration);
+    for (const int top : {0, 1})
+      world.prescribe(grips[top], kHeldXY, {0, (top - .5) * rate * kHeight});
+    world.step(dt);
+    strain += rate * dt;
+  }
+  EXPECT_GT(broken(), 0U);
+  outcome.release = modulus * strain * strain * kHeight / (2 * kEnergy);
+  outcome.ledger = std::abs(test::totalEnergy(world)) / world.ledger.external;
+  return outcome;
+}
+
+// Measured: 1.038, 1.033, 1.031 with a cohesive zone E·Gc/σc² of 6, 7.5 and 9 elements. Two things
+// make it more than 1, each by a few percent. The crack breaks while the loading goes on, by 1.2 %
+// of G in the time a wave takes across the strip; with half the speed it is 0.005 to 0.012 less.
+// And edges before the tip crack when the stress averaged around their nodes reaches the strength,
+// which it does the later the coarser the elements are. The total is kept to 10⁻⁸ of the work.
+TEST(Strip, CrackRunsAtTheFractureEnergy) {
+  double least = INFINITY, most = 0;
+  for (const int rows : {24, 30, 36}) {
+    const Outcome outcome = pullUntilBreak(rows);
+    EXPECT_NEAR(outcome.release, 1, .05) << rows;
+    EXPECT_LT(outcome.ledger, .002) << rows;
+    least = std::min(least, outcome.release), most = std::max(most, outcome.release);
+  }
+  EXPECT_LT(most / least, 1.05);
+}
+
+}  // namespace
+}  // namespace yadefrag
