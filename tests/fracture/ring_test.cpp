@@ -112,8 +112,7 @@ double meanSize(const Case& one, std::uint64_t seeds) {
 TEST(Ring, PiecesAreAsLargeAsTheory) { EXPECT_NEAR(meanSize({1e4, 500, 1e-6}, 2), 1, .25); }
 
 // Measured, coarse and fine mesh: 1.08 and 1.09 at 10³ s⁻¹, 1.11 and 1.06 at 10⁴, 1.16 and 1.21 at
-// 10⁵. At 10³ a ring has only 60 pieces, and those that meet again break further: 40 % there.
-// Several minutes.
+// 10⁵. At 10³, where a ring has no more than 60 pieces, 40 % are allowed. Several minutes.
 TEST(Ring, ThreeRatesFiveSeedsTwoMeshes) {
   if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   for (const Case& one : {Case{1e3, 500, 2.5e-6}, Case{1e4, 500, 1e-6}, Case{1e5, 2500, .3e-6}}) {
