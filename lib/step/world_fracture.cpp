@@ -37,7 +37,7 @@ void World::followSplit() {
   contact.resize(count);
   before_.resize(count);
   dynamics_.follow(model, split_.changed, split_.originals);
-  const std::vector<EntryId> straightened = relink(surfaces, split_.sides);
+  std::vector<EntryId> changed = relink(surfaces, split_.sides);
   const auto appear = [&](NodeId node) {
     search.nodes.push_back(node);
     search.positions.push_back(model.nodes.position[node.value]);
@@ -48,7 +48,10 @@ void World::followSplit() {
     if (side.segment == SegmentId::none())
       finest_ = std::min(finest_, norm(reference[side.last.value] - reference[side.first.value]));
   addCrackCandidates();
-  contact.allowOverlaps(surfaces, model.nodes.position, straightened);
+  const std::vector<EntryId> inherited =
+      inheritFlags(contact.candidates, surfaces, split_.originals, count);
+  changed.insert(changed.end(), inherited.begin(), inherited.end());
+  contact.allowOverlaps(surfaces, model.nodes.position, changed);
 }
 
 /// New faces, and all that came near them: what is within the halo of an old piece beside the crack

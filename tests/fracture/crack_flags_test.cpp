@@ -1,0 +1,79 @@
+// On which side of its masters a slave is that a crack has just made.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fracture/node_splitting.hpp"
+#include "step/bodies.hpp"
+#include "step/crack_candidates.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+NodeId nodeAt(const World& world, ComponentId component, Vec2 at) {
+  for (std::size_t i = 0; i < world.model.nodes.size(); ++i)
+    if (world.model.nodes.component[i] == component &&
+        norm(world.model.nodes.position[i] - at) < 1e-9)
+      return NodeId(i);
+  ADD_FAILURE();
+  return NodeId::none();
+}
+
+EntryId slaveAt(const World& world, NodeId node) {
+  return world.surfaces.segmentEntry[world.surfaces.nodeSegment[node.value].value];
+}
+
+EdgeId edgeBetween(const World& world, NodeId a, NodeId b) {
+  const CrackEdges& edges = world.fracture.edges;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Side side = edges.side(EdgeId(i), 0);
+    const NodeId first = firstNode(world.model, side), last = lastNode(world.model, side);
+    if ((first == a && last == b) || (first == b && last == a)) return EdgeId(i);
+  }
+  ADD_FAILURE();
+  return EdgeId::none();
+}
+
+// A block lies on a floor, in which its nodes are by more than geometry calls touching: what a
+// correction may leave. It cracks upwards from the middle of its base.
+TEST(CrackFlags, AllPartsOfASlaveAreWhereItWas) {
+  constexpr double kLeft = 1e-6;  // m
+  World world;
+  BodySpec spec;
+  spec.material = steel();
+  const ComponentId floor = world.addBody(structuredRectangle({-2, -1}, {2, 0}, 1, 1), spec);
+  spec.brittle.tensileStrength = 1e6;
+  const ComponentId block = world.addBody(structuredRectangle({-1, -kLeft}, {1, 1}, 2, 1), spec);
+  const NodeId middle = nodeAt(world, block, {0, -kLeft}), top = nodeAt(world, block, {0, 1});
+  const EntryId master = slaveAt(world, nodeAt(world, floor, {2, 0}));
+  const EntryId before = slaveAt(world, middle);
+  Candidates candidates;
+  const std::vector<Vec2>& positions = world.model.nodes.position;
+  std::vector<SlaveMaster> pairs{{before, master}};
+  addCandidates(candidates, pairs, world.surfaces, positions);
+  candidates.outside = {1};  // a contact of the last step
+
+  SplitResult split;
+  const EdgeId crack = edgeBetween(world, middle, top);
+  splitNodes(world.model, world.fracture.edges, world.surfaces, {&crack, 1}, split);
+  relink(world.surfaces, split.sides);
+  ASSERT_EQ(split.originals.size(), 2U);
+  std::vector<EntryId> slaves{slaveAt(world, middle)};
+  for (std::size_t i = 0; i < 2; ++i)
+    if (split.originals[i] == middle)
+      slaves.push_back(slaveAt(world, NodeId(world.model.nodes.size() - 2 + i)));
+  ASSERT_EQ(slaves.size(), 2U);
+  pairs = {{slaves[0], master}, {slaves[1], master}};
+  addCandidates(candidates, pairs, world.surfaces, positions);
+  EXPECT_EQ(std::ranges::count(candidates.outside, 0), 1);
+
+  const std::vector<EntryId> told =
+      inheritFlags(candidates, world.surfaces, split.originals, world.model.nodes.size());
+  EXPECT_EQ(candidates.size(), 2U);
+  EXPECT_EQ(std::ranges::count(candidates.outside, 1), 2);
+  EXPECT_EQ(told, std::vector<EntryId>{master});
+}
+
+}  // namespace
+}  // namespace yadefrag::test
