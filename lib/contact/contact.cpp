@@ -186,19 +186,18 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
     }
     row.slip = dot(moved - corrected, row.tangent());
   }
-  const auto touch =
-      std::lower_bound(touches.begin(), touches.end(), active.pair.slave,
-                       [](const Touch& known, EntryId slave) { return known.pair.slave < slave; });
-  if (touch != touches.end() && touch->pair.slave == row.slave) {
-    row.allowed = std::min(0., touch->allowed * (1 - tolerance::kOverlapDecay));
-    for (auto same = touch; same != touches.end() && same->pair.slave == row.slave; ++same)
-      if (same->pair.master == row.master)
-        row.normalForce = same->normalForce, row.tangentForce = same->tangentForce;
-  } else if (active.cameAside || surfaces.piece[row.master.value] == Piece::kArc) {
-    // No flag keeps a smooth master from a slave that was inside before: an old overlap is held.
-    const Foot foot = before.foot(row.master, before.slave(row.slave));
-    if (foot.inside || active.cameAside) row.allowed = std::min(0., foot.gap);
+  const auto former =
+      std::lower_bound(touches.begin(), touches.end(), active.pair,
+                       [](const Touch& known, SlaveMaster pair) { return known.pair < pair; });
+  if (former != touches.end() && former->pair == active.pair) {
+    row.allowed = std::min(
+        0., former->allowed + tolerance::kOverlapDecay * std::min(-former->allowed, step.move));
+    row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;
+    return;
   }
+  // What overlapped before, in spite of all flags or beside an end, would become velocity at once.
+  const double gap = before.foot(row.master, before.slave(row.slave)).gap;
+  row.allowed = std::min(0., gap + tolerance::kOverlapDecay * step.move);
 }
 
 /// The true gaps at the corrected positions, taken back to the predicted ones along the rows: the

@@ -125,7 +125,8 @@ inline constexpr double kRemainder = 1e-5, kPenetrationLeft = 1e-10;
 /// (count) Most detections in one step.
 inline constexpr int kDetections = 10;
 
-/// (ratio) An overlap older than its contact is let out by this part in every step: all at once it
+/// (ratio) An overlap older than its contact is let out by this part in every step, and by no more
+/// than this part of the largest displacement: all at once it
 /// would become a velocity, and energy out of nothing.
 inline constexpr double kOverlapDecay = .02;
 
@@ -134,9 +135,9 @@ inline constexpr double kOverlapDecay = .02;
 inline constexpr double kFrictionBound = 1e-4;
 inline constexpr int kFrictionRounds = 8;
 
-/// (count) Contact in rubble is solved by so many sweeps at each of so many detections: with ten times
-/// as many of both, the energies of an impact differ in the fourth digit, and a step takes ten
-/// times as long.
+/// (count) Contact in rubble is solved by so many sweeps at each of so many detections: with ten
+/// times as many of both, the energies of an impact differ in the fourth digit, and a step takes
+/// ten times as long.
 inline constexpr int kRowSweeps = 20, kRubbleDetections = 4;
 
 /// (ratio) Normal forces above this many times the largest that one row of their group needs by
@@ -157,8 +158,8 @@ inline constexpr double kHaloSpare = 1.1;
 /// and few of them belong to another chunk too.
 inline constexpr std::size_t kChunkElements = 512;
 
-/// (ratio) Elements stressed to this part of their body's lowest strength are looked at more closely:
-/// the stress is that of the step before.
+/// (ratio) Elements stressed to this part of their body's lowest strength are looked at more
+/// closely: the stress is that of the step before.
 inline constexpr double kStrengthLook = .9;
 
 /// (count) Fewer elements than this per thread are not worth two meetings of the threads a step.
