@@ -101,10 +101,9 @@ double Cohesion::complianceAlong(const Point& point, Vec2 direction) {
 Vec2 Cohesion::held(const Point& point, Vec2 opening) {
   Vec2 direction;
   const double trial = openingOf(point, opening, direction);
-  const double most = envelope(point.strength, point.critical, point.largest);
-  // Where that much would close the crack below the unloading line, what ends on that line.
-  const double kink = point.largest + most * complianceAlong(point, direction);
-  return (trial < kink ? most * (trial / kink) : most) * direction;
+  return cohesiveTraction(point.strength, point.critical, point.largest, trial,
+                          complianceAlong(point, direction)) *
+         direction;
 }
 
 /// What keeps the faces from closing further than shut.

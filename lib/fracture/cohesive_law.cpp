@@ -1,5 +1,7 @@
 #include "fracture/cohesive_law.hpp"
 
+#include <algorithm>
+
 namespace yadefrag {
 
 double envelope(double strength, double criticalOpening, double opening) {
@@ -22,13 +24,8 @@ double cohesiveTraction(double strength, double criticalOpening, double largestO
                         double trial, double compliance) {
   const double held = envelope(strength, criticalOpening, largestOpening);
   if (held <= 0 || trial <= 0) return 0;
-  // T = T(δmax)·δ/δmax with δ = δ* − kT; for δmax = 0 it is what closes the edge.
   const double kink = largestOpening + compliance * held;
-  if (trial <= kink) return held * (trial / kink);
-  // T = σc(1 − δ/δc) with δ = δ* − kT.
-  const double shallow = criticalOpening - compliance * strength;
-  if (shallow <= 0 || trial >= criticalOpening) return 0;
-  return std::min(held, strength * (criticalOpening - trial) / shallow);
+  return trial < kink ? held * (trial / kink) : held;
 }
 
 }  // namespace yadefrag

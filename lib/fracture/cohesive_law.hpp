@@ -12,17 +12,7 @@
 //        └──┴──┴─ δ      from δc on: nothing, for good. Gc = 0: δc = 0, opens at once
 //          δmax δc
 
-#include <algorithm>
-#include <cmath>
-
 namespace yadefrag {
-
-/// (m) δ = √(δₙ⁺² + β²δₛ²), δₙ⁺ the normal opening where it is one (Camacho and Ortiz 1996; Ortiz
-/// and Pandolfi 1999, Int. J. Numer. Meth. Eng. 44, 1267). The work of T over δ is that of the
-/// tractions T·δₙ⁺/δ along the normal and β²T·δₛ/δ along the face.
-[[nodiscard]] inline double effectiveOpening(double normal, double shear, double shearFactor) {
-  return std::hypot(std::max(0., normal), shearFactor * shear);
-}
 
 /// (Pa) Most that an edge of strength σc (Pa) holds when opened further than ever, to δ (m).
 [[nodiscard]] double envelope(double strength, double criticalOpening, double opening);
@@ -35,18 +25,13 @@ namespace yadefrag {
 [[nodiscard]] double recoverableEnergy(double strength, double criticalOpening,
                                        double largestOpening, double opening);
 
-/// (Pa) The traction T ≥ 0 with which the law holds at the END of a step.
-/// `trial`: δ* (m, ≥ 0), where the opening would end without T. `compliance`: k (m/Pa), what T
-/// takes from it, δ = δ* − kT. Then (δ, T) is on the unloading line where δ ≤ δmax, and on the
-/// envelope beyond; with δmax = 0, T holds the edge closed as long as T ≤ σc: the bounded
-/// multiplier. Implicit and in closed form, so that the stiffest line does no harm: δ and T hang on
-/// δ* continuously, and δ grows with it.
-///
-/// Where k ≥ δc/σc, the envelope is steeper than inertia and no δ between δmax and δc can be an
-/// end: T holds on the unloading line as long as that suffices, up to T(δmax); beyond, the edge
-/// snaps: T = 0 at δ = δ* ≥ δc. Every end is still on the law; but of the energy between δmax and
-/// δc only the law keeps account, not the motion, so `checkCohesiveResolution` refuses such steps
-/// beforehand.
+/// (Pa) What the law puts against a motion that would end at the opening `trial` (m, ≥ 0) without
+/// it. `compliance`: k (m/Pa), what a traction takes from the opening. While the opening grows it
+/// is the envelope at δmax, the largest opening before the step: then the leapfrog's work is a
+/// trapezoid sum, exact for a line. Where that much would close the edge below the unloading line,
+/// it is what ends on that line: T = T(δmax)·δ/δmax with δ = δ* − kT, implicit, so that the
+/// stiffest line does no harm. With δmax = 0 it holds the edge closed as long as T ≤ σc suffices:
+/// the bounded multiplier.
 [[nodiscard]] double cohesiveTraction(double strength, double criticalOpening,
                                       double largestOpening, double trial, double compliance);
 
