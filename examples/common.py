@@ -56,20 +56,25 @@ def atLeast(least):
     return lambda text: wholeNumber(text, least)
 
 
-def positive(text):
-    """An option's value as a positive float."""
+def number(text, isRight, wanted):
+    """An option's value as a float of which isRight(value) is true; `wanted` is said if not."""
     try:
         value = float(text)
     except ValueError:
         value = math.nan
-    if not (math.isfinite(value) and value > 0):
-        raise argparse.ArgumentTypeError(f'it is {text!r}, it must be a positive number')
+    if not (math.isfinite(value) and isRight(value)):
+        raise argparse.ArgumentTypeError(f'it is {text!r}, it must be {wanted}')
     return value
+
+
+def positive(text):
+    """An option's value as a positive float."""
+    return number(text, lambda value: value > 0, 'a positive number')
 
 
 def notNegative(text):
     """An option's value as a float of at least 0."""
-    return 0. if text.strip() in ('0', '0.', '0.0') else positive(text)
+    return number(text, lambda value: value >= 0, 'a number of at least 0')
 
 
 def setEngines(fe, collider):

@@ -3,7 +3,8 @@ import numpy as np
 import pictures
 from yadefrag.fragments import fragmentColours
 
-INTACT = '#d9d5cc'  # the largest piece of a body
+INTACT = '#e4e1da'  # the largest piece of a body
+COLOURS = ('#8ecae6', '#ffb703', '#90be6d', '#f28482', '#b8a1d9', '#e9c46a', '#5f9ea0', '#d4a373')
 
 
 class Films:
@@ -19,15 +20,16 @@ class Films:
         """Writes both pictures; colours of the stress from 0 to `top`, MPa."""
         chosen = pictures.Film(self.fe, 'mises')
         chosen.shots = self.film.shots[-6:]
-        pictures.frames(chosen, stress, title, columns=3, top=top, window=window, cmap='inferno',
-                        outline=.35, width=15)
+        pictures.frames(chosen, stress, title, columns=3, top=top, window=window,
+                        cmap='afmhot_r', outline=.35, width=15)
         drawFragments(self.fe, chosen.shots[-1], fragments, title, window)
 
 
 def drawFragments(fe, shot, file, title, window):
     """The pieces in colours, the largest of each body in a grey."""
     of = fe.fragmentOf
-    colours = np.array(pictures.plt.get_cmap('tab20').colors)[fragmentColours(fe) % 20]
+    palette = np.array([pictures.matplotlib.colors.to_rgb(c) for c in COLOURS])
+    colours = palette[fragmentColours(fe) % len(palette)]
     area = np.array([f['area'] for f in fe.fragments()])
     component = np.array([f['component'] for f in fe.fragments()])
     for body in np.unique(component):

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import time
 
+import numpy as np
 import pytest
 
 from test_threads import yadeCommand
@@ -17,6 +18,7 @@ kShort = {
     'bars': ['--n', '3', '--steps', '2000'],
     'cylinder': ['--size', '1e-3', '--steps', '400'],
     'rolling': ['--segments', '32', '--block', '.5', '--steps', '4000'],
+    'impact': ['--size', '1e-3', '--steps', '400'],
 }
 kPictures = {
     'squares': ['squares.png'],
@@ -24,6 +26,8 @@ kPictures = {
     'bars': ['bars.png'],
     'cylinder': ['cylinder.gif', 'cylinder.png', 'cylinder_force.png', 'state.vtu'],
     'rolling': ['rolling.png'],
+    'impact': ['course.csv', 'fragments.csv', 'impact.png', 'impact_course.png',
+               'impact_fragments.png', 'impact_sizes.png'],
 }
 
 
@@ -94,6 +98,27 @@ def test_impulseOnTheCylinder():
     assert 40 < numbers(report['largest force'])[0] < 48
 
 
+@pytest.mark.parametrize('energy', [0, 500])
+def test_impactShatters(energy, folder):
+    options = ['--fracture-energy', str(energy), '--size', str(6e-4), '--steps', '600']
+    out, _ = run('impact', *options, '--out', folder)
+    report = rows(out)[0]
+    before, after, factor = numbers(report['surface segments'])
+    cracks, first = numbers(report['cracks'])
+    assert before == 252 and after > 1000 and factor > 4
+    # A crack has two faces; where it leaves a surface or meets an arc nothing is added.
+    assert after - before <= 2 * cracks and cracks > 400
+    assert .4 < first < 1.5
+    assert numbers(report['fragments'])[0] > 50
+    assert abs(numbers(report['mass'])[0]) < 1e-12
+    assert (numbers(report['spent in cracks'])[0] > 0) == (energy > 0)
+    course = np.genfromtxt(os.path.join(folder, 'course.csv'), delimiter=',', skip_header=1)
+    assert course[0, 3] == before and course[-1, 2:4].tolist() == [cracks, after]
+    assert (np.diff(course[:, 2:4], axis=0) >= 0).all()
+    table = np.genfromtxt(os.path.join(folder, 'fragments.csv'), delimiter=',', skip_header=1)
+    assert table[:, 4].sum() == pytest.approx(.04 * .02 + np.pi * .005**2, rel=.01)
+
+
 def test_smoothCylinderRollsMoreEvenly():
     out, _ = run('rolling', '--no-pictures')
     ripples = [numbers(report['ripple'])[0] for report in rows(out)]
@@ -122,6 +147,9 @@ def test_picturesAreWritten(name, folder):
     ('cylinder', ['--size', '-1'], "it is '-1', it must be a positive number"),
     ('cylinder', ['--size', '1'], '--size is 1 m, it must be at most 0.0025 m'),
     ('cylinder', ['--vtk', 'a.txt'], "its name must end with '.vtu'"),
+    ('impact', ['--size', '1'], '--size is 1 m, it must be at most 0.0025 m'),
+    ('impact', ['--speed', '0'], "it is '0', it must be a positive number"),
+    ('impact', ['--fracture-energy', '-1'], "it is '-1', it must be a number of at least 0"),
     ('rolling', ['--out', '/dev/null/x'], "--out is '/dev/null/x', which is no folder"),
 ])
 def test_wrongOptions(name, options, sentence):
