@@ -1,0 +1,101 @@
+#pragma once
+// How deep the deepest node is inside another piece or its own: every boundary node against every
+// triangle, which knows nothing of surfaces, slaves, masters or flags.
+
+#include <algorithm>
+#include <vector>
+
+#include "fracture/random_cracks.hpp"
+
+namespace yadefrag::test {
+
+/// By triangle: the lowest of those that hang together with it by nodes.
+inline std::vector<std::uint32_t> piecesOf(const Model& model) {
+  Groups groups(model.triangles.size());
+  std::vector<std::uint32_t> first(model.nodes.size(), ~0U), piece;
+  for (std::uint32_t e = 0; e < model.triangles.size(); ++e)
+    for (const NodeId node : model.triangles.nodes[e]) {
+      first[node.value] = std::min(first[node.value], e);
+      groups.join(first[node.value], e);
+    }
+  for (std::uint32_t e = 0; e < model.triangles.size(); ++e) piece.push_back(groups.find(e));
+  return piece;
+}
+
+inline double distanceToSide(Vec2 point, Vec2 a, Vec2 b) {
+  const Vec2 along = b - a;
+  const double at = std::clamp(dot(point - a, along) / dot(along, along), 0., 1.);
+  return norm(point - a - at * along);
+}
+
+struct Overlap {
+  double depth = 0;  ///< m
+  NodeId node;
+  ElementId in;
+};
+
+class Overlaps {
+ public:
+  explicit Overlaps(const Model& model)
+      : model_(model), piece_(piecesOf(model)), sides_(boundarySides(model)) {
+    onBoundary_.resize(model.nodes.size());
+    for (std::size_t e = 0; e < piece_.size(); ++e)
+      for (const Side side : sides_) onBoundary_[firstNode(model, side).value] = true;
+  }
+
+  [[nodiscard]] Overlap deepest() const {
+    std::vector<NodeId> nodes;  // by x
+    for (std::size_t n = 0; n < onBoundary_.size(); ++n)
+      if (onBoundary_[n]) nodes.emplace_back(n);
+    const auto x = [&](NodeId node) { return at(node).x; };
+    std::ranges::sort(nodes, {}, x);
+    Overlap worst;
+    for (std::uint32_t e = 0; e < piece_.size(); ++e) {
+      const auto& c = model_.triangles.nodes[e];
+      const auto [low, high] = std::minmax({at(c[0]).x, at(c[1]).x, at(c[2]).x});
+      for (auto i = std::ranges::lower_bound(nodes, low, {}, x); i != nodes.end() && x(*i) <= high;
+           ++i) {
+        if (std::ranges::find(c, *i) != c.end() || !isIn(at(*i), c)) continue;
+        const double depth = depthIn(piece_[e], *i);
+        if (depth > worst.depth) worst = {depth, *i, ElementId(e)};
+      }
+    }
+    return worst;
+  }
+
+ private:
+  [[nodiscard]] Vec2 at(NodeId node) const { return model_.nodes.position[node.value]; }
+  [[nodiscard]] bool isIn(Vec2 point, const std::array<NodeId, 3>& c) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 a = at(c[k]), b = at(c[(k + 1) % 3]);
+      if (cross(b - a, point - a) <= 0) return false;
+    }
+    return true;
+  }
+  /// To the piece's surface; the node's own sides are none that it could have passed.
+  [[nodiscard]] double depthIn(std::uint32_t piece, NodeId node) const {
+    double least = INFINITY;
+    for (const Side side : sides_) {
+      if (piece_[side.element.value] != piece) continue;
+      const NodeId a = firstNode(model_, side), b = lastNode(model_, side);
+      if (a != node && b != node) least = std::min(least, distanceToSide(at(node), at(a), at(b)));
+    }
+    return least;
+  }
+
+  const Model& model_;
+  std::vector<std::uint32_t> piece_;
+  std::vector<Side> sides_;
+  std::vector<bool> onBoundary_;
+};
+
+/// (m) Shortest boundary segment of the stress-free bodies, faces of cracks included.
+inline double shortestSide(const World& world) {
+  double least = INFINITY;
+  for (const Side side : boundarySides(world.model))
+    least = std::min(least, norm(world.reference[lastNode(world.model, side).value] -
+                                 world.reference[firstNode(world.model, side).value]));
+  return least;
+}
+
+}  // namespace yadefrag::test
