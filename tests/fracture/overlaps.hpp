@@ -43,24 +43,38 @@ class Overlaps {
       for (const Side side : sides_) onBoundary_[firstNode(model, side).value] = true;
   }
 
-  [[nodiscard]] Overlap deepest() const {
+  /// Every boundary node that is inside some triangle which is not its own.
+  [[nodiscard]] std::vector<Overlap> all() const {
     std::vector<NodeId> nodes;  // by x
     for (std::size_t n = 0; n < onBoundary_.size(); ++n)
       if (onBoundary_[n]) nodes.emplace_back(n);
     const auto x = [&](NodeId node) { return at(node).x; };
     std::ranges::sort(nodes, {}, x);
-    Overlap worst;
+    std::vector<Overlap> found;
     for (std::uint32_t e = 0; e < piece_.size(); ++e) {
       const auto& c = model_.triangles.nodes[e];
       const auto [low, high] = std::minmax({at(c[0]).x, at(c[1]).x, at(c[2]).x});
       for (auto i = std::ranges::lower_bound(nodes, low, {}, x); i != nodes.end() && x(*i) <= high;
            ++i) {
         if (std::ranges::find(c, *i) != c.end() || !isIn(at(*i), c)) continue;
-        const double depth = depthIn(piece_[e], *i);
-        if (depth > worst.depth) worst = {depth, *i, ElementId(e)};
+        found.push_back({depthIn(piece_[e], *i), *i, ElementId(e)});
       }
     }
+    return found;
+  }
+
+  [[nodiscard]] Overlap deepest() const {
+    Overlap worst;
+    for (const Overlap& overlap : all())
+      if (overlap.depth > worst.depth) worst = overlap;
     return worst;
+  }
+
+  /// Of all boundary nodes, the part that is deeper than this (m).
+  [[nodiscard]] double partDeeperThan(double depth) const {
+    const std::vector<Overlap> found = all();
+    const auto deep = std::ranges::count_if(found, [&](const auto& o) { return o.depth > depth; });
+    return static_cast<double>(deep) / static_cast<double>(sides_.size());
   }
 
  private:
