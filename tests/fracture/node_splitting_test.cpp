@@ -9,7 +9,6 @@
 #include <map>
 #include <vector>
 
-#include "core/errors.hpp"
 #include "fracture/random_cracks.hpp"
 
 namespace yadefrag::test {
