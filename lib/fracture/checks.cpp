@@ -113,7 +113,7 @@ void checkCohesiveResolution(const Model& model, ComponentId component, double d
   if (sums.inner == 0) return;
   const double strength = likelyLargestStrength(body.brittle, sums.inner);
   const double critical = 2 * body.brittle.fractureEnergy / strength;
-  const double crossed = dt * dt * body.thickness * sums.lightest * strength;
+  const double crossed = dt * dt * body.thickness * sums.lightest * strength / 4;
   if (crossed < critical) return;
   const double ratio = critical / crossed;
   // Masses go with the size squared; with a step in proportion, what is crossed goes with the size.

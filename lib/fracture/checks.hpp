@@ -14,11 +14,12 @@ namespace yadefrag {
 void checkBrittle(const BrittleMaterial& material);
 
 /// Throws InputError if, between two triangles of the component, a step would cross the cohesive
-/// law's whole opening: k·σ/δc < 1 must hold, δc = 2Gc/σ, σ the strength that the strongest edge is
-/// likely to have. k = Δt²(L/2)·thickness·(1/m₁ + 1/m₂) is what 1 Pa takes from the opening at one
-/// end of an edge of length L, whose half it is (see cohesive_law.hpp), and m a third of a
-/// triangle's mass: no node ends up with less. The explicit law needs a quarter of it, for the
-/// leapfrog is stable up to ω = 2/Δt. Without a fracture energy there is nothing to resolve.
+/// law's whole opening: ¼k·σ/δc < 1 must hold, δc = 2Gc/σ, σ the strength that the strongest edge
+/// is likely to have. k = Δt²(L/2)·thickness·(1/m₁ + 1/m₂) is what 1 Pa takes from the opening at
+/// one end of an edge of length L, whose half it is, and m a third of a triangle's mass: no node
+/// ends up with less. A quarter, since the leapfrog is stable up to ω = 2/Δt: ¼kσ is the smallest
+/// opening at which the law's slope can be resolved. Without a fracture energy there is nothing to
+/// resolve.
 void checkCohesiveResolution(const Model& model, ComponentId component, double dt);
 
 /// A sentence where the zone in which a crack's faces still hold is shorter than three elements, so

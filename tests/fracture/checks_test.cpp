@@ -103,7 +103,7 @@ TEST(CheckBrittle, RefusesWhatIsNotFinite) {
 
 TEST(CheckCohesiveResolution, RefusesFromTheStepOfTheFormulaOn) {
   const Model model = body(20, kBrittle);
-  const double limit = 1e-8 / std::sqrt(crossedOf(5e-4, 1e-8, kBrittle.tensileStrength));
+  const double limit = 2e-8 / std::sqrt(crossedOf(5e-4, 1e-8, kBrittle.tensileStrength));
   EXPECT_EQ(saidAtStep(model, .9999 * limit), "");
   EXPECT_NE(saidAtStep(model, 1.0001 * limit), "");
   EXPECT_NE(saidAtStep(body(20, kBrittle, .001), 1.0001 * limit), "");  // thickness cancels
@@ -116,7 +116,7 @@ TEST(CheckCohesiveResolution, GoesByTheStrongestEdge) {
   scattered.strengthScatter = .1;
   const double strongest = likelyLargestStrength(scattered, 20 * 20 + 2 * 20 * 19);
   EXPECT_GT(strongest, 1.5 * kBrittle.tensileStrength);
-  const double limit = 1e-8 / std::sqrt(crossedOf(5e-4, 1e-8, strongest));
+  const double limit = 2e-8 / std::sqrt(crossedOf(5e-4, 1e-8, strongest));
   EXPECT_EQ(saidAtStep(body(20, scattered), .9999 * limit), "");
   EXPECT_NE(saidAtStep(body(20, scattered), 1.0001 * limit), "");
 }
