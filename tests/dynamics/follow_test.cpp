@@ -2,17 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
+#include "core/same_bits.hpp"
 #include "core/tolerances.hpp"
 #include "dynamics/blocks.hpp"
 
 namespace yadefrag {
 namespace {
 
-bool sameBits(std::span<const Vec2> a, std::span<const Vec2> b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
-}
+using test::sameBits;
 
 /// Splits nodes anywhere, without regard to what a crack would do.
 struct Splitter {

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <vector>
 
+#include "core/same_bits.hpp"
 #include "fracture/random_cracks.hpp"
 
 namespace yadefrag::test {
@@ -153,12 +153,7 @@ void crackEdges(Scene& scene, std::vector<EdgeId> batch) {
   relink(scene.surfaces, result.sides);
 }
 
-template <class T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
-bool sameBits(const Scene& a, const Scene& b) {
+bool sameScene(const Scene& a, const Scene& b) {
   return a.model.triangles.nodes == b.model.triangles.nodes &&
          sameBits(a.model.nodes.position, b.model.nodes.position) &&
          sameBits(a.model.nodes.mass, b.model.nodes.mass) &&
@@ -197,7 +192,7 @@ TEST(NodeSplitting, ABatchIsItsEdgesOneByOne) {
       crackEdges(once, batch);
       crackEdges(again, batch);
       for (const EdgeId edge : batch) crackEdges(single, {edge});
-      EXPECT_TRUE(sameBits(once, again));
+      EXPECT_TRUE(sameScene(once, again));
       expectSamePartition(once.model, single.model);
       EXPECT_EQ(once.surfaces.segments(), single.surfaces.segments());
       EXPECT_EQ(countLists(once.surfaces.segmentNext), countLists(single.surfaces.segmentNext));

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <numbers>
 #include <random>
 
+#include "core/same_bits.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
 
@@ -66,10 +66,6 @@ double mostActives(const End& end) {
   std::size_t most = 0;
   for (const auto& pairs : end.actives) most = std::max(most, pairs.size());
   return static_cast<double>(most);
-}
-
-bool sameBits(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec2)) == 0;
 }
 
 void expectSame(const End& a, const End& b) {

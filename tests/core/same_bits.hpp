@@ -1,0 +1,17 @@
+#pragma once
+// Equal to the last bit: what "same input, same bits" means (== would take -0 for 0).
+
+#include <cstring>
+#include <ranges>
+
+namespace yadefrag::test {
+
+template <std::ranges::contiguous_range Range>
+bool sameBits(const Range& a, const Range& b) {
+  if (std::ranges::size(a) != std::ranges::size(b)) return false;
+  const std::size_t bytes = std::ranges::size(a) * sizeof(std::ranges::range_value_t<Range>);
+  // An empty range may have no address, which memcmp does not take.
+  return bytes == 0 || std::memcmp(std::ranges::data(a), std::ranges::data(b), bytes) == 0;
+}
+
+}  // namespace yadefrag::test
