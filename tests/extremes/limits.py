@@ -1,0 +1,44 @@
+"""limits.py TESTS ARGS: runs the tests of the extremes, ARGS as GoogleTest takes them, and writes the
+limits that they measure into the README."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BEGIN, END = '<!-- limits', '<!-- end of limits -->'
+
+
+def name(line):
+    return line.split('|')[1].strip()
+
+
+def measured(tests, arguments):
+    """Rows by name."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([tests, '--gtest_filter=Extreme*:Limits*-LimitsTable*', *arguments],
+                       env={**os.environ, 'YADEFRAG_LIMITS': folder}, check=True)
+        lines = [path.read_text() for path in sorted(pathlib.Path(folder).glob('*.row'))]
+    return {name(line): line for line in lines}
+
+
+def rewrite(text, rows):
+    """The README with these rows in place of those of the same names; new ones come last."""
+    before, rest = text.split(BEGIN, 1)
+    table, after = rest.split(END, 1)
+    lines = table.splitlines(keepends=True)
+    known = [i for i, line in enumerate(lines) if line.startswith('|')][2:]
+    for i in known:
+        lines[i] = rows.pop(name(lines[i]), lines[i])
+    end = known[-1] + 1 if known else len(lines)
+    lines[end:end] = rows.values()
+    return before + BEGIN + ''.join(lines) + END + after
+
+
+if __name__ == '__main__':
+    readme = ROOT / 'README.md'
+    rows = measured(sys.argv[1], sys.argv[2:])
+    readme.write_text(rewrite(readme.read_text(), rows))
+    print('README.md is rewritten.')
