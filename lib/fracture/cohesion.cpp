@@ -53,12 +53,16 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
     const auto [d, e] = nodesAt(model, edges, edge[c], 1);
     if (a == b && d == e) continue;
     const BrittleMaterial& material = materialOf(model, edges, edge[c]);
-    const Vec2 across =
-        rightOf((before[d.value] - before[a.value]) + (before[e.value] - before[b.value]));
+    const double critical = 2 * material.fractureEnergy / edges.strength[edge[c].value];
+    const Vec2 first = before[d.value] - before[a.value];
+    const Vec2 second = before[e.value] - before[b.value];
+    // Faces at a right angle hang together by an end at most, and soon have no common normal.
+    if (dot(first, second) <= 0) largest[c] = {critical, critical};
+    const Vec2 across = rightOf(first + second);
     for (std::uint32_t end = 0; end < 2; ++end) {
       const NodeId here = end == 0 ? a : d, there = end == 0 ? b : e;
-      const double critical = 2 * material.fractureEnergy / edges.strength[edge[c].value];
-      if (here == there) continue;
+      // What is broken touches like any other surface, whatever way it has turned since.
+      if (here == there || largest[c][end] >= critical) continue;
       const Vec2 mobile = dt * dt * area[c] *
                           (mobility(model.nodes, here, drag) + mobility(model.nodes, there, drag));
       points_.push_back({here,

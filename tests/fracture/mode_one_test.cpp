@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "fracture/cohesive_law.hpp"
 #include "step/bodies.hpp"
@@ -170,6 +171,35 @@ TEST(ModeOne, ShutFacesStayApart) {
   EXPECT_GT(course.leastOpening, -1e-9 * kCritical);
   EXPECT_LT(course.worstTraction, 1e-11);
   EXPECT_LT(course.worstEnergy, 1e-9);
+}
+
+// Two halves that turn about an end which still holds, by more than half a turn: a broken end has
+// no say in it, however its faces stand to each other, and beyond a right angle nothing holds.
+TEST(ModeOne, ADoorOpensAllTheWayRound) {
+  constexpr double kDt = 1e-10, kSpin = 5e5;  // s, rad/s of each half: a step turns them 10⁻⁴ rad
+  TwoTriangles pair(kDt);
+  World& world = pair.world;
+  Nodes& nodes = world.model.nodes;
+  for (std::size_t element = 0; element < 2; ++element) {
+    const auto& corners = world.model.triangles.nodes[element];
+    const Vec2 hinge = nodes.position[corners[0].value];
+    for (const NodeId node : corners) {
+      const Vec2 arm = nodes.position[node.value] - hinge;
+      nodes.velocity[node.value] = (element == 0 ? kSpin : -kSpin) * Vec2{-arm.y, arm.x};
+    }
+  }
+  const double start = test::totalEnergy(world);
+  double worst = 0, turned = 0, released = 0;
+  for (int n = 0; n < 40000; ++n) {
+    world.step(kDt);
+    worst = std::max(worst, std::abs(test::totalEnergy(world) / start - 1));
+    turned += 2 * kSpin * kDt;
+    if (released == 0 && world.fracture.cohesion.edge.empty()) released = turned;
+  }
+  EXPECT_GT(turned, 1.1 * std::numbers::pi);
+  // The halves turn a little slower once the opening has taken its part.
+  EXPECT_NEAR(released, std::numbers::pi / 2, .2);
+  EXPECT_LT(worst, 1e-6);
 }
 
 }  // namespace
