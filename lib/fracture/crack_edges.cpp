@@ -82,7 +82,7 @@ std::vector<EdgeId> CrackEdges::removeBody(const Model& model, ElementId first, 
     if (renumberedNodes[n] != NodeId::none())
       ofNode[renumberedNodes[n].value] =
           ofNode[n] == ElementId::none() ? ofNode[n] : shifted(ofNode[n]);
-  ofNode.resize(model.nodes.size());
+  ofNode.resize(model.nodes.size(), ElementId::none());
   return renumbered;
 }
 

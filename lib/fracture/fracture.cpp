@@ -11,7 +11,8 @@ void Fracture::addBody(const Model& model, ComponentId component) {
 
 void Fracture::removeBody(const Model& model, ElementId first, ElementId last,
                           std::span<const NodeId> renumberedNodes) {
-  if (!isOn()) return;
+  // A brittle body of a single triangle has no edges, and is known by its nodes nevertheless.
+  if (edges.ofNode.empty()) return;
   const std::vector<EdgeId> renumbered = edges.removeBody(model, first, last, renumberedNodes);
   cohesion.renumberEdges(renumbered);
 }
