@@ -11,27 +11,12 @@
 #include "dynamics/critical_time_step.hpp"
 #include "fracture/checks.hpp"
 #include "mesh/assembly.hpp"
+#include "step/body_check.hpp"
 
 namespace yadefrag {
 
-namespace {
-
-template <class Values>
-void requireLength(const char* name, const Values& values, const TriangleMesh& mesh) {
-  if (values.empty() || values.size() == mesh.nodes.size()) return;
-  std::ostringstream text;
-  text << name << " has " << values.size() << " values, but the mesh has " << mesh.nodes.size()
-       << " nodes.";
-  throw InputError(text.str());
-}
-
-}  // namespace
-
 ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
-  requireLength("velocity", spec.velocity, mesh);
-  requireLength("displacement", spec.displacement, mesh);
-  requireLength("held", spec.held, mesh);
-  requireLength("smoothNodes", spec.smoothNodes, mesh);
+  checkBody(mesh, spec);
   Component component;
   component.material = spec.material;
   component.brittle = spec.brittle;
@@ -169,7 +154,8 @@ void World::requireStableStep(double dt) {
   buildIfChanged();
   if (dt > 0 && dt <= stableStep_) return;
   const double critical = criticalTimeStep();
-  if (!(dt > 0 && dt <= critical)) {
+  // Without elements any finite step is stable.
+  if (!(dt > 0 && dt <= critical && std::isfinite(dt))) {
     std::ostringstream text;
     text.precision(6);
     text << "The time step is " << dt << " s, but must be above 0 and at most " << critical
