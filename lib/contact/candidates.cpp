@@ -81,4 +81,23 @@ void replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
   fill(candidates, pairs, surfaces, before);
 }
 
+void removeGone(Candidates& candidates, const ContactSurfaces& surfaces) {
+  const auto isGone = [&](EntryId entry) { return surfaces.piece[entry.value] == Piece::kGone; };
+  Candidates left;
+  for (std::size_t r = 0; r < candidates.slaves.size(); ++r) {
+    if (isGone(candidates.slaves[r])) continue;
+    const auto begin = static_cast<std::uint32_t>(left.masters.size());
+    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
+      if (isGone(candidates.masters[c])) continue;
+      left.masters.push_back(candidates.masters[c]);
+      left.outside.push_back(candidates.outside[c]);
+    }
+    if (left.masters.size() == begin) continue;
+    left.slaves.push_back(candidates.slaves[r]);
+    left.offsets.push_back(begin);
+  }
+  left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
+  candidates = std::move(left);
+}
+
 }  // namespace yadefrag

@@ -43,4 +43,7 @@ void replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
 void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
                    const ContactSurfaces& surfaces, std::span<const Vec2> before);
 
+/// Leaves out those in which a piece takes part that is gone.
+void removeGone(Candidates& candidates, const ContactSurfaces& surfaces);
+
 }  // namespace yadefrag

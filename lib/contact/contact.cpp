@@ -254,6 +254,13 @@ void Contact::finish(Model& model, const ContactSurfaces& surfaces, const Contac
   if (search_.anyNear()) search_.settle(candidates, surfaces, model.nodes.position, known_);
 }
 
+void Contact::removeGone(const ContactSurfaces& surfaces) {
+  yadefrag::removeGone(candidates, surfaces);
+  const auto isGone = [&](EntryId entry) { return surfaces.piece[entry.value] == Piece::kGone; };
+  std::erase_if(touches,
+                [&](const Touch& t) { return isGone(t.pair.slave) || isGone(t.pair.master); });
+}
+
 void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
                             std::span<const EntryId> masters) {
   if (masters.empty()) return;

@@ -50,6 +50,9 @@ class Contact {
   /// After nodes were added.
   void resize(std::size_t nodes);
 
+  /// After pieces of surfaces are gone: nothing touches them any more.
+  void removeGone(const ContactSurfaces& surfaces);
+
   /// Masters that came nearer to their slaves because they changed their form, at `positions`
   /// (m, by node): what they overlap by is let out in time, not pushed out in one step.
   void allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,

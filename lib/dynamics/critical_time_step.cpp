@@ -113,6 +113,7 @@ double criticalTimeStep(const Model& model, const BulkViscosity& viscosity, int 
   forEachPart(model.triangles.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
     double step = least[part];
     for (std::size_t e = begin; e < end; ++e) {
+      if (model.triangles.isDropped(e)) continue;
       const Masses mass = massShares(model, stiffness, e);
       const double omega = std::sqrt(squaredFrequency(model, e, mass));
       const double zeta =

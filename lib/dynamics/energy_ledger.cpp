@@ -3,6 +3,22 @@
 #include "dynamics/element_state.hpp"
 
 namespace yadefrag {
+namespace {
+
+/// (J/m) Twice an element's energy at the half step, per thickness.
+double twiceEnergy(const Model& model, ElementId element, const ElasticMaterial& material,
+                   double dt) {
+  const double lame = material.lame();
+  const double shear = material.shearModulus();
+  const Matrix2 now = deformationGradient(model, element);
+  const Matrix2 before = now - deformationStep(model, element, dt);
+  const Matrix2 stress = firstPiola(now, lame, shear) - firstPiola(before, lame, shear);
+  return model.triangles.area[element.value] *
+         (energyDensity(now, lame, shear) + energyDensity(before, lame, shear) -
+          contract(stress, now - before) / 2);
+}
+
+}  // namespace
 
 double kineticEnergy(const Nodes& nodes) {
   double twice = 0;
@@ -14,18 +30,19 @@ double kineticEnergy(const Nodes& nodes) {
 double strainEnergy(const Model& model, double dt) {
   double sum = 0;
   for (const Component& c : model.components) {
-    const double lame = c.material.lame();
-    const double shear = c.material.shearModulus();
-    double density = 0;
-    for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
-      const Matrix2 now = deformationGradient(model, ElementId(e));
-      const Matrix2 before = now - deformationStep(model, ElementId(e), dt);
-      const Matrix2 stress = firstPiola(now, lame, shear) - firstPiola(before, lame, shear);
-      density += model.triangles.area[e] *
-                 (energyDensity(now, lame, shear) + energyDensity(before, lame, shear) -
-                  contract(stress, now - before) / 2);
-    }
-    sum += density * c.thickness / 2;
+    double twice = 0;
+    for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e)
+      twice += twiceEnergy(model, ElementId(e), c.material, dt);
+    sum += twice * c.thickness / 2;
+  }
+  return sum;
+}
+
+double strainEnergy(const Model& model, double dt, std::span<const ElementId> elements) {
+  double sum = 0;
+  for (const ElementId element : elements) {
+    const Component& c = model.components[model.triangles.component[element.value].value];
+    sum += twiceEnergy(model, element, c.material, dt) * c.thickness / 2;
   }
   return sum;
 }

@@ -9,6 +9,8 @@
 // stable step; ½(W + W') alone would swing by up to the energy of the highest modes. In large
 // deformation what is left is of second order in Δt.
 
+#include <span>
+
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -20,11 +22,12 @@ struct EnergyLedger {
   double friction = 0;  ///< −ΣF·v̄Δt of tangential contact forces
   double fracture = 0;
   double damping = 0;   ///< mass-proportional damping and bulk viscosity
+  double dropped = 0;   ///< of fragments that were taken out
   double external = 0;  ///< gravity, loads, forces from outside, prescribed motion
 
   /// J, constant to the scheme's order.
   [[nodiscard]] double total(double kinetic, double strain) const {
-    return kinetic + strain + contact + friction + fracture + damping - external;
+    return kinetic + strain + contact + friction + fracture + damping + dropped - external;
   }
 };
 
@@ -33,5 +36,7 @@ double kineticEnergy(const Nodes& nodes);
 
 /// J, at n − ½; Δt is that of the last step.
 double strainEnergy(const Model& model, double dt);
+/// The same of some elements.
+double strainEnergy(const Model& model, double dt, std::span<const ElementId> elements);
 
 }  // namespace yadefrag

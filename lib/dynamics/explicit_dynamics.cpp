@@ -93,6 +93,11 @@ std::size_t ExplicitDynamics::follow(const Model& model, std::span<const Element
   return chunks;
 }
 
+void ExplicitDynamics::drop(std::span<const NodeId> nodes) {
+  if (heldVelocity_.empty()) return;
+  for (const NodeId node : nodes) heldVelocity_[node.value] = {};
+}
+
 void ExplicitDynamics::watchStress(std::vector<double> leastStrengthByComponent) {
   leastStrength_ = std::move(leastStrengthByComponent);
   watching_ = elements_.watch(leastStrength_);

@@ -35,6 +35,9 @@ class ExplicitDynamics {
   std::size_t follow(const Model& model, std::span<const ElementId> changed,
                      std::span<const NodeId> originals);
 
+  /// Nodes of dropped triangles stay where they are from now on; no work is booked for that.
+  void drop(std::span<const NodeId> nodes);
+
   /// From now on, steps look for brittle elements that are stressed nearly (`kStrengthLook`) up to
   /// the lowest strength (Pa) of their component; 0 or infinite: not watched; empty: none is. That
   /// costs nothing where nothing is watched. Holds on through `rebuild` and `follow`.

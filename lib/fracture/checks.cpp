@@ -46,6 +46,7 @@ std::vector<Edge> sidesOf(const Model& model, const Component& body) {
   std::vector<Edge> sides;
   sides.reserve(3 * std::size_t{body.lastTriangle - body.firstTriangle});
   for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e) {
+    if (model.triangles.isDropped(e)) continue;
     const double mass = body.material.density * body.thickness * model.triangles.area[e];
     const auto& nodes = model.triangles.nodes[e];
     for (std::size_t i = 0; i < 3; ++i) {

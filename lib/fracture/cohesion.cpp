@@ -35,14 +35,17 @@ void Cohesion::add(const Model& model, const CrackEdges& edges, EdgeId cracked,
   area.push_back(norm(along) / 2 * model.components[body.value].thickness);
 }
 
-void Cohesion::renumberEdges(std::span<const EdgeId> renumbered) {
+template <class Keep>
+void Cohesion::keepOnly(Keep keep) {
   std::size_t kept = 0;
-  for (std::size_t c = 0; c < edge.size(); ++c) {
-    const EdgeId now = renumbered[edge[c].value];
-    if (now == EdgeId::none()) continue;
-    edge[kept] = now, largest[kept] = largest[c], area[kept++] = area[c];
-  }
+  for (std::size_t c = 0; c < edge.size(); ++c)
+    if (keep(c)) edge[kept] = edge[c], largest[kept] = largest[c], area[kept++] = area[c];
   edge.resize(kept), largest.resize(kept), area.resize(kept);
+}
+
+void Cohesion::renumberEdges(std::span<const EdgeId> renumbered) {
+  keepOnly([&](std::size_t c) { return renumbered[edge[c].value] != EdgeId::none(); });
+  for (EdgeId& one : edge) one = renumbered[one.value];
 }
 
 void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before,
@@ -180,15 +183,20 @@ double Cohesion::book(const Model& model, const CrackEdges& edges,
     work += dt * point.area * dot(point.traction, mean(point.there) - mean(point.here));
   }
   points_.clear();
-  std::size_t kept = 0;
-  for (std::size_t c = 0; c < edge.size(); ++c) {
+  released.clear();
+  keepOnly([&](std::size_t c) {
     const double critical =
         2 * materialOf(model, edges, edge[c]).fractureEnergy / edges.strength[edge[c].value];
-    if (largest[c][0] >= critical && largest[c][1] >= critical) continue;
-    edge[kept] = edge[c], largest[kept] = largest[c], area[kept++] = area[c];
-  }
-  edge.resize(kept), largest.resize(kept), area.resize(kept);
+    const bool holds = largest[c][0] < critical || largest[c][1] < critical;
+    if (!holds) released.push_back(edge[c]);
+    return holds;
+  });
   return work;
+}
+
+void Cohesion::removeDropped(const Triangles& triangles, const CrackEdges& edges) {
+  keepOnly(
+      [&](std::size_t c) { return !triangles.isDropped(edges.side(edge[c], 0).element.value); });
 }
 
 }  // namespace yadefrag

@@ -35,12 +35,17 @@ class Cohesion {
                  double drag);
 
   /// (J) What the tractions of the last step took, with the mean velocity of the step; then those
-  /// that hold nothing any more are forgotten.
+  /// that hold nothing any more are forgotten, and listed in `released`.
   double book(const Model& model, const CrackEdges& edges, std::span<const Vec2> previousVelocity,
               double dt);
 
   /// (N) Adds the tractions of the present step, by node.
   void addForces(std::vector<Vec2>& forces) const;
+
+  /// Cracks inside dropped triangles hold nothing any more either.
+  void removeDropped(const Triangles& triangles, const CrackEdges& edges);
+
+  std::vector<EdgeId> released;  ///< in the last step
 
   // By crack that holds; both ends of an edge have an opening of their own.
   std::vector<EdgeId> edge;
@@ -58,6 +63,8 @@ class Cohesion {
     std::uint32_t crack, end;
   };
 
+  template <class Keep>
+  void keepOnly(Keep keep);
   void collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before, double dt,
                double drag);
   double relax(Model& model, Point& point) const;

@@ -38,6 +38,8 @@ class Fracture {
 
   /// No more edges crack than this, all in all.
   std::uint64_t maxCracks = ~std::uint64_t{0};
+  /// (m²) Fragments that come loose and are smaller are taken out; 0: none.
+  double minFragmentArea = 0;
 
   CrackEdges edges;
   std::vector<double> leastStrength;  ///< Pa, by component; follows from the edges

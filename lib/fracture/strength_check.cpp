@@ -15,9 +15,11 @@ std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackE
   found_.clear();
   // The stress of a node that is looked at belongs to all edges that end there, whosever they are.
   for (const ElementRange& range : where)
-    for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e)
+    for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e) {
+      if (model.triangles.isDropped(e)) continue;
       for (const NodeId node : model.triangles.nodes[e])
         lookAround(model, edges, node, leastStrength);
+    }
   return pickApart(model, edges);
 }
 

@@ -18,7 +18,8 @@ enum Held : std::uint8_t { kFree = 0, kHeldX = 1, kHeldY = 2, kHeldXY = 3 };
 struct Nodes {
   std::vector<Vec2> position;      ///< m, xⁿ
   std::vector<Vec2> velocity;      ///< m/s, vⁿ⁻½; of a held direction: the prescribed one
-  std::vector<double> mass;        ///< kg, lumped
+  /// kg, lumped; 0 of dropped triangles, whose nodes are held in both directions.
+  std::vector<double> mass;
   std::vector<std::uint8_t> held;  ///< Held
   std::vector<ComponentId> component;
   std::vector<Vec2> load;  ///< N, constant outer force; empty if there is none in the scene
@@ -46,10 +47,12 @@ struct Triangles {
   std::vector<std::array<NodeId, 3>> nodes;  ///< counter-clockwise
   /// (1/m) Inverse of the stress-free edge matrix D = [X₁−X₀, X₂−X₀], row by row: F = d·D⁻¹.
   std::vector<std::array<double, 4>> inverseEdges;
-  std::vector<double> area;  ///< m², stress-free
+  std::vector<double> area;  ///< m², stress-free; 0: dropped
   std::vector<ComponentId> component;
 
   [[nodiscard]] std::size_t size() const { return nodes.size(); }
+  /// A dropped triangle keeps its number and its nodes, and does nothing any more.
+  [[nodiscard]] bool isDropped(std::size_t element) const { return area[element] == 0; }
 };
 
 /// What all triangles of one body share. A removed component keeps its slot with no triangles.

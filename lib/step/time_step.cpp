@@ -37,8 +37,10 @@ void World::step(double dt) {
   lastDt = dt;
   outerForces.clear();
 
-  // Cracks at xⁿ⁺¹: nodes split, surfaces are linked anew, and the new faces are candidates.
-  crack();
+  // Cracks at xⁿ⁺¹: nodes split, surfaces are linked anew, and the new faces are candidates. What
+  // is too small to be followed goes.
+  const bool split = crack();
+  dropFragments(split);
 
   if (canTouch()) foreseeSearch(dt);
 }

@@ -90,6 +90,7 @@ void World::prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 vel
   const auto isNew = [&](NodeId node) { return model.nodes.held[node.value] != held; };
   const bool changed = std::any_of(nodes.begin(), nodes.end(), isNew);
   for (const NodeId node : nodes) {
+    if (model.nodes.mass[node.value] == 0) continue;  // of a dropped triangle
     Vec2& present = model.nodes.velocity[node.value];
     const Vec2 former = present;
     model.nodes.held[node.value] = held;
@@ -119,7 +120,8 @@ void World::buildIfChanged() {
     before_.reserve(model.nodes.position.capacity());
   }
   if (search.nodes.empty()) {
-    search.nodes = surfaces.segmentNode;
+    for (const NodeId node : surfaces.segmentNode)
+      if (model.nodes.mass[node.value] > 0) search.nodes.push_back(node);
     std::sort(search.nodes.begin(), search.nodes.end());
   }
   const auto& owners = surfaces.component;
@@ -129,6 +131,7 @@ void World::buildIfChanged() {
   search_.reset();
   finest_ = finestSegment();
   stableStep_ = 0;
+  droppedBelow_ = 0;
   farthest_ = INFINITY;
 }
 

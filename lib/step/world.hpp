@@ -13,6 +13,7 @@
 #include "dynamics/energy_ledger.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "fracture/fracture.hpp"
+#include "fracture/loose_pieces.hpp"
 #include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "search/contact_search.hpp"
@@ -41,6 +42,13 @@ struct SearchState {
   bool isVoid = true;           ///< entries came or went: there are no candidates to go on with
   std::vector<NodeId> nodes;    ///< of the surfaces; those that came by cracks are the last ones
   std::vector<Vec2> positions;  ///< m, of those nodes at the last search, or when they came
+};
+
+/// Fragments that were taken out because they were too small; their energy is in the ledger.
+struct Dropped {
+  double mass = 0;          ///< kg
+  Vec2 momentum = {};       ///< kg m/s, when they went
+  std::uint64_t count = 0;  ///< fragments
 };
 
 class World {
@@ -92,6 +100,7 @@ class World {
   SearchState search;
   Fracture fracture;
   EnergyLedger ledger;
+  Dropped dropped;
   std::vector<Vec2> reference;  ///< m, stress-free positions by node
   std::uint64_t steps = 0;
   double time = 0;    ///< s
@@ -115,7 +124,10 @@ class World {
   void foreseeSearch(double dt);
   void cohere(double dt);
   void bookFracture(double dt);
-  void crack();
+  bool crack();
+  void dropFragments(bool split);
+  void takeOut(std::span<const ElementId> triangles);
+  void forgetSurface();
   void followSplit();
   void addCrackCandidates();
   [[nodiscard]] double finestSegment() const;
@@ -130,6 +142,7 @@ class World {
   std::unique_ptr<ContactSearch> search_;
   PassRule passRule_;
   SplitResult split_;
+  LoosePieces loose_;
   std::vector<Vec2> surfaceForces_;  // N, by node, of contact and cohesion
   std::vector<Vec2> before_;         // m, xⁿ by node; of surface nodes only
   std::vector<BoxPair> overlapping_;
@@ -140,9 +153,10 @@ class World {
   bool severalBodies_ = false;
   double largestMove_ = 0;  // m, of a surface node from xⁿ to x*
   double farthest_ =
-      INFINITY;            // m, no surface node is farther from where it was at the last search
-  double finest_ = 0;      // m, shortest stress-free segment: does not hang on when was searched
-  double stableStep_ = 0;  // s, the longest step that has been found stable
+      INFINITY;              // m, no surface node is farther from where it was at the last search
+  double finest_ = 0;        // m, shortest stress-free segment: does not hang on when was searched
+  double droppedBelow_ = 0;  // m², no loose fragment is smaller; 0: unknown
+  double stableStep_ = 0;    // s, the longest step that has been found stable
 };
 
 }  // namespace yadefrag

@@ -12,21 +12,23 @@ namespace yadefrag {
 
 namespace {
 
+/// (m) 0 without any.
 double shortestSegment(const ContactSurfaces& surfaces, std::span<const Vec2> positions) {
   double least = INFINITY;
   for (std::size_t s = 0; s < surfaces.segments(); ++s) {
+    if (surfaces.isGone(SegmentId(s))) continue;
     const NodeId a = surfaces.segmentNode[s];
     const NodeId b = surfaces.segmentNode[surfaces.segmentNext[s].value];
     const Vec2 along = positions[b.value] - positions[a.value];
     least = std::min(least, dot(along, along));
   }
-  return std::sqrt(least);
+  return std::isfinite(least) ? std::sqrt(least) : 0;
 }
 
 }  // namespace
 
 double World::finestSegment() const {
-  return surfaces.entries() == 0 ? 0 : shortestSegment(surfaces, reference);
+  return shortestSegment(surfaces, reference);
 }
 
 /// One body that cannot touch itself needs neither search nor candidates.
@@ -66,6 +68,7 @@ double World::fastest() const {
 }
 
 Box World::boxOf(EntryId entry) const {
+  if (surfaces.piece[entry.value] == Piece::kGone) return Box::absent();
   return entryBox(surfaces, model.nodes.position, entry, search.halo);
 }
 

@@ -21,12 +21,14 @@ void World::bookFracture(double dt) {
       fracture.cohesion.book(model, fracture.edges, dynamics_.previousVelocity(), dt);
 }
 
-void World::crack() {
-  if (!fracture.isOn()) return;
+/// True if nodes have split.
+bool World::crack() {
+  if (!fracture.isOn()) return false;
   const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
   const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), split_);
   if (opened) followSplit();
   fracture.cohere(model, reference);
+  return opened;
 }
 
 /// Everybody who keeps something by node, triangle or entry.

@@ -122,6 +122,16 @@ void ContactSurfaces::removeComponent(ComponentId gone) {
                                         left.begin());
 }
 
+void ContactSurfaces::drop(std::span<const NodeId> nodes) {
+  for (const NodeId node : nodes) {
+    if (node.value >= nodeSegment.size() || nodeSegment[node.value] == SegmentId::none()) continue;
+    const SegmentId segment = nodeSegment[node.value];
+    EntryId entry = segmentEntry[segment.value];
+    for (; entrySegment[entry.value] == segment; entry = next[entry.value])
+      piece[entry.value] = Piece::kGone;
+  }
+}
+
 void ContactSurfaces::renumberNodes(std::span<const NodeId> renumbered, std::size_t nodeCount) {
   nodeSegment.assign(nodeCount, SegmentId::none());
   for (std::size_t s = 0; s < segments(); ++s) {

@@ -27,6 +27,7 @@ enum class Piece : std::uint8_t {
   kFirstHalf,   ///< of a segment that leaves a corner: 0 ≤ ξ ≤ ½
   kSecondHalf,  ///< of a segment that reaches a corner: ½ ≤ ξ ≤ 1
   kArc,         ///< nodes a, b, c; from the halfpoint of ab (ξ = 0) to that of bc (ξ = 1)
+  kGone,        ///< of a dropped fragment: it keeps its number, and touches nothing
 };
 
 /// A point of the boundary as a combination of up to three nodes; unused ones have weight 0.
@@ -43,6 +44,8 @@ class ContactSurfaces {
                         ComponentId component);
   /// Takes away all loops of a component; entries after them move up, in order.
   void removeComponent(ComponentId component);
+  /// All pieces that begin at or behind these nodes, which are whole loops, are gone.
+  void drop(std::span<const NodeId> nodes);
   /// A node is known by a new number (`renumbered[old]`), none() if it is gone.
   void renumberNodes(std::span<const NodeId> renumbered, std::size_t nodeCount);
 
@@ -63,6 +66,9 @@ class ContactSurfaces {
   std::vector<ComponentId> component;
 
   [[nodiscard]] std::size_t segments() const { return segmentNode.size(); }
+  [[nodiscard]] bool isGone(SegmentId segment) const {
+    return piece[segmentEntry[segment.value].value] == Piece::kGone;
+  }
   [[nodiscard]] std::size_t entries() const { return entrySegment.size(); }
 
   /// Up to three nodes a, b, c of a piece; returns how many.

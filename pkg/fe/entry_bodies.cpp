@@ -71,6 +71,7 @@ double momentAbout(Vec2 about, const yade::Body& body, Vec2 force, double torque
 
 void EntryBodies::append(yade::Scene& scene, const World& world, EntryId entry,
                          const yade::shared_ptr<yade::Material>& material) {
+  if (world.surfaces.piece[entry.value] == Piece::kGone) return appendNone();
   const ComponentId component = world.surfaces.component[entry.value];
   const yade::shared_ptr<SurfaceSegment> shape(new SurfaceSegment);
   shape->entry = static_cast<int>(entry.value);
@@ -88,6 +89,13 @@ void EntryBodies::append(yade::Scene& scene, const World& world, EntryId entry,
   states_.push_back(body->state);
 }
 
+void EntryBodies::appendNone() {
+  ids_.push_back(yade::Body::ID_NONE);
+  bodies_.emplace_back();
+  shapes_.emplace_back();
+  states_.emplace_back();
+}
+
 void EntryBodies::add(yade::Scene& scene, const World& world,
                       const yade::shared_ptr<yade::Material>& material) {
   const std::size_t first = bodies_.size();
@@ -103,6 +111,7 @@ void EntryBodies::follow(yade::Scene& scene, const World& world) {
   for (std::size_t e = first; e < world.surfaces.entries(); ++e) {
     const EntryId alike = firstOf(world, world.surfaces.component[e]);
     append(scene, world, EntryId(e), bodies_[alike.value]->material);
+    if (!hasBody(EntryId(e))) continue;
     bodies_[e]->groupMask = bodies_[alike.value]->groupMask;
     shapes_[e]->color = shapes_[alike.value]->color;
     shapes_[e]->wire = shapes_[alike.value]->wire;
@@ -115,19 +124,32 @@ EntryId EntryBodies::firstOf(const World& world, ComponentId component) {
   if (firstOf_.size() != world.model.components.size()) {
     firstOf_.assign(world.model.components.size(), EntryId::none());
     for (std::size_t e = bodies_.size(); e-- > 0;)
-      firstOf_[world.surfaces.component[e].value] = EntryId(e);
+      if (hasBody(EntryId(e))) firstOf_[world.surfaces.component[e].value] = EntryId(e);
   }
   return firstOf_[component.value];
+}
+
+void EntryBodies::drop(yade::Scene& scene, const World& world) {
+  for (std::size_t e = 0; e < ids_.size(); ++e) {
+    if (world.surfaces.piece[e] != Piece::kGone || !hasBody(EntryId(e))) continue;
+    entries_[static_cast<std::size_t>(ids_[e])] = EntryId::none();
+    scene.bodies->erase(ids_[e], false);
+    ids_[e] = yade::Body::ID_NONE;
+    bodies_[e].reset();
+    shapes_[e].reset();
+    states_[e].reset();
+  }
+  firstOf_.clear();
 }
 
 void EntryBodies::remove(yade::Scene& scene, const World& world, ComponentId component) {
   std::size_t kept = 0;
   for (std::size_t e = 0; e < ids_.size(); ++e) {
     if (world.surfaces.component[e] == component) {
-      scene.bodies->erase(ids_[e], false);
+      if (hasBody(EntryId(e))) scene.bodies->erase(ids_[e], false);
       continue;
     }
-    shapes_[e]->entry = static_cast<int>(kept);
+    if (shapes_[e]) shapes_[e]->entry = static_cast<int>(kept);
     ids_[kept] = ids_[e];
     shapes_[kept] = shapes_[e];
     states_[kept] = states_[e];
@@ -141,10 +163,17 @@ void EntryBodies::remove(yade::Scene& scene, const World& world, ComponentId com
   scene.doSort = true;
 }
 
+const yade::Body* EntryBodies::anyBody() const {
+  for (const auto& body : bodies_)
+    if (body) return body.get();
+  return nullptr;
+}
+
 void EntryBodies::requireAll(const yade::Scene& scene) {
   if (bodies_.empty()) findBodies(scene);
   const auto& present = scene.bodies->body;
   for (std::size_t e = 0; e < ids_.size(); ++e) {
+    if (!hasBody(EntryId(e))) continue;
     const auto id = static_cast<std::size_t>(ids_[e]);
     if (id >= present.size() || present[id] != bodies_[e]) complainOfMissing(ids_[e]);
   }
@@ -156,6 +185,12 @@ void EntryBodies::findBodies(const yade::Scene& scene) {
   std::vector<yade::shared_ptr<SurfaceSegment>> shapes;
   std::vector<yade::shared_ptr<yade::State>> states;
   for (const yade::Body::id_t id : ids_) {
+    if (id == yade::Body::ID_NONE) {
+      bodies.emplace_back();
+      shapes.emplace_back();
+      states.emplace_back();
+      continue;
+    }
     const auto place = static_cast<std::size_t>(id);
     if (place >= present.size() || !present[place]) complainOfMissing(id);
     bodies.push_back(present[place]);
@@ -176,7 +211,8 @@ void EntryBodies::update(const World& world, double dt, int threads) {
   pieces_.resize(ids_.size());
   const auto inParts = [&](const auto& work) {
     forEachPart(ids_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
-      for (std::size_t e = begin; e < end; ++e) work(e);
+      for (std::size_t e = begin; e < end; ++e)
+        if (hasBody(EntryId(e))) work(e);
     });
   };
   inParts([&](std::size_t e) {
@@ -215,7 +251,8 @@ void EntryBodies::update(const World& world, double dt, int threads) {
 }
 
 void EntryBodies::setHalo(double halfHalo) {
-  for (const auto& shape : shapes_) shape->halo = halfHalo;
+  for (const auto& shape : shapes_)
+    if (shape) shape->halo = halfHalo;
 }
 
 void EntryBodies::collectForces(yade::Scene& scene, const World& world,
@@ -224,6 +261,7 @@ void EntryBodies::collectForces(yade::Scene& scene, const World& world,
   forces.clear();
   scene.forces.sync();
   for (std::size_t e = 0; e < ids_.size(); ++e) {
+    if (!hasBody(EntryId(e))) continue;
     const Vec2 force = inPlane(scene.forces.getForce(ids_[e]));
     const double torque = scene.forces.getTorque(ids_[e])[2];
     if (force == Vec2{} && torque == 0) continue;
@@ -255,6 +293,7 @@ void EntryBodies::mapEntries(std::size_t first) {
     firstOf_.clear();
   }
   for (std::size_t e = first; e < ids_.size(); ++e) {
+    if (!hasBody(EntryId(e))) continue;
     const auto id = static_cast<std::size_t>(ids_[e]);
     if (id >= entries_.size()) entries_.resize(id + 1, EntryId::none());
     entries_[id] = EntryId(e);

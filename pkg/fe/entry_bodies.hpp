@@ -9,8 +9,9 @@
 
 namespace yadefrag {
 
-/// One body per entry, in the order of the entries. Its state says where the middle of the piece is
-/// and how it moves and turns there, so that contacts with spheres see the right velocities.
+/// One body per entry, in the order of the entries; none for those that are gone. Its state says
+/// where the middle of the piece is and how it moves and turns there, so that contacts with spheres
+/// see the right velocities.
 class EntryBodies {
  public:
   /// Bodies of all entries that have none yet, into the scene that `O` stands for.
@@ -20,6 +21,8 @@ class EntryBodies {
   /// their component has already (material, mask, colour). Does nothing, at no cost, if there are
   /// none.
   void follow(yade::Scene& scene, const World& world);
+  /// Takes the bodies of entries that are gone out of the scene; the entries keep their numbers.
+  void drop(yade::Scene& scene, const World& world);
   /// Takes the bodies of a component out of the scene. To be called before the world forgets it.
   void remove(yade::Scene& scene, const World& world, ComponentId component);
 
@@ -39,6 +42,11 @@ class EntryBodies {
     return place < entries_.size() ? entries_[place] : EntryId::none();
   }
   [[nodiscard]] const std::vector<yade::Body::id_t>& ids() const { return ids_; }
+  [[nodiscard]] bool hasBody(EntryId entry) const {
+    return ids_[entry.value] != yade::Body::ID_NONE;
+  }
+  /// The first; null if there is none.
+  [[nodiscard]] const yade::Body* anyBody() const;
   [[nodiscard]] const yade::Body& body(EntryId entry) const { return *bodies_[entry.value]; }
 
   /// For archives: the bodies are found in the scene again when they are asked for.
@@ -47,6 +55,7 @@ class EntryBodies {
  private:
   void append(yade::Scene& scene, const World& world, EntryId entry,
               const yade::shared_ptr<yade::Material>& material);
+  void appendNone();
   void findBodies(const yade::Scene& scene);
   void mapEntries(std::size_t first);
   [[nodiscard]] EntryId firstOf(const World& world, ComponentId component);

@@ -29,7 +29,10 @@ class WorldArchive {
     EnergyLedger& ledger = world.ledger;
     value("contactEnergy", ledger.contact), value("frictionEnergy", ledger.friction);
     value("fractureWork", ledger.fracture), value("dampingEnergy", ledger.damping);
-    value("externalEnergy", ledger.external);
+    value("externalEnergy", ledger.external), value("droppedEnergy", ledger.dropped);
+    Dropped& dropped = world.dropped;
+    value("droppedMass", dropped.mass), value("dropped", dropped.count);
+    value("droppedMomentumX", dropped.momentum.x), value("droppedMomentumY", dropped.momentum.y);
     column<double>("reference", world.reference);
     value("steps", world.steps), value("time", world.time), value("lastDt", world.lastDt);
     value("numSearches", world.numSearches);

@@ -127,7 +127,7 @@ py::object contactForcesOf(const FESolver& solver) {
 py::object fragmentOf(const FESolver& solver) {
   std::vector<std::uint32_t> numbers;
   findFragments(solver.world().model, &numbers);
-  return toArray(numbers, kIndex, 0);
+  return toArray(numbers, "int32", 0);  // −1: dropped
 }
 
 py::object referenceOf(const FESolver& solver) {
@@ -139,7 +139,7 @@ py::list surfacesOf(const FESolver& solver) {
   std::vector<bool> seen(surfaces.segments());
   py::list loops;
   for (std::size_t first = 0; first < seen.size(); ++first) {
-    if (seen[first]) continue;
+    if (seen[first] || surfaces.isGone(SegmentId(first))) continue;
     std::vector<NodeId> loop;
     for (std::size_t s = first; !seen[s]; s = surfaces.segmentNext[s].value) {
       seen[s] = true;
@@ -162,9 +162,30 @@ py::dict energyOf(const FESolver& solver) {
   result["friction"] = ledger.friction;
   result["fracture"] = ledger.fracture;
   result["damping"] = ledger.damping;
+  result["dropped"] = ledger.dropped;
   result["external"] = ledger.external;
   result["total"] = ledger.total(kinetic, strain);
   return result;
+}
+
+py::dict droppedOf(const FESolver& solver) {
+  const World& world = solver.world();
+  const Dropped& dropped = world.dropped;
+  py::dict result;
+  result["mass"] = dropped.mass;
+  result["momentum"] = py::make_tuple(dropped.momentum.x, dropped.momentum.y);
+  result["energy"] = world.ledger.dropped;
+  result["count"] = dropped.count;
+  return result;
+}
+
+std::size_t segmentsOf(const FESolver& solver) {
+  const ContactSurfaces& surfaces = solver.world().surfaces;
+  std::size_t count = surfaces.segments();
+  if (solver.world().dropped.count == 0) return count;
+  for (std::size_t s = 0; s < surfaces.segments(); ++s)
+    if (surfaces.isGone(SegmentId(s))) --count;
+  return count;
 }
 
 py::list fragmentsOf(const FESolver& solver) {

@@ -59,6 +59,9 @@ yade::py::object fragmentOf(const FESolver& solver);
 yade::py::object referenceOf(const FESolver& solver);
 yade::py::object contactForcesOf(const FESolver& solver);
 yade::py::list surfacesOf(const FESolver& solver);
+/// Segments that are there.
+std::size_t segmentsOf(const FESolver& solver);
+yade::py::dict droppedOf(const FESolver& solver);
 yade::py::dict energyOf(const FESolver& solver);
 yade::py::list fragmentsOf(const FESolver& solver);
 

@@ -40,7 +40,8 @@ void FESolver::pyExtra(PyClass& pyClass) {
                     "Cauchy stress xx, yy, xy (Pa) of the triangles, array (m, 3).")
       .add_property("components", &componentsOf, "Number of each triangle's body, array (m).")
       .add_property("fragmentOf", &fragmentOf,
-                    "Number of each triangle's fragment, its place in fragments(), array (m).")
+                    "Number of each triangle's fragment, its place in fragments(), array (m); -1: "
+                    "dropped.")
       .add_property("_reference", &referenceOf)
       .add_property("contactForces", &contactForcesOf,
                     "Of contact between bodies of this engine, on the nodes, in the last step (N), "
@@ -48,11 +49,16 @@ void FESolver::pyExtra(PyClass& pyClass) {
       .add_property("surfaces", &surfacesOf,
                     "List of closed loops, each an array of node numbers, material on the left.")
       .add_property(
-          "numSegments", +[](const FESolver& self) { return self.world().surfaces.segments(); },
-          "Segments of all surfaces: each crack that opens adds two.")
-      .add_property("energy", &energyOf,
-                    "Dict of J: kinetic, strain, contact, friction, fracture, damping, external "
-                    "(what came in from outside), total (constant).")
+          "numSegments", &segmentsOf,
+          "Segments of all surfaces: each crack that opens adds two, and those of dropped "
+          "fragments do not count.")
+      .add_property("dropped", &droppedOf,
+                    "Fragments that were smaller than minFragmentArea and are gone, a dict: mass "
+                    "(kg), momentum (kg m/s, a pair), energy (J) they had when they went, count.")
+      .add_property(
+          "energy", &energyOf,
+          "Dict of J: kinetic, strain, contact, friction, fracture, damping, dropped "
+          "(went with fragments), external (what came in from outside), total (constant).")
       .add_property(
           "numSearches", +[](const FESolver& self) { return self.world().numSearches; },
           "Contact searches so far.")

@@ -25,23 +25,26 @@ void FESolver::action() {
   if (world_.search.isDue || world_.search.isVoid) {
     if (pairsOfCollider(*scene, *this, bodies_, pairs_)) world_.takePairs(pairs_);
   }
+  const std::uint64_t dropped = world_.dropped.count;
   bodies_.collectForces(*scene, world_, world_.outerForces);
   try {
     world_.step(scene->dt);
   } catch (const InputError& error) {
     throw std::invalid_argument("O.dt: " + std::string(error.what()));
   }
-  followCracks();
+  followCracks(dropped);
   bodies_.update(world_, timeToIntegrate(), world_.threads);
   prepareSearch(scene->dt);
   if (scene->trackEnergy) trackEnergy();
 }
 
-/// New faces get bodies. Among themselves and with the rest of the boundary they are in contact
-/// already; only where there is something else in the scene must the collider find it now.
-void FESolver::followCracks() {
+/// New faces get bodies, those of dropped fragments lose theirs. Among themselves and with the rest
+/// of the boundary they are in contact already; only where there is something else in the scene
+/// must the collider find it now.
+void FESolver::followCracks(std::uint64_t dropped) {
   const bool wasDue = scene->doSort;
   bodies_.follow(*scene, world_);
+  if (world_.dropped.count != dropped) bodies_.drop(*scene, world_);
   if (scene->bodies->body.size() == bodies_.ids().size()) scene->doSort = wasDue;
 }
 
@@ -56,13 +59,14 @@ void FESolver::prepareSearch(double dt) {
 /// What an integrator behind this engine moves the bodies by: it moves those that obey no forces
 /// too, by velocity times step.
 double FESolver::timeToIntegrate() const {
+  const yade::Body* any = bodies_.anyBody();
+  if (!any) return 0;
   bool passed = false;
   for (const auto& engine : scene->engines) {
     if (engine.get() == this) passed = true;
     const auto* newton = dynamic_cast<const yade::NewtonIntegrator*>(engine.get());
     if (!newton || newton->dead || !passed) continue;
-    if (newton->mask <= 0 || (newton->mask & bodies_.body(EntryId(0)).groupMask) != 0)
-      return scene->dt;
+    if (newton->mask <= 0 || (newton->mask & any->groupMask) != 0) return scene->dt;
   }
   return 0;
 }
@@ -78,6 +82,7 @@ void FESolver::trackEnergy() const {
   set("feFriction", ledger.friction);
   set("feFracture", ledger.fracture);
   set("feDamping", ledger.damping);
+  if (minFragmentArea > 0) set("feDropped", ledger.dropped);
   set("feExternal", -ledger.external);  // so that the sum of all is constant
 }
 
@@ -151,6 +156,8 @@ void FESolver::checkSettings() const {
     refuse("penaltyFactor", penaltyFactor, "above 0 and at most 1");
   if (!(damping >= 0 && std::isfinite(damping))) refuse("damping", damping, "0 or positive");
   if (maxCracks < -1) refuse("maxCracks", maxCracks, "0 or positive, or -1 for no bound");
+  if (!(minFragmentArea >= 0 && std::isfinite(minFragmentArea)))
+    refuse("minFragmentArea", minFragmentArea, "positive (m²), or 0 to keep all fragments");
   if (!gravity.allFinite()) refuse("gravity", gravity.transpose(), "finite");
   if (!(linearViscosity >= 0 && std::isfinite(linearViscosity)))
     refuse("linearViscosity", linearViscosity, "0 or positive");
@@ -171,6 +178,7 @@ void FESolver::postLoad(FESolver& /*self*/) {
     gravity = yade::Vector3r(step.gravity.x, step.gravity.y, 0);
     const std::uint64_t most = world_.fracture.maxCracks;
     maxCracks = most > std::numeric_limits<int>::max() ? -1 : static_cast<int>(most);
+    minFragmentArea = world_.fracture.minFragmentArea;
     linearViscosity = step.viscosity.linear, quadraticViscosity = step.viscosity.quadratic;
     throw;
   }
@@ -187,6 +195,7 @@ void FESolver::giveSettings() {
   world_.dynamicsSettings.viscosity = {linearViscosity, quadraticViscosity};
   world_.fracture.maxCracks =
       maxCracks < 0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(maxCracks);
+  world_.fracture.minFragmentArea = minFragmentArea;
   world_.threads = threadsToUse();
 }
 

@@ -44,6 +44,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   double linearViscosity = 0;
   double quadraticViscosity = 0;
   int maxCracks = -1;
+  double minFragmentArea = 0;
 
   static constexpr auto attributes();
   template <class PyClass>
@@ -55,7 +56,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
   void giveSettings();
-  void followCracks();
+  void followCracks(std::uint64_t dropped);
   void prepareSearch(double dt);
   [[nodiscard]] double timeToIntegrate() const;
   void trackEnergy() const;
@@ -93,7 +94,11 @@ constexpr auto FESolver::attributes() {
                 "usual.",
                 triggerPostLoad),
       attribute("maxCracks", &C::maxCracks,
-                "No more edges than this crack, all in all; -1: no bound.", triggerPostLoad));
+                "No more edges than this crack, all in all; -1: no bound.", triggerPostLoad),
+      attribute("minFragmentArea", &C::minFragmentArea,
+                "Fragments that come loose with a smaller area (m², stress-free) are taken out of "
+                "the scene, and booked in `dropped`; none that is held is. 0: all stay.",
+                triggerPostLoad));
 }
 
 template <class Archive>

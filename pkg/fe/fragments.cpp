@@ -47,15 +47,18 @@ void sumNodes(const Nodes& nodes, const ForNodes& forNodes, std::vector<Fragment
 std::vector<Fragment> findFragments(const Model& model, std::vector<std::uint32_t>* ofTriangle) {
   const Nodes& nodes = model.nodes;
   NodeSets sets(nodes.size());
-  for (const auto& [a, b, c] : model.triangles.nodes) {
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    if (model.triangles.isDropped(t)) continue;
+    const auto& [a, b, c] = model.triangles.nodes[t];
     sets.join(a.value, b.value);
     sets.join(a.value, c.value);
   }
   std::vector<Fragment> fragments;
   constexpr std::uint32_t none = 0xffffffff;
   std::vector<std::uint32_t> number(nodes.size(), none);
-  if (ofTriangle) ofTriangle->resize(model.triangles.size());
+  if (ofTriangle) ofTriangle->assign(model.triangles.size(), none);
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    if (model.triangles.isDropped(t)) continue;
     const auto& [a, b, c] = model.triangles.nodes[t];
     std::uint32_t& index = number[sets.find(a.value)];
     if (index == none) {

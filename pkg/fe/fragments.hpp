@@ -19,7 +19,8 @@ struct Fragment {
 };
 
 /// All fragments, by their first triangle. Triangles with a common node hang together.
-/// `ofTriangle`, unless it is null: the number of each triangle's fragment.
+/// `ofTriangle`, unless it is null: the number of each triangle's fragment, 2³² − 1 of those that
+/// were dropped.
 std::vector<Fragment> findFragments(const Model& model,
                                     std::vector<std::uint32_t>* ofTriangle = nullptr);
 

@@ -25,6 +25,7 @@ Found findCollider(const yade::Scene& scene, const yade::Engine& solver) {
 /// Bodies have not moved since the bounds were made: in this step, or at the end of the last one.
 bool boundsAreFresh(const EntryBodies& bodies, long searchedAt) {
   for (std::size_t e = 0; e < bodies.ids().size(); ++e) {
+    if (!bodies.hasBody(EntryId(e))) continue;
     const auto& bound = bodies.body(EntryId(e)).bound;
     if (!bound || bound->lastUpdateIter != searchedAt) return false;
   }

@@ -7,78 +7,11 @@ import pytest
 
 import fe_chain as chain
 import yadefrag
+from fe_impact import areSame, brittle, engines, impact, requireBodiesAreEntries, state, steps
 from yadefrag import fragments, pictures
 from yade import wrapper as w
 
 O = builtins.O
-
-
-def brittle(**values):
-    given = dict(young=30e9, poisson=.2, density=2500, frictionAngle=0, tensileStrength=20e6)
-    given.update(values)
-    return w.BrittleFEMat(**given)
-
-
-def engines(solver, finder='LebesgueCollider', factor=.5):
-    made = [w.ForceResetter()]
-    if finder:
-        made.append(getattr(w, finder)([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()]))
-    made += [w.InteractionLoop(
-        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom()],
-        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
-        solver, w.NewtonIntegrator(damping=0)]
-    O.engines = made
-    O.dt = factor * solver.criticalTimeStep()
-
-
-def impact(finder='LebesgueCollider', threads=1, speed=20, smooth=True, **values):
-    """A disc that hits a block and cracks it, ready to run."""
-    O.materials.append(w.FEMat(young=50e9, poisson=.25, density=7800, frictionAngle=0, label='m'))
-    O.materials.append(brittle(label='b', **values))
-    solver = w.FESolver(ompThreads=threads)
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.04, .03)), size=.002, material='b',
-                      smooth=smooth, fixed=lambda x, y: y < 1e-9)
-    solver.addPolygon(yadefrag.circle((.0213, .0352), .005, 32), size=.002, material='m',
-                      smooth=True, velocity=(0, -speed))
-    engines(solver, finder)
-    return solver
-
-
-def steps(count):
-    for _ in range(count):
-        O.step()
-
-
-def state(solver):
-    return (solver.nodes, solver.velocities, solver.masses, solver.triangles,
-            np.concatenate(solver.surfaces), solver.fragmentOf)
-
-
-def areSame(a, b):
-    return all(np.array_equal(x, y) for x, y in zip(a, b))
-
-
-def requireBodiesAreEntries(solver):
-    """One body for each piece, of the right kind, in closed chains on the nodes' places."""
-    pieces = sorted((b.shape for b in O.bodies if isinstance(b.shape, w.SurfaceSegment)),
-                    key=lambda shape: shape.entry)
-    assert [shape.entry for shape in pieces] == list(range(len(pieces)))
-    starts, ends = {}, {}
-    for shape in pieces:
-        starts[tuple(shape.start)] = starts.get(tuple(shape.start), 0) + 1
-        ends[tuple(shape.end)] = ends.get(tuple(shape.end), 0) + 1
-    assert starts == ends
-    places = {tuple(x) for x in solver.nodes[np.concatenate(solver.surfaces)]}
-    for shape in pieces:
-        if shape.kind in (0, 1):
-            assert tuple(shape.start)[:2] in places
-        if shape.kind in (0, 2):
-            assert tuple(shape.end)[:2] in places
-        if shape.kind == 3:
-            assert tuple(shape.middle)[:2] in places
-    # In half segments: an arc takes one half of each of two segments.
-    share = {0: 2, 1: 1, 2: 1, 3: 2}
-    assert sum(share[shape.kind] for shape in pieces) == 2 * solver.numSegments
 
 
 # --- input

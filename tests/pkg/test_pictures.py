@@ -21,7 +21,8 @@ def makeSolver():
         contactForces=numpy.array([[0., 0], [0, 5], [0, 0], [-1, 0]]),
         triangles=numpy.array([[0, 1, 2], [0, 2, 3]]),
         stress=numpy.array([[1e6, 2e6, 3e6], [-1e6, 0, 0]]),
-        components=numpy.array([0, 1]), fragmentOf=numpy.array([0, 1]))
+        components=numpy.array([0, 1]), fragmentOf=numpy.array([0, 1]),
+        dropped=dict(count=0))
 
 
 def makeEmpty():
@@ -29,7 +30,8 @@ def makeEmpty():
         nodes=numpy.empty((0, 2)), displacements=numpy.empty((0, 2)),
         velocities=numpy.empty((0, 2)), contactForces=numpy.empty((0, 2)),
         triangles=numpy.empty((0, 3), dtype=int), stress=numpy.empty((0, 3)),
-        components=numpy.empty(0, dtype=int), fragmentOf=numpy.empty(0, dtype=int))
+        components=numpy.empty(0, dtype=int), fragmentOf=numpy.empty(0, dtype=int),
+        dropped=dict(count=0))
 
 
 def test_vtkFileHoldsEverything(folder):

@@ -17,19 +17,21 @@ def exportVTK(fe, file):
 
     Points are the nodes where they are now (m); at points: displacement from the stress-free shape
     (m), velocity (m/s), contact force (N); in triangles: stress (xx, yy, xy in Pa), component and
-    fragment (int). ValueError for another ending than .vtu and for a solver without bodies.
+    fragment (int). Dropped fragments are left out. ValueError for another ending than .vtu and for a solver without bodies.
     """
     import meshio
 
+    from yadefrag.shown import shownMesh
+
     if not str(file).endswith('.vtu'):
         raise ValueError("file is %r, its name must end with '.vtu'." % str(file))
-    triangles = numpy.asarray(fe.triangles)
+    nodes, triangles, corners = shownMesh(fe)
     if len(triangles) == 0:
         raise ValueError('fe has no bodies to write, add one with fe.addPolygon first.')
-    points = {name: _spatial(getattr(fe, attribute)) for name, attribute in _OF_NODES}
-    cells = {'stress': [numpy.asarray(fe.stress, dtype=float)],
-             'component': [numpy.asarray(fe.components, dtype=numpy.int32)],
-             'fragment': [numpy.asarray(fe.fragmentOf, dtype=numpy.int32)]}
-    mesh = meshio.Mesh(_spatial(fe.nodes), [('triangle', triangles.astype(numpy.int64))],
+    points = {name: _spatial(getattr(fe, attribute)[nodes]) for name, attribute in _OF_NODES}
+    cells = {'stress': [numpy.asarray(fe.stress, dtype=float)[triangles]],
+             'component': [numpy.asarray(fe.components, dtype=numpy.int32)[triangles]],
+             'fragment': [numpy.asarray(fe.fragmentOf, dtype=numpy.int32)[triangles]]}
+    mesh = meshio.Mesh(_spatial(fe.nodes[nodes]), [('triangle', corners.astype(numpy.int64))],
                        point_data=points, cell_data=cells)
     mesh.write(str(file), file_format='vtu')

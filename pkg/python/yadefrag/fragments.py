@@ -7,7 +7,8 @@ import numpy
 _COLUMNS = (('fragment', '', int), ('component', '', int), ('triangles', '', int),
             ('mass', 'kg', float), ('area', 'm²', float), ('size', 'm', float), ('x', 'm', float),
             ('y', 'm', float), ('vx', 'm/s', float), ('vy', 'm/s', float), ('spin', 'rad/s', float))
-_ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'external', 'total')
+_ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped',
+             'external', 'total')
 _COUNTS = ('step', 'time (s)', 'cracks', 'segments', 'fragments')
 
 
@@ -136,16 +137,19 @@ def plotFracture(file, picture=None):
 
 
 def fragmentColours(fe, former=None):
-    """(m) a small number for each triangle: the same within a fragment, different beside it.
+    """(m) a small number for each triangle: the same within a fragment, different beside it; 0 for
+    dropped ones.
 
     former  those of an earlier call: a fragment keeps its colour where it can
     """
-    of = numpy.asarray(fe.fragmentOf, dtype=int)
+    ofAll = numpy.asarray(fe.fragmentOf, dtype=int)
+    shown = numpy.nonzero(ofAll >= 0)[0]
+    of = ofAll[shown]
     count = int(of.max()) + 1 if len(of) else 0
-    beside = _neighbours(fe, of, count)
+    beside = _neighbours(fe, shown, of, count)
     sizes = numpy.bincount(of, minlength=count)
-    firsts = numpy.full(count, len(of))
-    numpy.minimum.at(firsts, of, numpy.arange(len(of)))
+    firsts = numpy.full(count, len(ofAll))
+    numpy.minimum.at(firsts, of, shown)
     colours = numpy.full(count, -1)
     for fragment in numpy.argsort(-sizes, kind='stable'):
         taken = {colours[other] for other in beside[fragment]}
@@ -153,14 +157,18 @@ def fragmentColours(fe, former=None):
         if wanted < 0 or wanted in taken:
             wanted = next(c for c in range(count + 1) if c not in taken)
         colours[fragment] = wanted
-    return colours[of] if count else of
+    result = numpy.zeros(len(ofAll), dtype=int)
+    result[shown] = colours[of]
+    return result
 
 
-def _neighbours(fe, of, count):
+def _neighbours(fe, shown, of, count):
     """For each fragment a set of those that share a place of the stress-free shape with it, or that
     have come as near to it as an edge is long."""
-    triangles = numpy.asarray(fe.triangles, dtype=int)
-    nodes, reference = numpy.asarray(fe.nodes), numpy.asarray(fe._reference)
+    triangles = numpy.asarray(fe.triangles, dtype=int)[shown]
+    used, places = numpy.unique(triangles, return_inverse=True)
+    triangles = places.reshape(-1, 3)
+    nodes, reference = numpy.asarray(fe.nodes)[used], numpy.asarray(fe._reference)[used]
     ofNode = numpy.zeros(len(nodes), dtype=int)
     ofNode[triangles] = of[:, None]
     edge = numpy.linalg.norm(reference[triangles[:, 0]] - reference[triangles[:, 1]], axis=1).mean()

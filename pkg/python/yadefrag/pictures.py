@@ -41,7 +41,8 @@ def _values(fe, field):
 
 
 def plotMesh(fe, field=None, file=None, ax=None, limits=None):
-    """Draws the triangles of an FESolver where they are now; returns Matplotlib's axes.
+    """Draws the triangles of an FESolver where they are now, but not those of dropped fragments;
+    returns Matplotlib's axes.
 
     field   None (no colours), 'xx', 'yy', 'xy' (Pa), 'mises' (Pa, of these three: with the stress
             zz left out), 'speed' (m/s), 'component', 'fragment' (colours without a meaning, of
@@ -53,13 +54,18 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None):
     ValueError for any other field, and for a solver without bodies.
     """
     values, perNode = _values(fe, field)
-    if len(fe.triangles) == 0:
+    if len(_shown(fe)[1]) == 0:
         raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
     ax = newAxes() if ax is None else ax
     _draw(ax, fe, field, values, perNode, limits)
     if file is not None:
         ax.figure.savefig(file, dpi=150)
     return ax
+
+
+def _shown(fe):
+    from yadefrag.shown import shownMesh
+    return shownMesh(fe)
 
 
 def _fragmentColours(fe, former=None):
@@ -84,8 +90,10 @@ def newAxes():
 
 
 def _draw(ax, fe, field, values, perNode, limits):
-    x, y = numpy.asarray(fe.nodes, dtype=float).T
-    triangles = numpy.asarray(fe.triangles)
+    nodes, shown, triangles = _shown(fe)
+    x, y = numpy.asarray(fe.nodes, dtype=float)[nodes].T
+    if values is not None:
+        values = values[nodes if perNode else shown]
     lines = .5 if len(triangles) < 2000 else .1
     ax.set_aspect('equal')
     ax.set_xlabel('x (m)')
@@ -159,7 +167,7 @@ def _checkFilm(fe, file, steps, every, field, rate):
 
 
 def _windowOf(fe):
-    nodes = numpy.asarray(fe.nodes, dtype=float)
+    nodes = numpy.asarray(fe.nodes, dtype=float)[_shown(fe)[0]]
     if len(nodes) == 0:
         raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
     low, high = nodes.min(axis=0), nodes.max(axis=0)

@@ -12,6 +12,7 @@ import numpy
 
 from yade import wrapper
 from yadefrag import _yadefrag
+from yadefrag.shown import shownTriangles
 
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
 
@@ -300,7 +301,7 @@ def prescribe(self, nodes, vx=None, vy=None):
 
 def _minAngle(self):
     """Smallest angle (rad) of any triangle now; inf without bodies."""
-    corners = self.nodes[self.triangles]
+    corners = self.nodes[self.triangles[shownTriangles(self)]]
     if not len(corners):
         return math.inf
     edges = numpy.roll(corners, -1, axis=1) - corners

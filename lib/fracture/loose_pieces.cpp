@@ -1,0 +1,69 @@
+#include "fracture/loose_pieces.hpp"
+
+#include <algorithm>
+
+namespace yadefrag {
+
+void LoosePieces::find(const Model& model, const CrackEdges& edges, const Cohesion& cohesion,
+                       std::span<const ElementId> around, double area) {
+  triangles.clear();
+  count = 0;
+  met_.resize(model.triangles.size());
+  holds_.resize(edges.size());
+  for (const EdgeId edge : cohesion.edge) holds_[edge.value] = 1;
+  firstWalk_ = walk_ + 1;
+  for (const ElementId start : around) {
+    if (met_[start.value] >= firstWalk_ || model.triangles.isDropped(start.value)) continue;
+    if (!grow(model, edges, start, area)) continue;
+    // In one order, wherever the walk began: the area's last bit may decide.
+    std::sort(piece_.begin(), piece_.end());
+    if (!isLoose(model, edges, area)) continue;
+    triangles.insert(triangles.end(), piece_.begin(), piece_.end());
+    ++count;
+  }
+  for (const EdgeId edge : cohesion.edge) holds_[edge.value] = 0;
+}
+
+/// Walks over what hangs together with `start`; false if it is too large, or was so found by an
+/// earlier walk, which a small piece would have walked as a whole.
+bool LoosePieces::grow(const Model& model, const CrackEdges& edges, ElementId start, double area) {
+  ++walk_;
+  piece_.assign(1, start);
+  met_[start.value] = walk_;
+  double sum = 0;
+  for (std::size_t i = 0; i < piece_.size(); ++i) {
+    sum += model.triangles.area[piece_[i].value];
+    if (sum >= 2 * area) return false;
+    for (std::uint8_t corner = 0; corner < 3; ++corner) {
+      const ElementId next = edges.across({piece_[i], corner});
+      if (next == ElementId::none() || met_[next.value] == walk_) continue;
+      if (met_[next.value] >= firstWalk_) return false;
+      met_[next.value] = walk_;
+      piece_.push_back(next);
+    }
+  }
+  return true;
+}
+
+bool LoosePieces::isLoose(const Model& model, const CrackEdges& edges, double area) const {
+  const ComponentId component = model.triangles.component[piece_.front().value];
+  const Component& body = model.components[component.value];
+  if (piece_.size() == body.lastTriangle - body.firstTriangle) return false;
+  double sum = 0;
+  for (const ElementId element : piece_) {
+    sum += model.triangles.area[element.value];
+    for (const NodeId node : model.triangles.nodes[element.value])
+      if (model.nodes.held[node.value] != kFree) return false;
+    for (std::uint8_t corner = 0; corner < 3; ++corner)
+      if (isHeldAt(edges, {element, corner})) return false;
+  }
+  return sum < area;
+}
+
+bool LoosePieces::isHeldAt(const CrackEdges& edges, Side side) const {
+  const EdgeId edge = edges.ofElement[side.element.value][side.corner];
+  return edge != EdgeId::none() && holds_[edge.value] != 0 &&
+         met_[edges.twin(side).element.value] != walk_;
+}
+
+}  // namespace yadefrag

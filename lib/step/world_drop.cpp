@@ -1,0 +1,85 @@
+// The world's part in small fragments: what comes loose below a given area is taken out.
+
+#include <algorithm>
+
+#include "step/world.hpp"
+
+namespace yadefrag {
+
+/// After the cracks of a step; `split`: have nodes split. Looks only where something came loose,
+/// and at everything after a body came or the area changed.
+void World::dropFragments(bool split) {
+  const double area = fracture.minFragmentArea;
+  if (area <= 0 || !fracture.isOn()) {
+    droppedBelow_ = 0;
+    return;
+  }
+  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
+  std::vector<ElementId> around;
+  if (droppedBelow_ != area) {
+    for (std::size_t e = 0; e < fracture.edges.ofElement.size(); ++e)
+      if (model.components[model.triangles.component[e].value].brittle.cracks())
+        around.emplace_back(e);
+  } else {
+    for (const EdgeId edge : fracture.cohesion.released)
+      for (const ElementId element : fracture.edges.element[edge.value]) around.push_back(element);
+    if (split) {
+      const std::size_t firstNew = model.nodes.size() - split_.originals.size();
+      for (std::size_t i = 0; i < split_.originals.size(); ++i) {
+        around.push_back(fracture.edges.ofNode[split_.originals[i].value]);
+        around.push_back(fracture.edges.ofNode[firstNew + i]);
+      }
+    }
+  }
+  droppedBelow_ = area;
+  if (around.empty()) return;
+  loose_.find(model, fracture.edges, fracture.cohesion, around, area);
+  if (!loose_.triangles.empty()) takeOut(loose_.triangles);
+}
+
+/// Triangles, nodes and entries keep their numbers. The triangles stand where and as they were
+/// without stress, so that nothing of them ever moves or cracks again.
+void World::takeOut(std::span<const ElementId> triangles) {
+  std::vector<NodeId> nodes;
+  for (const ElementId element : triangles) {
+    const auto& corners = model.triangles.nodes[element.value];
+    nodes.insert(nodes.end(), corners.begin(), corners.end());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+
+  dropped.count += loose_.count;
+  ledger.dropped += yadefrag::strainEnergy(model, lastDt, triangles);
+  for (const NodeId node : nodes) {
+    double& mass = model.nodes.mass[node.value];
+    Vec2& velocity = model.nodes.velocity[node.value];
+    dropped.mass += mass;
+    dropped.momentum += mass * velocity;
+    ledger.dropped += mass / 2 * dot(velocity, velocity);
+    mass = 0;
+    velocity = {};
+    model.nodes.position[node.value] = reference[node.value];
+    model.nodes.held[node.value] = kHeldXY;
+  }
+  for (const ElementId element : triangles) model.triangles.area[element.value] = 0;
+  dynamics_.drop(nodes);
+  fracture.cohesion.removeDropped(model.triangles, fracture.edges);
+  surfaces.drop(nodes);
+  contact.removeGone(surfaces);
+  forgetSurface();
+  finest_ = finestSegment();
+}
+
+/// Nodes of dropped triangles are not looked after by searches any more.
+void World::forgetSurface() {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < search.nodes.size(); ++i) {
+    if (model.nodes.mass[search.nodes[i].value] == 0) continue;
+    search.nodes[kept] = search.nodes[i];
+    search.positions[kept++] = search.positions[i];
+  }
+  search.nodes.resize(kept);
+  search.positions.resize(kept);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,21 @@
+"""What there is to draw and to write of an FESolver: all but dropped fragments."""
+
+import numpy
+
+
+def shownTriangles(fe):
+    """Numbers (k) of the triangles that were not dropped."""
+    if fe.dropped['count'] == 0:
+        return numpy.arange(len(fe.triangles))
+    return numpy.nonzero(fe.fragmentOf >= 0)[0]
+
+
+def shownMesh(fe):
+    """(nodes (n), triangles (k), corners (k, 3)): which nodes and triangles there are, and the
+    triangles' corners as places among these nodes."""
+    corners = numpy.asarray(fe.triangles)
+    triangles = shownTriangles(fe)
+    if len(triangles) == len(corners):
+        return numpy.arange(len(fe.nodes)), triangles, corners
+    nodes, places = numpy.unique(corners[triangles], return_inverse=True)
+    return nodes, triangles, places.reshape(-1, 3)

@@ -1,0 +1,228 @@
+// Small fragments that are taken out: nothing is lost but what is booked, and nothing of them acts
+// any more.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/same_bits.hpp"
+#include "fracture/overlaps.hpp"
+#include "step/bodies.hpp"
+#include "step/figures.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+constexpr double kSize = 1e-3, kArea = 1.5e-6;  // m, m²: about three triangles
+
+/// A disc that strikes a brittle block, which is held at its bottom or free.
+World impact(double fractureEnergy, bool held, double area, int threads = 1) {
+  World world;
+  world.threads = threads;
+  world.fracture.minFragmentArea = area;
+  const TriangleMesh block =
+      triangulate({{{-.01, -.01}, {.01, -.01}, {.01, 0}, {-.01, 0}}, {}}, kSize);
+  BodySpec ceramic = moving(block, {370e9, .22, 3900, false}, {0, 0});
+  ceramic.brittle.tensileStrength = 300e6;
+  ceramic.brittle.fractureEnergy = fractureEnergy;
+  ceramic.brittle.strengthScatter = .1;
+  if (held) hold(ceramic, block, kHeldXY, [](Vec2 at) { return at.y < -.01 + 1e-9; });
+  world.addBody(block, ceramic);
+  Polygon circle;
+  for (int k = 0; k < 32; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 32;
+    circle.outline.push_back({1e-4 + .005 * std::cos(angle), .005005 + .005 * std::sin(angle)});
+  }
+  const TriangleMesh disc = triangulate(circle, kSize);
+  world.addBody(disc, moving(disc, steel(), {0, -100}));
+  return world;
+}
+
+bool isHeldPiece(const World& world, std::span<const std::uint32_t> pieces, std::uint32_t piece) {
+  for (std::uint32_t e = 0; e < pieces.size(); ++e) {
+    if (pieces[e] != piece) continue;
+    for (const NodeId node : world.model.triangles.nodes[e])
+      if (world.model.nodes.held[node.value] != kFree) return true;
+  }
+  const CrackEdges& edges = world.fracture.edges;
+  return std::ranges::any_of(world.fracture.cohesion.edge, [&](EdgeId edge) {
+    const std::uint32_t a = pieces[edges.side(edge, 0).element.value];
+    const std::uint32_t b = pieces[edges.side(edge, 1).element.value];
+    return a != b && (a == piece || b == piece);
+  });
+}
+
+/// Pieces of the block below the area that nothing holds, by nodes alone.
+std::size_t loosePieces(const World& world, double area) {
+  const std::vector<std::uint32_t> pieces = piecesOf(world.model);
+  std::vector<double> areas(pieces.size());
+  for (std::size_t e = 0; e < pieces.size(); ++e) areas[pieces[e]] += world.model.triangles.area[e];
+  std::size_t count = 0;
+  for (std::uint32_t piece = 0; piece < world.model.components[0].lastTriangle; ++piece)
+    if (areas[piece] > 0 && areas[piece] < area && !isHeldPiece(world, pieces, piece)) ++count;
+  return count;
+}
+
+/// Dropped triangles rest where they are without stress, and neither contact nor cracks know them.
+void expectInert(const World& world) {
+  const Model& model = world.model;
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    if (model.nodes.mass[n] == 0) {
+      EXPECT_EQ(model.nodes.position[n], world.reference[n]);
+      EXPECT_EQ(model.nodes.velocity[n], Vec2{});
+    }
+  const auto isGone = [&](EntryId entry) {
+    return world.surfaces.piece[entry.value] == Piece::kGone;
+  };
+  const Candidates& candidates = world.contact.candidates;
+  EXPECT_TRUE(std::ranges::none_of(candidates.slaves, isGone));
+  EXPECT_TRUE(std::ranges::none_of(candidates.masters, isGone));
+  for (std::size_t s = 0; s < world.surfaces.segments(); ++s)
+    EXPECT_EQ(world.surfaces.isGone(SegmentId(s)),
+              model.nodes.mass[world.surfaces.segmentNode[s].value] == 0);
+  for (const EdgeId edge : world.fracture.cohesion.edge)
+    EXPECT_FALSE(model.triangles.isDropped(world.fracture.edges.side(edge, 0).element.value));
+}
+
+std::size_t cracksInDropped(const World& world) {
+  const CrackEdges& edges = world.fracture.edges;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (edges.cracked[i] != 0 && world.model.triangles.isDropped(edges.element[i][0].value) &&
+        world.model.triangles.isDropped(edges.element[i][1].value))
+      ++count;
+  return count;
+}
+
+class DropFragments : public testing::TestWithParam<double> {};
+
+INSTANTIATE_TEST_SUITE_P(FractureEnergies, DropFragments, testing::Values(0., 200.));
+
+TEST_P(DropFragments, NothingIsLostButWhatIsBooked) {
+  World world = impact(GetParam(), false, kArea);
+  const double dt = .8 * world.criticalTimeStep();
+  const double energy = world.kineticEnergy();
+  const Sums start = sumsOf(world.model);
+  double drift = 0, massError = 0, momentumError = 0;
+  std::uint64_t count = 0;
+  std::size_t cracksBefore = 0, cracksIn = 0;
+  for (int i = 0; i < 400; ++i) {
+    world.step(dt);
+    const Sums sums = sumsOf(world.model);
+    massError = std::max(massError, std::abs((sums.mass + world.dropped.mass) / start.mass - 1));
+    momentumError =
+        std::max(momentumError, norm(sums.momentum + world.dropped.momentum - start.momentum) /
+                                    norm(start.momentum));
+    drift = std::max(drift, std::abs(totalEnergy(world) / energy - 1));
+    // No edge of a dropped fragment cracks in a step in which none goes.
+    cracksIn = cracksInDropped(world);
+    if (world.dropped.count == count) {
+      EXPECT_EQ(cracksIn, cracksBefore);
+    }
+    cracksBefore = cracksIn, count = world.dropped.count;
+    if (i % 20 == 0) {
+      EXPECT_EQ(loosePieces(world, kArea), 0U) << i;
+    }
+  }
+  expectInert(world);
+  EXPECT_GT(count, 5U);
+  EXPECT_GT(world.dropped.mass, 0);
+  EXPECT_GT(world.ledger.dropped, 0);
+  record("dropped", static_cast<double>(count));
+  record("dropped_mass", world.dropped.mass / start.mass);
+  record("dropped_energy", world.ledger.dropped / energy);
+  // As without dropping (impact_test.cpp).
+  figure("mass_error", massError, 0, 1e-12);
+  figure("momentum_error", momentumError, 0, 1e-12);
+  figure("energy_drift", drift, 0, .01);
+}
+
+// Up to the first fragment that goes, and but for it in that step, both runs are one.
+TEST_P(DropFragments, TheLedgerClosesInTheStepItself) {
+  World with = impact(GetParam(), true, kArea), without = impact(GetParam(), true, 0);
+  const double dt = .8 * with.criticalTimeStep();
+  while (with.dropped.count == 0 && with.steps < 1000) {
+    EXPECT_TRUE(sameBits(with.model.nodes.position, without.model.nodes.position));
+    with.step(dt), without.step(dt);
+  }
+  ASSERT_GT(with.dropped.count, 0U);
+  const double scale = without.ledger.total(without.kineticEnergy(), without.strainEnergy());
+  // Sums of 10³ terms of either sign.
+  EXPECT_NEAR(totalEnergy(with) / scale, 1, 1e-13);
+  EXPECT_EQ(without.dropped.count, 0U);
+  EXPECT_EQ(without.ledger.dropped, 0);
+}
+
+TEST_P(DropFragments, ThreadsAndRebuildingDoNotChangeTheResult) {
+  World one = impact(GetParam(), true, kArea), two = impact(GetParam(), true, kArea, 2);
+  const double dt = .8 * one.criticalTimeStep();
+  for (int i = 0; i < 300; ++i) {
+    one.step(dt), two.step(dt);
+    // As after loading: all that is not saved is made anew.
+    if (i % 40 == 39) two.rebuild();
+  }
+  EXPECT_GT(one.dropped.count, 5U);
+  EXPECT_EQ(one.dropped.count, two.dropped.count);
+  EXPECT_TRUE(sameBits(one.model.nodes.position, two.model.nodes.position));
+  EXPECT_TRUE(sameBits(one.model.nodes.velocity, two.model.nodes.velocity));
+  EXPECT_EQ(one.ledger.dropped, two.ledger.dropped);
+}
+
+TEST(DropFragmentsOf, ALargerAreaTakesWhatIsThereAlready) {
+  World world = impact(0, true, 0);
+  const double dt = .8 * world.criticalTimeStep();
+  for (int i = 0; i < 150; ++i) world.step(dt);
+  const std::size_t loose = loosePieces(world, kArea);
+  ASSERT_GT(loose, 3U);
+  world.fracture.minFragmentArea = kArea;
+  world.step(dt);
+  EXPECT_GE(world.dropped.count, loose);
+  EXPECT_EQ(loosePieces(world, kArea), 0U);
+  expectInert(world);
+}
+
+// A body that is smaller than the area is no fragment of anything; and what is held is not loose.
+TEST(DropFragmentsOf, WholeAndHeldBodiesStay) {
+  World whole = impact(0, false, 1);
+  const double dt = .8 * whole.criticalTimeStep();
+  // Cracked already, but in one piece, which is "small".
+  while (whole.steps < 1000 && loosePieces(whole, 1) == 1) {
+    EXPECT_EQ(whole.dropped.count, 0U);
+    whole.step(dt);
+  }
+  EXPECT_GT(whole.steps, 2U);
+  EXPECT_GT(whole.fracture.numCracks(), 0U);
+  EXPECT_GT(whole.dropped.count, 0U);
+
+  World held = impact(0, true, 1);  // every fragment of it is small
+  for (int i = 0; i < 300; ++i) held.step(dt);
+  EXPECT_GT(held.dropped.count, 5U);
+  std::size_t bottom = 0;
+  for (std::size_t n = 0; n < held.model.nodes.size(); ++n) {
+    if (held.reference[n].y > -.01 + 1e-9) continue;
+    ++bottom;
+    EXPECT_GT(held.model.nodes.mass[n], 0);
+  }
+  EXPECT_GT(bottom, 10U);
+}
+
+TEST(DropFragmentsOf, NobodyMovesThemAgain) {
+  World world = impact(0, true, kArea);
+  const double dt = .8 * world.criticalTimeStep();
+  for (int i = 0; i < 300; ++i) world.step(dt);
+  ASSERT_GT(world.dropped.count, 0U);
+  std::vector<NodeId> all;
+  for (std::size_t n = 0; n < world.model.nodes.size(); ++n) all.emplace_back(n);
+  world.prescribe(all, kFree, {});
+  world.setLoads(std::vector<Vec2>(all.size(), {1, 1}));
+  world.dynamicsSettings.gravity = {0, -10};
+  for (int i = 0; i < 5; ++i) world.step(dt);
+  expectInert(world);
+  EXPECT_TRUE(std::isfinite(totalEnergy(world)));
+  EXPECT_GT(world.criticalTimeStep(), dt);
+}
+
+}  // namespace
+}  // namespace yadefrag::test

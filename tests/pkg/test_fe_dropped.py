@@ -1,0 +1,192 @@
+"""Fragments below FESolver.minFragmentArea: taken out of the scene, and booked."""
+import builtins
+import os
+
+import numpy as np
+import pytest
+
+import fe_chain as chain
+import yadefrag
+from fe_impact import areSame, impact, requireBodiesAreEntries, state, steps
+from yadefrag import fragments
+from yade import wrapper as w
+
+O = builtins.O
+kArea = 3e-6  # m²: about two triangles
+
+
+def dropping(finder='LebesgueCollider', **values):
+    solver = impact(finder, **values)
+    solver.minFragmentArea = kArea
+    return solver
+
+
+def momentum(solver):
+    return (solver.masses[:, None] * solver.velocities).sum(axis=0)
+
+
+@pytest.mark.parametrize('wrong', [-1, float('nan'), float('inf')])
+def test_badAreaIsRefused(wrong):
+    with pytest.raises(ValueError, match=r'FESolver.minFragmentArea is .*, it must be positive'):
+        w.FESolver(minFragmentArea=wrong)
+    solver = w.FESolver(minFragmentArea=2)
+    with pytest.raises(ValueError):
+        solver.minFragmentArea = wrong
+    assert solver.minFragmentArea == 2
+
+
+def test_offByDefault():
+    solver = impact()
+    steps(250)
+    assert solver.minFragmentArea == 0 and min(p['area'] for p in solver.fragments()) < kArea
+    assert solver.dropped == dict(mass=0, momentum=(0, 0), energy=0, count=0)
+    assert solver.energy['dropped'] == 0 and (solver.fragmentOf >= 0).all()
+
+
+@pytest.mark.parametrize('smooth', [False, True])
+def test_whatGoesIsBooked(smooth):
+    """No small fragment is left, nor any body of one; mass and energy are all there."""
+    solver = dropping(smooth=smooth)
+    mass, total = solver.masses.sum(), solver.energy['total']
+    for _ in range(25):
+        steps(12)
+        requireBodiesAreEntries(solver)
+        parts = solver.fragments()
+        held = [p for p in parts if p['centroid'][1] < .002]
+        assert min(p['area'] for p in parts if p not in held) > .9 * kArea
+        gone = solver.dropped
+        assert sum(p['mass'] for p in parts) + gone['mass'] == pytest.approx(mass, rel=1e-13)
+        assert solver.masses.sum() + gone['mass'] == pytest.approx(mass, rel=1e-13)
+    assert gone['count'] > 3 and gone['mass'] > 0
+    assert solver.energy['dropped'] == gone['energy'] > 0
+    assert solver.energy['total'] == pytest.approx(total, rel=.01)
+    of = solver.fragmentOf
+    assert of.max() + 1 == len(parts) and (of < 0).sum() >= gone['count']
+    assert np.bincount(of[of >= 0]).tolist() == [p['triangles'] for p in parts]
+    assert sum(map(len, solver.surfaces)) == solver.numSegments
+    assert len(solver.triangles) == len(of)  # numbers stay
+
+
+def test_momentumOfAFreeBlock():
+    O.materials.append(w.BrittleFEMat(young=30e9, poisson=.2, density=2500, frictionAngle=0,
+                                      tensileStrength=20e6, label='b'))
+    solver = w.FESolver(minFragmentArea=kArea)
+    for at, speed in (((0, 0), 0), ((.0051, .0203), -40)):
+        solver.addPolygon(yadefrag.rectangle(at, (at[0] + .02, at[1] + .02)), size=.002,
+                          material='b', velocity=(0, speed))
+    O.engines = [solver]
+    O.dt = .5 * solver.criticalTimeStep()
+    start = momentum(solver)
+    steps(250)
+    gone = solver.dropped
+    assert gone['count'] > 3
+    assert np.allclose(momentum(solver) + gone['momentum'], start, rtol=0,
+                       atol=1e-11 * np.linalg.norm(start))
+
+
+@pytest.mark.parametrize('finder', ['InsertionSortCollider', 'HierarchyCollider', None])
+def test_sameWithAnyCollider(finder):
+    runs = []
+    for one in ('LebesgueCollider', finder):
+        O.reset()
+        solver = dropping(one)
+        steps(220)
+        runs.append((state(solver), solver.dropped, solver.numCracks))
+    assert runs[0][1]['count'] > 3
+    assert runs[0][2] == runs[1][2] and runs[0][1]['count'] == runs[1][1]['count']
+    if finder:
+        assert areSame(runs[0][0], runs[1][0]) and runs[0][1] == runs[1][1]
+
+
+@pytest.mark.parametrize('finder', ['LebesgueCollider', 'InsertionSortCollider'])
+def test_spheresAmongDroppedFragments(finder):
+    """Interactions of bodies that go, go as well, and the others carry on."""
+    solver = dropping(finder)
+    for i in range(6):
+        ball = chain.ball((.003 + .0045 * i + .01 * (i > 3), .0319), .002, O.materials['m'])
+        ball.state.blockedDOFs = 'zXY'
+        ball.state.vel = (0, -5, 0)
+        O.bodies.append(ball)
+    O.dt *= .5
+    touched = 0
+    for _ in range(30):
+        steps(20)
+        touched += sum(i.isReal for i in O.interactions)
+        for i in O.interactions:
+            assert O.bodies[i.id1] is not None and O.bodies[i.id2] is not None
+    requireBodiesAreEntries(solver)
+    assert touched > 20 and solver.dropped['count'] > 2
+    # A body that is made later gets a number of its own.
+    new = solver.addPolygon(yadefrag.rectangle((.1, 0), (.11, .01)), size=.005, material='m')
+    steps(5)
+    requireBodiesAreEntries(solver)
+    assert new == 2
+
+
+@pytest.mark.parametrize('ending', ['.xml', '.yade.gz'])
+def test_savedRunGoesOnBitForBit(ending, folder):
+    solver = dropping(weibullModulus=10, seed=3)
+    steps(150)
+    path = os.path.join(folder, 'scene' + ending)
+    O.save(path)
+    saved = state(solver), solver.dropped, solver.energy
+    assert solver.dropped['count'] > 0
+    steps(150)
+    wanted = state(solver), solver.dropped, solver.energy, solver.numSearches, len(O.bodies)
+    assert wanted[1]['count'] > saved[1]['count']
+    O.reset()
+    O.load(path)
+    solver = [e for e in O.engines if isinstance(e, w.FESolver)][0]
+    assert solver.minFragmentArea == kArea
+    assert areSame(state(solver), saved[0]) and (solver.dropped, solver.energy) == saved[1:]
+    steps(150)
+    assert areSame(state(solver), wanted[0])
+    assert (solver.dropped, solver.energy, solver.numSearches, len(O.bodies)) == wanted[1:]
+    requireBodiesAreEntries(solver)
+
+
+def test_bodyWithDroppedFragmentsIsRemoved():
+    solver = dropping()
+    steps(200)
+    assert solver.dropped['count'] > 0
+    before = solver.dropped
+    solver.removeBody(0)
+    assert {b.shape.component for b in O.bodies if b} == {1}
+    steps(20)
+    assert len(solver.fragments()) == 1 and solver.dropped == before
+    requireBodiesAreEntries(solver)
+
+
+def test_energyIsTracked():
+    O.trackEnergy = True
+    solver = dropping()
+    steps(1)
+    before = sum(dict(O.energy.items()).values())
+    steps(200)
+    items = dict(O.energy.items())
+    assert items['feDropped'] == solver.dropped['energy'] > 0
+    assert sum(items.values()) == pytest.approx(before, rel=.01)
+
+
+def test_picturesLeaveThemOut(folder):
+    meshio = pytest.importorskip('meshio')
+    solver = dropping()
+    steps(220)
+    assert solver.dropped['count'] > 0
+    kept = solver.fragmentOf >= 0
+    yadefrag.exportVTK(solver, folder + '/out.vtu')
+    written = meshio.read(folder + '/out.vtu')
+    assert len(written.cells[0].data) == kept.sum()
+    assert np.array_equal(written.cell_data['fragment'][0], solver.fragmentOf[kept])
+    corners = solver.nodes[solver.triangles[kept]]
+    assert np.array_equal(written.points[written.cells[0].data][:, :, :2], corners)
+    # As many triangles as are there, in each kind of picture; none of the others' places.
+    for field in (None, 'mises', 'speed', 'fragment', np.arange(len(kept))):
+        ax = yadefrag.plotMesh(solver, field)
+        drawn = len(np.unique(solver.triangles[kept])) if str(field) == 'speed' else kept.sum()
+        assert field is None or len(ax.collections[0].get_array()) == drawn
+    colours = fragments.fragmentColours(solver)
+    assert len(colours) == len(kept) and len(set(colours[kept])) > 1
+    assert len(yadefrag.fragmentTable(solver)) == len(solver.fragments())
+    assert yadefrag.animate(solver, folder + '/film.gif', 6, 3, field='fragment') == 3
+    assert solver.minAngle > .1
