@@ -116,6 +116,7 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
   bool anyNew = false;
   for (const Active& active : actives_) {
     if (hasRow(surfaces, before, active.pair)) continue;
+    if (isThroughItself(surfaces, before, active.pair, step)) continue;
     ContactRow row = makeRow(surfaces, before, active);
     startRow(row, model, surfaces, before, active, step);
     if (contradicts(surfaces, row)) row.friction = 0;
@@ -153,6 +154,20 @@ bool Contact::hasRow(const ContactSurfaces& surfaces, const PieceGeometry& befor
     return row.master == pair.master ||
            meetInConvexJoint(surfaces, before, row.master, pair.master);
   });
+}
+
+/// A smooth master takes a slave without a flag. Where its own body is thinner than the halo, that
+/// is the other side: it was as deep before, and did not touch.
+bool Contact::isThroughItself(const ContactSurfaces& surfaces, const PieceGeometry& before,
+                              SlaveMaster pair, const ContactStep& step) const {
+  if (surfaces.component[pair.slave.value] != surfaces.component[pair.master.value] ||
+      surfaces.piece[pair.master.value] != Piece::kArc)
+    return false;
+  const auto touch = std::ranges::lower_bound(touches, pair.slave, {},
+                                              [](const Touch& t) { return t.pair.slave; });
+  if (touch != touches.end() && touch->pair.slave == pair.slave) return false;
+  return before.foot(pair.master, before.slave(pair.slave)).gap <
+         -tolerance::kTouching * step.shortest;
 }
 
 /// Two corners that met past each other: each is behind a face of the other, and the two rows push

@@ -77,6 +77,8 @@ class Contact {
              bool anyNew);
   [[nodiscard]] std::span<const ContactRow> rowsOf(EntryId slave) const;
   bool hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair) const;
+  bool isThroughItself(const ContactSurfaces& surfaces, const PieceGeometry& before,
+                       SlaveMaster pair, const ContactStep& step) const;
   bool contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const;
   bool addRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
