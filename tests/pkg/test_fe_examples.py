@@ -1,6 +1,8 @@
 """The finite-element examples, short, each in a yade of its own: they run, and the physics is right."""
 import os
+import pty
 import re
+import select
 import signal
 import subprocess
 import time
@@ -11,6 +13,8 @@ import pytest
 from test_threads import yadeCommand
 
 kExamples = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'examples')
+# (s) Each takes seconds; on a machine that does much else besides, minutes.
+kHanging = 600
 kColliders = ('Lebesgue', 'LinearCode', 'Hierarchy', 'InsertionSort')
 kShort = {
     'squares': ['--n', '3', '--steps', '3000'],
@@ -31,17 +35,20 @@ kPictures = {
 }
 
 
-def start(name, *options):
+def start(name, *options, stderr=subprocess.PIPE):
     # One thread: what OMP leaves behind must not slow down the tests.
     return subprocess.Popen(
         [*yadeCommand(), '-j1', os.path.join(kExamples, name, name + '.py'), *options],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        stdout=subprocess.PIPE, stderr=stderr, text=True)
 
 
 def run(name, *options, status=0):
     """(standard output, standard error) of an example."""
     done = start(name, *options)
-    out, complaints = done.communicate(timeout=120)
+    try:
+        out, complaints = done.communicate(timeout=kHanging)
+    finally:
+        done.kill()
     assert done.returncode == status, out[-1500:] + complaints[-1500:]
     return out, complaints
 
@@ -158,10 +165,20 @@ def test_wrongOptions(name, options, sentence):
 
 
 def test_interruptedRunStillReports(folder):
-    running = start('squares', '--n', '4', '--steps', '10000000', '--out', folder)
-    time.sleep(6)
-    running.send_signal(signal.SIGINT)
-    out, complaints = running.communicate(timeout=60)
-    assert running.returncode == 0, complaints[-1500:]
+    # On a terminal a bar tells when the run has begun: an interrupt before that ends the script.
+    terminal, its = pty.openpty()
+    running = start('squares', '--n', '4', '--steps', '10000000', '--out', folder, stderr=its)
+    try:
+        shown, end = b'', time.monotonic() + kHanging
+        while b'step' not in shown and running.poll() is None and time.monotonic() < end:
+            if select.select([terminal], [], [], 1)[0]:
+                shown += os.read(terminal, 4096)
+        running.send_signal(signal.SIGINT)
+        out, _ = running.communicate(timeout=kHanging)
+    finally:
+        running.kill()
+        os.close(terminal)
+        os.close(its)
+    assert running.returncode == 0, shown[-1500:]
     assert 'Interrupted after' in out and rows(out)
     assert os.listdir(folder) == ['squares.png']
