@@ -18,7 +18,7 @@ def dump(name, scene, threads):
     """What threads_scene.py prints: {'interactions': [...], 'positions': [...]} per moment."""
     done = subprocess.run(
         yadeCommand() + [f'-j{threads}', os.path.join(kHere, 'threads_scene.py'), name, scene],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120)
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=600)
     lines = [x for x in done.stdout.splitlines() if x.startswith('@@@ ')]
     assert done.returncode == 0 and lines, done.stdout[-1500:] + done.stderr[-1500:]
     return json.loads(lines[-1][4:])
