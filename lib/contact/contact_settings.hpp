@@ -14,6 +14,8 @@ struct ContactSettings {
   int passes = 1;
   /// Of the stiffness that would undo a penetration in one step.
   double penaltyFactor = .2;
+  /// Width of the halo over the shortest segment; 0: what the bodies' speed asks for.
+  double halo = 0;
 };
 
 }  // namespace yadefrag

@@ -133,6 +133,7 @@ class World {
   [[nodiscard]] double finestSegment() const;
   [[nodiscard]] bool canTouch() const;
   void measureMove();
+  [[nodiscard]] double wideHalo(double move) const;
   [[nodiscard]] double fastest() const;
   void predict(double dt);
   void finish(double dt);

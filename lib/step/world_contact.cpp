@@ -72,15 +72,20 @@ Box World::boxOf(EntryId entry) const {
   return entryBox(surfaces, model.nodes.position, entry, search.halo);
 }
 
-/// δ for the next kHaloSteps steps, at most half the shortest segment (§4.1); only bodies so fast
-/// that they would leave it at once get a wider one.
-void World::chooseHalo(double dt) {
-  const double move = 2 * tolerance::kHaloSpare * fastest() * dt;
-  search.shortest = shortestSegment(surfaces, model.nodes.position);
+/// (m) δ for the next kHaloSteps steps of `move` (m), at most half the shortest segment (§4.1), or
+/// as set; only bodies so fast that they would leave it at once get a wider one.
+double World::wideHalo(double move) const {
   const double wanted =
-      std::clamp(tolerance::kHaloSteps * move, tolerance::kNarrowestHalo * search.shortest,
-                 tolerance::kWidestHalo * search.shortest);
-  search.halo = std::max(wanted, 2 * move);
+      contactSettings.halo > 0
+          ? contactSettings.halo * search.shortest
+          : std::clamp(tolerance::kHaloSteps * move, tolerance::kNarrowestHalo * search.shortest,
+                       tolerance::kWidestHalo * search.shortest);
+  return std::max(wanted, 2 * move);
+}
+
+void World::chooseHalo(double dt) {
+  search.shortest = shortestSegment(surfaces, model.nodes.position);
+  search.halo = wideHalo(2 * tolerance::kHaloSpare * fastest() * dt);
 }
 
 void World::takePairs(std::span<const BoxPair> overlapping) {
@@ -120,11 +125,7 @@ void World::searchIfLeft() {
 void World::searchNow() {
   // As wide as the collider's would be, and at least as wide as this step's own motion.
   search.shortest = shortestSegment(surfaces, model.nodes.position);
-  const double move = 2 * tolerance::kHaloSpare * largestMove_;
-  search.halo =
-      std::max(std::clamp(tolerance::kHaloSteps * move, tolerance::kNarrowestHalo * search.shortest,
-                          tolerance::kWidestHalo * search.shortest),
-               2 * move);
+  search.halo = wideHalo(2 * tolerance::kHaloSpare * largestMove_);
   if (!search_) search_ = makeSearch(SearchMethod::kLebesgue);
   boxes_.resize(surfaces.entries());
   for (std::size_t e = 0; e < boxes_.size(); ++e) boxes_[e] = boxOf(EntryId(e));

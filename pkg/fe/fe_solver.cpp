@@ -9,6 +9,7 @@
 
 #include "collider/motion_watch.hpp"
 #include "core/errors.hpp"
+#include "core/tolerances.hpp"
 #include "fe/pair_source.hpp"
 #include "fracture/checks.hpp"
 
@@ -154,6 +155,8 @@ void FESolver::checkSettings() const {
   if (passes != 1 && passes != 2) refuse("passes", passes, "1 or 2");
   if (!(penaltyFactor > 0 && penaltyFactor <= 1))
     refuse("penaltyFactor", penaltyFactor, "above 0 and at most 1");
+  if (!(halo >= 0 && halo <= tolerance::kWidestHalo))
+    refuse("halo", halo, "positive and at most 0.5, or 0 for a width that follows the speed");
   if (!(damping >= 0 && std::isfinite(damping))) refuse("damping", damping, "0 or positive");
   if (maxCracks < -1) refuse("maxCracks", maxCracks, "0 or positive, or -1 for no bound");
   if (!(minFragmentArea >= 0 && std::isfinite(minFragmentArea)))
@@ -174,6 +177,7 @@ void FESolver::postLoad(FESolver& /*self*/) {
     correction = world_.contactSettings.correction == Correction::kPenalty ? "penalty" : "lagrange";
     passes = world_.contactSettings.passes;
     penaltyFactor = world_.contactSettings.penaltyFactor;
+    halo = world_.contactSettings.halo;
     damping = step.damping;
     gravity = yade::Vector3r(step.gravity.x, step.gravity.y, 0);
     const std::uint64_t most = world_.fracture.maxCracks;
@@ -190,6 +194,7 @@ void FESolver::giveSettings() {
       correction == "penalty" ? Correction::kPenalty : Correction::kLagrange;
   world_.contactSettings.passes = passes;
   world_.contactSettings.penaltyFactor = penaltyFactor;
+  world_.contactSettings.halo = halo;
   world_.dynamicsSettings.damping = damping;
   world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
   world_.dynamicsSettings.viscosity = {linearViscosity, quadraticViscosity};

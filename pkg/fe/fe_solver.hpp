@@ -39,6 +39,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   std::string correction = "lagrange";
   int passes = 1;
   double penaltyFactor = ContactSettings().penaltyFactor;
+  double halo = ContactSettings().halo;
   double damping = 0;
   yade::Vector3r gravity = yade::Vector3r::Zero();
   double linearViscosity = 0;
@@ -82,6 +83,11 @@ constexpr auto FESolver::attributes() {
       attribute("penaltyFactor", &C::penaltyFactor,
                 "Of correction='penalty': the stiffness, as a share of the one that would undo a "
                 "penetration within a step.",
+                triggerPostLoad),
+      attribute("halo", &C::halo,
+                "Width of the strip around a boundary in which contact is expected, over the "
+                "shortest segment, at most 0.5; 0: as wide as the bodies' speed asks for. Results "
+                "do not depend on it, the number of searches does.",
                 triggerPostLoad),
       attribute("damping", &C::damping, "Mass-proportional damping (1/s).", triggerPostLoad),
       attribute("gravity", &C::gravity, "Acceleration of all bodies of this engine (m/s²).",

@@ -464,6 +464,7 @@ def test_otherMaterialsAreRefused():
 
 @pytest.mark.parametrize('name, value', [('correction', 'lagrangian'), ('passes', 3),
                                          ('damping', -1), ('penaltyFactor', 0),
+                                         ('halo', -.1), ('halo', .6), ('halo', math.nan),
                                          ('gravity', (math.nan, 0, 0)),
                                          ('linearViscosity', -1), ('quadraticViscosity', -1)])
 def test_badSettingsAreRefused(name, value):

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "core/same_bits.hpp"
 #include "core/tolerances.hpp"
 #include "mesh/polygon.hpp"
 #include "step/course.hpp"
@@ -129,6 +130,33 @@ TEST(SearchInterval, HaloHoldsUntilTheNextSearch) {
     // k = δ/(2 u) steps (§4.1) hold at the fastest; blows make some nodes faster for a while.
     EXPECT_LE(world.numSearches, steps / 4U) << speed;
   }
+}
+
+/// A halo of a given width is searched more or less often; where the nodes go does not depend on
+/// it.
+TEST(SearchInterval, WidthOfTheHaloMayBeSet) {
+  std::vector<Vec2> first;
+  std::vector<std::uint64_t> searches;
+  for (const double width : {.5, .2, .05, 0.}) {
+    World world = row(5, 2);
+    world.contactSettings.halo = width;
+    const double dt = .3 * world.criticalTimeStep();
+    world.chooseHalo(dt);
+    if (width > 0) {
+      EXPECT_NEAR(world.search.halo / world.search.shortest, width, 1e-12);
+    }
+    std::size_t touching = 0;
+    for (int i = 0; i < 1200; ++i) {
+      world.step(dt);
+      touching = std::max(touching, world.contact.rows().size());
+    }
+    EXPECT_GT(touching, 4U);
+    if (first.empty()) first = world.model.nodes.position;
+    EXPECT_TRUE(test::sameBits(world.model.nodes.position, first)) << width;
+    searches.push_back(world.numSearches);
+  }
+  EXPECT_GT(searches[1], searches[0]);
+  EXPECT_GT(searches[2], searches[1]);
 }
 
 /// A body at rest is searched once.
