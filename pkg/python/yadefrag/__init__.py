@@ -26,6 +26,8 @@ from yadefrag.geometry import circle, readPolygon, rectangle, ring  # noqa: E402
 from yadefrag.pictures import animate, plotMesh  # noqa: E402
 from yadefrag.progress import runSteps  # noqa: E402
 from yadefrag.solver import rectangleMesh  # noqa: E402
+from yadefrag.tradeoff import tradeoff  # noqa: E402
+from yadefrag.tradeoff_table import TradeoffTable  # noqa: E402
 
 
 def _renewDispatchers():
@@ -45,4 +47,4 @@ for _name in __all__:
 
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'rectangleMesh', 'plotMesh', 'animate',
             'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
-            'plotFracture']
+            'plotFracture', 'tradeoff', 'TradeoffTable']

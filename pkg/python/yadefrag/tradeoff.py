@@ -1,0 +1,274 @@
+"""What speed costs in accuracy: one scene, run over a grid of choices (tradeoff).
+
+choices.py has the choices known by name, tradeoff_run.py the run in a process of its own,
+tradeoff_table.py the table.
+"""
+
+import itertools
+import json
+import math
+import numbers
+import os
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+
+import numpy
+
+from yadefrag import choices as known
+from yadefrag.tradeoff_table import COLUMNS, TradeoffRow, TradeoffTable, describe
+
+_RUN = os.path.join(os.path.dirname(os.path.realpath(known.__file__)), 'tradeoff_run.py')
+_INSIDE = 'YADEFRAG_TRADEOFF'  # set in the environment of a run
+_REPEATABLE = ('not run', 'ok')
+
+
+def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=0., repeats=3,
+             limit=60., files=None, title=''):
+    """Runs `scene` over a grid of choices; returns a TradeoffTable of times and errors.
+
+    scene      function (choices) that builds the scene in O and sets O.engines and O.dt, by the
+               helpers of yadefrag.choices.Choices where they apply; returns what `measure` needs
+    vary       dict {name: [values]}: all combinations are run; or a list of such dicts, whose grids
+               are run one after the other ([{}, {'passes': [1, 2]}]: the scene's own choices,
+               then those varied). Known names: correction, passes, smooth, size, timeStep, halo,
+               collider, verletDist, plane, bulkViscosity, fracture, threads; others are handed on.
+    measure    function (built) of what scene returned → number or numbers (n), after the run
+    duration   s, simulated
+    reference  what is right: a number or numbers (n), in the unit of `measure`; a file of numbers
+               that numpy.loadtxt reads; 'finest': the setting of the smallest size, then the
+               smallest time step, then the one that took longest; or a dict of choices, a setting
+               that is run too. The error is relative to it (root mean square for several numbers),
+               and absolute where it is 0.
+    watch      function (built), called after each `every` s of simulated time (0: each step, for at
+               least one step); then `measure` is called with what it returned, a list, as well
+    repeats    runs of each setting, in turns with the others; times are their medians
+    limit      s, wall-clock time of a run with all its set-up
+    files      path without ending: writes .csv, .md and .png there
+    title      of the plot
+
+    Each run is a `yade -n -x` of its own, one after the other. Clocks count steps alone: wall-clock
+    and processor time over simulated time. A setting that the scene or an engine refuses, that
+    blows up, fails or takes too long is a row that says so. Ctrl-C ends the runs; the table has
+    what was done. Functions must be at the top level of a file, and the call of tradeoff in a
+    script behind `if __name__ == '__main__':`, since each run loads the file again.
+    ValueError, before anything runs, for bad arguments; RuntimeError where the file cannot be
+    loaded again.
+    """
+    if os.environ.get(_INSIDE):
+        raise RuntimeError('tradeoff is called while a run of it loads the script; put the call '
+                           "behind `if __name__ == '__main__':`.")
+    settings = _grid(vary)
+    job = _job(scene, measure, watch)
+    job.update(duration=_positive('duration', duration, 's'), every=_notNegative('every', every))
+    if isinstance(repeats, bool) or not isinstance(repeats, int) or repeats < 1:
+        raise ValueError('repeats is %r, it must be a positive whole number.' % (repeats,))
+    limit = _positive('limit', limit, 's')
+    right = _reference(reference)
+    if isinstance(right, dict) and right not in settings:
+        settings.append(right)
+    rows = [TradeoffRow(settings=dict(setting)) for setting in settings]
+    _runAll(rows, settings, job, repeats, limit)
+    table = TradeoffTable(rows, title)
+    _setErrors(table, right, settings)
+    if files is not None:
+        table.write(files)
+    return table
+
+
+def _positive(name, value, unit):
+    if isinstance(value, bool) or not isinstance(value, numbers.Real) \
+            or not (math.isfinite(value) and value > 0):
+        raise ValueError('%s is %r, it must be a positive number (%s).' % (name, value, unit))
+    return float(value)
+
+
+def _notNegative(name, value):
+    return 0. if value == 0 and not isinstance(value, bool) else _positive(name, value, 's, or 0')
+
+
+def _checkChoice(name, value):
+    if not isinstance(name, str) or name in COLUMNS:
+        raise ValueError('vary has the choice %r, a name must be a text that is no other column of '
+                         'the table.' % (name,))
+    if not isinstance(value, (str, bool, int, float)):
+        raise ValueError('vary has the choice %s=%r, it must be a number, a text, True or False.' %
+                         (name, value))
+    known.check(name, value)
+
+
+def _grid(vary):
+    """List of settings (dicts), each once, all values checked."""
+    grids = [vary] if isinstance(vary, dict) else vary
+    if not isinstance(grids, (list, tuple)) or not grids \
+            or not all(isinstance(grid, dict) for grid in grids):
+        raise ValueError('vary is %r, it must be a dict {name: [values]} or a list of those.' %
+                         (vary,))
+    settings = []
+    for grid in grids:
+        for name, values in grid.items():
+            if not isinstance(values, (list, tuple)) or not values:
+                raise ValueError('vary has %r for the choice %r, it must be a list of values.' %
+                                 (values, name))
+            for value in values:
+                _checkChoice(name, value)
+        for combination in itertools.product(*grid.values()):
+            setting = dict(zip(grid, combination))
+            if _key(setting) not in map(_key, settings):  # True is not 1 here
+                settings.append(setting)
+    return settings
+
+
+def _key(setting):
+    return json.dumps(setting, sort_keys=True)
+
+
+def _job(scene, measure, watch):
+    """What every run is told: which functions of which file."""
+    functions = [scene, measure] + [watch] * (watch is not None)
+    for name, function in zip(('scene', 'measure', 'watch'), functions):
+        module = sys.modules.get(getattr(function, '__module__', None))
+        if not callable(function) or not hasattr(function, '__code__') \
+                or vars(module or os).get(function.__name__) is not function:
+            raise ValueError('%s is %r, it must be a function at the top level of a file, which '
+                             'each run loads.' % (name, function))
+    modules = {function.__module__ for function in functions}
+    if len(modules) > 1:
+        raise ValueError('scene, measure and watch are in the modules %s, they must be in one '
+                         'file.' % ', '.join(sorted(modules)))
+    file = os.path.abspath(scene.__code__.co_filename)
+    if not os.path.isfile(file):
+        raise ValueError('scene is of %r, which is no file that a run could load.' %
+                         scene.__code__.co_filename)
+    names = [function.__name__ for function in functions]
+    return dict(file=file, module=modules.pop(), functions=names + [None] * (3 - len(names)),
+                path=[os.path.abspath(p) for p in sys.path])
+
+
+def _reference(reference):
+    """'finest', a checked setting, or an array of numbers."""
+    if isinstance(reference, dict):
+        for name, value in reference.items():
+            _checkChoice(name, value)
+        return dict(reference)
+    if isinstance(reference, str) and reference == 'finest':
+        return reference
+    if isinstance(reference, (str, os.PathLike)):
+        try:
+            numbersRead = numpy.loadtxt(reference)
+        except (OSError, ValueError) as error:
+            raise ValueError('reference is %r, which is no file of numbers: %s.' %
+                             (str(reference), str(error).rstrip('.'))) from None
+    else:
+        try:
+            numbersRead = numpy.asarray(reference, dtype=float)
+        except (TypeError, ValueError):
+            numbersRead = numpy.array([math.nan])
+    if numbersRead.size == 0 or numbersRead.ndim > 1 or not numpy.isfinite(numbersRead).all():
+        raise ValueError("reference is %r, it must be finite numbers, a file of them, 'finest' or "
+                         'a dict of choices.' % (reference,))
+    return numbersRead
+
+
+def _runAll(rows, settings, job, repeats, limit):
+    """Fills the rows; settings take turns, so that a slow minute of the machine falls on all."""
+    import tqdm  # only where something runs
+    bar = tqdm.tqdm(total=repeats * len(rows), unit='run', disable=None)
+    try:
+        with bar, tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
+            for _ in range(repeats):
+                for row, setting in zip(rows, settings):
+                    bar.set_postfix_str(describe(setting), refresh=False)
+                    if row.result in _REPEATABLE:
+                        _take(row, _runOne(dict(job, settings=setting), limit, folder))
+                    bar.update()
+    except KeyboardInterrupt:
+        done = sum(len(row.walls) for row in rows)
+        print('Stopped after %d of %d runs.' % (done, repeats * len(rows)), file=sys.stderr)
+
+
+def _runOne(job, limit, folder):
+    """The result of one run in a fresh yade, a dict as tradeoff_run.perform returns it."""
+    jobFile, resultFile, log = (os.path.join(folder, n) for n in ('job', 'result', 'log'))
+    with open(jobFile, 'w', encoding='utf-8') as f:
+        json.dump(job, f)
+    if os.path.exists(resultFile):
+        os.remove(resultFile)
+    threads = job['settings'].get('threads', 1)
+    yade = getattr(sys, 'yade_argv', ['/usr/bin/yade'])[0]
+    package = os.path.dirname(os.path.dirname(os.path.abspath(known.__file__)))
+    path = os.pathsep.join([package] + os.environ.get('PYTHONPATH', '').split(os.pathsep))
+    environment = dict(os.environ, PYTHONPATH=path.rstrip(os.pathsep), **{_INSIDE: '1'})
+    with open(log, 'w', encoding='utf-8') as output:
+        process = subprocess.Popen(
+            [yade, '-n', '-x', '-j%d' % threads, _RUN, jobFile, resultFile], env=environment,
+            stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True)
+        try:
+            process.wait(timeout=limit)
+        except subprocess.TimeoutExpired:
+            return dict(result='too long', message='no result within %g s.' % limit)
+        finally:
+            if process.poll() is None:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+    if not os.path.exists(resultFile):
+        with open(log, encoding='utf-8', errors='replace') as f:
+            last = [line.strip() for line in f if line.strip()][-1:]
+        return dict(result='failed', message='yade ended with status %d: %s' %
+                    (process.returncode, ''.join(last)[:200]))
+    with open(resultFile, encoding='utf-8') as f:
+        return json.load(f)
+
+
+def _take(row, found):
+    """Puts what one run gave into its row."""
+    if found['result'] == 'unloadable':
+        raise RuntimeError('a run cannot load the scene: %s' % found['message'])
+    row.result, row.message = found['result'], found['message']
+    for name, value in found.get('used', {}).items():  # the scene's own, where nothing else is said
+        if value is not None:
+            row.settings.setdefault(name, value)
+    if row.result != 'ok':
+        row.walls, row.cpus, row.wall, row.cpu, row.value = [], [], None, None, None
+        return
+    row.walls.append(found['wall'])
+    row.cpus.append(found['cpu'])
+    row.wall, row.cpu = statistics.median(row.walls), statistics.median(row.cpus)
+    row.steps, row.value = found['steps'], found['value']
+
+
+def _setErrors(table, right, settings):
+    """Errors of all rows that have a value, against the reference."""
+    good = [row for row in table.rows if row.result == 'ok']
+    if isinstance(right, str):
+        right = _finest(good)
+    elif isinstance(right, dict):
+        row = table.rows[[_key(s) for s in settings].index(_key(right))]
+        if row.result != 'ok':
+            for other in good:
+                other.message = 'the reference (%s) has no value.' % describe(right)
+            return
+        table.reference, right = row, numpy.asarray(row.value)
+    if isinstance(right, TradeoffRow):
+        table.reference, right = right, numpy.asarray(right.value)
+    for row in good:
+        row.error, row.message = _error(numpy.asarray(row.value), right)
+
+
+def _finest(rows):
+    """The row that stands for the truth where nothing else does; None without rows."""
+    if not rows:
+        return None
+    return min(rows, key=lambda row: (row.settings.get('size', 0), row.settings.get('timeStep', 0),
+                                      -row.wall))
+
+
+def _error(value, right):
+    """(error or None, sentence)."""
+    if value.shape != right.shape:
+        return None, 'measured are %d numbers, the reference has %d.' % (value.size, right.size)
+    scale = numpy.linalg.norm(right)
+    off = numpy.linalg.norm(value - right)
+    return (float(off / scale) if scale > 0 else float(off / math.sqrt(value.size))), ''

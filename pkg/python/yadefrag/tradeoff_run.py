@@ -1,0 +1,179 @@
+"""One run of tradeoff(), in a yade of its own: `yade -n -x tradeoff_run.py JOB RESULT`.
+
+JOB and RESULT are JSON files. The result has `result`: 'ok', 'refused', 'blew up', 'failed' or
+'unloadable' (no run of this scene can succeed), a `message`, and where it is ok the figures.
+"""
+
+import importlib
+import json
+import math
+import os
+import sys
+import time
+
+import numpy
+
+import yadefrag  # noqa: F401  (adds its classes to yade.wrapper)
+from yade.wrapper import Omega
+from yadefrag.choices import Choices
+
+NAME = '__tradeoff__'  # of the script that is loaded for a run: not '__main__'
+CHECK_EVERY = .5  # s of run between two looks at whether it has blown up
+MOST_RADII = 10  # that a sphere may move in one step
+
+
+class BlewUp(Exception):
+    """The run left the numbers, or physics."""
+
+
+def load(job):
+    """[function] that the job names, with sys.path and sys.argv as the script's own."""
+    sys.path[:0] = [p for p in job['path'] if p not in sys.path]
+    sys.argv[:] = [job['file']]
+    if job['module'] == '__main__':
+        # As yade runs a script: with its own names at hand.
+        names = dict(vars(sys.modules['__main__']), __name__=NAME)
+        with open(job['file'], encoding='utf-8') as script:
+            exec(compile(script.read(), job['file'], 'exec'), names)
+    else:
+        names = vars(importlib.import_module(job['module']))
+    return [names[name] if name else None for name in job['functions']]
+
+
+class Clock:
+    """Wall-clock and processor time (s) of the steps alone."""
+
+    def __init__(self):
+        self.wall = self.cpu = 0.
+
+    def __enter__(self):
+        self._start = time.perf_counter(), time.process_time()
+
+    def __exit__(self, *_):
+        self.wall += time.perf_counter() - self._start[0]
+        self.cpu += time.process_time() - self._start[1]
+
+
+class Sanity:
+    """Is this still a run: all finite, no energy out of nothing, no sphere at an absurd speed."""
+
+    def __init__(self, omega):
+        self.omega = omega
+        self.solvers = [e for e in omega.engines if type(e).__name__ == 'FESolver']
+        self.start = [self._energies(fe) for fe in self.solvers]
+
+    def _energies(self, fe):
+        energy = fe.energy
+        return energy['total'], energy['kinetic'] + energy['strain'], energy['external']
+
+    def check(self):
+        """BlewUp with a sentence."""
+        for fe, (total, own, _) in zip(self.solvers, self.start):
+            now, _, external = self._energies(fe)
+            if not math.isfinite(now):
+                raise BlewUp('the energy is %r J.' % now)
+            given = own + abs(external)
+            if now - total > given > 0:
+                raise BlewUp('the energy grew by %.3g J out of nothing, of %.3g J there were.' %
+                             (now - total, given))
+        for body in self.omega.bodies:
+            radius = getattr(body.shape, 'radius', None)
+            if radius is None:
+                continue
+            speed = body.state.vel.norm()
+            if not (math.isfinite(speed) and math.isfinite(body.state.pos.norm())):
+                raise BlewUp('body %d is at no finite place or speed.' % body.id)
+            if speed * self.omega.dt > MOST_RADII * radius:
+                raise BlewUp('body %d moves by %.3g of its radii in one step.' %
+                             (body.id, speed * self.omega.dt / radius))
+
+
+def run(omega, duration, watch, every, built):
+    """Steps for `duration` (s simulated); (clock, steps, simulated s, what watch returned)."""
+    if not (math.isfinite(omega.dt) and omega.dt > 0):
+        raise ValueError('O.dt is %r s, the scene must set a positive one.' % omega.dt)
+    clock, sanity, seen = Clock(), Sanity(omega), []
+    begin, first, checked = omega.time, omega.iter, 0.
+    end = begin + duration - omega.dt / 2
+    moment = begin + every if watch else end  # the next to be watched
+    while omega.time < end:
+        with clock:
+            advance(omega, min(moment, end))
+        if clock.wall - checked > CHECK_EVERY:
+            sanity.check()
+            checked = clock.wall
+        if watch and omega.time >= min(moment, end):
+            seen.append(watch(built))
+            moment += every
+    sanity.check()
+    return clock, omega.iter - first, omega.time - begin, seen
+
+
+def advance(omega, until):
+    """Steps until `until` (s), at least one and for no longer than CHECK_EVERY.
+
+    By O.step, not O.run, which waits in units of 40 ms.
+    """
+    limit = time.perf_counter() + CHECK_EVERY
+    omega.step()
+    while omega.time < until and time.perf_counter() < limit:
+        omega.step()
+
+
+def measured(measure, watch, built, seen):
+    """A finite float, or a list of them; BlewUp if they are not finite."""
+    value = measure(built, seen) if watch else measure(built)
+    array = numpy.asarray(value, dtype=float)
+    if array.ndim > 1 or array.size == 0:
+        raise TypeError('measure returned the shape %r, it must be a number or an array (n).' %
+                        (array.shape,))
+    if not numpy.isfinite(array).all():
+        raise BlewUp('what was measured is not finite.')
+    return array.tolist()
+
+
+def perform(job):
+    """The result of a job, a dict; never raises what a scene may raise."""
+    choices = Choices(job['settings'])
+    result = attempt(job, choices)
+    return dict(result, used=dict(choices.used, threads=Omega().numThreads))
+
+
+def attempt(job, choices):
+    """The result but for the choices that were used."""
+    try:
+        scene, measure, watch = load(job)
+    except Exception as error:  # a script may raise anything
+        return dict(result='unloadable', message='%s: %s' % (type(error).__name__, error))
+    stage = 'refused'
+    try:
+        built = scene(choices)
+        for name in choices.neverAsked():
+            raise ValueError('the scene never asked for the choice %r.' % name)
+        stage = 'blew up'
+        clock, steps, simulated, seen = run(Omega(), job['duration'], watch, job['every'], built)
+        stage = 'failed'
+        value = measured(measure, watch, built, seen)
+    except BlewUp as error:
+        return dict(result='blew up', message=str(error))
+    except ValueError as error:
+        return dict(result='failed' if stage == 'failed' else 'refused', message=str(error))
+    except RuntimeError as error:
+        return dict(result=stage, message=str(error))
+    except Exception as error:  # a bug in the scene: the other runs go on
+        return dict(result='failed', message='%s: %s' % (type(error).__name__, error))
+    return dict(result='ok', message='', wall=clock.wall / simulated, cpu=clock.cpu / simulated,
+                steps=steps, value=value)
+
+
+def main(jobFile, resultFile):
+    with open(jobFile, encoding='utf-8') as f:
+        job = json.load(f)
+    result = perform(job)
+    with open(resultFile + '.part', 'w', encoding='utf-8') as f:
+        json.dump(result, f, default=repr)
+    os.replace(resultFile + '.part', resultFile)  # whole, or not there
+
+
+if __name__ == '__main__':
+    main(*sys.argv[1:])

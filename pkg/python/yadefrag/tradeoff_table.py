@@ -1,0 +1,187 @@
+"""The table that tradeoff() returns: rows, Pareto front, CSV, Markdown, plot."""
+
+import csv
+import dataclasses
+import json
+import statistics
+
+COLUMNS = ('result', 'wall', 'cpu', 'error', 'value', 'steps', 'walls', 'cpus', 'message')
+_TIMES = {'wall': 'wall-clock time over simulated time (s/s)',
+          'cpu': 'processor time over simulated time (s/s)'}
+
+
+@dataclasses.dataclass
+class TradeoffRow:
+    """One setting and what came of it.
+
+    settings    dict of choices: those varied, and the scene's own where it asked for others
+    result      'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or
+                'not run'
+    wall, cpu   wall-clock and processor time over simulated time (s/s), medians; None without any
+    error       against the reference, relative unless that is 0; None without any
+    value       what was measured, a number or a list
+    steps       of one run
+    walls, cpus of the single runs (s/s), in the order in which settings took turns
+    """
+
+    settings: dict
+    result: str = 'not run'
+    wall: float = None
+    cpu: float = None
+    error: float = None
+    value: object = None
+    steps: int = None
+    walls: list = dataclasses.field(default_factory=list)
+    cpus: list = dataclasses.field(default_factory=list)
+    message: str = ''
+
+
+def describe(settings):
+    """'passes=2, size=0.001'; 'as the scene is' for no choices."""
+    return ', '.join('%s=%s' % (n, _text(v)) for n, v in settings.items()) or 'as the scene is'
+
+
+def _text(value):
+    return '%.6g' % value if isinstance(value, float) else str(value)
+
+
+class TradeoffTable:
+    """rows (list of TradeoffRow), title, reference (a row, where one is the truth for the others).
+
+    `read` takes back what `csv` wrote; the reference's row is not marked there.
+    """
+
+    def __init__(self, rows, title=''):
+        self.rows, self.title, self.reference = list(rows), title, None
+
+    def names(self):
+        """Of all choices, in the order in which they first occur."""
+        return list(dict.fromkeys(name for row in self.rows for name in row.settings))
+
+    def label(self, row):
+        """What sets a row off from the first: 'passes=2'; 'row 1' for that one."""
+        first = self.rows[0].settings
+        other = {name: value for name, value in row.settings.items()
+                 if _encode(value) != _encode(first.get(name))}
+        return describe(other) if other else 'row 1'
+
+    def front(self, time='wall'):
+        """Rows that no other one beats: none is as fast and as right, and better in one of both.
+
+        `time` is 'wall' or 'cpu'. In order of time; the reference's row is not among them.
+        """
+        rows = [row for row in self.rows if row.error is not None and row is not self.reference]
+
+        def point(row):
+            return _time(row, time), row.error
+
+        best, least = [], float('inf')
+        for row in sorted(rows, key=point):
+            if row.error < least or best and point(row) == point(best[-1]):
+                best.append(row)
+                least = row.error
+        return best
+
+    def ratio(self, row, time='wall'):
+        """Time over the first row's, the median of the runs next to each other; None without."""
+        pairs = [(a, b) for a, b in zip(getattr(row, time + 's'),
+                                        getattr(self.rows[0], time + 's')) if b > 0]
+        return statistics.median(a / b for a, b in pairs) if pairs else None
+
+    def csv(self, file):
+        """Writes all rows: the choices, then COLUMNS; values as JSON, an empty cell for None."""
+        names = self.names()
+        with open(file, 'w', newline='', encoding='utf-8') as f:
+            writer = csv.writer(f)
+            writer.writerow(names + list(COLUMNS))
+            for row in self.rows:
+                writer.writerow([_encode(row.settings.get(name)) for name in names]
+                                + [_encode(getattr(row, name)) for name in COLUMNS])
+
+    @classmethod
+    def read(cls, file, title=''):
+        """The table of a file that `csv` wrote. ValueError where a column is missing."""
+        with open(file, newline='', encoding='utf-8') as f:
+            lines = list(csv.reader(f))
+        head = lines[0] if lines else []
+        if tuple(head[-len(COLUMNS):]) != COLUMNS:
+            raise ValueError('%s does not end with the columns %s.' % (file, ', '.join(COLUMNS)))
+        rows = []
+        for line in lines[1:]:
+            values = [_decode(cell) for cell in line]
+            settings = {n: v for n, v in zip(head, values[:-len(COLUMNS)]) if v is not None}
+            figures = dict(zip(COLUMNS, values[-len(COLUMNS):]))
+            rows.append(TradeoffRow(settings, **dict(figures, message=figures['message'] or '')))
+        return cls(rows, title)
+
+    def markdown(self, file=None, time='wall'):
+        """The table as Markdown text, rows of the front in bold; written to `file` if there is one.
+
+        Times are shown over that of the first row too (ratio), settings by `label`.
+        """
+        front = self.front(time)
+        out = ['# %s\n' % self.title] * bool(self.title)
+        out += ['Row 1: %s. The others as row 1, but for what they say.\n' %
+                describe(self.rows[0].settings),
+                '| # | setting | wall, s/s | cpu, s/s | %s × | steps | error |' % time,
+                '|--:|---|--:|--:|--:|--:|--:|']
+        for number, row in enumerate(self.rows, 1):
+            bold = '**' if row in front else ''
+            cells = [str(number), bold + self.label(row) + bold]
+            if row.result == 'ok':
+                ratio = self.ratio(row, time)
+                error = row.message if row.error is None else '%.3g' % row.error
+                error += ' (reference)' if row is self.reference else ''
+                cells += ['%.4g' % row.wall, '%.4g' % row.cpu,
+                          '' if ratio is None else '%.2f' % ratio, str(row.steps),
+                          error]
+            else:
+                cells += ['', '', '', '', '%s: %s' % (row.result, row.message) if row.message
+                          else row.result]
+            out.append('| ' + ' | '.join(cell.replace('|', '\\|') for cell in cells) + ' |')
+        text = '\n'.join(out) + '\n'
+        if file is not None:
+            with open(file, 'w', encoding='utf-8') as f:
+                f.write(text)
+        return text
+
+    def plot(self, file=None, ax=None, time='wall', names=True):
+        """Error over time, the Pareto front as a line; returns Matplotlib's axes.
+
+        Points have the numbers of the Markdown table, explained at the side; without `names` at the
+        side, all that have room have their names. `file` is a picture, its ending says as what.
+        ValueError where no row has an error to show.
+        """
+        from yadefrag import tradeoff_plot  # Matplotlib only where something is drawn
+        return tradeoff_plot.plot(self, file, ax, time, _TIMES[time], names)
+
+    def write(self, files, time='wall'):
+        """files.csv, files.md and, where there is something to show, files.png."""
+        self.csv('%s.csv' % files)
+        self.markdown('%s.md' % files, time)
+        if self.front(time):
+            self.plot('%s.png' % files, time=time)
+
+
+def _time(row, time):
+    if time not in _TIMES:
+        raise ValueError("time is %r, it must be 'wall' or 'cpu'." % (time,))
+    return getattr(row, time)
+
+
+def _encode(value):
+    """A cell: JSON, but texts as they are where that cannot be mistaken."""
+    if value is None:
+        return ''
+    if isinstance(value, str) and value and _decode(value) is value:
+        return value
+    return json.dumps(value)
+
+
+def _decode(cell):
+    if cell == '':
+        return None
+    try:
+        return json.loads(cell)
+    except ValueError:
+        return cell

@@ -1,0 +1,99 @@
+"""Scenes of test_tradeoff.py, cheap enough for many runs; each run loads this file."""
+import math
+import os
+
+from yade import O, utils
+from yade import wrapper as w
+from yadefrag import rectangleMesh
+
+SIDE, SPEED = 1., 3.  # m, m/s
+
+
+def block(choices):
+    """Two triangles (or more, with a smaller size) that fly freely."""
+    fe = choices.solver()
+    cells = round(SIDE / choices.size(SIDE))
+    material = choices.material(young=1e6, poisson=.2, density=1000, frictionAngle=0)
+    fe.addTriangles(*rectangleMesh((0, 0), (SIDE, SIDE), cells, cells), material=material,
+                    velocity=(SPEED, 0))
+    choices.engines(fe)
+    return fe
+
+
+def way(fe):
+    """(m) That the block went; error from the number of steps only."""
+    return float(fe.displacements[:, 0].mean())
+
+
+def look(fe):
+    return way(fe)
+
+
+def seen(_, ways):
+    """How often it was watched, and the last way that was seen."""
+    return [len(ways), ways[-1]]
+
+
+def whole(fe):
+    """Numbers that tell which choices have come through."""
+    return [fe.passes, fe.correction == 'penalty', fe.penaltyFactor, fe.halo, fe.linearViscosity,
+            fe.quadraticViscosity, O.materials[0].planeStress, O.numThreads,
+            len(O.engines), len(fe.triangles)]
+
+
+def spheres(choices):
+    """A sphere bounces between two others; a stiffer one blows up with a step this long."""
+    O.materials.append(w.FrictMat(young=choices.get('young', 1e6), density=1000, poisson=.3))
+    O.bodies.append([utils.sphere((0, 0, 0), .5, fixed=True), utils.sphere((1.95, 0, 0), .5,
+                                                                           fixed=True)])
+    O.bodies.append(utils.sphere((.97, 0, 0), .5))
+    O.engines = [w.ForceResetter(), choices.collider([w.Bo1_Sphere_Aabb()]),
+                 w.InteractionLoop([w.Ig2_Sphere_Sphere_ScGeom()],
+                                   [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                                   [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
+                 w.NewtonIntegrator(damping=0)]
+    O.dt = 1e-3
+    return O.bodies[2]
+
+
+def place(body):
+    return body.state.pos[0]
+
+
+def odd(choices):
+    """What the setting says goes wrong, does."""
+    fault = choices['fault']
+    fe = block(choices)
+    if fault == 'sentence':
+        raise ValueError('this choice makes no sense.')
+    if fault == 'bug':
+        return nowhere  # noqa: F821
+    if fault == 'crash':
+        os.abort()
+    if fault == 'sleep':
+        import time
+        time.sleep(60)
+    if fault == 'step':
+        O.dt = 0
+    return fault if fault == 'nan' else fe
+
+
+def oddWay(built):
+    return math.nan if built == 'nan' else way(built)
+
+
+def brittle(choices):
+    """A body of a material that may crack."""
+    fe = choices.solver()
+    material = choices.material(young=1e9, poisson=.2, density=1000, frictionAngle=0,
+                                tensileStrength=1e6, fractureEnergy=choices.get('energy', 1e6))
+    fe.addTriangles(*rectangleMesh((0, 0), (1, 1), 1, 1), material=material,
+                    smooth=choices.smooth())
+    choices.engines(fe)
+    return material
+
+
+def kind(material):
+    """0: does not crack; 1: at once; 2: cohesively."""
+    energy = getattr(material, 'fractureEnergy', 0)
+    return float(isinstance(material, w.BrittleFEMat)) + (energy > 0)
