@@ -27,9 +27,7 @@ double shortestSegment(const ContactSurfaces& surfaces, std::span<const Vec2> po
 
 }  // namespace
 
-double World::finestSegment() const {
-  return shortestSegment(surfaces, reference);
-}
+double World::finestSegment() const { return shortestSegment(surfaces, reference); }
 
 /// One body that cannot touch itself needs neither search nor candidates.
 bool World::canTouch() const {
