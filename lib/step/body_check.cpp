@@ -38,8 +38,8 @@ void requireFinite(const char* name, const std::vector<Vec2>& values) {
 }
 
 void requireHeld(const std::vector<std::uint8_t>& held) {
-  for (std::size_t i = 0; i < held.size(); ++i)
-    require(held[i] <= kHeldXY, "held", held[i], "", "0 to 3 for every node");
+  for (const std::uint8_t one : held)
+    require(one <= kHeldXY, "held", one, "", "0 to 3 for every node");
 }
 
 bool isPositive(double value) { return value > 0 && std::isfinite(value); }

@@ -1,24 +1,76 @@
 #pragma once
 // All of a world's state in YADE's archives, as columns of plain numbers: the run continues with
-// the same bits from binary files and from XML, which has all of a number's digits.
+// the same bits from binary files and from XML, which has all of a number's digits. A damaged state
+// is refused: a checksum goes over all of it, and every index is looked at before it is used.
 
+#include <boost/archive/archive_exception.hpp>
+#include <boost/serialization/array_wrapper.hpp>
 #include <boost/serialization/nvp.hpp>
-#include <boost/serialization/vector.hpp>
 
+#include <algorithm>
 #include <cstring>
+#include <string>
 #include <type_traits>
 #include <vector>
 
+#include "core/checksum.hpp"
+#include "core/errors.hpp"
+#include "step/state_check.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
+
+/// A fuzzer would find nothing behind a checksum.
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+inline constexpr bool kIgnoreChecksum = true;
+#else
+inline constexpr bool kIgnoreChecksum = false;
+#endif
 
 template <class Archive>
 class WorldArchive {
  public:
   explicit WorldArchive(Archive& archive) : archive_(archive) {}
 
-  void run(World& world) {
+  /// `entryBodies`: YADE's number of each entry's body. Throws InputError for a state that is
+  /// damaged, or that another version saved.
+  void run(World& world, std::vector<int>& entryBodies) {
+    try {
+      all(world, entryBodies);
+    } catch (const boost::archive::archive_exception& error) {
+      refuse(error.what());
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t kFormat = 2;
+  /// (count) A damaged length must not take all memory: values are read in parts as large as this,
+  /// and the archive ends before the memory does.
+  static constexpr std::uint64_t kPart = 1 << 16;
+
+  [[noreturn]] static void refuse(const std::string& what) {
+    throw InputError("The saved state of FESolver is damaged or from another version (" + what +
+                     "); load another save.");
+  }
+
+  void all(World& world, std::vector<int>& entryBodies) {
+    std::uint64_t format = kFormat;
+    value("format", format);
+    if (format != kFormat) refuse("its format is " + std::to_string(format));
+    state(world);
+    value("entryBodies", entryBodies);
+    std::uint64_t checksum = sum_.value();
+    archive_& boost::serialization::make_nvp("checksum", checksum);
+    if constexpr (Archive::is_loading::value) {
+      if (checksum != sum_.value() && !kIgnoreChecksum) refuse("its checksum is wrong");
+      const std::string wrong = whatIsWrong(world);
+      if (!wrong.empty()) refuse(wrong + " cannot be");
+      if (entryBodies.size() != world.surfaces.entries()) refuse("its bodies cannot be");
+      world.rebuild();
+    }
+  }
+
+  void state(World& world) {
     nodes(world.model.nodes);
     triangles(world.model.triangles);
     components(world.model.components);
@@ -36,13 +88,32 @@ class WorldArchive {
     column<double>("reference", world.reference);
     value("steps", world.steps), value("time", world.time), value("lastDt", world.lastDt);
     value("numSearches", world.numSearches);
-    if constexpr (Archive::is_loading::value) world.rebuild();
   }
 
- private:
   template <class Value>
   void value(const char* name, Value& value) {
+    static_assert(std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>);
     archive_& boost::serialization::make_nvp(name, value);
+    sum_.add(&value, sizeof value);
+  }
+  /// In a damaged file a bool could be neither.
+  void value(const char* name, bool& value) {
+    std::uint8_t flag = value ? 1 : 0;
+    this->value(name, flag);
+    value = flag != 0;
+  }
+  template <class Scalar>
+  void value(const char* name, std::vector<Scalar>& values) {
+    std::uint64_t count = values.size();
+    value("count", count);
+    if constexpr (Archive::is_loading::value) values.clear();
+    for (std::uint64_t begin = 0; begin < count; begin += kPart) {
+      const std::uint64_t size = std::min(kPart, count - begin);
+      if constexpr (Archive::is_loading::value) values.resize(begin + size);
+      const auto part = boost::serialization::make_array(values.data() + begin, size);
+      archive_& boost::serialization::make_nvp(name, part);
+    }
+    if (count > 0) sum_.add(values.data(), count * sizeof(Scalar));
   }
 
   /// A column of structures that are made of `Scalar` alone.
@@ -55,6 +126,7 @@ class WorldArchive {
     std::vector<Scalar> flat(column.size() * each);
     if (!column.empty()) std::memcpy(flat.data(), column.data(), flat.size() * sizeof(Scalar));
     value(name, flat);
+    if (flat.size() % each != 0) refuse(std::string(name) + " has a wrong length");
     column.resize(flat.size() / each);
     if (!column.empty())
       std::memcpy(static_cast<void*>(column.data()), flat.data(), flat.size() * sizeof(Scalar));
@@ -67,7 +139,9 @@ class WorldArchive {
     std::vector<Value> flat(rows.size());
     for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = read(rows[i]);
     value(name, flat);
-    rows.resize(flat.size());
+    // The first member decides how many there are.
+    if (rows.empty()) rows.resize(flat.size());
+    if (rows.size() != flat.size()) refuse(std::string(name) + " has a wrong length");
     for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i];
   }
 
@@ -109,6 +183,7 @@ class WorldArchive {
     std::vector<std::uint8_t> flat(rows.size());
     for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = read(rows[i]) ? 1 : 0;
     value(name, flat);
+    if (flat.size() != rows.size()) refuse(std::string(name) + " has a wrong length");
     for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i] != 0;
   }
 
@@ -160,6 +235,7 @@ class WorldArchive {
   }
 
   Archive& archive_;
+  Checksum sum_;
 };
 
 }  // namespace yadefrag

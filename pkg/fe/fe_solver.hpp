@@ -109,9 +109,8 @@ constexpr auto FESolver::attributes() {
 
 template <class Archive>
 void FESolver::archiveMore(Archive& archive) {
-  WorldArchive<Archive>(archive).run(world_);
   std::vector<yade::Body::id_t> ids = bodies_.ids();
-  archive& boost::serialization::make_nvp("entryBodies", ids);
+  WorldArchive<Archive>(archive).run(world_, ids);
   if constexpr (Archive::is_loading::value) bodies_.restore(std::move(ids));
 }
 

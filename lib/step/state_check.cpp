@@ -1,0 +1,169 @@
+#include "step/state_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "step/world.hpp"
+
+namespace yadefrag {
+namespace {
+
+template <class Id>
+bool allBelow(const std::vector<Id>& ids, std::size_t count) {
+  return std::ranges::all_of(ids, [&](Id id) { return id.value < count; });
+}
+
+/// The same, where some may point nowhere.
+template <class Id>
+bool allBelowOrNone(const std::vector<Id>& ids, std::size_t count) {
+  return std::ranges::all_of(ids, [&](Id id) { return id == Id::none() || id.value < count; });
+}
+
+bool allFinite(const std::vector<Vec2>& values) { return std::ranges::all_of(values, isFinite); }
+
+bool isPositive(double value) { return value > 0 && std::isfinite(value); }
+
+/// Are `next` and `prev` a permutation and its inverse?
+template <class Id>
+bool areLinks(const std::vector<Id>& next, const std::vector<Id>& prev) {
+  const std::size_t count = next.size();
+  if (prev.size() != count || !allBelow(next, count) || !allBelow(prev, count)) return false;
+  for (std::size_t i = 0; i < count; ++i)
+    if (prev[next[i].value] != Id(i)) return false;
+  return true;
+}
+
+bool isRight(const Component& c, std::size_t triangles) {
+  const ElasticMaterial& m = c.material;
+  return isPositive(m.young) && m.poisson > -1 && m.poisson < .5 && isPositive(m.density) &&
+         isPositive(c.thickness) && c.friction >= 0 && std::isfinite(c.friction) &&
+         c.brittle.tensileStrength >= 0 && c.brittle.fractureEnergy >= 0 &&
+         c.brittle.shearFactor > 0 && c.firstTriangle <= c.lastTriangle &&
+         c.lastTriangle <= triangles;
+}
+
+bool componentsAreRight(const Model& model) {
+  return std::ranges::all_of(
+      model.components, [&](const Component& c) { return isRight(c, model.triangles.size()); });
+}
+
+bool nodesAreRight(const World& world) {
+  const Nodes& n = world.model.nodes;
+  const std::size_t count = n.size();
+  return n.velocity.size() == count && n.mass.size() == count && n.held.size() == count &&
+         n.component.size() == count && (n.load.empty() || n.load.size() == count) &&
+         world.reference.size() == count && allFinite(n.position) && allFinite(n.velocity) &&
+         allFinite(n.load) && allFinite(world.reference) &&
+         std::ranges::all_of(n.mass, [](double m) { return m >= 0 && std::isfinite(m); }) &&
+         std::ranges::all_of(n.held, [](std::uint8_t h) { return h <= kHeldXY; }) &&
+         allBelow(n.component, world.model.components.size());
+}
+
+/// Nodes of triangles that count have a mass.
+bool triangleIsRight(const Model& model, std::size_t element) {
+  const Triangles& t = model.triangles;
+  const auto& components = model.components;
+  for (const NodeId node : t.nodes[element])
+    if (node.value >= model.nodes.size() ||
+        (!t.isDropped(element) && !(model.nodes.mass[node.value] > 0)))
+      return false;
+  const std::uint32_t body = t.component[element].value;
+  return body < components.size() && element >= components[body].firstTriangle &&
+         element < components[body].lastTriangle && t.area[element] >= 0 &&
+         std::isfinite(t.area[element]) &&
+         std::ranges::all_of(t.inverseEdges[element], [](double v) { return std::isfinite(v); });
+}
+
+bool trianglesAreRight(const Model& model) {
+  const Triangles& t = model.triangles;
+  const std::size_t count = t.size();
+  if (t.inverseEdges.size() != count || t.area.size() != count || t.component.size() != count)
+    return false;
+  for (std::size_t e = 0; e < count; ++e)
+    if (!triangleIsRight(model, e)) return false;
+  return true;
+}
+
+bool segmentsAreRight(const World& world) {
+  const ContactSurfaces& s = world.surfaces;
+  const std::size_t count = s.segments();
+  return s.segmentNext.size() == count && areLinks(s.segmentNext, s.segmentPrev) &&
+         (s.segmentSmooth.empty() || s.segmentSmooth.size() == count) &&
+         s.segmentEntry.size() == count && allBelow(s.segmentEntry, s.entries()) &&
+         s.nodeSegment.size() <= world.model.nodes.size() && allBelowOrNone(s.nodeSegment, count) &&
+         allBelow(s.segmentNode, s.nodeSegment.size());
+}
+
+bool entriesAreRight(const World& world) {
+  const ContactSurfaces& s = world.surfaces;
+  const std::size_t count = s.entries();
+  return s.next.size() == count && areLinks(s.next, s.prev) && s.piece.size() == count &&
+         s.loop.size() == count && s.component.size() == count &&
+         allBelow(s.entrySegment, s.segments()) &&
+         allBelow(s.component, world.model.components.size()) &&
+         std::ranges::all_of(s.piece, [](Piece p) { return p <= Piece::kGone; }) &&
+         std::ranges::all_of(s.loop, [&](std::uint32_t l) { return l <= count; });
+}
+
+bool contactIsRight(const World& world) {
+  const Candidates& c = world.contact.candidates;
+  const std::size_t entries = world.surfaces.entries();
+  const bool offsetsFit = c.offsets.empty()
+                              ? c.slaves.empty() && c.masters.empty()
+                              : c.offsets.size() == c.slaves.size() + 1 && c.offsets.front() == 0 &&
+                                    c.offsets.back() == c.masters.size() &&
+                                    std::ranges::is_sorted(c.offsets);
+  return offsetsFit && c.outside.size() == c.masters.size() && allBelow(c.slaves, entries) &&
+         allBelow(c.masters, entries) &&
+         std::ranges::all_of(world.contact.touches, [&](const Touch& t) {
+           return t.pair.slave.value < entries && t.pair.master.value < entries;
+         });
+}
+
+bool searchIsRight(const World& world) {
+  const SearchState& s = world.search;
+  return s.halo >= 0 && std::isfinite(s.halo) && allBelow(s.nodes, world.model.nodes.size()) &&
+         (s.isVoid || s.positions.size() == s.nodes.size()) && allFinite(s.positions);
+}
+
+bool edgesAreRight(const World& world) {
+  const CrackEdges& e = world.fracture.edges;
+  const std::size_t count = e.size(), triangles = world.model.triangles.size();
+  if (e.corner.size() != count || e.strength.size() != count || e.cracked.size() != count ||
+      e.ofElement.size() > triangles || e.ofNode.size() > world.model.nodes.size() ||
+      !allBelowOrNone(e.ofNode, triangles))
+    return false;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::uint32_t element = e.element[i][k].value;
+      if (element >= e.ofElement.size() || e.corner[i][k] > 2 ||
+          e.ofElement[element][e.corner[i][k]] != EdgeId(i))
+        return false;
+    }
+  return std::ranges::all_of(e.ofElement, [&](const std::array<EdgeId, 3>& edges) {
+    return std::ranges::all_of(
+        edges, [&](EdgeId edge) { return edge == EdgeId::none() || edge.value < count; });
+  });
+}
+
+bool fractureIsRight(const World& world) {
+  const Cohesion& c = world.fracture.cohesion;
+  return edgesAreRight(world) && c.largest.size() == c.edge.size() &&
+         c.area.size() == c.edge.size() && allBelow(c.edge, world.fracture.edges.size());
+}
+
+}  // namespace
+
+std::string whatIsWrong(const World& world) {
+  if (!componentsAreRight(world.model)) return "a body's values";
+  if (!nodesAreRight(world)) return "its nodes";
+  if (!trianglesAreRight(world.model)) return "its triangles";
+  if (!segmentsAreRight(world) || !entriesAreRight(world)) return "its boundaries";
+  if (!contactIsRight(world)) return "its contacts";
+  if (!searchIsRight(world)) return "its search";
+  if (!fractureIsRight(world)) return "its cracks";
+  return {};
+}
+
+}  // namespace yadefrag

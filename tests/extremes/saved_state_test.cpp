@@ -1,0 +1,63 @@
+// A damaged save is refused with a sentence: cut off anywhere, or with any bit turned.
+
+#include <gtest/gtest.h>
+
+#include "core/same_bits.hpp"
+#include "extremes/limits.hpp"
+#include "extremes/saved_world.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+/// Boost writes its own signature before all that is ours.
+std::size_t headerSize() {
+  std::ostringstream text;
+  const boost::archive::binary_oarchive archive(text, boost::archive::no_codecvt);
+  return text.str().size();
+}
+
+class ExtremeSave : public ::testing::Test {
+ protected:
+  ExtremeSave() : world_(eventfulWorld()), bytes_(saved(world_)) {}
+  /// Loading these gives a sentence that says whose state it is.
+  static bool isRefused(const std::string& bytes) {
+    World world;
+    const std::string sentence = sentenceOf([&] { load(bytes, world); });
+    return sentence.starts_with("The saved state of FESolver is damaged");
+  }
+  World world_;
+  std::string bytes_;
+};
+
+TEST_F(ExtremeSave, GoesOnWithTheSameBits) {
+  EXPECT_GT(world_.fracture.numCracks(), 0U);
+  EXPECT_FALSE(world_.fracture.cohesion.edge.empty());
+  EXPECT_FALSE(world_.contact.touches.empty());
+  World loaded;
+  loaded.contactSettings = world_.contactSettings;
+  load(bytes_, loaded);
+  for (int i = 0; i < 30; ++i) world_.step(world_.lastDt), loaded.step(loaded.lastDt);
+  EXPECT_TRUE(sameBits(world_.model.nodes.position, loaded.model.nodes.position));
+  EXPECT_TRUE(sameBits(world_.model.nodes.velocity, loaded.model.nodes.velocity));
+  EXPECT_EQ(world_.fracture.numCracks(), loaded.fracture.numCracks());
+}
+
+TEST_F(ExtremeSave, CutOffAnywhereIsRefused) {
+  const std::size_t step = longRun() ? 1 : 97;
+  for (std::size_t size = headerSize(); size < bytes_.size(); size += step)
+    ASSERT_TRUE(isRefused(bytes_.substr(0, size))) << size << " of " << bytes_.size() << " bytes";
+}
+
+/// One bit of every byte that is looked at, so that each place in a word has its turn.
+TEST_F(ExtremeSave, AnyBitTurnedIsRefused) {
+  const std::size_t step = longRun() ? 1 : 53;
+  for (std::size_t at = headerSize(); at < bytes_.size(); at += step)
+    for (int bit = longRun() ? 0 : static_cast<int>(at % 8); bit < 8; bit += longRun() ? 1 : 8) {
+      std::string damaged = bytes_;
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 << bit));
+      ASSERT_TRUE(isRefused(damaged)) << "bit " << bit << " of byte " << at;
+    }
+}
+
+}  // namespace
+}  // namespace yadefrag::test

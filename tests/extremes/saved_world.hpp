@@ -1,0 +1,52 @@
+#pragma once
+// A world that has everything a state can hold, saved as FESolver saves it, and loaded again.
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "fe/fe_archive.hpp"
+#include "step/bodies.hpp"
+
+namespace yadefrag::test {
+
+/// Cracked, cohesive, smooth and loaded bodies in contact.
+inline World eventfulWorld() {
+  World world;
+  world.contactSettings.passes = 2;
+  for (int k = 0; k < 3; ++k) {
+    const Vec2 low{.01 * k, 0};
+    const TriangleMesh mesh =
+        structuredRectangle(low, low + Vec2{.01, .01}, 3 + k, 3, QuadPattern::kCrossed);
+    BodySpec spec = moving(mesh, {1e9, .2, 1000, false}, {30. - 30 * k, 0});
+    spec.friction = .3;
+    if (k < 2) spec.brittle.tensileStrength = 1e6;
+    if (k == 1) spec.brittle.fractureEnergy = 20;
+    if (k == 2) smoothAll(spec, mesh);
+    world.addBody(mesh, spec);
+  }
+  world.setLoads(std::vector<Vec2>(world.model.nodes.size(), {1, 2}));
+  const double dt = .3 * world.criticalTimeStep();
+  while (world.steps < 30) world.step(dt);
+  return world;
+}
+
+inline std::string saved(World& world) {
+  std::ostringstream text;
+  boost::archive::binary_oarchive archive(text, boost::archive::no_codecvt);
+  std::vector<int> bodies(world.surfaces.entries());
+  WorldArchive(archive).run(world, bodies);
+  return text.str();
+}
+
+inline void load(const std::string& bytes, World& world) {
+  std::istringstream text(bytes);
+  boost::archive::binary_iarchive archive(text, boost::archive::no_codecvt);
+  std::vector<int> bodies;
+  WorldArchive(archive).run(world, bodies);
+}
+
+}  // namespace yadefrag::test
