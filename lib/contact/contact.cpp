@@ -18,7 +18,8 @@ bool byPair(const ContactRow& a, const ContactRow& b) { return pairOf(a) < pairO
 
 /// (m) Penetration that is worth another solve.
 double worthwhile(const ContactStep& step) {
-  return std::max(tolerance::kRemainder * step.move, tolerance::kPenetrationLeft * step.shortest);
+  const double remainder = step.rubble ? tolerance::kRubbleRemainder : tolerance::kRemainder;
+  return std::max(remainder * step.move, tolerance::kPenetrationLeft * step.shortest);
 }
 
 /// Do two pieces meet in a joint that does not turn towards the void?
@@ -47,6 +48,13 @@ void Contact::resize(std::size_t nodes) {
   forces_.resize(nodes);
   displacement_.resize(nodes);
   isTouched_.resize(nodes);
+}
+
+void Contact::reserve(std::size_t nodes) {
+  forces_.reserve(nodes);
+  displacement_.reserve(nodes);
+  isTouched_.reserve(nodes);
+  sweeps_.reserve(nodes);
 }
 
 void Contact::correct(Model& model, const ContactSurfaces& surfaces,
@@ -82,14 +90,25 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
       scan(model, surfaces, step, reach, largestCorrection_);
     }
   }
+  if (step.rubble && !gapsAreKnown) lookAgain(model, surfaces, step);
   if (!rows_.empty() && !gapsAreKnown) updateGaps(model, surfaces, step);
   finish(model, surfaces, step);
+}
+
+/// What the last correction of a step made penetrate is left to the next one, which has to know
+/// that it came in from outside.
+void Contact::lookAgain(const Model& model, const ContactSurfaces& surfaces,
+                        const ContactStep& step) {
+  if (!addRows(model, surfaces, step)) return;
+  for (ContactRow& row : rows_)
+    if (!std::isfinite(row.left)) row.normalForce = row.tangentForce = 0;
 }
 
 void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
                    double reach, double moved) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
   search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads, moved);
+  lookedAt_ = false;
 }
 
 void Contact::solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
@@ -111,7 +130,10 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
   if (!search_.anyNear()) return false;
   const StageTimer timer(step.times, &StageTimes::localSearch);
   actives_.clear();
-  search_.findActives(candidates, surfaces, model.nodes.position, step.halo, actives_, known_);
+  search_.findActives(
+      candidates, surfaces, model.nodes.position, step.halo, actives_, known_,
+      lookedAt_ ? std::span<const std::uint8_t>(isTouched_) : std::span<const std::uint8_t>());
+  lookedAt_ = true;
   const PieceGeometry before(surfaces, step.before);
   bool anyNew = false;
   for (const Active& active : actives_) {

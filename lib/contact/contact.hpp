@@ -49,6 +49,8 @@ class Contact {
   void reset(std::size_t nodes);
   /// After nodes were added.
   void resize(std::size_t nodes);
+  /// Room for so many nodes.
+  void reserve(std::size_t nodes);
 
   /// After pieces of surfaces are gone: nothing touches them any more.
   void removeGone(const ContactSurfaces& surfaces);
@@ -85,6 +87,7 @@ class Contact {
                 const PieceGeometry& before, const Active& active, const ContactStep& step) const;
   void updateGaps(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void move(Model& model, const ContactStep& step);
+  void lookAgain(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void touch(NodeId node);
   void sumForces();
   void finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
@@ -99,6 +102,7 @@ class Contact {
   std::vector<Vec2> displacement_;       // m, by node: the correction u so far
   std::vector<NodeId> touched_;          // nodes of a row
   std::vector<std::uint8_t> isTouched_;  // by node
+  bool lookedAt_ = false;                // what the last scan found near, where it then was
   double largestCorrection_ = 0;
   double maxPenetration_ = 0;
   double residual_ = 0;

@@ -33,22 +33,22 @@ struct Beside {
   }
 };
 
-Beside besideChord(const PieceEnds& ends, Vec2 point) {
-  const Vec2 along = ends.end - ends.begin;
-  const double inverse = 1 / norm(along);
-  const Vec2 from = point - ends.begin;
-  const double at = dot(along, from) * inverse;
-  const double past = dot(along, point - ends.end) * inverse;
-  return {cross(from, along) * inverse, std::max(-at, past), inverse};
+Beside besideChord(const Chord& chord, Vec2 point) {
+  const Vec2 along = chord.end - chord.begin;
+  const Vec2 from = point - chord.begin;
+  const double at = dot(along, from) * chord.inverse;
+  const double past = dot(along, point - chord.end) * chord.inverse;
+  return {cross(from, along) * chord.inverse, std::max(-at, past), chord.inverse};
 }
 
-/// How far an arc bulges over its chord: near an arc is near its chord by that much more.
-double bulge(const ContactSurfaces& surfaces, std::span<const Vec2> positions, EntryId entry,
-             const PieceEnds& ends) {
-  if (!isArc(surfaces, entry)) return 0;
+Chord chordOf(const ContactSurfaces& surfaces, std::span<const Vec2> positions, EntryId entry) {
+  const PieceEnds ends = PieceGeometry(surfaces, positions).ends(entry);
+  Chord chord{ends.begin, ends.end, 1 / norm(ends.end - ends.begin), 0};
+  if (!isArc(surfaces, entry)) return chord;
   NodeId nodes[3];
   surfaces.pieceNodes(entry, nodes);
-  return norm(positions[nodes[1].value] - .5 * (ends.begin + ends.end));
+  chord.bulge = norm(positions[nodes[1].value] - .5 * (ends.begin + ends.end));
+  return chord;
 }
 
 /// The slave's outward normals, of the piece before it and of its own: a corner has two, and if it
@@ -93,13 +93,17 @@ void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
     candidates.asleep.assign(rows, 0), way_ = 0;
   near_.clear();
   nearByPart_.resize(static_cast<std::size_t>(std::max(threads, 1)));
+  findChords(candidates, surfaces, positions, threads);
+  const auto chord = [&](EntryId entry) {
+    return chords_.empty() ? chordOf(surfaces, positions, entry) : chords_[entry.value];
+  };
   const auto work = [&](std::size_t begin, std::size_t end, int part) {
     std::vector<Near>& found = nearByPart_[static_cast<std::size_t>(part)];
     found.clear();
     for (std::size_t r = begin; r < end; ++r) {
       if (candidates.asleep[r] > way_ + reach) continue;
       candidates.asleep[r] = way_ + scanRow(candidates, surfaces, positions, reach,
-                                            static_cast<std::uint32_t>(r), found);
+                                            static_cast<std::uint32_t>(r), chord, found);
     }
   };
   const int parts = forEachPart(rows, threads, work);
@@ -109,30 +113,45 @@ void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
   }
 }
 
+/// In rubble nearly every slave is awake, and every piece the master of several.
+void LocalSearch::findChords(const Candidates& candidates, const ContactSurfaces& surfaces,
+                             std::span<const Vec2> positions, int threads) {
+  const auto isAwake = [&](double asleep) { return asleep <= way_ + reach_; };
+  const auto awake = static_cast<std::size_t>(std::ranges::count_if(candidates.asleep, isAwake));
+  chords_.resize(awake > surfaces.entries() / 4 ? surfaces.entries() : 0);
+  forEachPart(chords_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t e = begin; e < end; ++e) chords_[e] = chordOf(surfaces, positions, EntryId(e));
+  });
+}
+
+template <class ChordOf>
 double LocalSearch::scanRow(Candidates& candidates, const ContactSurfaces& surfaces,
                             std::span<const Vec2> positions, double reach, std::uint32_t row,
-                            std::vector<Near>& found) {
-  const PieceGeometry geometry(surfaces, positions);
-  const Vec2 point = geometry.slave(candidates.slaves[row]);
+                            ChordOf chordOfEntry, std::vector<Near>& found) {
+  const Vec2 point = PieceGeometry(surfaces, positions).slave(candidates.slaves[row]);
   double clear = INFINITY;
   for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c) {
     const EntryId master = candidates.masters[c];
-    const PieceEnds ends = geometry.ends(master);
-    const Beside beside = besideChord(ends, point);
-    const double bulging = bulge(surfaces, positions, master, ends);
-    const double wide = reach + bulging;
+    const Chord chord = chordOfEntry(master);
+    const Beside beside = besideChord(chord, point);
+    const double wide = reach + chord.bulge;
     if (beside.gap < wide && beside.beyond < 4 * wide)
       found.push_back({row, c});
     else
       candidates.outside[c] = beside.gap >= 0 ? 1 : 0;
-    clear = std::min(clear, (beside.gap - bulging) / beside.leverage(isArc(surfaces, master)));
+    const bool arc = isArc(surfaces, master);
+    // Nothing comes of a straight master that the slave is behind of, until it has come out.
+    const bool behind = !arc && candidates.outside[c] == 0;
+    const double open = (behind ? std::abs(beside.gap) : beside.gap) - chord.bulge;
+    clear = std::min(clear, open / beside.leverage(arc));
   }
   return clear;
 }
 
 void LocalSearch::findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
                               std::span<const Vec2> positions, double halo,
-                              std::vector<Active>& actives, std::span<const SlaveMaster> known) {
+                              std::vector<Active>& actives, std::span<const SlaveMaster> known,
+                              std::span<const std::uint8_t> moved) {
   const PieceGeometry geometry(surfaces, positions);
   const std::span<const Near> near(near_);
   auto next = known.begin();
@@ -145,10 +164,26 @@ void LocalSearch::findActives(const Candidates& candidates, const ContactSurface
       allKnown = allKnown && next != known.end() && *next == pair;
     }
     if (allKnown) continue;
+    if (!moved.empty() && !hasMoved(candidates, surfaces, near.subspan(begin, end - begin), moved))
+      continue;
     tryRow(candidates, surfaces, geometry, near.subspan(begin, end - begin), halo);
     for (const Trial& trial : trials_)
       if (trial.active) actives.push_back({{slave, trial.master}, trial.foot, trial.cameAside});
   }
+}
+
+/// Has any node on which `tryRow` depends.
+bool LocalSearch::hasMoved(const Candidates& candidates, const ContactSurfaces& surfaces,
+                           std::span<const Near> row, std::span<const std::uint8_t> moved) {
+  const auto of = [&](EntryId entry) {
+    NodeId nodes[3];
+    const int count = surfaces.pieceNodes(entry, nodes);
+    return std::any_of(nodes, nodes + count, [&](NodeId n) { return moved[n.value] != 0; });
+  };
+  const EntryId slave = candidates.slaves[row.front().row];
+  return of(slave) || of(surfaces.prev[slave.value]) ||
+         std::ranges::any_of(
+             row, [&](const Near& near) { return of(candidates.masters[near.candidate]); });
 }
 
 /// One slave and all masters that it is near to.
@@ -157,12 +192,20 @@ void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& su
   const EntryId slave = candidates.slaves[row.front().row];
   const Vec2 point = geometry.slave(slave);
   trials_.clear();
-  // The quick test first: most slaves are outside all masters.
+  // The quick tests first. Whatever `decide` does, it wakes no master without a flag or an arc in
+  // the row: in rubble, most slaves are near to their own body's faces alone.
+  if (std::ranges::none_of(row, [&](const Near& near) {
+        return candidates.outside[near.candidate] != 0 ||
+               isArc(surfaces, candidates.masters[near.candidate]);
+      }))
+    return;
+  // And most slaves are outside all masters.
   if (std::ranges::none_of(row, [&](const Near& near) {
         const EntryId master = candidates.masters[near.candidate];
         return isArc(surfaces, master) || geometry.mayPenetrate(master, point);
       }))
     return;
+  const SlaveNormals normals = slaveNormals(surfaces, geometry, slave);
   bool anyInside = false;
   for (const Near& near : row) {
     const EntryId master = candidates.masters[near.candidate];
@@ -170,15 +213,14 @@ void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& su
     // The quick test spares the iteration.
     if (isArcAmongArcs(surfaces, master) && !geometry.mayPenetrate(master, point)) continue;
     trial.foot = geometry.foot(master, point);
-    anyInside = anyInside || trial.foot.gap < 0;
+    trial.opposed = normals.oppose(trial.foot.normal);
+    anyInside = anyInside || (trial.opposed && trial.foot.gap < 0);
     trials_.push_back(trial);
   }
   if (!anyInside) {
     trials_.clear();
     return;
   }
-  const SlaveNormals normals = slaveNormals(surfaces, geometry, slave);
-  for (Trial& trial : trials_) trial.opposed = normals.oppose(trial.foot.normal);
   decide(surfaces, geometry, halo);
 }
 
@@ -195,14 +237,14 @@ void LocalSearch::decide(const ContactSurfaces& surfaces, const PieceGeometry& g
   }
   // All that came in past an end before any choice: else one neighbour would bring back what the
   // other one is nearer to.
-  for (Trial& first : trials_)
-    for (Trial& second : trials_)
-      if (surfaces.next[first.master.value] == second.master)
-        enterAtJoint(surfaces, first, second, halo);
-  for (Trial& first : trials_)
-    for (Trial& second : trials_)
-      if (surfaces.next[first.master.value] == second.master)
-        decideNeighbours(surfaces, geometry, first, second);
+  joints_.clear();
+  for (std::uint32_t i = 0; i < trials_.size(); ++i) {
+    const EntryId after = surfaces.next[trials_[i].master.value];
+    for (std::uint32_t k = 0; k < trials_.size(); ++k)
+      if (trials_[k].master == after) joints_.emplace_back(i, k);
+  }
+  for (const auto& [i, k] : joints_) enterAtJoint(surfaces, trials_[i], trials_[k], halo);
+  for (const auto& [i, k] : joints_) decideNeighbours(surfaces, geometry, trials_[i], trials_[k]);
 }
 
 /// `second` follows `first` on their surface.

@@ -3,7 +3,9 @@
 // near, then, for each slave, the masters it is active on.
 
 #include <cmath>
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "contact/candidates.hpp"
@@ -19,6 +21,13 @@ struct Active {
       cameAside;  ///< through a face that does not oppose it: the overlap is older than the contact
 };
 
+/// The chord of a piece at the scan's positions.
+struct Chord {
+  Vec2 begin, end;
+  double inverse;  ///< 1/m, of its length
+  double bulge;    ///< m, of an arc over it: near an arc is near its chord by that much more
+};
+
 class LocalSearch {
  public:
   /// First phase (§5.1) at `positions` (m, by node). A candidate is near if its slave is inside the
@@ -31,10 +40,12 @@ class LocalSearch {
 
   /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master. None is deeper
   /// in a smooth master than `halo` (m). Slaves `known` (ascending) to be active on all masters
-  /// that they are near to are left out.
+  /// that they are near to are left out, and, if there is one, so are those of whom no node is in
+  /// `moved` (flags by node), which were looked at before.
   void findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
                    std::span<const Vec2> positions, double halo, std::vector<Active>& actives,
-                   std::span<const SlaveMaster> known = {});
+                   std::span<const SlaveMaster> known = {},
+                   std::span<const std::uint8_t> moved = {});
 
   /// Outside flags of the near ones after the step, in which `touched` (ascending) were active:
   /// those stay outside, however rounding has placed them.
@@ -49,9 +60,14 @@ class LocalSearch {
     std::uint32_t candidate;
   };
   /// What `scan` does with one slave; returns how far everything may move before it is near.
+  template <class ChordOf>
   static double scanRow(Candidates& candidates, const ContactSurfaces& surfaces,
                         std::span<const Vec2> positions, double reach, std::uint32_t row,
-                        std::vector<Near>& found);
+                        ChordOf chordOfEntry, std::vector<Near>& found);
+  void findChords(const Candidates& candidates, const ContactSurfaces& surfaces,
+                  std::span<const Vec2> positions, int threads);
+  static bool hasMoved(const Candidates& candidates, const ContactSurfaces& surfaces,
+                       std::span<const Near> row, std::span<const std::uint8_t> moved);
   struct Trial {
     EntryId master;
     Foot foot;
@@ -74,7 +90,9 @@ class LocalSearch {
   double reach_ = 0;  // m, of the last scan
   std::vector<Near> near_;
   std::vector<std::vector<Near>> nearByPart_;
+  std::vector<Chord> chords_;  // by entry; empty where few are needed
   std::vector<Trial> trials_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> joints_;  // trials, one after the other
 };
 
 }  // namespace yadefrag

@@ -12,65 +12,113 @@ double RowSweeps::solve(std::span<ContactRow> rows, const Nodes& nodes, double d
                         double tolerance) {
   begin(rows, nodes, dt, drag);
   double change = 0;
-  for (int sweep = 0; sweep < tolerance::kRowSweeps; ++sweep) {
-    change = 0;
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      change = std::max(change, relax(rows[r], responses_[r]));
+  for (int count = 0; count < tolerance::kRowSweeps; ++count) {
+    // There and back: what jams goes along chains of pieces.
+    change = sweep(count % 2 == 0, tolerance);
     if (!(change > tolerance)) break;
   }
-  for (ContactRow& row : rows) row.left = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    rows[r].normalForce = rows_[r].normalForce;
+    rows[r].tangentForce = rows_[r].tangentForce;
+    rows[r].left = 0;
+  }
   return change;
 }
 
 void RowSweeps::begin(std::span<const ContactRow> rows, const Nodes& nodes, double dt,
                       double drag) {
-  displacement_.resize(nodes.size());
-  responses_.resize(rows.size());
-  for (const ContactRow& row : rows)
-    for (int k = 0; k < row.count; ++k)
-      displacement_[row.node[static_cast<std::size_t>(k)].value] = {};
+  numbers_.resize(nodes.size());
+  nodes_.clear();
+  displacement_.clear();
+  pushedAt_.clear();
+  rows_.resize(rows.size());
+  now_ = 1;  // All are stale.
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const ContactRow& row = rows[r];
-    Response& response = responses_[r];
-    response = {};
-    response.along = row.tangent();
-    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
+    Lean& lean = rows_[r];
+    lean = {};
+    lean.count = static_cast<std::uint32_t>(row.count);
+    lean.normal = row.normal;
+    lean.gap = row.gap - row.allowed, lean.slip = row.slip, lean.friction = row.friction;
+    lean.normalForce = row.normalForce, lean.tangentForce = row.tangentForce;
+    const Vec2 along = row.tangent();
+    for (std::uint32_t k = 0; k < lean.count; ++k) {
       const Vec2 mobile = dt * dt * row.weight[k] * mobility(nodes, row.node[k], drag);
-      response.perNormal[k] = {mobile.x * row.normal.x, mobile.y * row.normal.y};
-      response.perTangent[k] = {mobile.x * response.along.x, mobile.y * response.along.y};
-      response.normal += row.weight[k] * dot(response.perNormal[k], row.normal);
-      response.tangent += row.weight[k] * dot(response.perTangent[k], response.along);
+      const Vec2 perNormal{mobile.x * row.normal.x, mobile.y * row.normal.y};
+      const Vec2 perTangent{mobile.x * along.x, mobile.y * along.y};
+      lean.normalResponse += row.weight[k] * dot(perNormal, row.normal);
+      lean.tangentResponse += row.weight[k] * dot(perTangent, along);
+      lean.slipPerNormal += row.weight[k] * dot(perNormal, along);
+      lean.node[k] = numberOf(row.node[k]);
+      lean.weight[k] = row.weight[k], lean.perForce[k] = mobile;
     }
-    push(row, response.perNormal, row.normalForce);
-    push(row, response.perTangent, row.tangentForce);
+    push(lean, row.force());
   }
 }
 
-void RowSweeps::push(const ContactRow& row, const std::array<Vec2, 5>& perForce, double force) {
-  for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k)
-    displacement_[row.node[k].value] += force * perForce[k];
+std::uint32_t RowSweeps::numberOf(NodeId node) {
+  std::uint32_t& number = numbers_[node.value];
+  if (number < nodes_.size() && nodes_[number] == node) return number;
+  number = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back(node);
+  displacement_.emplace_back();
+  pushedAt_.push_back(now_);
+  return number;
+}
+
+Vec2 RowSweeps::relative(const Lean& row) const {
+  Vec2 sum;
+  for (std::uint32_t k = 0; k < row.count; ++k) sum += row.weight[k] * displacement_[row.node[k]];
+  return sum;
+}
+
+void RowSweeps::push(const Lean& row, Vec2 force) {
+  for (std::uint32_t k = 0; k < row.count; ++k)
+    displacement_[row.node[k]] += Vec2{row.perForce[k].x * force.x, row.perForce[k].y * force.y};
+}
+
+/// Has another row moved one of its nodes since it was relaxed.
+bool RowSweeps::isStale(const Lean& row) const {
+  for (std::uint32_t k = 0; k < row.count; ++k)
+    if (pushedAt_[row.node[k]] > row.looked) return true;
+  return false;
+}
+
+double RowSweeps::sweep(bool forwards, double tolerance) {
+  double most = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    Lean& row = rows_[forwards ? i : rows_.size() - 1 - i];
+    if (!isStale(row)) continue;
+    const double moved = relax(row);
+    row.looked = ++now_;
+    most = std::max(most, moved);
+    if (!(moved > tolerance)) continue;
+    for (std::uint32_t k = 0; k < row.count; ++k) pushedAt_[row.node[k]] = now_;
+  }
+  return most;
 }
 
 /// Sets one row's forces so that its own gap and slip vanish, as far as the bounds allow; returns
 /// by how much it moved (m). A row whose nodes are all held has nothing to say.
-double RowSweeps::relax(ContactRow& row, const Response& response) {
-  if (!(response.normal > 0)) return 0;
-  const double gap = row.gap - row.allowed + dot(relative(row, displacement_), row.normal);
-  const double normal = std::max(0., row.normalForce - gap / response.normal);
+double RowSweeps::relax(Lean& row) {
+  if (!(row.normalResponse > 0)) return 0;
+  const Vec2 along{-row.normal.y, row.normal.x};
+  const Vec2 moved = relative(row);
+  const double gap = row.gap + dot(moved, row.normal);
+  const double normal = std::max(0., row.normalForce - gap / row.normalResponse);
   const double pushed = normal - row.normalForce;
   row.normalForce = normal;
-  if (pushed != 0) push(row, response.perNormal, pushed);
-  double moved = std::abs(pushed) * response.normal;
-  if (row.friction > 0 && response.tangent > 0) {
-    const double slip = row.slip + dot(relative(row, displacement_), response.along);
+  double pulled = 0;
+  if (row.friction > 0 && row.tangentResponse > 0) {
+    const double slip = row.slip + dot(moved, along) + pushed * row.slipPerNormal;
     const double most = row.friction * normal;
-    const double tangent = std::clamp(row.tangentForce - slip / response.tangent, -most, most);
-    const double pulled = tangent - row.tangentForce;
+    const double tangent = std::clamp(row.tangentForce - slip / row.tangentResponse, -most, most);
+    pulled = tangent - row.tangentForce;
     row.tangentForce = tangent;
-    if (pulled != 0) push(row, response.perTangent, pulled);
-    moved = std::max(moved, std::abs(pulled) * response.tangent);
   }
-  return moved;
+  if (pushed == 0 && pulled == 0) return 0;
+  push(row, pushed * row.normal + pulled * along);
+  return std::max(std::abs(pushed) * row.normalResponse, std::abs(pulled) * row.tangentResponse);
 }
 
 }  // namespace yadefrag

@@ -10,6 +10,7 @@
 // they leave is a gap of the next step.
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -24,21 +25,38 @@ class RowSweeps {
   /// sweep, or for kRowSweeps sweeps; returns the last change (m).
   double solve(std::span<ContactRow> rows, const Nodes& nodes, double dt, double drag,
                double tolerance);
+  /// Room for so many nodes of the model.
+  void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
 
  private:
-  /// What a row's forces do to its nodes.
-  struct Response {
-    std::array<Vec2, 5> perNormal, perTangent;  // m/N, by node of the row
-    double normal, tangent;                     // m/N: what 1 N undoes of gap and slip
-    Vec2 along;                                 // the row's tangent
+  /// A row as the sweeps want it: all that they touch, and nothing else.
+  struct Lean {
+    std::array<std::uint32_t, 5> node;  // among those of all rows
+    std::uint32_t count;
+    std::array<double, 5> weight;
+    std::array<Vec2, 5> perForce;  // m/N, by axis: what a force does to the node
+    Vec2 normal;
+    double gap, slip, friction;
+    double normalResponse, tangentResponse;  // m/N: what 1 N undoes of gap and slip
+    double slipPerNormal;                    // m/N: where a node is held in one direction
+    double normalForce, tangentForce;        // N
+    std::uint64_t looked;                    // when it was relaxed last
   };
 
   void begin(std::span<const ContactRow> rows, const Nodes& nodes, double dt, double drag);
-  double relax(ContactRow& row, const Response& response);
-  void push(const ContactRow& row, const std::array<Vec2, 5>& perForce, double force);
+  std::uint32_t numberOf(NodeId node);
+  [[nodiscard]] Vec2 relative(const Lean& row) const;
+  void push(const Lean& row, Vec2 force);
+  double relax(Lean& row);
+  double sweep(bool forwards, double tolerance);
+  [[nodiscard]] bool isStale(const Lean& row) const;
 
-  std::vector<Response> responses_;
-  std::vector<Vec2> displacement_;  // m, by node; of nodes of rows only
+  std::vector<Lean> rows_;
+  std::vector<NodeId> nodes_;            // of rows
+  std::vector<std::uint32_t> numbers_;   // by node: among nodes_; of those only
+  std::vector<Vec2> displacement_;       // m, by number
+  std::vector<std::uint64_t> pushedAt_;  // by number: when it last moved by more than the tolerance
+  std::uint64_t now_ = 0;
 };
 
 }  // namespace yadefrag

@@ -51,29 +51,30 @@ inline double contract(const Matrix2& a, const Matrix2& b) {
           m * (f.yx - sine) + s * sine, m * (f.yy - cosine) + s * cosine};
 }
 
-/// Does the stress measure of brittle materials, √(max(s₁, 0)² + (t/β)²), reach a value whose
-/// square is `squaredLook`? s₁ is the greater principal stress and t the greatest shear stress of
-/// RᵀP. In no direction is the effective traction √(max(σₙ, 0)² + (τ/β)²) greater; the measure is
-/// convex, so that this goes for averages, too. `shearWeight` is 1/β².
+/// What brittle elements are watched for.
+struct StressLook {
+  double shearWeight;        ///< 1/β²
+  double friction, incline;  ///< μ, √(1 + μ²)
+  double squared;            ///< Pa², of the measure; infinite: not watched
+};
+
+/// Does the stress measure of brittle materials, √(max(c + r, 0)² + (max(r√(1 + μ²) + μc, 0)/β)²),
+/// reach the value that is looked for? c is the mean principal stress of RᵀP and r its greatest
+/// shear stress. In no direction is the effective traction greater (`largestTraction` in
+/// fracture/separation.hpp); the measure is convex, so that this goes for averages, too.
 [[gnu::always_inline]] inline bool isStressed(const Matrix2& f, double lame, double shear,
-                                              double shearWeight, double squaredLook) {
+                                              const StressLook& look) {
   const double a = f.xx + f.yy;
   const double b = f.yx - f.xy;
   const double c = f.xx - f.yy;
   const double d = f.yx + f.xy;
-  // Sum and difference of the principal stretches are √(a² + b²) and √(c² + d²). A root of the
-  // latter would cost as much as all the rest: with s₁ = mean + t, s₁² + t²/β² ≥ look² becomes
-  // rest ≤ 2·mean·t, and both sides are squared with their signs kept.
+  // Sum and difference of the principal stretches are √(a² + b²) and √(c² + d²).
   const double mean = (lame + shear) * (std::sqrt(a * a + b * b) - 2);
-  const double squaredShear = shear * shear * (c * c + d * d);
-  const double slip = shearWeight * squaredShear;
-  const double signedSquare = mean * std::abs(mean);
-  const double rest = squaredLook - mean * mean - squaredShear - slip;
-  const bool pulled = squaredShear + signedSquare > 0;
-  const bool reached = rest * std::abs(rest) <= 4 * signedSquare * squaredShear;
-  // No short cuts, which would be branches in a vector loop.
-  const int counted = static_cast<int>(pulled) & static_cast<int>(reached);
-  return (counted | static_cast<int>(slip >= squaredLook)) != 0;
+  const double radius = shear * std::sqrt(c * c + d * d);
+  const double pull = mean + radius > 0 ? mean + radius : 0;
+  const double sheared = radius * look.incline + look.friction * mean;
+  const double slip = sheared > 0 ? sheared : 0;
+  return pull * pull + look.shearWeight * slip * slip >= look.squared;
 }
 
 /// (J/m³) W.

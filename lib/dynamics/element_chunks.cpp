@@ -23,13 +23,15 @@ Chunk chunkOf(const Component& c) {
   chunk.thickness = c.thickness;
   chunk.strength = c.brittle.cracks() ? c.brittle.tensileStrength : 0;
   chunk.shearFactor = c.brittle.cracks() ? c.brittle.shearFactor : 0;
+  chunk.friction = c.brittle.cracks() ? c.friction : 0;
   chunk.squaredLook = kNever;
   return chunk;
 }
 
 bool sameMaterial(const Chunk& a, const Chunk& b) {
   return a.lame == b.lame && a.shear == b.shear && a.density == b.density &&
-         a.thickness == b.thickness && a.strength == b.strength && a.shearFactor == b.shearFactor;
+         a.thickness == b.thickness && a.strength == b.strength && a.shearFactor == b.shearFactor &&
+         a.friction == b.friction;
 }
 
 /// Cuts the elements into chunks. Small bodies of one material share chunks: a scene of a thousand

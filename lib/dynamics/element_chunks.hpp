@@ -33,8 +33,8 @@ struct Chunk {
   double lame, shear;         ///< Pa
   double density, waveSpeed;  ///< kg/m³, m/s; for the bulk viscosity
   double thickness;           ///< m
-  /// Pa and β of a brittle material, 0 of others.
-  double strength, shearFactor;
+  /// Pa, β and μ of a brittle material, 0 of others.
+  double strength, shearFactor, friction;
   /// (Pa²) Squared stress measure from which elements count as stressed; infinite: not watched.
   double squaredLook;
   std::uint32_t firstComponent, lastComponent;  ///< `lastComponent` itself included
@@ -63,6 +63,13 @@ struct ElementChunks {
   /// more are appended to `abandoned` and must be set to zero.
   std::size_t follow(const Model& model, std::span<const ElementId> changed, NodeId firstNew,
                      std::vector<std::uint32_t>& abandoned);
+
+  /// Room for so many nodes of the model, in chunks that grow.
+  void reserve(std::size_t modelNodes) {
+    local_.reserve(modelNodes);
+    nodes.reserve(nodes.size() + nodes.size() / 2);
+    partialOf.reserve(nodes.capacity());
+  }
 
   /// Sets what is watched; `leastStrength` by component. Returns whether anything is.
   bool watch(const std::vector<double>& leastStrength);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/tolerances.hpp"
 #include "dynamics/elastic_law.hpp"
@@ -52,8 +53,8 @@ template <bool kWatched>
                                                      Corners& c) {
   const double lame = chunk.lame;
   const double shear = chunk.shear;
-  const double shearWeight = 1 / (chunk.shearFactor * chunk.shearFactor);
-  const double look = chunk.squaredLook;
+  const StressLook look{1 / (chunk.shearFactor * chunk.shearFactor), chunk.friction,
+                        std::sqrt(1 + chunk.friction * chunk.friction), chunk.squaredLook};
   int bad = 0;
   int stressed = 0;
 #pragma omp simd reduction(+ : bad, stressed)
@@ -66,7 +67,7 @@ template <bool kWatched>
                                           c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],  //
                                           i11, i12, i21, i22);
     bad += determinant(f) > 0 ? 0 : 1;  // NaN too
-    if constexpr (kWatched) stressed += isStressed(f, lame, shear, shearWeight, look) ? 1 : 0;
+    if constexpr (kWatched) stressed += isStressed(f, lame, shear, look) ? 1 : 0;
     const Matrix2 p = firstPiola(f, lame, shear);
     const double v = e.volume[k];
     const double f1x = -v * (p.xx * i11 + p.xy * i12);

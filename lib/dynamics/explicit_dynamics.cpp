@@ -73,6 +73,13 @@ void ExplicitDynamics::rebuild(const Model& model) {
   scratch_.clear();
 }
 
+void ExplicitDynamics::reserve(std::size_t nodes) {
+  force_.reserve(nodes);
+  previousVelocity_.reserve(nodes);
+  if (!heldVelocity_.empty()) heldVelocity_.reserve(nodes);
+  elements_.reserve(nodes);
+}
+
 std::size_t ExplicitDynamics::follow(const Model& model, std::span<const ElementId> changed,
                                      std::span<const NodeId> originals) {
   const NodeId firstNew(force_.size());

@@ -37,6 +37,8 @@ class ExplicitDynamics {
 
   /// Nodes of dropped triangles stay where they are from now on; no work is booked for that.
   void drop(std::span<const NodeId> nodes);
+  /// Room for so many nodes, so that the first that split do not wait for it.
+  void reserve(std::size_t nodes);
 
   /// From now on, steps look for brittle elements that are stressed nearly (`kStrengthLook`) up to
   /// the lowest strength (Pa) of their component; 0 or infinite: not watched; empty: none is. That

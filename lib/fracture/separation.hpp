@@ -39,11 +39,13 @@ struct Traction {
 [[nodiscard]] inline double largestTraction(const std::array<double, 3>& stress,
                                             const BrittleMaterial& material, double friction) {
   const double centre = .5 * (stress[0] + stress[1]);
-  const double radius = std::hypot(.5 * (stress[0] - stress[1]), stress[2]);
+  const double half = .5 * (stress[0] - stress[1]);
+  const double radius = std::sqrt(half * half + stress[2] * stress[2]);
   const double tension = std::max(0., centre + radius);
   const double shear =
-      std::max(0., radius * std::sqrt(1 + friction * friction) + friction * centre);
-  return std::hypot(tension, shear / material.shearFactor);
+      std::max(0., radius * std::sqrt(1 + friction * friction) + friction * centre) /
+      material.shearFactor;
+  return std::sqrt(tension * tension + shear * shear);
 }
 
 }  // namespace yadefrag

@@ -15,12 +15,19 @@ std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackE
   found_.clear();
   // The stress of a node that is looked at belongs to all edges that end there, whosever they are.
   for (const ElementRange& range : where)
-    for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e) {
-      if (model.triangles.isDropped(e)) continue;
-      for (const NodeId node : model.triangles.nodes[e])
-        lookAround(model, edges, node, leastStrength);
-    }
+    for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e)
+      if (!model.triangles.isDropped(e)) lookAtCorners(model, edges, ElementId(e), leastStrength);
   return pickApart(model, edges);
+}
+
+/// Most of what is stressed in rubble has no edge left that could crack.
+void StrengthCheck::lookAtCorners(const Model& model, const CrackEdges& edges, ElementId element,
+                                  std::span<const double> leastStrength) {
+  std::array<bool, 3> whole{};
+  for (std::uint8_t i = 0; i < 3; ++i) whole[i] = edges.across({element, i}) != ElementId::none();
+  for (std::uint8_t i = 0; i < 3; ++i)
+    if (whole[i] || whole[beforeCorner(i)])
+      lookAround(model, edges, model.triangles.nodes[element.value][i], leastStrength);
 }
 
 void StrengthCheck::lookAround(const Model& model, const CrackEdges& edges, NodeId node,
@@ -51,6 +58,9 @@ void StrengthCheck::lookAround(const Model& model, const CrackEdges& edges, Node
 void StrengthCheck::prepare(const Model& model, const CrackEdges& edges) {
   elementSeen_.resize(model.triangles.size());
   elementStress_.resize(model.triangles.size());
+  const std::size_t room = model.nodes.position.capacity();
+  for (auto* marks : {&nodeSeen_, &nodeTaken_, &nodeLookedAt_}) marks->reserve(room);
+  nodeStress_.reserve(room);
   nodeSeen_.resize(model.nodes.size());
   nodeStress_.resize(model.nodes.size());
   nodeTaken_.resize(model.nodes.size());

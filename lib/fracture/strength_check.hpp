@@ -28,6 +28,8 @@ class StrengthCheck {
     EdgeId edge;
   };
 
+  void lookAtCorners(const Model& model, const CrackEdges& edges, ElementId element,
+                     std::span<const double> leastStrength);
   void lookAround(const Model& model, const CrackEdges& edges, NodeId node,
                   std::span<const double> leastStrength);
   const Stress& stressOf(const Model& model, ElementId element);

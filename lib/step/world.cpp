@@ -116,8 +116,12 @@ void World::buildIfChanged() {
   before_.resize(model.nodes.size());
   if (fracture.isOn()) {
     fracture.prepare(model);
-    reference.reserve(model.nodes.position.capacity());
-    before_.reserve(model.nodes.position.capacity());
+    const std::size_t room = model.nodes.position.capacity();
+    reference.reserve(room);
+    before_.reserve(room);
+    surfaces.nodeSegment.reserve(room);
+    dynamics_.reserve(room);
+    contact.reserve(room);
   }
   if (search.nodes.empty()) {
     for (const NodeId node : surfaces.segmentNode)

@@ -8,6 +8,7 @@
 #include "core/tolerances.hpp"
 #include "dynamics/blocks.hpp"
 #include "dynamics/element_state.hpp"
+#include "fracture/separation.hpp"
 
 namespace yadefrag {
 namespace {
@@ -23,11 +24,12 @@ std::array<double, 3> turnedBack(const Matrix2& f, const ElasticMaterial& materi
   return {c * p.xx + s * p.yx, c * p.yy - s * p.xy, c * p.xy + s * p.yy};
 }
 
-/// (Pa) √(max(s₁, 0)² + (t/β)²)
-double measureOf(const std::array<double, 3>& stress, double shearFactor) {
+/// (Pa) √(max(c + r, 0)² + (max(r√(1 + μ²) + μc, 0)/β)²)
+double measureOf(const std::array<double, 3>& stress, double shearFactor, double friction) {
   const double mean = (stress[0] + stress[1]) / 2;
-  const double shear = std::hypot((stress[0] - stress[1]) / 2, stress[2]);
-  return std::hypot(std::max(mean + shear, 0.), shear / shearFactor);
+  const double radius = std::hypot((stress[0] - stress[1]) / 2, stress[2]);
+  const double slip = radius * std::hypot(1, friction) + friction * mean;
+  return std::hypot(std::max(mean + radius, 0.), std::max(slip, 0.) / shearFactor);
 }
 
 /// (Pa) By element.
@@ -36,7 +38,7 @@ std::vector<double> measures(const Model& model) {
   for (std::size_t e = 0; e < model.triangles.size(); ++e) {
     const Component& c = model.components[model.triangles.component[e].value];
     const auto stress = turnedBack(deformationGradient(model, ElementId(e)), c.material);
-    result.push_back(measureOf(stress, c.brittle.shearFactor));
+    result.push_back(measureOf(stress, c.brittle.shearFactor, c.friction));
   }
   return result;
 }
@@ -48,6 +50,7 @@ Model bodies() {
   const auto add = [&](double x, int side, const BrittleMaterial& brittle) {
     const ComponentId id = appendBlock(model, {x, 0}, {x + .01, .01}, side, side);
     model.components[id.value].brittle = brittle;
+    model.components[id.value].friction = .4;
   };
   for (int i = 0; i < 5; ++i) add(.02 + .02 * i, 5, {.tensileStrength = 2e8, .shearFactor = .7});
   add(.2, 13, {});
@@ -199,24 +202,29 @@ TEST(Stressed, TheMeasureBoundsTheEffectiveTractionInEveryDirection) {
   std::uniform_real_distribution<double> any(-.01, .01);
   for (int i = 0; i < 2000; ++i) {
     const Matrix2 f{any(random), 1 + any(random), -1 + any(random), any(random)};
-    const double shearFactor = i % 4 + .5;
+    const BrittleMaterial brittle{.tensileStrength = 1, .shearFactor = i % 4 + .5};
+    const double friction = i % 3 * .3;
     const auto stress = turnedBack(f, kSteel);
-    const double measure = measureOf(stress, shearFactor);
+    const double measure = measureOf(stress, brittle.shearFactor, friction);
+    const double rounding = 1e-9 * std::abs(stress[0] + stress[1]);
     const auto reaches = [&](double look) {
-      return isStressed(f, kSteel.lame(), kSteel.shearModulus(), 1 / (shearFactor * shearFactor),
-                        look * look);
+      return isStressed(f, kSteel.lame(), kSteel.shearModulus(),
+                        {1 / (brittle.shearFactor * brittle.shearFactor), friction,
+                         std::hypot(1, friction), look * look});
     };
-    EXPECT_TRUE(reaches(measure * (1 - 1e-9))) << i;
-    EXPECT_FALSE(reaches(measure * (1 + 1e-9))) << i;
+    // Pressed evenly, nothing is stressed.
+    if (measure > 2 * rounding) {
+      EXPECT_TRUE(reaches(measure - rounding)) << i;
+    }
+    EXPECT_FALSE(reaches(measure + rounding)) << i;
     double greatest = 0;
     for (double angle = 0; angle < 3.15; angle += .05) {
-      const Vec2 n{std::cos(angle), std::sin(angle)};
-      const Vec2 traction{stress[0] * n.x + stress[2] * n.y, stress[2] * n.x + stress[1] * n.y};
-      greatest = std::max(
-          greatest, std::hypot(std::max(dot(traction, n), 0.), cross(n, traction) / shearFactor));
+      const Traction traction = tractionOn(stress, {std::cos(angle), std::sin(angle)});
+      greatest =
+          std::max(greatest, effectiveTraction(traction.normal, traction.shear, brittle, friction));
     }
-    EXPECT_LE(greatest, measure * (1 + 1e-12));
-    EXPECT_GT(greatest, measure / 1.5);
+    EXPECT_LE(greatest, measure + rounding);
+    EXPECT_GE(greatest, measure / 2 - 1e-3 * std::abs(stress[0] + stress[1]));
   }
 }
 
