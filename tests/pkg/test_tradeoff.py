@@ -1,4 +1,5 @@
 """tradeoff(): grids of short runs, each in a yade of its own; the table, its front, its files."""
+import importlib
 import os
 import random
 import subprocess
@@ -312,6 +313,29 @@ def test_everyKnownNameRefusesSomething():
         for wrong in (None, [], 'x', object(), float('nan')):
             assert not isRight(wrong), (name, wrong)
         assert right
+
+
+kExamples = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'examples',
+                         'tradeoff')
+
+
+@pytest.mark.parametrize('name, size, most', [
+    ('bars', 2e-3, .08), ('hertz', 2e-3, .06), ('rolling', 2e-3, .03), ('ring', 2e-4, .3)])
+def test_problemsOfTheBenchmark(monkeypatch, name, size, most):
+    monkeypatch.syspath_prepend(kExamples)
+    problem = importlib.import_module(name)
+    assert tool._grid(problem.VARY)[0] == {}
+    arguments = dict(problem.ARGUMENTS, repeats=1)
+    table = tool.tradeoff(problem.scene, {'size': [size]}, problem.measure, **arguments)
+    assert table.rows[0].result == 'ok', table.rows[0].message
+    assert table.rows[0].error < most
+
+
+def test_benchmarkRefusesUnknownProblems():
+    done = subprocess.run([*yadeCommand(), os.path.join(kExamples, 'tradeoff.py'), '--problems',
+                           'bars,stairs'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, timeout=120)
+    assert done.returncode == 2 and "'stairs' is not one of bars, hertz" in done.stdout
 
 
 kScript = '''

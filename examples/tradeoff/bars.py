@@ -1,0 +1,64 @@
+"""Two equal steel bars meet head on: the contact stress is ρcv/2 for 2L/c, then nothing.
+
+With ν = 0 and the long faces held sideways, waves run along x at c = √(E/ρ) and keep their shape.
+"""
+import numpy as np
+
+from yade import O
+from yadefrag import rectangleMesh
+
+LENGTH, HEIGHT, SPEED = .1, .004, 1.  # m, m, m/s closing
+YOUNG, DENSITY = 210e9, 7800  # Pa, kg/m³
+WAVE = (YOUNG / DENSITY)**.5  # m/s
+DURATION = 2.5 * LENGTH / WAVE  # s
+EDGES = np.linspace(0, .98 * DURATION, 99)  # s, of the intervals in which stress is averaged
+
+
+def scene(choices):
+    """The bars, both at half the closing speed."""
+    fe = choices.solver()
+    material = choices.material(young=YOUNG, poisson=0, density=DENSITY, frictionAngle=0)
+    size = choices.size(1e-3)
+    cells = round(LENGTH / size), max(1, round(HEIGHT / size))
+    for begin, speed in ((-LENGTH, SPEED / 2), (0, -SPEED / 2)):
+        mesh = rectangleMesh((begin, 0), (begin + LENGTH, HEIGHT), *cells, crossed=True)
+        fe.addTriangles(*mesh, material=material, velocity=(speed, 0), smooth=choices.smooth(),
+                        fixed=lambda x, y: 'y' if y < 1e-9 or y > HEIGHT - 1e-9 else False)
+    choices.engines(fe)
+    nodes = np.unique(fe.triangles[fe.components == 1])
+    return fe, nodes
+
+
+def watch(built):
+    """Time (s) and force (N per m of thickness) on the second bar."""
+    fe, nodes = built
+    return O.time, fe.contactForces[nodes, 0].sum()
+
+
+def measure(_, watched):
+    """(98) Stress (Pa), means over equal intervals."""
+    times, forces = np.array([(0, 0), *watched]).T
+    impulse = np.concatenate([[0], np.cumsum(forces[1:] * np.diff(times))])
+    return np.diff(np.interp(EDGES, times, impulse)) / np.diff(EDGES) / HEIGHT
+
+
+def right():
+    """(98) What `measure` should give."""
+    touching = np.clip(EDGES, 0, 2 * LENGTH / WAVE)
+    return DENSITY * WAVE * SPEED / 2 * np.diff(touching) / np.diff(EDGES)
+
+
+VARY = [{},
+        {'size': [2e-3, 5e-4, 2.5e-4]},
+        {'correction': ['penalty:1', 'penalty:0.2', 'penalty:0.02', 'penalty:0.002']},
+        {'passes': [2]},
+        {'smooth': [True]},
+        {'bulkViscosity': [1.]},
+        {'size': [5e-4], 'bulkViscosity': [1.]},
+        {'timeStep': [1.02, .98, .4, .1]},
+        {'halo': [.05, .5]},
+        {'collider': ['none', 'InsertionSortCollider']},
+        {'plane': ['stress']},
+        {'threads': [2]}]
+ARGUMENTS = dict(duration=DURATION, reference=right(), watch=watch,
+                 title='Two bars: contact stress over time, rms error')

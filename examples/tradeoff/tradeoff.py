@@ -1,0 +1,83 @@
+"""What speed costs in accuracy, in four problems with known answers.
+
+    scripts/bench tradeoff [--problems bars,hertz,rolling,ring] [--repeats 3] [--out FOLDER] …
+
+For each problem a table of choices (NAME.csv, NAME.md) with times and errors, and a plot with the
+Pareto front (NAME.png), by yadefrag.tradeoff; tradeoff.png has the four. What they teach is in
+README.md.
+"""
+import argparse
+import datetime
+import importlib
+import os
+import sys
+
+HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
+sys.path.insert(0, HERE)
+PROBLEMS = 'bars', 'hertz', 'rolling', 'ring'
+
+
+def parse():
+    """The options, checked."""
+    parser = argparse.ArgumentParser(prog='scripts/bench tradeoff',
+                                     description=__doc__.split('\n')[0])
+    parser.add_argument('--problems', type=known, default=PROBLEMS,
+                        help='of %s, default: all' % ','.join(PROBLEMS))
+    parser.add_argument('--repeats', type=int, default=3, help='of each run; default: 3')
+    parser.add_argument('--limit', type=float, default=120, help='s for each run; default: 120')
+    parser.add_argument('--time', choices=('wall', 'cpu'), default='wall',
+                        help='which one the plots show; cpu for a machine that is not free')
+    parser.add_argument('--out', default=HERE, help='folder; default: that of the script')
+    return parser.parse_args(sys.argv[1:])
+
+
+def known(text):
+    """The names in a list with commas."""
+    names = text.split(',')
+    for name in names:
+        if name not in PROBLEMS:
+            raise argparse.ArgumentTypeError(f'{name!r} is not one of {", ".join(PROBLEMS)}')
+    return names
+
+
+def machine():
+    """Processor, cores, how busy they are, date."""
+    with open('/proc/cpuinfo', encoding='utf-8') as f:
+        names = [line.split(':')[1].strip() for line in f if line.startswith('model name')]
+    return '%s, %d cores, load %.1f before the run, %s' % (
+        names[0] if names else 'unknown processor', os.cpu_count(), os.getloadavg()[0],
+        datetime.date.today().isoformat())
+
+
+def together(tables, file, time):
+    """The plots of all tables in one picture, with the names at the points."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    figure = Figure(figsize=(13, 9), layout='constrained')
+    FigureCanvasAgg(figure)
+    places = [figure.add_subplot(2, 2, i + 1) for i in range(len(tables))]
+    for table, place in zip(tables, places):
+        table.plot(ax=place, time=time, names=False)
+    figure.savefig(file, dpi=100)
+
+
+def main():
+    from yadefrag import tradeoff
+    options = parse()
+    os.makedirs(options.out, exist_ok=True)
+    tables = []
+    for name in options.problems:
+        problem = importlib.import_module(name)
+        where = machine()
+        table = tradeoff(problem.scene, problem.VARY, problem.measure, repeats=options.repeats,
+                         limit=options.limit, **problem.ARGUMENTS)
+        table.write(os.path.join(options.out, name), options.time)
+        with open(os.path.join(options.out, name + '.md'), 'a', encoding='utf-8') as f:
+            f.write('\n%s. Medians of %d runs.\n' % (where, options.repeats))
+        tables.append(table)
+        print(table.markdown(time=options.time))
+    together(tables, os.path.join(options.out, 'tradeoff.png'), options.time)
+
+
+if __name__ == '__main__':
+    main()
