@@ -188,9 +188,11 @@ std::size_t segmentsOf(const FESolver& solver) {
   return count;
 }
 
-py::list fragmentsOf(const FESolver& solver) {
+py::list fragmentsOf(const FESolver& solver, bool held) {
+  const World& world = solver.world();
   py::list result;
-  for (const Fragment& fragment : findFragments(solver.world().model)) {
+  for (const Fragment& fragment :
+       findFragments(world.model, nullptr, held ? &world.fracture : nullptr)) {
     py::dict one;
     one["component"] = fragment.component.value;
     one["triangles"] = fragment.triangles;

@@ -63,7 +63,7 @@ yade::py::list surfacesOf(const FESolver& solver);
 std::size_t segmentsOf(const FESolver& solver);
 yade::py::dict droppedOf(const FESolver& solver);
 yade::py::dict energyOf(const FESolver& solver);
-yade::py::list fragmentsOf(const FESolver& solver);
+yade::py::list fragmentsOf(const FESolver& solver, bool held);
 
 /// Runs `work`, and turns an InputError into Python's ValueError.
 template <class Work>

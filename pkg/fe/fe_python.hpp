@@ -19,9 +19,10 @@ void FESolver::pyExtra(PyClass& pyClass) {
           "others stay.")
       .def("criticalTimeStep", &FESolver::criticalTimeStep,
            "Longest stable time step (s) of the present mesh; infinite without bodies.")
-      .def("fragments", &fragmentsOf,
+      .def("fragments", &fragmentsOf, (yade::py::arg("held") = false),
            "List of dicts, one per part that hangs together: component, triangles (how many), mass "
-           "(kg), area (m²), centroid (m), velocity (m/s), spin (rad/s).")
+           "(kg), area (m²), centroid (m), velocity (m/s), spin (rad/s). With held=True, parts "
+           "that a crack with fracture energy still holds together count as one.")
       .def(
           "_zoneWarning",
           +[](const FESolver& self, int component) {

@@ -24,6 +24,12 @@ class NodeSets {
   std::vector<std::uint32_t> parent_;
 };
 
+void joinHeld(const Model& model, const Fracture& fracture, NodeSets& sets) {
+  for (const EdgeId edge : fracture.cohesion.edge)
+    sets.join(firstNode(model, fracture.edges.side(edge, 0)).value,
+              firstNode(model, fracture.edges.side(edge, 1)).value);
+}
+
 /// All that hangs on nodes, once it is known whose they are.
 template <class ForNodes>
 void sumNodes(const Nodes& nodes, const ForNodes& forNodes, std::vector<Fragment>& fragments) {
@@ -44,7 +50,8 @@ void sumNodes(const Nodes& nodes, const ForNodes& forNodes, std::vector<Fragment
 
 }  // namespace
 
-std::vector<Fragment> findFragments(const Model& model, std::vector<std::uint32_t>* ofTriangle) {
+std::vector<Fragment> findFragments(const Model& model, std::vector<std::uint32_t>* ofTriangle,
+                                    const Fracture* holding) {
   const Nodes& nodes = model.nodes;
   NodeSets sets(nodes.size());
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
@@ -53,6 +60,7 @@ std::vector<Fragment> findFragments(const Model& model, std::vector<std::uint32_
     sets.join(a.value, b.value);
     sets.join(a.value, c.value);
   }
+  if (holding) joinHeld(model, *holding, sets);
   std::vector<Fragment> fragments;
   constexpr std::uint32_t none = 0xffffffff;
   std::vector<std::uint32_t> number(nodes.size(), none);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fracture/fracture.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -20,8 +21,9 @@ struct Fragment {
 
 /// All fragments, by their first triangle. Triangles with a common node hang together.
 /// `ofTriangle`, unless it is null: the number of each triangle's fragment, 2³² − 1 of those that
-/// were dropped.
+/// were dropped. `holding`, unless it is null: what its cracks still hold counts as one.
 std::vector<Fragment> findFragments(const Model& model,
-                                    std::vector<std::uint32_t>* ofTriangle = nullptr);
+                                    std::vector<std::uint32_t>* ofTriangle = nullptr,
+                                    const Fracture* holding = nullptr);
 
 }  // namespace yadefrag

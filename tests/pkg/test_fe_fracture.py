@@ -261,6 +261,26 @@ def test_fragmentTableAndSizes(folder):
     assert ax.get_xscale() == ax.get_yscale() == 'log' and '(m)' in ax.get_xlabel()
 
 
+@pytest.mark.filterwarnings('ignore:fractureEnergy')
+def test_heldPartsCountAsOne():
+    """A bar that is torn: two parts as soon as nodes part, but one until the crack has let go."""
+    solver = w.FESolver()
+    nodes, triangles = yadefrag.rectangleMesh((-.01, 0), (.01, .01), 2, 1)
+    solver.addTriangles(nodes, triangles, material=brittle(fractureEnergy=500),
+                        velocity=lambda x, y: (2 * x / .01, 0),
+                        fixed=lambda x, y: 'x' if abs(x) > .009 else False)
+    O.engines = [solver]
+    O.dt = .5 * solver.criticalTimeStep()
+    seen = []
+    while O.iter < 1000 and len(solver.fragments(held=True)) == 1:
+        seen.append(len(solver.fragments()))
+        O.step()
+    assert seen[0] == 1 and seen[-1] > 1 and seen.count(seen[-1]) > 5
+    held = solver.fragments(held=True)
+    assert 2 <= len(held) <= len(solver.fragments()) == seen[-1]
+    assert sum(p['mass'] for p in held) == pytest.approx(solver.masses.sum())
+
+
 def test_recordOfARun(folder):
     solver = impact()
     file = folder + '/run.csv'
