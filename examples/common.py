@@ -31,12 +31,17 @@ class Options(argparse.ArgumentParser):
     def parse(self):
         options = self.parse_args(sys.argv[1:])
         if not options.no_pictures:
-            try:
-                os.makedirs(options.out, exist_ok=True)
-            except OSError as error:
-                self.error(f'--out is {options.out!r}, which is no folder that can be written to '
-                           f'({error.strerror})')
+            makeFolder(self, options.out)
         return options
+
+
+def makeFolder(parser, folder):
+    """Makes what --out says, if it is not there; the parser tells what is wrong."""
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        parser.error(f'--out is {folder!r}, which is no folder that can be written to '
+                     f'({error.strerror})')
 
 
 def wholeNumber(text, least=1):

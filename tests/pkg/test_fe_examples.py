@@ -126,6 +126,19 @@ def test_impactShatters(energy, folder):
     assert table[:, 4].sum() == pytest.approx(.04 * .02 + np.pi * .005**2, rel=.01)
 
 
+def test_ringBreaksAsTheorySays(folder):
+    """One ring of each kind at 10⁴ per second: 40 % for a single seed."""
+    out, _ = run('ring_fragments', '--seeds', '1', '--rates', '1e4', '--moduli', '0', '20', '--out',
+                 folder)
+    plain, scattered = (line.split() for line in out.splitlines() if '10000' in line)
+    assert float(plain[-2]) == pytest.approx(1, abs=.4)
+    # Weak places spare the others: fewer and larger pieces.
+    assert float(scattered[-2]) > 1.1 * float(plain[-2])
+    assert abs(float(plain[-1])) < 1e-3 and abs(float(scattered[-1])) < 1e-3
+    assert sorted(os.listdir(folder)) == ['ring_pieces.png', 'ring_sizes.png']
+    assert all(os.path.getsize(os.path.join(folder, f)) > 5000 for f in os.listdir(folder))
+
+
 def test_smoothCylinderRollsMoreEvenly():
     out, _ = run('rolling', '--no-pictures')
     ripples = [numbers(report['ripple'])[0] for report in rows(out)]
@@ -158,6 +171,8 @@ def test_picturesAreWritten(name, folder):
     ('impact', ['--speed', '0'], "it is '0', it must be a positive number"),
     ('impact', ['--fracture-energy', '-1'], "it is '-1', it must be a number of at least 0"),
     ('rolling', ['--out', '/dev/null/x'], "--out is '/dev/null/x', which is no folder"),
+    ('ring_fragments', ['--rates', '1e7'], "it is '1e7', it must be from 500 to 200,000"),
+    ('ring_fragments', ['--out', '/dev/null/x'], "--out is '/dev/null/x', which is no folder"),
 ])
 def test_wrongOptions(name, options, sentence):
     _, complaints = run(name, *options, status=2)
