@@ -245,6 +245,13 @@ def test_mediansAndRatios(monkeypatch):
     assert table.rows[0].walls == walls[::2] and table.ratio(table.rows[1]) == 3
 
 
+def test_gridsOfSeveralDicts():
+    assert tool._grid([{}, {'passes': [1, 2], 'own': ['a']}, {'passes': [2], 'own': ['a']}]) == [
+        {}, dict(passes=1, own='a'), dict(passes=2, own='a')]
+    grid = tool._grid({'passes': np.arange(1, 3), 'size': np.array([.5])})
+    assert [type(v) for setting in grid for v in setting.values()] == [int, float] * 2
+
+
 def test_whatIsRefusedIsNotRepeated(monkeypatch):
     refused = dict(result='refused', message='no.', used={'size': 1.})
     asked = faked(monkeypatch, [ok(4), refused, ok(5)])

@@ -108,17 +108,25 @@ def _grid(vary):
                          (vary,))
     settings = []
     for grid in grids:
-        for name, values in grid.items():
-            if not isinstance(values, (list, tuple)) or not values:
-                raise ValueError('vary has %r for the choice %r, it must be a list of values.' %
-                                 (values, name))
-            for value in values:
-                _checkChoice(name, value)
-        for combination in itertools.product(*grid.values()):
+        lists = [_values(name, values) for name, values in grid.items()]
+        for combination in itertools.product(*lists):
             setting = dict(zip(grid, combination))
             if _key(setting) not in map(_key, settings):  # True is not 1 here
                 settings.append(setting)
     return settings
+
+
+def _values(name, values):
+    """The checked values of a choice, NumPy's numbers as Python's."""
+    if isinstance(values, numpy.ndarray):
+        values = list(values.flat)
+    if not isinstance(values, (list, tuple)) or not values:
+        raise ValueError('vary has %r for the choice %r, it must be a list of values.' %
+                         (values, name))
+    values = [v.item() if isinstance(v, numpy.generic) else v for v in values]
+    for value in values:
+        _checkChoice(name, value)
+    return values
 
 
 def _key(setting):
