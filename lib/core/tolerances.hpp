@@ -135,10 +135,10 @@ inline constexpr double kOverlapDecay = .02;
 inline constexpr double kFrictionBound = 1e-4;
 inline constexpr int kFrictionRounds = 8;
 
-/// (count; of the largest displacement in the step) Contact in rubble is solved by so many sweeps at
-/// each of so many detections, until they change so little: with ten times as many sweeps and twice
-/// as many detections, and a hundredth of the change, what an impact spends in friction and in
-/// touching does not differ by more than it does with other strengths. With one detection it does.
+/// (count; of the largest displacement in the step) Contact in rubble is solved by so many sweeps
+/// at each of so many detections, until they change so little. With twice as many detections and a
+/// hundredth of the change, what an impact spends in friction and in touching is the same within
+/// what other strengths make of it; with a single detection touching takes half as much.
 inline constexpr int kRowSweeps = 20, kRubbleDetections = 2;
 inline constexpr double kRubbleRemainder = 1e-3;
 
