@@ -1,6 +1,7 @@
 #include "contact/candidates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -48,8 +49,11 @@ void fill(Candidates& candidates, const std::vector<SlaveMaster>& pairs,
     }
     std::uint8_t outside = former.find(pair, kUnknown);
     if (outside == kUnknown) {
-      const double touching = tolerance::kTouching * geometry.length(pair.master);
-      outside = geometry.foot(pair.master, geometry.slave(pair.slave)).gap >= -touching ? 1 : 0;
+      const Vec2 slave = geometry.slave(pair.slave);
+      const double touching =
+          std::max(tolerance::kTouching * geometry.length(pair.master),
+                   tolerance::kTouchRounding * std::max(std::abs(slave.x), std::abs(slave.y)));
+      outside = geometry.foot(pair.master, slave).gap >= -touching ? 1 : 0;
     }
     next.masters.push_back(pair.master);
     next.outside.push_back(outside);

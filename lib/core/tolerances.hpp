@@ -94,6 +94,9 @@ inline constexpr double kFold = 1e-12;
 /// outside: bodies laid exactly on one another differ by rounding.
 inline constexpr double kTouching = 1e-9;
 
+/// (of the coordinates) The same where coordinates are large: what a few of their roundings are.
+inline constexpr double kTouchRounding = 0x1p-50;
+
 /// (rad) A corner that turns by more is a slave in a single pass too: 30°.
 inline constexpr double kSharpCorner = .52;
 
@@ -146,6 +149,14 @@ inline constexpr double kRubbleRemainder = 1e-3;
 /// itself are a jam's, and bound friction no further.
 inline constexpr double kJam = 100;
 
+/// (of the shorter of the two segments) Farthest that bodies about to touch may move against each
+/// other in one step: halos of adjacent segments must not overlap, for the same reason (§4.1).
+inline constexpr double kMostMotion = .5;
+
+/// (of the shortest segment) Farthest that any surface node may move in one step: with a halo for
+/// more, everything would be a candidate of everything. Ten wave speeds and more.
+inline constexpr double kFarthestMove = 10;
+
 /// (of the shortest segment) The halo's width: at most half, so that three adjacent halos do not
 /// overlap (paper §4.1); at least a twentieth, below which nothing is saved.
 inline constexpr double kWidestHalo = .5, kNarrowestHalo = .05;
@@ -176,6 +187,9 @@ inline constexpr double kMostTriangles = 2147483648.;
 /// (of the largest coordinate) Smallest size of triangles: below, twelve bits of their sides would
 /// be left of the coordinates' 52.
 inline constexpr double kLeastSize = 0x1p-40;
+
+/// (of the largest coordinate) Least way in a step that a body may be sent at: 16 roundings.
+inline constexpr double kSeenMotion = 0x1p-49;
 
 /// (rad) A triangle with a smaller angle has no area to speak of: of its 52 bits, about half are
 /// rounding.

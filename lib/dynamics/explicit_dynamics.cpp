@@ -226,6 +226,19 @@ void ExplicitDynamics::predict(Model& model, double dt, const StepSettings& sett
   if (badNode_) refuseNode(model, dt);
 }
 
+void ExplicitDynamics::takeBack(Model& model, double dt) {
+  Nodes& nodes = model.nodes;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    nodes.position[n] -= dt * nodes.velocity[n];
+    for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}}) {
+      if ((nodes.held[n] & flag) == 0)
+        nodes.velocity[n].*axis = previousVelocity_[n].*axis;
+      else if (!heldVelocity_.empty())  // the prescribed velocity stands
+        heldVelocity_[n].*axis = previousVelocity_[n].*axis;
+    }
+  }
+}
+
 /// The works on single nodes, in one direction.
 struct ExplicitDynamics::Works {
   const ExplicitDynamics& dynamics;

@@ -55,6 +55,9 @@ class ExplicitDynamics {
   void predict(Model& model, double dt, const StepSettings& settings,
                std::span<const Vec2> outerForces, int threads);
 
+  /// Undoes `predict`, but for rounding in the positions, before anything else has changed them.
+  void takeBack(Model& model, double dt);
+
   /// Books the works of gravity, loads, outer forces, damping, viscosity and prescribed motion,
   /// once the velocities are corrected. `contactForces` (N, by node, empty: none) serve only to
   /// find the reactions of held nodes: contact books its own work. Costs nothing where none of

@@ -1,10 +1,12 @@
 #include "step/body_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
 #include "core/errors.hpp"
+#include "core/tolerances.hpp"
 #include "fracture/checks.hpp"
 #include "step/world.hpp"
 
@@ -67,6 +69,44 @@ void checkMasses(const TriangleMesh& mesh, const BodySpec& spec) {
   }
 }
 
+struct Extent {
+  double farthest = 0;         // m, of a coordinate
+  double shortest = INFINITY;  // m, edge
+};
+
+Extent extentOf(const TriangleMesh& mesh) {
+  Extent extent;
+  for (const Vec2 node : mesh.nodes)
+    extent.farthest = std::max({extent.farthest, std::abs(node.x), std::abs(node.y)});
+  for (const auto& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i)
+      extent.shortest =
+          std::min(extent.shortest, norm(mesh.nodes[t[(i + 1) % 3]] - mesh.nodes[t[i]]));
+  return extent;
+}
+
+/// Can coordinates hold what elements strain by, and what a step moves them by?
+void checkRounding(const TriangleMesh& mesh, const BodySpec& spec) {
+  const Extent extent = extentOf(mesh);
+  std::ostringstream text;
+  if (extent.shortest < tolerance::kLeastSize * extent.farthest) {
+    text << "The mesh has an edge of " << extent.shortest << " m and a coordinate of "
+         << extent.farthest << " m, where numbers are too coarse for it; edges must be longer than "
+         << tolerance::kLeastSize * extent.farthest << " m, or the scene nearer to the origin.";
+    throw InputError(text.str());
+  }
+  double fastest = 0;
+  for (const Vec2 velocity : spec.velocity) fastest = std::max(fastest, norm(velocity));
+  const double wave = std::sqrt(spec.material.waveModulus() / spec.material.density);
+  const double step = extent.shortest / wave;
+  const double seen = tolerance::kSeenMotion * extent.farthest;
+  if (fastest == 0 || fastest * step >= seen) return;
+  text << "velocity is " << fastest << " m/s at most: at coordinates of " << extent.farthest
+       << " m, a step of " << step << " s would be lost in rounding; it must be zero or above "
+       << seen / step << " m/s, or the scene nearer to the origin.";
+  throw InputError(text.str());
+}
+
 }  // namespace
 
 void checkBody(const TriangleMesh& mesh, const BodySpec& spec) {
@@ -79,6 +119,7 @@ void checkBody(const TriangleMesh& mesh, const BodySpec& spec) {
   requireHeld(spec.held);
   checkMaterial(spec);
   checkMasses(mesh, spec);
+  checkRounding(mesh, spec);
 }
 
 }  // namespace yadefrag

@@ -23,7 +23,9 @@ void World::step(double dt) {
   // the last candidates still hold.
   if (canTouch()) {
     measureMove();
+    requireSearchableMotion(dt);
     searchIfLeft();
+    requireResolvedMotion(dt);
     // Local search and correction, from x*, v* to xⁿ⁺¹, vⁿ⁺½.
     correctContact(dt);
     bookContact(dt);

@@ -26,6 +26,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   component.selfContact = spec.selfContact || spec.brittle.cracks();
   const std::size_t first = model.nodes.size();
   const ComponentId id = appendBody(model, mesh, component);
+  firstNew_ = std::min(firstNew_, id);
   reference.insert(reference.end(), mesh.nodes.begin(), mesh.nodes.end());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (!spec.displacement.empty()) model.nodes.position[first + i] += spec.displacement[i];
@@ -159,6 +160,7 @@ double World::criticalTimeStep() const {
 /// compressed so far that this matters is the user's to watch.
 void World::requireStableStep(double dt) {
   buildIfChanged();
+  if (firstNew_ != ComponentId::none()) requireApart();
   if (dt > 0 && dt <= stableStep_) return;
   const double critical = criticalTimeStep();
   // Without elements any finite step is stable.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "contact/contact.hpp"
@@ -119,6 +120,10 @@ class World {
   void searchIfLeft();
   void searchNow();
   void considerPairs(std::span<const BoxPair> overlapping);
+  void requireApart();
+  void requireSearchableMotion(double dt);
+  void requireResolvedMotion(double dt);
+  [[noreturn]] void refuseMotion(double dt, const std::string& why);
   void correctContact(double dt);
   void bookContact(double dt);
   void foreseeSearch(double dt);
@@ -152,7 +157,8 @@ class World {
   bool isBuilt_ =
       false;  // do the arrays below fit the model: many bodies join, then one step comes
   bool severalBodies_ = false;
-  double largestMove_ = 0;  // m, of a surface node from xⁿ to x*
+  ComponentId firstNew_ = ComponentId::none();  // bodies from here on may overlap others
+  double largestMove_ = 0;                      // m, of a surface node from xⁿ to x*
   double farthest_ =
       INFINITY;              // m, no surface node is farther from where it was at the last search
   double finest_ = 0;        // m, shortest stress-free segment: does not hang on when was searched

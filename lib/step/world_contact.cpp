@@ -83,7 +83,10 @@ double World::wideHalo(double move) const {
 
 void World::chooseHalo(double dt) {
   search.shortest = shortestSegment(surfaces, model.nodes.position);
-  search.halo = wideHalo(2 * tolerance::kHaloSpare * fastest() * dt);
+  const double fast = wideHalo(2 * tolerance::kHaloSpare * fastest() * dt);
+  // A step that needs more is refused; until then nobody shall make candidates of everything.
+  const double most = 4 * tolerance::kHaloSpare * tolerance::kFarthestMove * search.shortest;
+  search.halo = std::min(fast, most);
 }
 
 void World::takePairs(std::span<const BoxPair> overlapping) {

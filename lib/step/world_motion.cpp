@@ -1,0 +1,108 @@
+// Where contact could be missed or mistaken, the step is refused: bodies that overlap from the
+// start, or move too far at once.
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/errors.hpp"
+#include "core/tolerances.hpp"
+#include "step/overlap_check.hpp"
+#include "step/world.hpp"
+#include "surface/piece_geometry.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+/// What a point or a piece covers in the step.
+struct Swept {
+  Vec2 low, high;
+  explicit Swept(Vec2 point) : low(point), high(point) {}
+  void add(Vec2 point) {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+  }
+  [[nodiscard]] bool meets(const Swept& other) const {
+    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y &&
+           other.low.y <= high.y;
+  }
+};
+
+/// (m) How far a slave and its master move against each other; 0 if their ways do not cross.
+double relativeMotion(const PieceGeometry& before, const PieceGeometry& now, EntryId slave,
+                      EntryId master) {
+  const Vec2 from = before.slave(slave), to = now.slave(slave);
+  const PieceEnds start = before.ends(master), end = now.ends(master);
+  Swept point(from), piece(start.begin);
+  point.add(to);
+  for (const Vec2 corner : {start.end, end.begin, end.end}) piece.add(corner);
+  if (!point.meets(piece)) return 0;
+  return std::max(norm(to - from - (end.begin - start.begin)),
+                  norm(to - from - (end.end - start.end)));
+}
+
+double chord(const PieceEnds& ends) { return norm(ends.end - ends.begin); }
+
+}  // namespace
+
+/// Bodies that overlap when they are added: contact keeps apart what was apart, and would let them
+/// through each other.
+void World::requireApart() {
+  if (const auto overlap = findOverlap(model, surfaces, firstNew_)) {
+    std::ostringstream text;
+    text.precision(9);
+    text << "Bodies " << std::min(overlap->a, overlap->b).value << " and "
+         << std::max(overlap->a, overlap->b).value << " overlap at (" << overlap->place.x << ", "
+         << overlap->place.y << ") m; they may touch at the start, but must not overlap.";
+    throw InputError(text.str());
+  }
+  firstNew_ = ComponentId::none();
+}
+
+void World::requireSearchableMotion(double dt) {
+  if (largestMove_ <= tolerance::kFarthestMove * finest_) return;
+  std::ostringstream text;
+  text << "a surface node moves by " << largestMove_ << " m in one step, but may not by more than "
+       << tolerance::kFarthestMove << " times the shortest segment, " << finest_
+       << " m; take a step of at most " << dt * tolerance::kFarthestMove * finest_ / largestMove_
+       << " s.";
+  refuseMotion(dt, text.str());
+}
+
+void World::requireResolvedMotion(double dt) {
+  // Two nodes come nearer by twice the largest move at most.
+  if (2 * largestMove_ <= tolerance::kMostMotion * finest_) return;
+  const PieceGeometry before(surfaces, before_), now(surfaces, model.nodes.position),
+      free(surfaces, reference);
+  const Candidates& candidates = contact.candidates;
+  double most = 0;
+  EntryId fastest;
+  for (std::size_t row = 0; row < candidates.slaves.size(); ++row)
+    for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c) {
+      const EntryId slave = candidates.slaves[row], master = candidates.masters[c];
+      const double length = std::min(chord(free.ends(slave)), chord(free.ends(master)));
+      const double motion = relativeMotion(before, now, slave, master) / length;
+      if (motion > most) most = motion, fastest = slave;
+    }
+  if (most <= tolerance::kMostMotion) return;
+  const Vec2 at = before.slave(fastest);
+  std::ostringstream text;
+  text << "at (" << at.x << ", " << at.y << ") m a body moves against another by " << most
+       << " of a segment in one step, but may not by more than " << tolerance::kMostMotion
+       << ", lest contact be missed; take a step of at most " << dt * tolerance::kMostMotion / most
+       << " s.";
+  refuseMotion(dt, text.str());
+}
+
+/// Back to xⁿ, vⁿ⁻½: a shorter step goes on from there.
+void World::refuseMotion(double dt, const std::string& why) {
+  dynamics_.takeBack(model, dt);
+  for (const NodeId node : search.nodes) model.nodes.position[node.value] = before_[node.value];
+  search.isVoid = true;
+  std::ostringstream text;
+  text << "Step " << steps << ", time " << time << " s: " << why;
+  throw RunError(text.str());
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,207 @@
+// Slivers, segments of very different length, nodes at the same place, bodies that touch or overlap
+// at the start.
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "extremes/blow.hpp"
+#include "mesh/polygon.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+struct Course2 {
+  std::string refusal;
+  double deepest = 0;  ///< m
+  double growth = 0;   ///< of the start's energy
+  bool touched = false;
+};
+
+/// Runs for a time (s), and looks two hundred times.
+Course2 watchFor(World& world, double time, double ofCritical = .8) {
+  Course2 course;
+  const double energy = world.kineticEnergy() + world.strainEnergy();
+  course.refusal = sentenceOf([&] {
+    double dt = ofCritical * world.criticalTimeStep(), look = 0;
+    while (world.time < time) {
+      stepOrShorter(world, dt, true);
+      course.touched = course.touched || !world.contact.rows().empty();
+      if (world.time < look) continue;
+      look += time / 200;
+      course.deepest = std::max(course.deepest, deepestNode(world));
+      const double now = world.kineticEnergy() + world.strainEnergy();
+      if (energy > 0) course.growth = std::max(course.growth, now / energy - 1);
+    }
+  });
+  return course;
+}
+
+/// A needle of this angle (°), one triangle of 1 m, held at its base.
+TriangleMesh needle(double degrees) {
+  const double half = std::tan(degrees * std::numbers::pi / 360);
+  TriangleMesh mesh;
+  mesh.nodes = {{0, -half}, {1, 0}, {0, half}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.loops = {{0, 1, 2}};
+  return mesh;
+}
+
+/// A block comes onto a needle's tip (`side` 0), or onto its flank near the tip.
+Course2 hitNeedle(double degrees, int side) {
+  World world;
+  world.contactSettings.passes = 2;
+  const TriangleMesh thin = needle(degrees);
+  BodySpec held = moving(thin, rubber(), {});
+  hold(held, thin, kHeldXY, [](Vec2 at) { return at.x < .5; });
+  world.addBody(thin, held);
+  const double half = thin.nodes[2].y;
+  const Vec2 low = side == 0 ? Vec2{1 + .1 * half, -.23} : Vec2{.7, .4 * half};
+  const TriangleMesh block = structuredRectangle(low, low + Vec2{.5, .5}, 2, 2);
+  const double speed = .1 * half * waveSpeed(rubber());
+  world.addBody(block, moving(block, rubber(), side == 0 ? Vec2{-speed, 0} : Vec2{0, -speed}));
+  return watchFor(world, half / speed);
+}
+
+TEST(ExtremeShape, Slivers) {
+  double least = kNone;
+  for (const double degrees : {10., 1., .1, .01}) {
+    if (degrees < .05 && !longRun()) continue;
+    for (const int side : {0, 1}) {
+      const Course2 course = hitNeedle(degrees, side);
+      const double thickness = 2 * needle(degrees).nodes[2].y;
+      EXPECT_EQ(course.refusal, "") << degrees << " side " << side;
+      EXPECT_LE(course.deepest, .05 * thickness) << degrees << " side " << side;
+      EXPECT_LE(course.growth, 1e-3) << degrees << " side " << side;
+      EXPECT_TRUE(course.touched) << degrees << " side " << side;
+    }
+    if (degrees >= .05) least = degrees;
+  }
+  limit("angle of a sliver that is hit, °", least, kNone,
+        "works, in ever shorter steps, down to 0.01 at least");
+}
+
+/// Segments in the middle of a side are shorter than the others by this factor.
+TriangleMesh unevenBlock(double ratio) {
+  Polygon polygon;
+  const double tiny = .5 / ratio;
+  polygon.outline = {{0, 0}, {.5, 0}, {.5 + tiny, 0}, {.5 + 2 * tiny, 0}, {1, 0}, {1, .5}, {0, .5}};
+  return triangulate(checkPolygon(polygon), .5);
+}
+
+TEST(ExtremeShape, SegmentsOfVeryDifferentLength) {
+  double most = kNone;
+  for (const double ratio : {1e2, 1e3, 1e4}) {
+    if (ratio > 5e3 && !longRun()) continue;
+    for (const int passes : {1, 2}) {
+      World world;
+      world.contactSettings.passes = passes;
+      const TriangleMesh uneven = unevenBlock(ratio);
+      const TriangleMesh other = structuredRectangle({.1, -.5}, {.9, -1e-6}, 3, 2);
+      const double speed = 1e-5 * waveSpeed(rubber());
+      world.addBody(uneven, moving(uneven, rubber(), {0, -speed}));
+      world.addBody(other, moving(other, rubber(), {}));
+      const Course2 course = watchFor(world, 1e-6 / speed + 3 / waveSpeed(rubber()));
+      EXPECT_EQ(course.refusal, "") << ratio;
+      EXPECT_LE(course.deepest, passes == 1 ? 1e-6 : 1e-3 / ratio) << ratio << " " << passes;
+      EXPECT_LE(course.growth, 1e-3) << ratio;
+      EXPECT_TRUE(course.touched) << ratio;
+    }
+    most = ratio;
+  }
+  if (longRun())
+    limit("length over length of segments on one surface", kNone, most,
+          "a blow on the short ones stops the sooner: an element is turned inside out");
+}
+
+/// Blocks whose meshes match node by node, four at one point.
+TEST(ExtremeShape, CoincidentNodesOfDifferentBodies) {
+  for (const int passes : {1, 2})
+    for (const double shift : {0., 1e6}) {
+      World world;
+      world.contactSettings.passes = passes;
+      for (const Vec2 low : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}}) {
+        TriangleMesh mesh = structuredRectangle(low, low + Vec2{1, 1}, 4, 4);
+        for (Vec2& node : mesh.nodes) node += Vec2{shift, shift};
+        world.addBody(mesh, moving(mesh, rubber(), 2 * (Vec2{.5, .5} - low)));
+      }
+      const Course2 course = watchFor(world, .04);
+      EXPECT_EQ(course.refusal, "");
+      EXPECT_LE(course.deepest, shift > 0 ? 1e-7 : 1e-6);
+      EXPECT_LE(course.growth, 1e-3);
+      for (std::size_t c = 0; c < 4; ++c) {
+        const Vec2 end = (1 / mass(world, ComponentId(c))) * momentum(world, ComponentId(c));
+        const Vec2 out{c % 2 == 0 ? -1. : 1., c < 2 ? -1. : 1.};
+        EXPECT_GT(end.x * out.x, .5) << c << ": thrown back";
+        EXPECT_GT(end.y * out.y, .5) << c;
+      }
+    }
+}
+
+/// Two blocks at rest, touching: they stay, turned or far away, and are kept apart when pushed.
+TEST(ExtremeShape, BodiesThatTouchExactly) {
+  for (const double turn : {0., .3, 1.})
+    for (const double far : {0., 1e6})
+      for (const double speed : {0., 1.}) {
+        Blow blow{.speed = speed, .gap = 0, .turn = turn, .shift = {far, -far}};
+        World world = worldOf(blow);
+        const Course2 course = watchFor(world, .05);
+        EXPECT_EQ(course.refusal, "") << turn << " " << far << " " << speed;
+        EXPECT_LE(course.deepest, far > 0 ? 1e-8 : 1e-7) << turn << " " << far << " " << speed;
+        const Vec2 left = turned(momentum(world, ComponentId(0UL)), -turn);
+        if (speed > 0) {
+          EXPECT_LT(left.x / mass(world, ComponentId(0UL)), .2) << turn << " " << far;
+        } else {
+          EXPECT_LE(norm(left) / mass(world, ComponentId(0UL)), far > 0 ? 1e-6 : 1e-13)
+              << turn << " " << far;
+        }
+      }
+}
+
+/// Whatever way they overlap: aligned, crossing without a node inside the other, one in the other.
+TEST(ExtremeShape, BodiesThatOverlapAreRefused) {
+  const auto refusal = [](const TriangleMesh& a, const TriangleMesh& b) {
+    World world;
+    world.addBody(a, moving(a, rubber(), {}));
+    world.addBody(b, moving(b, rubber(), {}));
+    const std::string text = sentenceOf([&] { world.step(.5 * world.criticalTimeStep()); });
+    if (!text.empty()) {
+      EXPECT_NE(text.find("Bodies 0 and 1 overlap at ("), std::string::npos) << text;
+    }
+    EXPECT_EQ(world.steps, text.empty() ? 1U : 0U);
+    return text;
+  };
+  const TriangleMesh block = structuredRectangle({0, 0}, {1, 1}, 4, 4);
+  double most = kNone;
+  for (const double depth : {0., 1e-12, 5e-11, 2e-10, 1e-9, 1e-6, 1e-3, .1, .5, 1.})
+    for (const double aside : {0., .13}) {
+      const Vec2 low{1 - depth, aside};
+      const bool fine = refusal(block, structuredRectangle(low, low + Vec2{1, 1}, 5, 5)).empty();
+      EXPECT_EQ(fine, depth < 1e-10) << depth << " " << aside;
+      if (fine) most = depth * 5;
+    }
+  EXPECT_NE(refusal(structuredRectangle({0, .4}, {1, .6}, 1, 1),
+                    structuredRectangle({.4, 0}, {.6, 1}, 1, 1)),
+            "");
+  EXPECT_NE(refusal(block, structuredRectangle({.41, .41}, {.44, .44}, 1, 1)), "");
+  EXPECT_NE(refusal(structuredRectangle({.41, .41}, {.44, .44}, 1, 1), block), "");
+  limit("overlap of two bodies at the start, of a segment", kNone, most,
+        "refused at the first step, with the bodies and the place");
+}
+
+/// One that comes later is looked at too; what was there and runs on is not.
+TEST(ExtremeShape, OverlapOfABodyThatIsAddedLater) {
+  World world = worldOf({});
+  const double dt = .5 * world.criticalTimeStep();
+  for (int i = 0; i < 20; ++i) world.step(dt);
+  const TriangleMesh other = structuredRectangle({.5, .5}, {.6, .6}, 1, 1);
+  const ComponentId added = world.addBody(other, moving(other, rubber(), {}));
+  EXPECT_NE(sentenceOf([&] { world.step(.05 * dt); }).find("Bodies 1 and 2"), std::string::npos);
+  EXPECT_EQ(world.steps, 20U);
+  world.removeBody(added);
+  world.step(dt);
+  EXPECT_EQ(world.steps, 21U);
+}
+
+}  // namespace
+}  // namespace yadefrag::test

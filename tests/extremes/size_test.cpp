@@ -1,0 +1,87 @@
+// From nanometres to thousands of kilometres, near the origin and far from it, any way round.
+
+#include <gtest/gtest.h>
+
+#include "extremes/blow.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+const Blow kUsual{.aside = .1317};
+
+TEST(ExtremeSize, OutcomeIsTheSameButForRounding) {
+  const Outcome usual = strike(kUsual);
+  double least = kNone, most = kNone;
+  for (const double size : {1e-30, 1e-15, 1e-9, 1e-3, 1e3, 1e6, 1e15, 1e30}) {
+    Blow blow = kUsual;
+    blow.size = size;
+    const Outcome outcome = strike(blow);
+    EXPECT_TRUE(outcome.isSound()) << size << ": " << outcome.refusal;
+    EXPECT_LE(difference(blow, outcome, kUsual, usual), 1e-13) << size;
+    if (std::isnan(least)) least = size;
+    most = size;
+  }
+  for (const double size : {1e-200, 1e-160, 1e155, 1e200}) {
+    Blow blow = kUsual;
+    blow.size = size;
+    EXPECT_NE(strike(blow).refusal, "") << size;
+  }
+  limit("size of a body, m", least, most, "refused where masses leave the range of numbers");
+}
+
+TEST(ExtremeSize, TurnsChangeRoundingOnly) {
+  const Outcome usual = strike(kUsual);
+  for (const double turn : {1e-9, .1, 1., 1.5707963267948966, 2., 3., -2.}) {
+    Blow blow = kUsual;
+    blow.turn = turn;
+    EXPECT_LE(difference(blow, strike(blow), kUsual, usual), 1e-13) << turn;
+  }
+}
+
+/// Rounding grows with the coordinates: 10⁻¹⁶ of them, ten times over the run.
+TEST(ExtremeSize, ShiftsChangeRoundingOnly) {
+  double most = kNone;
+  for (const double size : {1., 1e-3}) {
+    Blow near = kUsual;
+    near.size = size;
+    const Outcome usual = strike(near);
+    for (const double ratio : {1e3, 1e6, 1e9, 1e11}) {
+      Blow blow = near;
+      blow.shift = {ratio * size, -.3 * ratio * size};
+      const Outcome outcome = strike(blow);
+      EXPECT_TRUE(outcome.isSound()) << size << " " << ratio << ": " << outcome.refusal;
+      EXPECT_LE(difference(blow, outcome, near, usual), 1e-14 * ratio) << size << " " << ratio;
+      most = ratio;
+    }
+    Blow blow = near;
+    blow.shift = {1e12 * size, 0};
+    EXPECT_NE(strike(blow).refusal, "") << size;
+  }
+  limit("distance from the origin, of a body's size", kNone, most,
+        "refused when added: coordinates too coarse for its edges");
+}
+
+/// A millimetre block 1000 km from the origin.
+TEST(ExtremeSize, SmallBodiesFarFromTheOrigin) {
+  double least = kNone;
+  for (const double speed : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1., 10.}) {
+    Blow near = kUsual;
+    near.size = 1e-3, near.speed = speed, near.gap = 1e-5;
+    Blow far = near;
+    far.shift = {1e6, -1e6};
+    const Outcome outcome = strike(far), usual = strike(near);
+    if (speed < 1e-3) {
+      EXPECT_NE(outcome.refusal.find("lost in rounding"), std::string::npos) << outcome.refusal;
+      continue;
+    }
+    EXPECT_TRUE(outcome.isSound()) << speed << ": " << outcome.refusal;
+    EXPECT_NEAR(outcome.left.x, usual.left.x, .01) << speed;
+    EXPECT_LE(difference(far, outcome, near, usual), 1e-5) << speed;
+    if (std::isnan(least)) least = speed;
+  }
+  limit("speed of a millimetre block 10⁶ m from the origin, m/s", least, kNone,
+        "refused when added: its steps would be lost in rounding, which adds up to 1 % there");
+}
+
+}  // namespace
+}  // namespace yadefrag::test

@@ -1,0 +1,182 @@
+// From a nanometre a second to beyond the speed of waves: nothing passes through anything unseen.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "extremes/blow.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+TEST(ExtremeSpeed, FromANanometrePerSecondToTheWaveSpeed) {
+  const double wave = waveSpeed(rubber());
+  const auto at = [&](double speed) {
+    return strike({.speed = speed, .gap = std::min(1e-3, .1 * speed / wave), .shorten = true});
+  };
+  const Outcome usual = at(1e-3 * wave);
+  double least = kNone, most = kNone;
+  for (const double speed : {1e-9, 1e-6, 1e-3, 1., 10., .5 * wave, wave}) {
+    const Outcome outcome = at(speed);
+    EXPECT_TRUE(outcome.isSound()) << speed << " m/s: " << outcome.refusal;
+    EXPECT_NEAR(outcome.left.x, usual.left.x, .04) << speed;
+    if (std::isnan(least)) least = speed;
+    most = speed / wave;
+  }
+  EXPECT_EQ(least, 1e-9);
+  for (const double part : {2., 5., 30., 1000.}) {
+    const std::string beyond = at(part * wave).refusal;
+    EXPECT_NE(beyond.find("is turned inside out"), std::string::npos) << part << ": " << beyond;
+  }
+  limit("closing speed of two elastic blocks, of the wave speed", kNone, most,
+        "works by shorter steps, or stops: an element is turned inside out");
+  limit("closing speed, m/s", least, kNone,
+        "body too slow for its coordinates' rounding: refused when added");
+}
+
+struct Shot {
+  double speed;  // of the wave speed
+  int seed, passes;
+};
+
+/// A small block on its way through a thin plate, anywhere, any way round.
+World shotAtPlate(const Shot& shot) {
+  std::mt19937 random(shot.seed);
+  const auto from = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  World world;
+  world.contactSettings.passes = shot.passes;
+  const TriangleMesh plate = structuredRectangle({-1, -.1}, {1, 0}, 40, 2);
+  BodySpec held = moving(plate, rubber(), {});
+  hold(held, plate, kHeldXY, [](Vec2 at) { return std::abs(at.x) > .99; });
+  world.addBody(plate, held);
+  TriangleMesh block = structuredRectangle({-.1, -.1}, {.1, .1}, 1 + shot.seed % 4, 2);
+  const double turn = from(0, 6), way = from(-2.8, -.3), x = from(-.3, .3);
+  for (Vec2& node : block.nodes) node = Vec2{x, .2} + turned(node, turn);
+  const double speed = shot.speed * waveSpeed(rubber());
+  world.addBody(block, moving(block, rubber(), turned({speed, 0}, way)));
+  return world;
+}
+
+struct Hit {
+  std::string refusal;
+  double deepest = 0;  ///< of the shortest segment
+  bool through = false, touched = false;
+};
+
+Hit hit(const Shot& shot, bool shorten) {
+  World world = shotAtPlate(shot);
+  Hit result;
+  double dt = .9 * world.criticalTimeStep();
+  const double end = .5 / (shot.speed * waveSpeed(rubber()));
+  result.refusal = sentenceOf([&] {
+    for (int i = 0; world.time < end; ++i) {
+      stepOrShorter(world, dt, shorten);
+      result.touched = result.touched || !world.contact.rows().empty();
+      if (i % 10 == 0 || shot.speed > 1)
+        result.deepest = std::max(result.deepest, deepestNode(world) / .05);
+    }
+  });
+  const Nodes& nodes = world.model.nodes;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    result.through = result.through || (nodes.component[n] == ComponentId(1UL) &&
+                                        nodes.position[n].y < -.1 && !result.touched);
+  return result;
+}
+
+/// With a single pass, points of the coarser surface are not kept out.
+double allowed(int passes) { return passes == 1 ? .5 : .1; }
+
+TEST(ExtremeSpeed, NothingPassesThroughAThinPlateUnseen) {
+  int asked = 0, whole = 0;
+  for (const double speed : {.3, .6, 1., 2., 5., 20., 1e3, 1e6})
+    for (int seed = 0; seed < 12; ++seed) {
+      const Hit result = hit({speed, seed, 1 + seed % 2}, false);
+      EXPECT_LE(result.deepest, allowed(1 + seed % 2)) << speed << " seed " << seed;
+      EXPECT_FALSE(result.through) << speed << " seed " << seed;
+      EXPECT_TRUE(result.touched || !result.refusal.empty()) << speed << " seed " << seed;
+      (result.refusal.empty() ? whole : asked)++;
+      if (speed > .9) {
+        EXPECT_NE(result.refusal, "") << speed << " seed " << seed;
+      }
+    }
+  EXPECT_GT(asked, 50);
+  EXPECT_GE(whole, 12);
+}
+
+TEST(ExtremeSpeed, TheShorterStepThatIsAskedForDoes) {
+  for (int seed = 0; seed < 6; ++seed) {
+    const Shot shot{.5, seed, 2};
+    const Hit result = hit(shot, true);
+    EXPECT_EQ(result.refusal, "") << seed;
+    EXPECT_LE(result.deepest, allowed(2)) << seed;
+    EXPECT_TRUE(result.touched) << seed;
+  }
+}
+
+/// Flying side by side, or alone, is no reason to refuse a step.
+TEST(ExtremeSpeed, OnlyMotionAgainstEachOtherCounts) {
+  for (const double along : {.4, 5., 9.}) {
+    World world = worldOf({.speed = 0, .gap = .01});
+    const double dt = world.criticalTimeStep();
+    for (Vec2& velocity : world.model.nodes.velocity) velocity = {along * .25 / dt, 0};
+    EXPECT_EQ(sentenceOf([&] {
+                for (int i = 0; i < 20; ++i) world.step(.999 * dt);
+              }),
+              "")
+        << along;
+  }
+}
+
+/// The refused step leaves the state as it was, and names a step that is not refused.
+TEST(ExtremeSpeed, ARefusedStepLeavesTheLastGoodState) {
+  for (const double motion : {.52, .9, 3., 9., 11., 1e3, 1e9}) {  // of a segment
+    World world = worldOf({.gap = .05});
+    const double dt = world.criticalTimeStep();
+    for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
+      world.model.nodes.velocity[n] =
+          world.model.nodes.component[n] == ComponentId(0UL) ? Vec2{motion * .25 / dt, 0} : Vec2{};
+    const std::vector<Vec2> position = world.model.nodes.position;
+    const std::vector<Vec2> velocity = world.model.nodes.velocity;
+    const std::string text = sentenceOf([&] { world.step(dt); });
+    const std::string ask = "take a step of at most ";
+    ASSERT_NE(text.find(ask), std::string::npos) << motion << ": " << text;
+    EXPECT_EQ(world.model.nodes.velocity, velocity) << motion;
+    EXPECT_EQ(world.steps, 0U);
+    EXPECT_EQ(world.time, 0);
+    for (std::size_t n = 0; n < position.size(); ++n)
+      EXPECT_LE(norm(world.model.nodes.position[n] - position[n]), 1e-15 * (1 + motion));
+    const double shorter = std::stod(text.substr(text.find(ask) + ask.size()));
+    EXPECT_LT(shorter, dt);
+    const std::string again = sentenceOf([&] { world.step(.999 * shorter); });
+    // Beyond ten segments the first sentence may be followed by that of bodies about to touch.
+    EXPECT_TRUE(again.empty() || (motion > 10 && again.find("may not by more than 0.5"))) << again;
+  }
+}
+
+TEST(ExtremeSpeed, LimitsOfAStep) {
+  double most = 0, mostAlone = 0;
+  const double length = .25;  // of the right one's segments
+  for (const double part : {.1, .2, .3, .4, .5, .6, .7}) {
+    World world = worldOf({.gap = .05});
+    const double dt = .5 * world.criticalTimeStep();
+    for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
+      if (world.model.nodes.component[n] == ComponentId(0UL))
+        world.model.nodes.velocity[n] = {.9999 * part * length / dt, 0};
+    if (sentenceOf([&] { world.step(dt); }).empty()) most = part;
+  }
+  for (const double part : {1., 2., 5., 10., 20.}) {
+    World world = worldOf({.gap = 50});
+    const double dt = .5 * world.criticalTimeStep();
+    for (Vec2& velocity : world.model.nodes.velocity) velocity = {.9999 * part * length / dt, 0};
+    if (sentenceOf([&] { world.step(dt); }).empty()) mostAlone = part;
+  }
+  limit("motion of bodies about to touch in one step, of a segment", kNone, most,
+        "refused: a shorter step is asked for");
+  limit("motion of any surface node in one step, of the shortest segment", kNone, mostAlone,
+        "refused: a shorter step is asked for");
+}
+
+}  // namespace
+}  // namespace yadefrag::test
