@@ -288,7 +288,8 @@ void Contact::finish(Model& model, const ContactSurfaces& surfaces, const Contac
   touches.clear();
   for (const ContactRow& row : rows_)
     touches.push_back({pairOf(row), row.normalForce, row.tangentForce, row.allowed});
-  if (search_.anyNear()) search_.settle(candidates, surfaces, model.nodes.position, known_);
+  const double left = step.rubble ? tolerance::kLeftInside * step.reach : 0;
+  if (search_.anyNear()) search_.settle(candidates, surfaces, model.nodes.position, known_, left);
 }
 
 void Contact::removeGone(const ContactSurfaces& surfaces) {

@@ -52,12 +52,17 @@ Chord chordOf(const ContactSurfaces& surfaces, std::span<const Vec2> positions, 
 }
 
 /// The slave's outward normals, of the piece before it and of its own: a corner has two, and if it
-/// is convex all between them. The two sides of a splinter do not oppose what its tip pricks.
+/// is convex all between them. The two sides of a splinter do not oppose what its tip pricks. A
+/// sharp corner one of whose sides lies on the master's inner side has come past the master's end,
+/// where the other side of it touches, or that end touches the slave's side.
 struct SlaveNormals {
   Vec2 before, after;
   [[nodiscard]] bool oppose(Vec2 normal) const {
     const bool convex = cross(before, after) > 0;
-    if (convex && cross(normal, before) >= 0 && cross(after, normal) >= 0) return true;
+    const double leaning = std::min(cross(normal, before), cross(after, normal));
+    if (convex && leaning >= 0) return true;
+    const bool sharp = convex && dot(before, after) < tolerance::kSameFace;
+    if (sharp && leaning < -tolerance::kLeansIn) return false;
     return std::min(dot(before, normal), dot(after, normal)) < tolerance::kOpposed;
   }
 };
@@ -294,16 +299,18 @@ void LocalSearch::enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom
 }
 
 void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces,
-                         std::span<const Vec2> positions,
-                         std::span<const SlaveMaster> touched) const {
+                         std::span<const Vec2> positions, std::span<const SlaveMaster> touched,
+                         double left) const {
   const PieceGeometry geometry(surfaces, positions);
   auto next = touched.begin();
   for (const Near& near : near_) {
     const SlaveMaster pair{candidates.slaves[near.row], candidates.masters[near.candidate]};
     while (next != touched.end() && *next < pair) ++next;
     const bool active = next != touched.end() && *next == pair;
-    candidates.outside[near.candidate] =
-        active || geometry.foot(pair.master, geometry.slave(pair.slave)).gap >= 0 ? 1 : 0;
+    std::uint8_t& outside = candidates.outside[near.candidate];
+    const double least = outside != 0 ? -left : 0;
+    const double gap = geometry.foot(pair.master, geometry.slave(pair.slave)).gap;
+    outside = active || gap >= least ? 1 : 0;
   }
 }
 

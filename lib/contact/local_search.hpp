@@ -48,9 +48,11 @@ class LocalSearch {
                    std::span<const std::uint8_t> moved = {});
 
   /// Outside flags of the near ones after the step, in which `touched` (ascending) were active:
-  /// those stay outside, however rounding has placed them.
+  /// those stay outside, however rounding has placed them, and so do those that were outside and
+  /// are inside by no more than `left` (m).
   void settle(Candidates& candidates, const ContactSurfaces& surfaces,
-              std::span<const Vec2> positions, std::span<const SlaveMaster> touched) const;
+              std::span<const Vec2> positions, std::span<const SlaveMaster> touched,
+              double left = 0) const;
 
   [[nodiscard]] bool anyNear() const { return !near_.empty(); }
 

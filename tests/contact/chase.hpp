@@ -43,7 +43,7 @@ class Chase {
     EXPECT_EQ(pairsOf(actives), pairsOf(wanted));
     scene_.moveNeedle(tip_, corrected);
     at_ = corrected;
-    search_.settle(candidates_, scene_.surfaces, scene_.at, pairsOf(actives));
+    search_.settle(candidates_, scene_.surfaces, scene_.at, pairsOf(actives), left);
     return actives;
   }
   std::vector<Active> step(Vec2 to) { return step(to, to); }
@@ -63,6 +63,7 @@ class Chase {
   [[nodiscard]] EntryId tip() const { return tip_; }
 
   double halo = kUnlimited;
+  double left = 0;  ///< m, what a correction may leave inside
 
  private:
   std::vector<Active> find(Candidates& candidates, double reach) {

@@ -49,6 +49,21 @@ TEST(LocalSearch, InsideFromTheStartIsNotActive) {
   EXPECT_EQ(chase.masters({.5, .99}), Masters{2}) << "once out, it is kept out";
 }
 
+/// What others push a little in, or rounding places there, is not lost to the face.
+TEST(LocalSearch, LeftALittleInside) {
+  for (const double left : {1e-6, 1e-15}) {
+    Chase chase(kSquare, {}, {0, -1}, {.5, 1.001});
+    chase.left = 2e-6;
+    EXPECT_TRUE(chase.step({.5, 1.0001}, {.5, 1 - left}).empty()) << "predicted before the face";
+    EXPECT_EQ(chase.masters({.5, .999}), Masters{2}) << left;
+  }
+  Chase deep(kSquare, {}, {0, -1}, {.5, 1.001});
+  deep.left = 2e-6;
+  EXPECT_TRUE(deep.step({.5, 1.0001}, {.5, .999}).empty());
+  EXPECT_EQ(deep.masters({.5, .998}), Masters{})
+      << "as deep as it moves: it may come from anywhere";
+}
+
 TEST(LocalSearch, PastTheEndsOfAPiece) {
   Chase chase(kSquare, {}, {0, -1}, {-.1, 1.1});
   EXPECT_EQ(chase.masters({-.1, .9}), Masters{}) << "beside the body";
@@ -136,6 +151,43 @@ TEST(LocalSearch, CornerThatGrazesACorner) {
   search.settle(candidates, scene.surfaces, scene.at, pairsOf(actives));
   EXPECT_EQ(candidates.outside, (std::vector<std::uint8_t>{1, 0})) << "it stays the upper one's";
 }
+
+class PassedTip : public testing::TestWithParam<std::pair<double, bool>> {};
+
+/// Tips of 60° that have passed each other, sides along sides: no face of one opposes the face that
+/// its tip is at, however the sides are turned to each other; but a corner that stands askew on a
+/// face is held by it.
+TEST_P(PassedTip, IsNoMatterOfTheFaceThatItGoesAlong) {
+  const auto [turn, held] = GetParam();
+  SurfaceScene scene;
+  const EntryId left = scene.addBody({{0, 0}, {1, 0}, {.5, .87}});
+  // From its tip the sides go at `turn` and `turn` + 60°, against the lower face of the left one.
+  const auto at = [tip = Vec2{.05, -1e-3}](double angle) {
+    return tip + Vec2{std::cos(angle), std::sin(angle)};
+  };
+  constexpr double kThird = std::numbers::pi / 3;
+  const EntryId tip = scene.addBody({{.05, -1e-3}, at(turn), at(turn + kThird)});
+  Candidates candidates;
+  std::vector<SlaveMaster> pairs{{tip, left}};
+  replaceCandidates(candidates, pairs, scene.surfaces, scene.at);
+  EXPECT_EQ(candidates.outside, std::vector<std::uint8_t>{1});
+  for (std::size_t n = 3; n < 6; ++n) scene.at[n].y += 2e-3;
+  LocalSearch search;
+  std::vector<Active> actives;
+  search.scan(candidates, scene.surfaces, scene.at, .01, 1);
+  search.findActives(candidates, scene.surfaces, scene.at, kUnlimited, actives);
+  EXPECT_EQ(actives.size(), held ? 1U : 0U);
+}
+
+// Below the face the sides go at angles from -180° to 0.
+INSTANTIATE_TEST_SUITE_P(
+    Turns, PassedTip,
+    testing::Values(std::pair{-2 * std::numbers::pi / 3, true}, std::pair{-std::numbers::pi, true},
+                    std::pair{-std::numbers::pi / 3, true}, std::pair{-std::numbers::pi - .4, true},
+                    std::pair{-std::numbers::pi / 3 + .4, true},
+                    std::pair{-std::numbers::pi - .7, false},
+                    std::pair{-std::numbers::pi / 3 + .7, false},
+                    std::pair{2 * std::numbers::pi / 3, false}, std::pair{0., false}));
 
 // A notch in the upper face, its bottom at the origin. 2 falls into it, 3 rises from it.
 std::vector<Vec2> notch(double depth) {

@@ -24,12 +24,14 @@ struct Setting {
 };
 
 struct Course {
-  double growth = 0;    ///< of the number of segments
-  double deepest = 0;   ///< of the shortest segment: a node in another piece or its own
-  double mostDeep = 0;  ///< part of the boundary nodes deeper than a hundredth of it, at any time
-  double drift = 0;     ///< of the start's energy: the ledger's total, either way
+  double growth = 0;     ///< of the number of segments
+  double deepest = 0;    ///< of the shortest segment: a node in another piece or its own
+  double triangles = 0;  ///< the same of two triangles, which may cross without a node in either
+  double mostDeep = 0;   ///< part of the boundary nodes deeper than a thousandth of it, at any time
+  double drift = 0;      ///< of the start's energy: the ledger's total, either way
   double massError = 0, momentumError = 0;
   double contact = 0, fracture = 0;  ///< of the start's energy
+  double given = 0;  ///< of it, the sum of what contact gave in steps in which it did
   std::uint64_t cracks = 0;
   Nodes nodes;
 };
@@ -71,7 +73,9 @@ Course run(const Setting& setting) {
   const Sums start = sumsOf(world.model);
   Course course;
   for (int i = 0; i < setting.steps; ++i) {
+    const double taken = world.ledger.contact;
     world.step(dt);
+    course.given += std::max(0., taken - world.ledger.contact) / energy;
     course.drift = std::max(course.drift, std::abs(totalEnergy(world) / energy - 1));
     const Sums sums = sumsOf(world.model);
     course.massError = std::max(course.massError, std::abs(sums.mass / start.mass - 1));
@@ -81,7 +85,8 @@ Course run(const Setting& setting) {
     const Overlaps overlaps(world.model);
     const double shortest = shortestSide(world);
     course.deepest = std::max(course.deepest, overlaps.deepest().depth / shortest);
-    course.mostDeep = std::max(course.mostDeep, overlaps.partDeeperThan(.01 * shortest));
+    course.triangles = std::max(course.triangles, overlaps.deepestTriangles() / shortest);
+    course.mostDeep = std::max(course.mostDeep, overlaps.partDeeperThan(1e-3 * shortest));
   }
   course.growth = static_cast<double>(world.surfaces.segments()) / segments;
   course.contact = world.ledger.contact / energy;
@@ -96,17 +101,17 @@ Course run(const Setting& setting) {
 void expectSound(const Course& course) {
   record("cracks", static_cast<double>(course.cracks));
   record("growth", course.growth);
-  // A wedge's tip that slips past another tip comes in beside the face that opposes it. Such an
-  // overlap is let out slowly, or through the other face. In thirty impacts the deepest was from
-  // 0.0006 to 0.29 of a segment, and few nodes are in one.
-  figure("deepest_in_segments", course.deepest, 0, .4);
-  figure("part_deeper_than_a_hundredth", course.mostDeep, 0, .01);
+  // What is left of a step's motion, 0.006 of a segment, by sweeps that end before all is solved,
+  // and by corners that come in aside of each other, whose overlap is let out slowly.
+  figure("deepest_in_segments", course.deepest, 0, .01);
+  figure("deepest_triangles_in_segments", course.triangles, 0, .01);
+  figure("part_deeper_than_a_thousandth", course.mostDeep, 0, .01);
   figure("energy_drift", course.drift, 0, .01);
   // Rounding of some 10⁴ sums.
   figure("mass_error", course.massError, 0, 1e-12);
-  // Contact takes energy. What it lets out of old overlaps and of cracks that cohesion has closed
-  // gives some: up to 6.7 % was seen.
-  EXPECT_GT(course.contact, -.08);
+  // Contact takes energy. It gives a little where it lets old overlaps out.
+  figure("given_by_contact", course.given, 0, .003);
+  EXPECT_GT(course.contact, 0);
   record("contact", course.contact);
   record("fracture", course.fracture);
 }

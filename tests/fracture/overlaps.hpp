@@ -1,8 +1,12 @@
 #pragma once
-// How deep the deepest node is inside another piece or its own: every boundary node against every
-// triangle, which knows nothing of surfaces, slaves, masters or flags.
+// How deep the deepest node is inside another piece or its own, and the deepest triangle inside
+// another: everything against everything, which knows nothing of surfaces, slaves, masters or
+// flags. Tips that pass each other may overlap without a node of either inside the other.
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "fracture/random_cracks.hpp"
@@ -26,6 +30,23 @@ inline double distanceToSide(Vec2 point, Vec2 a, Vec2 b) {
   const Vec2 along = b - a;
   const double at = std::clamp(dot(point - a, along) / dot(along, along), 0., 1.);
   return norm(point - a - at * along);
+}
+
+using Corners = std::array<Vec2, 3>;
+
+/// (m) The shortest push that would get two triangles apart, along a normal of one of their sides;
+/// 0 if they are apart.
+inline double overlapOf(const Corners& a, const Corners& b) {
+  double least = INFINITY;
+  for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)})
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 along = (*own)[(k + 1) % 3] - (*own)[k];
+      double inside = 0;
+      for (const Vec2 point : *other)
+        inside = std::max(inside, cross(along, point - (*own)[k]) / norm(along));
+      least = std::min(least, inside);
+    }
+  return least;
 }
 
 struct Overlap {
@@ -68,6 +89,23 @@ class Overlaps {
     for (const Overlap& overlap : all())
       if (overlap.depth > worst.depth) worst = overlap;
     return worst;
+  }
+
+  /// (m) Of any two triangles. Those that hang together overlap by nothing.
+  [[nodiscard]] double deepestTriangles() const {
+    std::vector<std::pair<double, Corners>> byLowest;
+    for (const auto& nodes : model_.triangles.nodes) {
+      const Corners corners{at(nodes[0]), at(nodes[1]), at(nodes[2])};
+      byLowest.emplace_back(std::min({corners[0].x, corners[1].x, corners[2].x}), corners);
+    }
+    std::ranges::sort(byLowest, {}, [](const auto& entry) { return entry.first; });
+    double deepest = 0;
+    for (auto a = byLowest.begin(); a != byLowest.end(); ++a) {
+      const double highest = std::max({a->second[0].x, a->second[1].x, a->second[2].x});
+      for (auto b = a + 1; b != byLowest.end() && b->first < highest; ++b)
+        deepest = std::max(deepest, overlapOf(a->second, b->second));
+    }
+    return deepest;
   }
 
   /// Of all boundary nodes, the part that is deeper than this (m).
