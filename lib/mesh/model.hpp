@@ -16,8 +16,8 @@ namespace yadefrag {
 enum Held : std::uint8_t { kFree = 0, kHeldX = 1, kHeldY = 2, kHeldXY = 3 };
 
 struct Nodes {
-  std::vector<Vec2> position;      ///< m, xⁿ
-  std::vector<Vec2> velocity;      ///< m/s, vⁿ⁻½; of a held direction: the prescribed one
+  std::vector<Vec2> position;  ///< m, xⁿ
+  std::vector<Vec2> velocity;  ///< m/s, vⁿ⁻½; of a held direction: the prescribed one
   /// kg, lumped; 0 of dropped triangles, whose nodes are held in both directions.
   std::vector<double> mass;
   std::vector<std::uint8_t> held;  ///< Held
