@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
+#include <random>
 
 #include "step/bodies.hpp"
 
@@ -60,6 +62,22 @@ TriangleMesh slitStrip(int rows) {
   return mesh;
 }
 
+/// Moves the nodes inside at random, by at most `share` of an element each way; those along the
+/// middle only along it.
+void jitter(TriangleMesh& mesh, double size, double share) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-share * size, share * size);
+  const double length = kLengthInHeights * kHeight;
+  for (Vec2& x : mesh.nodes) {
+    const bool inside = x.x > size / 8 && x.x < length - size / 8 && std::abs(x.y) < .499 * kHeight;
+    const Vec2 moved{any(random), any(random)};
+    // The slit's two faces stay opposite each other.
+    const bool middle = std::abs(x.y) < size / 8;
+    if (!inside || (middle && x.x < kTip + size / 8)) continue;
+    x += middle ? Vec2{moved.x, 0} : moved;
+  }
+}
+
 struct Outcome {
   double release = 0;  // of Gc: G at the first break
   double ledger = 0;   // change of the total, of the work put in
@@ -75,8 +93,9 @@ void crackOnlyMiddle(World& world, double size) {
   }
 }
 
-Outcome pullUntilBreak(int rows) {
-  const TriangleMesh mesh = slitStrip(rows);
+Outcome pullUntilBreak(int rows, double share = 0) {
+  TriangleMesh mesh = slitStrip(rows);
+  jitter(mesh, kHeight / rows, share);
   BodySpec spec;
   spec.material = kGlass;
   spec.brittle.tensileStrength = std::sqrt(kGlass.young * kEnergy / kZone);
@@ -128,6 +147,15 @@ TEST(Strip, CrackRunsAtTheFractureEnergy) {
     least = std::min(least, outcome.release), most = std::max(most, outcome.release);
   }
   EXPECT_LT(most / least, 1.05);
+}
+
+// A fifth of an element each way. Measured: 1.037, as with the regular mesh.
+TEST(Strip, TheMeshNeedNotBeRegular) {
+  if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
+  const Outcome outcome = pullUntilBreak(24, .2);
+  RecordProperty("release", std::to_string(outcome.release));
+  EXPECT_NEAR(outcome.release, 1, .05);
+  EXPECT_LT(outcome.ledger, .002);
 }
 
 }  // namespace

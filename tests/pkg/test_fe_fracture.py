@@ -178,6 +178,21 @@ def test_cracksAreTheSameWithAnyColliderAndThreads():
         assert np.abs(found[2] - wanted[2]).max() < 1e-12, (finder, threads)
 
 
+@pytest.mark.parametrize('finder', ['InsertionSortCollider', 'HierarchyCollider',
+                                    'LinearCodeCollider'])
+@pytest.mark.parametrize('energy', [0, 500])
+@pytest.mark.filterwarnings('ignore:fractureEnergy')
+def test_anyColliderGivesTheSameBits(finder, energy):
+    runs = []
+    for one in ('LebesgueCollider', finder):
+        O.reset()
+        solver = impact(one, fractureEnergy=energy, strengthScatter=.1)
+        steps(200 if energy == 0 else 250)
+        runs.append((state(solver), solver.numCracks, solver.numSearches, solver.energy))
+    assert runs[0][1] > 20
+    assert areSame(runs[0][0], runs[1][0]) and runs[0][1:] == runs[1][1:]
+
+
 def test_threadsGiveTheSameBits():
     runs = []
     for threads in (1, 2):
