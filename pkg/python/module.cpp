@@ -6,6 +6,7 @@
 #include "collider/colliders.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/materials.hpp"
+#include "fe/polygon_python.hpp"
 #include "fe/segment_functors.hpp"
 #include "fe/surface_segment.hpp"
 #include "publish/publish.hpp"
@@ -38,6 +39,7 @@ BOOST_PYTHON_MODULE(_yadefrag) {
           "Raises ImportError unless YADE's classes are laid out as this extension declares them.");
   py::def("meshOfPolygon", &yadefrag::meshOfPolygon);
   py::def("meshOfRectangle", &yadefrag::meshOfRectangle);
+  py::def("polygonOfText", &yadefrag::polygonOfText);
   py::def("publish", &yadefrag::NewClasses::publishAll,
           "Adds the new classes to YADE, once; returns their names.");
 }

@@ -68,11 +68,12 @@ def test_polygonFileIsRead(folder):
 @pytest.mark.parametrize('text, line', [
     ('0 0\n1\n', 'line 2'), ('0 0\n1 0\nx 1\n', 'line 3'), ('0 0 0\n', 'line 1'),
     ('# nothing\n', 'line 1'), ('', 'line 1'), ('0 0\n\n1 nan\n', 'line 3'),
+    ('0 0\n1e999 0\n', 'line 2'), ('0 0\n1 0x\n', 'line 2'), ('\udcff\udc80\n', 'line 1'),
 ])
 def test_badPolygonFileNamesTheLine(folder, text, line):
     path = folder + '/bad.txt'
-    with open(path, 'w', encoding='utf-8') as file:
-        file.write(text)
+    with open(path, 'wb') as file:
+        file.write(text.encode('utf-8', 'surrogateescape'))
     with pytest.raises(ValueError) as error:
         geometry.readPolygon(path)
     assert path in str(error.value) and line in str(error.value)

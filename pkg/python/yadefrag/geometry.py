@@ -3,6 +3,8 @@
 import math
 import numbers
 
+from yadefrag import _yadefrag
+
 CIRCLE_POINTS = 64
 
 
@@ -83,27 +85,9 @@ def readPolygon(file):
     The first loop is the outline. `#` begins a comment, and a line with nothing but a comment is
     skipped. `file` is a path. ValueError with the file and the line for anything else.
     """
-    loops = [[]]
-    with open(file, encoding='utf-8') as lines:
-        for number, line in enumerate(lines, 1):
-            text = line.partition('#')[0].split()
-            if text:
-                loops[-1].append(_readPoint(file, number, text))
-            elif '#' not in line and loops[-1]:
-                loops.append([])
-    if not loops[-1]:
-        loops.pop()
-    if not loops:
-        raise ValueError('%s, line 1: no points, a line must hold x and y in metres.' % file)
-    return loops[0], loops[1:]
-
-
-def _readPoint(file, number, text):
+    with open(file, 'rb') as data:
+        text = data.read()
     try:
-        x, y = map(float, text)
-    except ValueError:
-        x = y = math.nan
-    if not (math.isfinite(x) and math.isfinite(y)):
-        raise ValueError('%s, line %d: %r must be two finite numbers, x and y in metres.' %
-                         (file, number, ' '.join(text)))
-    return x, y
+        return _yadefrag.polygonOfText(text)
+    except ValueError as error:
+        raise ValueError('%s, %s' % (file, error)) from None

@@ -1,0 +1,29 @@
+#include "fe/polygon_python.hpp"
+
+#include "fe/fe_arrays.hpp"
+#include "mesh/polygon_text.hpp"
+
+namespace yadefrag {
+
+namespace py = yade::py;
+
+namespace {
+
+py::list pairsOf(const std::vector<Vec2>& points) {
+  py::list pairs;
+  for (const Vec2 point : points) pairs.append(py::make_tuple(point.x, point.y));
+  return pairs;
+}
+
+}  // namespace
+
+py::tuple polygonOfText(const std::string& text) {
+  return asValueError([&] {
+    const Polygon polygon = polygonFromText(text);
+    py::list holes;
+    for (const auto& hole : polygon.holes) holes.append(pairsOf(hole));
+    return py::make_tuple(pairsOf(polygon.outline), holes);
+  });
+}
+
+}  // namespace yadefrag
