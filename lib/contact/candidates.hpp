@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/footprint.hpp"
 #include "core/ids.hpp"
 #include "core/vec2.hpp"
 #include "surface/contact_surface.hpp"
@@ -25,6 +26,9 @@ struct Candidates {
 
   [[nodiscard]] std::size_t size() const { return masters.size(); }
   void clear();
+  void addTo(Footprint& footprint) const {
+    footprint.add(Use::kSearch, slaves, offsets, masters, outside, asleep);
+  }
 };
 
 /// A slave and a master in whose halo it is.

@@ -27,13 +27,13 @@ bool meetInConvexJoint(const ContactSurfaces& surfaces, const PieceGeometry& geo
                        EntryId b) {
   if (surfaces.next[b.value] == a) std::swap(a, b);
   if (surfaces.next[a.value] != b) return false;
-  return cross(geometry.tangent(a, pieceRange(surfaces.piece[a.value]).end),
-               geometry.tangent(b, pieceRange(surfaces.piece[b.value]).begin)) >= 0;
+  return cross(geometry.tangent(a, geometry.range(a).end),
+               geometry.tangent(b, geometry.range(b).begin)) >= 0;
 }
 
 }  // namespace
 
-void Contact::reset(std::size_t nodes) {
+void Contact::reset() {
   candidates.clear();
   touches.clear();
   rows_.clear();
@@ -41,10 +41,14 @@ void Contact::reset(std::size_t nodes) {
   forces_.clear();
   displacement_.clear();
   isTouched_.clear();
-  resize(nodes);
 }
 
 void Contact::resize(std::size_t nodes) {
+  if (!forces_.empty()) makeRoom(nodes);
+}
+
+/// Bodies that never meet need none of this.
+void Contact::makeRoom(std::size_t nodes) {
   forces_.resize(nodes);
   displacement_.resize(nodes);
   isTouched_.resize(nodes);
@@ -134,6 +138,7 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
       candidates, surfaces, model.nodes.position, step.halo, actives_, known_,
       lookedAt_ ? std::span<const std::uint8_t>(isTouched_) : std::span<const std::uint8_t>());
   lookedAt_ = true;
+  if (!actives_.empty()) makeRoom(model.nodes.size());
   const PieceGeometry before(surfaces, step.before);
   bool anyNew = false;
   for (const Active& active : actives_) {
@@ -242,14 +247,15 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
 void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces,
                          const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
-  const PieceGeometry geometry(surfaces, model.nodes.position);
   maxPenetration_ = 0;
-  for (ContactRow& row : rows_) {
-    const double gap = gapOf(row, geometry);
-    maxPenetration_ = std::max(maxPenetration_, row.allowed - gap);
-    if (std::isfinite(row.left)) row.left = row.allowed - gap;
-    row.gap = gap - dot(relative(row, displacement_), row.normal);
-  }
+  withGeometry(surfaces, model.nodes.position, [&](const auto& geometry) {
+    for (ContactRow& row : rows_) {
+      const double gap = gapOf(row, geometry);
+      maxPenetration_ = std::max(maxPenetration_, row.allowed - gap);
+      if (std::isfinite(row.left)) row.left = row.allowed - gap;
+      row.gap = gap - dot(relative(row, displacement_), row.normal);
+    }
+  });
 }
 
 /// Moves the nodes from where they are to x* + u.
@@ -297,6 +303,15 @@ void Contact::removeGone(const ContactSurfaces& surfaces) {
   const auto isGone = [&](EntryId entry) { return surfaces.piece[entry.value] == Piece::kGone; };
   std::erase_if(touches,
                 [&](const Touch& t) { return isGone(t.pair.slave) || isGone(t.pair.master); });
+}
+
+void Contact::addTo(Footprint& footprint) const {
+  footprint.add(Use::kContact, touches, actives_, rows_, known_, forces_, displacement_, touched_,
+                isTouched_);
+  candidates.addTo(footprint);
+  search_.addTo(footprint);
+  lagrange_.addTo(footprint);
+  sweeps_.addTo(footprint);
 }
 
 void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,

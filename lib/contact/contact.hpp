@@ -39,6 +39,15 @@ struct ContactStep {
   StageTimes* times = nullptr;  ///< null: not measured
 };
 
+/// By node; 0 everywhere as long as nothing has ever touched, without an array that says so.
+struct ContactForces {
+  std::span<const Vec2> known;  ///< N; empty if nothing has ever touched
+
+  Vec2 operator[](std::size_t node) const { return known.empty() ? Vec2{} : known[node]; }
+  [[nodiscard]] auto begin() const { return known.begin(); }
+  [[nodiscard]] auto end() const { return known.end(); }
+};
+
 class Contact {
  public:
   /// From the predicted x* and v* of `model` to xⁿ⁺¹ and vⁿ⁺½.
@@ -46,7 +55,7 @@ class Contact {
                const ContactStep& step);
 
   /// After nodes or entries were renumbered or added: candidates and touches are void.
-  void reset(std::size_t nodes);
+  void reset();
   /// After nodes were added.
   void resize(std::size_t nodes);
   /// Room for so many nodes.
@@ -62,17 +71,20 @@ class Contact {
 
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
   /// (N) By node, of the last step.
-  [[nodiscard]] const std::vector<Vec2>& forces() const { return forces_; }
+  [[nodiscard]] ContactForces forces() const { return ContactForces{forces_}; }
   /// (m) Of a node, in the last step.
   [[nodiscard]] double largestCorrection() const { return largestCorrection_; }
   [[nodiscard]] double maxPenetration() const { return maxPenetration_; }
   /// Largest residual of the last step's systems, relative to their largest gap.
   [[nodiscard]] double residual() const { return residual_; }
 
+  void addTo(Footprint& footprint) const;
+
   Candidates candidates;
   std::vector<Touch> touches;  ///< by pair
 
  private:
+  void makeRoom(std::size_t nodes);
   void scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
             double reach, double moved);
   void solve(const Model& model, const ContactSettings& settings, const ContactStep& step,

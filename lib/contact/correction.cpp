@@ -10,8 +10,6 @@ namespace yadefrag {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffff;
-
 /// Does a row penetrate, or push a slave farther out than it need be.
 bool isOpen(const ContactRow& row, double tolerance) {
   return row.left > tolerance || (row.left < -tolerance && row.normalForce > 0);
@@ -35,7 +33,8 @@ void Lagrange::setRows(std::span<const ContactRow> rows, const Nodes& nodes, dou
                        double drag) {
   findContactGroups(rows, nodes, groups_);
   normalOf_.resize(rows.size());
-  tangentOf_.resize(rows.size());
+  const auto rubs = [](const ContactRow& row) { return row.friction > 0; };
+  tangentOf_.resize(std::ranges::any_of(rows, rubs) ? rows.size() : 0);
   const std::size_t groups = groups_.rows.rows();
   if (systems_.size() < groups) systems_.resize(groups);
   for (std::size_t group = 0; group < groups; ++group) assemble(rows, nodes, group, dt, drag);
@@ -57,6 +56,7 @@ double Lagrange::solve(std::span<ContactRow> rows, double tolerance) {
 std::size_t Lagrange::numberUnknowns(std::span<const ContactRow> rows, Members members) {
   std::uint32_t count = 0;
   for (const std::uint32_t r : members) normalOf_[r] = count++;
+  if (tangentOf_.empty()) return count;
   for (const std::uint32_t r : members) tangentOf_[r] = rows[r].friction > 0 ? count++ : kNone;
   return count;
 }
@@ -91,7 +91,7 @@ void Lagrange::setGaps(std::span<const ContactRow> rows, Members members, BoxPro
   problem.upper.resize(unknowns);
   start_.resize(unknowns);
   for (const std::uint32_t r : members) {
-    const std::uint32_t normal = normalOf_[r], tangent = tangentOf_[r];
+    const std::uint32_t normal = normalOf_[r], tangent = tangentOf(r);
     problem.constant[normal] = rows[r].gap - rows[r].allowed;
     problem.lower[normal] = 0;
     problem.upper[normal] = kNoBound;
@@ -106,7 +106,7 @@ void Lagrange::addPair(const ContactRow& a, const ContactRow& b, const RowNode& 
                        Vec2 mobile) {
   const Vec2 scaled = p.weight * q.weight * mobile;
   const std::uint32_t na = normalOf_[p.row], nb = normalOf_[q.row];
-  const std::uint32_t ta = tangentOf_[p.row], tb = tangentOf_[q.row];
+  const std::uint32_t ta = tangentOf(p.row), tb = tangentOf(q.row);
   entries_.push_back({na, nb, weighted(a.normal, scaled, b.normal)});
   if (tb != kNone) entries_.push_back({na, tb, weighted(a.normal, scaled, b.tangent())});
   if (ta == kNone) return;
@@ -133,9 +133,9 @@ void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& s
   for (const std::uint32_t r : members) {
     rows[r].left = 0;
     rows[r].normalForce = result->lambda[normalOf_[r]];
-    if (tangentOf_[r] == kNone) continue;
+    if (tangentOf(r) == kNone) continue;
     const double most = rows[r].friction * rows[r].normalForce;
-    rows[r].tangentForce = std::clamp(result->lambda[tangentOf_[r]], -most, most);
+    rows[r].tangentForce = std::clamp(result->lambda[tangentOf(r)], -most, most);
   }
   system.residual = result->residual;
 }
@@ -145,10 +145,11 @@ void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& s
 /// more.
 bool Lagrange::boundFriction(std::span<const ContactRow> rows, Members members, System& system,
                              std::span<const double> lambda) const {
+  if (tangentOf_.empty()) return false;
   BoxProblem& problem = system.problem;
   double largest = 0, change = 0;
   for (const std::uint32_t r : members) {
-    const std::uint32_t tangent = tangentOf_[r];
+    const std::uint32_t tangent = tangentOf(r);
     if (tangent == kNone) continue;
     const double bound = rows[r].friction * std::min(lambda[normalOf_[r]], system.mostForce);
     largest = std::max(largest, bound);
@@ -157,6 +158,16 @@ bool Lagrange::boundFriction(std::span<const ContactRow> rows, Members members, 
     problem.upper[tangent] = bound;
   }
   return change > tolerance::kFrictionBound * largest;
+}
+
+void Lagrange::addTo(Footprint& footprint) const {
+  footprint.add(Use::kContact, groups_.links, groups_.rows.values, groups_.rows.offsets,
+                groups_.spans.values, groups_.spans.offsets, systems_, entries_, normalOf_, start_);
+  footprint.add(Use::kFriction, tangentOf_);
+  for (const System& system : systems_) {
+    const BoxProblem& p = system.problem;
+    footprint.add(Use::kContact, p.offsets, p.columns, p.values, p.constant, p.lower, p.upper);
+  }
 }
 
 void penalize(std::span<ContactRow> rows, const Nodes& nodes, double dt, double drag,

@@ -8,6 +8,7 @@
 #include "contact/box_problem.hpp"
 #include "contact/contact_groups.hpp"
 #include "contact/contact_row.hpp"
+#include "core/footprint.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -22,6 +23,8 @@ class Lagrange {
   /// `tolerance` (m) is `left` keep theirs. Returns the largest residual of any group, relative to
   /// its largest gap.
   double solve(std::span<ContactRow> rows, double tolerance);
+  /// Without what the solver of a group works with.
+  void addTo(Footprint& footprint) const;
 
  private:
   struct System {
@@ -31,6 +34,11 @@ class Lagrange {
   };
   using Members = std::span<const std::uint32_t>;
 
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  /// The unknown of a row's tangential force, kNone without friction.
+  [[nodiscard]] std::uint32_t tangentOf(std::uint32_t row) const {
+    return tangentOf_.empty() ? kNone : tangentOf_[row];
+  }
   std::size_t numberUnknowns(std::span<const ContactRow> rows, Members members);
   void assemble(std::span<const ContactRow> rows, const Nodes& nodes, std::size_t group, double dt,
                 double drag);
@@ -45,7 +53,8 @@ class Lagrange {
   std::vector<System> systems_;  // of the groups; more than there are, to keep their memory
   BoxSolver solver_;
   std::vector<MatrixEntry> entries_;
-  std::vector<std::uint32_t> normalOf_, tangentOf_;  // unknowns of a row, by row
+  std::vector<std::uint32_t> normalOf_;   // unknowns of a row, by row
+  std::vector<std::uint32_t> tangentOf_;  // the same; empty without friction
   std::vector<double> start_;
 };
 

@@ -10,14 +10,11 @@ namespace yadefrag {
 
 namespace {
 
-bool isArc(const ContactSurfaces& surfaces, EntryId entry) {
-  return surfaces.piece[entry.value] == Piece::kArc;
-}
-
 /// A straight neighbour has to know on which side of the arc a slave was.
-bool isArcAmongArcs(const ContactSurfaces& surfaces, EntryId entry) {
-  return isArc(surfaces, entry) && isArc(surfaces, surfaces.next[entry.value]) &&
-         isArc(surfaces, surfaces.prev[entry.value]);
+template <class Geometry>
+bool isArcAmongArcs(const ContactSurfaces& surfaces, const Geometry& geometry, EntryId entry) {
+  return geometry.isArc(entry) && geometry.isArc(surfaces.next[entry.value]) &&
+         geometry.isArc(surfaces.prev[entry.value]);
 }
 
 /// Where a point lies beside the chord of a piece.
@@ -41,14 +38,11 @@ Beside besideChord(const Chord& chord, Vec2 point) {
   return {cross(from, along) * chord.inverse, std::max(-at, past), chord.inverse};
 }
 
-Chord chordOf(const ContactSurfaces& surfaces, std::span<const Vec2> positions, EntryId entry) {
-  const PieceEnds ends = PieceGeometry(surfaces, positions).ends(entry);
-  Chord chord{ends.begin, ends.end, 1 / norm(ends.end - ends.begin), 0};
-  if (!isArc(surfaces, entry)) return chord;
-  NodeId nodes[3];
-  surfaces.pieceNodes(entry, nodes);
-  chord.bulge = norm(positions[nodes[1].value] - .5 * (ends.begin + ends.end));
-  return chord;
+template <class Geometry>
+Chord chordOf(const Geometry& geometry, EntryId entry) {
+  const PieceEnds ends = geometry.ends(entry);
+  return {ends.begin, ends.end, 1 / norm(ends.end - ends.begin),
+          geometry.isArc(entry) ? geometry.bulge(entry, ends) : 0};
 }
 
 /// The slave's outward normals, of the piece before it and of its own: a corner has two, and if it
@@ -67,24 +61,28 @@ struct SlaveNormals {
   }
 };
 
-SlaveNormals slaveNormals(const ContactSurfaces& surfaces, const PieceGeometry& geometry,
+template <class Geometry>
+SlaveNormals slaveNormals(const ContactSurfaces& surfaces, const Geometry& geometry,
                           EntryId slave) {
   const EntryId former = surfaces.prev[slave.value];
-  return {geometry.normal(former, pieceRange(surfaces.piece[former.value]).end),
-          geometry.normal(slave, pieceRange(surfaces.piece[slave.value]).begin)};
+  return {geometry.normal(former, geometry.range(former).end),
+          geometry.normal(slave, geometry.range(slave).begin)};
 }
 
-bool isOver(const ContactSurfaces& surfaces, EntryId master, const Foot& foot) {
-  const PieceRange range = pieceRange(surfaces.piece[master.value]);
+template <class Geometry>
+bool isOver(const Geometry& geometry, EntryId master, const Foot& foot) {
+  const PieceRange range = geometry.range(master);
   return foot.xi >= range.begin - tolerance::kFootRange &&
          foot.xi <= range.end + tolerance::kFootRange;
 }
 
-bool isBehindEnd(const ContactSurfaces& surfaces, EntryId master, const Foot& foot) {
-  return foot.xi > pieceRange(surfaces.piece[master.value]).end;
+template <class Geometry>
+bool isBehindEnd(const Geometry& geometry, EntryId master, const Foot& foot) {
+  return foot.xi > geometry.range(master).end;
 }
-bool isBeforeBegin(const ContactSurfaces& surfaces, EntryId master, const Foot& foot) {
-  return foot.xi < pieceRange(surfaces.piece[master.value]).begin;
+template <class Geometry>
+bool isBeforeBegin(const Geometry& geometry, EntryId master, const Foot& foot) {
+  return foot.xi < geometry.range(master).begin;
 }
 
 }  // namespace
@@ -98,42 +96,51 @@ void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
     candidates.asleep.assign(rows, 0), way_ = 0;
   near_.clear();
   nearByPart_.resize(static_cast<std::size_t>(std::max(threads, 1)));
-  findChords(candidates, surfaces, positions, threads);
-  const auto chord = [&](EntryId entry) {
-    return chords_.empty() ? chordOf(surfaces, positions, entry) : chords_[entry.value];
-  };
-  const auto work = [&](std::size_t begin, std::size_t end, int part) {
-    std::vector<Near>& found = nearByPart_[static_cast<std::size_t>(part)];
-    found.clear();
-    for (std::size_t r = begin; r < end; ++r) {
-      if (candidates.asleep[r] > way_ + reach) continue;
-      candidates.asleep[r] = way_ + scanRow(candidates, surfaces, positions, reach,
-                                            static_cast<std::uint32_t>(r), chord, found);
-    }
-  };
-  const int parts = forEachPart(rows, threads, work);
+  const int parts = withGeometry(surfaces, positions, [&](const auto& geometry) {
+    findChords(candidates, surfaces, geometry, threads);
+    return scanRows(candidates, geometry, reach, threads);
+  });
   for (int part = 0; part < parts; ++part) {
     const auto& found = nearByPart_[static_cast<std::size_t>(part)];
     near_.insert(near_.end(), found.begin(), found.end());
   }
 }
 
+/// Returns in how many parts.
+template <class Geometry>
+int LocalSearch::scanRows(Candidates& candidates, const Geometry& geometry, double reach,
+                          int threads) {
+  const auto chord = [&](EntryId entry) {
+    return chords_.empty() ? chordOf(geometry, entry) : chords_[entry.value];
+  };
+  return forEachPart(
+      candidates.slaves.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
+        std::vector<Near>& found = nearByPart_[static_cast<std::size_t>(part)];
+        found.clear();
+        for (std::size_t r = begin; r < end; ++r) {
+          if (candidates.asleep[r] > way_ + reach) continue;
+          candidates.asleep[r] = way_ + scanRow(candidates, geometry, reach,
+                                                static_cast<std::uint32_t>(r), chord, found);
+        }
+      });
+}
+
 /// In rubble nearly every slave is awake, and every piece the master of several.
+template <class Geometry>
 void LocalSearch::findChords(const Candidates& candidates, const ContactSurfaces& surfaces,
-                             std::span<const Vec2> positions, int threads) {
+                             const Geometry& geometry, int threads) {
   const auto isAwake = [&](double asleep) { return asleep <= way_ + reach_; };
   const auto awake = static_cast<std::size_t>(std::ranges::count_if(candidates.asleep, isAwake));
   chords_.resize(awake > surfaces.entries() / 4 ? surfaces.entries() : 0);
   forEachPart(chords_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t e = begin; e < end; ++e) chords_[e] = chordOf(surfaces, positions, EntryId(e));
+    for (std::size_t e = begin; e < end; ++e) chords_[e] = chordOf(geometry, EntryId(e));
   });
 }
 
-template <class ChordOf>
-double LocalSearch::scanRow(Candidates& candidates, const ContactSurfaces& surfaces,
-                            std::span<const Vec2> positions, double reach, std::uint32_t row,
-                            ChordOf chordOfEntry, std::vector<Near>& found) {
-  const Vec2 point = PieceGeometry(surfaces, positions).slave(candidates.slaves[row]);
+template <class Geometry, class ChordOf>
+double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, double reach,
+                            std::uint32_t row, ChordOf chordOfEntry, std::vector<Near>& found) {
+  const Vec2 point = geometry.slave(candidates.slaves[row]);
   double clear = INFINITY;
   for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c) {
     const EntryId master = candidates.masters[c];
@@ -144,7 +151,7 @@ double LocalSearch::scanRow(Candidates& candidates, const ContactSurfaces& surfa
       found.push_back({row, c});
     else
       candidates.outside[c] = beside.gap >= 0 ? 1 : 0;
-    const bool arc = isArc(surfaces, master);
+    const bool arc = geometry.isArc(master);
     // Nothing comes of a straight master that the slave is behind of, until it has come out.
     const bool behind = !arc && candidates.outside[c] == 0;
     const double open = (behind ? std::abs(beside.gap) : beside.gap) - chord.bulge;
@@ -157,7 +164,15 @@ void LocalSearch::findActives(const Candidates& candidates, const ContactSurface
                               std::span<const Vec2> positions, double halo,
                               std::vector<Active>& actives, std::span<const SlaveMaster> known,
                               std::span<const std::uint8_t> moved) {
-  const PieceGeometry geometry(surfaces, positions);
+  withGeometry(surfaces, positions, [&](const auto& geometry) {
+    tryAll(candidates, surfaces, geometry, halo, actives, known, moved);
+  });
+}
+
+template <class Geometry>
+void LocalSearch::tryAll(const Candidates& candidates, const ContactSurfaces& surfaces,
+                         const Geometry& geometry, double halo, std::vector<Active>& actives,
+                         std::span<const SlaveMaster> known, std::span<const std::uint8_t> moved) {
   const std::span<const Near> near(near_);
   auto next = known.begin();
   for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
@@ -192,8 +207,9 @@ bool LocalSearch::hasMoved(const Candidates& candidates, const ContactSurfaces& 
 }
 
 /// One slave and all masters that it is near to.
+template <class Geometry>
 void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
-                         const PieceGeometry& geometry, std::span<const Near> row, double halo) {
+                         const Geometry& geometry, std::span<const Near> row, double halo) {
   const EntryId slave = candidates.slaves[row.front().row];
   const Vec2 point = geometry.slave(slave);
   trials_.clear();
@@ -201,13 +217,13 @@ void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& su
   // the row: in rubble, most slaves are near to their own body's faces alone.
   if (std::ranges::none_of(row, [&](const Near& near) {
         return candidates.outside[near.candidate] != 0 ||
-               isArc(surfaces, candidates.masters[near.candidate]);
+               geometry.isArc(candidates.masters[near.candidate]);
       }))
     return;
   // And most slaves are outside all masters.
   if (std::ranges::none_of(row, [&](const Near& near) {
         const EntryId master = candidates.masters[near.candidate];
-        return isArc(surfaces, master) || geometry.mayPenetrate(master, point);
+        return geometry.isArc(master) || geometry.mayPenetrate(master, point);
       }))
     return;
   const SlaveNormals normals = slaveNormals(surfaces, geometry, slave);
@@ -216,7 +232,8 @@ void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& su
     const EntryId master = candidates.masters[near.candidate];
     Trial trial{master, {}, candidates.outside[near.candidate] != 0, false, false, false};
     // The quick test spares the iteration.
-    if (isArcAmongArcs(surfaces, master) && !geometry.mayPenetrate(master, point)) continue;
+    if (isArcAmongArcs(surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
+      continue;
     trial.foot = geometry.foot(master, point);
     trial.opposed = normals.oppose(trial.foot.normal);
     anyInside = anyInside || (trial.opposed && trial.foot.gap < 0);
@@ -233,12 +250,12 @@ void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& su
 /// master needs no flag (§5.3): its normal always exists and is unique. But where a body folds up,
 /// the normals of a tight arc reach far into it and out at the other side: a depth beyond the halo
 /// is none.
-void LocalSearch::decide(const ContactSurfaces& surfaces, const PieceGeometry& geometry,
-                         double halo) {
+template <class Geometry>
+void LocalSearch::decide(const ContactSurfaces& surfaces, const Geometry& geometry, double halo) {
   for (Trial& trial : trials_) {
-    const bool arc = isArc(surfaces, trial.master);
+    const bool arc = geometry.isArc(trial.master);
     trial.active = trial.opposed && trial.foot.gap < 0 && (arc || trial.outside) &&
-                   (!arc || trial.foot.gap >= -halo) && isOver(surfaces, trial.master, trial.foot);
+                   (!arc || trial.foot.gap >= -halo) && isOver(geometry, trial.master, trial.foot);
   }
   // All that came in past an end before any choice: else one neighbour would bring back what the
   // other one is nearer to.
@@ -248,28 +265,29 @@ void LocalSearch::decide(const ContactSurfaces& surfaces, const PieceGeometry& g
     for (std::uint32_t k = 0; k < trials_.size(); ++k)
       if (trials_[k].master == after) joints_.emplace_back(i, k);
   }
-  for (const auto& [i, k] : joints_) enterAtJoint(surfaces, trials_[i], trials_[k], halo);
-  for (const auto& [i, k] : joints_) decideNeighbours(surfaces, geometry, trials_[i], trials_[k]);
+  for (const auto& [i, k] : joints_) enterAtJoint(geometry, trials_[i], trials_[k], halo);
+  for (const auto& [i, k] : joints_) decideNeighbours(geometry, trials_[i], trials_[k]);
 }
 
 /// `second` follows `first` on their surface.
-void LocalSearch::enterAtJoint(const ContactSurfaces& surfaces, Trial& first, Trial& second,
+template <class Geometry>
+void LocalSearch::enterAtJoint(const Geometry& geometry, Trial& first, Trial& second,
                                double halo) const {
-  const bool overFirst = isOver(surfaces, first.master, first.foot);
-  const bool overSecond = isOver(surfaces, second.master, second.foot);
-  const bool pastFirst = isBehindEnd(surfaces, first.master, first.foot);
-  const bool pastSecond = isBeforeBegin(surfaces, second.master, second.foot);
+  const bool overFirst = isOver(geometry, first.master, first.foot);
+  const bool overSecond = isOver(geometry, second.master, second.foot);
+  const bool pastFirst = isBehindEnd(geometry, first.master, first.foot);
+  const bool pastSecond = isBeforeBegin(geometry, second.master, second.foot);
   if (overSecond && second.foot.gap >= -halo) enterFromNeighbour(first, second, pastFirst);
   if (overFirst && first.foot.gap >= -halo) enterFromNeighbour(second, first, pastSecond);
 }
 
 /// `second` follows `first` on their surface.
-void LocalSearch::decideNeighbours(const ContactSurfaces& surfaces, const PieceGeometry& geometry,
-                                   Trial& first, Trial& second) {
-  const PieceRange range = pieceRange(surfaces.piece[first.master.value]);
-  const PieceRange rangeAfter = pieceRange(surfaces.piece[second.master.value]);
-  const bool pastFirst = isBehindEnd(surfaces, first.master, first.foot);
-  const bool pastSecond = isBeforeBegin(surfaces, second.master, second.foot);
+template <class Geometry>
+void LocalSearch::decideNeighbours(const Geometry& geometry, Trial& first, Trial& second) {
+  const PieceRange range = geometry.range(first.master);
+  const PieceRange rangeAfter = geometry.range(second.master);
+  const bool pastFirst = isBehindEnd(geometry, first.master, first.foot);
+  const bool pastSecond = isBeforeBegin(geometry, second.master, second.foot);
   const bool concave = cross(geometry.tangent(first.master, range.end),
                              geometry.tangent(second.master, rangeAfter.begin)) < 0;
   if (concave && pastFirst && pastSecond) {
@@ -301,17 +319,18 @@ void LocalSearch::enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom
 void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces,
                          std::span<const Vec2> positions, std::span<const SlaveMaster> touched,
                          double left) const {
-  const PieceGeometry geometry(surfaces, positions);
-  auto next = touched.begin();
-  for (const Near& near : near_) {
-    const SlaveMaster pair{candidates.slaves[near.row], candidates.masters[near.candidate]};
-    while (next != touched.end() && *next < pair) ++next;
-    const bool active = next != touched.end() && *next == pair;
-    std::uint8_t& outside = candidates.outside[near.candidate];
-    const double least = outside != 0 ? -left : 0;
-    const double gap = geometry.foot(pair.master, geometry.slave(pair.slave)).gap;
-    outside = active || gap >= least ? 1 : 0;
-  }
+  withGeometry(surfaces, positions, [&](const auto& geometry) {
+    auto next = touched.begin();
+    for (const Near& near : near_) {
+      const SlaveMaster pair{candidates.slaves[near.row], candidates.masters[near.candidate]};
+      while (next != touched.end() && *next < pair) ++next;
+      const bool active = next != touched.end() && *next == pair;
+      std::uint8_t& outside = candidates.outside[near.candidate];
+      const double least = outside != 0 ? -left : 0;
+      const double gap = geometry.foot(pair.master, geometry.slave(pair.slave)).gap;
+      outside = active || gap >= least ? 1 : 0;
+    }
+  });
 }
 
 }  // namespace yadefrag

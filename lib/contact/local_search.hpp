@@ -55,6 +55,9 @@ class LocalSearch {
               double left = 0) const;
 
   [[nodiscard]] bool anyNear() const { return !near_.empty(); }
+  void addTo(Footprint& footprint) const {
+    footprint.add(Use::kSearch, near_, nearByPart_, chords_, trials_, joints_);
+  }
 
  private:
   struct Near {
@@ -62,12 +65,14 @@ class LocalSearch {
     std::uint32_t candidate;
   };
   /// What `scan` does with one slave; returns how far everything may move before it is near.
-  template <class ChordOf>
-  static double scanRow(Candidates& candidates, const ContactSurfaces& surfaces,
-                        std::span<const Vec2> positions, double reach, std::uint32_t row,
-                        ChordOf chordOfEntry, std::vector<Near>& found);
+  template <class Geometry, class ChordOf>
+  static double scanRow(Candidates& candidates, const Geometry& geometry, double reach,
+                        std::uint32_t row, ChordOf chordOfEntry, std::vector<Near>& found);
+  template <class Geometry>
+  int scanRows(Candidates& candidates, const Geometry& geometry, double reach, int threads);
+  template <class Geometry>
   void findChords(const Candidates& candidates, const ContactSurfaces& surfaces,
-                  std::span<const Vec2> positions, int threads);
+                  const Geometry& geometry, int threads);
   static bool hasMoved(const Candidates& candidates, const ContactSurfaces& surfaces,
                        std::span<const Near> row, std::span<const std::uint8_t> moved);
   struct Trial {
@@ -79,13 +84,19 @@ class LocalSearch {
     bool cameAside;
   };
 
+  template <class Geometry>
+  void tryAll(const Candidates& candidates, const ContactSurfaces& surfaces,
+              const Geometry& geometry, double halo, std::vector<Active>& actives,
+              std::span<const SlaveMaster> known, std::span<const std::uint8_t> moved);
+  template <class Geometry>
   void tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
-              const PieceGeometry& geometry, std::span<const Near> row, double halo);
-  void decide(const ContactSurfaces& surfaces, const PieceGeometry& geometry, double halo);
-  void decideNeighbours(const ContactSurfaces& surfaces, const PieceGeometry& geometry,
-                        Trial& first, Trial& second);
-  void enterAtJoint(const ContactSurfaces& surfaces, Trial& first, Trial& second,
-                    double halo) const;
+              const Geometry& geometry, std::span<const Near> row, double halo);
+  template <class Geometry>
+  void decide(const ContactSurfaces& surfaces, const Geometry& geometry, double halo);
+  template <class Geometry>
+  void decideNeighbours(const Geometry& geometry, Trial& first, Trial& second);
+  template <class Geometry>
+  void enterAtJoint(const Geometry& geometry, Trial& first, Trial& second, double halo) const;
   void enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom) const;
 
   double way_ = 0;    // m, of the fastest node since the candidates were found

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/footprint.hpp"
 #include "mesh/model.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -23,6 +24,8 @@ class PassRule {
     return passes_ == 2 || slaveLoop == masterLoop || isFiner(slaveLoop, masterLoop) ||
            sharp_[slave.value] != 0;
   }
+
+  void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, fineness_, sharp_); }
 
  private:
   [[nodiscard]] bool isFiner(std::uint32_t a, std::uint32_t b) const {

@@ -15,6 +15,9 @@ ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
                    const Active& active);
 
 /// (m) The gap of a row's slave to its master's line or arc; negative: penetration.
-double gapOf(const ContactRow& row, const PieceGeometry& geometry);
+template <bool kSmooth>
+double gapOf(const ContactRow& row, const PieceGeometryOf<kSmooth>& geometry) {
+  return geometry.foot(row.master, geometry.slave(row.slave)).gap;
+}
 
 }  // namespace yadefrag

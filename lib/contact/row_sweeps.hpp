@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "contact/contact_row.hpp"
+#include "core/footprint.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -27,6 +28,9 @@ class RowSweeps {
                double tolerance);
   /// Room for so many nodes of the model.
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
+  void addTo(Footprint& footprint) const {
+    footprint.add(Use::kFracture, rows_, nodes_, numbers_, displacement_, pushedAt_);
+  }
 
  private:
   /// A row as the sweeps want it: all that they touch, and nothing else.

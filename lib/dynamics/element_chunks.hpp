@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/footprint.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -76,6 +77,11 @@ struct ElementChunks {
 
   [[nodiscard]] std::size_t partials() const {
     return firstPartial.empty() ? 0 : firstPartial.back();
+  }
+
+  void addTo(Footprint& footprint) const {
+    footprint.add(Use::kDynamics, chunks, lanes, nodes, partialOf, sharedNodes, firstPartial,
+                  local_);
   }
 
  private:

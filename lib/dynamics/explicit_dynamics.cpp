@@ -159,13 +159,17 @@ Vec2 ExplicitDynamics::holdBack(const Nodes& nodes, std::size_t node, Vec2& velo
   return before;
 }
 
+/// `kForced`: are there loads or outer forces.
+template <bool kForced>
 bool ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begin,
                             std::size_t end) {
   bool good = true;
   for (std::size_t n = begin; n < end; ++n) {
     Vec2 force = force_[n];
-    if (!update.load.empty()) force += update.load[n];
-    if (!update.outer.empty()) force += update.outer[n];
+    if constexpr (kForced) {
+      if (!update.load.empty()) force += update.load[n];
+      if (!update.outer.empty()) force += update.outer[n];
+    }
     const Vec2 before = nodes.velocity[n];
     Vec2 v = update.kept * before + update.rate / nodes.mass[n] * force + update.fall;
     previousVelocity_[n] = nodes.held[n] == kFree ? before : holdBack(nodes, n, v);
@@ -199,7 +203,9 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
     const std::size_t begin = count * part / parts;
     const std::size_t end = count * (part + 1) / parts;
     sumShared(viscosity, NodeId(begin), NodeId(end));
-    if (!badElement_ && !move(model.nodes, update, begin, end))
+    const bool forced = !update.load.empty() || !update.outer.empty();
+    const auto moveAll = forced ? &ExplicitDynamics::move<true> : &ExplicitDynamics::move<false>;
+    if (!badElement_ && !(this->*moveAll)(model.nodes, update, begin, end))
 #pragma omp atomic write
       badNode_ = true;
   }
@@ -274,7 +280,7 @@ void ExplicitDynamics::finish(const Model& model, double dt, const StepSettings&
   const Nodes& nodes = model.nodes;
   const bool all = settings.gravity != Vec2{} || !nodes.load.empty() || !outerForces.empty() ||
                    settings.damping != 0 || !viscousForce_.empty();
-  if (!all && !anyHeld(nodes)) return;
+  if (!all && heldVelocity_.empty()) return;
   const Works works{*this, nodes, dt, settings, outerForces, contactForces};
   // Summed by blocks of a fixed length, which do not depend on the number of threads.
   const std::size_t blocks = (nodes.size() + tolerance::kNodesPerSum - 1) / tolerance::kNodesPerSum;
@@ -293,6 +299,18 @@ void ExplicitDynamics::finish(const Model& model, double dt, const StepSettings&
   for (const EnergyLedger& sum : sums) {
     ledger.external += sum.external;
     ledger.damping += sum.damping;
+  }
+}
+
+void ExplicitDynamics::addTo(Footprint& footprint) const {
+  elements_.addTo(footprint);
+  footprint.add(Use::kDynamics, force_, partialForce_, previousVelocity_, scratch_);
+  footprint.add(Use::kViscosity, viscousForce_, partialViscous_);
+  footprint.add(Use::kHeld, heldVelocity_);
+  footprint.add(Use::kFracture, leastStrength_, stressed_);
+  for (const Scratch& scratch : scratch_) {
+    footprint.add(Use::kDynamics, scratch.values);
+    footprint.add(Use::kFracture, scratch.stressed);
   }
 }
 

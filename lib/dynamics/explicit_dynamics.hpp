@@ -70,6 +70,7 @@ class ExplicitDynamics {
   [[nodiscard]] std::span<const Vec2> previousVelocity() const { return previousVelocity_; }
   /// (N) Elastic and viscous forces f(xⁿ) by node, of the last step.
   [[nodiscard]] std::span<const Vec2> internalForces() const { return force_; }
+  void addTo(Footprint& footprint) const;
 
  private:
   struct Update;
@@ -84,6 +85,7 @@ class ExplicitDynamics {
                 Scratch& scratch);
   Vec2 holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity);
   void sumShared(const BulkViscosity& viscosity, NodeId begin, NodeId end);
+  template <bool kForced>
   bool move(Nodes& nodes, const Update& update, std::size_t begin, std::size_t end);
   void step(Model& model, const Update& update, const BulkViscosity& viscosity);
   [[noreturn]] void refuseElement(Model& model, double dt) const;

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "core/footprint.hpp"
 #include "fracture/crack_edges.hpp"
 
 namespace yadefrag {
@@ -46,6 +47,9 @@ class Cohesion {
   void removeDropped(const Triangles& triangles, const CrackEdges& edges);
 
   std::vector<EdgeId> released;  ///< in the last step
+  void addTo(Footprint& footprint) const {
+    footprint.add(Use::kCohesion, edge, largest, area, points_, released);
+  }
 
   // By crack that holds; both ends of an edge have an opening of their own.
   std::vector<EdgeId> edge;

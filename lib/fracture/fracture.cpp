@@ -36,6 +36,13 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
   return !result.sides.empty();
 }
 
+void Fracture::addTo(Footprint& footprint) const {
+  footprint.add(Use::kFracture, edges.element, edges.corner, edges.strength, edges.cracked,
+                edges.ofElement, edges.ofNode, leastStrength, cracks_);
+  cohesion.addTo(footprint);
+  check_.addTo(footprint);
+}
+
 void Fracture::cohere(const Model& model, std::span<const Vec2> reference) {
   for (const EdgeId edge : cracks_) {
     const ElementId element = edges.side(edge, 0).element;

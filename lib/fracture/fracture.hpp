@@ -36,6 +36,8 @@ class Fracture {
   [[nodiscard]] std::uint64_t numCracks() const { return numCracks_; }
   void restore(std::uint64_t numCracks) { numCracks_ = numCracks; }
 
+  void addTo(Footprint& footprint) const;
+
   /// No more edges crack than this, all in all.
   std::uint64_t maxCracks = ~std::uint64_t{0};
   /// (m²) Fragments that come loose and are smaller are taken out; 0: none.

@@ -18,6 +18,10 @@ class LoosePieces {
   void find(const Model& model, const CrackEdges& edges, const Cohesion& cohesion,
             std::span<const ElementId> around, double area);
 
+  void addTo(Footprint& footprint) const {
+    footprint.add(Use::kFracture, triangles, met_, holds_, piece_);
+  }
+
   // What was found.
   std::vector<ElementId> triangles;  ///< of each piece ascending, piece by piece
   std::uint64_t count = 0;           ///< pieces

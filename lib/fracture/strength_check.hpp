@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/footprint.hpp"
 #include "dynamics/element_kernel.hpp"
 #include "fracture/crack_edges.hpp"
 
@@ -20,6 +21,10 @@ class StrengthCheck {
                                    std::span<const double> leastStrength);
   /// Makes room for all that may be looked at.
   void prepare(const Model& model, const CrackEdges& edges);
+  void addTo(Footprint& footprint) const {
+    footprint.add(Use::kFracture, elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeLookedAt_,
+                  elementStress_, nodeStress_, fan_, around_, found_);
+  }
 
  private:
   using Stress = std::array<double, 3>;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/box.hpp"
+#include "core/footprint.hpp"
 #include "search/code_directory.hpp"
 #include "search/filter_box.hpp"
 #include "search/sorted_list.hpp"
@@ -53,6 +54,11 @@ class CodeLevel {
   /// Copies the boxes in curve order; `withDirectory` if codes are looked up through a directory.
   void refresh(std::span<const Box> boxes, const FilterScale& scale, bool withDirectory,
                int threads);
+
+  void addTo(Footprint& footprint) const {
+    footprint.add(Use::kSearch, list_, codes_, boxes_, filters_);
+    directory_.addTo(footprint);
+  }
 
  private:
   std::vector<CodedSlot> list_;

@@ -29,6 +29,12 @@ class CodeSearch final : public ContactSearch {
   void findOverlaps(const Box& box, std::vector<BoxId>& found) const override;
   void clear() override;
   [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
+  void addTo(Footprint& footprint) const override {
+    footprint.add(Use::kSearch, places_, changes_, occupied_, scratch_, partPairs_);
+    for (const auto& arriving : arriving_) footprint.add(Use::kSearch, arriving);
+    for (const CodeLevel& level : levels_) level.addTo(footprint);
+    wide_.addTo(footprint);
+  }
 
  private:
   using Code = PositionCode<Dim>;

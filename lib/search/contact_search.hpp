@@ -7,6 +7,7 @@
 
 #include "core/box.hpp"
 #include "core/comparisons.hpp"
+#include "core/footprint.hpp"
 #include "core/ids.hpp"
 
 namespace yadefrag {
@@ -35,6 +36,8 @@ class ContactSearch {
 
   /// Comparisons since construction; zero unless asked for in `makeSearch`.
   [[nodiscard]] virtual Comparisons comparisons() const = 0;
+
+  virtual void addTo(Footprint& footprint) const = 0;
 
   /// Upper limit of threads that `update` and `findPairs` may use.
   void setThreads(int threads) { threads_ = threads; }

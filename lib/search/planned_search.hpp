@@ -30,6 +30,10 @@ class PlannedSearch final : public ContactSearch {
     return sum;
   }
 
+  void addTo(Footprint& footprint) const override {
+    if (search_) search_->addTo(footprint);
+  }
+
  private:
   void retire() {
     retired_ += search_->comparisons();

@@ -61,9 +61,10 @@ void World::predict(double dt) {
 void World::finish(double dt) {
   const StageTimer timer(timesIfAsked(), &StageTimes::forces);
   // Held nodes push back against contact and against cracks that still hold.
-  std::span<const Vec2> forces = contact.forces();
+  std::span<const Vec2> forces = contact.forces().known;
   if (!fracture.cohesion.edge.empty()) {
-    surfaceForces_ = contact.forces();
+    surfaceForces_.assign(forces.begin(), forces.end());
+    surfaceForces_.resize(model.nodes.size());
     fracture.cohesion.addForces(surfaceForces_);
     forces = surfaceForces_;
   }

@@ -67,7 +67,7 @@ void World::removeBody(ComponentId component) {
   reference.resize(model.nodes.size());
   surfaces.removeComponent(component);
   surfaces.renumberNodes(renumbered, model.nodes.size());
-  contact.reset(model.nodes.size());
+  contact.reset();
   rebuild();
   search.isVoid = true;
 }
@@ -114,7 +114,10 @@ void World::buildIfChanged() {
   if (isBuilt_) return;
   isBuilt_ = true;
   dynamics_.rebuild(model);
-  before_.resize(model.nodes.size());
+  const auto& owners = surfaces.component;
+  severalBodies_ =
+      std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();
+  if (canTouch()) before_.resize(model.nodes.size());
   if (fracture.isOn()) {
     fracture.prepare(model);
     const std::size_t room = model.nodes.position.capacity();
@@ -124,14 +127,11 @@ void World::buildIfChanged() {
     dynamics_.reserve(room);
     contact.reserve(room);
   }
-  if (search.nodes.empty()) {
+  if (search.nodes.empty() && canTouch()) {
     for (const NodeId node : surfaces.segmentNode)
       if (model.nodes.mass[node.value] > 0) search.nodes.push_back(node);
     std::sort(search.nodes.begin(), search.nodes.end());
   }
-  const auto& owners = surfaces.component;
-  severalBodies_ =
-      std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();
   watchStrengths();
   search_.reset();
   finest_ = finestSegment();

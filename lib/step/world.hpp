@@ -83,6 +83,9 @@ class World {
   [[nodiscard]] double kineticEnergy() const { return yadefrag::kineticEnergy(model.nodes); }
   [[nodiscard]] double strainEnergy() const { return yadefrag::strainEnergy(model, lastDt); }
 
+  /// What all arrays are for, and how long they are.
+  [[nodiscard]] Footprint footprint() const;
+
   /// What does not follow from the saved state, after it has been loaded.
   void rebuild();
 

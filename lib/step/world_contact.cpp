@@ -91,6 +91,10 @@ void World::chooseHalo(double dt) {
 
 void World::takePairs(std::span<const BoxPair> overlapping) {
   buildIfChanged();
+  if (!canTouch()) {
+    search.isDue = search.isVoid = false;
+    return;
+  }
   rememberSurface();
   considerPairs(overlapping);
 }

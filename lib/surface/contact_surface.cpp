@@ -44,11 +44,14 @@ void appendSegments(ContactSurfaces& s, std::span<const NodeId> nodes,
     assert(s.nodeSegment[nodes[i].value] == SegmentId::none());
     s.nodeSegment[nodes[i].value] = SegmentId(first + i);
     s.segmentNode.push_back(nodes[i]);
-    s.segmentSmooth.push_back(smooth[i] != 0);
     s.segmentNext.push_back(SegmentId(first + (i + 1) % count));
     s.segmentPrev.push_back(SegmentId(first + (i + count - 1) % count));
     s.segmentEntry.push_back(EntryId::none());
   }
+  const auto isSmooth = [](std::uint8_t flag) { return flag != 0; };
+  if (!s.anySmooth() && std::ranges::none_of(smooth, isSmooth)) return;
+  s.segmentSmooth.resize(first, 0);
+  for (const std::uint8_t flag : smooth) s.segmentSmooth.push_back(isSmooth(flag) ? 1 : 0);
 }
 
 }  // namespace
@@ -67,8 +70,8 @@ std::uint32_t ContactSurfaces::addLoop(std::span<const NodeId> nodes,
     piece.push_back(kind);
   };
   for (std::size_t s = firstSegment; s < segments(); ++s) {
-    const bool fromSmooth = segmentSmooth[s];
-    const bool toSmooth = segmentSmooth[segmentNext[s].value];
+    const bool fromSmooth = isSmooth(SegmentId(s));
+    const bool toSmooth = isSmooth(segmentNext[s]);
     if (!fromSmooth) append(s, toSmooth ? Piece::kFirstHalf : Piece::kSegment);
     if (toSmooth)
       append(s, Piece::kArc);
@@ -97,7 +100,7 @@ void ContactSurfaces::removeComponent(ComponentId gone) {
   keepRows(segmentNode, segmentNumbers);
   keepRows(segmentNext, segmentNumbers);
   keepRows(segmentPrev, segmentNumbers);
-  keepRows(segmentSmooth, segmentNumbers);
+  if (anySmooth()) keepRows(segmentSmooth, segmentNumbers);
   keepRows(segmentEntry, segmentNumbers);
   keepRows(entrySegment, entryNumbers);
   keepRows(piece, entryNumbers);

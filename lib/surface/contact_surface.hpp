@@ -52,7 +52,7 @@ class ContactSurfaces {
   // First layer: segment s runs from segmentNode[s] to that of the next one.
   std::vector<NodeId> segmentNode;
   std::vector<SegmentId> segmentNext, segmentPrev;
-  std::vector<std::uint8_t> segmentSmooth;  ///< is its first node smooth
+  std::vector<std::uint8_t> segmentSmooth;  ///< is its first node smooth; empty: none ever was
   std::vector<EntryId> segmentEntry;   ///< its first entry: the one on its first node or halfpoint
   std::vector<SegmentId> nodeSegment;  ///< by node: the segment that leaves it, or none()
 
@@ -65,6 +65,10 @@ class ContactSurfaces {
   std::vector<std::uint32_t> loop;
   std::vector<ComponentId> component;
 
+  [[nodiscard]] bool anySmooth() const { return !segmentSmooth.empty(); }
+  [[nodiscard]] bool isSmooth(SegmentId segment) const {
+    return anySmooth() && segmentSmooth[segment.value] != 0;
+  }
   [[nodiscard]] std::size_t segments() const { return segmentNode.size(); }
   [[nodiscard]] bool isGone(SegmentId segment) const {
     return piece[segmentEntry[segment.value].value] == Piece::kGone;

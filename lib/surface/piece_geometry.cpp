@@ -20,11 +20,13 @@ Vec2 unitOrZero(Vec2 a) {
 
 }  // namespace
 
-Vec2 PieceGeometry::point(EntryId entry, double xi) const {
+template <bool kSmooth>
+Vec2 PieceGeometryOf<kSmooth>::point(EntryId entry, double xi) const {
   return combine(surfaces_.master(entry, xi), positions_);
 }
 
-Box PieceGeometry::box(EntryId entry) const {
+template <bool kSmooth>
+Box PieceGeometryOf<kSmooth>::box(EntryId entry) const {
   const PieceEnds e = ends(entry);
   Box box{{std::min(e.begin.x, e.end.x), std::min(e.begin.y, e.end.y), 0},
           {std::max(e.begin.x, e.end.x), std::max(e.begin.y, e.end.y), 0}};
@@ -37,53 +39,62 @@ Box PieceGeometry::box(EntryId entry) const {
   return box;
 }
 
-double PieceGeometry::length(EntryId entry) const {
+template <bool kSmooth>
+double PieceGeometryOf<kSmooth>::length(EntryId entry) const {
   const Corners n = corners(entry);
-  const PieceRange range = pieceRange(surfaces_.piece[entry.value]);
-  if (!n.arc) return (range.end - range.begin) * norm(n.b - n.a);
+  const PieceRange within = range(entry);
+  if (!n.arc) return (within.end - within.begin) * norm(n.b - n.a);
   double sum = 0;
   for (int i = 0; i < 5; ++i)
     sum += kGaussWeight[i] * norm(combine(arcShapeDerivative(kGaussPoint[i]), n.a, n.b, n.c));
   return sum;
 }
 
-Vec2 PieceGeometry::tangent(EntryId entry, double xi) const {
+template <bool kSmooth>
+Vec2 PieceGeometryOf<kSmooth>::tangent(EntryId entry, double xi) const {
   const Corners n = corners(entry);
   return n.arc ? combine(arcShapeDerivative(xi), n.a, n.b, n.c) : n.b - n.a;
 }
 
-Vec2 PieceGeometry::normal(EntryId entry, double xi) const {
+template <bool kSmooth>
+Vec2 PieceGeometryOf<kSmooth>::normal(EntryId entry, double xi) const {
   return unitOrZero(rightOf(tangent(entry, xi)));
 }
 
-Vec2 PieceGeometry::slaveNormal(EntryId entry) const {
+template <bool kSmooth>
+Vec2 PieceGeometryOf<kSmooth>::slaveNormal(EntryId entry) const {
   const EntryId before = surfaces_.prev[entry.value];
-  const Vec2 arriving = unitOrZero(tangent(before, pieceRange(surfaces_.piece[before.value]).end));
-  const Vec2 leaving = unitOrZero(tangent(entry, pieceRange(surfaces_.piece[entry.value]).begin));
+  const Vec2 arriving = unitOrZero(tangent(before, range(before).end));
+  const Vec2 leaving = unitOrZero(tangent(entry, range(entry).begin));
   const Vec2 sum = rightOf(arriving + leaving);
   if (dot(sum, sum) < tolerance::kFold) return arriving;
   return unitOrZero(sum);
 }
 
-Foot PieceGeometry::foot(EntryId entry, Vec2 point) const {
+template <bool kSmooth>
+Foot PieceGeometryOf<kSmooth>::foot(EntryId entry, Vec2 point) const {
   const Corners n = corners(entry);
   if (n.arc) return nearestOnArc(n.a, n.b, n.c, point);
   const Vec2 along = n.b - n.a;
   const double square = dot(along, along);
-  const PieceRange range = pieceRange(surfaces_.piece[entry.value]);
+  const PieceRange within = range(entry);
   Foot foot;
-  foot.xi = square > 0 ? dot(point - n.a, along) / square : range.begin;
+  foot.xi = square > 0 ? dot(point - n.a, along) / square : within.begin;
   foot.normal = unitOrZero(rightOf(along));
   foot.gap = dot(point - n.a, foot.normal);
-  foot.inside = foot.xi >= range.begin && foot.xi <= range.end;
+  foot.inside = foot.xi >= within.begin && foot.xi <= within.end;
   return foot;
 }
 
-bool PieceGeometry::mayPenetrate(EntryId entry, Vec2 point) const {
+template <bool kSmooth>
+bool PieceGeometryOf<kSmooth>::mayPenetrate(EntryId entry, Vec2 point) const {
   const Corners n = corners(entry);
   if (n.arc) return mayPenetrateArc(n.a, n.b, n.c, point);
   const Vec2 along = n.b - n.a;
   return cross(along, point - n.a) >= -tolerance::kQuickLine * dot(along, along);
 }
+
+template class PieceGeometryOf<true>;
+template class PieceGeometryOf<false>;
 
 }  // namespace yadefrag

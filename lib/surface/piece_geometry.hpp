@@ -30,17 +30,31 @@ struct PieceEnds {
   Vec2 begin, end;
 };
 
-class PieceGeometry {
+/// Not smooth: of surfaces without any smooth part, whose pieces are all whole segments; what arcs
+/// need is not even asked for.
+template <bool kSmooth>
+class PieceGeometryOf {
  public:
   /// Both must outlive this object, which keeps no copy.
-  PieceGeometry(const ContactSurfaces& surfaces, std::span<const Vec2> positions)
+  PieceGeometryOf(const ContactSurfaces& surfaces, std::span<const Vec2> positions)
       : surfaces_(surfaces), positions_(positions) {}
+
+  [[nodiscard]] bool isArc(EntryId entry) const {
+    return kSmooth && surfaces_.piece[entry.value] == Piece::kArc;
+  }
+  [[nodiscard]] PieceRange range(EntryId entry) const {
+    return kSmooth ? pieceRange(surfaces_.piece[entry.value]) : PieceRange{};
+  }
 
   [[nodiscard]] PieceEnds ends(EntryId entry) const {
     return {slave(entry), slave(surfaces_.next[entry.value])};
   }
   /// Smallest box around a straight piece; of an arc, around its four control points. z = 0.
   [[nodiscard]] Box box(EntryId entry) const;
+  /// (m) How far an arc bulges over its chord: near an arc is near its chord by that much more.
+  [[nodiscard]] double bulge(EntryId arc, const PieceEnds& ends) const {
+    return norm(corners(arc).b - .5 * (ends.begin + ends.end));
+  }
   /// m, along the piece; an arc's by quadrature, to a thousandth even where it is sharp.
   [[nodiscard]] double length(EntryId entry) const;
   [[nodiscard]] Vec2 point(EntryId entry, double xi) const;
@@ -53,6 +67,7 @@ class PieceGeometry {
   [[nodiscard]] Vec2 slave(EntryId entry) const {
     const SegmentId segment = surfaces_.entrySegment[entry.value];
     const Vec2 a = positions_[surfaces_.segmentNode[segment.value].value];
+    if constexpr (!kSmooth) return a;
     const Piece piece = surfaces_.piece[entry.value];
     if (piece == Piece::kSegment || piece == Piece::kFirstHalf) return a;
     const SegmentId following = surfaces_.segmentNext[segment.value];
@@ -77,7 +92,7 @@ class PieceGeometry {
     const SegmentId second = surfaces_.segmentNext[segment.value];
     const Vec2 a = positions_[surfaces_.segmentNode[segment.value].value];
     const Vec2 b = positions_[surfaces_.segmentNode[second.value].value];
-    if (surfaces_.piece[entry.value] != Piece::kArc) return {a, b, {}, false};
+    if (!isArc(entry)) return {a, b, {}, false};
     const SegmentId third = surfaces_.segmentNext[second.value];
     return {a, b, positions_[surfaces_.segmentNode[third.value].value], true};
   }
@@ -85,5 +100,17 @@ class PieceGeometry {
   const ContactSurfaces& surfaces_;
   std::span<const Vec2> positions_;
 };
+
+extern template class PieceGeometryOf<true>;
+extern template class PieceGeometryOf<false>;
+/// Of any surface.
+using PieceGeometry = PieceGeometryOf<true>;
+
+/// Calls `work` with the geometry that these surfaces need.
+template <class Work>
+auto withGeometry(const ContactSurfaces& surfaces, std::span<const Vec2> positions, Work work) {
+  if (surfaces.anySmooth()) return work(PieceGeometryOf<true>(surfaces, positions));
+  return work(PieceGeometryOf<false>(surfaces, positions));
+}
 
 }  // namespace yadefrag

@@ -50,8 +50,7 @@ class Relinking {
         continue;
       }
       const SegmentId following = s_.segmentNext[side.segment.value];
-      ends_.push_back({side.segment, s_.segmentSmooth[side.segment.value] != 0,
-                       s_.segmentSmooth[following.value] != 0});
+      ends_.push_back({side.segment, s_.isSmooth(side.segment), s_.isSmooth(following)});
       if (s_.segmentNode[side.segment.value] != side.first) corners_.push_back(side.first);
       if (s_.segmentNode[following.value] != side.last) corners_.push_back(side.last);
     }
@@ -65,7 +64,7 @@ class Relinking {
     s_.segmentNode.resize(count);
     s_.segmentNext.resize(count, SegmentId::none());
     s_.segmentPrev.resize(count, SegmentId::none());
-    s_.segmentSmooth.resize(count, 0);
+    if (s_.anySmooth()) s_.segmentSmooth.resize(count, 0);
     s_.segmentEntry.resize(count, EntryId::none());
     std::size_t nodes = s_.nodeSegment.size();
     for (const SurfaceSide& side : sides_)
@@ -91,6 +90,7 @@ class Relinking {
   }
 
   void makeCorners() {
+    if (!s_.anySmooth()) return;
     for (const NodeId node : corners_) s_.segmentSmooth[s_.nodeSegment[node.value].value] = 0;
   }
 
@@ -114,8 +114,8 @@ class Relinking {
   /// the node to the halfpoint after it is missing.
   void divide(const Ends& before) {
     const SegmentId segment = before.segment;
-    const bool fromSmooth = s_.segmentSmooth[segment.value] != 0;
-    const bool toSmooth = s_.segmentSmooth[s_.segmentNext[segment.value].value] != 0;
+    const bool fromSmooth = s_.isSmooth(segment);
+    const bool toSmooth = s_.isSmooth(s_.segmentNext[segment.value]);
     if (before.toSmooth && !toSmooth) {
       straightened_.push_back(lastEntry(segment));
       s_.piece[straightened_.back().value] = Piece::kSecondHalf;

@@ -119,8 +119,9 @@ py::object displacementsOf(const FESolver& solver) {
 }
 
 py::object contactForcesOf(const FESolver& solver) {
-  std::vector<Vec2> forces = solver.world().contact.forces();
-  forces.resize(solver.world().model.nodes.size());  // before the first step there are none
+  const std::span<const Vec2> known = solver.world().contact.forces().known;
+  std::vector<Vec2> forces(known.begin(), known.end());
+  forces.resize(solver.world().model.nodes.size());  // before the first contact there are none
   return toArray(forces, kReal, 2);
 }
 

@@ -20,7 +20,7 @@ inline void checkSide(const CutMesh& mesh, SegmentId segment, NodeId first, Node
   ASSERT_TRUE(s.nodeSegment[first.value] == segment && s.nodeSegment[last.value] == following);
   ASSERT_EQ(s.segmentPrev[following.value], segment);
   ASSERT_EQ(s.segmentNext[s.segmentPrev[segment.value].value], segment);
-  ASSERT_EQ(s.segmentSmooth[segment.value], mesh.smooth[first.value]);
+  ASSERT_EQ(s.isSmooth(segment) ? 1 : 0, mesh.smooth[first.value]);
   ASSERT_TRUE(piecesFitEnds(s, segment));
   const PieceGeometry geometry(s, mesh.positions);
   EntryId entry = s.segmentEntry[segment.value];
@@ -121,7 +121,7 @@ inline void checkOnlyAppended(const ContactSurfaces& before, const ContactSurfac
     if (listed[i]) continue;
     ASSERT_TRUE(before.segmentNode[i] == after.segmentNode[i] &&
                 before.segmentEntry[i] == after.segmentEntry[i] &&
-                before.segmentSmooth[i] == after.segmentSmooth[i] &&
+                before.isSmooth(SegmentId(i)) == after.isSmooth(SegmentId(i)) &&
                 before.segmentNext[i] == after.segmentNext[i] &&
                 before.segmentPrev[i] == after.segmentPrev[i]);
   }

@@ -24,7 +24,8 @@ inline ContactSurfaces oneLoop(const std::vector<std::uint8_t>& smooth) {
 inline void checkSegments(const ContactSurfaces& s) {
   const std::size_t n = s.segments();
   ASSERT_TRUE(s.segmentNext.size() == n && s.segmentPrev.size() == n &&
-              s.segmentSmooth.size() == n && s.segmentEntry.size() == n);
+              (s.segmentSmooth.empty() || s.segmentSmooth.size() == n) &&
+              s.segmentEntry.size() == n);
   std::size_t withSegment = 0;
   for (const SegmentId segment : s.nodeSegment) withSegment += segment != SegmentId::none();
   ASSERT_EQ(withSegment, n);
@@ -37,7 +38,7 @@ inline void checkSegments(const ContactSurfaces& s) {
     // The first one on its segment: the one before lies on the segment before.
     ASSERT_EQ(s.entrySegment[s.prev[entry.value].value], s.segmentPrev[i]);
     const bool onNode = s.slave(entry).count == 1;
-    ASSERT_EQ(onNode, s.segmentSmooth[i] == 0);
+    ASSERT_EQ(onNode, !s.isSmooth(SegmentId(i)));
   }
 }
 
@@ -55,8 +56,8 @@ inline std::vector<Piece> piecesOf(const ContactSurfaces& s, SegmentId segment) 
 inline bool piecesFitEnds(const ContactSurfaces& s, SegmentId segment) {
   using P = std::vector<Piece>;
   const P pieces = piecesOf(s, segment);
-  const bool from = s.segmentSmooth[segment.value];
-  const bool to = s.segmentSmooth[s.segmentNext[segment.value].value];
+  const bool from = s.isSmooth(segment);
+  const bool to = s.isSmooth(s.segmentNext[segment.value]);
   if (from) return pieces == P{to ? Piece::kArc : Piece::kSecondHalf};
   if (to) return pieces == P{Piece::kFirstHalf, Piece::kArc};
   return pieces == P{Piece::kSegment} || pieces == P{Piece::kFirstHalf, Piece::kSecondHalf};

@@ -1,0 +1,31 @@
+// What the arrays of a world are for: that what a scene does not use has none can be seen.
+
+#include "step/world.hpp"
+
+namespace yadefrag {
+
+Footprint World::footprint() const {
+  Footprint sum;
+  const Nodes& nodes = model.nodes;
+  const Triangles& triangles = model.triangles;
+  sum.add(Use::kMesh, nodes.position, nodes.velocity, nodes.mass, nodes.held, nodes.component,
+          triangles.nodes, triangles.inverseEdges, triangles.area, triangles.component,
+          model.components, reference);
+  sum.add(Use::kLoads, nodes.load, outerForces);
+  const ContactSurfaces& s = surfaces;
+  sum.add(Use::kSurfaces, s.segmentNode, s.segmentNext, s.segmentPrev, s.segmentEntry,
+          s.nodeSegment, s.entrySegment, s.piece, s.next, s.prev, s.loop, s.component);
+  sum.add(Use::kSmooth, s.segmentSmooth);
+  sum.add(Use::kSearch, search.nodes, search.positions, before_, overlapping_, pairs_, boxes_);
+  sum.add(Use::kFracture, split_.changed, split_.originals, split_.sides, split_.onSurface);
+  sum.add(Use::kCohesion, surfaceForces_);
+  dynamics_.addTo(sum);
+  contact.addTo(sum);
+  fracture.addTo(sum);
+  loose_.addTo(sum);
+  passRule_.addTo(sum);
+  if (search_) search_->addTo(sum);
+  return sum;
+}
+
+}  // namespace yadefrag
