@@ -59,7 +59,13 @@ void FESolver::pyExtra(PyClass& pyClass) {
       .add_property(
           "energy", &energyOf,
           "Dict of J: kinetic, strain, contact, friction, fracture, damping, dropped "
-          "(went with fragments), external (what came in from outside), total (constant).")
+          "(went with fragments), external (what came in from outside), total (constant).");
+  countersOf(pyClass);
+}
+
+template <class PyClass>
+void FESolver::countersOf(PyClass& pyClass) {
+  pyClass
       .add_property(
           "numSearches", +[](const FESolver& self) { return self.world().numSearches; },
           "Contact searches so far.")

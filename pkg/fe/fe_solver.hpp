@@ -54,6 +54,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void archiveMore(Archive& archive);
 
  private:
+  template <class PyClass>
+  static void countersOf(PyClass& pyClass);
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
   void giveSettings();
