@@ -50,7 +50,7 @@ def testSpheresDoNotPayForThePlugin(folder):
     ours = {cost.function for cost in costs['imported'] if cost.object.endswith('_yadefrag.so')}
     assert all('translate_exception' in name for name in ours), ours
     absent, imported, used = map(unused.byObject, costs.values())
-    assert imported['_yadefrag.so'] < 1e-5 * sum(imported.values())
+    assert imported['_yadefrag.so'] < 1e-4 * sum(imported.values())
     for library in ('libyade.so', 'libpkg_dem.so'):
         assert imported[library] == absent[library] > 0
     assert abs(sum(imported.values()) / sum(absent.values()) - 1) <= kMost
