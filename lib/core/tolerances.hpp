@@ -117,11 +117,11 @@ inline constexpr double kOpposed = -.1;
 /// dropped and come back as overlaps: in impacts contact then created ten times as much energy.
 inline constexpr double kLeansIn = .5;
 
-/// (of the reach, which is twice the largest displacement) In rubble a slave that was outside and is
-/// left this little inside by rounding or by the others' correction is still the master's. With half or
-/// twice of it one impact in twelve had pieces that overlap by more than half a segment; with ten
-/// times as much, corners that had gone round a master's end were pushed back, and contact created
-/// ten times as much energy.
+/// (of the reach, which is twice the largest displacement) In rubble a slave that was outside and
+/// is left this little inside by rounding or by the others' correction is still the master's. With
+/// half or twice of it one impact in twelve had pieces that overlap by more than half a segment;
+/// with ten times as much, corners that had gone round a master's end were pushed back, and contact
+/// created ten times as much energy.
 inline constexpr double kLeftInside = .02;
 
 /// (ξ) Farthest beyond a piece's end that the foot at xⁿ may be for the force to act at that foot,
