@@ -42,6 +42,33 @@ def refuse(fe):
     raise AssertionError('an outline that crosses itself was accepted')
 
 
+def crack(finder):
+    """A block that shatters: new bodies, bodies that go, saved in between."""
+    O.reset()
+    O.materials.append(w.BrittleFEMat(young=30e9, poisson=.2, density=2500, tensileStrength=20e6,
+                                      frictionAngle=.2, strengthScatter=.1, label='b'))
+    fe = w.FESolver(minFragmentArea=6e-6)
+    fe.addPolygon(yadefrag.rectangle((0, 0), (.02, .012)), size=.003, material='b', smooth=True)
+    fe.addPolygon(yadefrag.rectangle((.008, .0121), (.014, .018)), size=.003, material='b',
+                  velocity=(0, -60))
+    chain.engines(finder([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()]))
+    O.engines = [*O.engines[:3], fe, O.engines[3]]
+    O.dt = .5 * fe.criticalTimeStep()
+    for _ in range(60):
+        O.step()
+    with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
+        O.save(os.path.join(folder, 'a.yade'))
+        O.load(os.path.join(folder, 'a.yade'))
+    fe = O.engines[3]
+    for _ in range(60):
+        O.step()
+    readAll(fe)
+    fe.fragments(held=True)
+    assert fe.numCracks > 10 and fe.dropped['count'] > 0 and fe.fragmentOf.min() == -1
+    fe.removeBody(0)
+    O.step()
+
+
 def main():
     build()
     for _ in range(60):
@@ -60,6 +87,8 @@ def main():
     O.step()
     fe.removeBody(1)
     O.step()
+    for finder in (w.LebesgueCollider, w.InsertionSortCollider):
+        crack(finder)
     O.reset()
     print('\n@@@ done', flush=True)
 
