@@ -54,8 +54,6 @@ class AnyWorld {
   bool isFree = true;     ///< nothing from outside: momentum is kept
   bool overlaps = false;  ///< did bodies join inside one another
 
-  /// Are all bodies of about one size and stiffness, and slower than a third of their waves?
-  [[nodiscard]] bool isCalm() const { return calm_; }
   [[nodiscard]] Chance& chance() { return chance_; }
 
   /// One more body, to the right of those there are. Throws InputError as whatever refuses it.
@@ -247,8 +245,8 @@ class AnyWorld {
 
   Chance chance_;
   double scale_ = 1, wave_ = 1;  // m, m/s
-  bool calm_ = true;             // bodies of about one size and one stiffness
-  double right_ = 0;             // m, where the bodies end
+  bool calm_ = true;  // bodies of about one size and stiffness, slower than a third of their waves
+  double right_ = 0;  // m, where the bodies end
 };
 
 }  // namespace yadefrag::test
