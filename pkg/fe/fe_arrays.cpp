@@ -163,7 +163,8 @@ py::dict energyOf(const FESolver& solver) {
   result["friction"] = ledger.friction;
   result["fracture"] = ledger.fracture;
   result["damping"] = ledger.damping;
-  result["dropped"] = ledger.dropped;
+  if (solver.world().dropped.count > 0 || solver.world().fracture.minFragmentArea > 0)
+    result["dropped"] = ledger.dropped;
   result["external"] = ledger.external;
   result["total"] = ledger.total(kinetic, strain);
   return result;

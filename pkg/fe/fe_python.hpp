@@ -58,8 +58,9 @@ void FESolver::pyExtra(PyClass& pyClass) {
                     "(kg), momentum (kg m/s, a pair), energy (J) they had when they went, count.")
       .add_property(
           "energy", &energyOf,
-          "Dict of J: kinetic, strain, contact, friction, fracture, damping, dropped "
-          "(went with fragments), external (what came in from outside), total (constant).");
+          "Dict of J: kinetic, strain, contact, friction, fracture, damping, external (what came "
+          "in "
+          "from outside), total (constant); with minFragmentArea, dropped (went with fragments).");
   countersOf(pyClass);
 }
 

@@ -37,7 +37,7 @@ double wantedMass(const Model& model) {
   return sum;
 }
 
-/// Of the first 26,000 scenes no other gains more than 1 %, 26007 gains 1.8 %.
+/// Of the first 46,000 scenes two gain more than 1 %: 26007 1.8 %, 46443 37 %.
 constexpr double kMostGrowth = .05;
 
 struct Tally {

@@ -101,7 +101,7 @@ def recordFracture(fe, file, append=False):
         from yade.wrapper import Omega
         scene, energy = Omega(), fe.energy
         row = (scene.iter, scene.time, fe.numCracks, fe.numSegments, len(fe.fragments()),
-               *(energy[e] for e in _ENERGIES))
+               *(energy.get(e, 0.) for e in _ENERGIES))
         with open(name, 'a', encoding='utf-8') as out:
             out.write(','.join(map(repr, row)) + '\n')
 
