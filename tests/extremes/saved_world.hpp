@@ -34,17 +34,18 @@ inline World eventfulWorld() {
   return world;
 }
 
-inline std::string saved(World& world) {
+/// `flags`: Boost's; no_header leaves out its own signature.
+inline std::string saved(World& world, unsigned flags = 0) {
   std::ostringstream text;
-  boost::archive::binary_oarchive archive(text, boost::archive::no_codecvt);
+  boost::archive::binary_oarchive archive(text, flags | boost::archive::no_codecvt);
   std::vector<int> bodies(world.surfaces.entries());
   WorldArchive(archive).run(world, bodies);
   return text.str();
 }
 
-inline void load(const std::string& bytes, World& world) {
+inline void load(const std::string& bytes, World& world, unsigned flags = 0) {
   std::istringstream text(bytes);
-  boost::archive::binary_iarchive archive(text, boost::archive::no_codecvt);
+  boost::archive::binary_iarchive archive(text, flags | boost::archive::no_codecvt);
   std::vector<int> bodies;
   WorldArchive(archive).run(world, bodies);
 }
