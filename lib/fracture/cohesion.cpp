@@ -22,6 +22,11 @@ const BrittleMaterial& materialOf(const Model& model, const CrackEdges& edges, E
   return model.components[model.triangles.component[element.value].value].brittle;
 }
 
+/// (m) δc = 2Gc/σc.
+double criticalOpening(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  return 2 * materialOf(model, edges, edge).fractureEnergy / edges.strength[edge.value];
+}
+
 }  // namespace
 
 void Cohesion::add(const Model& model, const CrackEdges& edges, EdgeId cracked,
@@ -55,8 +60,7 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
     const auto [a, b] = nodesAt(model, edges, edge[c], 0);
     const auto [d, e] = nodesAt(model, edges, edge[c], 1);
     if (a == b && d == e) continue;
-    const BrittleMaterial& material = materialOf(model, edges, edge[c]);
-    const double critical = 2 * material.fractureEnergy / edges.strength[edge[c].value];
+    const double critical = criticalOpening(model, edges, edge[c]);
     const Vec2 first = before[d.value] - before[a.value];
     const Vec2 second = before[e.value] - before[b.value];
     // Faces at a right angle hang together by an end at most, and soon have no common normal.
@@ -75,7 +79,7 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
                          area[c],
                          edges.strength[edge[c].value],
                          critical,
-                         material.shearFactor,
+                         materialOf(model, edges, edge[c]).shearFactor,
                          largest[c][end],
                          {},
                          c,
@@ -185,8 +189,7 @@ double Cohesion::book(const Model& model, const CrackEdges& edges,
   points_.clear();
   released.clear();
   keepOnly([&](std::size_t c) {
-    const double critical =
-        2 * materialOf(model, edges, edge[c]).fractureEnergy / edges.strength[edge[c].value];
+    const double critical = criticalOpening(model, edges, edge[c]);
     const bool holds = largest[c][0] < critical || largest[c][1] < critical;
     if (!holds) released.push_back(edge[c]);
     return holds;

@@ -3,6 +3,7 @@ import builtins
 
 import numpy as np
 
+import fe_chain as chain
 import yadefrag
 from yade import wrapper as w
 
@@ -38,6 +39,16 @@ def impact(finder='LebesgueCollider', threads=1, speed=20, smooth=True, **values
                       smooth=True, velocity=(0, -speed))
     engines(solver, finder)
     return solver
+
+
+def heapSpheres():
+    """Six spheres that fall on the block, beside the disc; they take half the time step."""
+    for i in range(6):
+        ball = chain.ball((.003 + .0045 * i + .01 * (i > 3), .0319), .002, O.materials['m'])
+        ball.state.blockedDOFs = 'zXY'
+        ball.state.vel = (0, -5, 0)
+        O.bodies.append(ball)
+    O.dt *= .5
 
 
 def steps(count):

@@ -5,9 +5,8 @@ import os
 import numpy as np
 import pytest
 
-import fe_chain as chain
 import yadefrag
-from fe_impact import areSame, impact, requireBodiesAreEntries, state, steps
+from fe_impact import areSame, heapSpheres, impact, requireBodiesAreEntries, state, steps
 from yadefrag import fragments
 from yade import wrapper as w
 
@@ -102,12 +101,7 @@ def test_sameWithAnyCollider(finder):
 def test_spheresAmongDroppedFragments(finder):
     """Interactions of bodies that go, go as well, and the others carry on."""
     solver = dropping(finder)
-    for i in range(6):
-        ball = chain.ball((.003 + .0045 * i + .01 * (i > 3), .0319), .002, O.materials['m'])
-        ball.state.blockedDOFs = 'zXY'
-        ball.state.vel = (0, -5, 0)
-        O.bodies.append(ball)
-    O.dt *= .5
+    heapSpheres()
     touched = 0
     for _ in range(30):
         steps(20)

@@ -7,7 +7,8 @@ import pytest
 
 import fe_chain as chain
 import yadefrag
-from fe_impact import areSame, brittle, engines, impact, requireBodiesAreEntries, state, steps
+from fe_impact import (areSame, brittle, engines, heapSpheres, impact, requireBodiesAreEntries,
+                       state, steps)
 from yadefrag import fragments, pictures
 from yade import wrapper as w
 
@@ -143,12 +144,7 @@ def test_spheresTouchNewFaces(finder):
 def test_spheresOnABodyThatCracks(finder):
     """A heap of spheres on the block: pieces that change their kind keep carrying them."""
     solver = impact(finder)
-    for i in range(6):
-        ball = chain.ball((.003 + .0045 * i + .01 * (i > 3), .0319), .002, O.materials['m'])
-        ball.state.blockedDOFs = 'zXY'
-        ball.state.vel = (0, -5, 0)
-        O.bodies.append(ball)
-    O.dt *= .5
+    heapSpheres()
     touched = 0
     for _ in range(30):
         steps(20)
