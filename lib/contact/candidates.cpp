@@ -86,13 +86,12 @@ void replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
 }
 
 void removeGone(Candidates& candidates, const ContactSurfaces& surfaces) {
-  const auto isGone = [&](EntryId entry) { return surfaces.piece[entry.value] == Piece::kGone; };
   Candidates left;
   for (std::size_t r = 0; r < candidates.slaves.size(); ++r) {
-    if (isGone(candidates.slaves[r])) continue;
+    if (surfaces.isGone(candidates.slaves[r])) continue;
     const auto begin = static_cast<std::uint32_t>(left.masters.size());
     for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
-      if (isGone(candidates.masters[c])) continue;
+      if (surfaces.isGone(candidates.masters[c])) continue;
       left.masters.push_back(candidates.masters[c]);
       left.outside.push_back(candidates.outside[c]);
     }

@@ -300,9 +300,9 @@ void Contact::finish(Model& model, const ContactSurfaces& surfaces, const Contac
 
 void Contact::removeGone(const ContactSurfaces& surfaces) {
   yadefrag::removeGone(candidates, surfaces);
-  const auto isGone = [&](EntryId entry) { return surfaces.piece[entry.value] == Piece::kGone; };
-  std::erase_if(touches,
-                [&](const Touch& t) { return isGone(t.pair.slave) || isGone(t.pair.master); });
+  std::erase_if(touches, [&](const Touch& t) {
+    return surfaces.isGone(t.pair.slave) || surfaces.isGone(t.pair.master);
+  });
 }
 
 void Contact::addTo(Footprint& footprint) const {

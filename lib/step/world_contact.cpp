@@ -66,7 +66,7 @@ double World::fastest() const {
 }
 
 Box World::boxOf(EntryId entry) const {
-  if (surfaces.piece[entry.value] == Piece::kGone) return Box::absent();
+  if (surfaces.isGone(entry)) return Box::absent();
   return entryBox(surfaces, model.nodes.position, entry, search.halo);
 }
 

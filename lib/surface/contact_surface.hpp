@@ -70,9 +70,8 @@ class ContactSurfaces {
     return anySmooth() && segmentSmooth[segment.value] != 0;
   }
   [[nodiscard]] std::size_t segments() const { return segmentNode.size(); }
-  [[nodiscard]] bool isGone(SegmentId segment) const {
-    return piece[segmentEntry[segment.value].value] == Piece::kGone;
-  }
+  [[nodiscard]] bool isGone(EntryId entry) const { return piece[entry.value] == Piece::kGone; }
+  [[nodiscard]] bool isGone(SegmentId segment) const { return isGone(segmentEntry[segment.value]); }
   [[nodiscard]] std::size_t entries() const { return entrySegment.size(); }
 
   /// Up to three nodes a, b, c of a piece; returns how many.

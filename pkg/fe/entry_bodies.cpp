@@ -71,7 +71,7 @@ double momentAbout(Vec2 about, const yade::Body& body, Vec2 force, double torque
 
 void EntryBodies::append(yade::Scene& scene, const World& world, EntryId entry,
                          const yade::shared_ptr<yade::Material>& material) {
-  if (world.surfaces.piece[entry.value] == Piece::kGone) return appendNone();
+  if (world.surfaces.isGone(entry)) return appendNone();
   const ComponentId component = world.surfaces.component[entry.value];
   const yade::shared_ptr<SurfaceSegment> shape(new SurfaceSegment);
   shape->entry = static_cast<int>(entry.value);
@@ -131,7 +131,7 @@ EntryId EntryBodies::firstOf(const World& world, ComponentId component) {
 
 void EntryBodies::drop(yade::Scene& scene, const World& world) {
   for (std::size_t e = 0; e < ids_.size(); ++e) {
-    if (world.surfaces.piece[e] != Piece::kGone || !hasBody(EntryId(e))) continue;
+    if (!world.surfaces.isGone(EntryId(e)) || !hasBody(EntryId(e))) continue;
     entries_[static_cast<std::size_t>(ids_[e])] = EntryId::none();
     scene.bodies->erase(ids_[e], false);
     ids_[e] = yade::Body::ID_NONE;

@@ -73,9 +73,7 @@ void expectInert(const World& world) {
       EXPECT_EQ(model.nodes.position[n], world.reference[n]);
       EXPECT_EQ(model.nodes.velocity[n], Vec2{});
     }
-  const auto isGone = [&](EntryId entry) {
-    return world.surfaces.piece[entry.value] == Piece::kGone;
-  };
+  const auto isGone = [&](EntryId entry) { return world.surfaces.isGone(entry); };
   const Candidates& candidates = world.contact.candidates;
   EXPECT_TRUE(std::ranges::none_of(candidates.slaves, isGone));
   EXPECT_TRUE(std::ranges::none_of(candidates.masters, isGone));
