@@ -11,6 +11,12 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The same, where it is the time step that cannot be used.
+class TimeStepError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// A run cannot go on: an element is inverted, or a value is not finite.
 class RunError : public std::runtime_error {
  public:

@@ -196,6 +196,10 @@ inline constexpr std::size_t kNodesPerSum = 2048;
 /// (count) Triangles above this many are not counted by 32-bit numbers with a sign to spare.
 inline constexpr double kMostTriangles = 2147483648.;
 
+/// (bytes) Of memory that a triangle takes at the least, all told, in its first step: measured in
+/// squares of 10⁵ to 6·10⁵.
+inline constexpr double kTriangleBytes = 400;
+
 /// (of the largest coordinate) Smallest size of triangles: below, twelve bits of their sides would
 /// be left of the coordinates' 52.
 inline constexpr double kLeastSize = 0x1p-40;

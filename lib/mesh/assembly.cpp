@@ -14,16 +14,6 @@ void addMasses(Model& model, const Component& c) {
       model.nodes.mass[node.value] += density * model.triangles.area[t] / 3;
 }
 
-void checkTriangles(const TriangleMesh& mesh) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const double twice = cross(mesh.nodes[b] - mesh.nodes[a], mesh.nodes[c] - mesh.nodes[a]);
-    if (!(twice > 0))
-      throw InputError("triangle " + std::to_string(t) + " of the mesh has the area " +
-                       std::to_string(twice / 2) + " m²; it must be positive (counter-clockwise).");
-  }
-}
-
 void appendTriangle(Triangles& triangles, const std::array<Vec2, 3>& x) {
   const Vec2 d1 = x[1] - x[0];
   const Vec2 d2 = x[2] - x[0];
@@ -58,6 +48,16 @@ void removeTriangles(Model& model, Component& gone) {
 }
 
 }  // namespace
+
+void checkTriangles(const TriangleMesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const double twice = cross(mesh.nodes[b] - mesh.nodes[a], mesh.nodes[c] - mesh.nodes[a]);
+    if (!(twice > 0))
+      throw InputError("triangle " + std::to_string(t) + " of the mesh has the area " +
+                       std::to_string(twice / 2) + " m²; it must be positive (counter-clockwise).");
+  }
+}
 
 ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component) {
   checkTriangles(mesh);

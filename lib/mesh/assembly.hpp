@@ -8,9 +8,11 @@
 
 namespace yadefrag {
 
+/// Throws InputError if a triangle has no positive area.
+void checkTriangles(const TriangleMesh& mesh);
+
 /// Adds a mesh, at rest, free, and without stress where its nodes are, as a new component (the
-/// range of triangles in `component` is filled in). Throws InputError if a triangle has no positive
-/// area.
+/// range of triangles in `component` is filled in). Throws as checkTriangles.
 ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component);
 
 /// Takes away a component's nodes and triangles; the others keep their order and components their

@@ -42,16 +42,27 @@ void extend(Extent& extent, const std::vector<Vec2>& loop, double size) {
   }
 }
 
-void checkSize(const Polygon& polygon, double size) {
+Extent extentOf(const Polygon& polygon, double size) {
   Extent extent;
   extend(extent, polygon.outline, size);
   for (const auto& hole : polygon.holes) extend(extent, hole, size);
+  return extent;
+}
+
+void checkSize(const Polygon& polygon, double size, double mostBytes) {
+  const Extent extent = extentOf(polygon, size);
   // Equilateral triangles, and at least one for each part of the boundary.
   const double triangles =
       std::max(extent.twiceArea / (std::sqrt(.75) * size * size), extent.parts);
   if (!(triangles < tolerance::kMostTriangles))
     throw InputError("Size " + text(size) + " m would give about " + text(triangles) +
                      " triangles; a mesh can have " + text(tolerance::kMostTriangles) + ".");
+  const double bytes = triangles * tolerance::kTriangleBytes;
+  if (bytes > mostBytes)
+    throw InputError("Size " + text(size) + " m would give about " + text(triangles) +
+                     " triangles, which take about " + text(bytes / 1e9) + " GB, but there are " +
+                     text(mostBytes / 1e9) + " GB of memory; " +
+                     text(size * std::sqrt(bytes / mostBytes)) + " m would fill it.");
   if (size < tolerance::kLeastSize * extent.farthest)
     throw InputError("Size " + text(size) + " m is lost in the rounding of coordinates of " +
                      text(extent.farthest) +
@@ -84,11 +95,11 @@ void appendLoop(DividedBoundary& boundary, const std::vector<Vec2>& loop,
 
 }  // namespace
 
-DividedBoundary divideBoundary(const Polygon& given, double size) {
+DividedBoundary divideBoundary(const Polygon& given, double size, double mostBytes) {
   if (!(size > 0) || !std::isfinite(size))
     throw InputError("Size " + text(size) + " m must be positive and finite.");
   const Polygon polygon = checkPolygon(given);
-  checkSize(polygon, size);
+  checkSize(polygon, size, mostBytes);
   DividedBoundary boundary;
   boundary.first.push_back(0);
   appendLoop(boundary, polygon.outline, given.outline, size);

@@ -1,6 +1,7 @@
 #pragma once
 // The loops of a polygon with their long edges divided: all boundary nodes of its mesh.
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -26,7 +27,9 @@ struct DividedBoundary {
 
 /// Checks `given` and divides each edge into round(length/size) equal parts, at least one. Vertex
 /// numbers are those of `given`. InputError as checkPolygon, and for a size that is not positive
-/// and finite, or too small for 32-bit numbers or for the rounding of the coordinates.
-[[nodiscard]] DividedBoundary divideBoundary(const Polygon& given, double size);
+/// and finite, or too small for 32-bit numbers, for the rounding of the coordinates, or for
+/// triangles in `mostBytes` of memory.
+[[nodiscard]] DividedBoundary divideBoundary(const Polygon& given, double size,
+                                             double mostBytes = INFINITY);
 
 }  // namespace yadefrag

@@ -35,8 +35,8 @@ void checkThinnest(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh triangulate(const Polygon& polygon, double size) {
-  const DividedBoundary boundary = divideBoundary(polygon, size);
+TriangleMesh triangulate(const Polygon& polygon, double size, double mostBytes) {
+  const DividedBoundary boundary = divideBoundary(polygon, size, mostBytes);
   LinkedTriangles linked = triangulateNodes(boundary, fillInterior(boundary, size));
   improve(linked);
 

@@ -1,6 +1,8 @@
 #pragma once
 // A polygon becomes triangles.
 
+#include <cmath>
+
 #include "mesh/triangle_mesh.hpp"
 
 namespace yadefrag {
@@ -10,6 +12,7 @@ namespace yadefrag {
 /// the edges are shorter than `size` the triangles are too, and grow inwards. The same input gives
 /// the same bits. InputError as divideBoundary, and where the polygon is thinner than its
 /// coordinates' rounding.
-[[nodiscard]] TriangleMesh triangulate(const Polygon& polygon, double size);
+[[nodiscard]] TriangleMesh triangulate(const Polygon& polygon, double size,
+                                       double mostBytes = INFINITY);
 
 }  // namespace yadefrag

@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "core/tolerances.hpp"
 #include "fracture/checks.hpp"
+#include "mesh/assembly.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -44,6 +45,18 @@ void requireHeld(const std::vector<std::uint8_t>& held) {
     require(one <= kHeldXY, "held", one, "", "0 to 3 for every node");
 }
 
+void checkDisplacement(const TriangleMesh& mesh, const std::vector<Vec2>& displacement) {
+  if (displacement.empty()) return;
+  const auto at = [&](std::uint32_t node) { return mesh.nodes[node] + displacement[node]; };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (cross(at(b) - at(a), at(c) - at(a)) > 0) continue;
+    std::ostringstream text;
+    text << "displacement turns the triangle at (" << mesh.nodes[a].x << ", " << mesh.nodes[a].y
+         << ") m inside out; every triangle must keep its corners' counter-clockwise order.";
+    throw InputError(text.str());
+  }
+}
+
 bool isPositive(double value) { return value > 0 && std::isfinite(value); }
 
 void checkMaterial(const BodySpec& spec) {
@@ -62,7 +75,6 @@ void checkMaterial(const BodySpec& spec) {
 void checkMasses(const TriangleMesh& mesh, const BodySpec& spec) {
   for (const auto& [a, b, c] : mesh.triangles) {
     const double twice = cross(mesh.nodes[b] - mesh.nodes[a], mesh.nodes[c] - mesh.nodes[a]);
-    if (!(twice > 0)) continue;  // is told by the triangle's number
     const double mass = spec.material.density * spec.thickness * twice / 2;
     require(mass >= std::numeric_limits<double>::min() && std::isfinite(mass),
             "the mass of a triangle", mass, " kg", "in the range of numbers, from 2e-308 on");
@@ -118,6 +130,8 @@ void checkBody(const TriangleMesh& mesh, const BodySpec& spec) {
   requireFinite("displacement", spec.displacement);
   requireHeld(spec.held);
   checkMaterial(spec);
+  checkTriangles(mesh);
+  checkDisplacement(mesh, spec.displacement);
   checkMasses(mesh, spec);
   checkRounding(mesh, spec);
 }

@@ -8,20 +8,33 @@
 
 #include "core/tolerances.hpp"
 #include "search/contact_search.hpp"
+#include "step/world.hpp"
 
 namespace yadefrag {
 namespace {
 
 using Corners = std::array<Vec2, 3>;
 
-Box boxAround(const Vec2* points, std::size_t count) {
-  Box box{{points->x, points->y, 0}, {points->x, points->y, 0}};
-  for (std::size_t i = 1; i < count; ++i) {
-    box.min = {std::min(box.min[0], points[i].x), std::min(box.min[1], points[i].y), 0};
-    box.max = {std::max(box.max[0], points[i].x), std::max(box.max[1], points[i].y), 0};
-  }
+/// A boundary segment, or a triangle, of any body; `held`: all its nodes are, in both directions.
+struct Side {
+  Vec2 from, to;
+  bool held;
+  ComponentId body;
+};
+struct Facet {
+  Corners corners;
+  bool held;
+  ComponentId body;
+};
+
+template <class Points>
+Box boxAround(const Points& points) {
+  Box box = Box::absent();
+  for (const Vec2 point : points) include(box, point);
   return box;
 }
+Box boxOf(const Side& side) { return boxAround(std::array{side.from, side.to}); }
+Box boxOf(const Facet& facet) { return boxAround(facet.corners); }
 
 /// The part of a segment, from 0 to 1, that is deeper than `margin` (m) in a triangle.
 struct Part {
@@ -55,79 +68,114 @@ double margin(const Corners& triangle, Vec2 from, Vec2 to) {
   return std::max(.5 * tolerance::kTouching * shortest, tolerance::kTouchRounding * farthest);
 }
 
+/// A place inside both.
+std::optional<Vec2> meet(const Side& side, const Facet& facet) {
+  if (side.held && facet.held) return std::nullopt;
+  const Vec2 along = side.to - side.from;
+  const double touching = margin(facet.corners, side.from, side.to);
+  const Part part = partInside(side.from, side.to, facet.corners, touching);
+  if (!part.isEmpty()) return side.from + (part.begin + part.end) / 2 * along;
+  // Of two bodies with the same outline, no side is inside the other one; what is beside it is.
+  const Vec2 beside = .5 * (side.from + side.to) - (touching / norm(along)) * rightOf(along);
+  if (partInside(beside, beside, facet.corners, .5 * touching).isEmpty()) return std::nullopt;
+  return beside;
+}
+
+/// Sides and triangles of the bodies that may meet, as far as they are in a common box.
 class OverlapSearch {
  public:
-  OverlapSearch(const Model& model, const ContactSurfaces& surfaces)
-      : model_(model), surfaces_(surfaces) {}
+  void add(const Side& side) { add(sides_, side); }
+  void add(const Facet& facet) { add(facets_, facet); }
+  /// Only what meets this box is taken.
+  void lookIn(const Box& box) { within_ = box; }
 
-  std::optional<Overlap> find(ComponentId firstNew) const {
-    const std::size_t segments = surfaces_.segments();
+  [[nodiscard]] std::optional<Overlap> find(ComponentId newBody) const {
     std::vector<Box> boxes;
-    for (std::size_t s = 0; s < segments; ++s) {
-      const Vec2 ends[] = {at(first(s)), at(last(s))};
-      boxes.push_back(boxAround(ends, 2));
-    }
-    for (std::size_t e = 0; e < model_.triangles.size(); ++e)
-      boxes.push_back(boxAround(corners(e).data(), 3));
+    for (const Side& side : sides_) boxes.push_back(boxOf(side));
+    for (const Facet& facet : facets_) boxes.push_back(boxOf(facet));
     const std::unique_ptr<ContactSearch> search = makeSearch(SearchMethod::kLebesgue);
     search->update(boxes);
     std::vector<BoxPair> pairs;
     search->findPairs(pairs);
-    for (const BoxPair& pair : pairs) {
-      const std::size_t a = std::min(pair.first.value, pair.second.value);
-      const std::size_t b = std::max(pair.first.value, pair.second.value);
-      if (a >= segments || b < segments) continue;
-      const auto overlap = meet(a, b - segments);
-      if (overlap && std::max(overlap->a, overlap->b) >= firstNew) return overlap;
+    for (const BoxPair& pair : pairs) {  // first < second: a side comes before a triangle
+      const std::size_t a = pair.first.value, b = pair.second.value;
+      if (a >= sides_.size() || b < sides_.size()) continue;
+      const Side& side = sides_[a];
+      const Facet& facet = facets_[b - sides_.size()];
+      if ((side.body == newBody) == (facet.body == newBody)) continue;
+      if (const auto place = meet(side, facet))
+        return Overlap{std::min(side.body, facet.body), *place};
     }
     return std::nullopt;
   }
 
  private:
-  [[nodiscard]] NodeId first(std::size_t segment) const { return surfaces_.segmentNode[segment]; }
-  [[nodiscard]] NodeId last(std::size_t segment) const {
-    return surfaces_.segmentNode[surfaces_.segmentNext[segment].value];
-  }
-  [[nodiscard]] Vec2 at(NodeId node) const { return model_.nodes.position[node.value]; }
-  [[nodiscard]] Corners corners(std::size_t element) const {
-    const auto& nodes = model_.triangles.nodes[element];
-    return {at(nodes[0]), at(nodes[1]), at(nodes[2])};
+  template <class Shape>
+  void add(std::vector<Shape>& shapes, const Shape& shape) const {
+    if (overlaps(boxOf(shape), within_)) shapes.push_back(shape);
   }
 
-  [[nodiscard]] std::optional<Overlap> meet(std::size_t segment, std::size_t element) const {
-    const ComponentId own = model_.nodes.component[first(segment).value];
-    const ComponentId other = model_.triangles.component[element];
-    if (own == other || model_.triangles.isDropped(element) || allHeld(segment, element))
-      return std::nullopt;
-    const Corners triangle = corners(element);
-    const Vec2 from = at(first(segment)), to = at(last(segment));
-    const double touching = margin(triangle, from, to);
-    const Part part = partInside(from, to, triangle, touching);
-    if (!part.isEmpty())
-      return Overlap{own, other, from + (part.begin + part.end) / 2 * (to - from)};
-    // Of two bodies with the same outline, no side is inside the other one; what is beside it is.
-    const Vec2 beside = .5 * (from + to) - (touching / norm(to - from)) * rightOf(to - from);
-    if (partInside(beside, beside, triangle, .5 * touching).isEmpty()) return std::nullopt;
-    return Overlap{own, other, beside};
-  }
-
-  [[nodiscard]] bool allHeld(std::size_t segment, std::size_t element) const {
-    const auto& nodes = model_.triangles.nodes[element];
-    std::uint8_t held = kHeldXY;
-    for (const NodeId node : {first(segment), last(segment), nodes[0], nodes[1], nodes[2]})
-      held &= model_.nodes.held[node.value];
-    return held == kHeldXY;
-  }
-
-  const Model& model_;
-  const ContactSurfaces& surfaces_;
+  std::vector<Side> sides_;
+  std::vector<Facet> facets_;
+  Box within_ = Box::absent();
 };
+
+/// What of a body that is there already comes near.
+void addBody(OverlapSearch& search, const Model& model, const ContactSurfaces& surfaces,
+             const std::vector<SegmentId>& segments, ComponentId body) {
+  const Nodes& nodes = model.nodes;
+  const auto at = [&](NodeId node) { return nodes.position[node.value]; };
+  const auto isHeld = [&](NodeId node) { return nodes.held[node.value] == kHeldXY; };
+  for (const SegmentId segment : segments) {
+    const NodeId a = surfaces.segmentNode[segment.value];
+    const NodeId b = surfaces.segmentNode[surfaces.segmentNext[segment.value].value];
+    search.add(Side{at(a), at(b), isHeld(a) && isHeld(b), body});
+  }
+  const Component& component = model.components[body.value];
+  for (std::uint32_t e = component.firstTriangle; e < component.lastTriangle; ++e) {
+    if (model.triangles.isDropped(e)) continue;
+    const auto& [a, b, c] = model.triangles.nodes[e];
+    search.add(Facet{{at(a), at(b), at(c)}, isHeld(a) && isHeld(b) && isHeld(c), body});
+  }
+}
+
+void addNew(OverlapSearch& search, const TriangleMesh& mesh, const std::vector<Vec2>& positions,
+            const std::vector<std::uint8_t>& held, ComponentId body) {
+  const auto isHeld = [&](std::uint32_t node) { return !held.empty() && held[node] == kHeldXY; };
+  for (const auto& loop : mesh.loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
+      search.add(Side{positions[a], positions[b], isHeld(a) && isHeld(b), body});
+    }
+  for (const auto& [a, b, c] : mesh.triangles)
+    search.add(Facet{
+        {positions[a], positions[b], positions[c]}, isHeld(a) && isHeld(b) && isHeld(c), body});
+}
 
 }  // namespace
 
 std::optional<Overlap> findOverlap(const Model& model, const ContactSurfaces& surfaces,
-                                   ComponentId firstNew) {
-  return OverlapSearch(model, surfaces).find(firstNew);
+                                   const BodyPlaces& places, const TriangleMesh& mesh,
+                                   const BodySpec& spec) {
+  std::vector<Vec2> positions = mesh.nodes;
+  for (std::size_t i = 0; i < spec.displacement.size(); ++i) positions[i] += spec.displacement[i];
+  const Box own = boxAround(positions);
+  const ComponentId newBody(model.components.size());
+  OverlapSearch search;
+  search.lookIn(own);
+  Box near = Box::absent();
+  for (std::size_t c = 0; c < model.components.size(); ++c) {
+    const ComponentId body(c);
+    const Box& box = places.box(body);
+    if (!overlaps(box, own)) continue;
+    addBody(search, model, surfaces, places.segments(body), body);
+    include(near, {box.min[0], box.min[1]});
+    include(near, {box.max[0], box.max[1]});
+  }
+  if (near.isAbsent()) return std::nullopt;
+  search.lookIn(near);
+  addNew(search, mesh, positions, spec.held, newBody);
+  return search.find(newBody);
 }
 
 }  // namespace yadefrag

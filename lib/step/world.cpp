@@ -17,6 +17,7 @@ namespace yadefrag {
 
 ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   checkBody(mesh, spec);
+  requireApart(mesh, spec);
   Component component;
   component.material = spec.material;
   component.brittle = spec.brittle;
@@ -26,7 +27,6 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   component.selfContact = spec.selfContact || spec.brittle.cracks();
   const std::size_t first = model.nodes.size();
   const ComponentId id = appendBody(model, mesh, component);
-  firstNew_ = std::min(firstNew_, id);
   reference.insert(reference.end(), mesh.nodes.begin(), mesh.nodes.end());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (!spec.displacement.empty()) model.nodes.position[first + i] += spec.displacement[i];
@@ -62,6 +62,7 @@ void World::removeBody(ComponentId component) {
   const std::vector<NodeId> renumbered = yadefrag::removeBody(model, component);
   fracture.removeBody(model, first, last, renumbered);
   search.nodes.clear();
+  places_.forget();
   for (std::size_t i = 0; i < renumbered.size(); ++i)
     if (renumbered[i] != NodeId::none()) reference[renumbered[i].value] = reference[i];
   reference.resize(model.nodes.size());
@@ -113,6 +114,7 @@ void World::rebuild() {
 void World::buildIfChanged() {
   if (isBuilt_) return;
   isBuilt_ = true;
+  places_.forget();
   dynamics_.rebuild(model);
   const auto& owners = surfaces.component;
   severalBodies_ =
@@ -160,7 +162,6 @@ double World::criticalTimeStep() const {
 /// compressed so far that this matters is the user's to watch.
 void World::requireStableStep(double dt) {
   buildIfChanged();
-  if (firstNew_ != ComponentId::none()) requireApart();
   if (dt > 0 && dt <= stableStep_) return;
   const double critical = criticalTimeStep();
   // Without elements any finite step is stable.
@@ -169,7 +170,7 @@ void World::requireStableStep(double dt) {
     text.precision(6);
     text << "The time step is " << dt << " s, but must be above 0 and at most " << critical
          << " s, the critical step of the present mesh.";
-    throw InputError(text.str());
+    throw TimeStepError(text.str());
   }
   for (std::size_t c = 0; c < model.components.size(); ++c)
     if (model.components[c].brittle.cracks()) checkCohesiveResolution(model, ComponentId(c), dt);

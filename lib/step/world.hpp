@@ -18,6 +18,7 @@
 #include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "search/contact_search.hpp"
+#include "step/body_places.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {
@@ -64,8 +65,9 @@ class World {
   /// others.
   void prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 velocity);
 
-  /// One step of Δt (s). Throws InputError for a step above the critical one, RunError where an
-  /// element or a value gives out: the last good state is then there to be looked at.
+  /// One step of Δt (s). Throws TimeStepError for a step above the critical one, InputError where
+  /// it does not resolve a crack's opening, RunError where an element or a value gives out: the
+  /// last good state is then there to be looked at.
   void step(double dt);
 
   /// (s) From the present mesh; infinite without elements.
@@ -123,7 +125,7 @@ class World {
   void searchIfLeft();
   void searchNow();
   void considerPairs(std::span<const BoxPair> overlapping);
-  void requireApart();
+  void requireApart(const TriangleMesh& mesh, const BodySpec& spec);
   void requireSearchableMotion(double dt);
   void requireResolvedMotion(double dt);
   [[noreturn]] void refuseMotion(double dt, const std::string& why);
@@ -152,6 +154,7 @@ class World {
   PassRule passRule_;
   SplitResult split_;
   LoosePieces loose_;
+  BodyPlaces places_;
   std::vector<Vec2> surfaceForces_;  // N, by node, of contact and cohesion
   std::vector<Vec2> before_;         // m, xⁿ by node; of surface nodes only
   std::vector<BoxPair> overlapping_;
@@ -160,8 +163,7 @@ class World {
   bool isBuilt_ =
       false;  // do the arrays below fit the model: many bodies join, then one step comes
   bool severalBodies_ = false;
-  ComponentId firstNew_ = ComponentId::none();  // bodies from here on may overlap others
-  double largestMove_ = 0;                      // m, of a surface node from xⁿ to x*
+  double largestMove_ = 0;  // m, of a surface node from xⁿ to x*
   double farthest_ =
       INFINITY;              // m, no surface node is farther from where it was at the last search
   double finest_ = 0;        // m, shortest stress-free segment: does not hang on when was searched

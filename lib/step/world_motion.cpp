@@ -1,5 +1,5 @@
-// Where contact could be missed or mistaken, the step is refused: bodies that overlap from the
-// start, or move too far at once.
+// Where contact could be missed or mistaken, the body or the step is refused: bodies that overlap
+// from the start, or move too far at once.
 
 #include <algorithm>
 #include <cmath>
@@ -46,18 +46,17 @@ double chord(const PieceEnds& ends) { return norm(ends.end - ends.begin); }
 
 }  // namespace
 
-/// Bodies that overlap when they are added: contact keeps apart what was apart, and would let them
-/// through each other.
-void World::requireApart() {
-  if (const auto overlap = findOverlap(model, surfaces, firstNew_)) {
-    std::ostringstream text;
-    text.precision(9);
-    text << "Bodies " << std::min(overlap->a, overlap->b).value << " and "
-         << std::max(overlap->a, overlap->b).value << " overlap at (" << overlap->place.x << ", "
-         << overlap->place.y << ") m; they may touch at the start, but must not overlap.";
-    throw InputError(text.str());
-  }
-  firstNew_ = ComponentId::none();
+/// Contact keeps apart what was apart, and would let bodies through each other that overlap.
+void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec) {
+  places_.update(model, surfaces);
+  const auto overlap = findOverlap(model, surfaces, places_, mesh, spec);
+  if (!overlap) return;
+  std::ostringstream text;
+  text.precision(9);
+  text << "The new body overlaps body " << overlap->body.value << " at (" << overlap->place.x
+       << ", " << overlap->place.y
+       << ") m; it may touch others at the start, but not overlap them.";
+  throw InputError(text.str());
 }
 
 void World::requireSearchableMotion(double dt) {

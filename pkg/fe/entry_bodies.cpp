@@ -1,5 +1,6 @@
 #include "fe/entry_bodies.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "core/errors.hpp"
@@ -60,7 +61,18 @@ double momentAbout(Vec2 about, const yade::Body& body, Vec2 force, double torque
   return moment + cross((1. / count) * points - about, force - explained);
 }
 
-[[noreturn]] void complainOfMissing(yade::Body::id_t id) {
+bool isPresent(const yade::Scene& scene, yade::Body::id_t id) {
+  const auto place = static_cast<std::size_t>(id);
+  return place < scene.bodies->size() && scene.bodies->body[place] &&
+         dynamic_cast<const SurfaceSegment*>(scene.bodies->body[place]->shape.get());
+}
+
+[[noreturn]] void complainOfMissing(const yade::Scene& scene,
+                                    const std::vector<yade::Body::id_t>& ids, yade::Body::id_t id) {
+  if (std::none_of(ids.begin(), ids.end(), [&](auto one) { return isPresent(scene, one); }))
+    throw RunError(
+        "The bodies of this FESolver are not in the scene any more (O.reset, O.load, O.switchScene "
+        "or O.bodies.clear left them behind); this scene needs a new FESolver.");
   std::ostringstream text;
   text << "Body #" << id << " is not in the scene any more, but it is part of the boundary of a "
        << "body of FESolver: take away whole ones, by FESolver.removeBody.";
@@ -175,7 +187,7 @@ void EntryBodies::requireAll(const yade::Scene& scene) {
   for (std::size_t e = 0; e < ids_.size(); ++e) {
     if (!hasBody(EntryId(e))) continue;
     const auto id = static_cast<std::size_t>(ids_[e]);
-    if (id >= present.size() || present[id] != bodies_[e]) complainOfMissing(ids_[e]);
+    if (id >= present.size() || present[id] != bodies_[e]) complainOfMissing(scene, ids_, ids_[e]);
   }
 }
 
@@ -192,11 +204,11 @@ void EntryBodies::findBodies(const yade::Scene& scene) {
       continue;
     }
     const auto place = static_cast<std::size_t>(id);
-    if (place >= present.size() || !present[place]) complainOfMissing(id);
+    if (place >= present.size() || !present[place]) complainOfMissing(scene, ids_, id);
     bodies.push_back(present[place]);
     shapes.push_back(boost::dynamic_pointer_cast<SurfaceSegment>(present[place]->shape));
     states.push_back(present[place]->state);
-    if (!shapes.back()) complainOfMissing(id);
+    if (!shapes.back()) complainOfMissing(scene, ids_, id);
   }
   bodies_.swap(bodies);
   shapes_.swap(shapes);

@@ -1,5 +1,7 @@
 #include "fe/fe_arrays.hpp"
 
+#include <unistd.h>
+
 #include "dynamics/element_state.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/fragments.hpp"
@@ -30,6 +32,11 @@ namespace {
 constexpr const char* kReal = "float64";
 constexpr const char* kIndex = "uint32";
 
+/// (bytes) Of which all the rest takes some, too.
+double memoryOfMachine() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
 py::dict toDict(const TriangleMesh& mesh) {
   py::dict result;
   py::list loops, vertices;
@@ -49,7 +56,7 @@ py::dict meshOfPolygon(const py::object& outline, const py::list& holes, double 
     Polygon polygon;
     polygon.outline = fromBytes<Vec2>(outline);
     for (int i = 0; i < py::len(holes); ++i) polygon.holes.push_back(fromBytes<Vec2>(holes[i]));
-    return toDict(triangulate(checkPolygon(std::move(polygon)), size));
+    return toDict(triangulate(checkPolygon(std::move(polygon)), size, memoryOfMachine()));
   });
 }
 
@@ -179,6 +186,15 @@ py::dict droppedOf(const FESolver& solver) {
   result["energy"] = world.ledger.dropped;
   result["count"] = dropped.count;
   return result;
+}
+
+std::unique_lock<std::recursive_mutex> waitBetweenSteps(const FESolver& solver) {
+  std::unique_lock lock(solver.betweenSteps(), std::try_to_lock);
+  if (lock) return lock;
+  PyThreadState* const state = PyEval_SaveThread();
+  lock.lock();
+  PyEval_RestoreThread(state);
+  return lock;
 }
 
 std::size_t segmentsOf(const FESolver& solver) {

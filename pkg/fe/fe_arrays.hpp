@@ -2,6 +2,7 @@
 // Arrays between C++ and Python: NumPy arrays out, as copies, and bytes of such arrays in.
 
 #include <cstring>
+#include <mutex>
 #include <stdexcept>
 #include <vector>
 
@@ -61,6 +62,9 @@ yade::py::object contactForcesOf(const FESolver& solver);
 yade::py::list surfacesOf(const FESolver& solver);
 /// Segments that are there.
 std::size_t segmentsOf(const FESolver& solver);
+/// Keeps steps of another thread off as long as it lives. Waits without Python's lock, for who has
+/// this one may wait for that.
+std::unique_lock<std::recursive_mutex> waitBetweenSteps(const FESolver& solver);
 yade::py::dict droppedOf(const FESolver& solver);
 yade::py::dict energyOf(const FESolver& solver);
 yade::py::list fragmentsOf(const FESolver& solver, bool held);

@@ -8,6 +8,17 @@
 
 namespace yadefrag {
 
+/// A value that is read between two steps, if another thread runs the scene.
+template <auto read>
+struct Locked;
+template <class Value, class... Rest, Value (*read)(const FESolver&, Rest...)>
+struct Locked<read> {
+  static Value call(const FESolver& self, Rest... rest) {
+    const auto lock = waitBetweenSteps(self);
+    return read(self, rest...);
+  }
+};
+
 template <class PyClass>
 void FESolver::pyExtra(PyClass& pyClass) {
   pyClass.def("_addMesh", &addMesh)
@@ -17,9 +28,14 @@ void FESolver::pyExtra(PyClass& pyClass) {
           yade::py::args("component"),
           "Takes a whole body, and its surface's bodies, out of the scene; the numbers of the "
           "others stay.")
-      .def("criticalTimeStep", &FESolver::criticalTimeStep,
-           "Longest stable time step (s) of the present mesh; infinite without bodies.")
-      .def("fragments", &fragmentsOf, (yade::py::arg("held") = false),
+      .def(
+          "criticalTimeStep",
+          +[](FESolver& self) {
+            const auto lock = waitBetweenSteps(self);
+            return self.criticalTimeStep();
+          },
+          "Longest stable time step (s) of the present mesh; infinite without bodies.")
+      .def("fragments", &Locked<fragmentsOf>::call, (yade::py::arg("held") = false),
            "List of dicts, one per part that hangs together: component, triangles (how many), mass "
            "(kg), area (m²), centroid (m), velocity (m/s), spin (rad/s). With held=True, parts "
            "that a crack with fracture energy still holds together count as one.")
@@ -30,34 +46,37 @@ void FESolver::pyExtra(PyClass& pyClass) {
           })
       .def("_setLoads", &setLoads)
       .def("_prescribe", &prescribe)
-      .add_property("_loads", &loadsOf)
-      .add_property("nodes", &nodesOf, "Positions (m), array (n, 2); a copy, as all arrays.")
-      .add_property("velocities", &velocitiesOf, "Of the nodes (m/s), array (n, 2).")
-      .add_property("displacements", &displacementsOf,
+      .add_property("_loads", &Locked<loadsOf>::call)
+      .add_property("nodes", &Locked<nodesOf>::call,
+                    "Positions (m), array (n, 2); a copy, as all arrays.")
+      .add_property("velocities", &Locked<velocitiesOf>::call, "Of the nodes (m/s), array (n, 2).")
+      .add_property("displacements", &Locked<displacementsOf>::call,
                     "Of the nodes, from the stress-free shape (m), array (n, 2).")
-      .add_property("masses", &massesOf, "Of the nodes (kg), array (n).")
-      .add_property("triangles", &trianglesOf, "Node numbers, counter-clockwise, array (m, 3).")
-      .add_property("stress", &stressArrayOf,
+      .add_property("masses", &Locked<massesOf>::call, "Of the nodes (kg), array (n).")
+      .add_property("triangles", &Locked<trianglesOf>::call,
+                    "Node numbers, counter-clockwise, array (m, 3).")
+      .add_property("stress", &Locked<stressArrayOf>::call,
                     "Cauchy stress xx, yy, xy (Pa) of the triangles, array (m, 3).")
-      .add_property("components", &componentsOf, "Number of each triangle's body, array (m).")
-      .add_property("fragmentOf", &fragmentOf,
+      .add_property("components", &Locked<componentsOf>::call,
+                    "Number of each triangle's body, array (m).")
+      .add_property("fragmentOf", &Locked<fragmentOf>::call,
                     "Number of each triangle's fragment, its place in fragments(), array (m); -1: "
                     "dropped.")
-      .add_property("_reference", &referenceOf)
-      .add_property("contactForces", &contactForcesOf,
+      .add_property("_reference", &Locked<referenceOf>::call)
+      .add_property("contactForces", &Locked<contactForcesOf>::call,
                     "Of contact between bodies of this engine, on the nodes, in the last step (N), "
                     "array (n, 2).")
-      .add_property("surfaces", &surfacesOf,
+      .add_property("surfaces", &Locked<surfacesOf>::call,
                     "List of closed loops, each an array of node numbers, material on the left.")
       .add_property(
-          "numSegments", &segmentsOf,
+          "numSegments", &Locked<segmentsOf>::call,
           "Segments of all surfaces: each crack that opens adds two, and those of dropped "
           "fragments do not count.")
-      .add_property("dropped", &droppedOf,
+      .add_property("dropped", &Locked<droppedOf>::call,
                     "Fragments that were smaller than minFragmentArea and are gone, a dict: mass "
                     "(kg), momentum (kg m/s, a pair), energy (J) they had when they went, count.")
       .add_property(
-          "energy", &energyOf,
+          "energy", &Locked<energyOf>::call,
           "Dict of J: kinetic, strain, contact, friction, fracture, damping, external (what came "
           "in "
           "from outside), total (constant); with minFragmentArea, dropped (went with fragments).");

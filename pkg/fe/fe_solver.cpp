@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -19,8 +20,10 @@ namespace yadefrag {
 /// boundary's new place.
 void FESolver::action() {
   if (bodies_.ids().empty()) return;
+  const std::lock_guard lock(betweenSteps_);
   if (scene->isPeriodic)
     throw std::invalid_argument("FESolver: the scene is periodic, which its bodies cannot be.");
+  requireOnce();
   bodies_.requireAll(*scene);
   giveSettings();
   if (world_.search.isDue || world_.search.isVoid) {
@@ -30,8 +33,10 @@ void FESolver::action() {
   bodies_.collectForces(*scene, world_, world_.outerForces);
   try {
     world_.step(scene->dt);
-  } catch (const InputError& error) {
+  } catch (const TimeStepError& error) {
     throw std::invalid_argument("O.dt: " + std::string(error.what()));
+  } catch (const InputError& error) {
+    throw std::invalid_argument(error.what());
   }
   followCracks(dropped);
   bodies_.update(world_, timeToIntegrate(), world_.threads);
@@ -85,6 +90,13 @@ void FESolver::trackEnergy() const {
   set("feDamping", ledger.damping);
   if (minFragmentArea > 0) set("feDropped", ledger.dropped);
   set("feExternal", -ledger.external);  // so that the sum of all is constant
+}
+
+/// Twice in a loop, and bodies would go twice as far as all others.
+void FESolver::requireOnce() const {
+  const auto isThis = [this](const auto& engine) { return engine.get() == this; };
+  if (std::count_if(scene->engines.begin(), scene->engines.end(), isThis) > 1)
+    throw std::invalid_argument("O.engines has the same FESolver more than once; once is right.");
 }
 
 /// Bodies of two solvers would not see each other.
@@ -161,7 +173,11 @@ void FESolver::checkSettings() const {
   if (maxCracks < -1) refuse("maxCracks", maxCracks, "0 or positive, or -1 for no bound");
   if (!(minFragmentArea >= 0 && std::isfinite(minFragmentArea)))
     refuse("minFragmentArea", minFragmentArea, "positive (m²), or 0 to keep all fragments");
-  if (!gravity.allFinite()) refuse("gravity", gravity.transpose(), "finite");
+  if (!gravity.allFinite() || gravity[2] != 0) {
+    std::ostringstream text;
+    text << "(" << gravity[0] << ", " << gravity[1] << ", " << gravity[2] << ")";
+    refuse("gravity", text.str(), "finite, and z must be 0: bodies move in the plane z = 0 only");
+  }
   if (!(linearViscosity >= 0 && std::isfinite(linearViscosity)))
     refuse("linearViscosity", linearViscosity, "0 or positive");
   if (!(quadraticViscosity >= 0 && std::isfinite(quadraticViscosity)))

@@ -1,6 +1,7 @@
 #pragma once
 // The engine that moves finite-element bodies.
 
+#include <mutex>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -35,6 +36,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] World& changeWorld() { return world_; }
   [[nodiscard]] const EntryBodies& entryBodies() const { return bodies_; }
+  /// Held by each step: arrays grow in it.
+  [[nodiscard]] std::recursive_mutex& betweenSteps() const { return betweenSteps_; }
 
   std::string correction = "lagrange";
   int passes = 1;
@@ -57,6 +60,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   template <class PyClass>
   static void countersOf(PyClass& pyClass);
   void requireAlone(const yade::Scene& here) const;
+  void requireOnce() const;
   void checkSettings() const;
   void giveSettings();
   void followCracks(std::uint64_t dropped);
@@ -68,6 +72,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   World world_;
   EntryBodies bodies_;
   std::vector<BoxPair> pairs_;
+  mutable std::recursive_mutex betweenSteps_;
 };
 
 constexpr auto FESolver::attributes() {
@@ -92,7 +97,8 @@ constexpr auto FESolver::attributes() {
                 "do not depend on it, the number of searches does.",
                 triggerPostLoad),
       attribute("damping", &C::damping, "Mass-proportional damping (1/s).", triggerPostLoad),
-      attribute("gravity", &C::gravity, "Acceleration of all bodies of this engine (m/s²).",
+      attribute("gravity", &C::gravity,
+                "Acceleration of all bodies of this engine (m/s²), along x and y.",
                 triggerPostLoad),
       attribute("linearViscosity", &C::linearViscosity,
                 "Coefficient of the linear bulk viscosity; 0: none, .06 is usual.",

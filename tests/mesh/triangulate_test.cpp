@@ -178,9 +178,10 @@ TEST(Triangulate, NumbersFollowTheCurve) {
 TEST(Triangulate, BadSizes) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   const Polygon square{box({0, 0}, {1, 1}), {}};
-  const auto messageFor = [](const Polygon& polygon, double size) -> std::string {
+  const auto messageFor = [](const Polygon& polygon, double size,
+                             double mostBytes = INFINITY) -> std::string {
     try {
-      (void)triangulate(polygon, size);
+      (void)triangulate(polygon, size, mostBytes);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -190,6 +191,10 @@ TEST(Triangulate, BadSizes) {
     EXPECT_NE(messageFor(square, size).find("must be positive and finite."), std::string::npos);
   EXPECT_EQ(messageFor(square, 1e-5),
             "Size 1e-05 m would give about 2.309e+10 triangles; a mesh can have 2.147e+09.");
+  EXPECT_EQ(messageFor(square, .001, 4e8),
+            "Size 0.001 m would give about 2.309e+06 triangles, which take about 0.9238 GB, but "
+            "there are 0.4 GB of memory; 0.00152 m would fill it.");
+  EXPECT_EQ(messageFor(square, .1, 4e8), "");
   EXPECT_NE(messageFor({box({1e9, 0}, {1e9 + 1e-3, 1e-3}), {}}, 5e-4).find("lost in the rounding"),
             std::string::npos);
 }

@@ -48,6 +48,10 @@ TEST(WorldBodies, ArraysOfAnotherLengthAreRefused) {
   refused("displacement", [](BodySpec& spec) { spec.displacement.resize(7); });
   refused("held", [](BodySpec& spec) { spec.held.resize(7); });
   refused("smoothNodes", [](BodySpec& spec) { spec.smoothNodes.resize(7); });
+  BodySpec mirrored = moving(mesh, rubber(), {0, 0});
+  for (const Vec2 node : mesh.nodes) mirrored.displacement.push_back({-2 * node.x, 0});
+  const std::string inside = sentence<InputError>([&] { world.addBody(mesh, mirrored); });
+  EXPECT_TRUE(contains(inside, "displacement turns the triangle at (")) << inside;
   TriangleMesh turned = mesh;
   std::swap(turned.triangles[2][0], turned.triangles[2][1]);
   const std::string text = sentence<InputError>([&] {

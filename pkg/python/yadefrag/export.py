@@ -17,14 +17,16 @@ def exportVTK(fe, file):
 
     Points are the nodes where they are now (m); at points: displacement from the stress-free shape
     (m), velocity (m/s), contact force (N); in triangles: stress (xx, yy, xy in Pa), component and
-    fragment (int). Dropped fragments are left out. ValueError for another ending than .vtu and for a solver without bodies.
+    fragment (int). Dropped fragments are left out. ValueError for another ending than .vtu and for
+    a solver without bodies.
     """
     import meshio
 
-    from yadefrag.shown import shownMesh
+    from yadefrag.shown import requireSolver, shownMesh
 
     if not str(file).endswith('.vtu'):
         raise ValueError("file is %r, its name must end with '.vtu'." % str(file))
+    requireSolver(fe)
     nodes, triangles, corners = shownMesh(fe)
     if len(triangles) == 0:
         raise ValueError('fe has no bodies to write, add one with fe.addPolygon first.')

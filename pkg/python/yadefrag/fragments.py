@@ -4,6 +4,8 @@ import os
 
 import numpy
 
+from yadefrag.shown import requireSolver
+
 _COLUMNS = (('fragment', '', int), ('component', '', int), ('triangles', '', int),
             ('mass', 'kg', float), ('area', 'm²', float), ('size', 'm', float), ('x', 'm', float),
             ('y', 'm', float), ('vx', 'm/s', float), ('vy', 'm/s', float), ('spin', 'rad/s', float))
@@ -31,6 +33,7 @@ def fragmentTable(fe, file=None):
     file  where to write it besides, a .csv with the units in its first line
     ValueError for another ending, before anything is written.
     """
+    requireSolver(fe)
     name = None if file is None else _csvName(file)
     rows = [(number, f['component'], f['triangles'], f['mass'], f['area'],
              numpy.sqrt(max(f['area'], 0)), *f['centroid'], *f['velocity'], f['spin'])
@@ -86,6 +89,7 @@ def recordFracture(fe, file, append=False):
     call returns. append=True goes on with the lines that are there, for a run that was loaded.
     ValueError for another ending and for a file to go on with that has other columns.
     """
+    requireSolver(fe)
     name = _csvName(file)
     heading = ','.join(_COUNTS + tuple('%s (J)' % e for e in _ENERGIES)) + '\n'
     if append and os.path.exists(name) and os.path.getsize(name):

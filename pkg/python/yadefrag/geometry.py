@@ -2,6 +2,7 @@
 
 import math
 import numbers
+import os
 
 from yadefrag import _yadefrag
 
@@ -83,8 +84,11 @@ def readPolygon(file):
     """(outline, holes) from a text file: `x y` (m) on each line, an empty line between two loops.
 
     The first loop is the outline. `#` begins a comment, and a line with nothing but a comment is
-    skipped. `file` is a path. ValueError with the file and the line for anything else.
+    skipped. `file` is a path. ValueError with the file and the line for anything else; OSError with
+    the path for a file that cannot be read.
     """
+    if not isinstance(file, (str, os.PathLike)):
+        raise ValueError('file is %r, it must be a path.' % (file,))
     with open(file, 'rb') as data:
         text = data.read()
     try:

@@ -1,5 +1,8 @@
 """Pictures of the bodies of an FESolver, by Matplotlib."""
 
+import math
+import numbers
+
 import numpy
 
 _UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
@@ -51,16 +54,41 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None):
     file    where to write the picture; its ending says as what (.png, .pdf, .svg ...)
     ax      axes to draw in, default new ones
     limits  (lowest, highest) value of the colour scale, default those of the field
-    ValueError for any other field, and for a solver without bodies.
+    ValueError for any other field or limits, and for a solver without bodies.
     """
+    _requireBodies(fe)
     values, perNode = _values(fe, field)
-    if len(_shown(fe)[1]) == 0:
-        raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
+    _requireLimits(limits)
     ax = newAxes() if ax is None else ax
     _draw(ax, fe, field, values, perNode, limits)
     if file is not None:
         ax.figure.savefig(file, dpi=150)
     return ax
+
+
+def _requireBodies(fe):
+    from yadefrag.shown import requireSolver
+    requireSolver(fe)
+    if len(_shown(fe)[1]) == 0:
+        raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
+
+
+def _requireLimits(limits):
+    if limits is not None and not _isPair(limits, _isFinite):
+        raise ValueError('limits is %r, it must be a pair of numbers (lowest, highest).' %
+                         (limits,))
+
+
+def _isFinite(value):
+    return isinstance(value, numbers.Real) and math.isfinite(value)
+
+
+def _isPair(value, isRight):
+    try:
+        first, second = value
+    except (TypeError, ValueError):
+        return False
+    return isRight(first) and isRight(second)
 
 
 def _shown(fe):
@@ -127,13 +155,19 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
                    quarter more on each side
     rate           frames per second of the film
     When the run is interrupted or fails, the frames until then are written. ValueError, before any
-    step, for counts that are not positive, a field as in plotMesh, a file that is no .gif.
+    step, for counts that are not positive, a field or limits as in plotMesh, a file that is no
+    .gif, a window that is none.
     """
     from matplotlib.animation import PillowWriter
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
+    _requireBodies(fe)
     _checkFilm(fe, file, steps, every, field, rate)
+    _requireLimits(limits)
+    if window is not None and not _isPair(window, lambda corner: _isPair(corner, _isFinite)):
+        raise ValueError('window is %r, it must be ((left, bottom), (right, top)) in m.' %
+                         (window,))
     figure = Figure(figsize=(8, 6), layout='constrained')
     FigureCanvasAgg(figure)
     low, high = _windowOf(fe) if window is None else window
@@ -155,9 +189,11 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
 
 
 def _checkFilm(fe, file, steps, every, field, rate):
-    for name, value in (('steps', steps), ('every', every), ('rate', rate)):
-        if not value > 0:
-            raise ValueError('%s is %r, it must be positive.' % (name, value))
+    for name, value in (('steps', steps), ('every', every)):
+        if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < 1:
+            raise ValueError('%s is %r, it must be a positive whole number.' % (name, value))
+    if not _isFinite(rate) or rate <= 0:
+        raise ValueError('rate is %r, it must be positive.' % (rate,))
     if not str(file).endswith('.gif'):
         raise ValueError("file is %r, its name must end with '.gif'." % str(file))
     if field is not None and not isinstance(field, str):
@@ -168,8 +204,6 @@ def _checkFilm(fe, file, steps, every, field, rate):
 
 def _windowOf(fe):
     nodes = numpy.asarray(fe.nodes, dtype=float)[_shown(fe)[0]]
-    if len(nodes) == 0:
-        raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
     low, high = nodes.min(axis=0), nodes.max(axis=0)
     margin = (high - low).max() / 4
     return low - margin, high + margin

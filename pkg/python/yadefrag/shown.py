@@ -3,6 +3,12 @@
 import numpy
 
 
+def requireSolver(fe):
+    """ValueError for what has no triangles to show: not an FESolver."""
+    if not hasattr(fe, 'triangles'):
+        raise ValueError('fe is %r, it must be an FESolver.' % (fe,))
+
+
 def shownTriangles(fe):
     """Numbers (k) of the triangles that were not dropped."""
     if fe.dropped['count'] == 0:

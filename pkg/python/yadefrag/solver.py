@@ -6,6 +6,7 @@ given and what would be right.
 
 import math
 import numbers
+import threading
 import warnings
 
 import numpy
@@ -15,6 +16,13 @@ from yadefrag import _yadefrag
 from yadefrag.shown import shownTriangles
 
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
+
+
+def _requirePaused():
+    """The step of another thread must not meet a scene that changes; PyRunners are in its thread."""
+    if wrapper.Omega().running and threading.current_thread() is threading.main_thread():
+        raise RuntimeError('The simulation is running: call O.pause() and O.wait() first, or do '
+                           'this from a PyRunner.')
 
 
 def _number(name, value, isRight, right):
@@ -145,6 +153,7 @@ def _centroid(nodes, triangles):
 
 
 def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickness, selfContact):
+    _requirePaused()
     nodes, triangles = mesh['nodes'], mesh['triangles']
     spin = _number('spin', spin, math.isfinite, 'a finite number (rad/s)')
     if not isinstance(selfContact, (bool, numpy.bool_)):
@@ -194,6 +203,11 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks.
     """
     points = _points('outline', outline, 3)
+    try:
+        holes = list(holes)
+    except TypeError:
+        raise ValueError('holes is %r, it must be a list of loops of points (x, y) in m.' %
+                         (holes,)) from None
     holePoints = [_points('holes[%d]' % i, hole, 3) for i, hole in enumerate(holes)]
     size = _positive('size', size, 'm')
     material = _material(material)
@@ -265,7 +279,12 @@ def _getLoads(self):
 
 
 def _setLoads(self, loads):
-    values = numpy.zeros((0, 2)) if loads is None else numpy.asarray(loads, dtype=float)
+    _requirePaused()
+    try:
+        values = numpy.zeros((0, 2)) if loads is None else numpy.asarray(loads, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError('loads is %r, it must be an array (n, 2) of N, or None.' %
+                         (loads,)) from None
     if values.ndim != 2 or values.shape[1] != 2:
         raise ValueError('loads has the shape %r, it must be (n, 2).' % (values.shape,))
     self._setLoads(numpy.ascontiguousarray(values).tobytes())
@@ -278,6 +297,7 @@ def prescribe(self, nodes, vx=None, vy=None):
     Call it again to change the motion, from a PyRunner for one that varies in time; the forces that
     it takes are in `energy['external']`. ValueError before anything changes.
     """
+    _requirePaused()
     places = self.nodes
     if callable(nodes):
         chosen = numpy.array([bool(nodes(x, y)) for x, y in places], dtype=bool)
@@ -343,11 +363,39 @@ def _guardErase(erase):
     return guarded
 
 
+def _guardClump(clump):
+    def guarded(self, ids, *others, **settings):
+        for id in ids if isinstance(ids, (list, tuple)) else [ids]:
+            body = self[id] if isinstance(id, int) and 0 <= id < len(self) else None
+            if body and isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.entry >= 0:
+                raise ValueError('body #%d is part of the boundary of body %d of FESolver, it '
+                                 'cannot be in a clump.' % (id, body.shape.component))
+        return clump(self, ids, *others, **settings)
+
+    guarded.__doc__ = clump.__doc__
+    return guarded
+
+
+def _guardRemove(remove):
+    def guarded(self, component):
+        _requirePaused()
+        if isinstance(component, bool) or not isinstance(component, numbers.Integral):
+            raise ValueError('component is %r, it must be the number of a body.' % (component,))
+        return remove(self, int(component))
+
+    guarded.__doc__ = remove.__doc__
+    return guarded
+
+
 def install():
-    """Gives FESolver its methods, and keeps O.bodies.erase off its bodies."""
+    """Gives FESolver its methods, and keeps O.bodies.erase and clumps off its bodies."""
     wrapper.FESolver.addPolygon = addPolygon
     wrapper.FESolver.addTriangles = addTriangles
     wrapper.FESolver.prescribe = prescribe
     wrapper.FESolver.minAngle = property(_minAngle, doc=_minAngle.__doc__)
     wrapper.FESolver.loads = property(_getLoads, _setLoads, doc=_getLoads.__doc__)
-    wrapper.BodyContainer.erase = _guardErase(wrapper.BodyContainer.erase)
+    wrapper.FESolver.removeBody = _guardRemove(wrapper.FESolver.removeBody)
+    container = wrapper.BodyContainer
+    container.erase = _guardErase(container.erase)
+    container.clump = _guardClump(container.clump)
+    container.addToClump = _guardClump(container.addToClump)

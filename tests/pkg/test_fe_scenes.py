@@ -1,0 +1,138 @@
+"""FESolver in YADE's scenes: saving and loading, other scenes, bodies that come and go."""
+import builtins
+import math
+import os
+
+import numpy as np
+import pytest
+
+import fe_chain as chain
+import yadefrag
+from fe_scene import finder, impact, run, steps
+from yade import wrapper as w
+
+O = builtins.O
+
+
+@pytest.mark.parametrize('ending', ['.xml', '.yade.gz', '.yade'])
+@pytest.mark.parametrize('finderName', ['LebesgueCollider', 'InsertionSortCollider', None])
+def test_savedRunGoesOnBitForBit(ending, finderName, folder):
+    def build():
+        solver = impact(finderName, smooth=True)
+        ball = chain.ball((.15, .151), .05, O.materials['m'])
+        ball.state.vel = (0, -1, 0)
+        ball.state.blockedDOFs = 'zXY'
+        O.bodies.append(ball)
+        run(solver, finderName and finder(finderName), spheres=bool(finderName), factor=.5)
+        return solver
+
+    solver = build()
+    steps(150)
+    path = os.path.join(folder, 'scene' + ending)
+    O.save(path)
+    saved = solver.nodes, solver.velocities, solver.energy, solver.numSearches
+    steps(350)
+    wanted = solver.nodes, solver.velocities, solver.energy, O.bodies[-1].state.pos
+    assert solver.numActives or solver.energy['contact'] != 0
+    O.reset()
+    O.load(path)
+    solver = [e for e in O.engines if isinstance(e, w.FESolver)][0]
+    loaded = solver.nodes, solver.velocities, solver.energy, solver.numSearches
+    assert all(np.array_equal(a, b) for a, b in zip(saved[:2], loaded[:2]))
+    assert saved[2:] == loaded[2:]
+    steps(350)
+    assert np.array_equal(solver.nodes, wanted[0]) and np.array_equal(solver.velocities, wanted[1])
+    assert solver.energy == wanted[2]
+    assert tuple(O.bodies[-1].state.pos) == tuple(wanted[3])
+    solver.removeBody(0)
+    O.step()
+
+
+def test_memorySaveAndReload():
+    solver = impact('LebesgueCollider')
+    steps(50)
+    O.saveTmp()
+    steps(50)
+    nodes = solver.nodes
+    O.reload()
+    steps(50)
+    assert np.array_equal(O.engines[2].nodes, nodes)
+
+
+# --- scenes
+
+def test_severalScenes():
+    solver = impact('LebesgueCollider')
+    steps(20)
+    O.addScene()
+    O.switchScene()
+    try:
+        O.materials.append(w.FEMat(label='n'))
+        other = w.FESolver()
+        other.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='n')
+        run(other, finder('LebesgueCollider'))
+        steps(5)
+        assert len(other.nodes) < len(solver.nodes)
+        with pytest.raises((ValueError, RuntimeError), match='not in the scene'):
+            solver.addPolygon(yadefrag.rectangle((3, 3), (4, 4)), size=.5, material='n')
+    finally:
+        O.switchScene()
+    before = solver.nodes
+    steps(20)
+    assert not np.array_equal(before, solver.nodes)
+
+
+def test_resetScene():
+    solver = impact('LebesgueCollider')
+    steps(5)
+    O.reset()
+    assert len(O.bodies) == 0 and len(solver.nodes) > 0
+    O.engines = [solver]
+    with pytest.raises(RuntimeError, match='not in the scene'):
+        O.step()
+
+
+def test_eraseIsRefused():
+    solver = impact('LebesgueCollider')
+    count = len(O.bodies)
+    with pytest.raises(ValueError, match='part of the boundary of body 0 of FESolver'):
+        O.bodies.erase(3)
+    assert len(O.bodies) == count and O.bodies[3]
+    ball = O.bodies.append(chain.ball((5, 5), .1, O.materials['m']))
+    assert O.bodies.erase(ball) and not O.bodies.erase(ball)
+    steps(3)
+    O.bodies.clear()
+    with pytest.raises(RuntimeError, match='The bodies of this FESolver are not in the scene'):
+        O.step()
+    assert solver.numSearches > 0
+
+
+def test_wholeBodyIsRemoved(colliderName):
+    solver = impact(colliderName)
+    third = solver.addPolygon(yadefrag.rectangle((.21, -.1), (.3, .1)), size=.02, material='m')
+    steps(200)
+    entries = {c: [b.id for b in O.bodies if b.shape.component == c] for c in range(3)}
+    solver.removeBody(1)
+    assert all(O.bodies[k] is None for k in entries[1])
+    assert set(solver.components) == {0, 2} and third == 2
+    assert len(solver.surfaces) == 2
+    kept = [O.bodies[k].shape.entry for k in entries[0] + entries[2]]
+    assert kept == list(range(len(kept)))
+    steps(800)  # the disc goes on and meets the third body
+    assert solver.fragments()[1]['velocity'][0] > .01
+    with pytest.raises(ValueError, match='component is 1, which is no body'):
+        solver.removeBody(1)
+    solver.removeBody(0)
+    solver.removeBody(2)
+    steps(2)
+    assert len(solver.nodes) == 0 and solver.criticalTimeStep() == math.inf
+
+
+def test_bodiesJoinARun():
+    solver = impact('LebesgueCollider')
+    steps(100)
+    number = solver.addPolygon(yadefrag.rectangle((.21, -.1), (.3, .1)), size=.02, material='m',
+                               velocity=(-3, 0))
+    assert number == 2
+    steps(300)
+    assert solver.fragments()[2]['velocity'][0] > -2.9

@@ -1,0 +1,108 @@
+"""FESolver's bodies and YADE's spheres: momentum, energy, forces on single pieces."""
+import builtins
+
+import numpy as np
+import pytest
+
+import fe_chain as chain
+import yadefrag
+from fe_scene import fe, finder, momentum, run
+from yade import wrapper as w
+
+O = builtins.O
+
+
+@pytest.mark.parametrize('smooth', [False, True])
+@pytest.mark.parametrize('friction', [0, .5])
+def test_sphereOnABodyKeepsMomentum(smooth, friction):
+    solver = fe()
+    O.materials['m'].frictionAngle = friction
+    solver.addPolygon(yadefrag.rectangle((-.1, -.1), (.1, 0)), size=.02, material='m',
+                      smooth=smooth)
+    ball = chain.ball((.033, .052), .05, O.materials['m'])
+    ball.state.vel = (.5, -1, 0)
+    ball.state.angVel = (0, 0, 20)
+    ball.state.blockedDOFs = 'zXY'
+    O.bodies.append(ball)
+    run(solver, finder('LebesgueCollider'), spheres=True, factor=.3)
+    linear, angular = momentum(solver)
+    energy = solver.energy['total'] + .5 * ball.state.mass * ball.state.vel.squaredNorm()
+    touched = 0
+    for _ in range(4000):
+        O.step()
+        touched += len(list(O.interactions)) > 0
+        if touched and not len(list(O.interactions)):
+            break
+    assert touched > 20 and ball.state.vel[1] > 0
+    after, afterAngular = momentum(solver)
+    scale = ball.state.mass
+    assert np.abs(after - linear).max() < 1e-12 * scale
+    assert abs(afterAngular - angular) < 1e-9 * scale * .1
+    assert not solver.numActives
+    if not friction:
+        ledger = solver.energy
+        work = .5 * ball.state.mass * ball.state.vel.squaredNorm()
+        assert ledger['kinetic'] + ledger['strain'] + work == pytest.approx(energy, rel=.01)
+    assert ledgerHolds(solver)
+
+
+def ledgerHolds(solver):
+    e = solver.energy
+    return e['total'] == pytest.approx(e['kinetic'] + e['strain'] - e['external'], abs=1e-12) \
+        and e['external'] > 0
+
+
+def test_forceOnAPieceGoesToItsNodes():
+    """Force and torque on an entry's body: sum and moment of the nodes' forces are the same."""
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .1)), size=.05, material='m',
+                      smooth=[True, False, False, True])
+    run(solver, newton=False)
+    for b in O.bodies:
+        O.forces.setPermF(b.id, (3, -2, 0))
+        O.forces.setPermT(b.id, (0, 0, .25))
+    arms = [b.state.pos for b in O.bodies]
+    n = len(arms)
+    O.step()
+    linear, angular = momentum(solver)
+    assert linear == pytest.approx(np.array([3, -2]) * n * O.dt)
+    # the momentum is that about the origin with the positions where the forces acted
+    x = solver.nodes - O.dt * solver.velocities
+    v, m = solver.velocities, solver.masses
+    angular = (m * (x[:, 0] * v[:, 1] - x[:, 1] * v[:, 0])).sum()
+    wanted = sum(p[0] * -2 - p[1] * 3 + .25 for p in arms) * O.dt
+    assert angular == pytest.approx(wanted)
+
+
+def rain(name, smooth):
+    """Heights of spheres that fall onto a clamped beam; the same engines whatever the collider."""
+    O.reset()
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((-.2, -.05), (.2, 0)), size=.02, material='m',
+                      smooth=smooth, fixed=lambda x, y: abs(x) > .199)
+    rng = np.random.default_rng(1)
+    for i in range(8):
+        for j in range(2):
+            ball = chain.ball((-.17 + .047 * i, .021 + .045 * j + .002 * rng.uniform()), .02,
+                              O.materials['m'])
+            ball.state.vel = (.2 * rng.normal(), -1, 0)
+            ball.state.blockedDOFs = 'zXY'
+            O.bodies.append(ball)
+    run(solver, finder(name), spheres=True, factor=.3)
+    contacts = 0
+    for _ in range(1500):
+        O.step()
+        contacts = max(contacts, len(list(O.interactions)))
+    assert contacts > 4 and solver.energy['external'] > 0
+    return np.array([b.state.pos[1] for b in O.bodies if isinstance(b.shape, w.Sphere)]), \
+        solver.nodes
+
+
+@pytest.mark.parametrize('smooth', [False, True])
+def test_spheresRainOnABeam(smooth):
+    wanted = rain('InsertionSortCollider', smooth)
+    assert wanted[0].min() > .01
+    for name in ('LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider'):
+        found = rain(name, smooth)
+        assert np.abs(found[0] - wanted[0]).max() < 1e-9, name
+        assert np.abs(found[1] - wanted[1]).max() < 1e-9, name
