@@ -1,6 +1,7 @@
 #include "fe/entry_bodies.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "core/errors.hpp"
@@ -265,6 +266,12 @@ void EntryBodies::update(const World& world, double dt, int threads) {
 void EntryBodies::setHalo(double halfHalo) {
   for (const auto& shape : shapes_)
     if (shape) shape->halo = halfHalo;
+}
+
+double EntryBodies::halo() const {
+  for (const auto& shape : shapes_)
+    if (shape) return shape->halo;
+  return NAN;
 }
 
 void EntryBodies::collectForces(yade::Scene& scene, const World& world,

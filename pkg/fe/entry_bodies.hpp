@@ -32,6 +32,8 @@ class EntryBodies {
   /// nothing will.
   void update(const World& world, double dt, int threads);
   void setHalo(double halfHalo);
+  /// (m) What setHalo was told; NaN without bodies.
+  [[nodiscard]] double halo() const;
   /// Forces and torques on the bodies, as forces on the nodes: their sum, their moment and their
   /// power are kept. Leaves `forces` empty if there are none.
   void collectForces(yade::Scene& scene, const World& world, std::vector<Vec2>& forces) const;

@@ -27,7 +27,9 @@ void FESolver::action() {
   bodies_.requireAll(*scene);
   giveSettings();
   if (world_.search.isDue || world_.search.isVoid) {
-    if (pairsOfCollider(*scene, *this, bodies_, pairs_)) world_.takePairs(pairs_);
+    // After a step that was refused the halo is that of its own search, not that of the bounds.
+    const bool isSearched = bodies_.halo() == .5 * world_.search.halo;
+    if (isSearched && pairsOfCollider(*scene, *this, bodies_, pairs_)) world_.takePairs(pairs_);
   }
   const std::uint64_t dropped = world_.dropped.count;
   bodies_.collectForces(*scene, world_, world_.outerForces);
