@@ -73,6 +73,32 @@ inline void stepOrShorter(World& world, double& dt, bool shorten) {
     }
 }
 
+struct Course2 {
+  std::string refusal;
+  double deepest = 0;  ///< m
+  double growth = 0;   ///< of the start's energy
+  bool touched = false;
+};
+
+/// Runs for a time (s), and looks two hundred times.
+inline Course2 watchFor(World& world, double time, double ofCritical = .8) {
+  Course2 course;
+  const double energy = world.kineticEnergy() + world.strainEnergy();
+  course.refusal = sentenceOf([&] {
+    double dt = ofCritical * world.criticalTimeStep(), look = 0;
+    while (world.time < time) {
+      stepOrShorter(world, dt, true);
+      course.touched = course.touched || !world.contact.rows().empty();
+      if (world.time < look) continue;
+      look += time / 200;
+      course.deepest = std::max(course.deepest, deepestNode(world));
+      const double now = world.kineticEnergy() + world.strainEnergy();
+      if (energy > 0) course.growth = std::max(course.growth, now / energy - 1);
+    }
+  });
+  return course;
+}
+
 /// Runs a blow, whose start `world` is.
 inline void runBlow(const Blow& blow, World& world, Outcome& outcome) {
   const double slower = std::min(waveSpeed(blow.left), waveSpeed(blow.right));
