@@ -151,3 +151,23 @@ def positions():
 def matrix(rows):
     """A YADE Matrix3 from a (3,3) array."""
     return Matrix3(*[float(x) for x in np.asarray(rows).ravel()])
+
+
+def gas(collider, n=100, seed=1, speed=.004, **attributes):
+    """`n` spheres of random places, sizes and velocities in a unit box; returns their collider."""
+    rng = np.random.default_rng(seed)
+    O.dt = 1
+    addSpheres(rng.uniform(0, 1, (n, 3)), rng.uniform(.03, .07, n), rng.normal(size=(n, 3)) * speed)
+    return setEngines(collider(**attributes))
+
+
+def theCollider(collider):
+    """The only collider in O.engines, which is of the class that `collider` makes."""
+    found = [e for e in O.engines if isinstance(e, w.Collider)]
+    assert [type(e).__name__ for e in found] == [collider.name]
+    return found[0]
+
+
+def listed():
+    """Everything about the interactions that has to survive."""
+    return sorted((i.id1, i.id2, i.isReal, tuple(i.cellDist)) for i in O.interactions.all())

@@ -1,0 +1,236 @@
+"""A collider in a script: probed, timed, replaced, its attributes, how often it searches."""
+import numpy as np
+import pytest
+
+import scenes
+from scenes import O, addSpheres, gas, listed, setEngines, stepAndCheck, theCollider
+import yade.wrapper as w
+from yade import timing, utils
+from yade.minieigenHP import Vector3
+
+
+def testProbe(collider):
+    """BoxFactory asks the collider for free room: no sphere may be put into another one."""
+    O.dt = 1e-3
+    O.materials.append(w.FrictMat(density=1000, young=1e6))
+    addSpheres([(.5, .5, .5)], [.1])
+    factory = w.BoxFactory(maxParticles=150, extents=(.4, .4, .4), center=(.5, .5, .5), rMin=.03,
+                           rMax=.05, vMin=.5, vMax=.5, normal=(0, 0, 1), massFlowRate=1000,
+                           materialId=0, maxAttempt=2000, stopIfFailed=False)
+    engine = setEngines(collider())
+    O.engines = O.engines + [factory]
+    known = len(O.bodies)
+    for _ in range(60):
+        O.step()
+        centres, radii = scenes.spheresNow()
+        for new in range(known, len(O.bodies)):
+            gap = np.linalg.norm(centres - centres[new], axis=1) - radii - radii[new]
+            gap[new] = 1
+            # those that fly have moved since the factory asked only if they were made earlier
+            assert gap.min() > -1e-9, f'body {new} was made inside body {gap.argmin()}'
+        known = len(O.bodies)
+    assert known > 60
+    assert engine.numAction > 0
+
+
+def testResetRandomPosition(collider):
+    """Bodies below a plane are put back where the collider finds room."""
+    O.dt = 1e-3
+    source = O.bodies.append([
+        utils.facet([(0, 0, 1), (1, 0, 1), (0, 1, 1)], noBound=True),
+        utils.facet([(1, 1, 1), (1, 0, 1), (0, 1, 1)], noBound=True)])
+    rng = np.random.default_rng(3)
+    grid = np.stack(np.meshgrid(range(5), range(5), range(3)), -1).reshape(-1, 3) * .15 + .2
+    ids = addSpheres(grid, [.05] * len(grid), rng.normal(size=grid.shape) - [0, 0, 4])
+    setEngines(collider())
+    O.engines = O.engines + [w.ResetRandomPosition(
+        virtPeriod=.005, factoryFacets=source, velocity=(0, 0, -4), subscribedBodies=ids,
+        point=(0, 0, 0), normal=(0, 0, 1), maxAttempts=100)]
+    moved = 0
+    for _ in range(400):
+        before, radii = scenes.spheresNow()
+        O.step()
+        after, _ = scenes.spheresNow()
+        jumped = np.nonzero(abs(after - before)[:, 2] > .1)[0]
+        moved += len(jumped)
+        for i in jumped:
+            gap = np.linalg.norm(after - after[i], axis=1) - radii - radii[i]
+            gap[i] = 1
+            assert np.nanmin(gap) > -1e-9
+    assert moved > 5
+
+
+def testIsActivated(collider):
+    engine = gas(collider, speed=1e-5)
+    assert engine.isActivated()
+    O.step()
+    O.step()
+    assert not engine.isActivated()
+    addSpheres([(.5, .5, .5)], [.1])
+    assert engine.isActivated()
+    O.step()
+    O.step()
+    assert not engine.isActivated()
+    O.interactions.clear()
+    assert engine.isActivated()
+    assert collider(verletDist=0).isActivated()
+
+
+def testTiming(collider):
+    engine = gas(collider, verletDist=0)
+    O.timingEnabled = True
+    for _ in range(20):
+        O.step()
+    assert engine.execCount == 20 and engine.execTime > 0
+    timing.stats()
+    timing.reset()
+    assert engine.execCount == 0 and engine.execTime == 0
+
+
+def testReplaceCollider(collider):
+    """In the middle of a run, from YADE's collider to ours and back."""
+    gas(collider.rival)
+    stepAndCheck(steps=5)
+    for make in (collider, collider.rival, collider):
+        utils.replaceCollider(make())
+        assert stepAndCheck(steps=5) > 5
+
+
+def testReplacedColliderTakesOver(collider):
+    """Interactions made by YADE's collider are neither doubled nor kept when they are far."""
+    gas(collider.rival, verletDist=.1)
+    O.step()
+    many = len(listed())
+    utils.replaceCollider(collider(verletDist=0))
+    O.step()
+    pairs = [p[:2] for p in listed()]
+    assert len(pairs) == len(set(pairs)) < many
+
+
+def testAttributeNames(collider):
+    """Every attribute that InsertionSortCollider has can be given, read, set and updated.
+
+    A class may have defaults of its own for how far and how often it searches."""
+    values = w.InsertionSortCollider().dict()
+    readOnly = {'boundDispatcher', 'numReinit'}
+    engine = collider()
+    for name, value in values.items():
+        assert hasattr(engine, name), name
+        if name not in readOnly:
+            if name not in ('targetInterv', 'minSweepDistFactor'):
+                assert getattr(engine, name) == value, name
+            setattr(engine, name, value)
+            assert getattr(engine, name) == value, name
+    given = {k: v for k, v in values.items() if k not in readOnly and v is not None}
+    collider(**given)
+    assert set(values) <= set(engine.dict())
+    engine.updateAttrs({'verletDist': .25})
+    assert engine.verletDist == .25
+
+
+def testUnknownKeyword(collider):
+    with pytest.raises(AttributeError):
+        collider(noSuchAttribute=1)
+    with pytest.raises(AttributeError):
+        collider().updateAttrs({'noSuchAttribute': 1})
+
+
+def testWrongArguments(collider):
+    cls = type(collider())
+    with pytest.raises(Exception):
+        cls([w.Bo1_Sphere_Aabb()], [w.Bo1_Facet_Aabb()])
+    with pytest.raises(Exception):
+        cls([w.NewtonIntegrator()])
+    with pytest.raises(Exception):
+        collider(verletDist='far')
+
+
+def testKnownToYade(collider):
+    assert O.isChildClassOf(collider.name, 'Collider')
+    assert isinstance(collider(), w.Collider)
+    assert type(collider()).__name__ == collider.name
+    assert getattr(w, collider.name) is type(collider())
+    assert collider.name in repr(collider()) or collider.name in str(type(collider()))
+
+
+def testNumActionCountsStrides(collider):
+    def actions(verletDist):
+        scenes.clear()
+        engine = gas(collider, verletDist=verletDist, targetInterv=0)
+        stepAndCheck(steps=60)
+        return engine.numAction
+    every, small, large = actions(0), actions(.02), actions(.1)
+    assert every == 60
+    assert every > small > large >= 1
+
+
+def testVerletDistIsResolved(collider):
+    """A negative verletDist becomes that share of the least sphere radius."""
+    engine = gas(collider, verletDist=-.5)
+    O.step()
+    least = min(b.shape.radius for b in O.bodies)
+    assert engine.verletDist == pytest.approx(.5 * least)
+
+
+def testNoStridesWithoutSpheres(collider):
+    """verletDist < 0 and no spheres to measure it by: a search in every step."""
+    O.bodies.append(utils.box((0, 0, 0), (1, 1, 1)))
+    engine = setEngines(collider())
+    for _ in range(3):
+        O.step()
+    assert engine.numAction == 3
+    assert engine.verletDist <= 0
+
+
+def testWithoutIntegrator(collider):
+    """No NewtonIntegrator: a search in every step, bodies moved from outside included."""
+    rng = np.random.default_rng(5)
+    addSpheres(rng.uniform(0, 1, (80, 3)), [.05] * 80)
+    setEngines(collider(verletDist=0), newton=False)
+    total = 0
+    for _ in range(10):
+        for body in O.bodies:
+            body.state.pos = Vector3(*rng.uniform(0, 1, 3))
+        total += stepAndCheck()
+    assert total > 50
+
+
+def testStridesWithoutIntegrator(collider):
+    """Strides without an integrator: refused like YADE's, or no contact missed."""
+    rng = np.random.default_rng(5)
+    addSpheres(rng.uniform(0, 1, (80, 3)), [.05] * 80)
+    setEngines(collider(verletDist=.05), newton=False)
+    try:
+        for _ in range(5):
+            for body in O.bodies:
+                body.state.pos = Vector3(*rng.uniform(0, 1, 3))
+            stepAndCheck()
+    except RuntimeError as error:
+        assert 'NewtonIntegrator' in str(error)
+
+
+def testIntegratorComesAndGoes(collider):
+    gas(collider)
+    stepAndCheck(steps=3)
+    engine = theCollider(collider)
+    O.engines = [w.ForceResetter(), engine, scenes.loop(), w.NewtonIntegrator()]
+    assert stepAndCheck(steps=5)
+
+
+def testDeadCollider(collider):
+    """dead=True stops it; alive again, it catches up."""
+    engine = gas(collider)
+    stepAndCheck(steps=2)
+    engine.dead = True
+    for _ in range(5):
+        O.step()
+    engine.dead = False
+    addSpheres([(.5, .5, .5)], [.1])
+    assert stepAndCheck(steps=5)
+
+
+def testLabelAndTypedEngine(collider):
+    import builtins
+    setEngines(collider(label='theOne'))
+    assert builtins.theOne.label == 'theOne'
+    assert utils.typedEngine(collider.name).label == 'theOne'
