@@ -59,6 +59,36 @@ def test_memorySaveAndReload():
     assert np.array_equal(O.engines[2].nodes, nodes)
 
 
+@pytest.mark.parametrize('ending', ['.xml', '.yade'])
+@pytest.mark.parametrize('damage', ['edited', 'cut off'])
+def test_damagedFileIsRefused(ending, damage, folder):
+    """Whoever moves a body in the file would have it overlap others unseen."""
+    solver = impact('LebesgueCollider')
+    steps(20)
+    path = os.path.join(folder, 'scene' + ending)
+    O.save(path)
+    nodes = solver.nodes
+    with open(path, 'rb') as file:
+        data = file.read()
+    at = data.index(b'<position>') + 100 if ending == '.xml' else data.index(nodes.tobytes()) + 200
+    with open(path, 'wb') as file:
+        file.write(data[:at])
+        if damage == 'edited':
+            digit = next(i for i in range(at, len(data)) if ending != '.xml' or
+                         chr(data[i]).isdigit())
+            other = data[digit] ^ 1
+            file.write(data[at:digit] + bytes([other]) + data[digit + 1:])
+    O.reset()
+    with pytest.raises(RuntimeError, match='^The saved state of FESolver is damaged .*; load ano'):
+        O.load(path)
+    with open(path, 'wb') as file:
+        file.write(data)
+    O.load(path)
+    solver = [e for e in O.engines if isinstance(e, w.FESolver)][0]
+    assert np.array_equal(solver.nodes, nodes)
+    steps(3)
+
+
 # --- scenes
 
 def test_severalScenes():
