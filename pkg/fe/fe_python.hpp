@@ -34,7 +34,9 @@ void FESolver::pyExtra(PyClass& pyClass) {
             const auto lock = waitBetweenSteps(self);
             return self.criticalTimeStep();
           },
-          "Longest stable time step (s) of the present mesh; infinite without bodies.")
+          "Longest stable time step (s) of the present mesh; infinite without bodies. It knows of "
+          "no "
+          "spheres: see README.md, Limits.")
       .def("fragments", &Locked<fragmentsOf>::call, (yade::py::arg("held") = false),
            "List of dicts, one per part that hangs together: component, triangles (how many), mass "
            "(kg), area (m²), centroid (m), velocity (m/s), spin (rad/s). With held=True, parts "
@@ -45,8 +47,14 @@ void FESolver::pyExtra(PyClass& pyClass) {
             return cohesiveZoneWarning(self.world().model, ComponentId(component));
           })
       .def("_setLoads", &setLoads)
-      .def("_prescribe", &prescribe)
-      .add_property("_loads", &Locked<loadsOf>::call)
+      .def("_prescribe", &prescribe);
+  valuesOf(pyClass);
+  countersOf(pyClass);
+}
+
+template <class PyClass>
+void FESolver::valuesOf(PyClass& pyClass) {
+  pyClass.add_property("_loads", &Locked<loadsOf>::call)
       .add_property("nodes", &Locked<nodesOf>::call,
                     "Positions (m), array (n, 2); a copy, as all arrays.")
       .add_property("velocities", &Locked<velocitiesOf>::call, "Of the nodes (m/s), array (n, 2).")
@@ -80,7 +88,6 @@ void FESolver::pyExtra(PyClass& pyClass) {
           "Dict of J: kinetic, strain, contact, friction, fracture, damping, external (what came "
           "in "
           "from outside), total (constant); with minFragmentArea, dropped (went with fragments).");
-  countersOf(pyClass);
 }
 
 template <class PyClass>

@@ -58,6 +58,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
 
  private:
   template <class PyClass>
+  static void valuesOf(PyClass& pyClass);
+  template <class PyClass>
   static void countersOf(PyClass& pyClass);
   void requireAlone(const yade::Scene& here) const;
   void requireOnce() const;
