@@ -45,9 +45,15 @@ std::vector<double> nodeStiffness(const Model& model) {
 
 using Masses = std::array<double, 3>;
 
-/// (kg) The element's share of its nodes' masses.
+/// (kg) The element's share of its nodes' masses: a third of its own where it may come to stand
+/// alone, for the step must hold when it does.
 Masses massShares(const Model& model, const std::vector<double>& nodeStiffness,
                   std::size_t element) {
+  const Component& c = componentOf(model, element);
+  if (c.brittle.cracks()) {
+    const double third = c.material.density * c.thickness * model.triangles.area[element] / 3;
+    return {third, third, third};
+  }
   Masses shares = cornerStiffness(model, element);
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t n = model.triangles.nodes[element][i].value;

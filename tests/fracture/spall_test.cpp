@@ -84,7 +84,6 @@ Spall strike(double size, double flyer, double relative, double share = 0) {
       ++count;
     }
     spall.firstCrack = kPlate - sum / count;
-    if (share > 0) break;
   }
   spall.cracks = world.fracture.numCracks();
   spall.energyError = totalEnergy(world) / energy - 1;
@@ -122,8 +121,8 @@ INSTANTIATE_TEST_SUITE_P(SizesFlyersStrengths, SpallOf,
 
 class SpallOfAnyMesh : public testing::TestWithParam<std::tuple<double, double, double>> {};
 
-// Up to the first crack. What the shards do to each other afterwards is another matter: one of
-// them was turned inside out.
+// Lone elements are faster than the whole: with the critical step of the whole one of the shards
+// was turned inside out.
 TEST_P(SpallOfAnyMesh, OpensWhereTheWavesPart) {
   const auto [size, flyer, relative] = GetParam();
   expectAsWavesPart(strike(size, flyer, relative, .2), size, flyer);
