@@ -44,7 +44,10 @@ TEST(CrackFlags, AllPartsOfASlaveAreWhereItWas) {
   spec.material = steel();
   const ComponentId floor = world.addBody(structuredRectangle({-2, -1}, {2, 0}, 1, 1), spec);
   spec.brittle.tensileStrength = 1e6;
-  const ComponentId block = world.addBody(structuredRectangle({-1, -kLeft}, {1, 1}, 2, 1), spec);
+  const ComponentId block = world.addBody(structuredRectangle({-1, 0}, {1, 1}, 2, 1), spec);
+  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
+    if (world.model.nodes.component[n] == block && world.model.nodes.position[n].y == 0)
+      world.model.nodes.position[n].y = -kLeft;
   const NodeId middle = nodeAt(world, block, {0, -kLeft}), top = nodeAt(world, block, {0, 1});
   const EntryId master = slaveAt(world, nodeAt(world, floor, {2, 0}));
   const EntryId before = slaveAt(world, middle);
