@@ -187,7 +187,8 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
 
     outline, holes  list of points (x, y) in m, and a list of such lists
     size            length of the triangles' edges (m)
-    material        an FEMat, its label or its number in O.materials
+    material        an FEMat, its label or its number in O.materials; as it is now: later changes of
+                    it have no effect on the body
     smooth          False: straight boundary; True: C¹-smooth everywhere; or one flag per point of
                     the outline (then the holes are straight): is the corner there smoothed
     velocity        (x, y) in m/s, or a function (x, y) → pair
@@ -199,8 +200,9 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     thickness       m
     selfContact     may the body's surfaces touch each other; those of a BrittleFEMat, whose
                     fragments have to, always do: False is refused
-    Functions are called at the nodes of the stress-free shape. ValueError before anything changes;
-    a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks.
+    Functions are called at the nodes of the stress-free shape. ValueError before anything changes,
+    also where the body would overlap another one; RuntimeError while O.run goes on in the
+    background; a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks.
     """
     points = _points('outline', outline, 3)
     try:
