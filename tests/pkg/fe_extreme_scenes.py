@@ -1,4 +1,4 @@
-"""Scenes at the limits of FESolver, for test_fe_extremes.py; run by yade, prints what comes of each.
+"""Scenes at the limits of FESolver, for test_fe_extremes.py; run by yade, prints what they come to.
 
 Each function of SCENES builds a scene that is ready to run and returns (solver, steps).
 """

@@ -6,23 +6,16 @@ given and what would be right.
 
 import math
 import numbers
-import threading
 import warnings
 
 import numpy
 
 from yade import wrapper
 from yadefrag import _yadefrag
+from yadefrag.guards import guardClump, guardErase, guardRemove, requirePaused
 from yadefrag.shown import shownTriangles
 
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
-
-
-def _requirePaused():
-    """The step of another thread must not meet a scene that changes; PyRunners are in its thread."""
-    if wrapper.Omega().running and threading.current_thread() is threading.main_thread():
-        raise RuntimeError('The simulation is running: call O.pause() and O.wait() first, or do '
-                           'this from a PyRunner.')
 
 
 def _number(name, value, isRight, right):
@@ -153,7 +146,7 @@ def _centroid(nodes, triangles):
 
 
 def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickness, selfContact):
-    _requirePaused()
+    requirePaused()
     nodes, triangles = mesh['nodes'], mesh['triangles']
     spin = _number('spin', spin, math.isfinite, 'a finite number (rad/s)')
     if not isinstance(selfContact, (bool, numpy.bool_)):
@@ -281,7 +274,7 @@ def _getLoads(self):
 
 
 def _setLoads(self, loads):
-    _requirePaused()
+    requirePaused()
     try:
         values = numpy.zeros((0, 2)) if loads is None else numpy.asarray(loads, dtype=float)
     except (TypeError, ValueError):
@@ -299,7 +292,7 @@ def prescribe(self, nodes, vx=None, vy=None):
     Call it again to change the motion, from a PyRunner for one that varies in time; the forces that
     it takes are in `energy['external']`. ValueError before anything changes.
     """
-    _requirePaused()
+    requirePaused()
     places = self.nodes
     if callable(nodes):
         chosen = numpy.array([bool(nodes(x, y)) for x, y in places], dtype=bool)
@@ -350,45 +343,6 @@ def rectangleMesh(low, high, nx, ny, crossed=False):
     return mesh['nodes'], mesh['triangles']
 
 
-def _guardErase(erase):
-    def guarded(self, id, eraseClumpMembers=False):
-        if 0 <= id < len(self) and self[id] is not None:
-            shape = self[id].shape
-            if isinstance(shape, wrapper.SurfaceSegment) and shape.entry >= 0:
-                raise ValueError(
-                    'body #%d is part of the boundary of body %d of FESolver, it cannot be erased '
-                    'alone; FESolver.removeBody(%d) takes the whole away.' %
-                    (id, shape.component, shape.component))
-        return erase(self, id, eraseClumpMembers)
-
-    guarded.__doc__ = erase.__doc__
-    return guarded
-
-
-def _guardClump(clump):
-    def guarded(self, ids, *others, **settings):
-        for id in ids if isinstance(ids, (list, tuple)) else [ids]:
-            body = self[id] if isinstance(id, int) and 0 <= id < len(self) else None
-            if body and isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.entry >= 0:
-                raise ValueError('body #%d is part of the boundary of body %d of FESolver, it '
-                                 'cannot be in a clump.' % (id, body.shape.component))
-        return clump(self, ids, *others, **settings)
-
-    guarded.__doc__ = clump.__doc__
-    return guarded
-
-
-def _guardRemove(remove):
-    def guarded(self, component):
-        _requirePaused()
-        if isinstance(component, bool) or not isinstance(component, numbers.Integral):
-            raise ValueError('component is %r, it must be the number of a body.' % (component,))
-        return remove(self, int(component))
-
-    guarded.__doc__ = remove.__doc__
-    return guarded
-
-
 def install():
     """Gives FESolver its methods, and keeps O.bodies.erase and clumps off its bodies."""
     wrapper.FESolver.addPolygon = addPolygon
@@ -396,8 +350,8 @@ def install():
     wrapper.FESolver.prescribe = prescribe
     wrapper.FESolver.minAngle = property(_minAngle, doc=_minAngle.__doc__)
     wrapper.FESolver.loads = property(_getLoads, _setLoads, doc=_getLoads.__doc__)
-    wrapper.FESolver.removeBody = _guardRemove(wrapper.FESolver.removeBody)
+    wrapper.FESolver.removeBody = guardRemove(wrapper.FESolver.removeBody)
     container = wrapper.BodyContainer
-    container.erase = _guardErase(container.erase)
-    container.clump = _guardClump(container.clump)
-    container.addToClump = _guardClump(container.addToClump)
+    container.erase = guardErase(container.erase)
+    container.clump = guardClump(container.clump)
+    container.addToClump = guardClump(container.addToClump)

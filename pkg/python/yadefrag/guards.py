@@ -1,0 +1,55 @@
+"""What must not happen to the bodies of an FESolver, and when: refused in one sentence."""
+
+import numbers
+import threading
+
+from yade import wrapper
+
+
+def requirePaused():
+    """The step of another thread must not meet a scene that changes; PyRunners are in its thread."""
+    if wrapper.Omega().running and threading.current_thread() is threading.main_thread():
+        raise RuntimeError('The simulation is running: call O.pause() and O.wait() first, or do '
+                           'this from a PyRunner.')
+
+
+def guardErase(erase):
+    """O.bodies.erase that leaves single pieces of a boundary alone."""
+    def guarded(self, id, eraseClumpMembers=False):
+        if 0 <= id < len(self) and self[id] is not None:
+            shape = self[id].shape
+            if isinstance(shape, wrapper.SurfaceSegment) and shape.entry >= 0:
+                raise ValueError(
+                    'body #%d is part of the boundary of body %d of FESolver, it cannot be erased '
+                    'alone; FESolver.removeBody(%d) takes the whole away.' %
+                    (id, shape.component, shape.component))
+        return erase(self, id, eraseClumpMembers)
+
+    guarded.__doc__ = erase.__doc__
+    return guarded
+
+
+def guardClump(clump):
+    """O.bodies.clump and addToClump without pieces of a boundary: YADE would end the process."""
+    def guarded(self, ids, *others, **settings):
+        for id in ids if isinstance(ids, (list, tuple)) else [ids]:
+            body = self[id] if isinstance(id, int) and 0 <= id < len(self) else None
+            if body and isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.entry >= 0:
+                raise ValueError('body #%d is part of the boundary of body %d of FESolver, it '
+                                 'cannot be in a clump.' % (id, body.shape.component))
+        return clump(self, ids, *others, **settings)
+
+    guarded.__doc__ = clump.__doc__
+    return guarded
+
+
+def guardRemove(remove):
+    """FESolver.removeBody that says what is wrong with a number."""
+    def guarded(self, component):
+        requirePaused()
+        if isinstance(component, bool) or not isinstance(component, numbers.Integral):
+            raise ValueError('component is %r, it must be the number of a body.' % (component,))
+        return remove(self, int(component))
+
+    guarded.__doc__ = remove.__doc__
+    return guarded
