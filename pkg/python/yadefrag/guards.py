@@ -7,7 +7,7 @@ from yade import wrapper
 
 
 def requirePaused():
-    """The step of another thread must not meet a scene that changes; PyRunners are in its thread."""
+    """The step of another thread must not meet a scene that changes. PyRunners are in its own."""
     if wrapper.Omega().running and threading.current_thread() is threading.main_thread():
         raise RuntimeError('The simulation is running: call O.pause() and O.wait() first, or do '
                            'this from a PyRunner.')
