@@ -179,6 +179,25 @@ inline constexpr double kHaloSteps = 40;
 /// (ratio) Spare for acceleration when it is foreseen whether the next step leaves the halo.
 inline constexpr double kHaloSpare = 1.1;
 
+/// (of the reach within which nobody may be) A body is apart from others that are farther than
+/// `kApart`, so that not every look finds another choice; gaps up to `kApartLook` are looked at,
+/// which a body eats up in some hundred steps.
+inline constexpr double kApart = 2, kApartLook = 8;
+
+/// (of the largest move in a step) Reach of bodies that are apart, if that is more than the halo:
+/// even two that fly towards each other are seen well before they could meet.
+inline constexpr double kApartMoves = 8;
+
+/// (ratio) Spare for acceleration until all velocities are looked at again: steps in which nobody
+/// is faster need no look at the nodes.
+inline constexpr double kSpeedSpare = 1.25;
+
+/// (m/s) Nobody is fast below this if nothing else is said; its square and its way are finite.
+inline constexpr double kAnySpeed = 1e100;
+
+/// (count) Boxes that are sooner compared with each other than sorted.
+inline constexpr std::size_t kFewBoxes = 12;
+
 /// (count) Elements whose forces are summed in one go: their nodes stay in the first-level cache,
 /// and few of them belong to another chunk too.
 inline constexpr std::size_t kChunkElements = 512;

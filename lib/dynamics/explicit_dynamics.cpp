@@ -161,9 +161,10 @@ Vec2 ExplicitDynamics::holdBack(const Nodes& nodes, std::size_t node, Vec2& velo
 
 /// `kForced`: are there loads or outer forces.
 template <bool kForced>
-bool ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begin,
+void ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begin,
                             std::size_t end) {
-  bool good = true;
+  const double slow = speedLimit_ * speedLimit_;
+  bool good = true, faster = false;
   for (std::size_t n = begin; n < end; ++n) {
     Vec2 force = force_[n];
     if constexpr (kForced) {
@@ -175,12 +176,23 @@ bool ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begi
     previousVelocity_[n] = nodes.held[n] == kFree ? before : holdBack(nodes, n, v);
     const Vec2 x = nodes.position[n] + update.dt * v;
     nodes.velocity[n] = v;
-    if (isFinite(x)) [[likely]]
+    // A slow node's way is finite, and too short to leave the finite numbers.
+    if (dot(v, v) <= slow) [[likely]] {
+      nodes.position[n] = x;
+      continue;
+    }
+    faster = true;
+    if (isFinite(x))
       nodes.position[n] = x;
     else
       good = false;
   }
-  return good;
+  if (faster)
+#pragma omp atomic write
+    anyFaster_ = true;
+  if (!good)
+#pragma omp atomic write
+    badNode_ = true;
 }
 
 void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscosity& viscosity) {
@@ -205,9 +217,7 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
     sumShared(viscosity, NodeId(begin), NodeId(end));
     const bool forced = !update.load.empty() || !update.outer.empty();
     const auto moveAll = forced ? &ExplicitDynamics::move<true> : &ExplicitDynamics::move<false>;
-    if (!badElement_ && !(this->*moveAll)(model.nodes, update, begin, end))
-#pragma omp atomic write
-      badNode_ = true;
+    if (!badElement_) (this->*moveAll)(model.nodes, update, begin, end);
   }
 }
 
@@ -217,7 +227,7 @@ void ExplicitDynamics::predict(Model& model, double dt, const StepSettings& sett
   assert(outerForces.empty() || outerForces.size() == model.nodes.size());
   const double d = settings.drag(dt);
   const double rate = dt / (1 + d);
-  badElement_ = badNode_ = false;
+  badElement_ = badNode_ = anyFaster_ = false;
   viscousForce_.resize(settings.viscosity.isOn() ? force_.size() : 0);
   partialViscous_.resize(settings.viscosity.isOn() ? elements_.partials() : 0);
   step(model,

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/tolerances.hpp"
 #include "dynamics/element_kernel.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "mesh/model.hpp"
@@ -47,6 +48,13 @@ class ExplicitDynamics {
   /// Small ranges, ascending, that hold all elements found stressed in the last step, at its xⁿ.
   [[nodiscard]] std::span<const ElementRange> stressed() const { return stressed_; }
 
+  /// From now on each step tells whether any node became faster than `most` (m/s, up to
+  /// `kAnySpeed`), which costs nothing: it takes the place of another look at the new velocity.
+  void watchSpeed(double most) { speedLimit_ = most; }
+  [[nodiscard]] double speedLimit() const { return speedLimit_; }
+  /// In the last step.
+  [[nodiscard]] bool anyFaster() const { return anyFaster_; }
+
   /// One step; `outerForces` (N, by node) may be empty. Held directions keep their velocity. The
   /// result has the same bits for any number of threads.
   /// Throws RunError with element or node and place, and leaves the last good state: where an
@@ -86,7 +94,7 @@ class ExplicitDynamics {
   Vec2 holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity);
   void sumShared(const BulkViscosity& viscosity, NodeId begin, NodeId end);
   template <bool kForced>
-  bool move(Nodes& nodes, const Update& update, std::size_t begin, std::size_t end);
+  void move(Nodes& nodes, const Update& update, std::size_t begin, std::size_t end);
   void step(Model& model, const Update& update, const BulkViscosity& viscosity);
   [[noreturn]] void refuseElement(Model& model, double dt) const;
   [[noreturn]] void refuseNode(Model& model, double dt) const;
@@ -101,8 +109,9 @@ class ExplicitDynamics {
   std::vector<Scratch> scratch_;       // one per thread
   std::vector<double> leastStrength_;  // Pa, by component
   std::vector<ElementRange> stressed_;
+  double speedLimit_ = tolerance::kAnySpeed;  // m/s
   bool watching_ = false;
-  bool badElement_ = false, badNode_ = false;
+  bool badElement_ = false, badNode_ = false, anyFaster_ = false;
 };
 
 }  // namespace yadefrag

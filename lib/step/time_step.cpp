@@ -11,7 +11,7 @@ void World::step(double dt) {
   requireStableStep(dt);
 
   // Where the surface is at xⁿ: contact forces act there, and a step that fails goes back there.
-  rememberSurface();
+  rememberSurface(dt);
 
   // Internal forces, then v* and x*, as if there were no contact.
   predict(dt);
@@ -22,9 +22,9 @@ void World::step(double dt) {
   // Global search, only if a node left the halo of the last one: mostly a collider has searched, or
   // the last candidates still hold.
   if (canTouch()) {
-    measureMove();
+    measureMove(dt);
     requireSearchableMotion(dt);
-    searchIfLeft();
+    searchIfLeft(dt);
     requireResolvedMotion(dt);
     // Local search and correction, from x*, v* to xⁿ⁺¹, vⁿ⁺½.
     correctContact(dt);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/tolerances.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "fracture/checks.hpp"
 #include "mesh/assembly.hpp"
@@ -129,11 +130,9 @@ void World::buildIfChanged() {
     dynamics_.reserve(room);
     contact.reserve(room);
   }
-  if (search.nodes.empty() && canTouch()) {
-    for (const NodeId node : surfaces.segmentNode)
-      if (model.nodes.mass[node.value] > 0) search.nodes.push_back(node);
-    std::sort(search.nodes.begin(), search.nodes.end());
-  }
+  if (search.isVoid && canTouch()) watchAll();
+  if (canTouch()) apart_.takeFrom(model, search.nodes);
+  dynamics_.watchSpeed(canTouch() ? 0 : tolerance::kAnySpeed);
   watchStrengths();
   search_.reset();
   finest_ = finestSegment();

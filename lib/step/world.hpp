@@ -18,6 +18,7 @@
 #include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "search/contact_search.hpp"
+#include "step/apart_bodies.hpp"
 #include "step/body_places.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -38,11 +39,13 @@ struct BodySpec {
 
 /// The state of the global search: what it covers, and until when.
 struct SearchState {
-  double halo = 0;              ///< m, δ of the last search
-  double shortest = 0;          ///< m, shortest boundary segment then
-  bool isDue = true;            ///< the next step may leave the halo
-  bool isVoid = true;           ///< entries came or went: there are no candidates to go on with
-  std::vector<NodeId> nodes;    ///< of the surfaces; those that came by cracks are the last ones
+  double halo = 0;      ///< m, δ of the last search
+  double shortest = 0;  ///< m, shortest boundary segment then
+  bool isDue = true;    ///< the next step may leave the halo
+  bool isVoid = true;   ///< entries came or went: there are no candidates to go on with
+  /// Of the surfaces of bodies that are not apart from all others; those that came by cracks are
+  /// the last ones.
+  std::vector<NodeId> nodes;
   std::vector<Vec2> positions;  ///< m, of those nodes at the last search, or when they came
 };
 
@@ -121,9 +124,15 @@ class World {
   void buildIfChanged();
   void requireStableStep(double dt);
   void watchStrengths();
-  void rememberSurface();
-  void searchIfLeft();
-  void searchNow();
+  void rememberSurface(double dt);
+  void copySurface();
+  void watchAll();
+  void watchSpeed(double dt);
+  void watchApart(double dt);
+  void chooseWatched(double ago);
+  [[nodiscard]] double apartReach() const;
+  void searchIfLeft(double dt);
+  void searchNow(double dt);
   void considerPairs(std::span<const BoxPair> overlapping);
   void requireApart(const TriangleMesh& mesh, const BodySpec& spec);
   void requireSearchableMotion(double dt);
@@ -142,7 +151,7 @@ class World {
   void addCrackCandidates();
   [[nodiscard]] double finestSegment() const;
   [[nodiscard]] bool canTouch() const;
-  void measureMove();
+  void measureMove(double dt);
   [[nodiscard]] double wideHalo(double move) const;
   [[nodiscard]] double fastest() const;
   void predict(double dt);
@@ -163,7 +172,10 @@ class World {
   bool isBuilt_ =
       false;  // do the arrays below fit the model: many bodies join, then one step comes
   bool severalBodies_ = false;
-  double largestMove_ = 0;  // m, of a surface node from xⁿ to x*
+  double largestMove_ = 0;  // m, of a watched node from xⁿ to x*; a bound
+  double mostMove_ = 0;     // m, of any node; a bound
+  bool isQuiet_ = false;    // nobody can come near another in this step: xⁿ is not remembered
+  ApartBodies apart_;
   double farthest_ =
       INFINITY;              // m, no surface node is farther from where it was at the last search
   double finest_ = 0;        // m, shortest stress-free segment: does not hang on when was searched

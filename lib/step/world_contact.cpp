@@ -36,26 +36,6 @@ bool World::canTouch() const {
   return model.components[owners.front().value].selfContact || severalBodies_;
 }
 
-void World::rememberSurface() {
-  if (!canTouch()) return;
-  const StageTimer timer(timesIfAsked(), &StageTimes::search);
-  for (const NodeId node : search.nodes) before_[node.value] = model.nodes.position[node.value];
-}
-
-/// Between two searches most steps need no look at all nodes: the sum of the largest moves is bound
-/// enough.
-void World::measureMove() {
-  if (!canTouch()) return;
-  const StageTimer timer(timesIfAsked(), &StageTimes::search);
-  double most = 0;
-  for (const NodeId node : search.nodes) {
-    const Vec2 moved = model.nodes.position[node.value] - before_[node.value];
-    most = std::max(most, dot(moved, moved));
-  }
-  largestMove_ = std::sqrt(most);
-  farthest_ += largestMove_;
-}
-
 double World::fastest() const {
   double most = 0;
   for (const NodeId node : surfaces.segmentNode) {
@@ -95,7 +75,9 @@ void World::takePairs(std::span<const BoxPair> overlapping) {
     search.isDue = search.isVoid = false;
     return;
   }
-  rememberSurface();
+  watchSpeed(lastDt);
+  chooseWatched(0);
+  copySurface();
   considerPairs(overlapping);
 }
 
@@ -110,12 +92,14 @@ void World::considerPairs(std::span<const BoxPair> overlapping) {
   farthest_ = 0;
   search.isDue = search.isVoid = false;
   ++numSearches;
+  // Where all are watched in every step anyway, nobody asks for more.
+  if (!apart_.any() && contact.candidates.size() > 0) dynamics_.watchSpeed(tolerance::kAnySpeed);
 }
 
 /// Nothing is missed: whatever was foreseen, x* itself decides.
-void World::searchIfLeft() {
+void World::searchIfLeft(double dt) {
   const StageTimer timer(timesIfAsked(), &StageTimes::search);
-  if (search.isDue || search.isVoid) return searchNow();
+  if (search.isDue || search.isVoid) return searchNow(dt);
   if (farthest_ <= search.halo / 2) return;
   double most = 0;
   for (std::size_t i = 0; i < search.nodes.size(); ++i) {
@@ -123,17 +107,25 @@ void World::searchIfLeft() {
     most = std::max(most, dot(moved, moved));
   }
   farthest_ = std::sqrt(most);
-  if (!(farthest_ <= search.halo / 2)) searchNow();
+  if (!(farthest_ <= search.halo / 2)) searchNow(dt);
 }
 
-/// The world's own search, at x*: all boxes, position codes moved, pairs.
-void World::searchNow() {
+/// The world's own search, at x*: all boxes but of bodies that are apart, position codes moved,
+/// pairs.
+void World::searchNow(double dt) {
   // As wide as the collider's would be, and at least as wide as this step's own motion.
-  search.shortest = shortestSegment(surfaces, model.nodes.position);
-  search.halo = wideHalo(2 * tolerance::kHaloSpare * largestMove_);
+  if (apart_.any()) {
+    chooseHalo(dt);
+  } else {
+    search.shortest = shortestSegment(surfaces, model.nodes.position);
+    search.halo = wideHalo(2 * tolerance::kHaloSpare * largestMove_);
+  }
+  watchSpeed(dt);
+  chooseWatched(dt);
   if (!search_) search_ = makeSearch(SearchMethod::kLebesgue);
   boxes_.resize(surfaces.entries());
-  for (std::size_t e = 0; e < boxes_.size(); ++e) boxes_[e] = boxOf(EntryId(e));
+  for (std::size_t e = 0; e < boxes_.size(); ++e)
+    boxes_[e] = apart_.isApart(surfaces.component[e]) ? Box::absent() : boxOf(EntryId(e));
   search_->setThreads(threads);
   search_->update(boxes_);
   overlapping_.clear();
@@ -154,6 +146,7 @@ void World::correctContact(double dt) {
                         timesIfAsked()};
   contact.correct(model, surfaces, contactSettings, now);
   farthest_ += contact.largestCorrection();
+  apart_.comeNearer(2 * contact.largestCorrection());
 }
 
 void World::bookContact(double dt) {
@@ -164,26 +157,6 @@ void World::bookContact(double dt) {
     ledger.contact -= row.normalForce * dot(mean, row.normal) * dt;
     ledger.friction -= row.tangentForce * dot(mean, row.tangent()) * dt;
   }
-}
-
-/// May the next step leave the halo?
-void World::foreseeSearch(double dt) {
-  if (search.isDue) return;
-  const StageTimer timer(timesIfAsked(), &StageTimes::search);
-  const double most = largestMove_ + contact.largestCorrection();
-  if (farthest_ + tolerance::kHaloSpare * most <= search.halo / 2) return;
-  double farthest = 0;
-  for (std::size_t i = 0; i < search.nodes.size(); ++i) {
-    const std::uint32_t node = search.nodes[i].value;
-    const double moved = norm(model.nodes.position[node] - search.positions[i]);
-    farthest = std::max(farthest, moved);
-    const double next = tolerance::kHaloSpare * norm(model.nodes.velocity[node]) * dt;
-    if (moved + next > search.halo / 2) {
-      search.isDue = true;
-      return;
-    }
-  }
-  farthest_ = farthest;
 }
 
 }  // namespace yadefrag

@@ -23,6 +23,7 @@ Footprint World::footprint() const {
   contact.addTo(sum);
   fracture.addTo(sum);
   loose_.addTo(sum);
+  apart_.addTo(sum);
   passRule_.addTo(sum);
   if (search_) search_->addTo(sum);
   return sum;

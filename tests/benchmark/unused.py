@@ -23,6 +23,8 @@ from instructions import Feature
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 RINGS, STEPS = 8, 100
+# Scenes of bodies far from each other: steps, enough to look whether they still are.
+FAR = dict(blocks=100, squares=400, farRings=400)
 WAYS = ('absent', 'imported', 'used')
 
 
@@ -44,7 +46,7 @@ def features(root=ROOT):
 
 def contactCode(root=ROOT):
     """What bodies that are far from each other could do without."""
-    return Feature(root, r'^(contact|search|curve)/|world_contact|entry_pairs')
+    return Feature(root, r'^(contact|search|curve)/|world_(contact|watch)|entry_pairs|apart_bodies')
 
 
 def run(program, *arguments):
@@ -66,9 +68,9 @@ def unusedShares(program, folder, root=ROOT):
     return {name: feature.share(costs) for name, feature in features(root).items()}, said
 
 
-def farShare(program, folder, root=ROOT):
-    """The share of contact where no body is ever near another."""
-    _, costs = counted(program, folder, 'blocks', 2, 50)
+def farShare(program, folder, scene, root=ROOT):
+    """The share of contact where no body is ever near another; `scene`: one of FAR."""
+    _, costs = counted(program, folder, scene, 2, FAR[scene])
     return contactCode(root).share(costs)
 
 
@@ -133,8 +135,9 @@ def _measureElements(program, folder, repeat):
             memory=statistics.median(a['peak'] - b['peak'] for a, b in pairs))
         print(name, 'measured', file=sys.stderr, flush=True)
     rows['space'] = dict(share=shares['space'], bytes=0)
-    rows['contact'] = dict(share=farShare(program, folder),
-                           bytes=run(program, 'blocks', 2, 50)['bytes']['contact'])
+    for scene in FAR:
+        rows[f'contact, {scene}'] = dict(share=farShare(program, folder, scene),
+                                         bytes=run(program, scene, 2, 50)['bytes']['contact'])
     return rows
 
 

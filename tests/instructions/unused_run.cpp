@@ -1,6 +1,8 @@
 // One run for tests/benchmark/unused.py:
 //   yadefrag_unused rings COUNT STEPS [FEATURE...]
-//   yadefrag_unused blocks COUNT STEPS             (far from each other)
+//   yadefrag_unused blocks COUNT STEPS             (far from each other, as the next ones)
+//   yadefrag_unused squares COUNT STEPS            (of a coarser mesh)
+//   yadefrag_unused farRings COUNT STEPS
 //
 // Prints one line of JSON. Under callgrind only the last steps are counted: not how the scene is
 // made, and not the steps until its bodies have met.
@@ -83,8 +85,10 @@ int main(int count, char** arguments) {
     }
   World world;
   const int bodies = std::atoi(arguments[2]);
-  if (scene == "blocks")
-    addFarBlocks(world, bodies, 64);
+  if (scene == "blocks" || scene == "squares")
+    addFarBlocks(world, bodies, scene == "blocks" ? 64 : 24);
+  else if (scene == "farRings")
+    addFarRings(world, bodies);
   else
     addRings(world, bodies, uses);
   run(world, uses.cohesion ? .2 : .8, std::max(1, std::atoi(arguments[3])));

@@ -39,8 +39,15 @@ def testFeatureThatIsUsedIsSeen(folder, feature):
     assert unused.features()[feature].share(costs) > .3 * kMost
 
 
-def testBodiesThatAreNeverNearTakeNoContact(folder):
-    assert unused.farShare(kProgram, folder) <= kMost
+@pytest.mark.parametrize('scene', unused.FAR)
+def testBodiesThatAreNeverNearTakeNoContact(folder, scene):
+    assert unused.farShare(kProgram, folder, scene) <= kMost
+
+
+def testBodiesThatAreNearTakeContact(folder):
+    """The pattern of contact's code finds it: the test above can fail."""
+    _, costs = unused.counted(kProgram, folder, 'rings', 4, 10)
+    assert unused.contactCode().share(costs) > 10 * kMost
 
 
 def testSpheresDoNotPayForThePlugin(folder):

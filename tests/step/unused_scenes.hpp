@@ -46,6 +46,16 @@ inline TriangleMesh ringMesh(Vec2 centre, double inner) {
   return triangulate(ring, kRingSize);
 }
 
+/// Rings with inner radii of 5 mm, 0.1 m apart, each in a direction of its own: mostly surface.
+inline void addFarRings(World& world, int count) {
+  std::mt19937_64 random(12);
+  for (int i = 0; i < count; ++i) {
+    const TriangleMesh mesh = ringMesh({.1 * i, 0}, 5e-3);
+    world.addBody(mesh,
+                  fescenes::steelBody(mesh, fescenes::kSpeed * fescenes::someDirection(random)));
+  }
+}
+
 /// Of steel, `count` of them, 0.02 mm apart; each flies in a direction of its own.
 inline void addRings(World& world, int count, const Uses& uses) {
   std::mt19937_64 random(12);

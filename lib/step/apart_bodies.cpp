@@ -1,0 +1,90 @@
+#include "step/apart_bodies.hpp"
+
+#include <algorithm>
+
+#include "core/tolerances.hpp"
+#include "search/contact_search.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+/// Around the surface of each body; arcs lie within the hull of their nodes.
+std::vector<Box> bodyBoxes(const Model& model, const ContactSurfaces& surfaces, double margin) {
+  std::vector<Box> boxes(model.components.size(), Box::absent());
+  const Nodes& nodes = model.nodes;
+  for (const NodeId node : surfaces.segmentNode) {
+    if (nodes.mass[node.value] == 0) continue;  // of a dropped triangle
+    Box& box = boxes[nodes.component[node.value].value];
+    const Vec2 at = nodes.position[node.value];
+    box.min = {std::min(box.min[0], at.x), std::min(box.min[1], at.y), 0};
+    box.max = {std::max(box.max[0], at.x), std::max(box.max[1], at.y), 0};
+  }
+  for (Box& box : boxes)
+    for (std::size_t axis = 0; axis < 2; ++axis) box.min[axis] -= margin, box.max[axis] += margin;
+  return boxes;
+}
+
+/// (m) Of two boxes with margins: two bodies are at least so far from each other.
+double gapBetween(const Box& a, const Box& b, double margin) {
+  const double x = std::max(a.min[0] - b.max[0], b.min[0] - a.max[0]);
+  const double y = std::max(a.min[1] - b.max[1], b.min[1] - a.max[1]);
+  return std::max(x, y) + 2 * margin;
+}
+
+}  // namespace
+
+std::vector<ApartBodies::Gap> ApartBodies::gapsBelow(const Model& model,
+                                                     const ContactSurfaces& surfaces,
+                                                     double width) {
+  const std::vector<Box> boxes = bodyBoxes(model, surfaces, width / 2);
+  const bool few = boxes.size() <= tolerance::kFewBoxes;
+  const auto search = makeSearch(few ? SearchMethod::kBruteForce : SearchMethod::kLebesgue);
+  std::vector<BoxPair> pairs;
+  search->update(boxes);
+  search->findPairs(pairs);
+  std::vector<Gap> gaps;
+  gaps.reserve(pairs.size());
+  for (const auto& [first, second] : pairs)
+    gaps.push_back({ComponentId(first.value), ComponentId(second.value),
+                    gapBetween(boxes[first.value], boxes[second.value], width / 2)});
+  return gaps;
+}
+
+void ApartBodies::takeFrom(const Model& model, std::span<const NodeId> watched) {
+  apart_.assign(model.components.size(), 1);
+  for (const NodeId node : watched) apart_[model.nodes.component[node.value].value] = 0;
+  former_ = apart_;
+  count_ = std::count(apart_.begin(), apart_.end(), 1);
+  spare_ = -1;
+}
+
+bool ApartBodies::choose(const Model& model, const ContactSurfaces& surfaces, double reach) {
+  std::swap(former_, apart_);
+  const std::size_t bodies = model.components.size();
+  apart_.resize(bodies);
+  for (std::size_t c = 0; c < bodies; ++c) apart_[c] = model.components[c].selfContact ? 0 : 1;
+  count_ = std::count(apart_.begin(), apart_.end(), 1);
+  if (count_ > 0) {
+    const double widest = tolerance::kApartLook * reach;
+    const std::vector<Gap> gaps = gapsBelow(model, surfaces, widest);
+    for (const Gap& gap : gaps)
+      if (gap.width <= tolerance::kApart * reach) apart_[gap.a.value] = apart_[gap.b.value] = 0;
+    count_ = std::count(apart_.begin(), apart_.end(), 1);
+    measure(gaps, widest, reach);
+  }
+  return apart_ != former_;
+}
+
+void ApartBodies::look(const Model& model, const ContactSurfaces& surfaces, double reach) {
+  const double widest = tolerance::kApartLook * reach;
+  measure(gapsBelow(model, surfaces, widest), widest, reach);
+}
+
+void ApartBodies::measure(const std::vector<Gap>& gaps, double widest, double reach) {
+  spare_ = widest - reach;
+  for (const Gap& gap : gaps)
+    if (isApart(gap.a) || isApart(gap.b)) spare_ = std::min(spare_, gap.width - reach);
+}
+
+}  // namespace yadefrag
