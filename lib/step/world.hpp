@@ -79,7 +79,8 @@ class World {
   /// Half the halo around an entry's piece, for a search by somebody else (a collider). To be asked
   /// before that search, if one is due: the halo's width follows the velocities.
   [[nodiscard]] Box boxOf(EntryId entry) const;
-  void chooseHalo(double dt);
+  /// `first`: the segments before it are where, and as fast as, they were at the last call.
+  void chooseHalo(double dt, SegmentId first = SegmentId(0));
   /// Takes pairs of entries whose boxes overlap at the present positions in place of the world's
   /// own search.
   void takePairs(std::span<const BoxPair> overlapping);
@@ -153,7 +154,7 @@ class World {
   [[nodiscard]] bool canTouch() const;
   void measureMove(double dt);
   [[nodiscard]] double wideHalo(double move) const;
-  [[nodiscard]] double fastest() const;
+  [[nodiscard]] double fastest(SegmentId first) const;
   void predict(double dt);
   void finish(double dt);
   [[nodiscard]] StageTimes* timesIfAsked() { return timing ? &times : nullptr; }
@@ -178,6 +179,7 @@ class World {
   ApartBodies apart_;
   double farthest_ =
       INFINITY;              // m, no surface node is farther from where it was at the last search
+  double fastest_ = 0;       // m/s, of all nodes when the halo was chosen
   double finest_ = 0;        // m, shortest stress-free segment: does not hang on when was searched
   double droppedBelow_ = 0;  // m², no loose fragment is smaller; 0: unknown
   double stableStep_ = 0;    // s, the longest step that has been found stable

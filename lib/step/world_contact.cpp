@@ -12,10 +12,11 @@ namespace yadefrag {
 
 namespace {
 
-/// (m) 0 without any.
-double shortestSegment(const ContactSurfaces& surfaces, std::span<const Vec2> positions) {
+/// (m) Of those from `first` on; 0 without any.
+double shortestSegment(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
+                       SegmentId first = SegmentId(0)) {
   double least = INFINITY;
-  for (std::size_t s = 0; s < surfaces.segments(); ++s) {
+  for (std::size_t s = first.value; s < surfaces.segments(); ++s) {
     if (surfaces.isGone(SegmentId(s))) continue;
     const NodeId a = surfaces.segmentNode[s];
     const NodeId b = surfaces.segmentNode[surfaces.segmentNext[s].value];
@@ -36,9 +37,9 @@ bool World::canTouch() const {
   return model.components[owners.front().value].selfContact || severalBodies_;
 }
 
-double World::fastest() const {
+double World::fastest(SegmentId first) const {
   double most = 0;
-  for (const NodeId node : surfaces.segmentNode) {
+  for (const NodeId node : std::span(surfaces.segmentNode).subspan(first.value)) {
     const Vec2 velocity = model.nodes.velocity[node.value];
     most = std::max(most, dot(velocity, velocity));
   }
@@ -61,9 +62,11 @@ double World::wideHalo(double move) const {
   return std::max(wanted, 2 * move);
 }
 
-void World::chooseHalo(double dt) {
-  search.shortest = shortestSegment(surfaces, model.nodes.position);
-  const double fast = wideHalo(2 * tolerance::kHaloSpare * fastest() * dt);
+void World::chooseHalo(double dt, SegmentId first) {
+  const double shortest = shortestSegment(surfaces, model.nodes.position, first);
+  search.shortest = first.value == 0 ? shortest : std::min(search.shortest, shortest);
+  fastest_ = first.value == 0 ? fastest(first) : std::max(fastest_, fastest(first));
+  const double fast = wideHalo(2 * tolerance::kHaloSpare * fastest_ * dt);
   // A step that needs more is refused; until then nobody shall make candidates of everything.
   const double most = 4 * tolerance::kHaloSpare * tolerance::kFarthestMove * search.shortest;
   search.halo = std::min(fast, most);

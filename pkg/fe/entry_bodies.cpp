@@ -115,7 +115,7 @@ void EntryBodies::add(yade::Scene& scene, const World& world,
   for (std::size_t e = first; e < world.surfaces.entries(); ++e)
     append(scene, world, EntryId(e), material);
   mapEntries(first);
-  update(world, 0, 1);
+  update(world, 0, 1, first);
 }
 
 void EntryBodies::follow(yade::Scene& scene, const World& world) {
@@ -217,14 +217,14 @@ void EntryBodies::findBodies(const yade::Scene& scene) {
 }
 
 /// In two passes: a neighbour's tangent must be the very number that the neighbour computes itself.
-void EntryBodies::update(const World& world, double dt, int threads) {
+void EntryBodies::update(const World& world, double dt, int threads, std::size_t first) {
   const ContactSurfaces& surfaces = world.surfaces;
   const Nodes& nodes = world.model.nodes;
   const PieceGeometry geometry(surfaces, nodes.position);
   pieces_.resize(ids_.size());
   const auto inParts = [&](const auto& work) {
-    forEachPart(ids_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
-      for (std::size_t e = begin; e < end; ++e)
+    forEachPart(ids_.size() - first, threads, [&](std::size_t begin, std::size_t end, int) {
+      for (std::size_t e = first + begin; e < first + end; ++e)
         if (hasBody(EntryId(e))) work(e);
     });
   };
@@ -263,9 +263,9 @@ void EntryBodies::update(const World& world, double dt, int threads) {
   });
 }
 
-void EntryBodies::setHalo(double halfHalo) {
-  for (const auto& shape : shapes_)
-    if (shape) shape->halo = halfHalo;
+void EntryBodies::setHalo(double halfHalo, std::size_t first) {
+  for (std::size_t e = first; e < shapes_.size(); ++e)
+    if (shapes_[e]) shapes_[e]->halo = halfHalo;
 }
 
 double EntryBodies::halo() const {

@@ -29,9 +29,9 @@ class EntryBodies {
   /// Throws RunError if a body is not in this scene any more.
   void requireAll(const yade::Scene& scene);
   /// Shapes and states as of now. `dt`: what an integrator will still move the bodies by (s), 0:
-  /// nothing will.
-  void update(const World& world, double dt, int threads);
-  void setHalo(double halfHalo);
+  /// nothing will. `first`: of the entries from there on.
+  void update(const World& world, double dt, int threads, std::size_t first = 0);
+  void setHalo(double halfHalo, std::size_t first = 0);
   /// (m) What setHalo was told; NaN without bodies.
   [[nodiscard]] double halo() const;
   /// Forces and torques on the bodies, as forces on the nodes: their sum, their moment and their

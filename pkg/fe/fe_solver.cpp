@@ -21,6 +21,7 @@ namespace yadefrag {
 void FESolver::action() {
   if (bodies_.ids().empty()) return;
   const std::lock_guard lock(betweenSteps_);
+  surveyed_ = 0;
   if (scene->isPeriodic)
     throw std::invalid_argument("FESolver: the scene is periodic, which its bodies cannot be.");
   requireOnce();
@@ -64,6 +65,16 @@ void FESolver::prepareSearch(double dt) {
   scene->doSort = true;
 }
 
+/// The same for the last body, whose entries begin at `first`. Many bodies are mostly added in a
+/// row: as long as nothing moves, each costs no more than itself.
+void FESolver::prepareNewcomer(std::size_t first) {
+  world_.chooseHalo(world_.lastDt, SegmentId(surveyed_));  // O.dt may not be set yet
+  surveyed_ = world_.surfaces.segments();
+  const double half = .5 * world_.search.halo;
+  bodies_.setHalo(half, bodies_.halo() == half ? first : 0);
+  scene->doSort = true;
+}
+
 /// What an integrator behind this engine moves the bodies by: it moves those that obey no forces
 /// too, by velocity times step.
 double FESolver::timeToIntegrate() const {
@@ -103,9 +114,11 @@ void FESolver::requireOnce() const {
 
 /// Bodies of two solvers would not see each other.
 void FESolver::requireAlone(const yade::Scene& here) const {
-  for (const auto& body : here.bodies->body) {
-    if (!body || bodies_.entryOf(body->id) != EntryId::none()) continue;
-    const auto* segment = dynamic_cast<const SurfaceSegment*>(body->shape.get());
+  const auto& present = here.bodies->body;
+  for (std::size_t id = 0; id < present.size(); ++id) {
+    if (bodies_.entryOf(static_cast<yade::Body::id_t>(id)) != EntryId::none() || !present[id])
+      continue;
+    const auto* segment = dynamic_cast<const SurfaceSegment*>(present[id]->shape.get());
     if (segment && segment->entry >= 0)
       throw InputError(
           "The scene has bodies of another FESolver; add this one to that solver, or they would "
@@ -133,8 +146,9 @@ int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
   }
   const ComponentId component = world_.addBody(mesh, spec);
   scene = &here;
+  const std::size_t first = bodies_.ids().size();
   bodies_.add(here, world_, material);
-  prepareSearch(world_.lastDt);  // O.dt may not be set yet
+  prepareNewcomer(first);
   return static_cast<int>(component.value);
 }
 
@@ -149,6 +163,7 @@ void FESolver::removeBody(int component) {
     text << "component is " << component << ", which is no body of this FESolver.";
     throw InputError(text.str());
   }
+  surveyed_ = 0;
   bodies_.remove(here, world_, ComponentId(index));
   world_.removeBody(ComponentId(index));
 }

@@ -34,7 +34,10 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
 
   [[nodiscard]] double criticalTimeStep();
   [[nodiscard]] const World& world() const { return world_; }
-  [[nodiscard]] World& changeWorld() { return world_; }
+  [[nodiscard]] World& changeWorld() {
+    surveyed_ = 0;
+    return world_;
+  }
   [[nodiscard]] const EntryBodies& entryBodies() const { return bodies_; }
   /// Held by each step: arrays grow in it.
   [[nodiscard]] std::recursive_mutex& betweenSteps() const { return betweenSteps_; }
@@ -67,6 +70,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void giveSettings();
   void followCracks(std::uint64_t dropped);
   void prepareSearch(double dt);
+  void prepareNewcomer(std::size_t first);
   [[nodiscard]] double timeToIntegrate() const;
   void trackEnergy() const;
   [[nodiscard]] int threadsToUse() const;
@@ -74,6 +78,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   World world_;
   EntryBodies bodies_;
   std::vector<BoxPair> pairs_;
+  std::size_t surveyed_ =
+      0;  // segments that the halo was chosen for, and that have not moved since
   mutable std::recursive_mutex betweenSteps_;
 };
 
@@ -120,6 +126,7 @@ constexpr auto FESolver::attributes() {
 template <class Archive>
 void FESolver::archiveMore(Archive& archive) {
   std::vector<yade::Body::id_t> ids = bodies_.ids();
+  if constexpr (Archive::is_loading::value) surveyed_ = 0;
   WorldArchive<Archive>(archive).run(world_, ids);
   if constexpr (Archive::is_loading::value) bodies_.restore(std::move(ids));
 }

@@ -114,6 +114,26 @@ TEST(SearchInterval, WidthOfTheHalo) {
   }
 }
 
+/// Bodies that join one by one need not be looked at again and again.
+TEST(SearchInterval, HaloOfNewcomersIsThatOfAll) {
+  World world;
+  std::size_t known = 0;
+  const double dt = 1e-4;
+  for (const auto& [cells, speed] : {std::pair{4, 3.}, {8, 9.}, {5, 20.}, {6, 1.}}) {
+    const Vec2 low{2. * static_cast<double>(world.model.components.size()), 0};
+    const TriangleMesh mesh = structuredRectangle(low, low + Vec2{1, 1}, cells, cells);
+    world.addBody(mesh, moving(mesh, rubber(), {speed, 0}));
+    world.chooseHalo(dt, SegmentId(known));
+    known = world.surfaces.segments();
+    World whole;
+    whole.model = world.model;
+    whole.surfaces = world.surfaces;
+    whole.chooseHalo(dt);
+    EXPECT_EQ(world.search.halo, whole.search.halo);
+    EXPECT_EQ(world.search.shortest, whole.search.shortest);
+  }
+}
+
 /// During a run: half the shortest segment at most, nobody leaves it by more than the correction of
 /// the step at hand, and it is renewed no more often than the motion asks for.
 TEST(SearchInterval, HaloHoldsUntilTheNextSearch) {
