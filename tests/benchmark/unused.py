@@ -123,10 +123,10 @@ def _measureElements(program, folder, repeat):
     """{feature: its figures}"""
     shares, without = unusedShares(program, folder)
     _, costs = counted(program, folder, 'rings', RINGS, STEPS)
-    base = [run(program, 'rings', RINGS, STEPS) for _ in range(repeat)]
     rows = {}
     for name in ('fracture', 'friction', 'smooth', 'selfContact', 'viscosity', 'loads'):
-        pairs = [(run(program, 'rings', RINGS, STEPS, name), b) for b in base]
+        pairs = [(run(program, 'rings', RINGS, STEPS, name), run(program, 'rings', RINGS, STEPS))
+                 for _ in range(repeat)]
         _, withIt = counted(program, folder, 'rings', RINGS, STEPS, name)
         rows[name] = dict(
             share=shares[name], bytes=without['bytes'].get(name, 0),
