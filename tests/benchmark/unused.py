@@ -91,6 +91,16 @@ def countSpheres(counting, folder, number, steps):
     return dict(zip(WAYS, dumps[1:])), said(text)
 
 
+def addingPerEntry(counting, folder, few=20, many=420, counted=4, yade='/usr/bin/yade'):
+    """Instructions that adding a body takes for each entry that was there before."""
+    command = ['/usr/bin/python3', yade, '-n', '-x', '-j1', os.path.join(HERE, 'unused_adding.py'),
+               counting, str(few), str(many), str(counted)]
+    text, dumps = instructions.count(command, folder)
+    before = [row['entries'] for row in said(text)]
+    costs = [byObject(dump)['_yadefrag.so'] / counted for dump in dumps]
+    return (costs[1] - costs[0]) / (before[1] - before[0])
+
+
 def byObject(costs):
     """{name of the library or program: instructions}"""
     sums = collections.Counter()

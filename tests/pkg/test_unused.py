@@ -64,3 +64,8 @@ def testSpheresDoNotPayForThePlugin(folder):
     # The collider knows nothing of finite elements.
     assert not {cost.function for cost in costs['used'] if any(
         name in cost.function for name in ('FESolver', 'EntryBodies', 'World', 'ContactSurfaces'))}
+
+
+def testAddingABodyDoesNotGoThroughAllOthers(folder):
+    """But for a look whether their bodies are still there."""
+    assert unused.addingPerEntry(kCounting, folder) < 100
