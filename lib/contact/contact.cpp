@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "contact/row_builder.hpp"
+#include "core/errors.hpp"
 #include "core/tolerances.hpp"
 #include "mesh/mobility.hpp"
 
@@ -273,6 +275,12 @@ void Contact::move(Model& model, const ContactStep& step) {
     largest = std::max(largest, dot(u, u));
   }
   largestCorrection_ = std::sqrt(largest);
+  if (largestCorrection_ <= 2 * tolerance::kFarthestMove * step.shortest) return;
+  std::ostringstream text;
+  text << "contact moves a surface node by " << largestCorrection_
+       << " m, which is many times the shortest segment, " << step.shortest
+       << " m; take a shorter step.";
+  throw RunError(text.str());
 }
 
 /// Eq. 7: Fᵢ = Σ weight × force of the rows.

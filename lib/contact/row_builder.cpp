@@ -15,13 +15,17 @@ struct FootOn {
 
 /// The foot at xⁿ: on the master, or on its neighbour if the slave was over that one and the
 /// boundary does not turn towards the void between them (there the neighbour's normal is another).
-FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, EntryId master,
+/// Not on a piece that the slave is an end of: it cannot be pushed away from itself.
+FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair,
                   Vec2 slave) {
+  const EntryId master = pair.master;
   const Foot foot = before.foot(master, slave);
   const PieceRange range = before.range(master);
   if (foot.xi >= range.begin && foot.xi <= range.end) return {master, foot};
   const EntryId neighbour =
       foot.xi < range.begin ? surfaces.prev[master.value] : surfaces.next[master.value];
+  if (neighbour == pair.slave || neighbour == surfaces.prev[pair.slave.value])
+    return {master, foot};
   const Foot other = before.foot(neighbour, slave);
   const PieceRange otherRange = before.range(neighbour);
   const bool overOther = other.xi >= otherRange.begin && other.xi <= otherRange.end;
@@ -60,7 +64,7 @@ ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
   const bool atCorner =
       past && !goesOn(surfaces, before, active.pair.master, active.foot.xi, point);
   const FootOn on = atCorner ? FootOn{active.pair.master, active.foot}
-                             : footBefore(surfaces, before, active.pair.master, point);
+                             : footBefore(surfaces, before, active.pair, point);
   ContactRow row;
   row.slave = active.pair.slave;
   row.master = active.pair.master;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.hpp"
 #include "core/tolerances.hpp"
 #include "step/entry_pairs.hpp"
 #include "step/world.hpp"
@@ -147,7 +148,11 @@ void World::correctContact(double dt) {
                         threads,
                         fracture.numCracks() > 0,
                         timesIfAsked()};
-  contact.correct(model, surfaces, contactSettings, now);
+  try {
+    contact.correct(model, surfaces, contactSettings, now);
+  } catch (const RunError& error) {
+    refuseMotion(dt, error.what());
+  }
   farthest_ += contact.largestCorrection();
   apart_.comeNearer(2 * contact.largestCorrection());
 }

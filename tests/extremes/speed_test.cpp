@@ -26,10 +26,12 @@ TEST(ExtremeSpeed, FromANanometrePerSecondToTheWaveSpeed) {
   EXPECT_EQ(least, 1e-9);
   for (const double part : {2., 5., 30., 1000.}) {
     const std::string beyond = at(part * wave).refusal;
-    EXPECT_NE(beyond.find("is turned inside out"), std::string::npos) << part << ": " << beyond;
+    EXPECT_TRUE(beyond.find("is turned inside out") != std::string::npos ||
+                beyond.find("take a shorter step") != std::string::npos)
+        << part << ": " << beyond;
   }
   limit("closing speed of two elastic blocks, of the wave speed", kNone, most,
-        "works by shorter steps, or stops: an element is turned inside out");
+        "works by shorter steps, or stops: a shorter step is asked for, or an element is inverted");
   limit("closing speed, m/s", least, kNone,
         "body too slow for its coordinates' rounding: refused when added");
 }
