@@ -34,9 +34,10 @@ void FESolver::pyExtra(PyClass& pyClass) {
             const auto lock = waitBetweenSteps(self);
             return self.criticalTimeStep();
           },
-          "Longest stable time step (s) of the present mesh; infinite without bodies. It knows of "
-          "no "
-          "spheres: see README.md, Limits.")
+          "Longest stable time step (s) of the present mesh, of a body that cracks also when all "
+          "its "
+          "triangles have come apart; infinite without bodies. It knows of no spheres: see "
+          "README.md, Limits.")
       .def("fragments", &Locked<fragmentsOf>::call, (yade::py::arg("held") = false),
            "List of dicts, one per part that hangs together: component, triangles (how many), mass "
            "(kg), area (m²), centroid (m), velocity (m/s), spin (rad/s). With held=True, parts "
