@@ -277,8 +277,10 @@ void LocalSearch::enterAtJoint(const Geometry& geometry, Trial& first, Trial& se
   const bool overSecond = isOver(geometry, second.master, second.foot);
   const bool pastFirst = isBehindEnd(geometry, first.master, first.foot);
   const bool pastSecond = isBeforeBegin(geometry, second.master, second.foot);
-  if (overSecond && second.foot.gap >= -halo) enterFromNeighbour(first, second, pastFirst);
-  if (overFirst && first.foot.gap >= -halo) enterFromNeighbour(second, first, pastSecond);
+  if (overSecond && second.foot.gap >= -halo && (pastFirst || overFirst))
+    enterFromNeighbour(first, second, pastFirst);
+  if (overFirst && first.foot.gap >= -halo && (pastSecond || overSecond))
+    enterFromNeighbour(second, first, pastSecond);
 }
 
 /// `second` follows `first` on their surface.

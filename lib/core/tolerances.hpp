@@ -169,6 +169,13 @@ inline constexpr double kMostMotion = .5;
 /// more, everything would be a candidate of everything. Ten wave speeds and more.
 inline constexpr double kFarthestMove = 10;
 
+/// (of the bodies' largest energy; ratio) What contact or cracks may have given before a sentence
+/// says so, and growth of it for which energies are looked at again.
+inline constexpr double kGivenEnergy = .01, kLookAgain = 1.1;
+
+/// (of the shortest segment) Penetration left in a step above which a sentence says so.
+inline constexpr double kDeep = .1;
+
 /// (of the shortest segment) The halo's width: at most half, so that three adjacent halos do not
 /// overlap (paper §4.1); at least a twentieth, below which nothing is saved.
 inline constexpr double kWidestHalo = .5, kNarrowestHalo = .05;

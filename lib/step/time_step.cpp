@@ -38,6 +38,7 @@ void World::step(double dt) {
   time += dt;
   lastDt = dt;
   outerForces.clear();
+  watchEnergy();
 
   // Cracks at xⁿ⁺¹: nodes split, surfaces are linked anew, and the new faces are candidates. What
   // is too small to be followed goes.

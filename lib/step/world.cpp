@@ -70,6 +70,7 @@ void World::removeBody(ComponentId component) {
   surfaces.removeComponent(component);
   surfaces.renumberNodes(renumbered, model.nodes.size());
   contact.reset();
+  watch.forget(ledger);
   rebuild();
   search.isVoid = true;
 }

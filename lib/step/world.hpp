@@ -20,6 +20,7 @@
 #include "search/contact_search.hpp"
 #include "step/apart_bodies.hpp"
 #include "step/body_places.hpp"
+#include "step/energy_watch.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {
@@ -110,6 +111,8 @@ class World {
   SearchState search;
   Fracture fracture;
   EnergyLedger ledger;
+  EnergyWatch watch;
+  std::vector<std::string> complaints;  ///< of the watch, all so far
   Dropped dropped;
   std::vector<Vec2> reference;  ///< m, stress-free positions by node
   std::uint64_t steps = 0;
@@ -144,6 +147,7 @@ class World {
   void foreseeSearch(double dt);
   void cohere(double dt);
   void bookFracture(double dt);
+  void watchEnergy();
   bool crack();
   void dropFragments(bool split);
   void takeOut(std::span<const ElementId> triangles);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <sstream>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -43,7 +44,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 2;
+  static constexpr std::uint64_t kFormat = 3;
   /// (count) A damaged length must not take all memory: values are read in parts as large as this,
   /// and the archive ends before the memory does.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -85,9 +86,28 @@ class WorldArchive {
     Dropped& dropped = world.dropped;
     value("droppedMass", dropped.mass), value("dropped", dropped.count);
     value("droppedMomentumX", dropped.momentum.x), value("droppedMomentumY", dropped.momentum.y);
+    watch(world);
     column<double>("reference", world.reference);
     value("steps", world.steps), value("time", world.time), value("lastDt", world.lastDt);
     value("numSearches", world.numSearches);
+  }
+
+  void watch(World& world) {
+    EnergyWatch& watch = world.watch;
+    value("watchedContact", watch.contact), value("watchedFriction", watch.friction);
+    value("mostEnergy", watch.most), value("lookedEnergy", watch.looked);
+    value("toldEnergy", watch.told), value("toldDepth", watch.toldDepth);
+    std::vector<char> text;
+    for (const std::string& sentence : world.complaints) {
+      text.insert(text.end(), sentence.begin(), sentence.end());
+      text.push_back('\n');
+    }
+    value("complaints", text);
+    if constexpr (Archive::is_loading::value) {
+      world.complaints.clear();
+      std::istringstream lines(std::string(text.begin(), text.end()));
+      for (std::string line; std::getline(lines, line);) world.complaints.push_back(line);
+    }
   }
 
   template <class Value>

@@ -177,6 +177,12 @@ py::dict energyOf(const FESolver& solver) {
   return result;
 }
 
+py::list warningsOf(const FESolver& solver) {
+  py::list result;
+  for (const std::string& sentence : solver.world().complaints) result.append(sentence);
+  return result;
+}
+
 py::dict droppedOf(const FESolver& solver) {
   const World& world = solver.world();
   const Dropped& dropped = world.dropped;

@@ -67,6 +67,7 @@ std::size_t segmentsOf(const FESolver& solver);
 std::unique_lock<std::recursive_mutex> waitBetweenSteps(const FESolver& solver);
 yade::py::dict droppedOf(const FESolver& solver);
 yade::py::dict energyOf(const FESolver& solver);
+yade::py::list warningsOf(const FESolver& solver);
 yade::py::list fragmentsOf(const FESolver& solver, bool held);
 
 /// Runs `work`, and turns an InputError into Python's ValueError.

@@ -88,7 +88,11 @@ void FESolver::valuesOf(PyClass& pyClass) {
           "energy", &Locked<energyOf>::call,
           "Dict of J: kinetic, strain, contact, friction, fracture, damping, external (what came "
           "in "
-          "from outside), total (constant); with minFragmentArea, dropped (went with fragments).");
+          "from outside), total (constant); with minFragmentArea, dropped (went with fragments).")
+      .add_property("warnings", &Locked<warningsOf>::call,
+                    "Sentences on energy that contact or cracks created, above 1 % of what the "
+                    "bodies had, and on bodies deeper in one another than a tenth of the shortest "
+                    "segment; one per doubling, each also on stderr when it comes up.");
 }
 
 template <class PyClass>

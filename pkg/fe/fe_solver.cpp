@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -33,6 +34,7 @@ void FESolver::action() {
     if (isSearched && pairsOfCollider(*scene, *this, bodies_, pairs_)) world_.takePairs(pairs_);
   }
   const std::uint64_t dropped = world_.dropped.count;
+  const std::size_t complaints = world_.complaints.size();
   bodies_.collectForces(*scene, world_, world_.outerForces);
   try {
     world_.step(scene->dt);
@@ -41,10 +43,17 @@ void FESolver::action() {
   } catch (const InputError& error) {
     throw std::invalid_argument(error.what());
   }
+  warn(complaints);
   followCracks(dropped);
   bodies_.update(world_, timeToIntegrate(), world_.threads);
   prepareSearch(scene->dt);
   if (scene->trackEnergy) trackEnergy();
+}
+
+/// Of those complaints that are new.
+void FESolver::warn(std::size_t known) const {
+  for (std::size_t i = known; i < world_.complaints.size(); ++i)
+    std::cerr << "WARN  FESolver: " << world_.complaints[i] << std::endl;
 }
 
 /// New faces get bodies, those of dropped fragments lose theirs. Among themselves and with the rest

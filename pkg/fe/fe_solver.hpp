@@ -68,6 +68,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void requireOnce() const;
   void checkSettings() const;
   void giveSettings();
+  void warn(std::size_t known) const;
   void followCracks(std::uint64_t dropped);
   void prepareSearch(double dt);
   void prepareNewcomer(std::size_t first);
