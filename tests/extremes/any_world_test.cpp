@@ -37,15 +37,14 @@ double wantedMass(const Model& model) {
   return sum;
 }
 
-/// (of the energy) What no scene should gain; of the first 46,000 two do, 26007 1.8 and 46443 37 %.
+/// (of the energy) What no scene may gain in silence.
 constexpr double kMostGrowth = .01;
-constexpr double kScenesThatGrow = 1e-4;
 
 struct Tally {
   std::uint64_t scenes = 0, steps = 0, refused = 0, givenUp = 0, cracked = 0, touched = 0;
   double mass = 0, momentum = 0;  ///< largest errors, of the mass and of Σm|v|
-  std::uint64_t grown = 0;        ///< scenes whose energy grew
-  double growth = 0;              ///< of the energy, where nothing explains it
+  std::uint64_t grown = 0;        ///< stretches whose energy grew, all of them told
+  double growth = 0;              ///< of the energy, where nothing was told
 };
 
 /// A scene from its first body to its last step.
@@ -102,7 +101,9 @@ class SceneRun {
       for (const Vec2 force : world.contact.forces()) now += norm(force) * dt;
       flow = std::max(flow, now);
       const double present = world.kineticEnergy() + world.strainEnergy();
-      if (i == 0) energy = present;
+      // And what a penalty has stored may come back.
+      const bool stores = world.contactSettings.correction == Correction::kPenalty;
+      if (i == 0) energy = present + (stores ? std::max(0., world.ledger.contact) : 0);
       growth = std::max(growth, present / energy - 1);
     }
     tally_.givenUp += goesOn_ ? 0 : 1;
@@ -110,21 +111,13 @@ class SceneRun {
     const double lost = norm(sumsOf(world.model).momentum - start.momentum) / flow;
     tally_.momentum = std::max(tally_.momentum, lost);
     EXPECT_LT(lost, 1e-11);
-    if (growthIsBounded()) {
-      tally_.growth = std::max(tally_.growth, growth);
-      if (growth >= kMostGrowth) ++tally_.grown;
-    }
+    if (growth >= kMostGrowth) ++tally_.grown;
+    if (!hasSaidSo()) tally_.growth = std::max(tally_.growth, growth);
+    EXPECT_TRUE(growth < 1.1 * kMostGrowth || hasSaidSo()) << growth;
   }
 
-  /// Bodies that overlap from the start are let out, which takes energy from nowhere; in rubble,
-  /// old overlaps do the same: in 12 of 20,000 scenes more than 1 %, 17-fold in one. A penalty
-  /// stores energy. A run that ends with a sentence, mostly on an element turned inside out, has
-  /// said so.
-  [[nodiscard]] bool growthIsBounded() const {
-    const World& world = any_.world;
-    return goesOn_ && !any_.overlaps && world.fracture.numCracks() == 0 &&
-           world.contactSettings.correction == Correction::kLagrange;
-  }
+  /// In a complaint, or at the end of the run, mostly of an element turned inside out.
+  [[nodiscard]] bool hasSaidSo() const { return !goesOn_ || !any_.world.complaints.empty(); }
 
   void look() {
     const World& world = any_.world;
@@ -157,8 +150,7 @@ TEST(ExtremeScenes, AreStoodOrRefused) {
   record("refused", share(tally.refused)), record("given_up", share(tally.givenUp));
   record("cracked", share(tally.cracked)), record("touched", share(tally.touched));
   record("mass_error", tally.mass), record("momentum_error", tally.momentum);
-  record("energy_growth", tally.growth);
-  EXPECT_LE(double(tally.grown), kScenesThatGrow * double(tally.scenes));
+  record("silent_growth", tally.growth), record("grown", share(tally.grown));
   EXPECT_GT(share(tally.touched), .2);
   EXPECT_GT(share(tally.cracked), .1);
 }
