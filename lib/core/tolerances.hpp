@@ -173,7 +173,8 @@ inline constexpr double kFarthestMove = 10;
 /// says so, and growth of it for which energies are looked at again.
 inline constexpr double kGivenEnergy = .01, kLookAgain = 1.1;
 
-/// (of the shortest segment) Penetration left in a step above which a sentence says so.
+/// (of the shortest segment) Penetration left in a step above which a sentence says so; half a halo
+/// if that is less, for beyond the halo smooth surfaces hold nothing.
 inline constexpr double kDeep = .1;
 
 /// (of the shortest segment) The halo's width: at most half, so that three adjacent halos do not

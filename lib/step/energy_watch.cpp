@@ -60,7 +60,8 @@ std::string EnergyWatch::complain(const WatchedStep& step, double kinetic, doubl
 }
 
 std::string EnergyWatch::complainOfDepth(const WatchedStep& step) {
-  if (step.depth <= std::max(tolerance::kDeep * step.shortest, 2 * toldDepth)) return {};
+  const double deep = std::min(tolerance::kDeep * step.shortest, step.halo / 2);
+  if (step.depth <= std::max(deep, 2 * toldDepth)) return {};
   toldDepth = step.depth;
   std::ostringstream text = begin(step);
   text << "bodies are in one another by " << step.depth << " m, " << step.depth / step.shortest

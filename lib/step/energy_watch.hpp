@@ -16,6 +16,7 @@ struct WatchedStep {
   bool isPenalty;   ///< contact stores energy, and gives it back
   double depth;     ///< m, deepest penetration that was left
   double shortest;  ///< m, shortest segment
+  double halo;      ///< m, a smooth master loses what is deeper
   const EnergyLedger& ledger;
 };
 

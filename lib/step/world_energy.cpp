@@ -23,9 +23,13 @@ double roundingEnergy(const Nodes& nodes, double dt) {
 
 /// To be told, not to be stopped: the user knows what the run is for.
 void World::watchEnergy() {
-  const WatchedStep now{
-      steps,   time,  contactSettings.correction == Correction::kPenalty, contact.maxPenetration(),
-      finest_, ledger};
+  const WatchedStep now{steps,
+                        time,
+                        contactSettings.correction == Correction::kPenalty,
+                        contact.maxPenetration(),
+                        finest_,
+                        search.halo,
+                        ledger};
   const auto tell = [this](std::string sentence) {
     if (!sentence.empty()) complaints.push_back(std::move(sentence));
   };

@@ -14,7 +14,7 @@ namespace yadefrag::test {
 namespace {
 
 WatchedStep stepOf(const EnergyLedger& ledger, bool isPenalty = false) {
-  return {7, .5, isPenalty, 0, 1, ledger};
+  return {7, .5, isPenalty, 0, 1, .5, ledger};
 }
 
 /// What the watch says of bodies that have 100 J.
@@ -103,6 +103,9 @@ TEST(EnergyWatch, TellsOfDepth) {
             "take the Lagrangian correction, or a larger penalty factor.");
   EXPECT_EQ(deep(.3), "");
   EXPECT_NE(deep(.5), "");
+  watch.toldDepth = 0, step.halo = .06;
+  EXPECT_EQ(deep(.02), "");
+  EXPECT_NE(deep(.04), "") << "soon lost by a smooth surface";
 }
 
 /// Two blocks that meet at 20 m/s, of which one stands.
