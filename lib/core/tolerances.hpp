@@ -173,6 +173,9 @@ inline constexpr double kFarthestMove = 10;
 /// says so, and growth of it for which energies are looked at again.
 inline constexpr double kGivenEnergy = .01, kLookAgain = 1.1;
 
+/// (steps) From one look at the kinetic energy to the next: half a per cent of a step's work each.
+inline constexpr std::uint64_t kStepsToLook = 8;
+
 /// (of the shortest segment) Penetration left in a step above which a sentence says so; half a halo
 /// if that is less, for beyond the halo smooth surfaces hold nothing.
 inline constexpr double kDeep = .1;

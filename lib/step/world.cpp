@@ -116,6 +116,7 @@ void World::rebuild() {
 void World::buildIfChanged() {
   if (isBuilt_) return;
   isBuilt_ = true;
+  kinetic_.restart();
   places_.forget();
   dynamics_.rebuild(model);
   const auto& owners = surfaces.component;

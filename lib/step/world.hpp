@@ -21,6 +21,7 @@
 #include "step/apart_bodies.hpp"
 #include "step/body_places.hpp"
 #include "step/energy_watch.hpp"
+#include "step/kinetic_watch.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {
@@ -148,6 +149,7 @@ class World {
   void cohere(double dt);
   void bookFracture(double dt);
   void watchEnergy();
+  std::string complainOfMotion();
   bool crack();
   void dropFragments(bool split);
   void takeOut(std::span<const ElementId> triangles);
@@ -177,6 +179,7 @@ class World {
   bool isBuilt_ =
       false;  // do the arrays below fit the model: many bodies join, then one step comes
   bool severalBodies_ = false;
+  KineticWatch kinetic_;
   double largestMove_ = 0;  // m, of a watched node from xⁿ to x*; a bound
   double mostMove_ = 0;     // m, of any node; a bound
   bool isQuiet_ = false;    // nobody can come near another in this step: xⁿ is not remembered

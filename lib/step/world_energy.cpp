@@ -1,5 +1,6 @@
 // The world's part in the watch over energy and depth.
 
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -36,6 +37,27 @@ void World::watchEnergy() {
   if (watch.isSuspicious(now))
     tell(watch.complain(now, kineticEnergy(), strainEnergy(), roundingEnergy(model.nodes, lastDt)));
   tell(watch.complainOfDepth(now));
+  tell(complainOfMotion());
+}
+
+std::string World::complainOfMotion() {
+  const double spent = ledger.total(0, 0);
+  if (kinetic_.isNew(lastDt)) {
+    const double energy = kineticEnergy() + strainEnergy();
+    kinetic_.begin(lastDt, energy + spent, energy);
+  }
+  if (!KineticWatch::isDue(steps)) return {};
+  const double kinetic = kineticEnergy();
+  if (!kinetic_.isSuspicious(kinetic, spent)) return {};
+  const double noise = roundingEnergy(model.nodes, lastDt);
+  const double excess = kinetic_.excess(kinetic + strainEnergy(), spent, noise);
+  if (excess == 0) return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "Step " << steps << ", time " << time << " s: the bodies' energy has grown by "
+       << 100 * kinetic_.tell(excess) << " % out of nothing; take a shorter step: in one of "
+       << lastDt << " s they turn or deform too much.";
+  return text.str();
 }
 
 }  // namespace yadefrag
