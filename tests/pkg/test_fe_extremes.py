@@ -154,31 +154,41 @@ def stepAsAsked(solver, most):
 
 
 @pytest.mark.parametrize('collider', ['LebesgueCollider', 'InsertionSortCollider'])
-def test_supersonicPassByGoesOnWithTheStepThatIsProposed(collider):
-    """Two blocks shoot past each other, a hair apart."""
+def test_supersonicPassByNeedsNoShorterStep(collider):
+    """Two blocks shoot past each other, a hair apart: their ways do not cross."""
     solver, _ = blow(5 * WAVE, gap=.2, aside=1.0001, collider=collider)
+    O.run(100, True)
+    assert solver.nodes[0, 0] > 1.5 and solver.energy['contact'] == 0
+    assert speeds(solver)[:, 0] == pytest.approx([5 * WAVE, 0], abs=1e-9 * WAVE)
+
+
+@pytest.mark.parametrize('collider', ['LebesgueCollider', 'InsertionSortCollider'])
+def test_supersonicPassByGoesOnWithTheStepThatIsProposed(collider):
+    """Two blocks shoot past each other and just touch: nobody can tell before. The corners graze
+    each other: half a per cent of the speed goes over."""
+    solver, _ = blow(5 * WAVE, gap=.2, aside=1, collider=collider)
     asked = 0
     while speeds(solver)[0, 0] > 0 and solver.nodes[0, 0] < 1.5:
         asked += stepAsAsked(solver, 5)
     assert 1 <= asked < 5
-    assert speeds(solver)[:, 0] == pytest.approx([5 * WAVE, 0], abs=.01 * WAVE)
+    assert speeds(solver)[:, 0] == pytest.approx([5 * WAVE, 0], abs=.03 * WAVE)
 
 
 @pytest.mark.parametrize('isBehind', [False, True])
 @pytest.mark.parametrize('collider', ['LebesgueCollider', 'InsertionSortCollider'])
 def test_supersonicBlowEndsWithASentence(collider, isBehind):
-    """It goes on with the step proposed, until it has crushed an element: the bounds of the refused
-    step were made for slower bodies, and what they miss must not go through unseen."""
+    """It goes on with the step proposed, until it crushes an element, or contact would: the bounds
+    of the refused step were made for slower bodies, and what they miss must not go through unseen."""
     solver, _ = blow(5 * WAVE, gap=.2, collider=collider)
     if isBehind:
         O.engines = [O.engines[0], *O.engines[2:], O.engines[1]]
     asked = 0
-    with pytest.raises(RuntimeError, match='element .* of component .* is turned inside out'):
+    with pytest.raises(RuntimeError, match='turned inside out|contact moves a surface node'):
         for _ in range(1000):
             try:
                 O.step()
             except RuntimeError as error:
-                if 'take a step' not in str(error):
+                if 'take a step of' not in str(error):
                     raise
                 asked += stepAsAsked(solver, 5)
     assert asked >= 1 and np.isfinite(solver.nodes).all()
