@@ -13,16 +13,21 @@ def requirePaused():
                            'this from a PyRunner.')
 
 
+def _pieceOf(body):
+    """The shape of a body that is part of a boundary; None for any other."""
+    shape = body.shape if body else None
+    return shape if isinstance(shape, wrapper.SurfaceSegment) and shape.entry >= 0 else None
+
+
 def guardErase(erase):
     """O.bodies.erase that leaves single pieces of a boundary alone."""
     def guarded(self, id, eraseClumpMembers=False):
-        if 0 <= id < len(self) and self[id] is not None:
-            shape = self[id].shape
-            if isinstance(shape, wrapper.SurfaceSegment) and shape.entry >= 0:
-                raise ValueError(
-                    'body #%d is part of the boundary of body %d of FESolver, it cannot be erased '
-                    'alone; FESolver.removeBody(%d) takes the whole away.' %
-                    (id, shape.component, shape.component))
+        piece = _pieceOf(self[id]) if 0 <= id < len(self) else None
+        if piece:
+            raise ValueError(
+                'body #%d is part of the boundary of body %d of FESolver, it cannot be erased '
+                'alone; FESolver.removeBody(%d) takes the whole away.' %
+                (id, piece.component, piece.component))
         return erase(self, id, eraseClumpMembers)
 
     guarded.__doc__ = erase.__doc__
@@ -33,10 +38,10 @@ def guardClump(clump):
     """O.bodies.clump and addToClump without pieces of a boundary: YADE would end the process."""
     def guarded(self, ids, *others, **settings):
         for id in ids if isinstance(ids, (list, tuple)) else [ids]:
-            body = self[id] if isinstance(id, int) and 0 <= id < len(self) else None
-            if body and isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.entry >= 0:
+            piece = _pieceOf(self[id]) if isinstance(id, int) and 0 <= id < len(self) else None
+            if piece:
                 raise ValueError('body #%d is part of the boundary of body %d of FESolver, it '
-                                 'cannot be in a clump.' % (id, body.shape.component))
+                                 'cannot be in a clump.' % (id, piece.component))
         return clump(self, ids, *others, **settings)
 
     guarded.__doc__ = clump.__doc__
