@@ -4,6 +4,7 @@
 
 #include "core/tolerances.hpp"
 #include "search/contact_search.hpp"
+#include "step/body_places.hpp"
 
 namespace yadefrag {
 
@@ -15,10 +16,7 @@ std::vector<Box> bodyBoxes(const Model& model, const ContactSurfaces& surfaces, 
   const Nodes& nodes = model.nodes;
   for (const NodeId node : surfaces.segmentNode) {
     if (nodes.mass[node.value] == 0) continue;  // of a dropped triangle
-    Box& box = boxes[nodes.component[node.value].value];
-    const Vec2 at = nodes.position[node.value];
-    box.min = {std::min(box.min[0], at.x), std::min(box.min[1], at.y), 0};
-    box.max = {std::max(box.max[0], at.x), std::max(box.max[1], at.y), 0};
+    include(boxes[nodes.component[node.value].value], nodes.position[node.value]);
   }
   for (Box& box : boxes)
     for (std::size_t axis = 0; axis < 2; ++axis) box.min[axis] -= margin, box.max[axis] += margin;
