@@ -40,13 +40,14 @@ void World::watchEnergy() {
   tell(complainOfMotion());
 }
 
+/// Where the step changes all the time, the sum is begun anew as seldom as it is looked at.
 std::string World::complainOfMotion() {
+  if (!KineticWatch::isDue(steps) && steps > 1) return {};
   const double spent = ledger.total(0, 0);
   if (kinetic_.isNew(lastDt)) {
     const double energy = kineticEnergy() + strainEnergy();
     kinetic_.begin(lastDt, energy + spent, energy);
   }
-  if (!KineticWatch::isDue(steps)) return {};
   const double kinetic = kineticEnergy();
   if (!kinetic_.isSuspicious(kinetic, spent)) return {};
   const double noise = roundingEnergy(model.nodes, lastDt);
