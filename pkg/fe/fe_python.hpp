@@ -35,8 +35,7 @@ void FESolver::pyExtra(PyClass& pyClass) {
             return self.criticalTimeStep();
           },
           "Longest stable time step (s) of the present mesh, of a body that cracks also when all "
-          "its "
-          "triangles have come apart; infinite without bodies. It knows of no spheres: see "
+          "its triangles have come apart; infinite without bodies. It knows of no spheres: see "
           "README.md, Limits.")
       .def("fragments", &Locked<fragmentsOf>::call, (yade::py::arg("held") = false),
            "List of dicts, one per part that hangs together: component, triangles (how many), mass "
@@ -87,11 +86,12 @@ void FESolver::valuesOf(PyClass& pyClass) {
       .add_property(
           "energy", &Locked<energyOf>::call,
           "Dict of J: kinetic, strain, contact, friction, fracture, damping, external (what came "
-          "in "
-          "from outside), total (constant); with minFragmentArea, dropped (went with fragments).")
+          "in from outside), total (constant); with minFragmentArea, dropped (went with "
+          "fragments).")
       .add_property("warnings", &Locked<warningsOf>::call,
-                    "Sentences on energy that contact or cracks created, above 1 % of what the "
-                    "bodies had, and on bodies deeper in one another than a tenth of the shortest "
+                    "Sentences on energy out of nothing (contact, cracks, steps that cannot follow "
+                    "the motion), above 1 % of what the bodies had, and on bodies deeper in one "
+                    "another than a tenth of the shortest "
                     "segment; one per doubling, each also on stderr when it comes up.");
 }
 
