@@ -121,11 +121,11 @@ void Contact::solve(const Model& model, const ContactSettings& settings, const C
                     bool anyNew) {
   const StageTimer timer(step.times, &StageTimes::correction);
   if (settings.correction == Correction::kPenalty)
-    penalize(rows_, model.nodes, step.dt, step.drag, settings.penaltyFactor);
+    penalize(rows_, model.nodes, step.length, step.drag, settings.penaltyFactor);
   else if (step.rubble)
-    inexact_ = sweeps_.solve(rows_, model.nodes, step.dt, step.drag, worthwhile(step));
+    inexact_ = sweeps_.solve(rows_, model.nodes, step.length, step.drag, worthwhile(step));
   else {
-    if (anyNew) lagrange_.setRows(rows_, model.nodes, step.dt, step.drag);
+    if (anyNew) lagrange_.setRows(rows_, model.nodes, step.length, step.drag);
     residual_ = lagrange_.solve(rows_, worthwhile(step));
   }
 }
@@ -265,11 +265,12 @@ void Contact::move(Model& model, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
   for (const NodeId node : touched_) forces_[node.value] = {};
   sumForces();
+  const double squared = step.length.squared();
   double largest = 0;
   for (const NodeId node : touched_) {
     const Vec2 mobile = mobility(model.nodes, node, step.drag);
     const Vec2 force = forces_[node.value];
-    const Vec2 u{step.dt * step.dt * mobile.x * force.x, step.dt * step.dt * mobile.y * force.y};
+    const Vec2 u{squared * mobile.x * force.x, squared * mobile.y * force.y};
     model.nodes.position[node.value] += u - displacement_[node.value];
     displacement_[node.value] = u;
     largest = std::max(largest, dot(u, u));
@@ -297,7 +298,7 @@ void Contact::sumForces() {
 /// Velocities, outside flags, and what the next step has to know.
 void Contact::finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   for (const NodeId node : touched_)
-    model.nodes.velocity[node.value] += (1 / step.dt) * displacement_[node.value];
+    model.nodes.velocity[node.value] += (1 / step.length.position) * displacement_[node.value];
   const StageTimer timer(step.times, &StageTimes::localSearch);
   touches.clear();
   for (const ContactRow& row : rows_)

@@ -13,6 +13,7 @@
 #include "contact/local_search.hpp"
 #include "contact/row_sweeps.hpp"
 #include "core/stage_times.hpp"
+#include "core/step_length.hpp"
 #include "mesh/model.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -27,7 +28,7 @@ struct Touch {
 
 /// The step that contact is part of. Spans are by node.
 struct ContactStep {
-  double dt;                     ///< s
+  StepLength length;
   double drag;                   ///< αΔt/2
   double move;                   ///< m, largest displacement of a surface node
   double reach;                  ///< m, twice the largest displacement of a surface node

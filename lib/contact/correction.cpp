@@ -29,7 +29,7 @@ double forceScale(const BoxProblem& problem) {
 
 }  // namespace
 
-void Lagrange::setRows(std::span<const ContactRow> rows, const Nodes& nodes, double dt,
+void Lagrange::setRows(std::span<const ContactRow> rows, const Nodes& nodes, const StepLength& step,
                        double drag) {
   findContactGroups(rows, nodes, groups_);
   normalOf_.resize(rows.size());
@@ -37,7 +37,7 @@ void Lagrange::setRows(std::span<const ContactRow> rows, const Nodes& nodes, dou
   tangentOf_.resize(std::ranges::any_of(rows, rubs) ? rows.size() : 0);
   const std::size_t groups = groups_.rows.rows();
   if (systems_.size() < groups) systems_.resize(groups);
-  for (std::size_t group = 0; group < groups; ++group) assemble(rows, nodes, group, dt, drag);
+  for (std::size_t group = 0; group < groups; ++group) assemble(rows, nodes, group, step, drag);
 }
 
 double Lagrange::solve(std::span<ContactRow> rows, double tolerance) {
@@ -63,7 +63,7 @@ std::size_t Lagrange::numberUnknowns(std::span<const ContactRow> rows, Members m
 
 /// G = Δt² W M⁻¹ Wᵀ: two rows act on one another through every node that they share.
 void Lagrange::assemble(std::span<const ContactRow> rows, const Nodes& nodes, std::size_t group,
-                        double dt, double drag) {
+                        const StepLength& step, double drag) {
   System& system = systems_[group];
   const Members members = groups_.rows.row(group);
   const std::size_t unknowns = numberUnknowns(rows, members);
@@ -71,7 +71,7 @@ void Lagrange::assemble(std::span<const ContactRow> rows, const Nodes& nodes, st
   const std::span<const RowNode> links(groups_.links);
   for (const std::uint32_t begin : groups_.spans.row(group)) {
     const NodeId node = links[begin].node;
-    const Vec2 mobile = dt * dt * mobility(nodes, node, drag);
+    const Vec2 mobile = step.squared() * mobility(nodes, node, drag);
     std::size_t end = begin;
     while (end < links.size() && links[end].node == node) ++end;
     for (std::size_t p = begin; p < end; ++p)
@@ -170,14 +170,14 @@ void Lagrange::addTo(Footprint& footprint) const {
   }
 }
 
-void penalize(std::span<ContactRow> rows, const Nodes& nodes, double dt, double drag,
+void penalize(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
               double factor) {
   for (ContactRow& row : rows) {
     double normal = 0, tangent = 0;
     for (int k = 0; k < row.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const Vec2 mobile =
-          dt * dt * row.weight[at] * row.weight[at] * mobility(nodes, row.node[at], drag);
+          step.squared() * row.weight[at] * row.weight[at] * mobility(nodes, row.node[at], drag);
       normal += weighted(row.normal, mobile, row.normal);
       tangent += weighted(row.tangent(), mobile, row.tangent());
     }

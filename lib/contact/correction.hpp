@@ -9,6 +9,7 @@
 #include "contact/contact_groups.hpp"
 #include "contact/contact_row.hpp"
 #include "core/footprint.hpp"
+#include "core/step_length.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -18,7 +19,8 @@ namespace yadefrag {
 class Lagrange {
  public:
   /// New rows, or the same ones in another order: finds their groups and systems.
-  void setRows(std::span<const ContactRow> rows, const Nodes& nodes, double dt, double drag);
+  void setRows(std::span<const ContactRow> rows, const Nodes& nodes, const StepLength& step,
+               double drag);
   /// Sets the forces of all rows, starting from those they have; groups in which no more than
   /// `tolerance` (m) is `left` keep theirs. Returns the largest residual of any group, relative to
   /// its largest gap.
@@ -40,8 +42,8 @@ class Lagrange {
     return tangentOf_.empty() ? kNone : tangentOf_[row];
   }
   std::size_t numberUnknowns(std::span<const ContactRow> rows, Members members);
-  void assemble(std::span<const ContactRow> rows, const Nodes& nodes, std::size_t group, double dt,
-                double drag);
+  void assemble(std::span<const ContactRow> rows, const Nodes& nodes, std::size_t group,
+                const StepLength& step, double drag);
   void addPair(const ContactRow& a, const ContactRow& b, const RowNode& p, const RowNode& q,
                Vec2 mobile);
   void setGaps(std::span<const ContactRow> rows, Members members, BoxProblem& problem);
@@ -59,7 +61,7 @@ class Lagrange {
 };
 
 /// Penalty: each row by itself, the force that would undo `factor` of its penetration in one step.
-void penalize(std::span<ContactRow> rows, const Nodes& nodes, double dt, double drag,
+void penalize(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
               double factor);
 
 }  // namespace yadefrag

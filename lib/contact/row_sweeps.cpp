@@ -8,9 +8,9 @@
 
 namespace yadefrag {
 
-double RowSweeps::solve(std::span<ContactRow> rows, const Nodes& nodes, double dt, double drag,
-                        double tolerance) {
-  begin(rows, nodes, dt, drag);
+double RowSweeps::solve(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step,
+                        double drag, double tolerance) {
+  begin(rows, nodes, step, drag);
   double change = 0;
   for (int count = 0; count < tolerance::kRowSweeps; ++count) {
     // There and back: what jams goes along chains of pieces.
@@ -25,7 +25,7 @@ double RowSweeps::solve(std::span<ContactRow> rows, const Nodes& nodes, double d
   return change;
 }
 
-void RowSweeps::begin(std::span<const ContactRow> rows, const Nodes& nodes, double dt,
+void RowSweeps::begin(std::span<const ContactRow> rows, const Nodes& nodes, const StepLength& step,
                       double drag) {
   numbers_.resize(nodes.size());
   nodes_.clear();
@@ -43,7 +43,7 @@ void RowSweeps::begin(std::span<const ContactRow> rows, const Nodes& nodes, doub
     lean.normalForce = row.normalForce, lean.tangentForce = row.tangentForce;
     const Vec2 along = row.tangent();
     for (std::uint32_t k = 0; k < lean.count; ++k) {
-      const Vec2 mobile = dt * dt * row.weight[k] * mobility(nodes, row.node[k], drag);
+      const Vec2 mobile = step.squared() * row.weight[k] * mobility(nodes, row.node[k], drag);
       const Vec2 perNormal{mobile.x * row.normal.x, mobile.y * row.normal.y};
       const Vec2 perTangent{mobile.x * along.x, mobile.y * along.y};
       lean.normalResponse += row.weight[k] * dot(perNormal, row.normal);

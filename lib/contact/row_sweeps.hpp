@@ -16,6 +16,7 @@
 
 #include "contact/contact_row.hpp"
 #include "core/footprint.hpp"
+#include "core/step_length.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -24,7 +25,7 @@ class RowSweeps {
  public:
   /// Improves the forces of all rows until no gap or slip changes by more than `tolerance` (m) in a
   /// sweep, or for kRowSweeps sweeps; returns the last change (m).
-  double solve(std::span<ContactRow> rows, const Nodes& nodes, double dt, double drag,
+  double solve(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
                double tolerance);
   /// Room for so many nodes of the model.
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
@@ -47,7 +48,8 @@ class RowSweeps {
     std::uint64_t looked;                    // when it was relaxed last
   };
 
-  void begin(std::span<const ContactRow> rows, const Nodes& nodes, double dt, double drag);
+  void begin(std::span<const ContactRow> rows, const Nodes& nodes, const StepLength& step,
+             double drag);
   std::uint32_t numberOf(NodeId node);
   [[nodiscard]] Vec2 relative(const Lean& row) const;
   void push(const Lean& row, Vec2 force);

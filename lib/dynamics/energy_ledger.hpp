@@ -2,12 +2,13 @@
 // Where the energy went.
 //
 // The leapfrog has velocities at n−½ and positions at n. With v̄ = ½(vⁿ⁻½ + vⁿ⁺½), a step changes
-// the kinetic energy ½m|vⁿ⁻½|² by exactly Δt f·v̄. Works are therefore booked with v̄, and the strain
-// energy is that of the half step, between xⁿ⁻¹ = xⁿ − Δt vⁿ⁻½ and xⁿ:
+// the kinetic energy ½m|vⁿ⁻½|² by exactly Δv f·v̄, Δv = ½(Δtⁿ⁻¹ + Δtⁿ). Works are therefore booked
+// with v̄, and the strain energy is that of the half step, between xⁿ⁻¹ = xⁿ − Δt vⁿ⁻½ and xⁿ:
 //   Σ V [½(W(F) + W(F')) − ¼(P − P') : (F − F')],   F at xⁿ, F' at xⁿ⁻¹.
 // For small strains the sum of the two is the leapfrog's invariant, constant to rounding at any
 // stable step; ½(W + W') alone would swing by up to the energy of the highest modes. In large
-// deformation what is left is of second order in Δt.
+// deformation what is left is of second order in Δt. Where the step changes from Δt to Δt', it
+// jumps by (Δt² − Δt'²)/8 f·M⁻¹f, which is of second order, too.
 
 #include <span>
 

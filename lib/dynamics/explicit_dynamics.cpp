@@ -54,7 +54,8 @@ void fetchNodes(const ElementChunks& elements, const Chunk& chunk, const std::ve
 /// v ← kept·v + (rate/m)·f + fall, x ← x + Δt v
 struct ExplicitDynamics::Update {
   double dt, kept, rate;
-  Vec2 fall;  // m/s
+  Vec2 fall;         // m/s
+  double outerPart;  // of Δv: how long outer forces act
   std::span<const Vec2> outer, load;
   int threads;
 };
@@ -169,7 +170,7 @@ void ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begi
     Vec2 force = force_[n];
     if constexpr (kForced) {
       if (!update.load.empty()) force += update.load[n];
-      if (!update.outer.empty()) force += update.outer[n];
+      if (!update.outer.empty()) force += update.outerPart * update.outer[n];
     }
     const Vec2 before = nodes.velocity[n];
     Vec2 v = update.kept * before + update.rate / nodes.mass[n] * force + update.fall;
@@ -221,18 +222,19 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
   }
 }
 
-void ExplicitDynamics::predict(Model& model, double dt, const StepSettings& settings,
+void ExplicitDynamics::predict(Model& model, const StepLength& length, const StepSettings& settings,
                                std::span<const Vec2> outerForces, int threads) {
   assert(force_.size() == model.nodes.size());
   assert(outerForces.empty() || outerForces.size() == model.nodes.size());
-  const double d = settings.drag(dt);
-  const double rate = dt / (1 + d);
+  const double dt = length.position;
+  const double d = settings.drag(length);
+  const double rate = length.velocity / (1 + d);
   badElement_ = badNode_ = anyFaster_ = false;
   viscousForce_.resize(settings.viscosity.isOn() ? force_.size() : 0);
   partialViscous_.resize(settings.viscosity.isOn() ? elements_.partials() : 0);
   step(model,
-       {dt, (1 - d) / (1 + d), rate, rate * settings.gravity, outerForces, model.nodes.load,
-        threads},
+       {dt, (1 - d) / (1 + d), rate, rate * settings.gravity, dt / length.velocity, outerForces,
+        model.nodes.load, threads},
        settings.viscosity);
   // Threads take successive chunks: theirs in turn are ascending.
   stressed_.clear();
@@ -259,7 +261,7 @@ void ExplicitDynamics::takeBack(Model& model, double dt) {
 struct ExplicitDynamics::Works {
   const ExplicitDynamics& dynamics;
   const Nodes& nodes;
-  double dt;
+  const StepLength& length;
   const StepSettings& settings;
   std::span<const Vec2> outer, contact;
 
@@ -267,7 +269,7 @@ struct ExplicitDynamics::Works {
     const double mass = nodes.mass[n];
     const double before = dynamics.previousVelocity_[n].*axis;
     const double after = nodes.velocity[n].*axis;
-    const double way = dt * (before + after) / 2;
+    const double way = length.velocity * (before + after) / 2;
     if (!dynamics.viscousForce_.empty()) ledger.damping -= dynamics.viscousForce_[n].*axis * way;
     if (held) {
       // The reaction is whatever the node needs to move as it does.
@@ -277,21 +279,21 @@ struct ExplicitDynamics::Works {
     }
     double force = mass * settings.gravity.*axis;
     if (!nodes.load.empty()) force += nodes.load[n].*axis;
-    if (!outer.empty()) force += outer[n].*axis;
+    if (!outer.empty()) force += length.position / length.velocity * outer[n].*axis;
     ledger.external += force * way;
-    ledger.damping += settings.damping * mass * way * way / dt;
+    ledger.damping += settings.damping * mass * way * way / length.velocity;
   }
 };
 
-void ExplicitDynamics::finish(const Model& model, double dt, const StepSettings& settings,
-                              std::span<const Vec2> outerForces,
+void ExplicitDynamics::finish(const Model& model, const StepLength& length,
+                              const StepSettings& settings, std::span<const Vec2> outerForces,
                               std::span<const Vec2> contactForces, EnergyLedger& ledger,
                               int threads) const {
   const Nodes& nodes = model.nodes;
   const bool all = settings.gravity != Vec2{} || !nodes.load.empty() || !outerForces.empty() ||
                    settings.damping != 0 || !viscousForce_.empty();
   if (!all && heldVelocity_.empty()) return;
-  const Works works{*this, nodes, dt, settings, outerForces, contactForces};
+  const Works works{*this, nodes, length, settings, outerForces, contactForces};
   // Summed by blocks of a fixed length, which do not depend on the number of threads.
   const std::size_t blocks = (nodes.size() + tolerance::kNodesPerSum - 1) / tolerance::kNodesPerSum;
   std::vector<EnergyLedger> sums(blocks);

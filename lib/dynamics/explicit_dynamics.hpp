@@ -1,11 +1,13 @@
 #pragma once
 // The explicit time step of all bodies without contact (leapfrog):
-//   v* = [(1−d) vⁿ⁻½ + Δt f(xⁿ)/m] / (1+d), d = αΔt/2;  x* = xⁿ + Δt v*.
+//   v* = [(1−d) vⁿ⁻½ + Δv f(xⁿ)/m] / (1+d), d = αΔv/2;  x* = xⁿ + Δt v*,
+// where Δv = ½(Δtⁿ⁻¹ + Δtⁿ) is Δt as long as the step does not change.
 // Contact then corrects x* and v*, and `finish` books the works of the whole step.
 
 #include <span>
 #include <vector>
 
+#include "core/step_length.hpp"
 #include "core/tolerances.hpp"
 #include "dynamics/element_kernel.hpp"
 #include "dynamics/energy_ledger.hpp"
@@ -18,8 +20,7 @@ struct StepSettings {
   Vec2 gravity = {};   ///< m/s²
   BulkViscosity viscosity = {};
 
-  /// d = αΔt/2
-  [[nodiscard]] double drag(double dt) const { return damping * dt / 2; }
+  [[nodiscard]] double drag(const StepLength& step) const { return damping * step.velocity / 2; }
 };
 
 class ExplicitDynamics {
@@ -55,12 +56,13 @@ class ExplicitDynamics {
   /// In the last step.
   [[nodiscard]] bool anyFaster() const { return anyFaster_; }
 
-  /// One step; `outerForces` (N, by node) may be empty. Held directions keep their velocity. The
-  /// result has the same bits for any number of threads.
-  /// Throws RunError with element or node and place, and leaves the last good state: where an
-  /// element is inverted or not finite at xⁿ, positions go back to xⁿ⁻¹ = xⁿ − Δt v; where a force
-  /// or a velocity is not finite, they stay at xⁿ. Velocities are those of n − ½ in both cases.
-  void predict(Model& model, double dt, const StepSettings& settings,
+  /// One step; `outerForces` (N, by node) may be empty. They act for Δt, not Δv: so does what they
+  /// push back on, which others integrate with steps of Δt, and momentum is kept. Held directions
+  /// keep their velocity. The result has the same bits for any number of threads. Throws RunError
+  /// with element or node and place, and leaves the last good state: where an element is inverted
+  /// or not finite at xⁿ, positions go back to xⁿ⁻¹ = xⁿ − Δt v; where a force or a velocity is not
+  /// finite, they stay at xⁿ. Velocities are those of n − ½ in both cases.
+  void predict(Model& model, const StepLength& length, const StepSettings& settings,
                std::span<const Vec2> outerForces, int threads);
 
   /// Undoes `predict`, but for rounding in the positions, before anything else has changed them.
@@ -70,7 +72,7 @@ class ExplicitDynamics {
   /// once the velocities are corrected. `contactForces` (N, by node, empty: none) serve only to
   /// find the reactions of held nodes: contact books its own work. Costs nothing where none of
   /// these act.
-  void finish(const Model& model, double dt, const StepSettings& settings,
+  void finish(const Model& model, const StepLength& length, const StepSettings& settings,
               std::span<const Vec2> outerForces, std::span<const Vec2> contactForces,
               EnergyLedger& ledger, int threads = 1) const;
 

@@ -54,7 +54,7 @@ void Cohesion::renumberEdges(std::span<const EdgeId> renumbered) {
 }
 
 void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before,
-                       double dt, double drag) {
+                       const StepLength& step, double drag) {
   points_.clear();
   for (std::uint32_t c = 0; c < edge.size(); ++c) {
     const auto [a, b] = nodesAt(model, edges, edge[c], 0);
@@ -70,7 +70,7 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
       const NodeId here = end == 0 ? a : d, there = end == 0 ? b : e;
       // What is broken touches like any other surface, whatever way it has turned since.
       if (here == there || largest[c][end] >= critical) continue;
-      const Vec2 mobile = dt * dt * area[c] *
+      const Vec2 mobile = step.squared() * area[c] *
                           (mobility(model.nodes, here, drag) + mobility(model.nodes, there, drag));
       points_.push_back({here,
                          there,
@@ -133,7 +133,7 @@ double Cohesion::relax(Model& model, Point& point) const {
   const Vec2 traction = held(point, opening) + shut(point, opening);
   const Vec2 change = traction - point.traction;
   point.traction = traction;
-  const double rate = dt_ * dt_ * point.area;
+  const double rate = squaredStep_ * point.area;
   const Vec2 here = mobility(model.nodes, point.here, drag_);
   const Vec2 there = mobility(model.nodes, point.there, drag_);
   position[point.here.value] += rate * Vec2{here.x * change.x, here.y * change.y};
@@ -142,10 +142,10 @@ double Cohesion::relax(Model& model, Point& point) const {
 }
 
 double Cohesion::correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
-                         double dt, double drag) {
+                         const StepLength& step, double drag) {
   if (edge.empty()) return 0;
-  dt_ = dt, drag_ = drag;
-  collect(model, edges, before, dt, drag);
+  squaredStep_ = step.squared(), drag_ = drag;
+  collect(model, edges, before, step, drag);
   for (int sweep = 0; sweep < tolerance::kCohesionSweeps; ++sweep) {
     double worst = 0;
     for (Point& point : points_) worst = std::max(worst, relax(model, point) / point.strength);
@@ -161,9 +161,9 @@ double Cohesion::correct(Model& model, const CrackEdges& edges, std::span<const 
     for (const double sign : {1., -1.}) {
       const NodeId node = sign > 0 ? point.here : point.there;
       const Vec2 mobile = mobility(model.nodes, node, drag);
-      const Vec2 u = sign * dt * dt * point.area *
+      const Vec2 u = sign * step.squared() * point.area *
                      Vec2{mobile.x * point.traction.x, mobile.y * point.traction.y};
-      model.nodes.velocity[node.value] += (1 / dt) * u;
+      model.nodes.velocity[node.value] += (1 / step.position) * u;
       most = std::max(most, norm(u));
     }
   }
@@ -178,13 +178,13 @@ void Cohesion::addForces(std::vector<Vec2>& forces) const {
 }
 
 double Cohesion::book(const Model& model, const CrackEdges& edges,
-                      std::span<const Vec2> previousVelocity, double dt) {
+                      std::span<const Vec2> previousVelocity, const StepLength& step) {
   double work = 0;
   for (const Point& point : points_) {
     const auto mean = [&](NodeId node) {
       return .5 * (previousVelocity[node.value] + model.nodes.velocity[node.value]);
     };
-    work += dt * point.area * dot(point.traction, mean(point.there) - mean(point.here));
+    work += step.velocity * point.area * dot(point.traction, mean(point.there) - mean(point.here));
   }
   points_.clear();
   released.clear();

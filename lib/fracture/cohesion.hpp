@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/footprint.hpp"
+#include "core/step_length.hpp"
 #include "fracture/crack_edges.hpp"
 
 namespace yadefrag {
@@ -32,13 +33,13 @@ class Cohesion {
 
   /// From the predicted x* and v* without cohesion to those with it; `before`: m, xⁿ, for the
   /// normals. Returns the largest correction of a position (m).
-  double correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before, double dt,
-                 double drag);
+  double correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
+                 const StepLength& step, double drag);
 
   /// (J) What the tractions of the last step took, with the mean velocity of the step; then those
   /// that hold nothing any more are forgotten, and listed in `released`.
   double book(const Model& model, const CrackEdges& edges, std::span<const Vec2> previousVelocity,
-              double dt);
+              const StepLength& step);
 
   /// (N) Adds the tractions of the present step, by node.
   void addForces(std::vector<Vec2>& forces) const;
@@ -69,8 +70,8 @@ class Cohesion {
 
   template <class Keep>
   void keepOnly(Keep keep);
-  void collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before, double dt,
-               double drag);
+  void collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before,
+               const StepLength& step, double drag);
   double relax(Model& model, Point& point) const;
   static double openingOf(const Point& point, Vec2 apart, Vec2& direction);
   static double complianceAlong(const Point& point, Vec2 direction);
@@ -78,7 +79,8 @@ class Cohesion {
   static Vec2 shut(const Point& point, Vec2 opening);
 
   std::vector<Point> points_;
-  double dt_ = 0, drag_ = 0;
+  double squaredStep_ = 0;  // s²
+  double drag_ = 0;
 };
 
 }  // namespace yadefrag

@@ -9,15 +9,16 @@ namespace yadefrag {
 
 void World::step(double dt) {
   requireStableStep(dt);
+  const StepLength length(dt, lastDt);
 
   // Where the surface is at xⁿ: contact forces act there, and a step that fails goes back there.
   rememberSurface(dt);
 
   // Internal forces, then v* and x*, as if there were no contact.
-  predict(dt);
+  predict(length);
 
   // What still holds cracks together.
-  cohere(dt);
+  cohere(length);
 
   // Global search, only if a node left the halo of the last one: mostly a collider has searched, or
   // the last candidates still hold.
@@ -27,13 +28,13 @@ void World::step(double dt) {
     searchIfLeft(dt);
     requireResolvedMotion(dt);
     // Local search and correction, from x*, v* to xⁿ⁺¹, vⁿ⁺½.
-    correctContact(dt);
-    bookContact(dt);
+    correctContact(length);
+    bookContact(length);
   }
 
   // Works of everything but contact, with the mean of both velocities.
-  finish(dt);
-  bookFracture(dt);
+  finish(length);
+  bookFracture(length);
   ++steps;
   time += dt;
   lastDt = dt;
@@ -48,10 +49,10 @@ void World::step(double dt) {
   if (canTouch()) foreseeSearch(dt);
 }
 
-void World::predict(double dt) {
+void World::predict(const StepLength& length) {
   const StageTimer timer(timesIfAsked(), &StageTimes::forces);
   try {
-    dynamics_.predict(model, dt, dynamicsSettings, outerForces, threads);
+    dynamics_.predict(model, length, dynamicsSettings, outerForces, threads);
   } catch (const RunError& error) {
     std::ostringstream text;
     text << "Step " << steps << ", time " << time << " s: " << error.what();
@@ -59,7 +60,7 @@ void World::predict(double dt) {
   }
 }
 
-void World::finish(double dt) {
+void World::finish(const StepLength& length) {
   const StageTimer timer(timesIfAsked(), &StageTimes::forces);
   // Held nodes push back against contact and against cracks that still hold.
   std::span<const Vec2> forces = contact.forces().known;
@@ -69,7 +70,7 @@ void World::finish(double dt) {
     fracture.cohesion.addForces(surfaceForces_);
     forces = surfaceForces_;
   }
-  dynamics_.finish(model, dt, dynamicsSettings, outerForces, forces, ledger, threads);
+  dynamics_.finish(model, length, dynamicsSettings, outerForces, forces, ledger, threads);
 }
 
 }  // namespace yadefrag

@@ -70,9 +70,9 @@ class World {
   /// others.
   void prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 velocity);
 
-  /// One step of Δt (s). Throws TimeStepError for a step above the critical one, InputError where
-  /// it does not resolve a crack's opening, RunError where an element or a value gives out: the
-  /// last good state is then there to be looked at.
+  /// One step of Δt (s), which may differ from the last one's. Throws TimeStepError for a step
+  /// above the critical one, InputError where it does not resolve a crack's opening, RunError where
+  /// an element or a value gives out: the last good state is then there to be looked at.
   void step(double dt);
 
   /// (s) From the present mesh; infinite without elements.
@@ -143,11 +143,11 @@ class World {
   void requireSearchableMotion(double dt);
   void requireResolvedMotion(double dt);
   [[noreturn]] void refuseMotion(double dt, const std::string& why);
-  void correctContact(double dt);
-  void bookContact(double dt);
+  void correctContact(const StepLength& length);
+  void bookContact(const StepLength& length);
   void foreseeSearch(double dt);
-  void cohere(double dt);
-  void bookFracture(double dt);
+  void cohere(const StepLength& length);
+  void bookFracture(const StepLength& length);
   void watchEnergy();
   std::string complainOfMotion();
   bool crack();
@@ -161,8 +161,8 @@ class World {
   void measureMove(double dt);
   [[nodiscard]] double wideHalo(double move) const;
   [[nodiscard]] double fastest(SegmentId first) const;
-  void predict(double dt);
-  void finish(double dt);
+  void predict(const StepLength& length);
+  void finish(const StepLength& length);
   [[nodiscard]] StageTimes* timesIfAsked() { return timing ? &times : nullptr; }
 
   ExplicitDynamics dynamics_;

@@ -137,9 +137,9 @@ void World::searchNow(double dt) {
   considerPairs(overlapping_);
 }
 
-void World::correctContact(double dt) {
-  const ContactStep now{dt,
-                        dynamicsSettings.damping * dt / 2,
+void World::correctContact(const StepLength& length) {
+  const ContactStep now{length,
+                        dynamicsSettings.drag(length),
                         largestMove_,
                         2 * largestMove_ + tolerance::kTouching * finest_,
                         finest_,
@@ -151,19 +151,19 @@ void World::correctContact(double dt) {
   try {
     contact.correct(model, surfaces, contactSettings, now);
   } catch (const RunError& error) {
-    refuseMotion(dt, error.what());
+    refuseMotion(length.position, error.what());
   }
   farthest_ += contact.largestCorrection();
   apart_.comeNearer(2 * contact.largestCorrection());
 }
 
-void World::bookContact(double dt) {
+void World::bookContact(const StepLength& length) {
   const StageTimer timer(timesIfAsked(), &StageTimes::correction);
   const std::span<const Vec2> former = dynamics_.previousVelocity();
   for (const ContactRow& row : contact.rows()) {
     const Vec2 mean = .5 * (relative(row, former) + relative(row, model.nodes.velocity));
-    ledger.contact -= row.normalForce * dot(mean, row.normal) * dt;
-    ledger.friction -= row.tangentForce * dot(mean, row.tangent()) * dt;
+    ledger.contact -= row.normalForce * dot(mean, row.normal) * length.velocity;
+    ledger.friction -= row.tangentForce * dot(mean, row.tangent()) * length.velocity;
   }
 }
 

@@ -8,17 +8,17 @@
 
 namespace yadefrag {
 
-void World::cohere(double dt) {
+void World::cohere(const StepLength& length) {
   if (fracture.cohesion.edge.empty()) return;
   const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
-  fracture.cohesion.correct(model, fracture.edges, before_, dt, dynamicsSettings.damping * dt / 2);
+  fracture.cohesion.correct(model, fracture.edges, before_, length, dynamicsSettings.drag(length));
 }
 
-void World::bookFracture(double dt) {
+void World::bookFracture(const StepLength& length) {
   if (fracture.cohesion.edge.empty()) return;
   const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
   ledger.fracture +=
-      fracture.cohesion.book(model, fracture.edges, dynamics_.previousVelocity(), dt);
+      fracture.cohesion.book(model, fracture.edges, dynamics_.previousVelocity(), length);
 }
 
 /// True if nodes have split.

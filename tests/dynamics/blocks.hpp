@@ -53,14 +53,17 @@ struct Stepper {
   StepSettings settings = {};
   int threads = 1;
   InstructionSet set = bestInstructionSet();
+  double last = 0;  // s, the step before
   EnergyLedger ledger = {};
   ExplicitDynamics dynamics = ExplicitDynamics(set);
 
   void start() { dynamics.rebuild(model); }
   void step(int count = 1, std::span<const Vec2> outer = {}) {
     for (int i = 0; i < count; ++i) {
-      dynamics.predict(model, dt, settings, outer, threads);
-      dynamics.finish(model, dt, settings, outer, {}, ledger, threads);
+      const StepLength length(dt, last);
+      dynamics.predict(model, length, settings, outer, threads);
+      dynamics.finish(model, length, settings, outer, {}, ledger, threads);
+      last = dt;
     }
   }
   [[nodiscard]] double kinetic() const { return kineticEnergy(model.nodes); }

@@ -12,9 +12,10 @@ from yade import wrapper as w
 O = builtins.O
 
 
-@pytest.mark.parametrize('smooth', [False, True])
-@pytest.mark.parametrize('friction', [0, .5])
-def test_sphereOnABodyKeepsMomentum(smooth, friction):
+@pytest.mark.parametrize('smooth, friction, varying', [
+    (False, 0, False), (False, .5, False), (True, 0, False), (True, .5, True), (False, 0, True)])
+def test_sphereOnABodyKeepsMomentum(smooth, friction, varying):
+    """Also where O.dt changes in every step."""
     solver = fe()
     O.materials['m'].frictionAngle = friction
     solver.addPolygon(yadefrag.rectangle((-.1, -.1), (.1, 0)), size=.02, material='m',
@@ -28,7 +29,10 @@ def test_sphereOnABodyKeepsMomentum(smooth, friction):
     linear, angular = momentum(solver)
     energy = solver.energy['total'] + .5 * ball.state.mass * ball.state.vel.squaredNorm()
     touched = 0
-    for _ in range(4000):
+    dt = O.dt
+    for i in range(4000):
+        if varying:
+            O.dt = dt * (.3 + .7 * (7 * i % 11) / 11)
         O.step()
         touched += len(list(O.interactions)) > 0
         if touched and not len(list(O.interactions)):
