@@ -204,7 +204,12 @@ inline constexpr double kApartMoves = 8;
 inline constexpr double kSpeedSpare = 1.25;
 
 /// (m/s) Nobody is fast below this if nothing else is said; its square and its way are finite.
+/// Bodies may not be sent at more.
 inline constexpr double kAnySpeed = 1e100;
+
+/// (1) Largest coefficients of bulk viscosity: usual ones are 0.06 and 1.2, and the critical step
+/// falls in proportion.
+inline constexpr double kMostViscosity = 1e6;
 
 /// (count) Boxes that are sooner compared with each other than sorted.
 inline constexpr std::size_t kFewBoxes = 12;
@@ -229,6 +234,10 @@ inline constexpr double kMostTriangles = 2147483648.;
 /// (bytes) Of memory that a triangle takes at the least, all told, in its first step: measured in
 /// squares of 10⁵ to 6·10⁵.
 inline constexpr double kTriangleBytes = 400;
+
+/// (count) Triangles whose masses and stiffnesses are summed in a node without leaving the range of
+/// numbers.
+inline constexpr double kMostSummed = 1000;
 
 /// (of the largest coordinate) Smallest size of triangles: below, twelve bits of their sides would
 /// be left of the coordinates' 52.

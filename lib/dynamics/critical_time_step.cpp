@@ -45,19 +45,18 @@ std::vector<double> nodeStiffness(const Model& model) {
 
 using Masses = std::array<double, 3>;
 
-/// (kg) The element's share of its nodes' masses: a third of its own where it may come to stand
-/// alone, for the step must hold when it does.
+/// (of the element's mass) Its share of its nodes' masses: a third where it may come to stand
+/// alone, for the step must hold when it does. As ratios, no product of them leaves the range of
+/// numbers.
 Masses massShares(const Model& model, const std::vector<double>& nodeStiffness,
                   std::size_t element) {
   const Component& c = componentOf(model, element);
-  if (c.brittle.cracks()) {
-    const double third = c.material.density * c.thickness * model.triangles.area[element] / 3;
-    return {third, third, third};
-  }
+  if (c.brittle.cracks()) return {1. / 3, 1. / 3, 1. / 3};
+  const double own = c.material.density * c.thickness * model.triangles.area[element];
   Masses shares = cornerStiffness(model, element);
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t n = model.triangles.nodes[element][i].value;
-    shares[i] *= model.nodes.mass[n] / nodeStiffness[n];
+    shares[i] *= model.nodes.mass[n] / own / nodeStiffness[n];
   }
   return shares;
 }
@@ -78,13 +77,16 @@ double squaredFrequency(const Model& model, std::size_t element, const Masses& m
     yy += gradient[i].y * gradient[i].y / mass[i];
     xy += gradient[i].x * gradient[i].y / mass[i];
   }
-  const double sum = (lame + 2 * shear) * (xx + yy);
-  const double product = 4 * shear * (lame + shear) * (xx * yy - xy * xy);
-  const double stretch = (sum + std::sqrt(std::max(0., sum * sum - 4 * product))) / 2;
+  const double trace = xx + yy;
+  const double sum = (lame + 2 * shear) * trace;
+  const double shape = (xx / trace) * (yy / trace) - (xy / trace) * (xy / trace);
+  const double modulus = lame + 2 * shear;
+  const double product = 4 * (shear / modulus) * ((lame + shear) / modulus) * shape;
+  const double stretch = sum * (1 + std::sqrt(std::max(0., 1 - 4 * product))) / 2;
   const Matrix2 f = deformationGradient(model, ElementId(element));
   const double drawn = std::hypot(f.xx + f.yy, f.yx - f.xy);  // 2 where there is no stretch
-  const double turn = (shear + std::max(0., (lame + shear) * (1 - 2 / drawn))) * (xx + yy);
-  return c.thickness * model.triangles.area[element] * std::max(stretch, turn);
+  const double turn = (shear + std::max(0., (lame + shear) * (1 - 2 / drawn))) * trace;
+  return std::max(stretch, turn) / c.material.density;
 }
 
 /// (1/s) The fastest decay rate of the element's bulk viscosity, of its present shape.
@@ -107,7 +109,8 @@ double viscousRate(const BulkViscosity& viscosity, const Model& model, std::size
   const double length = twiceArea / longest;
   const double wave = std::sqrt(c.material.waveModulus() / c.material.density);
   const double squeeze = viscosity.quadratic * viscosity.quadratic * length * std::max(0., -rate);
-  return c.thickness * twiceArea / 2 * c.material.density * length *
+  // The mass is that of the stress-free shape, the area the present one.
+  return twiceArea / 2 / model.triangles.area[element] * length *
          (viscosity.linear * wave + squeeze) * sum;
 }
 
@@ -124,7 +127,8 @@ double criticalTimeStep(const Model& model, const BulkViscosity& viscosity, int 
       const double omega = std::sqrt(squaredFrequency(model, e, mass));
       const double zeta =
           viscosity.isOn() ? viscousRate(viscosity, model, e, mass) / (2 * omega) : 0;
-      step = std::min(step, 2 / omega * (std::sqrt(1 + zeta * zeta) - zeta));
+      const double stable = 2 / omega / (std::hypot(1, zeta) + zeta);
+      step = stable >= 0 ? std::min(step, stable) : 0;  // 0 where it is no number
     }
     least[part] = step;
   });

@@ -12,7 +12,8 @@ namespace yadefrag {
 /// the bound is some 1.2 to 1.3 times below the truth. Bodies that crack get equal thirds, 1.6 to
 /// 1.8 below: that is how nodes split, and an element that has come to stand alone is as fast. The
 /// smallest altitude over the wave speed is no bound: a lone equilateral triangle is faster by a
-/// quarter. Infinite without elements.
+/// quarter. Infinite without elements, 0 where a
+/// value leaves the range of numbers.
 double criticalTimeStep(const Model& model, const BulkViscosity& viscosity = {}, int threads = 1);
 
 }  // namespace yadefrag

@@ -49,6 +49,8 @@ Vec2 pointOf(std::string_view line, std::size_t number) {
 }  // namespace
 
 Polygon polygonFromText(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::vector<std::vector<Vec2>> loops(1);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = text.find('\n');

@@ -40,6 +40,12 @@ void requireFinite(const char* name, const std::vector<Vec2>& values) {
   }
 }
 
+void requireSlow(const std::vector<Vec2>& velocities) {
+  for (const Vec2 velocity : velocities)
+    for (const double one : {velocity.x, velocity.y})
+      require(std::abs(one) <= tolerance::kAnySpeed, "velocity", one, " m/s", "at most 1e100 m/s");
+}
+
 void requireHeld(const std::vector<std::uint8_t>& held) {
   for (const std::uint8_t one : held)
     require(one <= kHeldXY, "held", one, "", "0 to 3 for every node");
@@ -71,13 +77,24 @@ void checkMaterial(const BodySpec& spec) {
   if (spec.brittle.tensileStrength != 0) checkBrittle(spec.brittle);
 }
 
-/// A mass that is zero, or infinite, by the range of numbers alone.
+/// A mass or a stiffness that is zero, or infinite, by the range of numbers alone.
 void checkMasses(const TriangleMesh& mesh, const BodySpec& spec) {
+  constexpr const char* kRange = "in the range of numbers, from 2e-308 to 2e+305";
+  const auto isInRange = [](double value) {
+    using Limits = std::numeric_limits<double>;
+    return value >= Limits::min() && value <= Limits::max() / tolerance::kMostSummed;
+  };
+  const double modulus = spec.material.waveModulus();
   for (const auto& [a, b, c] : mesh.triangles) {
     const double twice = cross(mesh.nodes[b] - mesh.nodes[a], mesh.nodes[c] - mesh.nodes[a]);
     const double mass = spec.material.density * spec.thickness * twice / 2;
-    require(mass >= std::numeric_limits<double>::min() && std::isfinite(mass),
-            "the mass of a triangle", mass, " kg", "in the range of numbers, from 2e-308 on");
+    require(isInRange(mass), "the mass of a triangle", mass, " kg", kRange);
+    const Vec2 edges[] = {mesh.nodes[b] - mesh.nodes[a], mesh.nodes[c] - mesh.nodes[b],
+                          mesh.nodes[a] - mesh.nodes[c]};
+    for (const Vec2 edge : edges) {
+      const double stiffness = modulus * spec.thickness * (dot(edge, edge) / twice);
+      require(isInRange(stiffness), "the stiffness of a triangle", stiffness, " N/m", kRange);
+    }
   }
 }
 
@@ -127,6 +144,7 @@ void checkBody(const TriangleMesh& mesh, const BodySpec& spec) {
   requireLength("held", spec.held, mesh);
   requireLength("smoothNodes", spec.smoothNodes, mesh);
   requireFinite("velocity", spec.velocity);
+  requireSlow(spec.velocity);
   requireFinite("displacement", spec.displacement);
   requireHeld(spec.held);
   checkMaterial(spec);

@@ -90,7 +90,8 @@ void World::prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 vel
     if (node.value >= model.nodes.size())
       throw InputError("There is no node " + std::to_string(node.value) + ": there are " +
                        std::to_string(model.nodes.size()) + " nodes.");
-  if (!isFinite(velocity)) throw InputError("The prescribed velocity is not finite.");
+  if (!(std::max(std::abs(velocity.x), std::abs(velocity.y)) <= tolerance::kAnySpeed))
+    throw InputError("The prescribed velocity must be finite and at most 1e100 m/s.");
   const auto isNew = [&](NodeId node) { return model.nodes.held[node.value] != held; };
   const bool changed = std::any_of(nodes.begin(), nodes.end(), isNew);
   for (const NodeId node : nodes) {
@@ -165,6 +166,8 @@ void World::requireStableStep(double dt) {
   buildIfChanged();
   if (dt > 0 && dt <= stableStep_) return;
   const double critical = criticalTimeStep();
+  if (critical == 0)
+    throw TimeStepError("No time step is stable: a velocity or a node's place is too large.");
   // Without elements any finite step is stable.
   if (!(dt > 0 && dt <= critical && std::isfinite(dt))) {
     std::ostringstream text;

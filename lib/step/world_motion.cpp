@@ -61,6 +61,10 @@ void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec) {
 
 void World::requireSearchableMotion(double dt) {
   if (largestMove_ <= tolerance::kFarthestMove * finest_) return;
+  if (!std::isfinite(largestMove_))
+    refuseMotion(dt,
+                 "a surface node leaves the range of numbers; loads, gravity or velocities are "
+                 "too large for any step.");
   std::ostringstream text;
   text << "a surface node moves by " << largestMove_ << " m in one step, but may not by more than "
        << tolerance::kFarthestMove << " times the shortest segment, " << finest_

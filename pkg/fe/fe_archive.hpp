@@ -34,12 +34,17 @@ class WorldArchive {
   explicit WorldArchive(Archive& archive) : archive_(archive) {}
 
   /// `entryBodies`: YADE's number of each entry's body. Throws InputError for a state that is
-  /// damaged, or that another version saved.
+  /// damaged, or that another version saved; RunError where it cannot be written.
   void run(World& world, std::vector<int>& entryBodies) {
     try {
       all(world, entryBodies);
     } catch (const boost::archive::archive_exception& error) {
-      refuse(error.what());
+      if constexpr (Archive::is_saving::value)
+        throw RunError(
+            "FESolver could not be saved (" + std::string(error.what()) +
+            "): its file cannot be opened or the disk is full, and the file is incomplete.");
+      else
+        refuse(error.what());
     }
   }
 

@@ -204,10 +204,10 @@ void FESolver::checkSettings() const {
     text << "(" << gravity[0] << ", " << gravity[1] << ", " << gravity[2] << ")";
     refuse("gravity", text.str(), "finite, and z must be 0: bodies move in the plane z = 0 only");
   }
-  if (!(linearViscosity >= 0 && std::isfinite(linearViscosity)))
-    refuse("linearViscosity", linearViscosity, "0 or positive");
-  if (!(quadraticViscosity >= 0 && std::isfinite(quadraticViscosity)))
-    refuse("quadraticViscosity", quadraticViscosity, "0 or positive");
+  const auto isViscosity = [](double v) { return v >= 0 && v <= tolerance::kMostViscosity; };
+  const char* viscosity = "0 or positive, and at most 1e6";
+  if (!isViscosity(linearViscosity)) refuse("linearViscosity", linearViscosity, viscosity);
+  if (!isViscosity(quadraticViscosity)) refuse("quadraticViscosity", quadraticViscosity, viscosity);
 }
 
 void FESolver::postLoad(FESolver& /*self*/) {

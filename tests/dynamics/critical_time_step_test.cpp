@@ -76,6 +76,25 @@ TEST(CriticalTimeStep, FollowsTheElementSizeAndTheWaveSpeed) {
   EXPECT_EQ(criticalTimeStep(Model{}), std::numeric_limits<double>::infinity());
 }
 
+/// The products of masses and stiffnesses on the way must not leave the range of numbers.
+TEST(CriticalTimeStep, DoesNotDependOnTheThickness) {
+  const double usual = criticalTimeStep(square(3, kSteel));
+  for (const double thickness : {1e-290, 1e-200, 1e-100, 1e100, 1e200, 1e290}) {
+    EXPECT_NEAR(criticalTimeStep(square(3, kSteel, thickness)), usual, 1e-12 * usual) << thickness;
+  }
+}
+
+TEST(CriticalTimeStep, IsFiniteForAnyViscosity) {
+  const Model model = square(3, kSteel);
+  double before = criticalTimeStep(model);
+  for (const double linear : {1., 1e10, 1e80, 1e160}) {
+    const double step = criticalTimeStep(model, {linear, 0});
+    EXPECT_GT(step, 0) << linear;
+    EXPECT_LT(step, before) << linear;
+    before = step;
+  }
+}
+
 TEST(CriticalTimeStep, DoesNotDependOnThreads) {
   const Model model = square(40);
   EXPECT_EQ(criticalTimeStep(model, {}, 3), criticalTimeStep(model, {}, 1));

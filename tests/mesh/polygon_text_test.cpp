@@ -32,6 +32,16 @@ TEST(PolygonText, LoopsAreApartByEmptyLines) {
   EXPECT_EQ(polygon.holes[0], (std::vector<Vec2>{{1, 1}, {1, 2}, {2, 1}}));
 }
 
+TEST(PolygonText, ByteOrderMarkAtTheBeginningIsSkipped) {
+  EXPECT_EQ(polygonFromText("\xef\xbb\xbf"
+                            "0 0\n1 0\n1 1\n")
+                .outline,
+            (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}}));
+  EXPECT_NE(refusal("0 0\n\xef\xbb\xbf"
+                    "1 0\n"),
+            "");
+}
+
 TEST(PolygonText, DamagedTextIsReadOrRefusedInASentence) {
   std::mt19937 random(1);
   int refused = 0;

@@ -1,13 +1,13 @@
 """Pictures, films and ParaView files of a solver, here a stand-in with two triangles."""
 
 import subprocess
-import sys
 import types
 
 import numpy
 import pytest
 
 import scenes
+from test_threads import yadeCommand
 from yadefrag import export, pictures
 
 O = scenes.O
@@ -128,13 +128,13 @@ def test_filmIsRefusedBeforeTheFirstStep(change, word):
     assert word in str(error.value) and O.iter == 0
 
 
-def test_importCostsNoPlotting():
+def test_importCostsNoPlotting(folder):
     """Scripts that draw nothing do not wait for Matplotlib and meshio."""
-    code = ('import sys, importlib.util\n'
-            'for path in sys.argv[1:]:\n'
-            '    spec = importlib.util.spec_from_file_location("m", path)\n'
-            '    spec.loader.exec_module(importlib.util.module_from_spec(spec))\n'
-            'print(sorted({"matplotlib", "meshio", "PIL"} & set(sys.modules)))\n')
-    done = subprocess.run([sys.executable, '-c', code, pictures.__file__, export.__file__],
-                          capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == '[]'
+    with open(folder + '/script.py', 'w') as script:
+        script.write('import sys\n'
+                     'before = set(sys.modules)\n'
+                     'import yadefrag\n'
+                     'new = {name.partition(".")[0] for name in set(sys.modules) - before}\n'
+                     'print("@", sorted({"matplotlib", "meshio", "PIL"} & new))\n')
+    done = subprocess.run([*yadeCommand(), folder + '/script.py'], capture_output=True, text=True, check=True)
+    assert '@ []' in done.stdout

@@ -18,7 +18,7 @@ _yadefrag.checkRunningYade()
 __all__ = list(_yadefrag.publish())
 
 # Only now: FESolver is there.
-from yadefrag import solver  # noqa: E402
+from yadefrag import attributes, solver  # noqa: E402
 from yadefrag.export import exportVTK  # noqa: E402
 from yadefrag.fragments import (fragmentTable, plotFracture, plotFragmentSizes,  # noqa: E402
                                  recordFracture)
@@ -44,6 +44,7 @@ _renewDispatchers()
 for _name in __all__:
     globals()[_name] = getattr(wrapper, _name)
     setattr(builtins, _name, globals()[_name])
+    attributes.install(globals()[_name])
 
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'rectangleMesh', 'plotMesh', 'animate',
             'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',

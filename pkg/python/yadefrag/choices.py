@@ -5,10 +5,10 @@ depend on which of them are varied.
 """
 
 import math
-import numbers
 import os
 
 from yade import wrapper
+from yadefrag import values
 
 COLLIDERS = ('LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider',
              'InsertionSortCollider')
@@ -16,8 +16,8 @@ LINEAR_VISCOSITY, QUADRATIC_VISCOSITY = .06, 1.2  # usual coefficients of bulk v
 
 
 def _isNumber(value):
-    return (isinstance(value, numbers.Real) and not isinstance(value, bool)
-            and math.isfinite(value))
+    number = values.real(value)
+    return number is not None and math.isfinite(number)
 
 
 def _isPenalty(value):
@@ -64,8 +64,8 @@ KNOWN = {
 def check(name, value):
     """ValueError, one sentence, for a value that a known choice cannot have; others are free."""
     if name in KNOWN and not KNOWN[name][0](value):
-        raise ValueError('vary has the choice %s=%r, it must be %s.' %
-                         (name, value, KNOWN[name][1]))
+        raise ValueError('vary has the choice %s=%s, it must be %s.' %
+                         (name, values.shown(value), KNOWN[name][1]))
 
 
 class Choices:
@@ -88,7 +88,8 @@ class Choices:
 
     def __getitem__(self, name):
         if name not in self._settings:
-            raise ValueError('the scene needs the choice %r, which vary does not have.' % name)
+            raise ValueError('the scene needs the choice %s, which vary does not have.' %
+                             values.shown(name))
         return self.get(name)
 
     def neverAsked(self):

@@ -2,6 +2,10 @@
 
 import numpy
 
+from yadefrag.files import replacing
+from yadefrag.shown import requireSolver, shownMesh
+from yadefrag.values import path
+
 _OF_NODES = (('displacement', 'displacements'), ('velocity', 'velocities'),
              ('contact force', 'contactForces'))
 
@@ -22,10 +26,7 @@ def exportVTK(fe, file):
     """
     import meshio
 
-    from yadefrag.shown import requireSolver, shownMesh
-
-    if not str(file).endswith('.vtu'):
-        raise ValueError("file is %r, its name must end with '.vtu'." % str(file))
+    name = path('file', file, '.vtu')
     requireSolver(fe)
     nodes, triangles, corners = shownMesh(fe)
     if len(triangles) == 0:
@@ -36,4 +37,5 @@ def exportVTK(fe, file):
              'fragment': [numpy.asarray(fe.fragmentOf, dtype=numpy.int32)[triangles]]}
     mesh = meshio.Mesh(_spatial(fe.nodes[nodes]), [('triangle', corners.astype(numpy.int64))],
                        point_data=points, cell_data=cells)
-    mesh.write(str(file), file_format='vtu')
+    with replacing(name) as part:
+        mesh.write(part, file_format='vtu')

@@ -4,7 +4,9 @@ import os
 
 import numpy
 
+from yadefrag.files import appendText, savePicture, writeText
 from yadefrag.shown import requireSolver
+from yadefrag.values import flag, isWhole, path, plain, refuse, shownPath
 
 _COLUMNS = (('fragment', '', int), ('component', '', int), ('triangles', '', int),
             ('mass', 'kg', float), ('area', 'm²', float), ('size', 'm', float), ('x', 'm', float),
@@ -12,16 +14,11 @@ _COLUMNS = (('fragment', '', int), ('component', '', int), ('triangles', '', int
 _ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped',
              'external', 'total')
 _COUNTS = ('step', 'time (s)', 'cracks', 'segments', 'fragments')
+_RECORDED = ','.join(_COUNTS + tuple('%s (J)' % e for e in _ENERGIES))
 
 
 def _heading(name, unit):
     return '%s (%s)' % (name, unit) if unit else name
-
-
-def _csvName(file):
-    if not str(file).endswith('.csv'):
-        raise ValueError("file is %r, its name must end with '.csv'." % str(file))
-    return str(file)
 
 
 def fragmentTable(fe, file=None):
@@ -34,17 +31,16 @@ def fragmentTable(fe, file=None):
     ValueError for another ending, before anything is written.
     """
     requireSolver(fe)
-    name = None if file is None else _csvName(file)
+    name = None if file is None else path('file', file, '.csv')
     rows = [(number, f['component'], f['triangles'], f['mass'], f['area'],
              numpy.sqrt(max(f['area'], 0)), *f['centroid'], *f['velocity'], f['spin'])
             for number, f in enumerate(fe.fragments())]
     table = numpy.array(rows, dtype=[(name, kind) for name, _, kind in _COLUMNS])
     table = table[numpy.argsort(-table['area'], kind='stable')]
     if name is not None:
-        with open(name, 'w', encoding='utf-8') as out:
-            out.write(','.join(_heading(name, unit) for name, unit, _ in _COLUMNS) + '\n')
-            for row in table.tolist():
-                out.write(','.join(map(repr, row)) + '\n')
+        heading = ','.join(_heading(name, unit) for name, unit, _ in _COLUMNS)
+        lines = [','.join(map(repr, row)) for row in table.tolist()]
+        writeText(name, '\n'.join([heading, *lines, '']))
     return table
 
 
@@ -57,16 +53,18 @@ def plotFragmentSizes(fe, file=None, ax=None, components=None):
     components  numbers of the bodies whose fragments count, default those that are in pieces
     ValueError where there is no such body.
     """
-    from yadefrag.pictures import newAxes
+    from yadefrag.pictures import newAxes, requireAxes
 
     table = fragmentTable(fe)
-    if components is None:
+    if components is not None:
+        components = _componentNumbers(components)
+    else:
         numbers, pieces = numpy.unique(table['component'], return_counts=True)
         components = numbers[pieces > 1]
     chosen = table[numpy.isin(table['component'], components)]
     if len(chosen) == 0:
         raise ValueError('fe has no body that is in pieces: there are no sizes to draw.')
-    ax = newAxes() if ax is None else ax
+    ax = newAxes() if ax is None else requireAxes(ax)
     # A step down behind each size: the point (size, number) is the last one on its level.
     sizes = chosen['size'][::-1]
     ax.step(sizes, numpy.arange(len(sizes), 0, -1), where='pre', marker='.', markersize=4,
@@ -75,8 +73,19 @@ def plotFragmentSizes(fe, file=None, ax=None, components=None):
            ylabel='fragments at least as large')
     ax.grid(True, which='both', linewidth=.3)
     if file is not None:
-        ax.figure.savefig(file, dpi=150)
+        savePicture(ax.figure, file, dpi=150)
     return ax
+
+
+def _componentNumbers(components):
+    """A list of int from a list of body numbers."""
+    try:
+        found = [plain(component) for component in components]
+    except TypeError:
+        found = [None]
+    if not all(map(isWhole, found)):
+        refuse('components', components, 'a list of numbers of bodies')
+    return found
 
 
 def recordFracture(fe, file, append=False):
@@ -90,37 +99,55 @@ def recordFracture(fe, file, append=False):
     ValueError for another ending and for a file to go on with that has other columns.
     """
     requireSolver(fe)
-    name = _csvName(file)
-    heading = ','.join(_COUNTS + tuple('%s (J)' % e for e in _ENERGIES)) + '\n'
-    if append and os.path.exists(name) and os.path.getsize(name):
-        with open(name, encoding='utf-8') as lines:
-            if lines.readline() != heading:
-                raise ValueError('%s has other columns than recordFracture writes: take another '
-                                 'file, or append=False to write it anew.' % name)
+    name = path('file', file, '.csv')
+    if flag('append', append) and os.path.exists(name) and os.path.getsize(name):
+        if not _linesOf(name):
+            raise ValueError('%s has other columns than recordFracture writes: take another '
+                             'file, or append=False to write it anew.' % shownPath(name))
     else:
-        with open(name, 'w', encoding='utf-8') as out:
-            out.write(heading)
+        writeText(name, _RECORDED + '\n')
 
     def record():
         from yade.wrapper import Omega
         scene, energy = Omega(), fe.energy
         row = (scene.iter, scene.time, fe.numCracks, fe.numSegments, len(fe.fragments()),
                *(energy.get(e, 0.) for e in _ENERGIES))
-        with open(name, 'a', encoding='utf-8') as out:
-            out.write(','.join(map(repr, row)) + '\n')
+        appendText(name, ','.join(map(repr, row)) + '\n')
 
     record()
     return record
+
+
+def _linesOf(name):
+    """The lines of a file of recordFracture, with the heading; none if it is no such file."""
+    with open(name, encoding='utf-8-sig', errors='replace') as file:
+        lines = file.read().splitlines()
+    return lines if lines[:1] == [_RECORDED] else []
+
+
+def _recorded(file):
+    """(columns, lines) of floats from a file of recordFracture."""
+    name = path('file', file, '.csv')
+    try:
+        rows = [[float(cell) for cell in line.split(',')] for line in _linesOf(name)[1:]]
+        data = numpy.array(rows, dtype=float)
+    except ValueError:
+        data = numpy.empty(0)
+    if data.ndim != 2 or data.shape[1] != _RECORDED.count(',') + 1:
+        raise ValueError('%s has no lines as recordFracture writes them, or a damaged one.' %
+                         shownPath(name))
+    return data.T
 
 
 def plotFracture(file, picture=None):
     """Draws a file of recordFracture: counts and energies over time; returns both axes.
 
     picture  where to write it; its ending says as what (.png, .pdf, .svg ...)
+    ValueError for a file with other columns or without a line.
     """
     from yadefrag.pictures import newAxes
 
-    data = numpy.atleast_2d(numpy.loadtxt(_csvName(file), delimiter=',', skiprows=1)).T
+    data = _recorded(file)
     time = 1e6 * data[1]
     upper = newAxes()
     figure = upper.figure
@@ -136,7 +163,7 @@ def plotFracture(file, picture=None):
         ax.legend(loc='center left', bbox_to_anchor=(1, .5))
         ax.grid(True, linewidth=.3)
     if picture is not None:
-        figure.savefig(picture, dpi=150)
+        savePicture(figure, picture, dpi=150)
     return upper, lower
 
 

@@ -1,41 +1,31 @@
 """Outlines for FESolver.addPolygon: lists of (x, y) in metres, counter-clockwise."""
 
 import math
-import numbers
-import os
 
-from yadefrag import _yadefrag
+from yadefrag import _yadefrag, values
 
 CIRCLE_POINTS = 64
+MOST_POINTS = 10**7  # a list of more pairs takes gigabytes
 
 
 def _pair(name, value):
-    try:
-        x, y = value
-        pair = (float(x), float(y))
-    except (TypeError, ValueError):
-        raise ValueError('%s is %r, it must be a pair of numbers (x, y).' % (name, value)) from None
-    if not all(map(math.isfinite, pair)):
-        raise ValueError('%s is %r, both numbers must be finite.' % (name, value))
-    return pair
+    return values.pair(name, value, 'a pair of numbers (x, y)')
 
 
 def _length(name, value):
-    try:
-        length = float(value)
-    except (TypeError, ValueError):
-        raise ValueError('%s is %r, it must be a number of metres.' % (name, value)) from None
+    length = values.real(value)
+    if length is None:
+        values.refuse(name, value, 'a number of metres')
     if not (math.isfinite(length) and length > 0):
-        raise ValueError('%s is %r m, it must be positive and finite.' % (name, value))
+        raise ValueError('%s is %s m, it must be positive and finite.' %
+                         (name, values.shown(value)))
     return length
 
 
 def _count(n):
     if n is None:
         return CIRCLE_POINTS
-    if not isinstance(n, numbers.Integral) or isinstance(n, bool) or n < 3:
-        raise ValueError('n is %r, it must be a whole number of at least 3 points.' % (n,))
-    return int(n)
+    return values.whole('n', n, 3, 'a whole number of at least 3 points', MOST_POINTS)
 
 
 def rectangle(low, high):
@@ -46,8 +36,8 @@ def rectangle(low, high):
     left, bottom = _pair('low', low)
     right, top = _pair('high', high)
     if not (left < right and bottom < top):
-        raise ValueError('high is %r, it must be above and to the right of low, which is %r.' %
-                         (high, low))
+        raise ValueError('high is %s, it must be above and to the right of low, which is %s.' %
+                         (values.shown(high), values.shown(low)))
     return [(left, bottom), (right, bottom), (right, top), (left, top)]
 
 
@@ -87,11 +77,10 @@ def readPolygon(file):
     skipped. `file` is a path. ValueError with the file and the line for anything else; OSError with
     the path for a file that cannot be read.
     """
-    if not isinstance(file, (str, os.PathLike)):
-        raise ValueError('file is %r, it must be a path.' % (file,))
-    with open(file, 'rb') as data:
+    name = values.path('file', file)
+    with open(name, 'rb') as data:
         text = data.read()
     try:
         return _yadefrag.polygonOfText(text)
     except ValueError as error:
-        raise ValueError('%s, %s' % (file, error)) from None
+        raise ValueError('%s, %s' % (values.shownPath(name), error)) from None

@@ -1,9 +1,10 @@
 """What must not happen to the bodies of an FESolver, and when: refused in one sentence."""
 
-import numbers
+import sys
 import threading
 
 from yade import wrapper
+from yadefrag.values import whole
 
 
 def requirePaused():
@@ -11,6 +12,24 @@ def requirePaused():
     if wrapper.Omega().running and threading.current_thread() is threading.main_thread():
         raise RuntimeError('The simulation is running: call O.pause() and O.wait() first, or do '
                            'this from a PyRunner.')
+
+
+def requireNoStep(what):
+    """A run within a step would wait for the end of that step, which waits for the run."""
+    omega = wrapper.Omega()
+    # After a step that an exception ended, subStep is as within one; only there a PyRunner's
+    # command is on the stack.
+    if omega.subStep >= 0 and '<string>' in _filesOfStack():
+        raise RuntimeError('%s runs the scene: it cannot be called within a step, as from a '
+                           'PyRunner.' % what)
+    requirePaused()
+
+
+def _filesOfStack():
+    frame = sys._getframe()
+    while frame:
+        yield frame.f_code.co_filename
+        frame = frame.f_back
 
 
 def _pieceOf(body):
@@ -52,9 +71,7 @@ def guardRemove(remove):
     """FESolver.removeBody that says what is wrong with a number."""
     def guarded(self, component):
         requirePaused()
-        if isinstance(component, bool) or not isinstance(component, numbers.Integral):
-            raise ValueError('component is %r, it must be the number of a body.' % (component,))
-        return remove(self, int(component))
+        return remove(self, whole('component', component, -2**31, 'the number of a body'))
 
     guarded.__doc__ = remove.__doc__
     return guarded

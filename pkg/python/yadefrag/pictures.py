@@ -1,9 +1,12 @@
 """Pictures of the bodies of an FESolver, by Matplotlib."""
 
 import math
-import numbers
 
 import numpy
+
+from yadefrag.files import replacing, requireWritable, savePicture
+from yadefrag.guards import requireNoStep
+from yadefrag.values import number, numbersOf, path, refuse, shown, whole
 
 _UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
           'mises': 'von Mises stress (Pa)', 'speed': 'speed (m/s)', 'component': 'component',
@@ -31,16 +34,18 @@ def _values(fe, field):
             return _fragmentColours(fe) % 20, False
         if field in _UNITS:
             return _stress(fe, field), False
-        raise ValueError('field is %r, it must be one of %s, an array or None.' %
-                         (field, ', '.join(repr(name) for name in _UNITS)))
-    values = numpy.asarray(field, dtype=float)
+        refuse('field', field, 'one of %s, an array or None' % ', '.join(map(repr, _UNITS)))
+    try:
+        values = numpy.asarray(field, dtype=float)
+    except (TypeError, ValueError, OverflowError):
+        refuse('field', field, 'a name, an array or None')
     nodes, triangles = len(fe.nodes), len(fe.triangles)
     if values.shape == (triangles,):
         return values, False
     if values.shape == (nodes,):
         return values, True
-    raise ValueError('field has the shape %r, it must be one number for each of the %d triangles '
-                     'or of the %d nodes.' % (values.shape, triangles, nodes))
+    raise ValueError('field has the shape %s, it must be one number for each of the %d triangles '
+                     'or of the %d nodes.' % (shown(values.shape), triangles, nodes))
 
 
 def plotMesh(fe, field=None, file=None, ax=None, limits=None):
@@ -58,11 +63,11 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None):
     """
     _requireBodies(fe)
     values, perNode = _values(fe, field)
-    _requireLimits(limits)
-    ax = newAxes() if ax is None else ax
+    limits = _limits(limits)
+    ax = newAxes() if ax is None else requireAxes(ax)
     _draw(ax, fe, field, values, perNode, limits)
     if file is not None:
-        ax.figure.savefig(file, dpi=150)
+        savePicture(ax.figure, file, dpi=150)
     return ax
 
 
@@ -73,22 +78,29 @@ def _requireBodies(fe):
         raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
 
 
-def _requireLimits(limits):
-    if limits is not None and not _isPair(limits, _isFinite):
-        raise ValueError('limits is %r, it must be a pair of numbers (lowest, highest).' %
-                         (limits,))
+def _limits(limits):
+    """A pair of floats; of None for no limits."""
+    if limits is None:
+        return None, None
+    if not _isFinitePair(limits) or numbersOf(limits, 2) != tuple(sorted(numbersOf(limits, 2))):
+        refuse('limits', limits, 'a pair of numbers (lowest, highest)')
+    return numbersOf(limits, 2)
 
 
-def _isFinite(value):
-    return isinstance(value, numbers.Real) and math.isfinite(value)
+def _isFinitePair(value):
+    found = numbersOf(value, 2)
+    return found is not None and all(map(math.isfinite, found))
 
 
-def _isPair(value, isRight):
+def _corners(window):
+    """((left, bottom), (right, top)) of floats."""
     try:
-        first, second = value
+        low, high = window
     except (TypeError, ValueError):
-        return False
-    return isRight(first) and isRight(second)
+        low = high = None
+    if not (_isFinitePair(low) and _isFinitePair(high)):
+        refuse('window', window, '((left, bottom), (right, top)) in m')
+    return numbersOf(low, 2), numbersOf(high, 2)
 
 
 def _shown(fe):
@@ -106,6 +118,14 @@ def _palette():
     from matplotlib import colormaps
     pairs = colormaps['tab20'].colors
     return [*pairs[::2], *pairs[1::2]]
+
+
+def requireAxes(ax):
+    """`ax`; ValueError unless it is Matplotlib's axes."""
+    from matplotlib.axes import Axes
+    if not isinstance(ax, Axes):
+        refuse('ax', ax, "Matplotlib's axes")
+    return ax
 
 
 def newAxes():
@@ -134,7 +154,7 @@ def _draw(ax, fe, field, values, perNode, limits):
         ax.tripcolor(x, y, triangles=triangles, facecolors=values, norm=NoNorm(),
                      cmap=ListedColormap(_palette()), edgecolors='k', linewidth=lines / 3)
         return
-    low, high = (None, None) if limits is None else limits
+    low, high = limits
     if perNode:
         drawn = ax.tripcolor(x, y, values, triangles=triangles, shading='gouraud', vmin=low,
                              vmax=high)
@@ -156,46 +176,47 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
     rate           frames per second of the film
     When the run is interrupted or fails, the frames until then are written. ValueError, before any
     step, for counts that are not positive, a field or limits as in plotMesh, a file that is no
-    .gif, a window that is none.
+    .gif, a window that is none; OSError for a file that cannot be written.
     """
     from matplotlib.animation import PillowWriter
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     _requireBodies(fe)
-    _checkFilm(fe, file, steps, every, field, rate)
-    _requireLimits(limits)
-    if window is not None and not _isPair(window, lambda corner: _isPair(corner, _isFinite)):
-        raise ValueError('window is %r, it must be ((left, bottom), (right, top)) in m.' %
-                         (window,))
+    _checkFilm(fe, field)
+    steps, every = whole('steps', steps), whole('every', every)
+    rate = number('rate', rate, lambda r: .01 <= r <= 1000,
+                  'a number of frames per second from 0.01 to 1000')
+    _limits(limits)
+    low, high = _windowOf(fe) if window is None else _corners(window)
+    name = path('file', file, '.gif')
+    requireNoStep('animate')
+    requireWritable(name)
     figure = Figure(figsize=(8, 6), layout='constrained')
     FigureCanvasAgg(figure)
-    low, high = _windowOf(fe) if window is None else window
     writer = PillowWriter(fps=rate)
+    writer.setup(figure, name, dpi=80)
     frames, colours = 0, None
-    with writer.saving(figure, str(file), dpi=80):
+    try:
         for done in _runInParts(steps, every):
             figure.clear()
             ax = figure.add_subplot()
             if field == 'fragment':  # a fragment keeps its colour from frame to frame
                 colours = _fragmentColours(fe, colours)
-                _draw(ax, fe, field, colours % 20, False, None)
+                _draw(ax, fe, field, colours % 20, False, (None, None))
             else:
                 plotMesh(fe, field, ax=ax, limits=limits)
             ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), title='step %d' % done)
             writer.grab_frame()
             frames += 1
+    finally:
+        if frames > 0:
+            with replacing(name) as writer.outfile:
+                writer.finish()
     return frames
 
 
-def _checkFilm(fe, file, steps, every, field, rate):
-    for name, value in (('steps', steps), ('every', every)):
-        if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < 1:
-            raise ValueError('%s is %r, it must be a positive whole number.' % (name, value))
-    if not _isFinite(rate) or rate <= 0:
-        raise ValueError('rate is %r, it must be positive.' % (rate,))
-    if not str(file).endswith('.gif'):
-        raise ValueError("file is %r, its name must end with '.gif'." % str(file))
+def _checkFilm(fe, field):
     if field is not None and not isinstance(field, str):
         raise ValueError('field is an array, which does not change with the film; it must be a '
                          'name or None.')

@@ -4,6 +4,10 @@ import sys
 import time
 
 from yade import wrapper
+from yadefrag.guards import requireNoStep
+from yadefrag.values import shown, whole
+
+MOST_STEPS = 2**62  # that YADE can count
 
 
 def runSteps(steps, every=None, call=None):
@@ -14,11 +18,12 @@ def runSteps(steps, every=None, call=None):
     with the scene as it is then; the run can be taken up again. RuntimeError where an engine
     stopped the run, with what it said in YADE's own message.
     """
-    steps = _count('steps', steps)
-    every = None if every is None else _count('every', every)
+    steps = whole('steps', steps, most=MOST_STEPS)
+    every = None if every is None else whole('every', every, most=MOST_STEPS)
     if call is not None and (every is None or not callable(call)):
-        raise ValueError('call is %r with every=%r: give a function and after how many steps it is '
-                         'to be called.' % (call, every))
+        raise ValueError('call is %s with every=%s: give a function and after how many steps it is '
+                         'to be called.' % (shown(call), shown(every)))
+    requireNoStep('runSteps')
     omega = wrapper.Omega()
     done, begin = 0, omega.iter
     bar = _Bar(steps)
@@ -47,12 +52,6 @@ def runSteps(steps, every=None, call=None):
     finally:
         bar.close()
     return done
-
-
-def _count(name, value):
-    if isinstance(value, bool) or not isinstance(value, int) or value < 1:
-        raise ValueError('%s is %r, it must be a positive whole number.' % (name, value))
-    return value
 
 
 def _portion(steps, seconds):

@@ -2,11 +2,13 @@
 
 import numpy
 
+from yadefrag.values import refuse
+
 
 def requireSolver(fe):
     """ValueError for what has no triangles to show: not an FESolver."""
     if not hasattr(fe, 'triangles'):
-        raise ValueError('fe is %r, it must be an FESolver.' % (fe,))
+        refuse('fe', fe, 'an FESolver')
 
 
 def shownTriangles(fe):

@@ -4,8 +4,8 @@ Everything is checked before anything in the scene changes; ValueError says in o
 given and what would be right.
 """
 
+import functools
 import math
-import numbers
 import warnings
 
 import numpy
@@ -14,65 +14,57 @@ from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag.guards import guardClump, guardErase, guardRemove, requirePaused
 from yadefrag.shown import shownTriangles
+from yadefrag.values import (flag, isWhole, number, numbersOf, pair, plain, positive, refuse, shown,
+                             whole)
 
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
 
 
-def _number(name, value, isRight, right):
-    if isinstance(value, bool) or not isinstance(value, numbers.Real) or not isRight(value):
-        raise ValueError('%s is %r, it must be %s.' % (name, value, right))
-    return float(value)
-
-
-def _positive(name, value, unit):
-    return _number(name, value, lambda v: math.isfinite(v) and v > 0,
-                   'a positive number (%s)' % unit)
-
-
 def _points(name, value, least):
     """(n, 2) floats, finite, of at least `least` points."""
-    try:
-        points = numpy.array([(float(x), float(y)) for x, y in value], dtype=float)
-    except (TypeError, ValueError):
-        raise ValueError('%s must be a list of points (x, y) in m.' % name) from None
+    points = _pairs(value)
+    if points is None:
+        raise ValueError('%s must be a list of points (x, y) in m.' % name)
     if len(points) < least:
         raise ValueError('%s has %d points, it must have at least %d.' %
                          (name, len(points), least))
     if not numpy.isfinite(points).all():
         bad = int(numpy.nonzero(~numpy.isfinite(points).all(axis=1))[0][0])
-        raise ValueError('%s has a point %d at %r, which is not finite.' %
-                         (name, bad, tuple(points[bad])))
+        raise ValueError('%s has a point %d at %s, which is not finite.' %
+                         (name, bad, shown(tuple(points[bad].tolist()))))
     return points
 
 
-def _pair(name, value):
+def _pairs(value):
+    """(n, 2) floats; None for what is no list of pairs of numbers."""
+    if isinstance(value, numpy.ndarray) and value.dtype.kind in 'iuf':
+        return value.astype(float) if value.ndim == 2 and value.shape[1] == 2 else None
+    if isinstance(value, (str, bytes, dict, set)):
+        return None
     try:
-        x, y = value
-        pair = (float(x), float(y))
-    except (TypeError, ValueError):
-        raise ValueError('%s is %r, it must be a pair of numbers.' % (name, value)) from None
-    if not all(map(math.isfinite, pair)):
-        raise ValueError('%s is %r, both numbers must be finite.' % (name, value))
-    return pair
+        pairs = [numbersOf(one, 2) for one in value]
+    except TypeError:
+        return None
+    return None if None in pairs else numpy.array(pairs, dtype=float).reshape(-1, 2)
 
 
 def _material(material):
     """The FEMat that `material` names: the object, its label or its number in O.materials."""
-    found = material
-    if isinstance(material, (str, numbers.Integral)) and not isinstance(material, bool):
+    found = plain(material)
+    if isinstance(found, str) or isWhole(found):
         try:
-            found = wrapper.Omega().materials[material]
-        except (KeyError, IndexError, RuntimeError):
-            raise ValueError('material is %r, which is not in O.materials.' % (material,)) from None
+            found = wrapper.Omega().materials[found]
+        except (KeyError, IndexError, RuntimeError, OverflowError, UnicodeError):
+            raise ValueError('material is %s, which is not in O.materials.' %
+                             shown(material)) from None
     if not isinstance(found, wrapper.FEMat):
-        raise ValueError('material is %r, it must be an FEMat, its label or its number in '
-                         'O.materials.' % (material,))
-    _positive("the material's young", found.young, 'Pa')
-    _positive("the material's density", found.density, 'kg/m³')
-    _number("the material's poisson", found.poisson, lambda v: -1 < v < .5,
-            'above -1 and below 0.5')
-    _number("the material's frictionAngle", found.frictionAngle, lambda v: 0 <= v < math.pi / 2,
-            'at least 0 and below π/2 (rad)')
+        refuse('material', material, 'an FEMat, its label or its number in O.materials')
+    positive("the material's young", found.young, 'Pa')
+    positive("the material's density", found.density, 'kg/m³')
+    number("the material's poisson", found.poisson, lambda v: -1 < v < .5,
+           'above -1 and below 0.5')
+    number("the material's frictionAngle", found.frictionAngle, lambda v: 0 <= v < math.pi / 2,
+           'at least 0 and below π/2 (rad)')
     return found
 
 
@@ -81,8 +73,8 @@ def _field(name, value, nodes, isOptional=True):
     if value is None and isOptional:
         return numpy.empty((0, 2))
     if not callable(value):
-        return numpy.tile(_pair(name, value), (len(nodes), 1))
-    return numpy.array([_pair('%s(%g, %g)' % (name, x, y), value(x, y)) for x, y in nodes])
+        return numpy.tile(pair(name, value), (len(nodes), 1))
+    return numpy.array([pair('%s(%g, %g)' % (name, x, y), value(x, y)) for x, y in nodes])
 
 
 def _heldNodes(fixed, nodes):
@@ -90,33 +82,28 @@ def _heldNodes(fixed, nodes):
     if fixed is None:
         return numpy.empty(0, dtype=numpy.uint8)
     if not callable(fixed):
-        raise ValueError("fixed is %r, it must be a function (x, y) that returns False, True, 'x' "
-                         "or 'y'." % (fixed,))
+        refuse('fixed', fixed, "a function (x, y) that returns False, True, 'x' or 'y'")
     held = numpy.zeros(len(nodes), dtype=numpy.uint8)
     for i, (x, y) in enumerate(nodes):
-        value = fixed(x, y)
-        if isinstance(value, numpy.bool_):
-            value = bool(value)
+        value = plain(fixed(x, y))
         if not isinstance(value, (bool, str, type(None))) or value not in _HELD:
-            raise ValueError("fixed(%g, %g) is %r, it must be False, True, 'x' or 'y'." %
-                             (x, y, value))
+            refuse('fixed(%g, %g)' % (x, y), value, "False, True, 'x' or 'y'")
         held[i] = _HELD[value]
     return held
 
 
 def _smoothNodes(smooth, mesh, outline=()):
     """(n) of 0 or 1: is the node on a smooth part of the boundary; empty for none at all."""
-    if isinstance(smooth, (bool, numpy.bool_)):
+    smooth = plain(smooth)
+    if isinstance(smooth, bool):
         if not smooth:
             return numpy.empty(0, dtype=numpy.uint8)
         chosen = [(loop, numpy.ones(len(loop), dtype=bool)) for loop in mesh['loops']]
     else:
-        try:
-            flags = numpy.array([bool(s) for s in smooth])
-        except TypeError:
-            raise ValueError('smooth is %r, it must be True, False or a flag for each point of the '
-                             'outline.' % (smooth,)) from None
         count = len(outline)
+        flags = _flags(smooth)
+        if flags is None:
+            refuse('smooth', smooth, 'True, False or a flag for each point of the outline')
         if len(flags) != count:
             raise ValueError('smooth has %d flags, it must have one for each of the %d points of '
                              'the outline.' % (len(flags), count))
@@ -131,6 +118,16 @@ def _smoothNodes(smooth, mesh, outline=()):
     for loop, flags in chosen:
         marks[loop] = flags
     return marks
+
+
+def _flags(values):
+    """(n) of bool; None for what is no list of True and False, or 1 and 0."""
+    try:
+        flags = [plain(value) for value in values]
+    except TypeError:
+        return None
+    isRight = all(isinstance(f, int) and f in (0, 1) for f in flags)
+    return numpy.array(flags, dtype=bool) if isRight else None
 
 
 def _isClockwise(points):
@@ -148,9 +145,9 @@ def _centroid(nodes, triangles):
 def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickness, selfContact):
     requirePaused()
     nodes, triangles = mesh['nodes'], mesh['triangles']
-    spin = _number('spin', spin, math.isfinite, 'a finite number (rad/s)')
-    if not isinstance(selfContact, (bool, numpy.bool_)):
-        raise ValueError('selfContact is %r, it must be True or False.' % (selfContact,))
+    spin = number('spin', spin, math.isfinite, 'a finite number (rad/s)')
+    selfContact = flag('selfContact', selfContact)
+    thickness = positive('thickness', thickness, 'm')
     moved = _field('displacement', displacement, nodes)
     speed = _field('velocity', velocity, nodes, isOptional=False)
     if spin:
@@ -161,17 +158,16 @@ def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickn
     def raw(values, dtype):
         return numpy.ascontiguousarray(values, dtype=dtype).tobytes()
 
-    number = fe._addMesh(
+    component = fe._addMesh(
         dict(nodes=raw(nodes, 'float64'), triangles=raw(triangles, 'uint32'),
              loops=[raw(loop, 'uint32') for loop in mesh['loops']],
              velocity=raw(speed, 'float64'), displacement=raw(moved, 'float64'),
              held=raw(_heldNodes(fixed, nodes), 'uint8'), smooth=raw(smooth, 'uint8'),
-             thickness=_positive('thickness', thickness, 'm'), selfContact=bool(selfContact),
-             material=material))
-    problem = fe._zoneWarning(number)
+             thickness=thickness, selfContact=selfContact, material=material))
+    problem = fe._zoneWarning(component)
     if problem:
         warnings.warn(problem, stacklevel=3)
-    return number
+    return component
 
 
 def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocity=(0, 0), spin=0,
@@ -201,10 +197,9 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     try:
         holes = list(holes)
     except TypeError:
-        raise ValueError('holes is %r, it must be a list of loops of points (x, y) in m.' %
-                         (holes,)) from None
+        refuse('holes', holes, 'a list of loops of points (x, y) in m')
     holePoints = [_points('holes[%d]' % i, hole, 3) for i, hole in enumerate(holes)]
-    size = _positive('size', size, 'm')
+    size = positive('size', size, 'm')
     material = _material(material)
     mesh = _yadefrag.meshOfPolygon(points.tobytes(), [h.tobytes() for h in holePoints], size)
     smoothed = _smoothNodes(smooth, mesh, points)
@@ -220,19 +215,28 @@ def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0,
     is True or False; the rest is as in addPolygon. ValueError before anything changes.
     """
     points = _points('nodes', nodes, 3)
-    corners = numpy.asarray(triangles)
-    if corners.ndim != 2 or corners.shape[1] != 3 or len(corners) == 0 \
+    corners = _array(triangles)
+    if corners is None or corners.ndim != 2 or corners.shape[1] != 3 or len(corners) == 0 \
             or not numpy.issubdtype(corners.dtype, numpy.integer):
         raise ValueError('triangles must be an array (m, 3) of node numbers.')
     if corners.min() < 0 or corners.max() >= len(points):
         raise ValueError('triangles has node numbers from %d to %d, but there are %d nodes.' %
                          (corners.min(), corners.max(), len(points)))
-    if not isinstance(smooth, (bool, numpy.bool_)):
-        raise ValueError('smooth is %r, it must be True or False.' % (smooth,))
+    smooth = flag('smooth', smooth)
     material = _material(material)
     mesh = dict(nodes=points, triangles=corners, loops=_boundaryLoops(len(points), corners))
     return _add(self, mesh, _smoothNodes(smooth, mesh), material, velocity, spin, displacement,
                 fixed, thickness, selfContact)
+
+
+def _array(value, dtype=None):
+    """A NumPy array; None for what is none, as rows of different lengths."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter('error')  # NumPy's, about rows of different lengths
+            return numpy.asarray(value, dtype=dtype)
+    except (TypeError, ValueError, OverflowError, Warning):
+        return None
 
 
 def _boundaryLoops(count, triangles):
@@ -275,14 +279,12 @@ def _getLoads(self):
 
 def _setLoads(self, loads):
     requirePaused()
-    try:
-        values = numpy.zeros((0, 2)) if loads is None else numpy.asarray(loads, dtype=float)
-    except (TypeError, ValueError):
-        raise ValueError('loads is %r, it must be an array (n, 2) of N, or None.' %
-                         (loads,)) from None
-    if values.ndim != 2 or values.shape[1] != 2:
-        raise ValueError('loads has the shape %r, it must be (n, 2).' % (values.shape,))
-    self._setLoads(numpy.ascontiguousarray(values).tobytes())
+    forces = numpy.zeros((0, 2)) if loads is None else _array(loads, float)
+    if forces is None:
+        refuse('loads', loads, 'an array (n, 2) of N, or None')
+    if forces.ndim != 2 or forces.shape[1] != 2:
+        raise ValueError('loads has the shape %s, it must be (n, 2).' % shown(forces.shape))
+    self._setLoads(numpy.ascontiguousarray(forces).tobytes())
 
 
 def prescribe(self, nodes, vx=None, vy=None):
@@ -295,9 +297,12 @@ def prescribe(self, nodes, vx=None, vy=None):
     requirePaused()
     places = self.nodes
     if callable(nodes):
-        chosen = numpy.array([bool(nodes(x, y)) for x, y in places], dtype=bool)
+        chosen = numpy.array([flag('nodes(%g, %g)' % (x, y), nodes(x, y)) for x, y in places],
+                             dtype=bool)
     else:
-        chosen = numpy.asarray(nodes)
+        chosen = _array(nodes)
+    if chosen is None:
+        refuse('nodes', nodes, 'node numbers, a flag for each node, or a function (x, y)')
     if chosen.dtype == bool:
         if chosen.shape != (len(places),):
             raise ValueError('nodes has %d flags, it must have one for each of the %d nodes.' %
@@ -308,10 +313,18 @@ def prescribe(self, nodes, vx=None, vy=None):
     if chosen.size and (chosen.min() < 0 or chosen.max() >= len(places)):
         raise ValueError('nodes has numbers from %d to %d, but there are %d nodes.' %
                          (chosen.min(), chosen.max(), len(places)))
-    speeds = [0. if v is None else _number(name, v, math.isfinite, 'a finite number (m/s) or None')
+    speeds = [0. if v is None else number(name, v, math.isfinite, 'a finite number (m/s) or None')
               for name, v in (('vx', vx), ('vy', vy))]
     held = (0 if vx is None else 1) | (0 if vy is None else 2)
     self._prescribe(chosen.astype(numpy.uint32).tobytes(), held, *speeds)
+
+
+def _guardFragments(fragments):
+    @functools.wraps(fragments)
+    def guarded(self, held=False):
+        return fragments(self, flag('held', held))
+
+    return guarded
 
 
 def _minAngle(self):
@@ -333,13 +346,12 @@ def rectangleMesh(low, high, nx, ny, crossed=False):
 
     Each is cut in two, the diagonals of neighbours mirrored, or in four (`crossed`).
     """
-    low, high = _pair('low', low), _pair('high', high)
-    for name, n in (('nx', nx), ('ny', ny)):
-        if not isinstance(n, numbers.Integral) or isinstance(n, bool) or n < 1:
-            raise ValueError('%s is %r, it must be a positive whole number.' % (name, n))
+    low, high = pair('low', low), pair('high', high)
+    nx, ny, crossed = whole('nx', nx), whole('ny', ny), flag('crossed', crossed)
     if not (low[0] < high[0] and low[1] < high[1]):
-        raise ValueError('high is %r, it must be right of and above low, %r.' % (high, low))
-    mesh = _yadefrag.meshOfRectangle(*low, *high, int(nx), int(ny), bool(crossed))
+        raise ValueError('high is %s, it must be right of and above low, %s.' %
+                         (shown(high), shown(low)))
+    mesh = _yadefrag.meshOfRectangle(*low, *high, nx, ny, crossed)
     return mesh['nodes'], mesh['triangles']
 
 
@@ -350,6 +362,7 @@ def install():
     wrapper.FESolver.prescribe = prescribe
     wrapper.FESolver.minAngle = property(_minAngle, doc=_minAngle.__doc__)
     wrapper.FESolver.loads = property(_getLoads, _setLoads, doc=_getLoads.__doc__)
+    wrapper.FESolver.fragments = _guardFragments(wrapper.FESolver.fragments)
     wrapper.FESolver.removeBody = guardRemove(wrapper.FESolver.removeBody)
     container = wrapper.BodyContainer
     container.erase = guardErase(container.erase)

@@ -7,21 +7,24 @@ tradeoff_table.py the table.
 import itertools
 import json
 import math
-import numbers
 import os
 import signal
 import statistics
 import subprocess
 import sys
 import tempfile
+import warnings
 
 import numpy
 
 from yadefrag import choices as known
+from yadefrag.files import requireWritable
 from yadefrag.tradeoff_table import COLUMNS, TradeoffRow, TradeoffTable, describe
+from yadefrag.values import (number, path, plain, positive, refuse, shown, shownPath, text, whole)
 
 _RUN = os.path.join(os.path.dirname(os.path.realpath(known.__file__)), 'tradeoff_run.py')
 _INSIDE = 'YADEFRAG_TRADEOFF'  # set in the environment of a run
+MOST_SECONDS = 1e9  # that a process can be waited for
 _REPEATABLE = ('not run', 'ok')
 
 
@@ -54,7 +57,8 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
     blows up, fails or takes too long is a row that says so. Ctrl-C ends the runs; the table has
     what was done. Functions must be at the top level of a file, and the call of tradeoff in a
     script behind `if __name__ == '__main__':`, since each run loads the file again.
-    ValueError, before anything runs, for bad arguments; RuntimeError where the file cannot be
+    ValueError, before anything runs, for bad arguments, OSError for files that cannot be written;
+    RuntimeError where the file cannot be
     loaded again.
     """
     if os.environ.get(_INSIDE):
@@ -62,41 +66,48 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
                            "behind `if __name__ == '__main__':`.")
     settings = _grid(vary)
     job = _job(scene, measure, watch)
-    job.update(duration=_positive('duration', duration, 's'), every=_notNegative('every', every))
-    if isinstance(repeats, bool) or not isinstance(repeats, int) or repeats < 1:
-        raise ValueError('repeats is %r, it must be a positive whole number.' % (repeats,))
-    limit = _positive('limit', limit, 's')
+    job.update(duration=positive('duration', duration, 's'),
+               every=number('every', every, lambda v: 0 <= v < math.inf,
+                            'a positive number (s), or 0'))
+    repeats = whole('repeats', repeats)
+    limit = min(positive('limit', limit, 's'), MOST_SECONDS)
+    title = text('title', title)
     right = _reference(reference)
     if isinstance(right, dict) and right not in settings:
         settings.append(right)
+    if files is not None:
+        for name in TradeoffTable.namesOfFiles(files):
+            requireWritable(name)
     rows = [TradeoffRow(settings=dict(setting)) for setting in settings]
     _runAll(rows, settings, job, repeats, limit)
     table = TradeoffTable(rows, title)
     _setErrors(table, right, settings)
     if files is not None:
-        table.write(files)
+        _write(table, files)
     return table
 
 
-def _positive(name, value, unit):
-    if isinstance(value, bool) or not isinstance(value, numbers.Real) \
-            or not (math.isfinite(value) and value > 0):
-        raise ValueError('%s is %r, it must be a positive number (%s).' % (name, value, unit))
-    return float(value)
-
-
-def _notNegative(name, value):
-    return 0. if value == 0 and not isinstance(value, bool) else _positive(name, value, 's, or 0')
+def _write(table, files):
+    """A disk that is full by now must not cost the runs: the table is returned all the same."""
+    try:
+        table.write(files)
+    except OSError as error:
+        warnings.warn('the table could not be written: %s.' % error, stacklevel=3)
 
 
 def _checkChoice(name, value):
+    """`value`, as a plain number or text."""
     if not isinstance(name, str) or name in COLUMNS:
-        raise ValueError('vary has the choice %r, a name must be a text that is no other column of '
-                         'the table.' % (name,))
+        raise ValueError('vary has the choice %s, a name must be a text that is no other column of '
+                         'the table.' % shown(name))
+    name, value = text('the name of a choice', name), plain(value)
     if not isinstance(value, (str, bool, int, float)):
-        raise ValueError('vary has the choice %s=%r, it must be a number, a text, True or False.' %
-                         (name, value))
+        raise ValueError('vary has the choice %s=%s, it must be a number, a text, True or False.' %
+                         (shownPath(name), shown(value)))
+    if isinstance(value, str):
+        text(shownPath(name), value)
     known.check(name, value)
+    return value
 
 
 def _grid(vary):
@@ -104,8 +115,7 @@ def _grid(vary):
     grids = [vary] if isinstance(vary, dict) else vary
     if not isinstance(grids, (list, tuple)) or not grids \
             or not all(isinstance(grid, dict) for grid in grids):
-        raise ValueError('vary is %r, it must be a dict {name: [values]} or a list of those.' %
-                         (vary,))
+        refuse('vary', vary, 'a dict {name: [values]} or a list of those')
     settings = []
     for grid in grids:
         lists = [_values(name, values) for name, values in grid.items()]
@@ -121,12 +131,9 @@ def _values(name, values):
     if isinstance(values, numpy.ndarray):
         values = list(values.flat)
     if not isinstance(values, (list, tuple)) or not values:
-        raise ValueError('vary has %r for the choice %r, it must be a list of values.' %
-                         (values, name))
-    values = [v.item() if isinstance(v, numpy.generic) else v for v in values]
-    for value in values:
-        _checkChoice(name, value)
-    return values
+        raise ValueError('vary has %s for the choice %s, it must be a list of values.' %
+                         (shown(values), shown(name)))
+    return [_checkChoice(name, value) for value in values]
 
 
 def _key(setting):
@@ -140,16 +147,15 @@ def _job(scene, measure, watch):
         module = sys.modules.get(getattr(function, '__module__', None))
         if not callable(function) or not hasattr(function, '__code__') \
                 or vars(module or os).get(function.__name__) is not function:
-            raise ValueError('%s is %r, it must be a function at the top level of a file, which '
-                             'each run loads.' % (name, function))
+            refuse(name, function, 'a function at the top level of a file, which each run loads')
     modules = {function.__module__ for function in functions}
     if len(modules) > 1:
         raise ValueError('scene, measure and watch are in the modules %s, they must be in one '
                          'file.' % ', '.join(sorted(modules)))
     file = os.path.abspath(scene.__code__.co_filename)
     if not os.path.isfile(file):
-        raise ValueError('scene is of %r, which is no file that a run could load.' %
-                         scene.__code__.co_filename)
+        raise ValueError('scene is of %s, which is no file that a run could load.' %
+                         shown(scene.__code__.co_filename))
     names = [function.__name__ for function in functions]
     return dict(file=file, module=modules.pop(), functions=names + [None] * (3 - len(names)),
                 path=[os.path.abspath(p) for p in sys.path])
@@ -158,25 +164,25 @@ def _job(scene, measure, watch):
 def _reference(reference):
     """'finest', a checked setting, or an array of numbers."""
     if isinstance(reference, dict):
-        for name, value in reference.items():
-            _checkChoice(name, value)
-        return dict(reference)
+        return {name: _checkChoice(name, value) for name, value in reference.items()}
     if isinstance(reference, str) and reference == 'finest':
         return reference
     if isinstance(reference, (str, os.PathLike)):
         try:
-            numbersRead = numpy.loadtxt(reference)
+            with warnings.catch_warnings():
+                warnings.simplefilter('ignore')  # of a file without numbers, which is refused below
+                numbersRead = numpy.loadtxt(path('reference', reference), encoding='utf-8-sig')
         except (OSError, ValueError) as error:
-            raise ValueError('reference is %r, which is no file of numbers: %s.' %
-                             (str(reference), str(error).rstrip('.'))) from None
+            raise ValueError('reference is %s, which is no file of numbers: %s.' %
+                             (shown(str(reference)), str(error).rstrip('.')[:120])) from None
     else:
         try:
             numbersRead = numpy.asarray(reference, dtype=float)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             numbersRead = numpy.array([math.nan])
     if numbersRead.size == 0 or numbersRead.ndim > 1 or not numpy.isfinite(numbersRead).all():
-        raise ValueError("reference is %r, it must be finite numbers, a file of them, 'finest' or "
-                         'a dict of choices.' % (reference,))
+        refuse('reference', reference,
+               "finite numbers, a file of them, 'finest' or a dict of choices")
     return numbersRead
 
 

@@ -5,7 +5,8 @@ import textwrap
 from matplotlib.ticker import FuncFormatter, NullFormatter
 from matplotlib.transforms import Bbox
 
-from yadefrag.pictures import newAxes
+from yadefrag.files import savePicture
+from yadefrag.pictures import newAxes, requireAxes
 
 _FRONT, _OTHER = '#d1495b', '#3d8fb5'
 # Of a point, where its text may stand: offset in points, alignment.
@@ -21,7 +22,9 @@ def plot(table, file, ax, time, label, names):
     shown = [row for row in table.rows if row.error is not None and row is not table.reference]
     if not shown:
         raise ValueError('no row of the table has an error to show.')
-    if ax is None:
+    if ax is not None:
+        requireAxes(ax)
+    else:
         ax = newAxes()
         lines = max(len(table.rows), 12)
         ax.figure.set_size_inches(11, max(4.8, .235 * lines + 1.2))
@@ -50,7 +53,7 @@ def plot(table, file, ax, time, label, names):
         _marks(ax, [(at[id(row)], table.label(row), row in front) for row in shown],
                isNeeded=False)
     if file is not None:
-        ax.figure.savefig(file, dpi=110)
+        savePicture(ax.figure, file, dpi=110)
     return ax
 
 

@@ -15,6 +15,7 @@ import numpy
 
 import yadefrag  # noqa: F401  (adds its classes to yade.wrapper)
 from yade.wrapper import Omega
+from yadefrag import values
 from yadefrag.choices import Choices
 
 NAME = '__tradeoff__'  # of the script that is loaded for a run: not '__main__'
@@ -92,6 +93,9 @@ def run(omega, duration, watch, every, built):
     """Steps for `duration` (s simulated); (clock, steps, simulated s, what watch returned)."""
     if not (math.isfinite(omega.dt) and omega.dt > 0):
         raise ValueError('O.dt is %r s, the scene must set a positive one.' % omega.dt)
+    if duration <= omega.dt / 2:
+        raise ValueError('duration is %.6g s, at most half of the scene\'s step of %.6g s: no step '
+                         'would be done.' % (duration, omega.dt))
     clock, sanity, seen = Clock(), Sanity(omega), []
     begin, first, checked = omega.time, omega.iter, 0.
     end = begin + duration - omega.dt / 2
@@ -125,8 +129,8 @@ def measured(measure, watch, built, seen):
     value = measure(built, seen) if watch else measure(built)
     array = numpy.asarray(value, dtype=float)
     if array.ndim > 1 or array.size == 0:
-        raise TypeError('measure returned the shape %r, it must be a number or an array (n).' %
-                        (array.shape,))
+        raise TypeError('measure returned the shape %s, it must be a number or an array (n).' %
+                        values.shown(array.shape))
     if not numpy.isfinite(array).all():
         raise BlewUp('what was measured is not finite.')
     return array.tolist()
@@ -149,7 +153,7 @@ def attempt(job, choices):
     try:
         built = scene(choices)
         for name in choices.neverAsked():
-            raise ValueError('the scene never asked for the choice %r.' % name)
+            raise ValueError('the scene never asked for the choice %s.' % values.shown(name))
         stage = 'blew up'
         clock, steps, simulated, seen = run(Omega(), job['duration'], watch, job['every'], built)
         stage = 'failed'

@@ -2,8 +2,12 @@
 
 import csv
 import dataclasses
+import io
 import json
 import statistics
+
+from yadefrag.files import writeText
+from yadefrag.values import path, real, refuse, shownPath, text
 
 COLUMNS = ('result', 'wall', 'cpu', 'error', 'value', 'steps', 'walls', 'cpus', 'message')
 _TIMES = {'wall': 'wall-clock time over simulated time (s/s)',
@@ -52,7 +56,14 @@ class TradeoffTable:
     """
 
     def __init__(self, rows, title=''):
-        self.rows, self.title, self.reference = list(rows), title, None
+        try:
+            self.rows = list(rows)
+        except TypeError:
+            refuse('rows', rows, 'a list of TradeoffRow')
+        for i, row in enumerate(self.rows):
+            if not isinstance(row, TradeoffRow):
+                refuse('rows[%d]' % i, row, 'a TradeoffRow')
+        self.title, self.reference = text('title', title), None
 
     def names(self):
         """Of all choices, in the order in which they first occur."""
@@ -73,8 +84,9 @@ class TradeoffTable:
         rows = [row for row in self.rows if row.error is not None and row is not self.reference]
 
         def point(row):
-            return _time(row, time), row.error
+            return getattr(row, time), row.error
 
+        _requireTime(time)
         best, least = [], float('inf')
         for row in sorted(rows, key=point):
             if row.error < least or best and point(row) == point(best[-1]):
@@ -84,6 +96,7 @@ class TradeoffTable:
 
     def ratio(self, row, time='wall'):
         """Time over the first row's, the median of the runs next to each other; None without."""
+        _requireTime(time)
         pairs = [(a, b) for a, b in zip(getattr(row, time + 's'),
                                         getattr(self.rows[0], time + 's')) if b > 0]
         return statistics.median(a / b for a, b in pairs) if pairs else None
@@ -91,27 +104,32 @@ class TradeoffTable:
     def csv(self, file):
         """Writes all rows: the choices, then COLUMNS; values as JSON, an empty cell for None."""
         names = self.names()
-        with open(file, 'w', newline='', encoding='utf-8') as f:
-            writer = csv.writer(f)
-            writer.writerow(names + list(COLUMNS))
-            for row in self.rows:
-                writer.writerow([_encode(row.settings.get(name)) for name in names]
-                                + [_encode(getattr(row, name)) for name in COLUMNS])
+        out = io.StringIO(newline='')
+        writer = csv.writer(out)
+        writer.writerow(names + list(COLUMNS))
+        for row in self.rows:
+            writer.writerow([_encode(row.settings.get(name)) for name in names]
+                            + [_encode(getattr(row, name)) for name in COLUMNS])
+        writeText(path('file', file), out.getvalue())
 
     @classmethod
     def read(cls, file, title=''):
-        """The table of a file that `csv` wrote. ValueError where a column is missing."""
-        with open(file, newline='', encoding='utf-8') as f:
-            lines = list(csv.reader(f))
+        """The table of a file that `csv` wrote. ValueError where a column is missing, or a value is
+        none that it wrote."""
+        name = path('file', file)
+        with open(name, newline='', encoding='utf-8-sig', errors='replace') as f:
+            try:
+                lines = list(csv.reader(f))
+            except csv.Error as error:
+                raise ValueError('%s is no table: %s.' % (shownPath(name), error)) from None
         head = lines[0] if lines else []
         if tuple(head[-len(COLUMNS):]) != COLUMNS:
-            raise ValueError('%s does not end with the columns %s.' % (file, ', '.join(COLUMNS)))
-        rows = []
-        for line in lines[1:]:
-            values = [_decode(cell) for cell in line]
-            settings = {n: v for n, v in zip(head, values[:-len(COLUMNS)]) if v is not None}
-            figures = dict(zip(COLUMNS, values[-len(COLUMNS):]))
-            rows.append(TradeoffRow(settings, **dict(figures, message=figures['message'] or '')))
+            raise ValueError('%s does not end with the columns %s.' %
+                             (shownPath(name), ', '.join(COLUMNS)))
+        rows = [_row(head, line) for line in lines[1:]]
+        if None in rows:
+            raise ValueError('%s has a damaged row, the one after %d others.' %
+                             (shownPath(name), rows.index(None)))
         return cls(rows, title)
 
     def markdown(self, file=None, time='wall'):
@@ -120,6 +138,8 @@ class TradeoffTable:
         Times are shown over that of the first row too (ratio), settings by `label`.
         """
         front = self.front(time)
+        if not self.rows:
+            raise ValueError('the table has no rows.')
         out = ['# %s\n' % self.title] * bool(self.title)
         out += ['Row 1: %s. The others as row 1, but for what they say.\n' %
                 describe(self.rows[0].settings),
@@ -139,11 +159,10 @@ class TradeoffTable:
                 cells += ['', '', '', '', '%s: %s' % (row.result, row.message) if row.message
                           else row.result]
             out.append('| ' + ' | '.join(cell.replace('|', '\\|') for cell in cells) + ' |')
-        text = '\n'.join(out) + '\n'
+        whole = '\n'.join(out) + '\n'
         if file is not None:
-            with open(file, 'w', encoding='utf-8') as f:
-                f.write(text)
-        return text
+            writeText(path('file', file), whole)
+        return whole
 
     def plot(self, file=None, ax=None, time='wall', names=True):
         """Error over time, the Pareto front as a line; returns Matplotlib's axes.
@@ -153,20 +172,42 @@ class TradeoffTable:
         ValueError where no row has an error to show.
         """
         from yadefrag import tradeoff_plot  # Matplotlib only where something is drawn
-        return tradeoff_plot.plot(self, file, ax, time, _TIMES[time], names)
+        return tradeoff_plot.plot(self, file, ax, time, _TIMES.get(str(time)), names)
 
     def write(self, files, time='wall'):
         """files.csv, files.md and, where there is something to show, files.png."""
-        self.csv('%s.csv' % files)
-        self.markdown('%s.md' % files, time)
+        table, readable, picture = self.namesOfFiles(files)
+        self.csv(table)
+        self.markdown(readable, time)
         if self.front(time):
-            self.plot('%s.png' % files, time=time)
+            self.plot(picture, time=time)
+
+    @staticmethod
+    def namesOfFiles(files):
+        """Those that `write` writes."""
+        return [path('files', files) + ending for ending in ('.csv', '.md', '.png')]
 
 
-def _time(row, time):
-    if time not in _TIMES:
-        raise ValueError("time is %r, it must be 'wall' or 'cpu'." % (time,))
-    return getattr(row, time)
+def _requireTime(time):
+    if not isinstance(time, str) or time not in _TIMES:
+        refuse('time', time, "'wall' or 'cpu'")
+
+
+def _row(head, line):
+    """The TradeoffRow of a line below `head`; None for a line that `csv` cannot have written."""
+    if len(line) != len(head):
+        return None
+    cells = [_decode(cell) for cell in line]
+    settings = {n: v for n, v in zip(head, cells[:-len(COLUMNS)]) if v is not None}
+    row = TradeoffRow(settings, *cells[-len(COLUMNS):])
+    row.message = row.message or ''
+    isRight = (isinstance(row.result, str) and isinstance(row.message, str)
+               and all(real(value) is not None or value is None and row.result != 'ok'
+                       for value in (row.wall, row.cpu, row.steps))
+               and (row.error is None or real(row.error) is not None)
+               and all(isinstance(times, list) and None not in map(real, times)
+                       for times in (row.walls, row.cpus)))
+    return row if isRight else None
 
 
 def _encode(value):
@@ -183,5 +224,5 @@ def _decode(cell):
         return None
     try:
         return json.loads(cell)
-    except ValueError:
+    except (ValueError, RecursionError):
         return cell

@@ -1,0 +1,110 @@
+"""Files that this package writes: beside the old file first, which a failure leaves as it is."""
+
+import contextlib
+import os
+import shutil
+import stat
+
+from yadefrag.values import path
+
+
+@contextlib.contextmanager
+def replacing(name):
+    """For `with`: the name of a file to write, with the ending of `name`; it takes the place of the
+    file `name` once all is written.
+
+    After an exception it is removed, and the old file stays. OSError names `name`. A device or a
+    pipe is written directly, and a symbolic link stays one.
+    """
+    target = os.path.realpath(name)
+    if os.path.exists(target) and not os.path.isfile(target):
+        with _named(name):
+            yield _special(target)
+        return
+    part = _beside(target)
+    try:
+        with _named(name):
+            yield part
+            if os.path.exists(target):
+                shutil.copymode(target, part)
+            os.replace(part, target)
+    finally:
+        with contextlib.suppress(OSError):
+            os.remove(part)
+
+
+def requireWritable(name):
+    """OSError that names `name` if it cannot be written; nothing is left behind."""
+    with _named(name):
+        target = os.path.realpath(name)
+        if os.path.exists(target) and not os.path.isfile(target):
+            with open(_special(target), 'ab'):
+                return
+        part = _beside(target)
+        with open(part, 'wb'):
+            os.remove(part)
+
+
+def writeText(name, text):
+    """`text` as the whole of the file `name`, in UTF-8."""
+    with replacing(name) as part, open(part, 'w', encoding='utf-8', newline='') as out:
+        out.write(text)
+
+
+def appendText(name, text):
+    """`text` at the end of the file `name`: all of it, or nothing with an OSError."""
+    with open(name, 'ab', buffering=0) as out:
+        size = os.fstat(out.fileno()).st_size
+        try:
+            data = text.encode()
+            while data:
+                data = data[out.write(data):]
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                out.truncate(size)
+            raise OSError(error.errno, error.strerror, name) from None
+
+
+def savePicture(figure, file, dpi):
+    """Matplotlib's `figure` into `file`, a path whose ending says as what, or an open file."""
+    if hasattr(file, 'write'):
+        figure.savefig(file, dpi=dpi)
+        return
+    with replacing(pictureName(figure, file)) as part:
+        figure.savefig(part, dpi=dpi)
+
+
+def pictureName(figure, file):
+    """The path of a picture, with Matplotlib's ending where there is none; ValueError for an ending
+    that it does not know."""
+    name = path('file', file)
+    ending = os.path.splitext(name)[1]
+    known = sorted(figure.canvas.get_supported_filetypes())
+    if ending and ending[1:].lower() not in known:
+        raise ValueError('file ends with %r, a picture must end with one of .%s.' %
+                         (ending[:20], ', .'.join(known)))
+    return name if ending else name + '.' + figure.canvas.get_default_filetype()
+
+
+def _beside(target):
+    folder, base = os.path.split(target)
+    stem, ending = os.path.splitext(base)
+    return os.path.join(folder, '.%s.%d.part%s' % (stem[:100], os.getpid(), ending))
+
+
+def _special(target):
+    """A device or a pipe; IsADirectoryError for a folder."""
+    if stat.S_ISDIR(os.stat(target).st_mode):
+        raise IsADirectoryError(21, os.strerror(21), target)
+    return target
+
+
+@contextlib.contextmanager
+def _named(name):
+    """OSErrors name the file that was asked for, not the one beside it."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno is None:
+            raise
+        raise OSError(error.errno, os.strerror(error.errno), name) from None

@@ -1,0 +1,154 @@
+"""Values from a script: which numbers are accepted, and how a sentence shows a refused value.
+
+NumPy's numbers are numbers: scalars of any width, and arrays without a dimension.
+"""
+
+import itertools
+import math
+import numbers
+import operator
+import os
+import reprlib
+
+import numpy
+
+LONGEST = 80  # characters of a value in a sentence
+MOST_BYTES = 255  # of a file's name without its folder, on Linux
+
+
+class _Short(reprlib.Repr):
+    """repr, cut at every level; arrays by their shape."""
+
+    def __init__(self):
+        super().__init__()
+        self.maxlevel = 3
+        self.maxstring = self.maxother = 40
+        self.maxlong = 24
+
+    def repr_ndarray(self, array, level):
+        if array.ndim == 1 and array.size <= self.maxlist:
+            return self.repr(array.tolist())
+        return 'an array of shape %r and type %s' % (array.shape, array.dtype)
+
+
+_SHORT = _Short()
+
+
+def shown(value):
+    """`value` for a sentence: one line of at most LONGEST characters, whatever it is."""
+    try:
+        text = ' '.join(_SHORT.repr(value).split())
+    except Exception:  # the repr of any class, or an integer of too many digits for one
+        text = '<%s>' % type(value).__name__
+    return text if len(text) <= LONGEST else text[:LONGEST - 3] + '...'
+
+
+def plain(value):
+    """A NumPy number as Python's; any other value as it is."""
+    if isinstance(value, numpy.generic) or isinstance(value, numpy.ndarray) and value.ndim == 0:
+        item = value.item()
+        return float(item) if isinstance(item, numpy.floating) else item  # a long double stays one
+    return value
+
+
+def refuse(name, value, right):
+    """ValueError: what the argument `name` is, and what it must be."""
+    raise ValueError('%s is %s, it must be %s.' % (name, shown(value), right)) from None
+
+
+def real(value):
+    """A float, or None for what is no real number; an integer beyond all floats is infinite."""
+    value = plain(value)
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        return None
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+
+
+def number(name, value, isRight, right):
+    """A float for which isRight holds; ValueError with `right`, what it must be, for all else."""
+    result = real(value)
+    if result is None or not isRight(result):
+        refuse(name, value, right)
+    return result
+
+
+def positive(name, value, unit):
+    return number(name, value, lambda v: math.isfinite(v) and v > 0,
+                  'a positive number (%s)' % unit)
+
+
+def isWhole(value):
+    value = plain(value)
+    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
+
+
+def whole(name, value, least=1, right='a positive whole number', most=2**31 - 1):
+    """An int from `least` to `most`, by default those of a C int."""
+    if not isWhole(value) or plain(value) < least:
+        refuse(name, value, right)
+    result = operator.index(plain(value))
+    if result > most:
+        refuse(name, value, 'at most %d' % most)
+    return result
+
+
+def flag(name, value):
+    value = plain(value)
+    if not isinstance(value, bool):
+        refuse(name, value, 'True or False')
+    return value
+
+
+def numbersOf(value, count):
+    """A tuple of `count` floats, finite or not; None if `value` is not that."""
+    if isinstance(value, (str, bytes, dict, set)):
+        return None
+    try:
+        result = tuple(map(real, itertools.islice(value, count + 1)))
+    except TypeError:
+        return None
+    return None if len(result) != count or None in result else result
+
+
+def pair(name, value, right='a pair of numbers'):
+    """Two finite floats."""
+    result = numbersOf(value, 2)
+    if result is None:
+        refuse(name, value, right)
+    if not all(map(math.isfinite, result)):
+        raise ValueError('%s is %s, both numbers must be finite.' % (name, shown(value)))
+    return result
+
+
+def text(name, value):
+    """A text that a file in UTF-8 can hold."""
+    value = plain(value)
+    try:
+        value.encode()
+    except (AttributeError, UnicodeError):
+        refuse(name, value, 'a text')
+    return value
+
+
+def shownPath(name):
+    """A file's name for a sentence: its end, where it is long."""
+    return name if len(name) <= LONGEST else '...' + name[3 - LONGEST:]
+
+
+def path(name, value, ending=''):
+    """A file's name as text; ValueError for what is none, or has another ending."""
+    try:
+        file = os.fspath(value)
+        base = os.path.basename(os.fsencode(file))
+    except (TypeError, UnicodeError):
+        file = base = b''
+    if not isinstance(file, str) or '\0' in file or not base:
+        refuse(name, value, 'a path')
+    if len(base) > MOST_BYTES:
+        refuse(name, value, 'a path with a name of at most %d bytes' % MOST_BYTES)
+    if not file.endswith(ending):
+        raise ValueError("%s is %s, its name must end with '%s'." % (name, shown(file), ending))
+    return file

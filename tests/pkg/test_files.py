@@ -1,0 +1,217 @@
+"""Files that cannot be written: known before a run, named, and the old file stays as it was."""
+import builtins
+import os
+import stat
+import subprocess
+
+import pytest
+
+import tradeoff_scenes
+import yadefrag
+from fe_scene import impact
+from yade import wrapper as w
+from yadefrag import files
+from yadefrag.tradeoff_table import TradeoffRow
+
+O = builtins.O
+kNowhere = ['/nowhere/run', '/proc/run', '{folder}/file/run']
+
+
+@pytest.fixture
+def small(folder):
+    """A disk of 8 KB."""
+    disk = folder + '/disk'
+    os.mkdir(disk)
+    if subprocess.run(['mount', '-t', 'tmpfs', '-o', 'size=8k', 'none', disk], capture_output=True).returncode:
+        pytest.skip('no disk can be mounted here')
+    yield disk
+    subprocess.run(['umount', disk], check=True)
+
+
+def table():
+    return yadefrag.TradeoffTable([TradeoffRow({'k': k, 'n': 'x' * 3000}, 'ok', k, k, 1 / k, 0, 9, [k], [k])
+                                   for k in (1, 2, 3)])
+
+
+def writers(solver):
+    """ending: what writes such a file."""
+    return {'.vtu': lambda f: yadefrag.exportVTK(solver, f),
+            '.png': lambda f: yadefrag.plotMesh(solver, 'mises', file=f),
+            '.gif': lambda f: yadefrag.animate(solver, f, 1, 1),
+            '.csv': lambda f: table().csv(f), '.md': lambda f: table().markdown(f)}
+
+
+def test_anOldFileIsNotLostToAFullDisk(small):
+    for ending, write in writers(impact()).items():
+        name = small + '/run' + ending
+        with open(name, 'w') as old:
+            old.write('what was there')
+        with open(small + '/rest', 'wb') as rest:
+            rest.write(b'x' * 4096)
+        with pytest.raises(OSError, match='No space left') as error:
+            write(name)
+        assert error.value.filename == name
+        with open(name) as old:
+            assert old.read() == 'what was there'
+        assert sorted(os.listdir(small)) == ['rest', 'run' + ending]
+        os.remove(name)
+
+
+@pytest.mark.parametrize('where', kNowhere)
+def test_anUnwritablePathIsNamedBeforeARun(where, folder):
+    open(folder + '/file', 'w').close()
+    solver = impact()
+    for ending, write in writers(solver).items():
+        name = where.format(folder=folder) + ending
+        with pytest.raises(OSError) as error:
+            write(name)
+        assert error.value.filename == name and O.iter == 0
+
+
+def test_aFolderIsNoFile(folder):
+    for ending, write in writers(impact()).items():
+        name = folder + '/run' + ending
+        os.mkdir(name)
+        with pytest.raises(IsADirectoryError) as error:
+            write(name)
+        assert error.value.filename == name and O.iter == 0 and os.path.isdir(name)
+        assert os.listdir(name) == []
+
+
+def test_aDeviceStaysOne():
+    for write in writers(impact()).values():
+        pass
+    with pytest.raises(OSError, match='No space left'):
+        files.writeText('/dev/full', 'x')
+    files.writeText('/dev/null', 'x')
+    for device in ('/dev/full', '/dev/null'):
+        assert stat.S_ISCHR(os.stat(device).st_mode)
+        files.requireWritable(device)
+
+
+def test_aLinkStaysOneAndAModeToo(folder):
+    real, link = folder + '/real.csv', folder + '/link.csv'
+    open(real, 'w').close()
+    os.chmod(real, 0o640)
+    os.symlink(real, link)
+    table().csv(link)
+    assert os.path.islink(link) and os.path.getsize(real) > 0
+    assert stat.S_IMODE(os.stat(real).st_mode) == 0o640
+    assert len(yadefrag.TradeoffTable.read(link).rows) == 3
+
+
+def test_aRecordGrowsByWholeLines(small):
+    solver = impact()
+    name = small + '/run.csv'
+    record = yadefrag.recordFracture(solver, name)
+    with pytest.raises(OSError, match='No space left') as error:
+        for _ in range(1000):
+            record()
+    assert error.value.filename == name
+    with open(name) as lines:
+        text = lines.read()
+    assert text.endswith('\n') and len({line.count(',') for line in text.splitlines()}) == 1
+    yadefrag.plotFracture(name)
+
+
+# --- tradeoff
+
+@pytest.mark.parametrize('where', kNowhere)
+def test_tradeoffLooksAtItsFilesFirst(where, folder, monkeypatch):
+    open(folder + '/file', 'w').close()
+    tool = __import__('sys').modules['yadefrag.tradeoff']
+    monkeypatch.setattr(tool, '_runAll', lambda *_: pytest.fail('it has run'))
+    with pytest.raises(OSError) as error:
+        yadefrag.tradeoff(tradeoff_scenes.block, {'passes': [1]}, tradeoff_scenes.way, duration=1.,
+                          files=where.format(folder=folder))
+    assert error.value.filename == where.format(folder=folder) + '.csv'
+
+
+def test_tradeoffReturnsItsTableFromAFullDisk(small, monkeypatch):
+    """It was writable before, and is full after the runs."""
+    tool = __import__('sys').modules['yadefrag.tradeoff']
+
+    def fill(*_):
+        with open(small + '/rest', 'wb') as rest:
+            rest.write(b'x' * 8192)
+
+    monkeypatch.setattr(tool, '_runAll', fill)
+    with pytest.warns(UserWarning, match='the table could not be written: .*No space left'):
+        found = yadefrag.tradeoff(tradeoff_scenes.block, {'passes': [1]}, tradeoff_scenes.way, duration=1.,
+                                  files=small + '/t')
+    assert len(found.rows) == 1
+
+
+def test_aDurationBelowHalfAStepIsRefused():
+    found = yadefrag.tradeoff(tradeoff_scenes.block, {'passes': [1]}, tradeoff_scenes.way, duration=1e-12,
+                              repeats=1)
+    row, = found.rows
+    assert row.result == 'refused' and 'at most half of the scene\'s step' in row.message
+
+
+# --- files that are read
+
+@pytest.mark.parametrize('text', ['', '\n', 'step\n', 'a,b\n1,2\n', '\ufeff', '\xff\xfe'])
+def test_aFileOfOtherColumnsIsNoRecord(text, folder):
+    name = folder + '/run.csv'
+    with open(name, 'w', encoding='latin-1' if text == '\xff\xfe' else 'utf-8') as file:
+        file.write(text)
+    with pytest.raises(ValueError, match='run.csv has no lines as recordFracture writes them'):
+        yadefrag.plotFracture(name)
+    with pytest.raises(ValueError, match='does not end with the columns'):
+        yadefrag.TradeoffTable.read(name)
+
+
+def test_damagedRecordsAndTablesAreRefused(folder):
+    name = folder + '/run.csv'
+    yadefrag.recordFracture(impact(), name)
+    with open(name) as file:
+        good = file.read()
+    for bad in (good + '1,2,3\n', good.replace('0.0', 'x'), good.splitlines()[0] + '\n'):
+        with open(name, 'w') as file:
+            file.write(bad)
+        with pytest.raises(ValueError, match='no lines as recordFracture|damaged one'):
+            yadefrag.plotFracture(name)
+    table().csv(name)
+    with open(name) as file:
+        good = file.read()
+    for bad in (good + '1,2,3\n', good.replace('[1]', '[[1]]'), good.replace('ok,1', 'ok,fast')):
+        assert bad != good
+        with open(name, 'w') as file:
+            file.write(bad)
+        with pytest.raises(ValueError, match='has a damaged row'):
+            yadefrag.TradeoffTable.read(name)
+
+
+def test_aByteOrderMarkIsSkipped(folder):
+    mark = '\ufeff'.encode()
+    for name, data in (('plate', b'0 0\n1 0\n1 1\n'), ('t.csv', None), ('r.csv', None)):
+        path = folder + '/' + name
+        if name == 't.csv':
+            table().csv(path)
+        elif name == 'r.csv':
+            yadefrag.recordFracture(impact(), path)
+        else:
+            with open(path, 'wb') as file:
+                file.write(data)
+        with open(path, 'rb') as file:
+            data = file.read()
+        with open(path, 'wb') as file:
+            file.write(mark + data)
+    assert yadefrag.readPolygon(folder + '/plate') == ([(0, 0), (1, 0), (1, 1)], [])
+    assert len(yadefrag.TradeoffTable.read(folder + '/t.csv').rows) == 3
+    yadefrag.plotFracture(folder + '/r.csv')
+
+
+# --- YADE's own save
+
+@pytest.mark.parametrize('name', ['/dev/full', '/nowhere/x.yade', '{folder}'])
+def test_aSaveThatFailsSaysSo(name, folder):
+    impact()
+    with pytest.raises(RuntimeError, match='^FESolver could not be saved .*its file cannot be opened or the '
+                                           'disk is full'):
+        O.save(name.format(folder=folder))
+    assert len(O.bodies) > 0
+    O.save(folder + '/whole.yade')
+    O.load(folder + '/whole.yade')
+    assert any(isinstance(e, w.FESolver) for e in O.engines)
