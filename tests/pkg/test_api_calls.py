@@ -27,7 +27,7 @@ def batch(seed, log):
         pass
     with open(log, errors='replace') as file:
         lines = file.read().splitlines()
-    found = ['%s -> %s' % (before, line) for before, line in zip(lines, lines[1:])
+    found = ['%s -> %s' % (call, line) for call, line in zip(lines, lines[2:])
              if line.startswith('FOUND')]
     end = re.fullmatch(r'END (\d+) succeeded, (\d+) refused', lines[-1] if lines else '')
     if not end:

@@ -78,7 +78,7 @@ def test_valuesAreShownInShort(value):
                  lambda: w.FESolver().addPolygon(kSquare, size=value, material='m'),
                  lambda: w.FESolver(passes=value), lambda: w.FESolver(gravity=value),
                  lambda: yadefrag.tradeoff(None, value, None, duration=value)):
-        with pytest.raises(ValueError) as error:
+        with pytest.raises((ValueError, TypeError)) as error:
             call()
         assert len(str(error.value)) <= 300
 
@@ -100,6 +100,8 @@ def test_aBrokenReprIsNoReasonToFail():
     ('halo', 'wide', "FESolver.halo is 'wide', it must be a number."),
     ('halo', 10**400, 'FESolver.halo is 1000000000...00000000000, it must be a number.'),
     ('dead', 'no', "FESolver.dead is 'no', it must be True or False."),
+    ('dead', 7, 'FESolver.dead is 7, it must be True or False.'),
+    ('label', b'x', "FESolver.label is b'x', it must be a text."),
     ('correction', 3, 'FESolver.correction is 3, it must be a text.'),
     ('gravity', (0, 1), 'FESolver.gravity is (0, 1), it must be three numbers.'),
     ('label', None, 'FESolver.label is None, it must be a text.')])
@@ -108,7 +110,7 @@ def test_attributesOfAWrongKind(name, value, sentence):
     before = repr(solver.dict())
     for call in (lambda: setattr(solver, name, value), lambda: w.FESolver(**{'damping': 1, name: value}),
                  lambda: solver.updateAttrs({'damping': 1, name: value})):
-        with pytest.raises(ValueError) as error:
+        with pytest.raises(TypeError) as error:
             call()
         assert str(error.value) == sentence and repr(solver.dict()) == before
 
@@ -116,11 +118,18 @@ def test_attributesOfAWrongKind(name, value, sentence):
 def test_updateAttrsChangesAllOrNothing():
     solver = w.FESolver()
     for attributes in ({'passes': 2, 'halo': -1}, {'passes': 2, 'nope': 1}, {'passes': 2, 'halo': 'a'}):
-        with pytest.raises((ValueError, AttributeError)):
+        with pytest.raises((ValueError, TypeError, AttributeError)):
             solver.updateAttrs(attributes)
         assert solver.passes == 1
     solver.updateAttrs({'passes': 2, 'halo': .1})
     assert solver.passes == 2 and solver.halo == .1
+
+
+def test_aColliderNeedsADispatcher():
+    for call in (lambda: w.LebesgueCollider(boundDispatcher=None),
+                 lambda: w.LebesgueCollider().updateAttrs({'boundDispatcher': None})):
+        with pytest.raises((TypeError, AttributeError), match='boundDispatcher'):
+            call()
 
 
 @pytest.mark.parametrize('functors', [[None], [3], 3, [w.FEMat()], None])

@@ -10,23 +10,24 @@ from yade import wrapper
 from yade.minieigenHP import Vector3
 from yadefrag.values import isWhole, plain, refuse
 
-_KINDS = ((bool, 'True or False'), (int, 'a whole number'), (float, 'a number'), (str, 'a text'))
 _OF_NUMPY = (numpy.generic, numpy.ndarray)
 _WRONG_KIND = (TypeError, OverflowError, UnicodeError)  # as Boost.Python refuses
 
 
 def install(cls):
     """Guards all that sets attributes of `cls`: assignment, the constructor and updateAttrs."""
-    cls.__setattr__ = _assign
+    cls.__setattr__ = __setattr__
     cls.__init__ = _guardConstructor(cls.__init__)
-    cls.updateAttrs = _update
+    cls.updateAttrs = updateAttrs
 
 
-def _assign(self, name, value):
+def __setattr__(self, name, value):
+    present = None if isinstance(value, (list, tuple, numpy.ndarray)) else getattr(self, name, None)
     try:
-        object.__setattr__(self, name, _simple(value))
+        object.__setattr__(self, name, _fitting(present, value))
     except _WRONG_KIND:
-        refuse('%s.%s' % (type(self).__name__, name), value, _right(getattr(self, name), value))
+        refuse('%s.%s' % (type(self).__name__, name), value, _right(getattr(self, name), value),
+               TypeError)  # as YADE's own classes
 
 
 def _guardConstructor(make):
@@ -34,23 +35,21 @@ def _guardConstructor(make):
     def __init__(self, *args, **settings):
         if args and isinstance(self, wrapper.Collider):
             _requireFunctors(args[0])
-        try:
-            make(self, *args, **{name: _simple(value) for name, value in settings.items()})
-        except _WRONG_KIND:
-            _findWrong(type(self)(), settings)
-            raise
+        make(self, *args)
+        if settings:
+            updateAttrs(self, settings)
 
     return __init__
 
 
-def _update(self, attributes):
+def updateAttrs(self, attributes):
     """Sets all attributes of a dict, or none of them where one is refused."""
     if not isinstance(attributes, dict):
         refuse('attributes', attributes, 'a dict {name: value}')
-    change = wrapper.Serializable.updateAttrs
-    before = {name: value for name, value in self.dict().items() if name in attributes}
+    change, known = wrapper.Serializable.updateAttrs, self.dict()
+    before = {name: value for name, value in known.items() if name in attributes}
     try:
-        change(self, {name: _simple(value) for name, value in attributes.items()})
+        change(self, {name: _fitting(known.get(name), value) for name, value in attributes.items()})
     except Exception as error:
         change(self, before)
         if isinstance(error, _WRONG_KIND):
@@ -59,7 +58,7 @@ def _update(self, attributes):
 
 
 def _findWrong(scratch, settings):
-    """ValueError for the first of the settings that an object of this kind cannot have."""
+    """TypeError for the first of the settings that an object of this kind cannot have."""
     known = scratch.dict()
     for name, value in settings.items():
         if name in known:
@@ -73,19 +72,27 @@ def _requireFunctors(functors):
         refuse('the first argument', functors, 'a list of bound functors')
 
 
-def _simple(value):
-    """NumPy's numbers as Python's, also those in a vector."""
+def _fitting(present, value):
+    """`value` for an attribute that has the value `present`: NumPy's numbers as Python's. TypeError
+    for what Boost.Python would take as well: 7 for a flag, bytes for a text, no dispatcher."""
     value = plain(value)
     if isinstance(value, numpy.ndarray) and value.ndim == 1:
         return tuple(value.tolist())
     if isinstance(value, (list, tuple)) and any(isinstance(v, _OF_NUMPY) for v in value):
         return tuple(map(plain, value))
+    isWrong = (isinstance(present, str) and not isinstance(value, str)
+               or isinstance(present, bool) and not (isinstance(value, int) and value in (0, 1))
+               or isinstance(present, wrapper.Dispatcher) and value is None)
+    if isWrong:
+        raise TypeError
     return value
 
 
 def _right(present, wrong):
     """What an attribute that has the value `present` must be."""
-    for kind, right in _KINDS:
-        if isinstance(present, kind):
-            return 'nearer to 0' if kind is int and isWhole(wrong) else right
-    return 'three numbers' if isinstance(present, Vector3) else 'of another class'
+    if isinstance(present, bool):
+        return 'True or False'
+    if isinstance(present, int):
+        return 'nearer to 0' if isWhole(wrong) else 'a whole number'
+    rest = ((float, 'a number'), (str, 'a text'), (Vector3, 'three numbers'))
+    return next((right for kind, right in rest if isinstance(present, kind)), 'of another class')

@@ -195,10 +195,12 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     """
     points = _points('outline', outline, 3)
     try:
-        holes = list(holes)
+        loops = None if isinstance(holes, (str, bytes, dict, set)) else list(holes)
     except TypeError:
+        loops = None
+    if loops is None:
         refuse('holes', holes, 'a list of loops of points (x, y) in m')
-    holePoints = [_points('holes[%d]' % i, hole, 3) for i, hole in enumerate(holes)]
+    holePoints = [_points('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
     size = positive('size', size, 'm')
     material = _material(material)
     mesh = _yadefrag.meshOfPolygon(points.tobytes(), [h.tobytes() for h in holePoints], size)
@@ -324,6 +326,7 @@ def _guardFragments(fragments):
     def guarded(self, held=False):
         return fragments(self, flag('held', held))
 
+    guarded.__qualname__ = 'FESolver.fragments'
     return guarded
 
 

@@ -51,9 +51,9 @@ def plain(value):
     return value
 
 
-def refuse(name, value, right):
-    """ValueError: what the argument `name` is, and what it must be."""
-    raise ValueError('%s is %s, it must be %s.' % (name, shown(value), right)) from None
+def refuse(name, value, right, error=ValueError):
+    """Raises `error`: what the argument `name` is, and what it must be."""
+    raise error('%s is %s, it must be %s.' % (name, shown(value), right)) from None
 
 
 def real(value):
