@@ -189,7 +189,10 @@ void FESolver::checkSettings() const {
     throw std::invalid_argument(text.str());
   };
   if (correction != "lagrange" && correction != "penalty")
-    refuse("correction", "'" + correction + "'", "'lagrange' or 'penalty'");
+    refuse("correction",
+           correction.size() <= 40 ? "'" + correction + "'"
+                                   : "a text of " + std::to_string(correction.size()) + " bytes",
+           "'lagrange' or 'penalty'");
   if (passes != 1 && passes != 2) refuse("passes", passes, "1 or 2");
   if (!(penaltyFactor > 0 && penaltyFactor <= 1))
     refuse("penaltyFactor", penaltyFactor, "above 0 and at most 1");

@@ -17,13 +17,11 @@ import types
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
-import numpy as np  # noqa: E402
-
 import api_values  # noqa: E402
 import yadefrag  # noqa: E402
 from yade import wrapper as w  # noqa: E402
 from yadefrag import choices, tradeoff_table  # noqa: E402
-from yadefrag.values import shown  # noqa: E402
+from yadefrag.values import real, shown  # noqa: E402
 
 O = builtins.O
 kLongest = 300  # characters of a sentence
@@ -145,7 +143,7 @@ def methods(cls):
 def targets(fe, table):
     """Live objects of all classes."""
     pieces = [b.shape for b in O.bodies if b and isinstance(b.shape, w.SurfaceSegment)]
-    return [fe, fe, fe, O.engines[1], O.materials[0], O.materials[1], pieces[0], w.SurfaceSegment(),
+    return [fe, fe, fe, O.engines[1], O.materials[0], O.materials[1], pieces[0], pieces[-1],
             w.Bo1_SurfaceSegment_Aabb(), w.Ig2_Sphere_SurfaceSegment_ScGeom(), w.HierarchyCollider(),
             w.LinearCodeCollider(), table, choices.Choices({'passes': 1})]
 
@@ -184,7 +182,7 @@ class Call:
     def withKeywords(self, name, function, known):
         args = self.spoilt(known)
         for many in ('steps', 'every', 'repeats'):  # right, but for ever
-            if isinstance(args.get(many), (int, float, np.generic)) and args[many] > 100:
+            if (real(args.get(many)) or 0) > 100:
                 args[many] = 10**400
         self.mayStep = callable(args.get('call'))
         return '%s(%s)' % (name, ', '.join('%s=%s' % (n, shown(v)) for n, v in args.items())), \
@@ -206,7 +204,7 @@ class Call:
         return '%s(%s)' % (label, ', '.join(map(shown, args))), lambda: getattr(target, name)(*args)
 
     def ofAttribute(self):
-        target = self.draw.choice(targets(self.fe, self.table)[:12])
+        target = self.draw.choice(targets(self.fe, self.table)[:11])
         name = self.draw.choice(settable(type(target)))
         value = self.wrong(getattr(target, name))
         return '%s.%s = %s' % (type(target).__name__, name, shown(value)), lambda: setattr(target, name, value)

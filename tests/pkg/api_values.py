@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from yade import wrapper as w
+from yade.minieigenHP import Vector3
 
 
 class FromScript(Exception):
@@ -80,6 +81,12 @@ def collections(random):
             memoryview(b'abc'), 'abcd', {'x': 1}.items(), list(range(1000)), ((0, 0), (1, 1))]
 
 
+def triples():
+    return [(0, 0, 0), (1, 0, 0), (.5, 1, 0), (math.nan, 0, 0), (0, math.inf, 0), (0, 0, 1), (1e300, -1e300, 0),
+            (1e160, 0, 0), (1e-320, 0, 0), (1, 2), (1, 2, 3, 4), ('a', 0, 0), (None, 0, 0), (10**400, 0, 0),
+            np.zeros(3), np.ones(3, dtype=int), np.zeros((3, 1)), Vector3(1, 1, 1), {1, 2, 3}, (1j, 0, 0)]
+
+
 def callables():
     return [raising, lambda: None, lambda x, y: True, lambda x, y: None, lambda x, y: 'x', lambda x, y: (x, y),
             lambda x, y: (math.nan, 0), lambda x, y: (1e300, 1e300), lambda x, y: np.bool_(x > .5),
@@ -102,6 +109,8 @@ def alike(random, fe, right):
         return random.choice(texts())
     if isinstance(right, (list, tuple, np.ndarray)):
         return random.choice(collections(random)) if random.random() < .7 else numpys(random)
+    if isinstance(right, Vector3):
+        return random.choice(triples())
     if callable(right):
         return random.choice(callables())
     return anything(random, fe)
