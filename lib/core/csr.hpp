@@ -3,8 +3,11 @@
 
 #include <cassert>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
+
+#include "core/errors.hpp"
 
 namespace yadefrag {
 
@@ -22,9 +25,12 @@ struct Csr {
 };
 
 /// Sorts `count` items into `rows` rows by counting, in the order in which they come:
-/// `keyOf(i)` is the row of item i, `valueOf(i)` what is stored there.
+/// `keyOf(i)` is the row of item i, `valueOf(i)` what is stored there. Throws RunError for more
+/// items than an offset can count.
 template <class T, class KeyOf, class ValueOf>
 void fillRows(Csr<T>& csr, std::size_t rows, std::size_t count, KeyOf keyOf, ValueOf valueOf) {
+  if (count > std::numeric_limits<std::uint32_t>::max())
+    throw RunError("A list has more than 4294967295 entries, which cannot be counted in 32 bits.");
   csr.offsets.assign(rows + 1, 0);
   csr.values.resize(count);
   for (std::size_t i = 0; i < count; ++i) ++csr.offsets[keyOf(i) + 1];

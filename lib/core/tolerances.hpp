@@ -61,6 +61,30 @@ inline constexpr std::uint32_t kHierarchyLeaf = 4;
 /// sweep.
 inline constexpr double kHaloRounding = 2e-15;
 
+/// (count) Rows of a table of pairs that are longer are sorted and halved to find a pair: below
+/// that a look at each is as fast. Few bodies of an even packing have as many neighbours.
+inline constexpr std::size_t kLongRow = 16;
+
+/// (relative to squared lengths) A period vector is taken for shorter than another only beyond
+/// rounding, so that equal ones do not take turns.
+inline constexpr double kShorterPeriod = 1e-12;
+
+/// (cells) Largest shear of a periodic cell. Reduced vectors lose as many digits as it has.
+inline constexpr double kMostShear = 1e6;
+
+/// (bytes) Memory of a potential interaction with its pair in the search, and what contact adds to
+/// it (measured: 417; 380 to 660).
+inline constexpr double kPairBytes = 420, kContactBytes = 650;
+
+/// (count) Pairs per body of which few are contacts; where there are more, bodies lie on one
+/// another and all of them may be.
+inline constexpr double kUsualPairs = 20;
+
+/// (count; ratio) Bodies below which all pairs fit any memory, and how much their number may grow
+/// before the free memory is looked up again.
+inline constexpr std::size_t kFewBodies = 4000;
+inline constexpr double kMemoryLookUp = 1.1;
+
 /// (ratio) Spare in the length of a sweep for acceleration: without it a body at constant speed
 /// calls for a search one step early.
 inline constexpr double kSweepSpare = 1.02;

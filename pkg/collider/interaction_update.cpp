@@ -10,12 +10,30 @@ using yade::Body;
 using yade::Interaction;
 using yade::InteractionContainer;
 
+namespace {
+
+/// True if the searches know where the body is: it has a box that is kept up to date.
+bool isSearched(const Body* body) { return !body || (body->bound && body->isBounded()); }
+
+/// Functors of grids and PFacets insert potential interactions by themselves, between nodes and
+/// connections that have no bound. No box tells that these are far apart, so they stay, wherever
+/// they are. (YADE takes the origin for the box of a body without one.)
+bool mayErase(const Interaction& is, const std::vector<yade::shared_ptr<Body>>& bodies) {
+  const auto bodyOf = [&](Body::id_t id) {
+    const auto slot = static_cast<std::size_t>(id);
+    return slot < bodies.size() ? bodies[slot].get() : nullptr;
+  };
+  return isSearched(bodyOf(is.getId1())) && isSearched(bodyOf(is.getId2()));
+}
+
+}  // namespace
+
 void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> near,
                               const MayCollide& mayCollide) {
   InteractionContainer& interactions = *scene.interactions;
   known_.assign(near.size(), 0);
   toErase_.clear();
-  if (interactions.size() > 0) markKnown(interactions, near, scene.bodies->body.size());
+  if (interactions.size() > 0) markKnown(interactions, near, scene.bodies->body);
   // Backwards: erasing moves the last one into the gap, which must not be one still to be erased.
   for (auto place = toErase_.rbegin(); place != toErase_.rend(); ++place) {
     const Interaction& gone = *interactions[static_cast<std::size_t>(*place)];
@@ -25,12 +43,10 @@ void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> ne
 }
 
 void InteractionUpdate::markKnown(InteractionContainer& interactions,
-                                  std::span<const Neighbours> near, std::size_t bodies) {
-  fillRows(
-      partners_, bodies, near.size(), [&](std::size_t i) { return near[i].first; },
-      [&](std::size_t i) {
-        return Partner{near[i].second, static_cast<std::uint32_t>(i)};
-      });
+                                  std::span<const Neighbours> near, const Bodies& bodies) {
+  partners_.build(
+      bodies.size(), near.size(), [&](std::size_t i) { return near[i].first; },
+      [&](std::size_t i) { return near[i].second; });
   constexpr std::size_t ahead = 12;  // interactions lie where they were made: ask for them early
   const std::size_t count = interactions.size();
   for (std::size_t place = 0; place < count; ++place) {
@@ -41,22 +57,21 @@ void InteractionUpdate::markKnown(InteractionContainer& interactions,
     }
     Interaction& is = *interactions[place];
     const bool swapped = is.getId1() > is.getId2();
-    const auto first = static_cast<std::size_t>(swapped ? is.getId2() : is.getId1());
+    const Body::id_t first = swapped ? is.getId2() : is.getId1();
     const Body::id_t second = swapped ? is.getId1() : is.getId2();
     bool isNear = false;
-    if (first < bodies) {
-      for (const Partner& partner : partners_.row(first)) {
-        if (partner.second != second) continue;
-        isNear = true;
-        known_[partner.index] = 1;
-        // A pair that is not in contact may have come near across another face of the cell.
-        if (!is.isReal()) {
-          const yade::Vector3i& cells = near[partner.index].cellDist;
-          is.cellDist = swapped ? yade::Vector3i(-cells) : cells;
-        }
-      }
-    }
-    if (!isNear && !is.isReal()) toErase_.push_back(static_cast<int>(place));
+    partners_.forEach(static_cast<std::size_t>(first), static_cast<std::uint32_t>(second),
+                      [&](std::uint32_t index) {
+                        isNear = true;
+                        known_[index] = 1;
+                        // A pair that is not in contact may have come near across another face of
+                        // the cell.
+                        if (is.isReal()) return;
+                        const yade::Vector3i& cells = near[index].cellDist;
+                        is.cellDist = swapped ? yade::Vector3i(-cells) : cells;
+                      });
+    if (!isNear && !is.isReal() && mayErase(is, bodies))
+      toErase_.push_back(static_cast<int>(place));
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "abi/yade.hpp"
 #include "collider/halo.hpp"
-#include "core/csr.hpp"
+#include "search/partner_table.hpp"
 
 namespace yadefrag {
 
@@ -21,15 +21,13 @@ class InteractionUpdate {
   void apply(yade::Scene& scene, std::span<const Neighbours> near, const MayCollide& mayCollide);
 
  private:
+  using Bodies = std::vector<yade::shared_ptr<yade::Body>>;
+
   void markKnown(yade::InteractionContainer& interactions, std::span<const Neighbours> near,
-                 std::size_t bodies);
+                 const Bodies& bodies);
   void makeNew(yade::Scene& scene, std::span<const Neighbours> near, const MayCollide& mayCollide);
 
-  struct Partner {
-    yade::Body::id_t second;
-    std::uint32_t index;  // into `near`
-  };
-  Csr<Partner> partners_;     // by first body
+  PartnerTable partners_;
   std::vector<char> known_;   // by index: this interaction exists
   std::vector<int> toErase_;  // places in YADE's list, ascending
 };

@@ -1,6 +1,7 @@
 #include "collider/motion_watch.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace yadefrag {
 
@@ -14,6 +15,12 @@ void MotionWatch::start(const Scene& scene, const BodyBoxes& boxes, double cellS
   cellSlack_ = cellSlack;
   cellSpan_ = cellSpan;
   if (scene.isPeriodic) cellBefore_ = scene.cell->hSize;
+  nodes_.clear();
+  nodeSweep_ = boxes.followerSweep();
+  if (!std::isfinite(nodeSweep_)) return;
+  for (const auto& body : scene.bodies->body)
+    if (body && !(body->bound && body->isBounded()))
+      nodes_.push_back({body->id, body->state->se3.position});
 }
 
 bool MotionWatch::boundsBroken(const Scene& scene) const {
@@ -24,7 +31,7 @@ bool MotionWatch::boundsBroken(const Scene& scene) const {
   } else if (someMovedOut(scene)) {
     return true;
   }
-  return someTurnedOut(scene) || (scene.isPeriodic && cellMoved(scene));
+  return someTurnedOut(scene) || someNodeMovedOut(scene) || (scene.isPeriodic && cellMoved(scene));
 }
 
 yade::shared_ptr<NewtonIntegrator> MotionWatch::findIntegrator(const Scene& scene) {
@@ -50,6 +57,18 @@ bool MotionWatch::someMovedOut(const Scene& scene) {
     if (most > 0 && !(most < body->bound->sweepLength)) return true;
   }
   return false;
+}
+
+/// Which nodes a shape follows is not known here: any body without a bound may be one.
+bool MotionWatch::someNodeMovedOut(const Scene& scene) const {
+  const auto& bodies = scene.bodies->body;
+  return std::any_of(nodes_.begin(), nodes_.end(), [&](const Node& was) {
+    const auto id = static_cast<std::size_t>(was.id);
+    if (id >= bodies.size() || !bodies[id]) return false;
+    const yade::Vector3r moved = bodies[id]->state->se3.position - was.position;
+    const double most = moved.cwiseAbs().maxCoeff();
+    return most > 0 && !(most < nodeSweep_);
+  });
 }
 
 /// A point at distance R moves by at most 2R‖q − q₀‖ when the orientation goes from q₀ to q.

@@ -9,8 +9,9 @@
 namespace yadefrag {
 
 /// Positions are watched by YADE's integrator where it moves every body, and here where it does not
-/// (no integrator, a dead one, one with a mask). Turning bodies and a deforming cell, which the
-/// integrator does not see, are always watched here.
+/// (no integrator, a dead one, one with a mask). Turning bodies, a deforming cell, and nodes
+/// without a bound that grid connections and PFacets follow, which the integrator does not see, are
+/// always watched here.
 class MotionWatch {
  public:
   /// Starts the watch over bounds that were just brought up to date. `cellSpan`: by how many cells
@@ -30,7 +31,14 @@ class MotionWatch {
   [[nodiscard]] bool cellMoved(const yade::Scene& scene) const;
   [[nodiscard]] bool someTurnedOut(const yade::Scene& scene) const;
   static bool someMovedOut(const yade::Scene& scene);
+  [[nodiscard]] bool someNodeMovedOut(const yade::Scene& scene) const;
 
+  struct Node {
+    yade::Body::id_t id;
+    yade::Vector3r position;
+  };
+  std::vector<Node> nodes_;
+  double nodeSweep_ = 0;  // m
   std::vector<Turning> turning_;
   double cellSlack_ = 0;
   yade::Vector3r cellSpan_ = yade::Vector3r::Zero();

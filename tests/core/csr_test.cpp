@@ -26,5 +26,12 @@ TEST(Csr, NoItems) {
   EXPECT_EQ(Csr<int>().rows(), 0U);
 }
 
+TEST(Csr, OffsetsDoNotWrap) {
+  Csr<char> csr;
+  const auto none = [](std::size_t) -> char { return 0; };
+  EXPECT_THROW(fillRows(csr, 1, std::size_t{1} << 32, none, none), RunError);
+  EXPECT_EQ(csr.rows(), 0U);
+}
+
 }  // namespace
 }  // namespace yadefrag

@@ -1,0 +1,92 @@
+"""Every shape and every geometry functor of YADE, against InsertionSortCollider on moving scenes.
+
+YADEFRAG_SHAPE_SEEDS sets the number of random scenes per functor and setting (1).
+"""
+import os
+
+import numpy as np
+import pytest
+import yade.system
+import yade.wrapper as w
+
+import every_shape
+import scenes
+from every_shape import kInserting, kNearIsReal, kNoScene, kNoShape, kScenes, kSpeed
+from scenes import O, setEngines
+
+kSteps = 30
+kSeeds = int(os.environ.get('YADEFRAG_SHAPE_SEEDS', 1))
+kSettings = [0, .004, .05]      # verletDist, m: none, and less and more than a step's way
+_expected = {}
+
+
+def realAtEachStep(make, functor, seed, offset=0, **attributes):
+    """[set of real pairs] per step; ids are those of both runs."""
+    scenes.clear()
+    more = kScenes[functor].build(functor, np.random.default_rng(seed), offset)
+    setEngines(make(every_shape.boundFunctors(), **attributes), **more)
+    history = []
+    for _ in range(kSteps):
+        O.step()
+        history.append(set(scenes.realPairs()))
+    return history
+
+
+def settings(functor, verletDist):
+    """(of YADE's collider, of ours). Where functors insert interactions YADE's loses those of bodies
+    without a bound, unless all bounds reach everywhere; where what is near is real, both have to
+    have the same bounds. Else it runs in every step."""
+    if functor in kNearIsReal:
+        return (dict(verletDist=verletDist, targetInterv=0),) * 2
+    rivals = dict(verletDist=1e3, targetInterv=0) if functor in kInserting else dict(verletDist=0)
+    return rivals, dict(verletDist=verletDist)
+
+
+def expected(collider, functor, seed, setting):
+    key = functor, seed, setting['verletDist']
+    if key not in _expected:
+        _expected[key] = realAtEachStep(collider.rival, functor, seed, **setting)
+    return _expected[key]
+
+
+def compare(functor, wanted, found, mayBeLate):
+    """Equal at every step. What a functor inserts is looked at one step later, by YADE's loop: a
+    contact may be late by it if the search finds the pair in the step in which it touches."""
+    before = set()
+    for k, (a, b) in enumerate(zip(wanted, found)):
+        missing = a - b
+        if mayBeLate:
+            missing &= before
+        assert not missing and not b - a, \
+            f'{functor}, step {k}: missing {sorted(missing)[:5]}, extra {sorted(b - a)[:5]}'
+        before = a
+
+
+@pytest.mark.parametrize('verletDist', kSettings)
+@pytest.mark.parametrize('functor', sorted(kScenes))
+def testContactsOfEveryFunctor(collider, functor, verletDist):
+    if collider.isRival:
+        pytest.skip('it is the yardstick')
+    contacts = 0
+    for seed in range(kSeeds):
+        rivals, ours = settings(functor, verletDist)
+        wanted = expected(collider, functor, seed, rivals)
+        found = realAtEachStep(collider, functor, seed, **ours)
+        compare(functor, wanted, found, functor in kInserting and verletDist < kSpeed)
+        contacts += len(set().union(*wanted)) - len(set.intersection(*wanted))
+    assert contacts >= 5 * kSeeds   # that come or go
+
+
+def ofYade(base):
+    """Names of YADE's own classes."""
+    return {n for n in yade.system.childClasses(base) if 'SurfaceSegment' not in n}
+
+
+def testNoFunctorIsMissing():
+    assert ofYade('IGeomFunctor') == set(kScenes) | set(kNoScene)
+
+
+def testNoShapeIsMissing():
+    tested = {name for functor in kScenes for name in getattr(w, functor)().bases}
+    assert ofYade('Shape') == tested | set(kNoShape)
+    assert not tested & set(kNoShape)
