@@ -14,11 +14,13 @@ class BruteForce final : public ContactSearch {
   void addTo(Footprint& /*footprint*/) const override {}
 
   void findPairs(std::vector<BoxPair>& pairs) override {
-    for (std::size_t i = 0; i < boxes_.size(); ++i)
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
       for (std::size_t j = i + 1; j < boxes_.size(); ++j) {
         count_.test(6);
         if (overlaps(boxes_[i], boxes_[j])) pairs.push_back({BoxId(i), BoxId(j)});
       }
+      if (isFull(pairs)) throw TooManyPairs();
+    }
   }
 
   void findOverlaps(const Box& box, std::vector<BoxId>& found) const override {

@@ -19,15 +19,14 @@ void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
     for (const int level : occupied_) {
       const std::size_t size = levels_[level].size();
       const std::size_t from = std::max(begin, first), to = std::min(end, first + size);
-      for (std::size_t i = from; i < to; ++i) pairsOf(level, i - first, out, counts[part]);
+      for (std::size_t i = from; i < to && !isFull(out); ++i)
+        pairsOf(level, i - first, out, counts[part]);
       first += size;
     }
   });
-  for (int part = 0; part < parts; ++part) {
-    pairs.insert(pairs.end(), partPairs_[part].begin(), partPairs_[part].end());
-    count_.merge(counts[part]);
-  }
-  wide_.pairsAmong(boxes_, pairs, count_);
+  join({partPairs_.data(), static_cast<std::size_t>(parts)}, pairs);
+  for (int part = 0; part < parts; ++part) count_.merge(counts[part]);
+  wide_.pairsAmong(boxes_, pairs, count_, mostPairs_);
 }
 
 /// Which of two levels asks the other: the finer one, of whose boxes each meets a few boxes of the

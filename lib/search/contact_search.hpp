@@ -1,16 +1,24 @@
 #pragma once
 // The interface that all searches share: boxes in, overlapping pairs out.
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "core/box.hpp"
 #include "core/comparisons.hpp"
+#include "core/errors.hpp"
 #include "core/footprint.hpp"
 #include "core/ids.hpp"
 
 namespace yadefrag {
+
+/// Thrown by `findPairs`: there are more pairs than `setMostPairs` allows.
+class TooManyPairs : public RunError {
+ public:
+  TooManyPairs() : RunError("More pairs of boxes overlap than there is memory for.") {}
+};
 
 /// Finds the overlapping pairs among boxes. Slot i of the array given to `update` is box i; a slot
 /// may be empty (`Box::absent`), boxes may appear, vanish, grow and jump between two updates, and
@@ -42,8 +50,24 @@ class ContactSearch {
   /// Upper limit of threads that `update` and `findPairs` may use.
   void setThreads(int threads) { threads_ = threads; }
 
+  /// `findPairs` stops with TooManyPairs soon after it has found more than this (by as many as
+  /// there are boxes, per thread).
+  void setMostPairs(std::size_t most) { mostPairs_ = most; }
+
  protected:
+  [[nodiscard]] bool isFull(const std::vector<BoxPair>& pairs) const {
+    return pairs.size() > mostPairs_;
+  }
+  /// Appends the parts that the threads have found to `pairs`.
+  void join(std::span<const std::vector<BoxPair>> parts, std::vector<BoxPair>& pairs) const {
+    std::size_t count = 0;
+    for (const auto& part : parts) count += part.size();
+    if (count > mostPairs_) throw TooManyPairs();
+    for (const auto& part : parts) pairs.insert(pairs.end(), part.begin(), part.end());
+  }
+
   int threads_ = 1;
+  std::size_t mostPairs_ = std::numeric_limits<std::size_t>::max();
 };
 
 enum class SearchMethod {

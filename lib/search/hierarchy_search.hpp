@@ -37,7 +37,7 @@ class HierarchySearch final : public ContactSearch {
     std::vector<Count> counts(partPairs.size());
     const int parts =
         forEachPart(order.size(), threads_, [&](std::size_t begin, std::size_t end, int part) {
-          for (std::size_t i = begin; i < end; ++i) {
+          for (std::size_t i = begin; i < end && !isFull(partPairs[part]); ++i) {
             const Box& box = boxes_[order[i]];
             descend(box, i + 1, counts[part], [&](std::uint32_t other) {
               partPairs[part].push_back(orderedPair(BoxId(order[i]), BoxId(other)));
@@ -45,11 +45,9 @@ class HierarchySearch final : public ContactSearch {
             wide_.pairsWith(boxes_, box, order[i], partPairs[part], counts[part]);
           }
         });
-    for (int part = 0; part < parts; ++part) {
-      pairs.insert(pairs.end(), partPairs[part].begin(), partPairs[part].end());
-      count_.merge(counts[part]);
-    }
-    wide_.pairsAmong(boxes_, pairs, count_);
+    join({partPairs.data(), static_cast<std::size_t>(parts)}, pairs);
+    for (int part = 0; part < parts; ++part) count_.merge(counts[part]);
+    wide_.pairsAmong(boxes_, pairs, count_, mostPairs_);
   }
 
   void findOverlaps(const Box& box, std::vector<BoxId>& found) const override {

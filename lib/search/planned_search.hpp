@@ -17,7 +17,9 @@ class PlannedSearch final : public ContactSearch {
   }
 
   void findPairs(std::vector<BoxPair>& pairs) override {
-    if (search_) search_->findPairs(pairs);
+    if (!search_) return;
+    search_->setMostPairs(mostPairs_);
+    search_->findPairs(pairs);
   }
   void findOverlaps(const Box& box, std::vector<BoxId>& found) const override {
     if (search_) search_->findOverlaps(box, found);

@@ -9,7 +9,7 @@
 #include "core/box.hpp"
 #include "core/footprint.hpp"
 #include "core/ids.hpp"
-#include "core/parallel.hpp"
+#include "search/contact_search.hpp"
 
 namespace yadefrag {
 
@@ -21,13 +21,16 @@ class WideBoxes {
   [[nodiscard]] std::span<const std::uint32_t> slots() const { return slots_; }
   void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, slots_); }
 
-  /// Pairs among the wide boxes.
+  /// Pairs among the wide boxes; `most` is the limit of all of `pairs`.
   template <class Count>
-  void pairsAmong(std::span<const Box> boxes, std::vector<BoxPair>& pairs, Count& count) const {
-    for (std::size_t i = 0; i < slots_.size(); ++i)
+  void pairsAmong(std::span<const Box> boxes, std::vector<BoxPair>& pairs, Count& count,
+                  std::size_t most) const {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+      if (pairs.size() > most) throw TooManyPairs();
       for (std::size_t j = i + 1; j < slots_.size(); ++j)
         if (test(boxes[slots_[i]], boxes[slots_[j]], count))
           pairs.push_back(orderedPair(BoxId(slots_[i]), BoxId(slots_[j])));
+    }
   }
 
   /// Pairs of one other box with the wide ones.

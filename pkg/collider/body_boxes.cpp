@@ -118,7 +118,7 @@ auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
   if (!radius) return Kind::kOther;
   const yade::State& state = *body.state;
   Ball& ball = balls_[id];
-  ball = {state.se3.position, *radius, rule_.lengthFor(SweepRule::speedOf(state.vel))};
+  ball = {state.se3.position, *radius, rule_.lengthForBall(*radius, SweepRule::speedOf(state.vel))};
   const Vector3r at = cell_ ? cell_->unshearPt(ball.centre) : ball.centre;
   const Vector3r half = ball.radius * radiusFactor_;
   const Vector3r sweep = (ball.sweep + cellSlack_) * sweepFactor_;
@@ -149,7 +149,7 @@ void BodyBoxes::updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatch
   undo_.clear();
   segments_.clear();
   segmentCount_ = 0;
-  hasOthers_ = false;
+  hasOthers_ = hasFollowers_ = false;
   for (std::size_t id = 0; id < kinds_.size(); ++id) {
     hasOthers_ |= kinds_[id] == Kind::kSphere;
     if (kinds_[id] != Kind::kOther) continue;
@@ -194,11 +194,14 @@ double BodyBoxes::sweepOfOther(const yade::Body& body, bool hadBound) {
   const yade::State& state = *body.state;
   const double speed = SweepRule::speedOf(state.vel);
   const ShapeKind kind = shapeKinds_.of(*body.shape);
-  if (kind == ShapeKind::kFollower) return rule_.most;
+  if (kind == ShapeKind::kFollower) {
+    hasFollowers_ = true;
+    return rule_.most;
+  }
   if (kind == ShapeKind::kSphere) {
-    const double sweep = rule_.lengthFor(speed);
-    if (const auto radius = boundRadius(body))
-      balls_[static_cast<std::size_t>(body.id)] = {state.se3.position, *radius, sweep};
+    const auto radius = boundRadius(body);
+    const double sweep = rule_.lengthForBall(radius.value_or(0), speed);
+    if (radius) balls_[static_cast<std::size_t>(body.id)] = {state.se3.position, *radius, sweep};
     return sweep;
   }
   const Vector3r at = cell_ ? cell_->unshearPt(state.se3.position) : state.se3.position;

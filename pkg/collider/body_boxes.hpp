@@ -1,6 +1,7 @@
 #pragma once
 // From YADE's bodies to the boxes that a search takes, and back into their bounds.
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -43,6 +44,9 @@ class BodyBoxes {
   [[nodiscard]] const std::vector<Turning>& turning() const { return turning_; }
   /// By body id, null where the body is no surface segment; empty if none is.
   [[nodiscard]] const std::vector<const SurfaceSegment*>& segments() const { return segments_; }
+  /// How far (m) nodes without a bound may move before a box that follows them is left; infinite if
+  /// there is none.
+  [[nodiscard]] double followerSweep() const { return hasFollowers_ ? rule_.most : INFINITY; }
   /// True if surface segments are all there is.
   [[nodiscard]] bool onlySegments() const { return segmentCount_ > 0 && !hasOthers_; }
 
@@ -76,6 +80,7 @@ class BodyBoxes {
   std::vector<const SurfaceSegment*> segments_;
   std::size_t segmentCount_ = 0;
   bool hasOthers_ = false;
+  bool hasFollowers_ = false;
   std::vector<OldBound> undo_;
   ShapeKinds shapeKinds_;
 

@@ -35,6 +35,16 @@ void complainOfBound(std::size_t id, const yade::Bound& bound) {
   throw InputError(text.str());
 }
 
+void complainOfPairs(std::size_t bodies, std::size_t mostPairs, double freeBytes) {
+  std::ostringstream text;
+  text << "Of " << bodies << " bodies more than " << mostPairs
+       << " pairs have overlapping bounds; their interactions do not fit into the "
+       << freeBytes / 1e9
+       << " GB of memory that are free. Bodies lie on one another, or they or verletDist are too "
+          "large for the scene or its periodic cell.";
+  throw RunError(text.str());
+}
+
 void complainOfVerletDist(const std::string& collider, double verletDist) {
   std::ostringstream text;
   text << collider << ".verletDist is " << verletDist

@@ -12,6 +12,9 @@ namespace yadefrag {
 [[noreturn]] void complainOfRadius(std::size_t id, double radius);
 [[noreturn]] void complainOfBound(std::size_t id, const yade::Bound& bound);
 
+/// More pairs of bounds overlap than there is memory for.
+[[noreturn]] void complainOfPairs(std::size_t bodies, std::size_t mostPairs, double freeBytes);
+
 [[noreturn]] void complainOfVerletDist(const std::string& collider, double verletDist);
 
 /// The body spans more than the cell allows along an axis; YADE's words, for scripts that look for

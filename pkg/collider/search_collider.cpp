@@ -8,7 +8,6 @@
 
 #include "collider/complaints.hpp"
 #include "collider/interval.hpp"
-#include "collider/nearest_image.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances.hpp"
 #include "fe/surface_segment.hpp"
@@ -19,22 +18,34 @@ namespace yadefrag {
 using yade::Body;
 using yade::Vector3r;
 
+namespace {
+
+std::array<Lattice::Vector, 3> periodsOf(const yade::Cell& cell) {
+  std::array<Lattice::Vector, 3> periods{};
+  for (int i = 0; i < 3; ++i)
+    for (int axis = 0; axis < 3; ++axis) periods[i][axis] = cell.hSize(axis, i);
+  return periods;
+}
+
+}  // namespace
+
 /// One search. Nothing in the scene changes before every body has been found sound.
 void SearchCollider::action() {
   const int threads = threadsToUse();
-  chooseVerletDist();
-  chooseInterval();
-  slack_ = cellSlack();
-  const SweepRule rule(std::max(verletDist, 0.), minSweepDistFactor, scene->dt, interval);
+  const auto before = std::tuple(verletDist, interval, lastIter_);
   try {
-    boxes_.prepare(*scene, *boundDispatcher, rule, slack_, threads);
+    chooseVerletDist();
+    chooseInterval();
+    boxes_.prepare(*scene, *boundDispatcher, chooseSweeps(), slack_, threads);
     startSearchIfNeeded();
     updateSearch(threads);
     takeEntryPairs();
     findNeighbours(threads);
   } catch (...) {
+    std::tie(verletDist, interval, lastIter_) = before;
     boxes_.rollBack();
     search_.reset();  // it looks at boxes that are no longer those of the last search
+    pairs_ = {};      // which may be too many
     strideActive_ = onlySegments_ = false;
     throw;
   }
@@ -75,14 +86,32 @@ void SearchCollider::chooseInterval() {
   lastIter_ = scene->iter;
 }
 
+/// How far bodies, and neighbours by the cell's deformation, may move before the next search.
+SweepRule SearchCollider::chooseSweeps() {
+  lattice_.reset();
+  if (scene->isPeriodic) lattice_.emplace(periodsOf(*scene->cell));
+  slack_ = cellSlack();
+  SweepRule rule(std::max(verletDist, 0.), minSweepDistFactor, scene->dt, interval);
+  if (lattice_) rule.shortestPeriod = lattice_->shortest();
+  return rule;
+}
+
 /// Room for the cell's deformation within the interval for which the bodies' sweeps are made.
 double SearchCollider::cellSlack() const {
   if (!scene->isPeriodic || !(verletDist > 0) || targetInterv <= 0) return 0;
   const yade::Cell& cell = *scene->cell;
-  const Vector3r span(images_.span()[0] + 1, images_.span()[1] + 1, images_.span()[2] + 1);
+  const Vector3r span = cellSpan() + Vector3r::Ones();
   const Vector3r speed = (cell.velGrad * cell.hSize).cwiseAbs() * span;
   const double wanted = .5 * tolerance::kSweepSpare * interval * scene->dt * speed.maxCoeff();
-  return wanted < verletDist ? wanted : verletDist;
+  return std::min(wanted < verletDist ? wanted : verletDist, lattice_->shortest() / 16);
+}
+
+/// By how many cells two neighbours may be apart: in a sheared cell by more than their boxes.
+Vector3r SearchCollider::cellSpan() const {
+  Vector3r span;
+  for (int axis = 0; axis < 3; ++axis)
+    span[axis] = images_.span()[axis] + std::floor(lattice_->reach()[axis]);
+  return span;
 }
 
 void SearchCollider::startSearchIfNeeded() {
@@ -100,20 +129,32 @@ void SearchCollider::startSearchIfNeeded() {
 void SearchCollider::updateSearch(int threads) {
   const Comparisons before = search_->comparisons();
   search_->setThreads(threads);
-  pairs_.clear();
   if (scene->isPeriodic) {
     const Vector3r& size = scene->cell->getSize();
     // Twice the tolerance: the exact test that follows must not be the stricter one.
     images_.build(boxes_.boxes(), {size[0], size[1], size[2]}, 2 * overlapTolerance);
     search_->update(images_.boxes());
-    search_->findPairs(pairs_);
+    findPairs();
     images_.toSlots(pairs_);
   } else {
     search_->update(boxes_.boxes());
-    search_->findPairs(pairs_);
+    findPairs();
   }
   comparisons = static_cast<long>(search_->comparisons().total() - before.total());
   comparisonsTotal += comparisons;
+}
+
+/// An interaction takes far more memory than a pair: the scene is refused before there are any.
+void SearchCollider::findPairs() {
+  const std::size_t bodies = scene->bodies->body.size();
+  const std::size_t most = memory_.most(bodies, scene->interactions->size());
+  pairs_.clear();
+  search_->setMostPairs(most);
+  try {
+    search_->findPairs(pairs_);
+  } catch (const TooManyPairs&) {
+    complainOfPairs(bodies, most, memory_.free());
+  }
 }
 
 /// Pairs of surface segments leave `pairs_` for a list of their own.
@@ -166,8 +207,7 @@ bool SearchCollider::isNear(const BoxPair& pair, const Halo& halo, Neighbours& o
   const yade::Cell& cell = *scene->cell;
   if (trueHalo && halo.areBalls(pair) && ballsFit(pair)) {
     const auto& balls = boxes_.balls();
-    out.cellDist =
-        nearestImage(cell, balls[pair.first.value].centre, balls[pair.second.value].centre);
+    out.cellDist = nearestImage(balls[pair.first.value].centre, balls[pair.second.value].centre);
     return halo.mayTouch(pair, cell.intrShiftPos(out.cellDist), out.nearByHalf);
   }
   const Vector3r& size = cell.getSize();
@@ -181,12 +221,20 @@ bool SearchCollider::isNear(const BoxPair& pair, const Halo& halo, Neighbours& o
   return meets.kind == PeriodicOverlap::kOverlap;
 }
 
-/// Balls of up to half the cell meet one copy of each other at most, and it is the nearest. (YADE
-/// takes the box for the body's size, and refuses small ones in a cell that is strongly sheared.)
+/// Balls of up to half the shortest period meet one copy of each other at most, and it is the
+/// nearest. (YADE takes the box for the body's size, and refuses small ones in a cell that is
+/// strongly sheared.)
 bool SearchCollider::ballsFit(const BoxPair& pair) const {
   const double longest = 2 * std::max(boxes_.balls()[pair.first.value].radius,
                                       boxes_.balls()[pair.second.value].radius);
-  return longest <= .5 * scene->cell->getSize().minCoeff();
+  return longest <= .5 * lattice_->shortest();
+}
+
+/// The shift of `b`, in whole cells, that brings it nearest to `a`.
+yade::Vector3i SearchCollider::nearestImage(const Vector3r& a, const Vector3r& b) const {
+  const Vector3r apart = b - a;
+  const Lattice::Cells cells = lattice_->nearest({apart[0], apart[1], apart[2]});
+  return {cells[0], cells[1], cells[2]};
 }
 
 /// What YADE expects of a collider that has run.
@@ -206,7 +254,7 @@ void SearchCollider::sceneIsSearched() {
   scene->bodies->erasedBodies.clear();
   scene->forces.addMaxId(static_cast<Body::id_t>(numBodies_));
   Vector3r span = Vector3r::Zero();
-  if (periodic_) span = Vector3r(images_.span()[0], images_.span()[1], images_.span()[2]);
+  if (periodic_) span = cellSpan();
   watch_.start(*scene, boxes_, slack_, span);
 }
 

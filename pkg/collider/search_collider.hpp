@@ -2,15 +2,18 @@
 // What the three colliders share: YADE's side of a contact search.
 
 #include <memory>
+#include <optional>
 #include <tuple>
 
 #include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"
+#include "collider/free_memory.hpp"
 #include "collider/halo.hpp"
 #include "collider/interaction_update.hpp"
 #include "collider/motion_watch.hpp"
 #include "publish/attribute.hpp"
 #include "search/contact_search.hpp"
+#include "search/lattice.hpp"
 #include "search/periodic_images.hpp"
 
 namespace yadefrag {
@@ -65,12 +68,16 @@ class SearchCollider : public yade::Collider {
  private:
   void chooseVerletDist();
   void chooseInterval();
+  SweepRule chooseSweeps();
   void startSearchIfNeeded();
   void updateSearch(int threads);
+  void findPairs();
   void takeEntryPairs();
   void findNeighbours(int threads);
   bool isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const;
   [[nodiscard]] bool ballsFit(const BoxPair& pair) const;
+  [[nodiscard]] yade::Vector3i nearestImage(const yade::Vector3r& a, const yade::Vector3r& b) const;
+  [[nodiscard]] yade::Vector3r cellSpan() const;
   void sceneIsSearched();
   [[nodiscard]] bool bodiesCame() const;
   [[nodiscard]] double cellSlack() const;
@@ -81,6 +88,8 @@ class SearchCollider : public yade::Collider {
   bool searchCounts_ = false;
   BodyBoxes boxes_;
   PeriodicImages images_;
+  std::optional<Lattice> lattice_;  // of a periodic cell
+  MemoryForPairs memory_;
   MotionWatch watch_;
   InteractionUpdate interactions_;
   std::vector<BoxPair> pairs_;

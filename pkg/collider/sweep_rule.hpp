@@ -13,9 +13,10 @@ namespace yadefrag {
 /// at the body's present speed: fast bodies do not call for a search at every step, and slow ones
 /// do not have neighbours they will not reach.
 struct SweepRule {
-  double most;   ///< m, verletDist
-  double least;  ///< m, minSweepDistFactor · verletDist
-  double ahead;  ///< s, the time to be covered; not finite: always `most`
+  double most;                       ///< m, verletDist
+  double least;                      ///< m, minSweepDistFactor · verletDist
+  double ahead;                      ///< s, the time to be covered; not finite: always `most`
+  double shortestPeriod = INFINITY;  ///< m, of a periodic cell
 
   SweepRule(double verletDist, double minFactor, double dt, double interval)
       : most(verletDist),
@@ -26,6 +27,13 @@ struct SweepRule {
     const double wanted = speed * ahead;
     // A product that is not a number (0 · ∞, a broken velocity) gets the longest sweep.
     return wanted < most ? std::max(wanted, least) : most;
+  }
+
+  /// Length for a ball. In a small periodic cell two copies of one ball could come into contact
+  /// with another before the next search, if it were longer.
+  [[nodiscard]] double lengthForBall(double radius, double speed) const {
+    const double room = (.25 * shortestPeriod - radius) / std::sqrt(3.);
+    return std::min(lengthFor(speed), std::max(room, 0.));
   }
 
   /// The integrator asks for a search when the largest component has reached the sweep.

@@ -50,16 +50,17 @@ def _aperiodic(centres, radii, rows, _):
 
 
 def _periodic(centres, radii, rows, hSize):
-    """The nearest lattice image, and of its 26 neighbours those that can be within reach."""
+    """All lattice images that can be within reach, however the cell is sheared."""
     hSize = np.asarray(hSize, float)
     i, j = _pairs(radii, rows, len(centres))
     delta = centres[j] - centres[i]
-    fraction = np.linalg.solve(hSize, delta.T).T
+    inverse = np.linalg.inv(hSize)
+    fraction = delta @ inverse.T
     nearest = -np.rint(fraction).astype(int)
     fraction = fraction + nearest
-    # |hSize f| >= (least singular value) |f|: no contact where some |f| exceeds this
-    limit = 1e-6 + 2 * np.nanmax(radii) / np.linalg.svd(hSize, compute_uv=False)[-1]
-    for offset in itertools.product((-1, 0, 1), repeat=3):
+    # |row of the inverse| · |hSize f| >= |f|: no contact where some |f| exceeds this
+    limit = 1e-6 + 2 * np.nanmax(radii) * np.linalg.norm(inverse, axis=1)
+    for offset in itertools.product(*(range(-int(k), int(k) + 1) for k in np.ceil(limit))):
         keep = (abs(fraction + offset) <= limit).all(axis=1)
         if not keep.any():
             continue

@@ -35,6 +35,58 @@ def testCellsAtRest(collider, cell, verletDist):
     assert stepAndCheck(steps=40) > 100
 
 
+def shearedCell(shear, axes):
+    """Edges along the axes, sheared along one of them or along all."""
+    return np.eye(3) + shear * np.array(
+        [[[0, 1, 0], [0, 0, 0], [0, 0, 0]], [[0, 1, .53], [0, 0, -.81], [0, 0, 0]]][axes])
+
+
+@pytest.mark.rivalAborts('it refuses cells sheared by more than about 3')
+@pytest.mark.parametrize('verletDist', [0, -.5])
+@pytest.mark.parametrize('shear, axes', [(3., 1), (7.2, 0), (-7.3, 1), (12.4, 0), (31.5, 0)])
+def testStronglyShearedCells(collider, shear, axes, verletDist):
+    """The nearest image is several cells away."""
+    gas(shearedCell(shear, axes), n=60, radius=.1, seed=int(abs(shear)))
+    setEngines(collider(verletDist=verletDist))
+    assert stepAndCheck(steps=6) > 60
+    assert max(abs(c) for dist in scenes.realPairs().values() for c in dist) > abs(shear) / 8
+
+
+@pytest.mark.rivalAborts('it refuses cells sheared by more than about 3')
+@pytest.mark.parametrize('homoDeform', [0, 2])
+def testShearGrows(collider, homoDeform):
+    gas(shearedCell(6., 0), n=60, radius=.1)
+    O.cell.homoDeform = homoDeform
+    O.cell.velGrad = matrix([[0, .05, 0], [0, 0, 0], [0, 0, 0]])
+    setEngines(collider())
+    assert stepAndCheck(steps=60) > 100
+
+
+@pytest.mark.rivalAborts('it refuses')
+def testNoCell(collider):
+    gas(kCubic, n=20)
+    O.cell.hSize = matrix([[1, 1e8, 0], [0, 1, 0], [0, 0, 1]])
+    setEngines(collider())
+    with pytest.raises(RuntimeError, match='periodic cell'):
+        O.step()
+    O.cell.hSize = matrix(kCubic)
+    stepAndCheck()
+
+
+@pytest.mark.rivalAborts('it refuses cells sheared by more than about 3')
+@pytest.mark.parametrize('verletDist', [0, -.5, .2])
+@pytest.mark.parametrize('shear', [0., .4, 5.])
+def testCellOfFourRadii(collider, shear, verletDist):
+    """Two images of one sphere touch another one shortly after each other."""
+    total = 0
+    for seed in range(10):
+        scenes.clear()
+        gas(shearedCell(shear, 0), n=6, radius=.24, speed=.05, seed=seed)
+        setEngines(collider(verletDist=verletDist))
+        total += stepAndCheck(steps=30)
+    assert total > 300
+
+
 @pytest.mark.parametrize('periods', [1, 7, 1000, 10**6])
 @pytest.mark.parametrize('cell', ['cubic', 'sheared'])
 def testFarFromTheBaseCell(collider, cell, periods):

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "random_scenes.hpp"
@@ -89,6 +90,28 @@ TEST(SearchProperty, SameOrderForAnyNumberOfThreads) {
       ASSERT_EQ(pairs, first) << threads << " threads";
     }
     EXPECT_GT(first.size(), 1000U);
+  }
+}
+
+TEST(SearchProperty, StopsWhereThereAreTooManyPairs) {
+  constexpr std::size_t kBoxes = 800, kMost = 20000;
+  for (const bool finite : {true, false}) {
+    const double side = finite ? 1 : INFINITY;
+    const std::vector<Box> boxes(kBoxes, Box{{0, 0, 0}, {side, 1, 1}});
+    for (const SearchMethod method : {SearchMethod::kBruteForce, SearchMethod::kLebesgue,
+                                      SearchMethod::kLinearCode, SearchMethod::kHierarchy}) {
+      const auto search = makeSearch(method);
+      search->setThreads(2);
+      search->setMostPairs(kMost);
+      std::vector<BoxPair> pairs;
+      search->update(boxes);
+      EXPECT_THROW(search->findPairs(pairs), TooManyPairs);
+      EXPECT_LE(pairs.size(), kMost + kBoxes);
+      pairs.clear();
+      search->setMostPairs(kBoxes * (kBoxes - 1) / 2);
+      search->findPairs(pairs);
+      EXPECT_EQ(pairs.size(), kBoxes * (kBoxes - 1) / 2);
+    }
   }
 }
 
