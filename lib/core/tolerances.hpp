@@ -200,6 +200,17 @@ inline constexpr double kGivenEnergy = .01, kLookAgain = 1.1;
 /// (steps) From one look at the kinetic energy to the next: half a per cent of a step's work each.
 inline constexpr std::uint64_t kStepsToLook = 8;
 
+/// (steps) From one sum over all energies to the next: it takes as long as four steps.
+inline constexpr std::uint64_t kStepsToSumUp = 1024;
+
+/// (count; steps) A step that has changed more often than this, and more than once in so many
+/// steps, may feed vibrations.
+inline constexpr std::uint64_t kFewChanges = 2, kStepsPerChange = 1000;
+
+/// (relative) Rounding of a coordinate in a step. Energies of bodies at rest are a twentieth of
+/// what it gives, at any distance from the origin and any step.
+inline constexpr double kRounding = 0x1p-53;
+
 /// (of the shortest segment) Penetration left in a step above which a sentence says so; half a halo
 /// if that is less, for beyond the halo smooth surfaces hold nothing.
 inline constexpr double kDeep = .1;

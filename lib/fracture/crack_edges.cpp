@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "fracture/edge_strength.hpp"
 
@@ -78,11 +79,11 @@ std::vector<EdgeId> CrackEdges::removeBody(const Model& model, ElementId first, 
     renumbered[i] = EdgeId(kept++);
   }
   element.resize(kept), corner.resize(kept), strength.resize(kept), cracked.resize(kept);
+  std::vector<ElementId> elementOf(model.nodes.size(), ElementId::none());
   for (std::size_t n = 0; n < ofNode.size(); ++n)
-    if (renumberedNodes[n] != NodeId::none())
-      ofNode[renumberedNodes[n].value] =
-          ofNode[n] == ElementId::none() ? ofNode[n] : shifted(ofNode[n]);
-  ofNode.resize(model.nodes.size(), ElementId::none());
+    if (renumberedNodes[n] != NodeId::none() && ofNode[n] != ElementId::none())
+      elementOf[renumberedNodes[n].value] = shifted(ofNode[n]);
+  ofNode = std::move(elementOf);
   return renumbered;
 }
 

@@ -16,40 +16,66 @@ std::ostringstream begin(const WatchedStep& step) {
   return text;
 }
 
+/// `most` (J): 0 of bodies that were at rest all the time.
+std::string amountText(double amount, double most) {
+  std::ostringstream text;
+  text.precision(3);
+  text << amount << " J";
+  if (most > 0) text << ", " << 100 * amount / most << " % of the bodies' energy";
+  return text.str();
+}
+
+/// Sums over all bodies are made only for an amount that has grown since the last ones.
+bool isWorthALook(double amount, double tolerated, double& looked) {
+  if (!(amount > tolerated && amount > tolerance::kLookAgain * looked)) return false;
+  looked = amount;
+  return true;
+}
+
 }  // namespace
+
+void EnergyWatch::begin(double energy, const EnergyLedger& ledger) {
+  expected = energy + ledger.total(0, 0);
+  gone = expected + ledger.external - energy;
+  most = energy;
+  contact = ledger.contact, friction = ledger.friction;
+  lookedCreated = lookedGrown = toldCreated = toldGrown = 0;
+}
+
+void EnergyWatch::count(const WatchedStep& step) {
+  if (lastStep > 0 && step.dt != lastStep) ++changes;
+  lastStep = step.dt;
+  leastStep = leastStep > 0 ? std::min(leastStep, step.dt) : step.dt;
+  mostStep = std::max(mostStep, step.dt);
+  // What they had and got from outside counts, too, where it has been spent since.
+  most = std::max(most, expected + step.ledger.external - gone);
+  if (!step.isPenalty) contact = std::max(contact, step.ledger.contact);
+  friction = std::max(friction, step.ledger.friction);
+}
 
 /// (J) What only ever takes has given what its sum has fallen by. A penalty and a crack that still
 /// holds give back what they took: they have given what is below zero.
-double EnergyWatch::given(const EnergyLedger& ledger) const {
+double EnergyWatch::created(const EnergyLedger& ledger) const {
   return std::max(0., contact - ledger.contact) + std::max(0., friction - ledger.friction) +
          std::max(0., -ledger.fracture);
 }
 
-double EnergyWatch::tolerated() const { return std::max(tolerance::kGivenEnergy, 2 * told) * most; }
-
-/// What is given is compared with energies that were looked at before, which may be out of date:
-/// they are looked at again only when it has grown.
-bool EnergyWatch::isSuspicious(const WatchedStep& step) {
-  const EnergyLedger& ledger = step.ledger;
-  if (!step.isPenalty) contact = std::max(contact, ledger.contact);
-  friction = std::max(friction, ledger.friction);
-  const double now = given(ledger);
-  return now > tolerated() && now > tolerance::kLookAgain * looked;
+double EnergyWatch::tolerated(double told) const {
+  return std::max(tolerance::kGivenEnergy * most, 2 * told);
 }
 
-std::string EnergyWatch::complain(const WatchedStep& step, double kinetic, double strain,
-                                  double noise) {
-  const EnergyLedger& ledger = step.ledger;
-  looked = given(ledger);
-  // What they had and got from outside counts, too, where it has been spent since.
-  const double had = ledger.total(kinetic, strain) + ledger.external;
-  most = std::max({most, kinetic + strain, had});
-  if (!(looked > std::max(tolerated(), noise))) return {};
-  told = most > 0 ? looked / most : 1;
-  const bool byCracks = -ledger.fracture > looked / 2;
-  std::ostringstream text = begin(step);
-  text << (byCracks ? "cracks that still hold have" : "contact has") << " created " << looked
-       << " J, " << 100 * told << " % of the bodies' energy; ";
+bool EnergyWatch::mayHaveCreated(const WatchedStep& step) {
+  return isWorthALook(created(step.ledger), tolerated(toldCreated), lookedCreated);
+}
+
+std::string EnergyWatch::complainOfContact(const WatchedStep& step, double noise) {
+  const double amount = created(step.ledger);
+  if (!(amount > std::max(tolerated(toldCreated), noise))) return {};
+  toldCreated = amount;
+  const bool byCracks = -step.ledger.fracture > amount / 2;
+  std::ostringstream text = yadefrag::begin(step);
+  text << (byCracks ? "cracks that still hold have" : "contact has") << " created "
+       << amountText(amount, most) << "; ";
   if (byCracks)
     text << "take a shorter step, or smaller elements.";
   else if (step.isPenalty)
@@ -59,22 +85,47 @@ std::string EnergyWatch::complain(const WatchedStep& step, double kinetic, doubl
   return text.str();
 }
 
+bool EnergyWatch::isDue(std::uint64_t step) {
+  return step == 1 || step % tolerance::kStepsToLook == 0;
+}
+
+bool EnergyWatch::mayHaveGrown(const WatchedStep& step, double kinetic) {
+  if (step.step % tolerance::kStepsToSumUp == 0) return true;
+  const double over = kinetic - (expected - step.ledger.total(0, 0));
+  return isWorthALook(over, tolerated(toldGrown), lookedGrown);
+}
+
+std::string EnergyWatch::complainOfGrowth(const WatchedStep& step, double energy, double noise) {
+  const double over = step.ledger.total(energy, 0) - expected;
+  if (!(over > std::max(tolerated(toldGrown), noise))) return {};
+  toldGrown = over;
+  std::ostringstream text = yadefrag::begin(step);
+  text << amountText(over, most) << ", came out of nothing; " << stepAdvice(step);
+  return text.str();
+}
+
+std::string EnergyWatch::stepAdvice(const WatchedStep& step) const {
+  std::ostringstream text;
+  text.precision(3);
+  if (changes > std::max(tolerance::kFewChanges, step.step / tolerance::kStepsPerChange))
+    text << "keep the time step constant, or below a third of the critical one: changing often "
+            "between "
+         << leastStep << " and " << mostStep << " s, it feeds vibrations.";
+  else
+    text << "take a shorter step: in one of " << step.dt << " s they turn or deform too much.";
+  return text.str();
+}
+
 std::string EnergyWatch::complainOfDepth(const WatchedStep& step) {
   const double deep = std::min(tolerance::kDeep * step.shortest, step.halo / 2);
   if (step.depth <= std::max(deep, 2 * toldDepth)) return {};
   toldDepth = step.depth;
-  std::ostringstream text = begin(step);
+  std::ostringstream text = yadefrag::begin(step);
   text << "bodies are in one another by " << step.depth << " m, " << step.depth / step.shortest
        << " of the shortest segment; "
        << (step.isPenalty ? "take the Lagrangian correction, or a larger penalty factor."
                           : "take a shorter step.");
   return text.str();
-}
-
-void EnergyWatch::forget(const EnergyLedger& ledger) {
-  contact = std::min(contact, ledger.contact);
-  friction = std::min(friction, ledger.friction);
-  most = looked = told = 0;
 }
 
 }  // namespace yadefrag

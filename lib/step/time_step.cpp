@@ -10,6 +10,8 @@ namespace yadefrag {
 void World::step(double dt) {
   requireStableStep(dt);
   const StepLength length(dt, lastDt);
+  // The leapfrog's energy is that of a step: before the first one there is none.
+  if (steps == 0) watch.begin(kineticEnergy() + yadefrag::strainEnergy(model, dt), ledger);
 
   // Where the surface is at xⁿ: contact forces act there, and a step that fails goes back there.
   rememberSurface(dt);

@@ -44,6 +44,8 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
     surfaces.addLoop(nodes, smooth, id);
   }
   fracture.addBody(model, id);
+  watch.join(energyOf(id, NodeId(first), lastDt));
+  stableStep = 0;
   search.nodes.clear();
   rebuild();
   search.isVoid = true;
@@ -70,7 +72,8 @@ void World::removeBody(ComponentId component) {
   surfaces.removeComponent(component);
   surfaces.renumberNodes(renumbered, model.nodes.size());
   contact.reset();
-  watch.forget(ledger);
+  watch.begin(kineticEnergy() + strainEnergy(), ledger);
+  stableStep = 0;
   rebuild();
   search.isVoid = true;
 }
@@ -117,7 +120,6 @@ void World::rebuild() {
 void World::buildIfChanged() {
   if (isBuilt_) return;
   isBuilt_ = true;
-  kinetic_.restart();
   places_.forget();
   dynamics_.rebuild(model);
   const auto& owners = surfaces.component;
@@ -139,7 +141,6 @@ void World::buildIfChanged() {
   watchStrengths();
   search_.reset();
   finest_ = finestSegment();
-  stableStep_ = 0;
   droppedBelow_ = 0;
   farthest_ = INFINITY;
 }
@@ -164,7 +165,7 @@ double World::criticalTimeStep() const {
 /// compressed so far that this matters is the user's to watch.
 void World::requireStableStep(double dt) {
   buildIfChanged();
-  if (dt > 0 && dt <= stableStep_) return;
+  if (dt > 0 && dt <= stableStep) return;
   const double critical = criticalTimeStep();
   if (critical == 0)
     throw TimeStepError("No time step is stable: a velocity or a node's place is too large.");
@@ -178,7 +179,7 @@ void World::requireStableStep(double dt) {
   }
   for (std::size_t c = 0; c < model.components.size(); ++c)
     if (model.components[c].brittle.cracks()) checkCohesiveResolution(model, ComponentId(c), dt);
-  stableStep_ = dt;
+  stableStep = dt;
 }
 
 }  // namespace yadefrag

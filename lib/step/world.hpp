@@ -21,7 +21,6 @@
 #include "step/apart_bodies.hpp"
 #include "step/body_places.hpp"
 #include "step/energy_watch.hpp"
-#include "step/kinetic_watch.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {
@@ -91,6 +90,9 @@ class World {
   [[nodiscard]] double kineticEnergy() const { return yadefrag::kineticEnergy(model.nodes); }
   [[nodiscard]] double strainEnergy() const { return yadefrag::strainEnergy(model, lastDt); }
 
+  /// (J) What rounding of the coordinates has made of the bodies' energy so far, or less.
+  [[nodiscard]] double roundingEnergy() const;
+
   /// What all arrays are for, and how long they are.
   [[nodiscard]] Footprint footprint() const;
 
@@ -119,6 +121,8 @@ class World {
   std::uint64_t steps = 0;
   double time = 0;    ///< s
   double lastDt = 0;  ///< s
+  /// (s) The longest step that has been found stable since bodies came or went.
+  double stableStep = 0;
 
   // --- counters
   std::uint64_t numSearches = 0;
@@ -149,7 +153,7 @@ class World {
   void cohere(const StepLength& length);
   void bookFracture(const StepLength& length);
   void watchEnergy();
-  std::string complainOfMotion();
+  [[nodiscard]] double energyOf(ComponentId body, NodeId first, double dt) const;
   bool crack();
   void dropFragments(bool split);
   void takeOut(std::span<const ElementId> triangles);
@@ -179,7 +183,6 @@ class World {
   bool isBuilt_ =
       false;  // do the arrays below fit the model: many bodies join, then one step comes
   bool severalBodies_ = false;
-  KineticWatch kinetic_;
   double largestMove_ = 0;  // m, of a watched node from xⁿ to x*; a bound
   double mostMove_ = 0;     // m, of any node; a bound
   bool isQuiet_ = false;    // nobody can come near another in this step: xⁿ is not remembered
@@ -189,7 +192,6 @@ class World {
   double fastest_ = 0;       // m/s, of all nodes when the halo was chosen
   double finest_ = 0;        // m, shortest stress-free segment: does not hang on when was searched
   double droppedBelow_ = 0;  // m², no loose fragment is smaller; 0: unknown
-  double stableStep_ = 0;    // s, the longest step that has been found stable
 };
 
 }  // namespace yadefrag

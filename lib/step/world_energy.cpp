@@ -1,31 +1,43 @@
 // The world's part in the watch over energy and depth.
 
-#include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/tolerances.hpp"
+#include "dynamics/critical_time_step.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
 
-namespace {
-
-/// (J) Of nodes that move by what rounding of their coordinates makes in a step.
-double roundingEnergy(const Nodes& nodes, double dt) {
-  double sum = 0;
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    sum += nodes.mass[n] * dot(nodes.position[n], nodes.position[n]);
-  const double speed = tolerance::kSeenMotion / dt;
-  return sum * speed * speed / 2;
+/// (J) Every step rounds all coordinates; that sets free the energy of springs as stiff as the
+/// critical step allows. Errors of single steps are independent, so energies add up.
+double World::roundingEnergy() const {
+  double moment = 0;  // kg m²
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    moment += model.nodes.mass[n] * dot(model.nodes.position[n], model.nodes.position[n]);
+  const double rate = 2 * tolerance::kRounding / yadefrag::criticalTimeStep(model, {}, threads);
+  return static_cast<double>(steps) * moment / 2 * rate * rate;
 }
 
-}  // namespace
+/// (J) Of the nodes from `first` on that are the body's, and its elements, in a step of `dt` (s).
+double World::energyOf(ComponentId body, NodeId first, double dt) const {
+  double twice = 0;
+  for (std::size_t n = first.value; n < model.nodes.size(); ++n)
+    if (model.nodes.component[n] == body)
+      twice += model.nodes.mass[n] * dot(model.nodes.velocity[n], model.nodes.velocity[n]);
+  const Component& component = model.components[body.value];
+  std::vector<ElementId> elements;
+  for (std::size_t e = component.firstTriangle; e < component.lastTriangle; ++e)
+    elements.emplace_back(e);
+  return twice / 2 + yadefrag::strainEnergy(model, dt, elements);
+}
 
 /// To be told, not to be stopped: the user knows what the run is for.
 void World::watchEnergy() {
   const WatchedStep now{steps,
                         time,
+                        lastDt,
                         contactSettings.correction == Correction::kPenalty,
                         contact.maxPenetration(),
                         finest_,
@@ -34,31 +46,19 @@ void World::watchEnergy() {
   const auto tell = [this](std::string sentence) {
     if (!sentence.empty()) complaints.push_back(std::move(sentence));
   };
-  if (watch.isSuspicious(now))
-    tell(watch.complain(now, kineticEnergy(), strainEnergy(), roundingEnergy(model.nodes, lastDt)));
-  tell(watch.complainOfDepth(now));
-  tell(complainOfMotion());
-}
-
-/// Where the step changes all the time, the sum is begun anew as seldom as it is looked at.
-std::string World::complainOfMotion() {
-  if (!KineticWatch::isDue(steps) && steps > 1) return {};
-  const double spent = ledger.total(0, 0);
-  if (kinetic_.isNew(lastDt)) {
-    const double energy = kineticEnergy() + strainEnergy();
-    kinetic_.begin(lastDt, energy + spent, energy);
+  watch.count(now);
+  if (watch.mayHaveCreated(now)) tell(watch.complainOfContact(now, roundingEnergy()));
+  if (EnergyWatch::isDue(steps)) {
+    const double kinetic = kineticEnergy();
+    if (watch.mayHaveGrown(now, kinetic)) {
+      const double energy = kinetic + strainEnergy();
+      const double grown = ledger.total(energy, 0) - watch.expected;
+      // What rounding makes takes long to find, and matters only where there is too much.
+      const bool isMuch = grown > tolerance::kGivenEnergy * watch.most;
+      tell(watch.complainOfGrowth(now, energy, isMuch ? roundingEnergy() : 0));
+    }
   }
-  const double kinetic = kineticEnergy();
-  if (!kinetic_.isSuspicious(kinetic, spent)) return {};
-  const double noise = roundingEnergy(model.nodes, lastDt);
-  const double excess = kinetic_.excess(kinetic + strainEnergy(), spent, noise);
-  if (excess == 0) return {};
-  std::ostringstream text;
-  text.precision(3);
-  text << "Step " << steps << ", time " << time << " s: the bodies' energy has grown by "
-       << 100 * kinetic_.tell(excess) << " % out of nothing; take a shorter step: in one of "
-       << lastDt << " s they turn or deform too much.";
-  return text.str();
+  tell(watch.complainOfDepth(now));
 }
 
 }  // namespace yadefrag

@@ -49,7 +49,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 3;
+  static constexpr std::uint64_t kFormat = 4;
   /// (count) A damaged length must not take all memory: values are read in parts as large as this,
   /// and the archive ends before the memory does.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -94,14 +94,20 @@ class WorldArchive {
     watch(world);
     column<double>("reference", world.reference);
     value("steps", world.steps), value("time", world.time), value("lastDt", world.lastDt);
+    value("stableStep", world.stableStep);
     value("numSearches", world.numSearches);
   }
 
   void watch(World& world) {
     EnergyWatch& watch = world.watch;
+    value("expectedEnergy", watch.expected), value("goneEnergy", watch.gone);
+    value("mostEnergy", watch.most);
     value("watchedContact", watch.contact), value("watchedFriction", watch.friction);
-    value("mostEnergy", watch.most), value("lookedEnergy", watch.looked);
-    value("toldEnergy", watch.told), value("toldDepth", watch.toldDepth);
+    value("lookedCreated", watch.lookedCreated), value("lookedGrown", watch.lookedGrown);
+    value("toldCreated", watch.toldCreated), value("toldGrown", watch.toldGrown);
+    value("toldDepth", watch.toldDepth), value("lastStep", watch.lastStep);
+    value("leastStep", watch.leastStep), value("mostStep", watch.mostStep);
+    value("stepChanges", watch.changes);
     std::vector<char> text;
     for (const std::string& sentence : world.complaints) {
       text.insert(text.end(), sentence.begin(), sentence.end());

@@ -177,6 +177,13 @@ py::dict energyOf(const FESolver& solver) {
   return result;
 }
 
+py::tuple energyBalanceOf(const FESolver& solver) {
+  const World& world = solver.world();
+  const double total = world.ledger.total(world.kineticEnergy(), world.strainEnergy());
+  const double excess = world.steps > 0 ? total - world.watch.expected : 0;
+  return py::make_tuple(excess, world.watch.most, world.roundingEnergy());
+}
+
 py::list warningsOf(const FESolver& solver) {
   py::list result;
   for (const std::string& sentence : solver.world().complaints) result.append(sentence);

@@ -67,6 +67,8 @@ std::size_t segmentsOf(const FESolver& solver);
 std::unique_lock<std::recursive_mutex> waitBetweenSteps(const FESolver& solver);
 yade::py::dict droppedOf(const FESolver& solver);
 yade::py::dict energyOf(const FESolver& solver);
+/// (J) What the bodies have out of nothing, the most they could have, what rounding makes.
+yade::py::tuple energyBalanceOf(const FESolver& solver);
 yade::py::list warningsOf(const FESolver& solver);
 yade::py::list fragmentsOf(const FESolver& solver, bool held);
 

@@ -35,8 +35,9 @@ void FESolver::pyExtra(PyClass& pyClass) {
             return self.criticalTimeStep();
           },
           "Longest stable time step (s) of the present mesh, of a body that cracks also when all "
-          "its triangles have come apart; infinite without bodies. It knows of no spheres: see "
-          "README.md, Limits.")
+          "its triangles have come apart; infinite without bodies. An O.dt that changes all the "
+          "time "
+          "should stay below a third of it. It knows of no spheres: see README.md, Limits.")
       .def("fragments", &Locked<fragmentsOf>::call, (yade::py::arg("held") = false),
            "List of dicts, one per part that hangs together: component, triangles (how many), mass "
            "(kg), area (m²), centroid (m), velocity (m/s), spin (rad/s). With held=True, parts "
@@ -88,10 +89,11 @@ void FESolver::valuesOf(PyClass& pyClass) {
           "Dict of J: kinetic, strain, contact, friction, fracture, damping, external (what came "
           "in from outside), total (constant); with minFragmentArea, dropped (went with "
           "fragments).")
+      .add_property("_energyBalance", &Locked<energyBalanceOf>::call)
       .add_property("warnings", &Locked<warningsOf>::call,
                     "Sentences on energy out of nothing (contact, cracks, steps that cannot follow "
-                    "the motion), above 1 % of what the bodies had, and on bodies deeper in one "
-                    "another than a tenth of the shortest "
+                    "the motion or change too often), above 1 % of what the bodies had and above "
+                    "rounding, and on bodies deeper in one another than a tenth of the shortest "
                     "segment; one per doubling, each also on stderr when it comes up.");
 }
 

@@ -82,7 +82,7 @@ double growth(double least, double most, int steps) {
 }
 
 /// With Δt in place of Δv the factors were 10³ and more.
-TEST(VaryingStep, StepsBelowHalfTheCriticalOneMayChangeAtWill) {
+TEST(VaryingStep, StepsBelowAThirdOfTheCriticalOneMayChange) {
   EXPECT_LT(growth(.05, .3, 10000), 1.2);
   EXPECT_LT(growth(.1, .5, 2000), 1.5);
 }

@@ -67,7 +67,7 @@ class AnyWorld {
 
   /// Something that a script may do between two steps.
   void change() {
-    switch (chance_.below(6)) {
+    switch (chance_.below(7)) {
       case 0:
         return addBody();
       case 1:
@@ -79,6 +79,9 @@ class AnyWorld {
         return prescribe();
       case 4:
         world.contactSettings.passes = 1 + chance_.below(2);
+        return;
+      case 5:
+        world.contactSettings.halo = chance_.oneIn(3) ? 0 : chance_.from(.02, .5);
         return;
       default:
         world.threads = 1 + chance_.below(2);

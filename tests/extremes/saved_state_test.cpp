@@ -42,6 +42,37 @@ TEST_F(ExtremeSave, GoesOnWithTheSameBits) {
   EXPECT_EQ(world_.fracture.numCracks(), loaded.fracture.numCracks());
 }
 
+/// The critical step is asked for when bodies come or the step grows, not after loading.
+TEST(ExtremeSaveOf, ARunGoesOnWithTheStepItHas) {
+  World world;
+  const TriangleMesh mesh = structuredRectangle({}, {1, 1}, 2, 2);
+  world.addBody(mesh, moving(mesh, {1e9, .2, 1000, false}, {1, 0}));
+  const double dt = .999 * world.criticalTimeStep();
+  world.step(dt);
+  world.dynamicsSettings.viscosity = {.1, 0};
+  ASSERT_LT(world.criticalTimeStep(), dt);
+  World loaded;
+  loaded.dynamicsSettings = world.dynamicsSettings;
+  load(saved(world), loaded);
+  world.step(dt);
+  EXPECT_EQ(sentenceOf([&] { loaded.step(dt); }), "");
+  EXPECT_TRUE(sameBits(world.model.nodes.position, loaded.model.nodes.position));
+}
+
+/// The nodes of an elastic body take the numbers of those of a brittle one.
+TEST(ExtremeSaveOf, AWorldThatABrittleBodyHasLeft) {
+  World world = eventfulWorld();
+  const TriangleMesh mesh = structuredRectangle({.04, 0}, {.05, .01}, 2, 2);
+  world.addBody(mesh, moving(mesh, {1e9, .2, 1000, false}, {}));
+  world.removeBody(ComponentId(1));
+  for (std::size_t n = 0; n < world.fracture.edges.ofNode.size(); ++n)
+    if (!world.model.components[world.model.nodes.component[n].value].brittle.cracks()) {
+      EXPECT_EQ(world.fracture.edges.ofNode[n], ElementId::none()) << n;
+    }
+  World loaded;
+  EXPECT_EQ(sentenceOf([&] { load(saved(world), loaded); }), "");
+}
+
 TEST_F(ExtremeSave, CutOffAnywhereIsRefused) {
   const std::size_t step = longRun() ? 1 : 97;
   for (std::size_t size = headerSize(); size < bytes_.size(); size += step)

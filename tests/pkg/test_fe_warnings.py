@@ -1,5 +1,6 @@
 """What FESolver complains of: energy that contact makes, bodies that sink into one another."""
 import builtins
+import random
 
 import pytest
 
@@ -48,3 +49,45 @@ def test_softPenaltyIsToldOncePerDoubling(capfd, tmp_path):
         [again] = [e for e in O.engines if isinstance(e, w.FESolver)]
         assert again.warnings == told
         assert 'WARN  FESolver' not in capfd.readouterr().err
+
+
+def vary(critical, steps, seed=3):
+    """Steps drawn anew between 0.27 and 0.9 of the critical one; the same ones for one seed."""
+    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
+    rng = random.Random(seed)
+    for _ in range(steps):
+        O.dt = rng.uniform(.27, .9) * critical
+        O.step()
+    return solver
+
+
+def test_stepsThatChangeAllTheTimeAreTold():
+    told = vary(blow().criticalTimeStep(), 1000).warnings
+    assert 0 < len(told) < 12 and all(len(sentence) <= 300 for sentence in told)
+    assert 'keep the time step constant, or below a third of the critical one' in told[0]
+
+
+@pytest.mark.parametrize('before, after', [(200, 800), (800, 250)])
+def test_reloadedRunWarnsTheSame(before, after, tmp_path):
+    critical = blow().criticalTimeStep()
+    vary(critical, before)
+    path = str(tmp_path / 'x.yade')
+    O.save(path)
+    solver = vary(critical, after, seed=5)
+    wanted, nodes = solver.warnings, solver.nodes
+    assert wanted
+    O.reset()
+    O.load(path)
+    solver = vary(critical, after, seed=5)
+    assert solver.warnings == wanted and (solver.nodes == nodes).all()
+
+
+def test_untouchedBodyIsQuiet():
+    material = w.FEMat(young=210e9, poisson=.3, density=7800)
+    O.materials.append(material)
+    solver = w.FESolver()
+    nodes, triangles = yadefrag.rectangleMesh((.3, .3), (1, 1), 7, 7)
+    solver.addTriangles(nodes, triangles, material=material)
+    run(solver, finder('LebesgueCollider'))
+    O.run(7000, True)
+    assert solver.energy['total'] > 0 and solver.warnings == []

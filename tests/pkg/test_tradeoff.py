@@ -88,18 +88,25 @@ def test_energyOutOfNothingIsABlowUp():
     from yadefrag import tradeoff_run
 
     class FESolver:
-        energy = dict(total=1., kinetic=.6, strain=.4, external=0.)
+        _energyBalance = 0., 1., 0.
 
     class Scene:
         engines, bodies, dt = [FESolver()], [], 1
 
     sanity = tradeoff_run.Sanity(Scene())
-    FESolver.energy = dict(FESolver.energy, total=1.9)
-    sanity.check()
-    for total, sentence in ((2.1, 'grew by 1.1 J'), (float('nan'), 'nan J')):
-        FESolver.energy = dict(FESolver.energy, total=total)
+    for balance in ((.9, 1., 0.), (6e-20, 0., 1e-18)):
+        FESolver._energyBalance = balance
+        sanity.check()
+    for balance, sentence in (((1.1, 1., 0.), 'grew by 1.1 J'), ((float('nan'), 1., 0.), 'nan J'),
+                              ((1e-3, 0., 1e-18), 'of 0 J there were')):
+        FESolver._energyBalance = balance
         with pytest.raises(tradeoff_run.BlewUp, match=sentence):
             sanity.check()
+
+
+def test_aSceneAtRestDoesNotBlowUp():
+    row, = trade(scenes.rest, {'timeStep': [.8]}, scenes.place0).rows
+    assert row.result == 'ok', row.message
 
 
 def test_refusedRows():

@@ -20,6 +20,20 @@ def block(choices):
     return fe
 
 
+def rest(choices):
+    """A block that rounding alone shakes."""
+    fe = choices.solver()
+    material = choices.material(young=1e6, poisson=.2, density=1000, frictionAngle=0)
+    fe.addTriangles(*rectangleMesh((.3, .3), (1, 1), 7, 7), material=material)
+    choices.engines(fe)
+    return fe
+
+
+def place0(fe):
+    """(m) How far the farthest node went."""
+    return float(abs(fe.displacements).max())
+
+
 def way(fe):
     """(m) That the block went; error from the number of steps only."""
     return float(fe.displacements[:, 0].mean())

@@ -1,12 +1,15 @@
-// Energy that contact makes out of nothing is told, and so are bodies that sink into one another.
+// Energy out of nothing is told, and so are bodies that sink into one another.
 
 #include "step/energy_watch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 #include <string>
 
+#include "core/tolerances.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
 
@@ -14,16 +17,32 @@ namespace yadefrag::test {
 namespace {
 
 WatchedStep stepOf(const EnergyLedger& ledger, bool isPenalty = false) {
-  return {7, .5, isPenalty, 0, 1, .5, ledger};
+  return {7, .5, .1, isPenalty, 0, 1, .5, ledger};
 }
 
-/// What the watch says of bodies that have 100 J.
+EnergyWatch watchOf(double energy) {
+  EnergyWatch watch;
+  watch.begin(energy, {});
+  return watch;
+}
+
+/// What the watch says of contact and cracks.
 std::string said(EnergyWatch& watch, const WatchedStep& step, double noise = 0) {
-  return watch.isSuspicious(step) ? watch.complain(step, 60, 40, noise) : "";
+  watch.count(step);
+  return watch.mayHaveCreated(step) ? watch.complainOfContact(step, noise) : "";
+}
+
+/// What the watch says of the motion of bodies that have so much energy (J).
+std::string saidOf(EnergyWatch& watch, double kinetic, double strain,
+                   const EnergyLedger& ledger = {}, double noise = 0) {
+  const WatchedStep step = stepOf(ledger);
+  watch.count(step);
+  if (!watch.mayHaveGrown(step, kinetic)) return {};
+  return watch.complainOfGrowth(step, kinetic + strain, noise);
 }
 
 TEST(EnergyWatch, TellsOncePerDoubling) {
-  EnergyWatch watch;
+  EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   const auto contact = [&](double given) {
     ledger.contact = -given;
@@ -40,7 +59,7 @@ TEST(EnergyWatch, TellsOncePerDoubling) {
 }
 
 TEST(EnergyWatch, WhatContactTookBeforeHidesNothing) {
-  EnergyWatch watch;
+  EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   ledger.contact = 30, ledger.friction = 20;
   EXPECT_EQ(said(watch, stepOf(ledger)), "");
@@ -51,7 +70,7 @@ TEST(EnergyWatch, WhatContactTookBeforeHidesNothing) {
 }
 
 TEST(EnergyWatch, APenaltyMayGiveBackWhatItTook) {
-  EnergyWatch watch;
+  EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   for (const double stored : {0., 30., 5., 0., -.5}) {
     ledger.contact = stored;
@@ -63,7 +82,7 @@ TEST(EnergyWatch, APenaltyMayGiveBackWhatItTook) {
 }
 
 TEST(EnergyWatch, CracksAreToldApart) {
-  EnergyWatch watch;
+  EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   ledger.fracture = -3;
   EXPECT_TRUE(said(watch, stepOf(ledger)).find("cracks that still hold have created 3 J") !=
@@ -71,22 +90,80 @@ TEST(EnergyWatch, CracksAreToldApart) {
 }
 
 TEST(EnergyWatch, SparesWhatRoundingMakes) {
-  EnergyWatch watch;
+  EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   ledger.contact = -2;
   EXPECT_EQ(said(watch, stepOf(ledger), 5), "");
+  EXPECT_EQ(saidOf(watch, 102, 1, {}, 5), "");
+  EXPECT_NE(saidOf(watch, 112, 1, {}, 5), "");
 }
 
 /// A body that goes takes its share of the energy along: what was given before is forgiven.
 TEST(EnergyWatch, BeginsAnewWhenABodyGoes) {
-  EnergyWatch watch;
+  EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   ledger.contact = -2;
   EXPECT_NE(said(watch, stepOf(ledger)), "");
-  watch.forget(ledger);
+  watch.begin(50, ledger);
+  EXPECT_EQ(watch.most, 50);
   EXPECT_EQ(said(watch, stepOf(ledger)), "");
-  ledger.contact = -3.5;
+  EXPECT_EQ(saidOf(watch, 50.4, 0, ledger), "");
+  ledger.contact = -2.7;
   EXPECT_NE(said(watch, stepOf(ledger)), "");
+}
+
+TEST(EnergyWatch, SumsUpWhereBodiesMoveWithMoreThanThereIs) {
+  EnergyWatch watch = watchOf(100);
+  EXPECT_EQ(saidOf(watch, 100.9, 1), "");
+  EXPECT_EQ(saidOf(watch, 110, -9.1), "") << "lent by the strain";
+  EXPECT_EQ(saidOf(watch, 110.5, 50), "") << "looked at already";
+  EXPECT_EQ(saidOf(watch, 112, -10),
+            "Step 7, time 0.5 s: 2 J, 2 % of the bodies' energy, came out of nothing; take a "
+            "shorter step: in one of 0.1 s they turn or deform too much.");
+  EXPECT_EQ(saidOf(watch, 130, -26.1), "");
+  EXPECT_NE(saidOf(watch, 150, -45.5), "") << "doubled";
+}
+
+TEST(EnergyWatch, SumsUpFromTimeToTimeWhateverTheMotion) {
+  EnergyWatch watch = watchOf(100);
+  const EnergyLedger ledger;
+  WatchedStep step = stepOf(ledger);
+  EXPECT_FALSE(watch.mayHaveGrown(step, 10));
+  step.step = tolerance::kStepsToSumUp;
+  EXPECT_TRUE(EnergyWatch::isDue(step.step) && watch.mayHaveGrown(step, 10));
+}
+
+TEST(EnergyWatch, WhatWasSpentIsThereNoMore) {
+  EnergyWatch watch = watchOf(100);
+  EXPECT_EQ(saidOf(watch, 60, 0, {.contact = 40}), "");
+  EXPECT_NE(saidOf(watch, 60, 0, {.contact = 45}), "");
+  EXPECT_EQ(saidOf(watch, 150, 0, {.external = 50}), "") << "work from outside";
+  EXPECT_EQ(saidOf(watch, 52, 0, {.friction = 99, .external = 50}), "") << "of all that came in";
+}
+
+/// What was told of bodies at rest is told in joules, and hides nothing once they move.
+TEST(EnergyWatch, WhatWasToldAtRestHidesNothingLater) {
+  EnergyWatch watch = watchOf(1e-20);
+  EXPECT_NE(saidOf(watch, 7e-18, 0), "");
+  EXPECT_EQ(saidOf(watch, 100, 0, {.external = 100}), "");
+  EXPECT_NE(saidOf(watch, 121, 0, {.external = 100}).find("21 J, 21 %"), std::string::npos);
+}
+
+TEST(EnergyWatch, BlamesAStepThatChangesOften) {
+  EnergyWatch watch = watchOf(100);
+  const EnergyLedger ledger;
+  WatchedStep step = stepOf(ledger);
+  for (const double dt : {.1, .2, .05, .1}) step.dt = dt, watch.count(step);
+  const std::string sentence = watch.complainOfGrowth(step, 110, 0);
+  EXPECT_NE(
+      sentence.find("keep the time step constant, or below a third of the critical one: changing "
+                    "often between 0.05 and 0.2 s"),
+      std::string::npos)
+      << sentence;
+  EXPECT_LT(sentence.size(), 300U);
+  step.step = 10000;
+  EXPECT_NE(watch.complainOfGrowth(step, 130, 0).find("take a shorter step"), std::string::npos)
+      << "that was long ago";
 }
 
 TEST(EnergyWatch, TellsOfDepth) {
@@ -140,6 +217,140 @@ TEST(EnergyWatch, ASoftPenaltyIsTold) {
   EXPECT_TRUE(world.complaints.front().find("bodies are in one another by") != std::string::npos)
       << world.complaints.front();
   EXPECT_LT(world.complaints.size(), 8U);
+}
+
+/// A square of four triangles that spins and spreads, its corners at `part` of the wave speed, in
+/// steps of 0.99 of the critical one.
+World spreading(double part) {
+  World world;
+  const TriangleMesh mesh = structuredRectangle({-.5, -.5}, {.5, .5}, 1, 1, QuadPattern::kCrossed);
+  BodySpec spec = moving(mesh, steel(), {});
+  spec.selfContact = false;
+  const double rate = part * std::sqrt(2 * steel().waveModulus() / steel().density);
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    const auto [x, y] = mesh.nodes[i];
+    spec.velocity[i] = rate * Vec2{x - y, .3 * y + x};
+  }
+  world.addBody(mesh, spec);
+  const double dt = .99 * world.criticalTimeStep();
+  for (int i = 0; i < 200; ++i) world.step(dt);
+  return world;
+}
+
+TEST(EnergyWatch, TellsOfAStepThatCannotFollow) {
+  for (const double part : {1e-3, .01, .05}) {
+    const World world = spreading(part);
+    EXPECT_TRUE(world.complaints.empty()) << part << ": " << world.complaints.front();
+  }
+  const World fast = spreading(1.5);
+  ASSERT_FALSE(fast.complaints.empty());
+  EXPECT_NE(fast.complaints.front().find("out of nothing; take a shorter step"), std::string::npos)
+      << fast.complaints.front();
+}
+
+/// A square that shakes by rounding and `speed` (m/s) without any pattern.
+World shaking(double speed, Vec2 low, double size) {
+  World world;
+  const TriangleMesh mesh =
+      structuredRectangle(low, low + Vec2{size, size}, 7, 7, QuadPattern::kCrossed);
+  BodySpec spec = moving(mesh, steel(), {});
+  spec.selfContact = false;
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> any(-speed, speed);
+  for (Vec2& velocity : spec.velocity) velocity = {any(random), any(random)};
+  world.addBody(mesh, spec);
+  return world;
+}
+
+double energyOf(const World& world) { return world.kineticEnergy() + world.strainEnergy(); }
+
+/// Steps drawn anew between parts of the critical one, until energy has grown so many times.
+void vary(World& world, double least, double most, int steps, double growth) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> part(least, most);
+  const double critical = world.criticalTimeStep();
+  world.step(most * critical);
+  const double start = energyOf(world);
+  for (int i = 1; i < steps && energyOf(world) < growth * start; ++i)
+    world.step(part(random) * critical);
+}
+
+/// At each change of the step the sum was begun anew.
+TEST(EnergyWatch, TellsOfStepsThatChangeAllTheTime) {
+  World world = shaking(.01, {}, .01);
+  vary(world, .27, .9, 4000, 50);
+  ASSERT_FALSE(world.complaints.empty());
+  EXPECT_NE(world.complaints.front().find("keep the time step constant"), std::string::npos);
+  EXPECT_LT(world.complaints.size(), 14U);
+  World slow = shaking(.01, {}, .01);
+  vary(slow, .05, .2, 4000, 50);
+  EXPECT_TRUE(slow.complaints.empty()) << slow.complaints.front();
+}
+
+/// Rounding shakes a body at rest, more and more.
+TEST(EnergyWatch, BodiesAtRestAreQuiet) {
+  for (const Vec2 low : {Vec2{.3, .3}, Vec2{-.35, -.35}, Vec2{17.3, 3}, Vec2{1000, 1000}})
+    for (const double ofCritical : {.8, .05}) {
+      World world = shaking(0, low, .7);
+      const double dt = ofCritical * world.criticalTimeStep();
+      for (int i = 0; i < 10000; ++i) world.step(dt);
+      EXPECT_TRUE(world.complaints.empty()) << world.complaints.front();
+      EXPECT_LT(energyOf(world), .1 * world.roundingEnergy()) << low.x << ' ' << ofCritical;
+      if (low.x < 1 && ofCritical > .5) {
+        EXPECT_GT(energyOf(world), .01 * world.roundingEnergy()) << low.x;
+      }
+    }
+}
+
+/// After all that rounding has made of it.
+TEST(EnergyWatch, GrowthIsToldAfterALongRest) {
+  World world = shaking(0, {.3, .3}, .7);
+  const double dt = .8 * world.criticalTimeStep();
+  for (int i = 0; i < 6000; ++i) world.step(dt);
+  std::vector<Vec2> push(world.model.nodes.size());
+  push.front() = {1e4, 2e3};
+  for (int i = 0; i < 100; ++i) {
+    world.outerForces = push;
+    world.step(dt);
+  }
+  EXPECT_TRUE(world.complaints.empty()) << world.complaints.front();
+  vary(world, .27, .9, 4000, 2);
+  EXPECT_FALSE(world.complaints.empty());
+}
+
+/// Bodies that come all the time, with steps of `least` to `most` of the critical one.
+World joined(double least, double most, Vec2 velocity) {
+  World world = shaking(.01, {}, .01);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> part(least, most);
+  const double critical = world.criticalTimeStep();
+  for (int i = 0; i < 1000 && world.complaints.empty(); ++i) {
+    world.step(part(random) * critical);
+    if (i % 50 != 0) continue;
+    const Vec2 low{.02 * (i / 50 + 1), 0};
+    const TriangleMesh mesh = structuredRectangle(low, low + Vec2{.01, .01}, 2, 2);
+    world.addBody(mesh, moving(mesh, steel(), velocity));
+  }
+  return world;
+}
+
+/// Each body that comes brings its energy along; the sum goes on.
+TEST(EnergyWatch, NewcomersDoNotBeginTheSumAnew) {
+  EXPECT_FALSE(joined(.27, .9, {}).complaints.empty());
+  const World quiet = joined(.8, .8, {0, 1});
+  EXPECT_TRUE(quiet.complaints.empty()) << quiet.complaints.front();
+  EXPECT_GT(energyOf(quiet), 5);
+  EXPECT_NEAR(quiet.watch.expected / energyOf(quiet), 1, 1e-8);
+}
+
+TEST(EnergyWatch, BodiesThatGoTakeTheirEnergyAlong) {
+  World world = joined(.8, .8, {0, 1});
+  const double before = energyOf(world), dt = world.lastDt;
+  world.removeBody(ComponentId(3));
+  EXPECT_LT(world.watch.expected, .96 * before);
+  for (int i = 0; i < 2000; ++i) world.step(dt);
+  EXPECT_NEAR(world.watch.expected / energyOf(world), 1, 1e-8);
+  EXPECT_TRUE(world.complaints.empty());
 }
 
 }  // namespace

@@ -61,22 +61,16 @@ class Sanity:
     def __init__(self, omega):
         self.omega = omega
         self.solvers = [e for e in omega.engines if type(e).__name__ == 'FESolver']
-        self.start = [self._energies(fe) for fe in self.solvers]
-
-    def _energies(self, fe):
-        energy = fe.energy
-        return energy['total'], energy['kinetic'] + energy['strain'], energy['external']
 
     def check(self):
         """BlewUp with a sentence."""
-        for fe, (total, own, _) in zip(self.solvers, self.start):
-            now, _, external = self._energies(fe)
-            if not math.isfinite(now):
-                raise BlewUp('the energy is %r J.' % now)
-            given = own + abs(external)
-            if now - total > given > 0:
+        for fe in self.solvers:
+            excess, most, rounding = fe._energyBalance
+            if not math.isfinite(excess):
+                raise BlewUp('the energy is %r J.' % excess)
+            if excess > max(most, rounding):
                 raise BlewUp('the energy grew by %.3g J out of nothing, of %.3g J there were.' %
-                             (now - total, given))
+                             (excess, most))
         for body in self.omega.bodies:
             radius = getattr(body.shape, 'radius', None)
             if radius is None:
