@@ -2,6 +2,7 @@
 import builtins
 import math
 import os
+from random import Random
 
 import numpy as np
 import pytest
@@ -46,6 +47,43 @@ def test_savedRunGoesOnBitForBit(ending, finderName, folder):
     assert tuple(O.bodies[-1].state.pos) == tuple(wanted[3])
     solver.removeBody(0)
     O.step()
+
+
+def course(seed, folder=None):
+    """A run whose step and settings change at random; with a folder, saved and loaded at random
+    moments, too."""
+    O.reset()
+    random, moments = Random(seed), Random(seed + 1)
+    solver = impact(random.choice(['LebesgueCollider', 'InsertionSortCollider']),
+                    smooth=random.choice([False, True]))
+    ball = chain.ball((.15, .151), .05, O.materials['m'])
+    ball.state.vel = (0, -1, 0)
+    ball.state.blockedDOFs = 'zXY'
+    ball.mask = random.choice([1, 2])
+    O.bodies.append(ball)
+    run(solver, O.engines[1], spheres=True, factor=.5)
+    for _ in range(15):
+        O.dt = random.uniform(.05, .5) * solver.criticalTimeStep()
+        solver.halo = random.choice([0, random.uniform(.05, .5)])
+        solver.passes = random.choice([1, 2])
+        solver.damping = random.choice([0, 10])
+        steps(random.randint(5, 40))
+        if folder and moments.random() < .4:
+            path = os.path.join(folder, 'scene' + moments.choice(['.yade', '.xml']))
+            O.save(path)
+            O.reset()
+            O.load(path)
+            [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
+    return solver, tuple(O.bodies[-1].state.pos)
+
+
+@pytest.mark.parametrize('seed', range(60 if os.environ.get('YADEFRAG_LONG') else 6))
+def test_changesAndSavesAtRandom(seed, folder):
+    plain, place = course(seed)
+    wanted = plain.nodes, plain.velocities, plain.energy, plain.warnings
+    solver, again = course(seed, folder)
+    assert np.array_equal(solver.nodes, wanted[0]) and np.array_equal(solver.velocities, wanted[1])
+    assert (solver.energy, solver.warnings, again) == (*wanted[2:], place)
 
 
 def test_memorySaveAndReload():
