@@ -327,7 +327,8 @@ World joined(double least, double most, Vec2 velocity) {
   for (int i = 0; i < 1000 && world.complaints.empty(); ++i) {
     world.step(part(random) * critical);
     if (i % 50 != 0) continue;
-    const Vec2 low{.02 * (i / 50 + 1), 0};
+    const int number = i / 50 + 1;
+    const Vec2 low{.02 * number, 0};
     const TriangleMesh mesh = structuredRectangle(low, low + Vec2{.01, .01}, 2, 2);
     world.addBody(mesh, moving(mesh, steel(), velocity));
   }
