@@ -22,7 +22,9 @@ kInserting = ('Ig2_PFacet_PFacet_ScGeom', 'Ig2_GridConnection_PFacet_ScGeom',
 
 # These make contacts of any near bodies, so that what is real depends on the bounds.
 kNearIsReal = ('Ig2_Facet_Polyhedra_PolyhedraGeom', 'Ig2_Wall_Polyhedra_PolyhedraGeom',
-               'Ig2_Polyhedra_Polyhedra_PolyhedraGeom', 'Ig2_Sphere_ChainedCylinder_CylScGeom6D')
+               'Ig2_Polyhedra_Polyhedra_PolyhedraGeom', 'Ig2_Polyhedra_Polyhedra_ScGeom',
+               'Ig2_Polyhedra_Polyhedra_PolyhedraGeomOrScGeom',
+               'Ig2_Sphere_ChainedCylinder_CylScGeom', 'Ig2_Sphere_ChainedCylinder_CylScGeom6D')
 
 kNoScene = {
     'Ig2_Tetra_Tetra_TTetraGeom':
