@@ -14,6 +14,7 @@ enum class Use : std::uint8_t {
   kHeld,       ///< nodes with a prescribed motion
   kLoads,      ///< constant and outer forces
   kViscosity,  ///< bulk viscosity
+  kSmoothing,  ///< smoothed strains
   kSurfaces,   ///< the two layers of the boundary
   kSmooth,     ///< parts of it that are C¹-smooth
   kSearch,     ///< the global search and its candidates

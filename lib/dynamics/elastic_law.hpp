@@ -56,6 +56,12 @@ struct StressLook {
   double shearWeight;        ///< 1/β²
   double friction, incline;  ///< μ, √(1 + μ²)
   double squared;            ///< Pa², of the measure; infinite: not watched
+
+  StressLook(double shearFactor, double slope, double squaredMeasure)
+      : shearWeight(1 / (shearFactor * shearFactor)),
+        friction(slope),
+        incline(std::sqrt(1 + slope * slope)),
+        squared(squaredMeasure) {}
 };
 
 /// Does the stress measure of brittle materials, √(max(c + r, 0)² + (max(r√(1 + μ²) + μc, 0)/β)²),

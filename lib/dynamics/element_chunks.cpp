@@ -21,6 +21,7 @@ Chunk chunkOf(const Component& c) {
   chunk.density = m.density;
   chunk.waveSpeed = std::sqrt(m.waveModulus() / m.density);
   chunk.thickness = c.thickness;
+  chunk.element = c.element;
   chunk.strength = c.brittle.cracks() ? c.brittle.tensileStrength : 0;
   chunk.shearFactor = c.brittle.cracks() ? c.brittle.shearFactor : 0;
   chunk.friction = c.brittle.cracks() ? c.friction : 0;
@@ -30,8 +31,8 @@ Chunk chunkOf(const Component& c) {
 
 bool sameMaterial(const Chunk& a, const Chunk& b) {
   return a.lame == b.lame && a.shear == b.shear && a.density == b.density &&
-         a.thickness == b.thickness && a.strength == b.strength && a.shearFactor == b.shearFactor &&
-         a.friction == b.friction;
+         a.thickness == b.thickness && a.element == b.element && a.strength == b.strength &&
+         a.shearFactor == b.shearFactor && a.friction == b.friction;
 }
 
 /// Cuts the elements into chunks. Small bodies of one material share chunks: a scene of a thousand

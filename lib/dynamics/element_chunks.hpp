@@ -34,6 +34,7 @@ struct Chunk {
   double lame, shear;         ///< Pa
   double density, waveSpeed;  ///< kg/m³, m/s; for the bulk viscosity
   double thickness;           ///< m
+  ElementKind element;
   /// Pa, β and μ of a brittle material, 0 of others.
   double strength, shearFactor, friction;
   /// (Pa²) Squared stress measure from which elements count as stressed; infinite: not watched.

@@ -1,51 +1,13 @@
 #include "dynamics/element_kernel.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "core/tolerances.hpp"
 #include "dynamics/elastic_law.hpp"
+#include "dynamics/lane_corners.hpp"
 
 namespace yadefrag {
 namespace {
-
-/// Coordinates, then forces, of the corners of kLanes elements.
-struct alignas(64) Corners {
-  double x[3][kLanes];
-  double y[3][kLanes];
-};
-
-[[gnu::always_inline]] inline void gather(const ElementLanes& lanes, const Vec2* values,
-                                          Corners& corners) {
-  for (int i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const Vec2 value = values[lanes.corner[i][k]];
-      corners.x[i][k] = value.x;
-      corners.y[i][k] = value.y;
-    }
-}
-
-[[gnu::always_inline]] inline void scatter(const ElementLanes& lanes, const Corners& corners,
-                                           Vec2* force) {
-  for (std::size_t k = 0; k < kLanes; ++k)
-    for (int i = 0; i < 3; ++i) {
-      Vec2& f = force[lanes.corner[i][k]];
-      f.x += corners.x[i][k];
-      f.y += corners.y[i][k];
-    }
-}
-
-/// Numbers of lanes that hold a stressed element.
-struct StressedLanes {
-  std::array<std::uint32_t, tolerance::kChunkElements / kLanes> lanes;
-  std::size_t count = 0;
-};
-
-/// Bad and stressed elements among kLanes.
-struct Findings {
-  int bad = 0, stressed = 0;
-};
 
 /// Replaces the corners' coordinates by their forces.
 template <bool kWatched>
@@ -53,8 +15,7 @@ template <bool kWatched>
                                                      Corners& c) {
   const double lame = chunk.lame;
   const double shear = chunk.shear;
-  const StressLook look{1 / (chunk.shearFactor * chunk.shearFactor), chunk.friction,
-                        std::sqrt(1 + chunk.friction * chunk.friction), chunk.squaredLook};
+  const StressLook look(chunk.shearFactor, chunk.friction, chunk.squaredLook);
   int bad = 0;
   int stressed = 0;
 #pragma omp simd reduction(+ : bad, stressed)
@@ -84,52 +45,27 @@ template <bool kWatched>
   return {bad, stressed};
 }
 
-/// Everything about one chunk and where its forces go, by local node number.
-struct Job {
+template <bool kWatched>
+struct AddForces {
   const Chunk& chunk;
   const ElementLanes* lanes;
   const Vec2* position;
   Vec2* force;
-};
+  StressedLanes& stressed;
 
-template <bool kWatched>
-[[gnu::always_inline]] inline bool addChunk(const Job& job, StressedLanes& stressed) {
-  int bad = 0;
-  Corners corners;
-  for (std::uint32_t l = job.chunk.firstLanes; l < job.chunk.lastLanes; ++l) {
-    gather(job.lanes[l], job.position, corners);
-    const Findings found = elasticForces<kWatched>(job.lanes[l], job.chunk, corners);
-    bad += found.bad;
-    if constexpr (kWatched) {
-      // No branch to be foretold wrongly: what is not counted is overwritten.
-      stressed.lanes[stressed.count] = l;
-      stressed.count += found.stressed != 0 ? 1 : 0;
+  [[gnu::always_inline]] bool operator()() const {
+    int bad = 0;
+    Corners corners;
+    for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l) {
+      gather(lanes[l], position, corners);
+      const Findings found = elasticForces<kWatched>(lanes[l], chunk, corners);
+      bad += found.bad;
+      if constexpr (kWatched) stressed.note(l, found.stressed);
+      scatter(lanes[l], corners, force);
     }
-    scatter(job.lanes[l], corners, job.force);
+    return bad == 0;
   }
-  return bad == 0;
-}
-
-template <bool kWatched>
-bool addBaseline(const Job& job, StressedLanes& stressed) {
-  return addChunk<kWatched>(job, stressed);
-}
-
-#ifdef __x86_64__
-template <bool kWatched>
-[[gnu::target("avx2")]] bool addAvx2(const Job& job, StressedLanes& stressed) {
-  return addChunk<kWatched>(job, stressed);
-}
-#endif
-
-template <bool kWatched>
-bool add(InstructionSet set, const Job& job, StressedLanes& stressed) {
-#ifdef __x86_64__
-  if (set == InstructionSet::kAvx2) return addAvx2<kWatched>(job, stressed);
-#endif
-  static_cast<void>(set);
-  return addBaseline<kWatched>(job, stressed);
-}
+};
 
 }  // namespace
 
@@ -143,19 +79,14 @@ InstructionSet bestInstructionSet() {
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const Vec2* position, Vec2* force) {
   StressedLanes none;
-  return add<false>(set, {chunk, lanes, position, force}, none);
+  return runFor(set, AddForces<false>{chunk, lanes, position, force, none});
 }
 
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const Vec2* position, Vec2* force, std::vector<ElementRange>& stressed) {
   StressedLanes found;
-  const bool good = add<true>(set, {chunk, lanes, position, force}, found);
-  for (std::size_t i = 0; i < found.count; ++i) {
-    const auto first = static_cast<std::uint32_t>(chunk.firstElement +
-                                                  kLanes * (found.lanes[i] - chunk.firstLanes));
-    const auto end = static_cast<std::uint32_t>(first + kLanes);
-    stressed.push_back({first, std::min(end, chunk.lastElement)});
-  }
+  const bool good = runFor(set, AddForces<true>{chunk, lanes, position, force, found});
+  found.appendTo(stressed, chunk);
   return good;
 }
 

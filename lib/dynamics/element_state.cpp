@@ -1,5 +1,7 @@
 #include "dynamics/element_state.hpp"
 
+#include "dynamics/smoothed_state.hpp"
+
 namespace yadefrag {
 namespace {
 
@@ -41,6 +43,7 @@ std::array<double, 3> stressOf(const Model& model, ElementId element) {
 std::vector<std::array<double, 3>> stresses(const Model& model) {
   std::vector<std::array<double, 3>> result(model.triangles.size());
   for (const Component& c : model.components) {
+    if (c.element == ElementKind::kSmoothed) continue;
     const double lame = c.material.lame();
     const double shear = c.material.shearModulus();
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
@@ -48,18 +51,21 @@ std::vector<std::array<double, 3>> stresses(const Model& model) {
       result[e] = cauchy(firstPiola(f, lame, shear), f);
     }
   }
+  setSmoothedStresses(model, result);
   return result;
 }
 
 std::vector<double> elementEnergies(const Model& model) {
   std::vector<double> result(model.triangles.size());
   for (const Component& c : model.components) {
+    if (c.element == ElementKind::kSmoothed) continue;
     const double lame = c.material.lame();
     const double shear = c.material.shearModulus();
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e)
       result[e] = c.thickness * model.triangles.area[e] *
                   energyDensity(deformationGradient(model, ElementId(e)), lame, shear);
   }
+  setSmoothedEnergies(model, result);
   return result;
 }
 

@@ -15,10 +15,11 @@ Matrix2 deformationGradient(const Model& model, ElementId element);
 /// Δt Ḟ: the change of F over a step at the present velocities.
 Matrix2 deformationStep(const Model& model, ElementId element, double dt);
 
-/// (Pa) Cauchy stress xx, yy, xy of one element.
+/// (Pa) Cauchy stress xx, yy, xy that belongs to the F of one element, whether its body's strains
+/// are smoothed or not: cracks take the mean of these at a node, which smooths them.
 std::array<double, 3> stressOf(const Model& model, ElementId element);
 
-/// The same of every element.
+/// (Pa) Of every element, that which makes the forces.
 std::vector<std::array<double, 3>> stresses(const Model& model);
 
 /// (J) Strain energy of every element at the present positions.

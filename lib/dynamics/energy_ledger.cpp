@@ -1,6 +1,7 @@
 #include "dynamics/energy_ledger.hpp"
 
 #include "dynamics/element_state.hpp"
+#include "dynamics/smoothed_state.hpp"
 
 namespace yadefrag {
 namespace {
@@ -28,8 +29,9 @@ double kineticEnergy(const Nodes& nodes) {
 }
 
 double strainEnergy(const Model& model, double dt) {
-  double sum = 0;
+  double sum = smoothedEnergy(model, dt);
   for (const Component& c : model.components) {
+    if (c.element == ElementKind::kSmoothed) continue;
     double twice = 0;
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e)
       twice += twiceEnergy(model, ElementId(e), c.material, dt);
@@ -39,10 +41,11 @@ double strainEnergy(const Model& model, double dt) {
 }
 
 double strainEnergy(const Model& model, double dt, std::span<const ElementId> elements) {
-  double sum = 0;
+  double sum = smoothedEnergy(model, elements, dt);
   for (const ElementId element : elements) {
     const Component& c = model.components[model.triangles.component[element.value].value];
-    sum += twiceEnergy(model, element, c.material, dt) * c.thickness / 2;
+    if (c.element == ElementKind::kLinear)
+      sum += twiceEnergy(model, element, c.material, dt) * c.thickness / 2;
   }
   return sum;
 }

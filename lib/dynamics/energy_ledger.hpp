@@ -37,7 +37,7 @@ double kineticEnergy(const Nodes& nodes);
 
 /// J, at n − ½; Δt is that of the last step.
 double strainEnergy(const Model& model, double dt);
-/// The same of some elements.
+/// The same of some elements; of bodies with smoothed strains whole pieces only.
 double strainEnergy(const Model& model, double dt, std::span<const ElementId> elements);
 
 }  // namespace yadefrag

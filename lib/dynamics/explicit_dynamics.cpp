@@ -10,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances.hpp"
+#include "dynamics/chunk_nodes.hpp"
 #include "dynamics/element_state.hpp"
 
 namespace yadefrag {
@@ -21,32 +22,9 @@ std::string at(Vec2 where) {
   return text.str();
 }
 
-/// Sums the partial forces of shared nodes in the order of their chunks.
-void addUp(const ElementChunks& elements, const std::vector<Vec2>& partial, std::size_t row,
-           std::vector<Vec2>& force) {
-  Vec2 sum;
-  for (std::uint32_t i = elements.firstPartial[row]; i < elements.firstPartial[row + 1]; ++i)
-    sum += partial[i];
-  force[elements.sharedNodes[row].value] = sum;
-}
-
-void handOut(const ElementChunks& elements, const Chunk& chunk, const Vec2* local,
-             std::vector<Vec2>& force, std::vector<Vec2>& partial) {
-  for (std::uint32_t i = chunk.firstNode; i < chunk.firstShared; ++i)
-    force[elements.nodes[i].value] = *local++;
-  for (std::uint32_t i = chunk.firstShared; i < chunk.lastNode; ++i)
-    partial[elements.partialOf[i]] = *local++;
-}
-
 bool anyHeld(const Nodes& nodes) {
   return std::any_of(nodes.held.begin(), nodes.held.end(),
                      [](std::uint8_t held) { return held != kFree; });
-}
-
-void fetchNodes(const ElementChunks& elements, const Chunk& chunk, const std::vector<Vec2>& values,
-                Vec2* local) {
-  for (std::uint32_t i = chunk.firstNode; i < chunk.lastNode; ++i)
-    *local++ = values[elements.nodes[i].value];
 }
 
 }  // namespace
@@ -63,6 +41,7 @@ struct ExplicitDynamics::Update {
 void ExplicitDynamics::rebuild(const Model& model) {
   elements_.build(model);
   watching_ = elements_.watch(leastStrength_);
+  smoothing_.rebuild(elements_);
   stressed_.clear();
   force_.assign(model.nodes.size(), {});
   partialForce_.resize(elements_.partials());
@@ -92,6 +71,7 @@ std::size_t ExplicitDynamics::follow(const Model& model, std::span<const Element
       partial->resize(elements_.partials());
       for (const std::uint32_t i : abandoned) (*partial)[i] = {};
     }
+  smoothing_.follow(elements_, abandoned);
   force_.resize(model.nodes.size());
   if (!viscousForce_.empty()) viscousForce_.resize(model.nodes.size());
   for (const NodeId original : originals) {
@@ -111,20 +91,46 @@ void ExplicitDynamics::watchStress(std::vector<double> leastStrengthByComponent)
   watching_ = elements_.watch(leastStrength_);
 }
 
+/// Any thread: that an element is bad is all that is noted; it is looked for afterwards.
+void ExplicitDynamics::noteElements(bool good) {
+  if (!good)
+#pragma omp atomic write
+    badElement_ = true;
+}
+
+/// Only where strains are smoothed. All threads have to take part.
+void ExplicitDynamics::smoothStrains(const Model& model, std::size_t part, std::size_t parts,
+                                     Scratch& scratch) {
+  scratch.room.resize(elements_.mostNodes);
+  const std::size_t chunks = elements_.chunks.size();
+  for (std::size_t c = chunks * part / parts; c < chunks * (part + 1) / parts; ++c) {
+    const Chunk& chunk = elements_.chunks[c];
+    if (chunk.element != ElementKind::kSmoothed) continue;
+    fetchNodes(elements_, chunk, model.nodes.position, scratch.values.data());
+    noteElements(smoothing_.sum(set_, elements_, chunk, scratch.values.data(), scratch.stressed));
+  }
+#pragma omp barrier
+  const std::size_t rows = elements_.sharedNodes.size();
+  for (std::size_t row = rows * part / parts; row < rows * (part + 1) / parts; ++row)
+    smoothing_.sumShared(elements_, row);
+#pragma omp barrier
+}
+
 void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
                                 const BulkViscosity& viscosity, Scratch& scratch) {
   const std::size_t count = chunk.lastNode - chunk.firstNode;
   Vec2* position = scratch.values.data();
   Vec2* force = position + elements_.mostNodes;
-  fetchNodes(elements_, chunk, model.nodes.position, position);
-  std::fill_n(force, count, Vec2{});
-  // Whoever comes first: that it failed is all that is told; the element is looked for afterwards.
   const ElementLanes* lanes = elements_.lanes.data();
-  if (!(std::isfinite(chunk.squaredLook)
-            ? addElasticForces(set_, chunk, lanes, position, force, scratch.stressed)
-            : addElasticForces(set_, chunk, lanes, position, force)))
-#pragma omp atomic write
-    badElement_ = true;
+  const bool smoothed = chunk.element == ElementKind::kSmoothed;
+  if (!smoothed || viscosity.isOn()) fetchNodes(elements_, chunk, model.nodes.position, position);
+  std::fill_n(force, count, Vec2{});
+  if (smoothed)
+    smoothing_.addForces(set_, elements_, chunk, model.nodes.mass, scratch.room, force);
+  else
+    noteElements(std::isfinite(chunk.squaredLook)
+                     ? addElasticForces(set_, chunk, lanes, position, force, scratch.stressed)
+                     : addElasticForces(set_, chunk, lanes, position, force));
   if (viscosity.isOn()) {
     Vec2* velocity = force + elements_.mostNodes;
     Vec2* viscous = velocity + elements_.mostNodes;
@@ -209,6 +215,7 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
     const std::size_t parts = omp_get_num_threads();
     Scratch& scratch = scratch_[part];
     scratch.values.resize((viscosity.isOn() ? 4 : 2) * elements_.mostNodes);
+    if (smoothing_.isOn()) smoothStrains(model, part, parts, scratch);
     const std::size_t chunks = elements_.chunks.size();
     for (std::size_t c = chunks * part / parts; c < chunks * (part + 1) / parts; ++c)
       sumChunk(model, elements_.chunks[c], viscosity, scratch);
@@ -240,6 +247,8 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
   stressed_.clear();
   for (const Scratch& scratch : scratch_)
     stressed_.insert(stressed_.end(), scratch.stressed.begin(), scratch.stressed.end());
+  // Bodies with smoothed strains are looked at before all others.
+  if (smoothing_.isOn()) std::sort(stressed_.begin(), stressed_.end());
   if (badElement_) refuseElement(model, dt);
   if (badNode_) refuseNode(model, dt);
 }
@@ -316,6 +325,7 @@ void ExplicitDynamics::finish(const Model& model, const StepLength& length,
 
 void ExplicitDynamics::addTo(Footprint& footprint) const {
   elements_.addTo(footprint);
+  smoothing_.addTo(footprint);
   footprint.add(Use::kDynamics, force_, partialForce_, previousVelocity_, scratch_);
   footprint.add(Use::kViscosity, viscousForce_, partialViscous_);
   footprint.add(Use::kHeld, heldVelocity_);
@@ -323,6 +333,7 @@ void ExplicitDynamics::addTo(Footprint& footprint) const {
   for (const Scratch& scratch : scratch_) {
     footprint.add(Use::kDynamics, scratch.values);
     footprint.add(Use::kFracture, scratch.stressed);
+    footprint.add(Use::kSmoothing, scratch.room.mass, scratch.room.similar, scratch.room.distorted);
   }
 }
 

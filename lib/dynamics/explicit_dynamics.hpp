@@ -11,6 +11,7 @@
 #include "core/tolerances.hpp"
 #include "dynamics/element_kernel.hpp"
 #include "dynamics/energy_ledger.hpp"
+#include "dynamics/strain_smoothing.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -89,8 +90,11 @@ class ExplicitDynamics {
   struct alignas(64) Scratch {
     std::vector<Vec2> values;
     std::vector<ElementRange> stressed;
+    StrainSmoothing::Room room;
   };
 
+  void noteElements(bool good);
+  void smoothStrains(const Model& model, std::size_t part, std::size_t parts, Scratch& scratch);
   void sumChunk(const Model& model, const Chunk& chunk, const BulkViscosity& viscosity,
                 Scratch& scratch);
   Vec2 holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity);
@@ -103,6 +107,7 @@ class ExplicitDynamics {
 
   InstructionSet set_;
   ElementChunks elements_;
+  StrainSmoothing smoothing_;
   std::vector<Vec2> force_, partialForce_;  // of all: N
   std::vector<Vec2> viscousForce_,
       partialViscous_;  // of the viscosity alone; empty while it is off

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/tolerances.hpp"
+#include "dynamics/smoothed_state.hpp"
+
 namespace yadefrag {
 
 void Fracture::addBody(const Model& model, ComponentId component) {
@@ -34,6 +36,38 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
   numCracks_ += cracks_.size();
   splitNodes(model, edges, surfaces, cracks_, result);
   return !result.sides.empty();
+}
+
+double Fracture::splitEnergy(const Model& model, std::span<const NodeId> originals,
+                             double dt) const {
+  const std::size_t firstNew = model.nodes.size() - originals.size();
+  std::vector<ElementId> fan;
+  const auto sumAt = [&](NodeId node) {
+    NodeSum sum;
+    fan.clear();
+    edges.appendFan(model, node, fan);
+    for (const ElementId element : fan) sum.add(model, element, dt);
+    return sum;
+  };
+  double gained = 0;
+  // All parts of a node come one after the other.
+  for (std::size_t i = 0; i < originals.size();) {
+    const NodeId node = originals[i];
+    const Component& body = model.components[model.nodes.component[node.value].value];
+    if (body.element != ElementKind::kSmoothed) {
+      ++i;
+      continue;
+    }
+    NodeSum whole = sumAt(node);
+    double parts = whole.energy(body.material);
+    for (; i < originals.size() && originals[i] == node; ++i) {
+      const NodeSum part = sumAt(NodeId(firstNew + i));
+      parts += part.energy(body.material);
+      whole += part;
+    }
+    gained += parts - whole.energy(body.material);
+  }
+  return gained;
 }
 
 void Fracture::addTo(Footprint& footprint) const {

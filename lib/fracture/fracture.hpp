@@ -29,6 +29,10 @@ class Fracture {
   /// `result` has anything in it that others must follow.
   bool crack(Model& model, const ContactSurfaces& surfaces, std::span<const ElementRange> where,
              SplitResult& result);
+  /// (J) What bodies with smoothed strains gain when nodes split, at the half step: the parts of a
+  /// node no longer share a mean strain. `originals` as in SplitResult.
+  [[nodiscard]] double splitEnergy(const Model& model, std::span<const NodeId> originals,
+                                   double dt) const;
   /// To be called after the reference positions of new nodes are there: cracks that were made hold
   /// as their law says.
   void cohere(const Model& model, std::span<const Vec2> reference);

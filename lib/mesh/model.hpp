@@ -55,6 +55,12 @@ struct Triangles {
   [[nodiscard]] bool isDropped(std::size_t element) const { return area[element] == 0; }
 };
 
+/// How the strains of a body's triangles make its forces (dynamics/smoothed_law.hpp).
+enum class ElementKind : std::uint8_t {
+  kLinear,    ///< each triangle by itself: constant strain
+  kSmoothed,  ///< with its neighbours: strains averaged at the nodes
+};
+
 /// What all triangles of one body share. A removed component keeps its slot with no triangles.
 struct Component {
   ElasticMaterial material;
@@ -62,6 +68,7 @@ struct Component {
   double thickness = 1;     ///< m
   double friction = 0;      ///< tan of the friction angle
   bool selfContact = true;  ///< may its surfaces touch each other
+  ElementKind element = ElementKind::kLinear;
   std::uint32_t firstTriangle = 0;
   std::uint32_t lastTriangle = 0;  ///< one past; triangles of a component are consecutive
 };

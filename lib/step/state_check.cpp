@@ -39,8 +39,8 @@ bool isRight(const Component& c, std::size_t triangles) {
   return isPositive(m.young) && m.poisson > -1 && m.poisson < .5 && isPositive(m.density) &&
          isPositive(c.thickness) && c.friction >= 0 && std::isfinite(c.friction) &&
          c.brittle.tensileStrength >= 0 && c.brittle.fractureEnergy >= 0 &&
-         c.brittle.shearFactor > 0 && c.firstTriangle <= c.lastTriangle &&
-         c.lastTriangle <= triangles;
+         c.element <= ElementKind::kSmoothed && c.brittle.shearFactor > 0 &&
+         c.firstTriangle <= c.lastTriangle && c.lastTriangle <= triangles;
 }
 
 bool componentsAreRight(const Model& model) {

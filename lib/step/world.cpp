@@ -26,6 +26,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   component.friction = spec.friction;
   // What comes off a body touches what is left of it.
   component.selfContact = spec.selfContact || spec.brittle.cracks();
+  component.element = spec.element;
   const std::size_t first = model.nodes.size();
   const ComponentId id = appendBody(model, mesh, component);
   reference.insert(reference.end(), mesh.nodes.begin(), mesh.nodes.end());

@@ -32,6 +32,7 @@ struct BodySpec {
   double friction = 0;   ///< tan of the friction angle
   double thickness = 1;  ///< m
   bool selfContact = true;
+  ElementKind element = ElementKind::kLinear;
   std::vector<Vec2> velocity;             ///< m/s
   std::vector<Vec2> displacement;         ///< m, from the stress-free shape
   std::vector<std::uint8_t> held;         ///< Held

@@ -26,7 +26,10 @@ bool World::crack() {
   if (!fracture.isOn()) return false;
   const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
   const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), split_);
-  if (opened) followSplit();
+  if (opened) {
+    ledger.fracture -= fracture.splitEnergy(model, split_.originals, lastDt);
+    followSplit();
+  }
   fracture.cohere(model, reference);
   return opened;
 }

@@ -206,6 +206,9 @@ class WorldArchive {
     member("seed", rows, [](C& c) -> std::uint64_t& { return c.brittle.seed; });
     flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
     flags("selfContact", rows, [](C& c) -> bool& { return c.selfContact; });
+    member("element", rows, [](C& c) -> std::uint8_t& {
+      return reinterpret_cast<std::uint8_t&>(c.element);  // NOLINT: an unsigned char may name it
+    });
   }
 
   /// Of rows that are there already: a vector of bool has no elements to refer to.

@@ -79,6 +79,8 @@ int addMesh(FESolver& solver, const py::dict& input) {
   spec.smoothNodes = fromBytes<std::uint8_t>(input["smooth"]);
   spec.thickness = py::extract<double>(input["thickness"]);
   spec.selfContact = py::extract<bool>(input["selfContact"]);
+  const bool smoothed = py::extract<bool>(input["smoothed"]);
+  spec.element = smoothed ? ElementKind::kSmoothed : ElementKind::kLinear;
   const yade::shared_ptr<FEMat> material = py::extract<yade::shared_ptr<FEMat>>(input["material"]);
   return asValueError([&] { return solver.addBody(mesh, std::move(spec), material); });
 }

@@ -39,6 +39,20 @@ inline Model square(int side = 8, const ElasticMaterial& material = kSteel, doub
   return model;
 }
 
+/// The same bodies with smoothed strains.
+inline Model smoothed(Model model) {
+  for (Component& component : model.components) component.element = ElementKind::kSmoothed;
+  return model;
+}
+
+/// (N) Forces at the present positions: those of a step of no length.
+inline std::vector<Vec2> forcesOf(Model model) {
+  ExplicitDynamics dynamics;
+  dynamics.rebuild(model);
+  dynamics.predict(model, 0, {}, {}, 1);
+  return {dynamics.internalForces().begin(), dynamics.internalForces().end()};
+}
+
 /// Velocities without any pattern, up to `most` in each direction.
 inline void shake(Model& model, double most) {
   std::mt19937_64 random(11);

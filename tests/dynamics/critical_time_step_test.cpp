@@ -56,6 +56,17 @@ TEST(CriticalTimeStep, IsASafeAndSharpBoundOfTheFastestMode) {
   checkBound(slivers, 1.4);
 }
 
+TEST(CriticalTimeStep, HoldsWithSmoothedStrains) {
+  for (const double poisson : {0., .3, .49}) {
+    ElasticMaterial material = kSteel;
+    material.poisson = poisson;
+    checkBound(smoothed(square(5, material)), 1.8);
+  }
+  Model slivers;
+  appendBlock(slivers, {0, 0}, {.1, .01}, 5, 20);
+  checkBound(smoothed(slivers), 2.1);
+}
+
 TEST(CriticalTimeStep, OfOneTriangleIsExact) {
   TriangleMesh mesh;
   mesh.nodes = {{0, 0}, {.01, .002}, {.003, .008}};

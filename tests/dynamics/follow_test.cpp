@@ -74,8 +74,8 @@ Model twoBlocks() {
   return model;
 }
 
-void checkSameAsRebuilt(const StepSettings& settings, int threads, int rounds, bool anywhere) {
-  Model model = twoBlocks();
+void checkSameAsRebuilt(const StepSettings& settings, int threads, int rounds, bool anywhere,
+                        Model model = twoBlocks()) {
   const double dt = .2 * criticalTimeStep(model, settings.viscosity);
   ExplicitDynamics following;
   following.rebuild(model);
@@ -112,6 +112,15 @@ TEST(Follow, StepsHaveTheBitsOfARebuiltSolver) {
 TEST(Follow, StepsHaveTheBitsOfARebuiltSolverWithViscosity) {
   for (const int threads : {1, 2})
     checkSameAsRebuilt({.damping = 100, .viscosity = {.06, 1.2}}, threads, 60, true);
+}
+
+TEST(Follow, StepsHaveTheBitsOfARebuiltSolverWithSmoothedStrains) {
+  for (const int threads : {1, 2}) {
+    checkSameAsRebuilt({}, threads, 60, threads == 1, smoothed(twoBlocks()));
+    Model mixed = twoBlocks();
+    mixed.components[1].element = ElementKind::kSmoothed;
+    checkSameAsRebuilt({.viscosity = {.06, 1.2}}, threads, 30, true, mixed);
+  }
 }
 
 TEST(Follow, AMeshThatFallsIntoSingleTrianglesIsFollowed) {

@@ -10,14 +10,6 @@
 namespace yadefrag {
 namespace {
 
-/// Forces at the present positions: of a step of no length.
-std::vector<Vec2> forcesOf(Model model) {
-  ExplicitDynamics dynamics;
-  dynamics.rebuild(model);
-  dynamics.predict(model, 0, {}, {}, 1);
-  return {dynamics.internalForces().begin(), dynamics.internalForces().end()};
-}
-
 double energyOf(const Model& model) {
   const std::vector<double> all = elementEnergies(model);
   return std::accumulate(all.begin(), all.end(), 0.);
@@ -30,10 +22,11 @@ void turn(Model& model, double angle) {
 }
 
 /// Cauchy stress of the stretches 1 + a and 1 + b, which the law gives exactly at any size.
-void checkPatch(const ElasticMaterial& material, double cxx, double cxy) {
+void checkPatch(const ElasticMaterial& material, double cxx, double cxy, ElementKind element) {
   const double a = .02;
   const double b = -.007;
   Model model = square(6, material);
+  model.components[0].element = element;
   for (Vec2& x : model.nodes.position) x = {(1 + a) * x.x, (1 + b) * x.y};
   const double sx = (cxx * a + cxy * b) / (1 + b);
   const double sy = (cxy * a + cxx * b) / (1 + a);
@@ -63,18 +56,19 @@ void checkPatch(const ElasticMaterial& material, double cxx, double cxy) {
 
 TEST(Forces, UniformPlaneStrainIsExact) {
   const double e = kSteel.young / (1.3 * .4);
-  checkPatch(kSteel, e * .7, e * .3);
+  for (const ElementKind kind : {ElementKind::kLinear, ElementKind::kSmoothed})
+    checkPatch(kSteel, e * .7, e * .3, kind);
 }
 
 TEST(Forces, UniformPlaneStressIsExact) {
   ElasticMaterial material = kSteel;
   material.planeStress = true;
   const double e = material.young / (1 - .09);
-  checkPatch(material, e, e * .3);
+  for (const ElementKind kind : {ElementKind::kLinear, ElementKind::kSmoothed})
+    checkPatch(material, e, e * .3, kind);
 }
 
-TEST(Forces, AreMinusTheGradientOfTheEnergy) {
-  Model model = square(3, kSteel, .7);
+void checkGradient(Model model) {
   turn(model, 2);
   shake(model, 3e-4);
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
@@ -94,8 +88,13 @@ TEST(Forces, AreMinusTheGradientOfTheEnergy) {
     }
 }
 
-TEST(Forces, RotationAloneGivesNone) {
-  Model model = square();
+TEST(Forces, AreMinusTheGradientOfTheEnergy) {
+  checkGradient(square(3, kSteel, .7));
+  checkGradient(smoothed(square(3, kSteel, .7)));
+  checkGradient(smoothed(square(3, {.young = 2e6, .poisson = .49, .density = 1000})));
+}
+
+void checkRotation(const Model& model) {
   for (const double angle : {1e-9, .3, 1.6, 3.1415926, 4., 6.2}) {
     Model turned = model;
     turn(turned, angle);
@@ -103,6 +102,11 @@ TEST(Forces, RotationAloneGivesNone) {
     for (const auto& s : stresses(turned))
       EXPECT_LT(std::abs(s[0]) + std::abs(s[1]) + std::abs(s[2]), 1e-13 * kSteel.young) << angle;
   }
+}
+
+TEST(Forces, RotationAloneGivesNone) {
+  checkRotation(square());
+  checkRotation(smoothed(square()));
 }
 
 TEST(Forces, ABlockSpunThroughTenTurnsKeepsItsEnergyAndShowsNoFalseStress) {

@@ -209,8 +209,7 @@ TEST(Stressed, TheMeasureBoundsTheEffectiveTractionInEveryDirection) {
     const double rounding = 1e-9 * std::abs(stress[0] + stress[1]);
     const auto reaches = [&](double look) {
       return isStressed(f, kSteel.lame(), kSteel.shearModulus(),
-                        {1 / (brittle.shearFactor * brittle.shearFactor), friction,
-                         std::hypot(1, friction), look * look});
+                        StressLook(brittle.shearFactor, friction, look * look));
     };
     // Pressed evenly, nothing is stressed.
     if (measure > 2 * rounding) {

@@ -49,6 +49,7 @@ kSquare = [(0, 0), (1, 0), (1, 1), (0, 1)]
     (dict(fixed=lambda x, y: 'z'), r"fixed\(.*is 'z', it must be False, True, 'x' or 'y'"),
     (dict(thickness=-1), 'thickness is -1'),
     (dict(selfContact=1), 'selfContact is 1, it must be True or False'),
+    (dict(element='quadratic'), "element is 'quadratic', it must be 'linear' or 'smoothed'"),
     (dict(outline=None), 'outline must be a list of points'),
     (dict(outline=[(0, 0, 0), (1, 0, 0), (1, 1, 0)]), 'outline must be a list of points'),
     (dict(outline=kSquare + kSquare[:1]), 'a loop closes by itself'),

@@ -1,5 +1,6 @@
 """Loads, prescribed motion, and long runs."""
 
+import math
 import os
 import signal
 import threading
@@ -126,3 +127,36 @@ def test_minimalAngle():
     assert fe.minAngle == pytest.approx(numpy.pi / 4)
     fe.addPolygon(rectangle((2, 0), (3, 1)), size=.1, material='m')
     assert numpy.pi / 6 < fe.minAngle <= numpy.pi / 4 + 1e-12
+
+
+def bentBeam(element):
+    """Deflection of a clamped beam, four triangles high, over Timoshenko's."""
+    O.reset()
+    young, poisson = 1e7, .3
+    O.materials.append(FEMat(young=young, poisson=poisson, density=1000, frictionAngle=0, label='m'))
+    fe = FESolver(damping=2 * 3.52 / 64 * math.sqrt(young / 1000 / 12))
+    fe.addPolygon(rectangle((0, 0), (8, 1)), size=.25, material='m', fixed=lambda x, y: x < 1e-9,
+                  element=element)
+    O.engines = [fe]
+    O.dt = .9 * fe.criticalTimeStep()
+    tip = fe.nodes[:, 0] > 8 - 1e-9
+    loads = fe.loads
+    loads[tip, 1] = 1 / tip.sum()
+    fe.loads = loads
+    start = fe.nodes[tip, 1].mean()
+    O.run(12000, True)
+    theory = 8**3 * 4 * (1 - poisson**2) / young + 1.2 * 8 * 2 * (1 + poisson) / young
+    return (fe.nodes[tip, 1].mean() - start) / theory, fe
+
+
+def test_smoothedStrainsBend(tmp_path):
+    assert bentBeam('linear')[0] == pytest.approx(.89, abs=.02)
+    bent, fe = bentBeam('smoothed')
+    assert bent == pytest.approx(1.01, abs=.02)
+    path = str(tmp_path / 'beam.yade.gz')
+    O.save(path)
+    O.run(50, True)
+    expected = fe.nodes
+    O.load(path)
+    O.run(50, True)
+    assert (O.engines[0].nodes == expected).all()

@@ -1,0 +1,90 @@
+#pragma once
+// What the vector loops over elements share: nodal values to lanes and back, and the lanes in which
+// something was found.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/tolerances.hpp"
+#include "core/vec2.hpp"
+#include "dynamics/element_chunks.hpp"
+#include "dynamics/element_kernel.hpp"
+
+namespace yadefrag {
+
+/// Coordinates, then forces, of the corners of kLanes elements.
+struct alignas(64) Corners {
+  double x[3][kLanes];
+  double y[3][kLanes];
+};
+
+[[gnu::always_inline]] inline void gather(const ElementLanes& lanes, const Vec2* values,
+                                          Corners& corners) {
+  for (int i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const Vec2 value = values[lanes.corner[i][k]];
+      corners.x[i][k] = value.x;
+      corners.y[i][k] = value.y;
+    }
+}
+
+[[gnu::always_inline]] inline void scatter(const ElementLanes& lanes, const Corners& corners,
+                                           Vec2* force) {
+  for (std::size_t k = 0; k < kLanes; ++k)
+    for (int i = 0; i < 3; ++i) {
+      Vec2& f = force[lanes.corner[i][k]];
+      f.x += corners.x[i][k];
+      f.y += corners.y[i][k];
+    }
+}
+
+/// Bad and stressed elements among kLanes.
+struct Findings {
+  int bad = 0, stressed = 0;
+};
+
+/// Numbers of lanes that hold a stressed element.
+struct StressedLanes {
+  std::array<std::uint32_t, tolerance::kChunkElements / kLanes> lanes;
+  std::size_t count = 0;
+
+  /// Without a branch: what is not counted is overwritten.
+  [[gnu::always_inline]] void note(std::uint32_t lane, int stressed) {
+    lanes[count] = lane;
+    count += stressed != 0 ? 1 : 0;
+  }
+
+  void appendTo(std::vector<ElementRange>& ranges, const Chunk& chunk) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto first =
+          static_cast<std::uint32_t>(chunk.firstElement + kLanes * (lanes[i] - chunk.firstLanes));
+      const auto end = static_cast<std::uint32_t>(first + kLanes);
+      ranges.push_back({first, std::min(end, chunk.lastElement)});
+    }
+  }
+};
+
+/// Runs `work()`, compiled for the instruction set. Its operator must be always inlined.
+template <class Work>
+auto runBaseline(Work work) {
+  return work();
+}
+#ifdef __x86_64__
+template <class Work>
+[[gnu::target("avx2")]] auto runAvx2(Work work) {
+  return work();
+}
+#endif
+
+template <class Work>
+auto runFor(InstructionSet set, Work work) {
+#ifdef __x86_64__
+  if (set == InstructionSet::kAvx2) return runAvx2(work);
+#endif
+  static_cast<void>(set);
+  return runBaseline(work);
+}
+
+}  // namespace yadefrag
