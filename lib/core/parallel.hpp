@@ -7,14 +7,42 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
+#include <limits>
+#include <mutex>
 #include <vector>
 
 #include "core/tolerances.hpp"
 
 namespace yadefrag {
 
+/// An exception must not leave a parallel region: it would end the process. It is caught by `run`
+/// inside the region and thrown again by `rethrow` after it; of several, that of the first part.
+class PartErrors {
+ public:
+  template <class Work>
+  void run(int part, const Work& work) noexcept {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard guard(mutex_);
+      if (part < part_) error_ = std::current_exception(), part_ = part;
+    }
+  }
+  /// To be asked after a barrier.
+  [[nodiscard]] bool any() const { return error_ != nullptr; }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::exception_ptr error_;
+  int part_ = std::numeric_limits<int>::max();
+};
+
 /// Calls `work(begin, end, part)` for contiguous parts of [0, count) and returns how many there
-/// were.
+/// were. What `work` throws reaches the caller, after all parts have ended.
 template <class Work>
 int forEachPart(std::size_t count, int threads, Work work) {
   const int parts =
@@ -23,9 +51,11 @@ int forEachPart(std::size_t count, int threads, Work work) {
     work(std::size_t{0}, count, 0);
     return 1;
   }
+  PartErrors errors;
 #pragma omp parallel for schedule(static, 1) num_threads(parts)
   for (int part = 0; part < parts; ++part)
-    work(count * part / parts, count * (part + 1) / parts, part);
+    errors.run(part, [&] { work(count * part / parts, count * (part + 1) / parts, part); });
+  errors.rethrow();
   return parts;
 }
 

@@ -47,7 +47,11 @@ inline constexpr double kFlatAxis = 1.0;
 inline constexpr std::uint64_t kCodesPerBox = 4;
 
 /// (count) Fewer items than this are not worth waking a second thread for.
+#ifdef YADEFRAG_ITEMS_PER_THREAD  // the thread sanitizer is to see threads in small scenes
+inline constexpr std::size_t kMinItemsPerThread = YADEFRAG_ITEMS_PER_THREAD;
+#else
 inline constexpr std::size_t kMinItemsPerThread = 512;
+#endif
 
 /// (ratio) The hierarchy is rebuilt when the summed half-perimeter of its refitted nodes exceeds
 /// this many times what it was when built.
@@ -258,7 +262,7 @@ inline constexpr std::size_t kChunkElements = 512;
 inline constexpr double kStrengthLook = .9;
 
 /// (count) Fewer elements than this per thread are not worth two meetings of the threads a step.
-inline constexpr std::size_t kElementsPerThread = 2048;
+inline constexpr std::size_t kElementsPerThread = 4 * kMinItemsPerThread;
 
 /// (count) Nodes whose works are summed in one go: sums do not depend on the number of threads.
 inline constexpr std::size_t kNodesPerSum = 2048;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/parallel.hpp"
 #include "core/tolerances.hpp"
 #include "dynamics/chunk_nodes.hpp"
 #include "dynamics/element_state.hpp"
@@ -100,15 +101,17 @@ void ExplicitDynamics::noteElements(bool good) {
 
 /// Only where strains are smoothed. All threads have to take part.
 void ExplicitDynamics::smoothStrains(const Model& model, std::size_t part, std::size_t parts,
-                                     Scratch& scratch) {
-  scratch.room.resize(elements_.mostNodes);
+                                     PartErrors& errors) {
+  Scratch& scratch = scratch_[part];
   const std::size_t chunks = elements_.chunks.size();
-  for (std::size_t c = chunks * part / parts; c < chunks * (part + 1) / parts; ++c) {
-    const Chunk& chunk = elements_.chunks[c];
-    if (chunk.element != ElementKind::kSmoothed) continue;
-    fetchNodes(elements_, chunk, model.nodes.position, scratch.values.data());
-    noteElements(smoothing_.sum(set_, elements_, chunk, scratch.values.data(), scratch.stressed));
-  }
+  errors.run(static_cast<int>(part), [&] {
+    for (std::size_t c = chunks * part / parts; c < chunks * (part + 1) / parts; ++c) {
+      const Chunk& chunk = elements_.chunks[c];
+      if (chunk.element != ElementKind::kSmoothed) continue;
+      fetchNodes(elements_, chunk, model.nodes.position, scratch.values.data());
+      noteElements(smoothing_.sum(set_, elements_, chunk, scratch.values.data(), scratch.stressed));
+    }
+  });
 #pragma omp barrier
   const std::size_t rows = elements_.sharedNodes.size();
   for (std::size_t row = rows * part / parts; row < rows * (part + 1) / parts; ++row)
@@ -207,26 +210,32 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
   const int most = static_cast<int>(model.triangles.size() / tolerance::kElementsPerThread);
   const int threads = std::max(1, std::min(update.threads, most));
   if (scratch_.size() < static_cast<std::size_t>(threads)) scratch_.resize(threads);
-  for (Scratch& scratch : scratch_) scratch.stressed.clear();
-    // One region for both loops: waking the threads twice would show in small scenes.
+  for (Scratch& scratch : scratch_) {
+    scratch.stressed.clear();
+    scratch.values.resize((viscosity.isOn() ? 4 : 2) * elements_.mostNodes);
+    if (smoothing_.isOn()) scratch.room.resize(elements_.mostNodes);
+  }
+  PartErrors errors;  // memory for elements under stress may run out
+  // One region for both loops: waking the threads twice would show in small scenes.
 #pragma omp parallel num_threads(threads) if (threads > 1)
   {
     const std::size_t part = omp_get_thread_num();
     const std::size_t parts = omp_get_num_threads();
-    Scratch& scratch = scratch_[part];
-    scratch.values.resize((viscosity.isOn() ? 4 : 2) * elements_.mostNodes);
-    if (smoothing_.isOn()) smoothStrains(model, part, parts, scratch);
+    if (smoothing_.isOn()) smoothStrains(model, part, parts, errors);
     const std::size_t chunks = elements_.chunks.size();
-    for (std::size_t c = chunks * part / parts; c < chunks * (part + 1) / parts; ++c)
-      sumChunk(model, elements_.chunks[c], viscosity, scratch);
+    errors.run(static_cast<int>(part), [&] {
+      for (std::size_t c = chunks * part / parts; c < chunks * (part + 1) / parts; ++c)
+        sumChunk(model, elements_.chunks[c], viscosity, scratch_[part]);
+    });
 #pragma omp barrier
     const std::size_t begin = count * part / parts;
     const std::size_t end = count * (part + 1) / parts;
     sumShared(viscosity, NodeId(begin), NodeId(end));
     const bool forced = !update.load.empty() || !update.outer.empty();
     const auto moveAll = forced ? &ExplicitDynamics::move<true> : &ExplicitDynamics::move<false>;
-    if (!badElement_) (this->*moveAll)(model.nodes, update, begin, end);
+    if (!badElement_ && !errors.any()) (this->*moveAll)(model.nodes, update, begin, end);
   }
+  errors.rethrow();
 }
 
 void ExplicitDynamics::predict(Model& model, const StepLength& length, const StepSettings& settings,

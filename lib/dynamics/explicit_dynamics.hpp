@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "core/step_length.hpp"
 #include "core/tolerances.hpp"
 #include "dynamics/element_kernel.hpp"
@@ -94,7 +95,7 @@ class ExplicitDynamics {
   };
 
   void noteElements(bool good);
-  void smoothStrains(const Model& model, std::size_t part, std::size_t parts, Scratch& scratch);
+  void smoothStrains(const Model& model, std::size_t part, std::size_t parts, PartErrors& errors);
   void sumChunk(const Model& model, const Chunk& chunk, const BulkViscosity& viscosity,
                 Scratch& scratch);
   Vec2 holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity);

@@ -42,6 +42,9 @@ class Omega : public Singleton<Omega> {
   Omega(const Omega&) = delete;
   void loadPlugins(vector<string> pluginFiles);
   const shared_ptr<Scene>& getScene() const;
+  void createSimulationLoop();
+  bool isRunning();
+  void pause();
   bool isInheritingFrom_recursive(const string& className, const string& baseClassName);
 };
 

@@ -57,6 +57,7 @@ class Scene : public Serializable {
   ~Scene() override;
   bool timeStepperPresent();
   bool timeStepperActive();
+  void moveToNextTimeStep();
 };
 
 }  // namespace yade

@@ -94,7 +94,7 @@ void EntryBodies::append(yade::Scene& scene, const World& world, EntryId entry,
   const yade::shared_ptr<yade::Body> body(new yade::Body);
   body->shape = shape;
   body->material = material;
-  body->state = material->newAssocState();
+  if (material) body->state = material->newAssocState();
   body->state->blockedDOFs = yade::State::DOF_ALL;
   ids_.push_back(scene.bodies->insert(body));
   bodies_.push_back(body);
@@ -130,6 +130,26 @@ void EntryBodies::follow(yade::Scene& scene, const World& world) {
     shapes_[e]->wire = shapes_[alike.value]->wire;
   }
   mapEntries(first);
+}
+
+/// What a script must leave as it is: FESolver's own shape, and a state and a material of some
+/// kind.
+void EntryBodies::requireWhole(std::size_t entry) const {
+  const yade::Body& body = *bodies_[entry];
+  const char* const wrong = body.shape != shapes_[entry]   ? "shape"
+                            : body.state != states_[entry] ? "state"
+                            : !body.material               ? "material"
+                                                           : nullptr;
+  if (!wrong) return;
+  std::ostringstream text;
+  text << "Body #" << body.getId() << " has lost its " << wrong << ", but it is part of the "
+       << "boundary of a body of FESolver: a script must not replace it.";
+  throw RunError(text.str());
+}
+
+void EntryBodies::requireWhole() const {
+  for (std::size_t e = 0; e < bodies_.size(); ++e)
+    if (hasBody(EntryId(e))) requireWhole(e);
 }
 
 /// The entry that stands for its component: never one that came by a crack, for those are last.
@@ -284,6 +304,7 @@ void EntryBodies::collectForces(yade::Scene& scene, const World& world,
     const Vec2 force = inPlane(scene.forces.getForce(ids_[e]));
     const double torque = scene.forces.getTorque(ids_[e])[2];
     if (force == Vec2{} && torque == 0) continue;
+    requireWhole(e);
     if (forces.empty()) forces.resize(nodes.size());
     const Frame frame(world.surfaces, EntryId(e));
     for (int k = 0; k < frame.middle.count; ++k)

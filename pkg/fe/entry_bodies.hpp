@@ -28,6 +28,8 @@ class EntryBodies {
 
   /// Throws RunError if a body is not in this scene any more.
   void requireAll(const yade::Scene& scene);
+  /// Throws RunError if a body has lost its shape, its state or its material.
+  void requireWhole() const;
   /// Shapes and states as of now. `dt`: what an integrator will still move the bodies by (s), 0:
   /// nothing will. `first`: of the entries from there on.
   void update(const World& world, double dt, int threads, std::size_t first = 0);
@@ -35,7 +37,7 @@ class EntryBodies {
   /// (m) What setHalo was told; NaN without bodies.
   [[nodiscard]] double halo() const;
   /// Forces and torques on the bodies, as forces on the nodes: their sum, their moment and their
-  /// power are kept. Leaves `forces` empty if there are none.
+  /// power are kept. Leaves `forces` empty if there are none. Throws as requireWhole.
   void collectForces(yade::Scene& scene, const World& world, std::vector<Vec2>& forces) const;
 
   /// none() for a body that is not one of these.
@@ -55,6 +57,7 @@ class EntryBodies {
   void restore(std::vector<yade::Body::id_t> ids);
 
  private:
+  void requireWhole(std::size_t entry) const;
   void append(yade::Scene& scene, const World& world, EntryId entry,
               const yade::shared_ptr<yade::Material>& material);
   void appendNone();

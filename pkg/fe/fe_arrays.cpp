@@ -2,9 +2,12 @@
 
 #include <unistd.h>
 
+#include <mutex>
+
 #include "dynamics/element_state.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/fragments.hpp"
+#include "fe/running.hpp"
 #include "mesh/polygon.hpp"
 #include "mesh/structured.hpp"
 #include "mesh/triangulate.hpp"
@@ -35,6 +38,14 @@ constexpr const char* kIndex = "uint32";
 /// (bytes) Of which all the rest takes some, too.
 double memoryOfMachine() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+/// Runs `work`, which changes the scene, between two steps.
+template <class Work>
+auto change(const FESolver& solver, const Work& work) {
+  requirePaused();
+  const std::lock_guard guard(solver.betweenSteps());
+  return asValueError(work);
 }
 
 py::dict toDict(const TriangleMesh& mesh) {
@@ -82,15 +93,19 @@ int addMesh(FESolver& solver, const py::dict& input) {
   const bool smoothed = py::extract<bool>(input["smoothed"]);
   spec.element = smoothed ? ElementKind::kSmoothed : ElementKind::kLinear;
   const yade::shared_ptr<FEMat> material = py::extract<yade::shared_ptr<FEMat>>(input["material"]);
-  return asValueError([&] { return solver.addBody(mesh, std::move(spec), material); });
+  return change(solver, [&] { return solver.addBody(mesh, std::move(spec), material); });
+}
+
+void takeBody(FESolver& solver, int component) {
+  change(solver, [&] { solver.removeBody(component); });
 }
 
 void setLoads(FESolver& solver, const py::object& loads) {
-  asValueError([&] { solver.changeWorld().setLoads(fromBytes<Vec2>(loads)); });
+  change(solver, [&] { solver.changeWorld().setLoads(fromBytes<Vec2>(loads)); });
 }
 
 void prescribe(FESolver& solver, const py::object& nodes, int held, double vx, double vy) {
-  asValueError([&] {
+  change(solver, [&] {
     solver.changeWorld().prescribe(fromBytes<NodeId>(nodes), static_cast<std::uint8_t>(held),
                                    {vx, vy});
   });
@@ -201,15 +216,6 @@ py::dict droppedOf(const FESolver& solver) {
   result["energy"] = world.ledger.dropped;
   result["count"] = dropped.count;
   return result;
-}
-
-std::unique_lock<std::recursive_mutex> waitBetweenSteps(const FESolver& solver) {
-  std::unique_lock lock(solver.betweenSteps(), std::try_to_lock);
-  if (lock) return lock;
-  PyThreadState* const state = PyEval_SaveThread();
-  lock.lock();
-  PyEval_RestoreThread(state);
-  return lock;
 }
 
 std::size_t segmentsOf(const FESolver& solver) {

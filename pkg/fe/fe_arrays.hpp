@@ -2,7 +2,6 @@
 // Arrays between C++ and Python: NumPy arrays out, as copies, and bytes of such arrays in.
 
 #include <cstring>
-#include <mutex>
 #include <stdexcept>
 #include <vector>
 
@@ -44,6 +43,8 @@ yade::py::dict meshOfRectangle(double left, double bottom, double right, double 
 /// `FESolver._addMesh` of yadefrag/solver.py, which has checked all input.
 int addMesh(FESolver& solver, const yade::py::dict& input);
 
+void takeBody(FESolver& solver, int component);
+
 /// `FESolver._setLoads` and `_prescribe`, likewise.
 void setLoads(FESolver& solver, const yade::py::object& loads);
 void prescribe(FESolver& solver, const yade::py::object& nodes, int held, double vx, double vy);
@@ -62,9 +63,6 @@ yade::py::object contactForcesOf(const FESolver& solver);
 yade::py::list surfacesOf(const FESolver& solver);
 /// Segments that are there.
 std::size_t segmentsOf(const FESolver& solver);
-/// Keeps steps of another thread off as long as it lives. Waits without Python's lock, for who has
-/// this one may wait for that.
-std::unique_lock<std::recursive_mutex> waitBetweenSteps(const FESolver& solver);
 yade::py::dict droppedOf(const FESolver& solver);
 yade::py::dict energyOf(const FESolver& solver);
 /// (J) What the bodies have out of nothing, the most they could have, what rounding makes.

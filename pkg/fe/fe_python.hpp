@@ -2,51 +2,59 @@
 // FESolver's values and methods as Python sees them; addPolygon and the like are Python
 // (python/yadefrag/solver.py).
 
+#include <mutex>
+
 #include "fe/fe_arrays.hpp"
 #include "fe/fe_solver.hpp"
 #include "fracture/checks.hpp"
 
 namespace yadefrag {
 
-/// A value that is read between two steps, if another thread runs the scene.
-template <auto read>
+/// A call that is made between two steps, if another thread runs the scene.
+template <auto call>
 struct Locked;
-template <class Value, class... Rest, Value (*read)(const FESolver&, Rest...)>
-struct Locked<read> {
-  static Value call(const FESolver& self, Rest... rest) {
-    const auto lock = waitBetweenSteps(self);
-    return read(self, rest...);
+template <class Value, class Solver, class... Rest, Value (*function)(Solver&, Rest...)>
+struct Locked<function> {
+  static Value call(Solver& self, Rest... rest) {
+    const std::lock_guard guard(self.betweenSteps());
+    return function(self, rest...);
   }
 };
+
+inline double criticalTimeStepOf(FESolver& solver) { return solver.criticalTimeStep(); }
+inline std::string zoneWarningOf(const FESolver& solver, int component) {
+  return cohesiveZoneWarning(solver.world().model, ComponentId(component));
+}
+inline std::uint64_t searchesOf(const FESolver& solver) { return solver.world().numSearches; }
+inline std::size_t activesOf(const FESolver& solver) {
+  return solver.world().contact.rows().size();
+}
+inline double penetrationOf(const FESolver& solver) {
+  return solver.world().contact.maxPenetration();
+}
+inline std::uint64_t cracksOf(const FESolver& solver) {
+  return solver.world().fracture.numCracks();
+}
 
 template <class PyClass>
 void FESolver::pyExtra(PyClass& pyClass) {
   pyClass.def("_addMesh", &addMesh)
-      .def(
-          "removeBody",
-          +[](FESolver& self, int component) { asValueError([&] { self.removeBody(component); }); },
-          yade::py::args("component"),
-          "Takes a whole body, and its surface's bodies, out of the scene; the numbers of the "
-          "others stay.")
-      .def(
-          "criticalTimeStep",
-          +[](FESolver& self) {
-            const auto lock = waitBetweenSteps(self);
-            return self.criticalTimeStep();
-          },
-          "Longest stable time step (s) of the present mesh, of a body that cracks also when all "
-          "its triangles have come apart; infinite without bodies. An O.dt that changes all the "
-          "time "
-          "should stay below a third of it. It knows of no spheres: see README.md, Limits.")
+      .def("removeBody", &takeBody, yade::py::args("component"),
+           "Takes a whole body, and its surface's bodies, out of the scene; the numbers of the "
+           "others stay.")
+      .def("criticalTimeStep", &Locked<criticalTimeStepOf>::call,
+           "Longest stable time step (s) of the present mesh, of a body that cracks also when all "
+           "its triangles have come apart; infinite without bodies. An O.dt that changes all the "
+           "time should stay below a third of it. It knows of no spheres: see README.md, Limits.")
       .def("fragments", &Locked<fragmentsOf>::call, (yade::py::arg("held") = false),
            "List of dicts, one per part that hangs together: component, triangles (how many), mass "
            "(kg), area (m²), centroid (m), velocity (m/s), spin (rad/s). With held=True, parts "
            "that a crack with fracture energy still holds together count as one.")
+      .def("_zoneWarning", &Locked<zoneWarningOf>::call)
       .def(
-          "_zoneWarning",
-          +[](const FESolver& self, int component) {
-            return cohesiveZoneWarning(self.world().model, ComponentId(component));
-          })
+          "_lock", +[](const FESolver& self) { self.betweenSteps().lock(); })
+      .def(
+          "_unlock", +[](const FESolver& self) { self.betweenSteps().unlock(); })
       .def("_setLoads", &setLoads)
       .def("_prescribe", &prescribe);
   valuesOf(pyClass);
@@ -99,20 +107,11 @@ void FESolver::valuesOf(PyClass& pyClass) {
 
 template <class PyClass>
 void FESolver::countersOf(PyClass& pyClass) {
-  pyClass
-      .add_property(
-          "numSearches", +[](const FESolver& self) { return self.world().numSearches; },
-          "Contact searches so far.")
-      .add_property(
-          "numActives", +[](const FESolver& self) { return self.world().contact.rows().size(); },
-          "Points in contact in the last step.")
-      .add_property(
-          "maxPenetration",
-          +[](const FESolver& self) { return self.world().contact.maxPenetration(); },
-          "Deepest penetration (m) that was left in the last step.")
-      .add_property(
-          "numCracks", +[](const FESolver& self) { return self.world().fracture.numCracks(); },
-          "Cracked edges so far.");
+  pyClass.add_property("numSearches", &Locked<searchesOf>::call, "Contact searches so far.")
+      .add_property("numActives", &Locked<activesOf>::call, "Points in contact in the last step.")
+      .add_property("maxPenetration", &Locked<penetrationOf>::call,
+                    "Deepest penetration (m) that was left in the last step.")
+      .add_property("numCracks", &Locked<cracksOf>::call, "Cracked edges so far.");
 }
 
 }  // namespace yadefrag

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <mutex>
 #include <sstream>
 #include <stdexcept>
 
@@ -20,15 +21,16 @@ namespace yadefrag {
 /// One step: from the forces that spheres and others have put on the boundary in this step to the
 /// boundary's new place.
 void FESolver::action() {
+  const std::lock_guard guard(betweenSteps_);
   if (bodies_.ids().empty()) return;
-  const std::lock_guard lock(betweenSteps_);
   surveyed_ = 0;
   if (scene->isPeriodic)
     throw std::invalid_argument("FESolver: the scene is periodic, which its bodies cannot be.");
-  requireOnce();
+  order_.require(*scene, *this);
   bodies_.requireAll(*scene);
   giveSettings();
   if (world_.search.isDue || world_.search.isVoid) {
+    bodies_.requireWhole();
     // After a step that was refused the halo is that of its own search, not that of the bounds.
     const bool isSearched = bodies_.halo() == .5 * world_.search.halo;
     if (isSearched && pairsOfCollider(*scene, *this, bodies_, pairs_)) world_.takePairs(pairs_);
@@ -112,13 +114,6 @@ void FESolver::trackEnergy() const {
   set("feDamping", ledger.damping);
   if (minFragmentArea > 0) set("feDropped", ledger.dropped);
   set("feExternal", -ledger.external);  // so that the sum of all is constant
-}
-
-/// Twice in a loop, and bodies would go twice as far as all others.
-void FESolver::requireOnce() const {
-  const auto isThis = [this](const auto& engine) { return engine.get() == this; };
-  if (std::count_if(scene->engines.begin(), scene->engines.end(), isThis) > 1)
-    throw std::invalid_argument("O.engines has the same FESolver more than once; once is right.");
 }
 
 /// Bodies of two solvers would not see each other.

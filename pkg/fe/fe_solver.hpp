@@ -1,15 +1,16 @@
 #pragma once
 // The engine that moves finite-element bodies.
 
-#include <mutex>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "abi/yade.hpp"
+#include "fe/engine_order.hpp"
 #include "fe/entry_bodies.hpp"
 #include "fe/fe_archive.hpp"
 #include "fe/materials.hpp"
+#include "fe/step_lock.hpp"
 #include "publish/published.hpp"
 #include "step/world.hpp"
 
@@ -39,8 +40,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
     return world_;
   }
   [[nodiscard]] const EntryBodies& entryBodies() const { return bodies_; }
-  /// Held by each step: arrays grow in it.
-  [[nodiscard]] std::recursive_mutex& betweenSteps() const { return betweenSteps_; }
+  /// Held by each step, and by each read and change from Python.
+  [[nodiscard]] StepLock& betweenSteps() const { return betweenSteps_; }
 
   std::string correction = "lagrange";
   int passes = 1;
@@ -65,7 +66,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   template <class PyClass>
   static void countersOf(PyClass& pyClass);
   void requireAlone(const yade::Scene& here) const;
-  void requireOnce() const;
   void checkSettings() const;
   void giveSettings();
   void warn(std::size_t known) const;
@@ -78,10 +78,11 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
 
   World world_;
   EntryBodies bodies_;
+  EngineOrder order_;
   std::vector<BoxPair> pairs_;
   std::size_t surveyed_ =
       0;  // segments that the halo was chosen for, and that have not moved since
-  mutable std::recursive_mutex betweenSteps_;
+  mutable StepLock betweenSteps_;
 };
 
 constexpr auto FESolver::attributes() {

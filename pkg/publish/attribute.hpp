@@ -1,7 +1,9 @@
 #pragma once
 // One attribute of a published class: a name for Python and archives, and where it is kept.
 
+#include <mutex>
 #include <type_traits>
+#include <variant>
 
 #include "abi/yade.hpp"
 
@@ -27,6 +29,16 @@ constexpr Attribute<Class, Value> attribute(const char* name, Value Class::*memb
 template <class Value>
 inline constexpr bool kByReference = std::is_base_of_v<Eigen::MatrixBase<Value>, Value>;
 
+/// Keeps a step of another thread off while attributes are read or set. A class that steps in a
+/// thread of its own has a `betweenSteps()` that can be locked; for all others this is nothing.
+template <class Self>
+auto guardOf(const Self& self) {
+  if constexpr (requires { self.betweenSteps(); })
+    return std::unique_lock(self.betweenSteps());
+  else
+    return std::monostate();
+}
+
 // Both take Self, which Python knows, where the member may belong to a base that it does not.
 template <class Self, class Class, class Value>
 yade::py::object attributeGetter(Value Class::*member) {
@@ -36,8 +48,12 @@ yade::py::object attributeGetter(Value Class::*member) {
                              py::return_internal_reference<>(),
                              boost::mpl::vector<Value&, Self&>());
   } else {
-    return py::make_function([member](Self& self) -> Value { return self.*member; },
-                             py::default_call_policies(), boost::mpl::vector<Value, Self&>());
+    return py::make_function(
+        [member](Self& self) -> Value {
+          [[maybe_unused]] const auto guard = guardOf(self);
+          return self.*member;
+        },
+        py::default_call_policies(), boost::mpl::vector<Value, Self&>());
   }
 }
 
@@ -48,6 +64,7 @@ yade::py::object attributeSetter(const Attribute<Class, Value>& attr) {
   const bool notify = attr.has(yade::Attr::triggerPostLoad);
   return py::make_function(
       [member, notify](Self& self, const Value& value) {
+        [[maybe_unused]] const auto guard = guardOf(self);
         self.*member = value;
         if (notify) self.callPostLoad();
       },

@@ -35,6 +35,8 @@ boost::shared_ptr<Self> makeFromPython(py::tuple args, py::dict kw) {
 //   postLoad(Self&)      optional, public: called after attributes changed or were loaded
 //   archiveMore(archive) optional, public, template: state that is no attribute, both ways
 //   pyExtra(pyClass)     optional, public, static template: more definitions for Python
+//   betweenSteps()       optional, public: a lock that is held while attributes are read, set or
+//   saved
 // Base may be a class that YADE does not know; YadeBase is the nearest one that it does.
 template <class Self, class Base, class YadeBase = Base>
 class Published : public Base {
@@ -48,6 +50,7 @@ class Published : public Base {
   }
 
   void pySetAttr(const std::string& key, const py::object& value) override {
+    [[maybe_unused]] const auto guard = guardOf(self());
     const auto setIfNamed = [&](const auto& attr) {
       if (key != attr.name) return false;
       auto& slot = self().*attr.member;
@@ -60,6 +63,7 @@ class Published : public Base {
   }
 
   py::dict pyDict() const override {
+    [[maybe_unused]] const auto guard = guardOf(self());
     py::dict result;
     forEach([&](const auto& attr) {
       if (!attr.has(yade::Attr::hidden)) result[attr.name] = self().*attr.member;
@@ -106,6 +110,7 @@ class Published : public Base {
 
   template <class Archive>
   void serialize(Archive& archive, unsigned /*version*/) {
+    [[maybe_unused]] const auto guard = guardOf(self());
     using boost::serialization::make_nvp;
     static const std::string baseName = YadeBase::getClassName();
     archive& make_nvp(baseName.c_str(), boost::serialization::base_object<YadeBase>(self()));

@@ -7,6 +7,7 @@
 #include "fe/fe_solver.hpp"
 #include "fe/materials.hpp"
 #include "fe/polygon_python.hpp"
+#include "fe/running.hpp"
 #include "fe/segment_functors.hpp"
 #include "fe/surface_segment.hpp"
 #include "publish/publish.hpp"
@@ -40,6 +41,13 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("meshOfPolygon", &yadefrag::meshOfPolygon);
   py::def("meshOfRectangle", &yadefrag::meshOfRectangle);
   py::def("polygonOfText", &yadefrag::polygonOfText);
+  py::def("isInStep", &yadefrag::isInStep);
+  py::def("requirePaused", &yadefrag::requirePaused,
+          "Raises RuntimeError if another thread runs the scene.");
+  py::def("waitForStart", &yadefrag::waitForStart);
+  py::def("stopRun", &yadefrag::stopRun);
+  py::def(
+      "dropReference", +[](const py::object& object) { Py_DECREF(object.ptr()); });
   py::def("publish", &yadefrag::NewClasses::publishAll,
           "Adds the new classes to YADE, once; returns their names.");
 }

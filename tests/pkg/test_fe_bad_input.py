@@ -1,13 +1,11 @@
 """What a newcomer types wrongly at an FESolver: one sentence, and the scene as it was."""
 import builtins
 import math
-import types
 
 import numpy as np
 import pytest
 
 import yadefrag
-from yadefrag import guards
 from fe_scene import fe, finder, impact, run, steps
 from yade import wrapper as w
 
@@ -221,50 +219,12 @@ def test_periodicLaterIsRefused():
     assert np.array_equal(solver.nodes, before)
 
 
-def test_clumpsAreRefused():
-    """YADE itself would end the process, for want of a mass."""
-    impact('LebesgueCollider')
-    ids = O.bodies.append([w.Body(), w.Body()])
-    for call in (lambda: O.bodies.clump([0, 1]), lambda: O.bodies.addToClump([3], ids[0])):
-        with pytest.raises(ValueError, match='part of the boundary of body 0 .* in a clump'):
-            call()
-
-
 @pytest.mark.parametrize('component', [2, -1, 'a', None, 1.5, True])
 def test_noSuchBodyToRemove(component):
     solver = impact()
     with pytest.raises(ValueError, match='^component is '):
         solver.removeBody(component)
     assert len(solver.surfaces) == 2
-
-
-def test_nothingChangesWhileItRuns(monkeypatch):
-    """In another thread. Without one: YADE may end the process where a test stops a run."""
-    solver = impact('LebesgueCollider')
-    loads = solver.loads
-    with monkeypatch.context() as patch:
-        patch.setattr(guards, 'wrapper', types.SimpleNamespace(
-            Omega=lambda: types.SimpleNamespace(running=True)))
-        for call in (lambda: solver.addPolygon(kSquare, size=.5, material='m'),
-                     lambda: solver.removeBody(0), lambda: setattr(solver, 'loads', loads),
-                     lambda: solver.prescribe([0], vx=1)):
-            with pytest.raises(RuntimeError, match='^The simulation is running: call O.pause'):
-                call()
-    assert len(solver.surfaces) == 2
-
-
-def test_aPyRunnerMayChangeWhatRuns():
-    """It is in the engines' own thread."""
-    solver = impact('LebesgueCollider')
-    added = []
-    builtins.addOne = lambda: added or added.append(solver.addPolygon(
-        yadefrag.rectangle((1, 0), (2, 1)), size=.5, material='m'))
-    O.engines = O.engines + [w.PyRunner(command='addOne()', iterPeriod=20)]
-    try:
-        O.run(60, True)
-    finally:
-        del builtins.addOne
-    assert added == [2] and len(solver.surfaces) == 3
 
 
 @pytest.mark.parametrize('spoil, error', [

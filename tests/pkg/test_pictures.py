@@ -13,8 +13,12 @@ from yadefrag import export, pictures
 O = scenes.O
 
 
+def standIn(**values):
+    return types.SimpleNamespace(_lock=lambda: None, _unlock=lambda: None, **values)
+
+
 def makeSolver():
-    return types.SimpleNamespace(
+    return standIn(
         nodes=numpy.array([[0, 0], [1, 0], [1, 1], [0, 1.]]),
         displacements=numpy.array([[0, 0], [.1, 0], [.1, .2], [0, .2]]),
         velocities=numpy.array([[3., 4], [0, 0], [1, 0], [0, 2]]),
@@ -26,7 +30,7 @@ def makeSolver():
 
 
 def makeEmpty():
-    return types.SimpleNamespace(
+    return standIn(
         nodes=numpy.empty((0, 2)), displacements=numpy.empty((0, 2)),
         velocities=numpy.empty((0, 2)), contactForces=numpy.empty((0, 2)),
         triangles=numpy.empty((0, 3), dtype=int), stress=numpy.empty((0, 3)),

@@ -18,7 +18,7 @@ _yadefrag.checkRunningYade()
 __all__ = list(_yadefrag.publish())
 
 # Only now: FESolver is there.
-from yadefrag import attributes, solver  # noqa: E402
+from yadefrag import attributes, lifecycle, solver  # noqa: E402
 from yadefrag.export import exportVTK  # noqa: E402
 from yadefrag.fragments import (fragmentTable, plotFracture, plotFragmentSizes,  # noqa: E402
                                  recordFracture)
@@ -40,6 +40,7 @@ def _renewDispatchers():
 
 
 solver.install()
+lifecycle.install()
 _renewDispatchers()
 for _name in __all__:
     globals()[_name] = getattr(wrapper, _name)

@@ -3,7 +3,7 @@
 import numpy
 
 from yadefrag.files import replacing
-from yadefrag.shown import requireSolver, shownMesh
+from yadefrag.shown import betweenSteps, requireSolver, shownMesh
 from yadefrag.values import path
 
 _OF_NODES = (('displacement', 'displacements'), ('velocity', 'velocities'),
@@ -28,14 +28,21 @@ def exportVTK(fe, file):
 
     name = path('file', file, '.vtu')
     requireSolver(fe)
-    nodes, triangles, corners = shownMesh(fe)
-    if len(triangles) == 0:
+    places, corners, points, cells = _state(fe)
+    if len(corners) == 0:
         raise ValueError('fe has no bodies to write, add one with fe.addPolygon first.')
-    points = {name: _spatial(getattr(fe, attribute)[nodes]) for name, attribute in _OF_NODES}
-    cells = {'stress': [numpy.asarray(fe.stress, dtype=float)[triangles]],
-             'component': [numpy.asarray(fe.components, dtype=numpy.int32)[triangles]],
-             'fragment': [numpy.asarray(fe.fragmentOf, dtype=numpy.int32)[triangles]]}
-    mesh = meshio.Mesh(_spatial(fe.nodes[nodes]), [('triangle', corners.astype(numpy.int64))],
+    mesh = meshio.Mesh(_spatial(places), [('triangle', corners.astype(numpy.int64))],
                        point_data=points, cell_data=cells)
     with replacing(name) as part:
         mesh.write(part, file_format='vtu')
+
+
+def _state(fe):
+    """(nodes' positions, triangles' corners, values at nodes, values in triangles) of one step."""
+    with betweenSteps(fe):
+        nodes, triangles, corners = shownMesh(fe)
+        points = {name: _spatial(getattr(fe, attribute)[nodes]) for name, attribute in _OF_NODES}
+        cells = {'stress': [numpy.asarray(fe.stress, dtype=float)[triangles]],
+                 'component': [numpy.asarray(fe.components, dtype=numpy.int32)[triangles]],
+                 'fragment': [numpy.asarray(fe.fragmentOf, dtype=numpy.int32)[triangles]]}
+        return fe.nodes[nodes], corners, points, cells

@@ -5,7 +5,7 @@ import os
 import numpy
 
 from yadefrag.files import appendText, savePicture, writeText
-from yadefrag.shown import requireSolver
+from yadefrag.shown import betweenSteps, requireSolver
 from yadefrag.values import flag, isWhole, path, plain, refuse, shownPath
 
 _COLUMNS = (('fragment', '', int), ('component', '', int), ('triangles', '', int),
@@ -109,9 +109,11 @@ def recordFracture(fe, file, append=False):
 
     def record():
         from yade.wrapper import Omega
-        scene, energy = Omega(), fe.energy
-        row = (scene.iter, scene.time, fe.numCracks, fe.numSegments, len(fe.fragments()),
-               *(energy.get(e, 0.) for e in _ENERGIES))
+        scene = Omega()
+        with betweenSteps(fe):
+            energy = fe.energy
+            row = (scene.iter, scene.time, fe.numCracks, fe.numSegments, len(fe.fragments()),
+                   *(energy.get(e, 0.) for e in _ENERGIES))
         appendText(name, ','.join(map(repr, row)) + '\n')
 
     record()
@@ -169,7 +171,7 @@ def plotFracture(file, picture=None):
 
 def fragmentColours(fe, former=None):
     """(m) a small number for each triangle: the same within a fragment, different beside it; 0 for
-    dropped ones.
+    dropped ones. To be called between two steps.
 
     former  those of an earlier call: a fragment keeps its colour where it can
     """

@@ -1,35 +1,19 @@
-"""What must not happen to the bodies of an FESolver, and when: refused in one sentence."""
+"""What must not happen to the bodies of an FESolver: refused in one sentence."""
 
-import sys
-import threading
+import functools
+import numbers
 
 from yade import wrapper
+from yadefrag import _yadefrag
 from yadefrag.values import whole
-
-
-def requirePaused():
-    """The step of another thread must not meet a scene that changes. PyRunners are in its own."""
-    if wrapper.Omega().running and threading.current_thread() is threading.main_thread():
-        raise RuntimeError('The simulation is running: call O.pause() and O.wait() first, or do '
-                           'this from a PyRunner.')
 
 
 def requireNoStep(what):
     """A run within a step would wait for the end of that step, which waits for the run."""
-    omega = wrapper.Omega()
-    # After a step that an exception ended, subStep is as within one; only there a PyRunner's
-    # command is on the stack.
-    if omega.subStep >= 0 and '<string>' in _filesOfStack():
+    if _yadefrag.isInStep():
         raise RuntimeError('%s runs the scene: it cannot be called within a step, as from a '
                            'PyRunner.' % what)
-    requirePaused()
-
-
-def _filesOfStack():
-    frame = sys._getframe()
-    while frame:
-        yield frame.f_code.co_filename
-        frame = frame.f_back
+    _yadefrag.requirePaused()
 
 
 def _pieceOf(body):
@@ -38,40 +22,83 @@ def _pieceOf(body):
     return shape if isinstance(shape, wrapper.SurfaceSegment) and shape.entry >= 0 else None
 
 
-def guardErase(erase):
+def _pieceAt(container, id):
+    isPlace = isinstance(id, numbers.Integral) and 0 <= id < len(container)
+    return _pieceOf(container[int(id)]) if isPlace else None
+
+
+def _guardErase(erase):
     """O.bodies.erase that leaves single pieces of a boundary alone."""
+    @functools.wraps(erase)
     def guarded(self, id, eraseClumpMembers=False):
-        piece = _pieceOf(self[id]) if 0 <= id < len(self) else None
+        piece = _pieceAt(self, id)
         if piece:
             raise ValueError(
                 'body #%d is part of the boundary of body %d of FESolver, it cannot be erased '
                 'alone; FESolver.removeBody(%d) takes the whole away.' %
                 (id, piece.component, piece.component))
         return erase(self, id, eraseClumpMembers)
-
-    guarded.__doc__ = erase.__doc__
     return guarded
 
 
-def guardClump(clump):
-    """O.bodies.clump and addToClump without pieces of a boundary: YADE would end the process."""
+def _guardInsert(insert):
+    """O.bodies.insertAtId that puts nothing in the place of a piece of a boundary."""
+    @functools.wraps(insert)
+    def guarded(self, body, id):
+        piece = _pieceAt(self, id)
+        if piece:
+            raise ValueError('body #%d is part of the boundary of body %d of FESolver, no other '
+                             'can take its place.' % (id, piece.component))
+        return insert(self, body, id)
+    return guarded
+
+
+def _requireNoPiece(container, id):
+    piece = _pieceAt(container, id)
+    if piece:
+        raise ValueError('body #%d is part of the boundary of body %d of FESolver, it cannot be '
+                         'in a clump.' % (id, piece.component))
+
+
+def _guardClump(clump):
+    """A function of O.bodies whose first argument is numbers of bodies: without pieces of a
+    boundary, for which YADE would end the process."""
+    @functools.wraps(clump)
     def guarded(self, ids, *others, **settings):
-        for id in ids if isinstance(ids, (list, tuple)) else [ids]:
-            piece = _pieceOf(self[id]) if isinstance(id, int) and 0 <= id < len(self) else None
-            if piece:
-                raise ValueError('body #%d is part of the boundary of body %d of FESolver, it '
-                                 'cannot be in a clump.' % (id, piece.component))
+        try:
+            ids = list(ids)
+        except TypeError:
+            pass  # no list: YADE says so
+        else:
+            for id in ids:
+                _requireNoPiece(self, id)
         return clump(self, ids, *others, **settings)
-
-    guarded.__doc__ = clump.__doc__
     return guarded
 
 
-def guardRemove(remove):
+def _guardBodies(function):
+    """A function of O.bodies whose arguments are bodies of clumps, likewise."""
+    @functools.wraps(function)
+    def guarded(self, *bodies):
+        for body in bodies:
+            if isinstance(body, wrapper.Body) and _pieceOf(body):
+                _requireNoPiece(self, body.id)
+        return function(self, *bodies)
+    return guarded
+
+
+def _guardRemove(remove):
     """FESolver.removeBody that says what is wrong with a number."""
+    @functools.wraps(remove)
     def guarded(self, component):
-        requirePaused()
         return remove(self, whole('component', component, -2**31, 'the number of a body'))
-
-    guarded.__doc__ = remove.__doc__
     return guarded
+
+
+def install():
+    wrapper.FESolver.removeBody = _guardRemove(wrapper.FESolver.removeBody)
+    for guard, names in ((_guardErase, ['erase']), (_guardInsert, ['insertAtId']),
+                         (_guardClump, ['clump', 'addToClump']),
+                         (_guardBodies, ['deleteClumpMember', 'deleteClumpBody'])):
+        for name in names:
+            setattr(wrapper.BodyContainer, name, guard(getattr(wrapper.BodyContainer, name)))

@@ -22,7 +22,7 @@ def _stress(fe, field):
 
 
 def _values(fe, field):
-    """(values, are they one per node) of a field, both None for no field."""
+    """(values, are they one per node) of a field but 'fragment', both None for no field."""
     if field is None:
         return None, None
     if isinstance(field, str):
@@ -30,8 +30,6 @@ def _values(fe, field):
             return numpy.linalg.norm(numpy.asarray(fe.velocities, dtype=float), axis=1), True
         if field == 'component':
             return numpy.asarray(fe.components, dtype=float), False
-        if field == 'fragment':
-            return _fragmentColours(fe) % 20, False
         if field in _UNITS:
             return _stress(fe, field), False
         refuse('field', field, 'one of %s, an array or None' % ', '.join(map(repr, _UNITS)))
@@ -62,19 +60,42 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None):
     ValueError for any other field or limits, and for a solver without bodies.
     """
     _requireBodies(fe)
-    values, perNode = _values(fe, field)
+    picture = _Picture(fe, field)
     limits = _limits(limits)
     ax = newAxes() if ax is None else requireAxes(ax)
-    _draw(ax, fe, field, values, perNode, limits)
+    _draw(ax, picture, limits)
     if file is not None:
         savePicture(ax.figure, file, dpi=150)
     return ax
 
 
+class _Picture:
+    """What there is to draw of one step: x, y of the nodes, triangles, their or the nodes' values.
+
+    former  as in fragmentColours, which gives the colours
+    """
+
+    def __init__(self, fe, field, former=None):
+        from yadefrag.shown import betweenSteps
+        self.field = field
+        with betweenSteps(fe):
+            if isinstance(field, str) and field == 'fragment':
+                self.colours = _fragmentColours(fe, former)
+                values, perNode = self.colours % 20, False
+            else:
+                values, perNode = _values(fe, field)
+            nodes, shown, self.triangles = _shown(fe)
+            self.x, self.y = numpy.asarray(fe.nodes, dtype=float)[nodes].T
+        self.perNode = perNode
+        self.values = None if values is None else values[nodes if perNode else shown]
+
+
 def _requireBodies(fe):
-    from yadefrag.shown import requireSolver
+    from yadefrag.shown import betweenSteps, requireSolver
     requireSolver(fe)
-    if len(_shown(fe)[1]) == 0:
+    with betweenSteps(fe):
+        isEmpty = len(_shown(fe)[1]) == 0
+    if isEmpty:
         raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
 
 
@@ -137,11 +158,9 @@ def newAxes():
     return figure.add_subplot()
 
 
-def _draw(ax, fe, field, values, perNode, limits):
-    nodes, shown, triangles = _shown(fe)
-    x, y = numpy.asarray(fe.nodes, dtype=float)[nodes].T
-    if values is not None:
-        values = values[nodes if perNode else shown]
+def _draw(ax, picture, limits):
+    x, y, triangles = picture.x, picture.y, picture.triangles
+    field, values = picture.field, picture.values
     lines = .5 if len(triangles) < 2000 else .1
     ax.set_aspect('equal')
     ax.set_xlabel('x (m)')
@@ -155,7 +174,7 @@ def _draw(ax, fe, field, values, perNode, limits):
                      cmap=ListedColormap(_palette()), edgecolors='k', linewidth=lines / 3)
         return
     low, high = limits
-    if perNode:
+    if picture.perNode:
         drawn = ax.tripcolor(x, y, values, triangles=triangles, shading='gouraud', vmin=low,
                              vmax=high)
     else:
@@ -174,8 +193,8 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
     window         ((left, bottom), (right, top)) in m, default all nodes of the first frame and a
                    quarter more on each side
     rate           frames per second of the film
-    When the run is interrupted or fails, the frames until then are written. ValueError, before any
-    step, for counts that are not positive, a field or limits as in plotMesh, a file that is no
+    When the run is interrupted, paused or fails, the frames until then are written. ValueError,
+    before any step, for counts that are not positive, a field or limits as in plotMesh, a file that is no
     .gif, a window that is none; OSError for a file that cannot be written.
     """
     from matplotlib.animation import PillowWriter
@@ -187,7 +206,7 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
     steps, every = whole('steps', steps), whole('every', every)
     rate = number('rate', rate, lambda r: .01 <= r <= 1000,
                   'a number of frames per second from 0.01 to 1000')
-    _limits(limits)
+    limits = _limits(limits)
     low, high = _windowOf(fe) if window is None else _corners(window)
     name = path('file', file, '.gif')
     requireNoStep('animate')
@@ -201,11 +220,10 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
         for done in _runInParts(steps, every):
             figure.clear()
             ax = figure.add_subplot()
+            picture = _Picture(fe, field, colours)
             if field == 'fragment':  # a fragment keeps its colour from frame to frame
-                colours = _fragmentColours(fe, colours)
-                _draw(ax, fe, field, colours % 20, False, (None, None))
-            else:
-                plotMesh(fe, field, ax=ax, limits=limits)
+                colours = picture.colours
+            _draw(ax, picture, limits)
             ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), title='step %d' % done)
             writer.grab_frame()
             frames += 1
@@ -220,11 +238,13 @@ def _checkFilm(fe, field):
     if field is not None and not isinstance(field, str):
         raise ValueError('field is an array, which does not change with the film; it must be a '
                          'name or None.')
-    _values(fe, field)
+    _Picture(fe, field)
 
 
 def _windowOf(fe):
-    nodes = numpy.asarray(fe.nodes, dtype=float)[_shown(fe)[0]]
+    from yadefrag.shown import betweenSteps
+    with betweenSteps(fe):
+        nodes = numpy.asarray(fe.nodes, dtype=float)[_shown(fe)[0]]
     low, high = nodes.min(axis=0), nodes.max(axis=0)
     margin = (high - low).max() / 4
     return low - margin, high + margin
@@ -234,11 +254,15 @@ def _runInParts(steps, every):
     """Runs YADE's scene; yields its step before the first part and after each."""
     from yade.wrapper import Omega
 
+    from yadefrag.progress import runPart
+
     scene = Omega()
     yield scene.iter
     done = 0
     while done < steps:
         part = min(every, steps - done)
-        scene.run(part, True)
+        part, isPaused = runPart(part)
         done += part
         yield scene.iter
+        if isPaused:
+            return

@@ -4,6 +4,7 @@ import sys
 import time
 
 from yade import wrapper
+from yadefrag import _yadefrag, lifecycle
 from yadefrag.guards import requireNoStep
 from yadefrag.values import shown, whole
 
@@ -15,8 +16,8 @@ def runSteps(steps, every=None, call=None):
 
     every, call  if given, call() is called after each `every` steps
     On a terminal a bar shows steps, simulated time and time left. Ctrl-C stops after a whole step,
-    with the scene as it is then; the run can be taken up again. RuntimeError where an engine
-    stopped the run, with what it said in YADE's own message.
+    with the scene as it is then, and so does O.pause() from a PyRunner; the run can be taken up
+    again. RuntimeError where an engine stopped the run, with what it said in YADE's own message.
     """
     steps = whole('steps', steps, most=MOST_STEPS)
     every = None if every is None else whole('every', every, most=MOST_STEPS)
@@ -32,18 +33,17 @@ def runSteps(steps, every=None, call=None):
         while done < steps:
             now = min(portion, steps - done, every - done % every if every else steps)
             start = time.perf_counter()
-            omega.run(now, True)
-            expected = done + now
-            done = omega.iter - begin
+            part, isPaused = runPart(now)
+            done += part
             bar.show(done, omega.time)
-            if done < expected:
-                raise RuntimeError('The run stopped at step %d of %d.' % (done, steps))
-            if call is not None and done % every == 0:
+            if call is not None and part and done % every == 0:
                 call()
+            if isPaused:
+                break
             # Portions of about a tenth of a second: Ctrl-C is heard between them.
             portion = _portion(now, time.perf_counter() - start)
     except KeyboardInterrupt:
-        omega.pause()
+        _yadefrag.stopRun()
         done = omega.iter - begin
         bar.close()
         print('Stopped after %d of %d steps, at %.6g s.' % (done, steps, omega.time),
@@ -52,6 +52,25 @@ def runSteps(steps, every=None, call=None):
     finally:
         bar.close()
     return done
+
+
+def runPart(steps):
+    """Runs `steps` steps; returns how many were done, and whether the run was paused meanwhile.
+
+    RuntimeError where an engine stopped the run.
+    """
+    omega = wrapper.Omega()
+    begin, pauses = omega.iter, lifecycle.pauses()
+    omega.run(steps, True)
+    if omega.iter - begin == steps and pauses == lifecycle.pauses():
+        return steps, False
+    _yadefrag.stopRun()  # O.wait() does not wait for the end of the step that was paused
+    done = omega.iter - begin
+    if done < steps:
+        omega.stopAtIter = -1  # or the next O.run() would stop there
+    if omega.subStep != -1:
+        raise RuntimeError('The run stopped in step %d.' % omega.iter)
+    return done, True
 
 
 def _portion(steps, seconds):

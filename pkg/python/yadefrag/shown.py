@@ -1,8 +1,23 @@
 """What there is to draw and to write of an FESolver: all but dropped fragments."""
 
+import contextlib
+
 import numpy
 
 from yadefrag.values import refuse
+
+
+@contextlib.contextmanager
+def betweenSteps(fe):
+    """Keeps the steps of a run in another thread off: all reads in the block see one state.
+
+    A block within a block of the same thread is fine. It must not wait for the run.
+    """
+    fe._lock()
+    try:
+        yield
+    finally:
+        fe._unlock()
 
 
 def requireSolver(fe):
@@ -12,7 +27,7 @@ def requireSolver(fe):
 
 
 def shownTriangles(fe):
-    """Numbers (k) of the triangles that were not dropped."""
+    """Numbers (k) of the triangles that were not dropped. To be called between two steps."""
     if fe.dropped['count'] == 0:
         return numpy.arange(len(fe.triangles))
     return numpy.nonzero(fe.fragmentOf >= 0)[0]
@@ -20,7 +35,7 @@ def shownTriangles(fe):
 
 def shownMesh(fe):
     """(nodes (n), triangles (k), corners (k, 3)): which nodes and triangles there are, and the
-    triangles' corners as places among these nodes."""
+    triangles' corners as places among these nodes. To be called between two steps."""
     corners = numpy.asarray(fe.triangles)
     triangles = shownTriangles(fe)
     if len(triangles) == len(corners):

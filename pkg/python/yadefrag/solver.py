@@ -12,8 +12,9 @@ import numpy
 
 from yade import wrapper
 from yadefrag import _yadefrag
-from yadefrag.guards import guardClump, guardErase, guardRemove, requirePaused
-from yadefrag.shown import shownTriangles
+from yadefrag import guards
+from yadefrag._yadefrag import requirePaused
+from yadefrag.shown import betweenSteps, shownTriangles
 from yadefrag.values import (flag, isWhole, number, numbersOf, pair, plain, positive, refuse, shown,
                              whole)
 
@@ -342,7 +343,8 @@ def _guardFragments(fragments):
 
 def _minAngle(self):
     """Smallest angle (rad) of any triangle now; inf without bodies."""
-    corners = self.nodes[self.triangles[shownTriangles(self)]]
+    with betweenSteps(self):
+        corners = self.nodes[self.triangles[shownTriangles(self)]]
     if not len(corners):
         return math.inf
     edges = numpy.roll(corners, -1, axis=1) - corners
@@ -376,8 +378,4 @@ def install():
     wrapper.FESolver.minAngle = property(_minAngle, doc=_minAngle.__doc__)
     wrapper.FESolver.loads = property(_getLoads, _setLoads, doc=_getLoads.__doc__)
     wrapper.FESolver.fragments = _guardFragments(wrapper.FESolver.fragments)
-    wrapper.FESolver.removeBody = guardRemove(wrapper.FESolver.removeBody)
-    container = wrapper.BodyContainer
-    container.erase = guardErase(container.erase)
-    container.clump = guardClump(container.clump)
-    container.addToClump = guardClump(container.addToClump)
+    guards.install()

@@ -1,0 +1,69 @@
+#include "fe/engine_order.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace yadefrag {
+namespace {
+
+constexpr const char* kOrder =
+    "; the order is ForceResetter, collider, InteractionLoop, FESolver, NewtonIntegrator.";
+
+using Engines = std::vector<const yade::Engine*>;
+
+bool isA(const yade::Engine* engine, const char* name) { return engine->getClassName() == name; }
+
+/// Engines follow one another in a circle: from the loop on, `user` must come before a reset.
+void requireForces(const Engines& engines, std::size_t loop, const yade::Engine* user) {
+  for (std::size_t i = 1; i < engines.size(); ++i) {
+    const yade::Engine* const next = engines[(loop + i) % engines.size()];
+    if (next == user) return;
+    if (isA(next, "ForceResetter"))
+      throw std::invalid_argument(
+          "O.engines: ForceResetter takes the forces of InteractionLoop "
+          "away before " +
+          user->getClassName() + " can use them" + kOrder);
+  }
+}
+
+}  // namespace
+
+bool EngineOrder::isKnown(const yade::Scene& scene, const yade::Engine& solver) const {
+  return std::equal(scene.engines.begin(), scene.engines.end(), known_.begin(), known_.end(),
+                    [&](const auto& engine, const Place& place) {
+                      const yade::Engine& one = *engine;
+                      return place == Place{&typeid(one), &one == &solver, one.dead};
+                    });
+}
+
+void EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) {
+  if (isKnown(scene, solver)) return;
+  known_.clear();
+  std::vector<Place> places;
+  Engines alive;
+  for (const auto& engine : scene.engines) {
+    const yade::Engine& one = *engine;
+    places.push_back({&typeid(one), &one == &solver, one.dead});
+    if (!one.dead) alive.push_back(&one);
+  }
+  const auto count = std::count(alive.begin(), alive.end(), &solver);
+  if (count > 1)
+    throw std::invalid_argument("O.engines has the same FESolver more than once; once is right.");
+  const auto has = [&](const char* name) {
+    return std::any_of(alive.begin(), alive.end(), [&](auto* one) { return isA(one, name); });
+  };
+  for (std::size_t i = 0; i < alive.size() && count == 1; ++i) {
+    if (!isA(alive[i], "InteractionLoop")) continue;
+    if (!has("ForceResetter"))
+      throw std::invalid_argument(
+          std::string("O.engines has an InteractionLoop and no ForceResetter: the forces of all "
+                      "steps would add up") +
+          kOrder);
+    for (const yade::Engine* user : alive)
+      if (user == &solver || isA(user, "NewtonIntegrator")) requireForces(alive, i, user);
+  }
+  known_.swap(places);
+}
+
+}  // namespace yadefrag

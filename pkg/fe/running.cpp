@@ -1,0 +1,73 @@
+#include "fe/running.hpp"
+
+#include <unwind.h>
+
+#include <cstring>
+#include <stdexcept>
+#include <thread>
+
+#include "abi/yade.hpp"
+#include "fe/without_gil.hpp"
+
+namespace yadefrag {
+namespace {
+
+/// The address of a member function that is not virtual.
+template <class Member>
+_Unwind_Ptr addressOf(Member member) {
+  _Unwind_Ptr address = 0;
+  std::memcpy(&address, &member, sizeof(address));
+  return address;
+}
+
+_Unwind_Reason_Code lookForStep(_Unwind_Context* context, void* found) {
+  static const _Unwind_Ptr step = addressOf(&yade::Scene::moveToNextTimeStep);
+  if (_Unwind_GetRegionStart(context) != step) return _URC_NO_REASON;
+  *static_cast<bool*>(found) = true;
+  return _URC_NORMAL_STOP;
+}
+
+/// YADE's loop goes on until its last step is over, and is waited for by whoever destroys it.
+void replaceLoop() {
+  const WithoutGil free;
+  yade::Omega::instance().createSimulationLoop();
+}
+
+}  // namespace
+
+bool isInStep() {
+  bool found = false;
+  _Unwind_Backtrace(&lookForStep, &found);
+  return found;
+}
+
+void requirePaused() {
+  if (isInStep()) return;
+  if (yade::Omega::instance().isRunning())
+    throw std::runtime_error(
+        "The simulation is running: call O.pause() first, or do this from a PyRunner.");
+  replaceLoop();
+}
+
+void waitForStart(long iter, int subStep) {
+  yade::Omega& omega = yade::Omega::instance();
+  if (isInStep()) return;
+  const auto hasBegun = [&] {
+    const volatile yade::Scene& scene = *omega.getScene();
+    return !omega.isRunning() || scene.iter != iter || scene.subStep != subStep;
+  };
+  // No other thread may pause the run meanwhile, so the GIL is kept. The rest of a step that failed
+  // may need it.
+  if (subStep != -1) {
+    const WithoutGil free;
+    while (!hasBegun()) std::this_thread::yield();
+  }
+  while (!hasBegun()) std::this_thread::yield();
+}
+
+void stopRun() {
+  yade::Omega::instance().pause();
+  if (!isInStep()) replaceLoop();
+}
+
+}  // namespace yadefrag

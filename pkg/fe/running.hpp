@@ -1,0 +1,21 @@
+#pragma once
+// Does the scene run, in which thread, and when is its last step over.
+
+namespace yadefrag {
+
+/// Is this thread within a step of the scene, as a PyRunner's command is.
+bool isInStep();
+
+/// To be called before the scene changes. Waits until the last step of a run that was paused is
+/// over: YADE's O.wait() does not. Throws std::runtime_error if another thread runs the scene.
+void requirePaused();
+
+/// To be called after a run was begun: returns once its thread is in its first step. Until then
+/// YADE must not be told to stop or reset, for its thread would find its own loop destroyed. `iter`
+/// and `subStep` are those of the scene before.
+void waitForStart(long iter, int subStep);
+
+/// Stops a run of another thread; returns after its last step. Python's lock is given up meanwhile.
+void stopRun();
+
+}  // namespace yadefrag

@@ -1,0 +1,126 @@
+"""What YADE's O does around a run in the background: it stops whole, is saved whole and freed whole."""
+
+import atexit
+import contextlib
+import functools
+import sys
+import threading
+
+from yade import wrapper
+from yadefrag import _yadefrag
+
+_Omega = wrapper.Omega
+_saving = threading.RLock()  # held as long as a run rests for a save
+_pauses = 0
+
+
+def pauses():
+    """How often O.pause() has been called."""
+    return _pauses
+
+
+@contextlib.contextmanager
+def _resting():
+    """A run of another thread rests between two steps, and goes on afterwards."""
+    omega = _Omega()
+    if _yadefrag.isInStep() or not omega.running or \
+            not any(isinstance(e, wrapper.FESolver) for e in omega.engines):
+        yield
+        return
+    with _saving:
+        before = omega.stopAtIter, omega.stopAtTime, _pauses
+        _yadefrag.stopRun()
+        # A step that failed, the end of the run and O.pause() are final.
+        isToGoOn = omega.subStep == -1 and \
+            before == (omega.stopAtIter, omega.stopAtTime, _pauses)
+        try:
+            yield
+        finally:
+            if isToGoOn:
+                omega.run()
+
+
+def _savedWhole(save):
+    @functools.wraps(save)
+    def saved(self, *arguments, **settings):
+        with _resting():
+            return save(self, *arguments, **settings)
+    return saved
+
+
+def _countPauses(pause):
+    @functools.wraps(pause)
+    def counted(self):
+        global _pauses
+        _pauses += 1
+        pause(self)
+    return counted
+
+
+def _waitForAll(wait):
+    """O.wait() that does not take the rest for a save for the end of the run."""
+    @functools.wraps(wait)
+    def waited(self):
+        while True:
+            wait(self)
+            with _saving:
+                if not self.running:
+                    return
+    return waited
+
+
+def _runBegun(run):
+    """O.run() that returns once the run has begun: YADE's may crash if it is stopped before."""
+    @functools.wraps(run)
+    def runs(self, nSteps=-1, wait=False):
+        before = self.iter, self.subStep
+        run(self, nSteps, False)
+        _yadefrag.waitForStart(*before)
+        if wait:
+            self.wait()
+    return runs
+
+
+def _resetStopped(reset):
+    """YADE's O.reset() waits for the last step with Python's lock, which a PyRunner would need."""
+    @functools.wraps(reset)
+    def stopped(self):
+        if not _yadefrag.isInStep():
+            _yadefrag.stopRun()
+        reset(self)
+    return stopped
+
+
+@functools.lru_cache(maxsize=None)
+def _lostReferences():
+    """How many references YADE loses to each item of a list that is assigned to an attribute."""
+    dispatcher, functor = wrapper.BoundDispatcher(), wrapper.Bo1_Sphere_Aabb()
+    before = sys.getrefcount(functor)
+    dispatcher.functors = [functor]
+    dispatcher.functors = []
+    return sys.getrefcount(functor) - before
+
+
+def _setFreed(setEngines):
+    """O.engines = [...] after which the engines can be freed, with all that they hold."""
+    def setFreed(self, engines):
+        lost = _lostReferences()
+        setEngines(self, engines)
+        if isinstance(engines, (list, tuple)):
+            for engine in engines:
+                for _ in range(lost):
+                    _yadefrag.dropReference(engine)
+    return setFreed
+
+
+def install():
+    for name in ('save', 'saveTmp', 'sceneToString'):
+        setattr(_Omega, name, _savedWhole(getattr(_Omega, name)))
+    _Omega.pause = _countPauses(_Omega.pause)
+    _Omega.wait = _waitForAll(_Omega.wait)
+    _Omega.run = _runBegun(_Omega.run)
+    _Omega.reset = _resetStopped(_Omega.reset)
+    engines = _Omega.engines
+    _Omega.engines = property(engines.fget, _setFreed(engines.fset), doc=engines.__doc__)
+    # The process must not end in the middle of a step.
+    atexit.register(_yadefrag.stopRun)

@@ -1,0 +1,126 @@
+"""What a script does to the bodies of an FESolver behind its back: refused, or without harm."""
+import builtins
+import gc
+import weakref
+
+import numpy as np
+import pytest
+
+import yadefrag
+from fe_impact import impact, steps
+from fe_scene import impact as elasticImpact
+from yade import utils
+from yade import wrapper as w
+
+O = builtins.O
+
+
+# --- clumps and single pieces
+
+def addClump():
+    """Numbers of two spheres, and of their clump."""
+    clump, ids = O.bodies.appendClumped([utils.sphere((9, 0, 0), 1), utils.sphere((9, 1, 0), 1)])
+    return ids, clump
+
+
+@pytest.mark.parametrize('kind', [list, tuple, iter, np.array, lambda ids: range(2), set,
+                                  lambda ids: (i for i in ids), lambda ids: np.array(ids)[::1],
+                                  lambda ids: map(int, ids), lambda ids: dict.fromkeys(ids)])
+def test_clumpsAreRefused(kind):
+    """YADE itself would end the process, for want of a mass."""
+    elasticImpact('LebesgueCollider')
+    _, clump = addClump()
+    for call in (lambda: O.bodies.clump(kind([0, 1])),
+                 lambda: O.bodies.addToClump(kind([3, 2]), clump)):
+        with pytest.raises(ValueError, match='part of the boundary of body 0 .* in a clump'):
+            call()
+    O.step()
+
+
+def test_piecesAreNoMembersOfClumps():
+    elasticImpact('LebesgueCollider')
+    ids, clump = addClump()
+    piece, own = O.bodies[0], O.bodies[clump]
+    for call in (lambda: O.bodies.deleteClumpMember(own, piece),
+                 lambda: O.bodies.deleteClumpMember(piece, O.bodies[ids[0]]),
+                 lambda: O.bodies.deleteClumpBody(piece)):
+        with pytest.raises(ValueError, match='part of the boundary of body 0 .* in a clump'):
+            call()
+    for id in (0, np.int64(0)):
+        with pytest.raises(ValueError, match='no other can take its place'):
+            O.bodies.insertAtId(utils.sphere((9, 5, 0), 1), id)
+        with pytest.raises(ValueError, match='cannot be erased alone'):
+            O.bodies.erase(id)
+    O.step()
+    assert len(O.bodies) > 3 and O.bodies[0].id == 0
+
+
+def test_clumpsOfOthersAreMadeAsBefore():
+    elasticImpact('LebesgueCollider')
+    ids, clump = addClump()
+    other = O.bodies.append(utils.sphere((9, 2, 0), 1))
+    O.bodies.addToClump([other], clump)
+    assert O.bodies[other].clumpId == clump
+    O.bodies.releaseFromClump(other, clump)
+    another = O.bodies.append(utils.sphere((9, 4, 0), 1))
+    made = O.bodies.clump(i for i in (other, another))
+    assert O.bodies[another].clumpId == made
+    O.bodies.deleteClumpMember(O.bodies[clump], O.bodies[ids[0]])
+    O.bodies.deleteClumpBody(O.bodies[made])
+
+
+# --- what a body is made of
+
+def aSphere():
+    return w.Sphere(radius=1)
+
+
+@pytest.mark.parametrize('finder', [None, 'LebesgueCollider', 'InsertionSortCollider'])
+@pytest.mark.parametrize('name, value', [
+    ('mat', lambda: None), ('shape', lambda: None), ('shape', aSphere), ('bound', lambda: None),
+    ('mat', lambda: w.FrictMat())])
+def test_partsAreTakenAway(name, value, finder):
+    """From all pieces, or from the first, as cracks begin: the step goes well or says what is wrong,
+    and so does loading what was saved."""
+    for count in (1, 10**6):
+        O.reset()
+        solver = impact(finder)
+        steps(120)
+        for body in [b for b in O.bodies if isinstance(b.shape, w.SurfaceSegment)][:count]:
+            setattr(body, name, value())
+        before = solver.numCracks
+        said = None
+        try:
+            steps(100)
+        except (RuntimeError, ValueError) as error:
+            said = str(error)
+        assert solver.numCracks > before or 'must not replace it' in said
+        if name == 'bound':
+            assert said is None
+        if said is None:
+            solver.removeBody(0)
+            O.saveTmp()
+            O.loadTmp()
+            try:
+                steps(3)
+            except (RuntimeError, ValueError) as error:
+                assert 'must not replace it' in str(error)
+
+
+# --- memory
+
+@pytest.mark.parametrize('collider', [None, 'LebesgueCollider'])
+def test_resetFreesTheSolver(collider):
+    def made():
+        solver = elasticImpact(collider)
+        steps(3)
+        O.engines = list(O.engines)
+        O.engines = O.engines[:1] + [w.PyRunner(label='named')] + O.engines[1:]
+        steps(1)
+        return [weakref.ref(engine) for engine in O.engines]
+    engines = made()
+    assert all(engine() for engine in engines)
+    O.reset()
+    gc.collect()
+    assert [engine() for engine in engines if not isinstance(engine(), w.PyRunner)] == \
+        [None] * (len(engines) - 1)

@@ -1,0 +1,82 @@
+// Run by the thread sanitizer (scripts/check tsan), which ends it with an error where two threads
+// touch the same data: all that lib/ does on several threads.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <new>
+#include <numbers>
+#include <random>
+
+#include "core/parallel.hpp"
+#include "core/same_bits.hpp"
+#include "search/contact_search.hpp"
+#include "step/bodies.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+constexpr int kThreads = 3;
+
+/// A disc that strikes a brittle block; both passes, friction, viscosity, a held side.
+World impact(int threads) {
+  World world;
+  world.threads = threads;
+  world.contactSettings.passes = 2;
+  world.dynamicsSettings.viscosity = {.06, 1.2};
+  world.dynamicsSettings.damping = 10;
+  const TriangleMesh block = structuredRectangle({0, 0}, {.04, .03}, 20, 15);
+  BodySpec spec;
+  spec.material = {30e9, .2, 2500, true};
+  spec.brittle = {.tensileStrength = 20e6, .fractureEnergy = 50};
+  spec.friction = .2;
+  for (const Vec2 node : block.nodes) spec.held.push_back(node.y < 1e-9 ? kHeldX | kHeldY : kFree);
+  world.addBody(block, spec);
+  Polygon disc;
+  for (int k = 0; k < 32; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 32;
+    disc.outline.push_back(Vec2{.0213, .0352} + .005 * Vec2{std::cos(angle), std::sin(angle)});
+  }
+  const TriangleMesh round = triangulate(disc, .002);
+  world.addBody(round, moving(round, steel(), {0, -20}));
+  return world;
+}
+
+TEST(Races, NoneInABodyThatCracks) {
+  World one = impact(1), many = impact(kThreads);
+  const double dt = .3 * one.criticalTimeStep();
+  for (int i = 0; i < 500; ++i) one.step(dt), many.step(dt);
+  EXPECT_GT(many.fracture.numCracks(), 10U);
+  EXPECT_TRUE(sameBits(one.model.nodes.position, many.model.nodes.position));
+}
+
+TEST(Races, NoneInSearches) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(0, 1);
+  std::vector<Box> boxes(2000);
+  for (const SearchMethod method :
+       {SearchMethod::kLebesgue, SearchMethod::kLinearCode, SearchMethod::kHierarchy}) {
+    const auto search = makeSearch(method);
+    search->setThreads(kThreads);
+    for (int round = 0; round < 5; ++round) {
+      for (Box& box : boxes) {
+        const Vec3 low{any(random), any(random), any(random)};
+        box = {low, low + Vec3{.05, .05, .05}};
+      }
+      search->update(boxes);
+      std::vector<BoxPair> pairs;
+      search->findPairs(pairs);
+      EXPECT_GT(pairs.size(), 100U);
+    }
+  }
+}
+
+TEST(Races, NoneWhereAThreadFails) {
+  for (int round = 0; round < 20; ++round)
+    EXPECT_THROW(
+        forEachPart(1000, kThreads, [](std::size_t, std::size_t, int) { throw std::bad_alloc(); }),
+        std::bad_alloc);
+}
+
+}  // namespace
+}  // namespace yadefrag::test
