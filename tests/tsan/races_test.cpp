@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <new>
 #include <numbers>
@@ -60,8 +61,8 @@ TEST(Races, NoneInSearches) {
     search->setThreads(kThreads);
     for (int round = 0; round < 5; ++round) {
       for (Box& box : boxes) {
-        const Vec3 low{any(random), any(random), any(random)};
-        box = {low, low + Vec3{.05, .05, .05}};
+        const std::array<double, 3> low{any(random), any(random), any(random)};
+        box = {low, {low[0] + .05, low[1] + .05, low[2] + .05}};
       }
       search->update(boxes);
       std::vector<BoxPair> pairs;
