@@ -140,5 +140,6 @@ def test_importCostsNoPlotting(folder):
                      'import yadefrag\n'
                      'new = {name.partition(".")[0] for name in set(sys.modules) - before}\n'
                      'print("@", sorted({"matplotlib", "meshio", "PIL"} & new))\n')
-    done = subprocess.run([*yadeCommand(), folder + '/script.py'], capture_output=True, text=True, check=True)
+    done = subprocess.run([*yadeCommand(), folder + '/script.py'], capture_output=True, text=True,
+                          check=True)
     assert '@ []' in done.stdout

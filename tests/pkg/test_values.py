@@ -26,7 +26,8 @@ def test_wholeNumbersOfNumPy(make):
     solver.updateAttrs({'passes': make(2)})
     assert solver.passes == 2 and w.LebesgueCollider(targetInterv=make(3)).targetInterv == 3
     fe()
-    assert solver.addPolygon(kSquare, size=.5, material=make(0), spin=make(1), thickness=make(2)) == 0
+    assert solver.addPolygon(kSquare, size=.5, material=make(0), spin=make(1),
+                             thickness=make(2)) == 0
     O.engines, O.dt = [solver], .5 * solver.criticalTimeStep()
     assert yadefrag.runSteps(make(5), every=make(2), call=lambda: None) == 5 == O.iter
     assert len(yadefrag.circle((make(0), make(0)), make(1), make(8))) == 8
@@ -44,8 +45,8 @@ def test_realNumbersOfNumPy(make):
     assert material.young == 1024 and w.LebesgueCollider(verletDist=make(.25)).verletDist == .25
     solver = w.FESolver(halo=make(.25), gravity=(make(0), make(-.5), 0))
     assert solver.halo == .25 and solver.gravity[1] == -.5
-    solver.addPolygon([(make(0), make(0)), (make(1), 0), (1, make(1))], size=make(.5), material=material,
-                      velocity=(make(.5), make(0)), thickness=make(.5))
+    solver.addPolygon([(make(0), make(0)), (make(1), 0), (1, make(1))], size=make(.5),
+                      material=material, velocity=(make(.5), make(0)), thickness=make(.5))
     assert solver.velocities[0, 0] == .5
 
 
@@ -66,10 +67,12 @@ def test_flagsOfNumPy(make):
 
 # --- what is shown
 
-@pytest.mark.parametrize('value', [np.zeros((1000, 1000)), list(range(10**5)), 'x' * 10**5, 10**5000, -10**5000,
-                                   b'\xff' * 1000, {i: i for i in range(1000)}, [[[[[[1] * 9] * 9] * 9] * 9]],
-                                   np.zeros(5, dtype=[('a', 'f8')]), '\ud800\n\x00'],
-                         ids=lambda v: type(v).__name__)
+kLong = [np.zeros((1000, 1000)), list(range(10**5)), 'x' * 10**5, 10**5000, -10**5000, b'\xff' * 1000,
+         {i: i for i in range(1000)}, [[[[[[1] * 9] * 9] * 9] * 9]],
+         np.zeros(5, dtype=[('a', 'f8')]), '\ud800\n\x00']
+
+
+@pytest.mark.parametrize('value', kLong, ids=lambda v: type(v).__name__)
 def test_valuesAreShownInShort(value):
     text = values.shown(value)
     assert 0 < len(text) <= values.LONGEST and text.isprintable()
@@ -108,7 +111,8 @@ def test_aBrokenReprIsNoReasonToFail():
 def test_attributesOfAWrongKind(name, value, sentence):
     solver = w.FESolver(passes=2)
     before = repr(solver.dict())
-    for call in (lambda: setattr(solver, name, value), lambda: w.FESolver(**{'damping': 1, name: value}),
+    for call in (lambda: setattr(solver, name, value),
+                 lambda: w.FESolver(**{'damping': 1, name: value}),
                  lambda: solver.updateAttrs({'damping': 1, name: value})):
         with pytest.raises(TypeError) as error:
             call()
@@ -117,9 +121,9 @@ def test_attributesOfAWrongKind(name, value, sentence):
 
 def test_updateAttrsChangesAllOrNothing():
     solver = w.FESolver()
-    for attributes in ({'passes': 2, 'halo': -1}, {'passes': 2, 'nope': 1}, {'passes': 2, 'halo': 'a'}):
+    for wrong in ({'halo': -1}, {'nope': 1}, {'halo': 'a'}):
         with pytest.raises((ValueError, TypeError, AttributeError)):
-            solver.updateAttrs(attributes)
+            solver.updateAttrs({'passes': 2, **wrong})
         assert solver.passes == 1
     solver.updateAttrs({'passes': 2, 'halo': .1})
     assert solver.passes == 2 and solver.halo == .1
@@ -142,7 +146,7 @@ def test_aColliderNeedsFunctors(functors):
 # --- numbers beyond all sizes
 
 @pytest.mark.parametrize('wrong, sentence', [
-    (dict(thickness=1e300), 'the stiffness of a triangle is inf N/m; it must be in the range of numbers'),
+    (dict(thickness=1e300), 'the stiffness of a triangle is inf N/m; it must be in the range of '),
     (dict(velocity=(1e160, 0)), r'velocity is 1e\+160 m/s; it must be at most 1e100 m/s'),
     (dict(velocity=(0, -10**30 * 10**90)), 'velocity is -1e.120 m/s'),
     (dict(velocity=(10**400, 0)), 'both numbers must be finite'),
@@ -160,7 +164,7 @@ def test_numbersBeyondAllSizes(wrong, sentence):
 @pytest.mark.parametrize('name', ['linearViscosity', 'quadraticViscosity'])
 def test_viscosityHasABound(name):
     solver = impact()
-    with pytest.raises(ValueError, match=r'FESolver.%s is 1e\+160, it must be 0 or positive, and at' % name):
+    with pytest.raises(ValueError, match=r'FESolver.%s is 1e\+160, it must be 0 or pos' % name):
         setattr(solver, name, 1e160)
     setattr(solver, name, 1e6)
     critical = solver.criticalTimeStep()
@@ -170,7 +174,7 @@ def test_viscosityHasABound(name):
 def test_forcesBeyondAllSizesAreNamed():
     solver = impact()
     solver.gravity = (1e300, 0, 0)
-    with pytest.raises(RuntimeError, match='leaves the range of numbers; loads, gravity or velocities'):
+    with pytest.raises(RuntimeError, match='leaves the range of numbers; loads, gravity or '):
         O.step()
 
 
