@@ -9,6 +9,7 @@ import hashlib
 import inspect
 import os
 import random
+import re
 import sys
 import tempfile
 import threading
@@ -28,6 +29,9 @@ kLongest = 300  # characters of a sentence
 # Those are the sentences' classes; OSError names a file; AttributeError is Python's for an attribute
 # that is not there or cannot be set.
 kRefusals = (ValueError, TypeError, RuntimeError, OSError, AttributeError)
+kInternal = (r"object has no attribute|unsupported operand|not iterable|not subscriptable|not callable|"
+             r"indices must be|cannot unpack|to unpack|has no len|out of range|not supported between|"
+             r"truth value of")
 kMoments = ('before', 'between', 'between', 'inside', 'thread')
 
 
@@ -277,6 +281,9 @@ def whatIsWrong(error):
     if not isinstance(error, kRefusals):
         return 'it raised %s' % type(error).__name__
     text = str(error)
+    # Python's own complaints of code that took a wrong value for a right one are no sentences.
+    if re.search(kInternal, text):
+        return 'Python itself complained'
     if len(text) > kLongest:
         return 'the sentence has %d characters' % len(text)
     if not text.strip():

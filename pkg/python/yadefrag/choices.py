@@ -9,6 +9,7 @@ import os
 
 from yade import wrapper
 from yadefrag import values
+from yadefrag.shown import requireSolver
 
 COLLIDERS = ('LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider',
              'InsertionSortCollider')
@@ -77,6 +78,8 @@ class Choices:
     """
 
     def __init__(self, settings):
+        if not isinstance(settings, dict):
+            values.refuse('settings', settings, 'a dict {name: value}')
         self._settings = dict(settings)
         self.used = {}  # name: value, of all choices that were asked for
 
@@ -106,14 +109,17 @@ class Choices:
 
     def timeStep(self, critical, default=.8):
         """(s) The setting's fraction `timeStep` of the step `critical` (s)."""
-        return self.get('timeStep', default) * critical
+        critical = values.number('critical', critical, lambda v: v > 0, 'a positive number (s)')
+        return critical * values.number('timeStep', self.get('timeStep', default), lambda v: v > 0,
+                                        KNOWN['timeStep'][1])
 
     def solver(self, **settings):
         """An FESolver with `settings`, and correction, passes, halo and bulk viscosity as chosen.
 
         'penalty:F' is correction='penalty' with penaltyFactor=F. ValueError as FESolver.
         """
-        correction = self.get('correction', settings.pop('correction', 'lagrange'))
+        correction = values.text('correction',
+                                 self.get('correction', settings.pop('correction', 'lagrange')))
         kind, _, factor = correction.partition(':')
         settings.update(correction=kind, passes=self.get('passes', settings.get('passes', 1)),
                         halo=self.get('halo', settings.get('halo', 0)))
@@ -171,7 +177,8 @@ class Choices:
 
         The step is the setting's fraction of fe.criticalTimeStep(), .8 where it has none.
         """
-        w = wrapper
+        requireSolver(fe)
+        w, dt = wrapper, self.timeStep(fe.criticalTimeStep())
         bounds = [w.Bo1_Sphere_Aabb()] * bool(spheres) + [w.Bo1_SurfaceSegment_Aabb()]
         engines = [w.ForceResetter(), self.collider(bounds)]
         if spheres:
@@ -181,4 +188,4 @@ class Choices:
         engines += [fe] + [w.NewtonIntegrator()] * bool(spheres)
         omega = w.Omega()
         omega.engines = [e for e in engines if e is not None]
-        omega.dt = self.timeStep(fe.criticalTimeStep())
+        omega.dt = dt

@@ -61,8 +61,7 @@ class TradeoffTable:
         except TypeError:
             refuse('rows', rows, 'a list of TradeoffRow')
         for i, row in enumerate(self.rows):
-            if not isinstance(row, TradeoffRow):
-                refuse('rows[%d]' % i, row, 'a TradeoffRow')
+            _requireRow(row, 'rows[%d]' % i)
         self.title, self.reference = text('title', title), None
 
     def names(self):
@@ -71,6 +70,9 @@ class TradeoffTable:
 
     def label(self, row):
         """What sets a row off from the first: 'passes=2'; 'row 1' for that one."""
+        _requireRow(row)
+        if not self.rows:
+            raise ValueError('the table has no rows.')
         first = self.rows[0].settings
         other = {name: value for name, value in row.settings.items()
                  if _encode(value) != _encode(first.get(name))}
@@ -96,6 +98,7 @@ class TradeoffTable:
 
     def ratio(self, row, time='wall'):
         """Time over the first row's, the median of the runs next to each other; None without."""
+        _requireRow(row)
         _requireTime(time)
         pairs = [(a, b) for a, b in zip(getattr(row, time + 's'),
                                         getattr(self.rows[0], time + 's')) if b > 0]
@@ -186,6 +189,11 @@ class TradeoffTable:
     def namesOfFiles(files):
         """Those that `write` writes."""
         return [path('files', files) + ending for ending in ('.csv', '.md', '.png')]
+
+
+def _requireRow(row, name='row'):
+    if not isinstance(row, TradeoffRow):
+        refuse(name, row, 'a TradeoffRow')
 
 
 def _requireTime(time):
