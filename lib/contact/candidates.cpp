@@ -33,9 +33,9 @@ class FormerFlags {
   std::uint32_t at_ = 0;
 };
 
-/// The pairs, ascending, as rows.
-void fill(Candidates& candidates, const std::vector<SlaveMaster>& pairs,
-          const ContactSurfaces& surfaces, std::span<const Vec2> before) {
+/// The pairs, ascending, as rows; returns what was there before.
+Candidates fill(Candidates& candidates, const std::vector<SlaveMaster>& pairs,
+                const ContactSurfaces& surfaces, std::span<const Vec2> before) {
   constexpr std::uint8_t kUnknown = 2;
   const PieceGeometry geometry(surfaces, before);
   FormerFlags former(candidates);
@@ -59,7 +59,8 @@ void fill(Candidates& candidates, const std::vector<SlaveMaster>& pairs,
     next.outside.push_back(outside);
   }
   next.offsets.push_back(static_cast<std::uint32_t>(next.masters.size()));
-  candidates = std::move(next);
+  std::swap(candidates, next);
+  return next;
 }
 
 }  // namespace
@@ -79,10 +80,10 @@ void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
   fill(candidates, all, surfaces, before);
 }
 
-void replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
-                       const ContactSurfaces& surfaces, std::span<const Vec2> before) {
+Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
+                             const ContactSurfaces& surfaces, std::span<const Vec2> before) {
   std::sort(pairs.begin(), pairs.end());
-  fill(candidates, pairs, surfaces, before);
+  return fill(candidates, pairs, surfaces, before);
 }
 
 void removeGone(Candidates& candidates, const ContactSurfaces& surfaces) {

@@ -39,9 +39,10 @@ struct SlaveMaster {
 };
 
 /// Sorts the pairs into rows. Outside flags of pairs that `candidates` had already are kept, those
-/// of new ones come from `before`, the positions at the end of the last step (m, by node).
-void replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
-                       const ContactSurfaces& surfaces, std::span<const Vec2> before);
+/// of new ones come from `before`, the positions at the end of the last step (m, by node). Returns
+/// what `candidates` were.
+Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
+                             const ContactSurfaces& surfaces, std::span<const Vec2> before);
 
 /// The same, but in addition to what is there already.
 void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,

@@ -39,6 +39,7 @@ void Contact::reset() {
   candidates.clear();
   touches.clear();
   rows_.clear();
+  now_ = {};
   touched_.clear();
   forces_.clear();
   displacement_.clear();
@@ -65,15 +66,8 @@ void Contact::reserve(std::size_t nodes) {
 
 void Contact::correct(Model& model, const ContactSurfaces& surfaces,
                       const ContactSettings& settings, const ContactStep& step) {
-  rows_.clear();
-  const double moved = step.move + largestCorrection_;
-  maxPenetration_ = residual_ = inexact_ = largestCorrection_ = 0;
-  known_.clear();
-  for (const NodeId node : touched_) {
-    forces_[node.value] = displacement_[node.value] = {};
-    isTouched_[node.value] = 0;
-  }
-  touched_.clear();
+  const double moved = step.move + now_.largestCorrection;
+  begin();
   bool gapsAreKnown = false;
   double reach = step.reach;
   scan(model, surfaces, step, reach, moved);
@@ -84,21 +78,54 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
     if (detection > 0) {
       updateGaps(model, surfaces, step);
       gapsAreKnown = true;
-      if (!anyNew && maxPenetration_ <= std::max(worthwhile(step), 2 * inexact_)) break;
+      if (!anyNew && now_.maxPenetration <= std::max(worthwhile(step), 2 * inexact_)) break;
       if (!anyNew && settings.correction == Correction::kPenalty) break;
     }
     solve(model, settings, step, anyNew);
     // What the correction moved by more than the scan looked ahead is looked at again.
     move(model, step);
     gapsAreKnown = false;
-    if (2 * largestCorrection_ > reach) {
-      reach = 2 * largestCorrection_;
-      scan(model, surfaces, step, reach, largestCorrection_);
+    if (2 * now_.largestCorrection > reach) {
+      reach = 2 * now_.largestCorrection;
+      scan(model, surfaces, step, reach, now_.largestCorrection);
     }
   }
   if (step.rubble && !gapsAreKnown) lookAgain(model, surfaces, step);
   if (!rows_.empty() && !gapsAreKnown) updateGaps(model, surfaces, step);
   finish(model, surfaces, step);
+}
+
+void Contact::begin() {
+  hasBegun_ = false;
+  formerOutside_.assign(candidates.outside.begin(), candidates.outside.end());
+  rows_.swap(formerRows_);
+  former_ = std::exchange(now_, {});
+  hasBegun_ = true, isFinished_ = false;
+  rows_.clear();
+  known_.clear();
+  inexact_ = 0;
+  clearForces();
+}
+
+void Contact::clearForces() {
+  for (const NodeId node : touched_) {
+    forces_[node.value] = displacement_[node.value] = {};
+    isTouched_[node.value] = 0;
+  }
+  touched_.clear();
+}
+
+void Contact::takeBack() {
+  if (!hasBegun_) return;
+  candidates.outside.swap(formerOutside_);
+  candidates.asleep.clear();
+  if (isFinished_) touches.swap(formerTouches_);
+  rows_.swap(formerRows_);
+  now_ = former_;
+  clearForces();
+  for (const ContactRow& row : rows_)
+    for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
+  sumForces();
 }
 
 /// What the last correction of a step made penetrate is left to the next one, which has to know
@@ -126,7 +153,7 @@ void Contact::solve(const Model& model, const ContactSettings& settings, const C
     inexact_ = sweeps_.solve(rows_, model.nodes, step.length, step.drag, worthwhile(step));
   else {
     if (anyNew) lagrange_.setRows(rows_, model.nodes, step.length, step.drag);
-    residual_ = lagrange_.solve(rows_, worthwhile(step));
+    now_.residual = lagrange_.solve(rows_, worthwhile(step));
   }
 }
 
@@ -249,11 +276,11 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
 void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces,
                          const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
-  maxPenetration_ = 0;
+  now_.maxPenetration = 0;
   withGeometry(surfaces, model.nodes.position, [&](const auto& geometry) {
     for (ContactRow& row : rows_) {
       const double gap = gapOf(row, geometry);
-      maxPenetration_ = std::max(maxPenetration_, row.allowed - gap);
+      now_.maxPenetration = std::max(now_.maxPenetration, row.allowed - gap);
       if (std::isfinite(row.left)) row.left = row.allowed - gap;
       row.gap = gap - dot(relative(row, displacement_), row.normal);
     }
@@ -275,10 +302,10 @@ void Contact::move(Model& model, const ContactStep& step) {
     displacement_[node.value] = u;
     largest = std::max(largest, dot(u, u));
   }
-  largestCorrection_ = std::sqrt(largest);
-  if (largestCorrection_ <= 2 * tolerance::kFarthestMove * step.shortest) return;
+  now_.largestCorrection = std::sqrt(largest);
+  if (now_.largestCorrection <= 2 * tolerance::kFarthestMove * step.shortest) return;
   std::ostringstream text;
-  text << "contact moves a surface node by " << largestCorrection_
+  text << "contact moves a surface node by " << now_.largestCorrection
        << " m, which is many times the shortest segment, " << step.shortest
        << " m; take a shorter step.";
   throw RunError(text.str());
@@ -300,9 +327,11 @@ void Contact::finish(Model& model, const ContactSurfaces& surfaces, const Contac
   for (const NodeId node : touched_)
     model.nodes.velocity[node.value] += (1 / step.length.position) * displacement_[node.value];
   const StageTimer timer(step.times, &StageTimes::localSearch);
-  touches.clear();
+  formerTouches_.clear();
   for (const ContactRow& row : rows_)
-    touches.push_back({pairOf(row), row.normalForce, row.tangentForce, row.allowed});
+    formerTouches_.push_back({pairOf(row), row.normalForce, row.tangentForce, row.allowed});
+  touches.swap(formerTouches_);
+  isFinished_ = true;
   const double left = step.rubble ? tolerance::kLeftInside * step.reach : 0;
   if (search_.anyNear()) search_.settle(candidates, surfaces, model.nodes.position, known_, left);
 }
@@ -315,8 +344,9 @@ void Contact::removeGone(const ContactSurfaces& surfaces) {
 }
 
 void Contact::addTo(Footprint& footprint) const {
-  footprint.add(Use::kContact, touches, actives_, rows_, known_, forces_, displacement_, touched_,
-                isTouched_);
+  footprint.add(Use::kContact, touches, formerTouches_, actives_, rows_, formerRows_, known_,
+                forces_, displacement_, touched_, isTouched_);
+  footprint.add(Use::kSearch, formerOutside_);
   candidates.addTo(footprint);
   search_.addTo(footprint);
   lagrange_.addTo(footprint);

@@ -54,6 +54,9 @@ class Contact {
   /// From the predicted x* and v* of `model` to xⁿ⁺¹ and vⁿ⁺½.
   void correct(Model& model, const ContactSurfaces& surfaces, const ContactSettings& settings,
                const ContactStep& step);
+  /// Undoes the last `correct`, whether it came to its end or threw, but for positions and
+  /// velocities. Needs no memory.
+  void takeBack();
 
   /// After nodes or entries were renumbered or added: candidates and touches are void.
   void reset();
@@ -74,10 +77,10 @@ class Contact {
   /// (N) By node, of the last step.
   [[nodiscard]] ContactForces forces() const { return ContactForces{forces_}; }
   /// (m) Of a node, in the last step.
-  [[nodiscard]] double largestCorrection() const { return largestCorrection_; }
-  [[nodiscard]] double maxPenetration() const { return maxPenetration_; }
+  [[nodiscard]] double largestCorrection() const { return now_.largestCorrection; }
+  [[nodiscard]] double maxPenetration() const { return now_.maxPenetration; }
   /// Largest residual of the last step's systems, relative to their largest gap.
-  [[nodiscard]] double residual() const { return residual_; }
+  [[nodiscard]] double residual() const { return now_.residual; }
 
   void addTo(Footprint& footprint) const;
 
@@ -85,7 +88,16 @@ class Contact {
   std::vector<Touch> touches;  ///< by pair
 
  private:
+  /// What a step says of itself.
+  struct Figures {
+    double largestCorrection = 0;  // m
+    double maxPenetration = 0;     // m
+    double residual = 0;
+  };
+
   void makeRoom(std::size_t nodes);
+  void begin();
+  void clearForces();
   void scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
             double reach, double moved);
   void solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
@@ -110,16 +122,20 @@ class Contact {
   RowSweeps sweeps_;
   std::vector<Active> actives_;
   std::vector<ContactRow> rows_;
+  Figures now_;
   std::vector<SlaveMaster> known_;       // of the rows
   std::vector<Vec2> forces_;             // N, by node
   std::vector<Vec2> displacement_;       // m, by node: the correction u so far
   std::vector<NodeId> touched_;          // nodes of a row
   std::vector<std::uint8_t> isTouched_;  // by node
   bool lookedAt_ = false;                // what the last scan found near, where it then was
-  double largestCorrection_ = 0;
-  double maxPenetration_ = 0;
-  double residual_ = 0;
-  double inexact_ = 0;  // m, by how much sweeps may be wrong
+  double inexact_ = 0;                   // m, by how much sweeps may be wrong
+  // Of the step before, for `takeBack`; touches once the step has some of its own.
+  std::vector<ContactRow> formerRows_;
+  std::vector<Touch> formerTouches_;
+  std::vector<std::uint8_t> formerOutside_;
+  Figures former_;
+  bool hasBegun_ = false, isFinished_ = false;
 };
 
 }  // namespace yadefrag

@@ -250,6 +250,11 @@ inline constexpr double kAnySpeed = 1e100;
 /// falls in proportion.
 inline constexpr double kMostViscosity = 1e6;
 
+/// (det F; of the least stress-free height) An element that is compressed to `kFlat` of its area is
+/// flat. Only a flat element, or one whose nodes move by `kSwift` or more, can be turned inside out
+/// in one step; elements that were stretched as well are the exception.
+inline constexpr double kFlat = .2, kSwift = .1;
+
 /// (count) Boxes that are sooner compared with each other than sorted.
 inline constexpr std::size_t kFewBoxes = 12;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tolerances.hpp"
 #include "dynamics/elastic_law.hpp"
 #include "dynamics/lane_corners.hpp"
 
@@ -16,9 +17,9 @@ template <bool kWatched>
   const double lame = chunk.lame;
   const double shear = chunk.shear;
   const StressLook look(chunk.shearFactor, chunk.friction, chunk.squaredLook);
-  int bad = 0;
+  int flat = 0;
   int stressed = 0;
-#pragma omp simd reduction(+ : bad, stressed)
+#pragma omp simd reduction(+ : flat, stressed)
   for (std::size_t k = 0; k < kLanes; ++k) {
     const double i11 = e.inverseEdges[0][k];
     const double i12 = e.inverseEdges[1][k];
@@ -27,7 +28,7 @@ template <bool kWatched>
     const Matrix2 f = deformationGradient(c.x[1][k] - c.x[0][k], c.y[1][k] - c.y[0][k],
                                           c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],  //
                                           i11, i12, i21, i22);
-    bad += determinant(f) > 0 ? 0 : 1;  // NaN too
+    flat += determinant(f) > tolerance::kFlat ? 0 : 1;  // NaN too
     if constexpr (kWatched) stressed += isStressed(f, lame, shear, look) ? 1 : 0;
     const Matrix2 p = firstPiola(f, lame, shear);
     const double v = e.volume[k];
@@ -42,7 +43,7 @@ template <bool kWatched>
     c.x[2][k] = f2x;
     c.y[2][k] = f2y;
   }
-  return {bad, stressed};
+  return {flat, stressed};
 }
 
 template <bool kWatched>
@@ -54,16 +55,16 @@ struct AddForces {
   StressedLanes& stressed;
 
   [[gnu::always_inline]] bool operator()() const {
-    int bad = 0;
+    int flat = 0;
     Corners corners;
     for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l) {
       gather(lanes[l], position, corners);
       const Findings found = elasticForces<kWatched>(lanes[l], chunk, corners);
-      bad += found.bad;
+      flat += found.flat;
       if constexpr (kWatched) stressed.note(l, found.stressed);
       scatter(lanes[l], corners, force);
     }
-    return bad == 0;
+    return flat == 0;
   }
 };
 

@@ -15,7 +15,7 @@ enum class InstructionSet { kBaseline, kAvx2 };
 InstructionSet bestInstructionSet();
 
 /// Adds the elastic forces (N) of a chunk to `force`; positions and forces by local node number.
-/// Returns false if an element is inverted or not finite.
+/// Returns false if an element is flat (`kFlat`), inverted or not finite.
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const Vec2* position, Vec2* force);
 

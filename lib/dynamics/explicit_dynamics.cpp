@@ -5,27 +5,30 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
-#include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances.hpp"
 #include "dynamics/chunk_nodes.hpp"
-#include "dynamics/element_state.hpp"
 
 namespace yadefrag {
 namespace {
 
-std::string at(Vec2 where) {
-  std::ostringstream text;
-  text << " at (" << where.x << ", " << where.y << ") m";
-  return text.str();
-}
-
 bool anyHeld(const Nodes& nodes) {
   return std::any_of(nodes.held.begin(), nodes.held.end(),
                      [](std::uint8_t held) { return held != kFree; });
+}
+
+/// (m) Of all triangles, stress-free: 1/|∇Nᵢ| is the height on corner i.
+double leastHeight(const Triangles& triangles) {
+  double steepest = 0;  // 1/m²
+  for (std::size_t e = 0; e < triangles.size(); ++e) {
+    if (triangles.isDropped(e)) continue;
+    const auto& i = triangles.inverseEdges[e];
+    const Vec2 second{i[0], i[1]}, third{i[2], i[3]}, first = -(second + third);
+    steepest = std::max({steepest, dot(first, first), dot(second, second), dot(third, third)});
+  }
+  return 1 / std::sqrt(steepest);
 }
 
 }  // namespace
@@ -33,6 +36,7 @@ bool anyHeld(const Nodes& nodes) {
 /// v ← kept·v + (rate/m)·f + fall, x ← x + Δt v
 struct ExplicitDynamics::Update {
   double dt, kept, rate;
+  double swift;      // m/s
   Vec2 fall;         // m/s
   double outerPart;  // of Δv: how long outer forces act
   std::span<const Vec2> outer, load;
@@ -48,7 +52,9 @@ void ExplicitDynamics::rebuild(const Model& model) {
   partialForce_.resize(elements_.partials());
   viscousForce_.clear();
   partialViscous_.clear();
+  previousPosition_ = model.nodes.position;
   previousVelocity_ = model.nodes.velocity;
+  leastHeight_ = leastHeight(model.triangles);
   heldVelocity_.clear();
   if (anyHeld(model.nodes)) heldVelocity_ = model.nodes.velocity;
   scratch_.clear();
@@ -56,6 +62,7 @@ void ExplicitDynamics::rebuild(const Model& model) {
 
 void ExplicitDynamics::reserve(std::size_t nodes) {
   force_.reserve(nodes);
+  previousPosition_.reserve(nodes);
   previousVelocity_.reserve(nodes);
   if (!heldVelocity_.empty()) heldVelocity_.reserve(nodes);
   elements_.reserve(nodes);
@@ -76,6 +83,7 @@ std::size_t ExplicitDynamics::follow(const Model& model, std::span<const Element
   force_.resize(model.nodes.size());
   if (!viscousForce_.empty()) viscousForce_.resize(model.nodes.size());
   for (const NodeId original : originals) {
+    previousPosition_.push_back(Vec2(previousPosition_[original.value]));
     previousVelocity_.push_back(Vec2(previousVelocity_[original.value]));
     if (!heldVelocity_.empty()) heldVelocity_.push_back(Vec2(heldVelocity_[original.value]));
   }
@@ -92,14 +100,6 @@ void ExplicitDynamics::watchStress(std::vector<double> leastStrengthByComponent)
   watching_ = elements_.watch(leastStrength_);
 }
 
-/// Any thread: that an element is bad is all that is noted; it is looked for afterwards.
-void ExplicitDynamics::noteElements(bool good) {
-  if (!good)
-#pragma omp atomic write
-    badElement_ = true;
-}
-
-/// Only where strains are smoothed. All threads have to take part.
 void ExplicitDynamics::smoothStrains(const Model& model, std::size_t part, std::size_t parts,
                                      PartErrors& errors) {
   Scratch& scratch = scratch_[part];
@@ -109,7 +109,8 @@ void ExplicitDynamics::smoothStrains(const Model& model, std::size_t part, std::
       const Chunk& chunk = elements_.chunks[c];
       if (chunk.element != ElementKind::kSmoothed) continue;
       fetchNodes(elements_, chunk, model.nodes.position, scratch.values.data());
-      noteElements(smoothing_.sum(set_, elements_, chunk, scratch.values.data(), scratch.stressed));
+      if (!smoothing_.sum(set_, elements_, chunk, scratch.values.data(), scratch.stressed))
+        lookAtFlat(model, chunk, scratch);
     }
   });
 #pragma omp barrier
@@ -130,10 +131,13 @@ void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
   std::fill_n(force, count, Vec2{});
   if (smoothed)
     smoothing_.addForces(set_, elements_, chunk, model.nodes.mass, scratch.room, force);
-  else
-    noteElements(std::isfinite(chunk.squaredLook)
-                     ? addElasticForces(set_, chunk, lanes, position, force, scratch.stressed)
-                     : addElasticForces(set_, chunk, lanes, position, force));
+  else {
+    const bool upright =
+        std::isfinite(chunk.squaredLook)
+            ? addElasticForces(set_, chunk, lanes, position, force, scratch.stressed)
+            : addElasticForces(set_, chunk, lanes, position, force);
+    if (!upright) lookAtFlat(model, chunk, scratch);
+  }
   if (viscosity.isOn()) {
     Vec2* velocity = force + elements_.mostNodes;
     Vec2* viscous = velocity + elements_.mostNodes;
@@ -157,7 +161,7 @@ void ExplicitDynamics::sumShared(const BulkViscosity& viscosity, NodeId begin, N
 }
 
 /// Held directions move as the model says; returns how the node moved before, which may differ from
-/// what the model says now: that change, too, is work of whoever prescribes it.
+/// what the model says now: that change, too, is work of whatever prescribes it.
 Vec2 ExplicitDynamics::holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity) {
   Vec2 before = nodes.velocity[node];
   for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}})
@@ -173,33 +177,35 @@ Vec2 ExplicitDynamics::holdBack(const Nodes& nodes, std::size_t node, Vec2& velo
 template <bool kForced>
 void ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begin,
                             std::size_t end) {
-  const double slow = speedLimit_ * speedLimit_;
-  bool good = true, faster = false;
+  const double slow = std::min(speedLimit_, update.swift);
+  const double squaredSlow = slow * slow, squaredLimit = speedLimit_ * speedLimit_;
+  const double squaredSwift = update.swift * update.swift;
+  bool good = true, faster = false, swift = false;
   for (std::size_t n = begin; n < end; ++n) {
     Vec2 force = force_[n];
     if constexpr (kForced) {
       if (!update.load.empty()) force += update.load[n];
       if (!update.outer.empty()) force += update.outerPart * update.outer[n];
     }
-    const Vec2 before = nodes.velocity[n];
-    Vec2 v = update.kept * before + update.rate / nodes.mass[n] * force + update.fall;
-    previousVelocity_[n] = nodes.held[n] == kFree ? before : holdBack(nodes, n, v);
+    Vec2 v = update.kept * nodes.velocity[n] + update.rate / nodes.mass[n] * force + update.fall;
+    if (nodes.held[n] != kFree) nodes.velocity[n] = holdBack(nodes, n, v);
     const Vec2 x = nodes.position[n] + update.dt * v;
-    nodes.velocity[n] = v;
+    previousVelocity_[n] = v;
+    previousPosition_[n] = x;
     // A slow node's way is finite, and too short to leave the finite numbers.
-    if (dot(v, v) <= slow) [[likely]] {
-      nodes.position[n] = x;
+    const double squared = dot(v, v);
+    if (squared <= squaredSlow) [[likely]]
       continue;
-    }
-    faster = true;
-    if (isFinite(x))
-      nodes.position[n] = x;
-    else
-      good = false;
+    faster = faster || !(squared <= squaredLimit);
+    swift = swift || !(squared <= squaredSwift);
+    good = good && isFinite(x);
   }
   if (faster)
 #pragma omp atomic write
     anyFaster_ = true;
+  if (swift)
+#pragma omp atomic write
+    anySwift_ = true;
   if (!good)
 #pragma omp atomic write
     badNode_ = true;
@@ -211,7 +217,7 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
   const int threads = std::max(1, std::min(update.threads, most));
   if (scratch_.size() < static_cast<std::size_t>(threads)) scratch_.resize(threads);
   for (Scratch& scratch : scratch_) {
-    scratch.stressed.clear();
+    scratch.stressed.clear(), scratch.flat.clear();
     scratch.values.resize((viscosity.isOn() ? 4 : 2) * elements_.mostNodes);
     if (smoothing_.isOn()) scratch.room.resize(elements_.mostNodes);
   }
@@ -245,12 +251,12 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
   const double dt = length.position;
   const double d = settings.drag(length);
   const double rate = length.velocity / (1 + d);
-  badElement_ = badNode_ = anyFaster_ = false;
+  badElement_ = badNode_ = anyFaster_ = anySwift_ = false;
   viscousForce_.resize(settings.viscosity.isOn() ? force_.size() : 0);
   partialViscous_.resize(settings.viscosity.isOn() ? elements_.partials() : 0);
   step(model,
-       {dt, (1 - d) / (1 + d), rate, rate * settings.gravity, dt / length.velocity, outerForces,
-        model.nodes.load, threads},
+       {dt, (1 - d) / (1 + d), rate, tolerance::kSwift * leastHeight_ / dt, rate * settings.gravity,
+        dt / length.velocity, outerForces, model.nodes.load, threads},
        settings.viscosity);
   // Threads take successive chunks: theirs in turn are ascending.
   stressed_.clear();
@@ -258,21 +264,10 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
     stressed_.insert(stressed_.end(), scratch.stressed.begin(), scratch.stressed.end());
   // Bodies with smoothed strains are looked at before all others.
   if (smoothing_.isOn()) std::sort(stressed_.begin(), stressed_.end());
-  if (badElement_) refuseElement(model, dt);
-  if (badNode_) refuseNode(model, dt);
-}
-
-void ExplicitDynamics::takeBack(Model& model, double dt) {
-  Nodes& nodes = model.nodes;
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    nodes.position[n] -= dt * nodes.velocity[n];
-    for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}}) {
-      if ((nodes.held[n] & flag) == 0)
-        nodes.velocity[n].*axis = previousVelocity_[n].*axis;
-      else if (!heldVelocity_.empty())  // the prescribed velocity stands
-        heldVelocity_[n].*axis = previousVelocity_[n].*axis;
-    }
-  }
+  if (badElement_) refuseElement(model);
+  if (badNode_) refuseNode(model);
+  model.nodes.position.swap(previousPosition_);
+  model.nodes.velocity.swap(previousVelocity_);
 }
 
 /// The works on single nodes, in one direction.
@@ -335,47 +330,16 @@ void ExplicitDynamics::finish(const Model& model, const StepLength& length,
 void ExplicitDynamics::addTo(Footprint& footprint) const {
   elements_.addTo(footprint);
   smoothing_.addTo(footprint);
-  footprint.add(Use::kDynamics, force_, partialForce_, previousVelocity_, scratch_);
+  footprint.add(Use::kDynamics, force_, partialForce_, previousPosition_, previousVelocity_,
+                scratch_);
   footprint.add(Use::kViscosity, viscousForce_, partialViscous_);
   footprint.add(Use::kHeld, heldVelocity_);
   footprint.add(Use::kFracture, leastStrength_, stressed_);
   for (const Scratch& scratch : scratch_) {
-    footprint.add(Use::kDynamics, scratch.values);
+    footprint.add(Use::kDynamics, scratch.values, scratch.flat);
     footprint.add(Use::kFracture, scratch.stressed);
     footprint.add(Use::kSmoothing, scratch.room.mass, scratch.room.similar, scratch.room.distorted);
   }
-}
-
-void ExplicitDynamics::refuseElement(Model& model, double dt) const {
-  const Triangles& triangles = model.triangles;
-  std::size_t e = 0;
-  while (determinant(deformationGradient(model, ElementId(e))) > 0) ++e;
-  const auto det = determinant(deformationGradient(model, ElementId(e)));
-  for (std::size_t n = 0; n < model.nodes.size(); ++n) {
-    const Vec2 back = model.nodes.position[n] - dt * model.nodes.velocity[n];
-    if (isFinite(back)) model.nodes.position[n] = back;
-  }
-  Vec2 centre;
-  for (const NodeId node : triangles.nodes[e]) centre += 1. / 3 * model.nodes.position[node.value];
-  throw RunError("element " + std::to_string(e) + " of component " +
-                 std::to_string(triangles.component[e].value) + at(centre) +
-                 (det <= 0 ? " is turned inside out." : " has a value that is not finite."));
-}
-
-void ExplicitDynamics::refuseNode(Model& model, double dt) const {
-  Nodes& nodes = model.nodes;
-  std::size_t bad = nodes.size();
-  for (std::size_t n = nodes.size(); n-- > 0;) {
-    // `move` left the position where the new one would not have been finite.
-    if (isFinite(nodes.position[n] + dt * nodes.velocity[n]))
-      nodes.position[n] -= dt * nodes.velocity[n];
-    else
-      bad = n;
-    nodes.velocity[n] = previousVelocity_[n];
-  }
-  throw RunError("node " + std::to_string(bad) + " of component " +
-                 std::to_string(nodes.component[bad].value) + at(nodes.position[bad]) +
-                 " has a force or a velocity that is not finite.");
 }
 
 }  // namespace yadefrag

@@ -61,14 +61,18 @@ class ExplicitDynamics {
   /// One step; `outerForces` (N, by node) may be empty. They act for Δt, not Δv: so does what they
   /// push back on, which others integrate with steps of Δt, and momentum is kept. Held directions
   /// keep their velocity. The result has the same bits for any number of threads. Throws RunError
-  /// with element or node and place, and leaves the last good state: where an element is inverted
-  /// or not finite at xⁿ, positions go back to xⁿ⁻¹ = xⁿ − Δt v; where a force or a velocity is not
-  /// finite, they stay at xⁿ. Velocities are those of n − ½ in both cases.
+  /// with element or node and place, and changes nothing, where an element is inverted or not
+  /// finite at xⁿ, or a force or a velocity is not finite.
   void predict(Model& model, const StepLength& length, const StepSettings& settings,
                std::span<const Vec2> outerForces, int threads);
 
-  /// Undoes `predict`, but for rounding in the positions, before anything else has changed them.
-  void takeBack(Model& model, double dt);
+  /// Throws RunError where the step so far has turned an element inside out; `correction` (m): the
+  /// most that a node was moved by since `predict`. Elements are looked at only if some were flat
+  /// at xⁿ, or if a node moves by a good part of the least height of an element.
+  void requireUpright(const Model& model, double dt, double correction) const;
+
+  /// Undoes `predict` and all that has happened to positions and velocities since.
+  void takeBack(Model& model);
 
   /// Books the works of gravity, loads, outer forces, damping, viscosity and prescribed motion,
   /// once the velocities are corrected. `contactForces` (N, by node, empty: none) serve only to
@@ -78,8 +82,12 @@ class ExplicitDynamics {
               std::span<const Vec2> outerForces, std::span<const Vec2> contactForces,
               EnergyLedger& ledger, int threads = 1) const;
 
-  /// (m/s) vⁿ⁻½ by node, of the last step: v̄ = ½(previous + present) is what contact books with.
+  /// (m) xⁿ and (m/s) vⁿ⁻½ by node, between `predict` and the next change of the model:
+  /// v̄ = ½(previous + present) is what contact books with.
+  [[nodiscard]] std::span<const Vec2> previousPosition() const { return previousPosition_; }
   [[nodiscard]] std::span<const Vec2> previousVelocity() const { return previousVelocity_; }
+  /// In the last step, did a node move by a good part of the least height of an element.
+  [[nodiscard]] bool anySwift() const { return anySwift_; }
   /// (N) Elastic and viscous forces f(xⁿ) by node, of the last step.
   [[nodiscard]] std::span<const Vec2> internalForces() const { return force_; }
   void addTo(Footprint& footprint) const;
@@ -90,21 +98,22 @@ class ExplicitDynamics {
   /// Of one thread.
   struct alignas(64) Scratch {
     std::vector<Vec2> values;
-    std::vector<ElementRange> stressed;
+    std::vector<ElementRange> stressed, flat;
     StrainSmoothing::Room room;
   };
 
-  void noteElements(bool good);
   void smoothStrains(const Model& model, std::size_t part, std::size_t parts, PartErrors& errors);
   void sumChunk(const Model& model, const Chunk& chunk, const BulkViscosity& viscosity,
                 Scratch& scratch);
+  void lookAtFlat(const Model& model, const Chunk& chunk, Scratch& scratch);
   Vec2 holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity);
+  void letGo(Nodes& nodes);
   void sumShared(const BulkViscosity& viscosity, NodeId begin, NodeId end);
   template <bool kForced>
   void move(Nodes& nodes, const Update& update, std::size_t begin, std::size_t end);
   void step(Model& model, const Update& update, const BulkViscosity& viscosity);
-  [[noreturn]] void refuseElement(Model& model, double dt) const;
-  [[noreturn]] void refuseNode(Model& model, double dt) const;
+  [[noreturn]] static void refuseElement(const Model& model);
+  [[noreturn]] void refuseNode(Model& model);
 
   InstructionSet set_;
   ElementChunks elements_;
@@ -112,14 +121,17 @@ class ExplicitDynamics {
   std::vector<Vec2> force_, partialForce_;  // of all: N
   std::vector<Vec2> viscousForce_,
       partialViscous_;  // of the viscosity alone; empty while it is off
-  std::vector<Vec2> previousVelocity_;
+  // Each step writes into these, and then exchanges them for the model's: the state before it stays
+  // at hand without a copy.
+  std::vector<Vec2> previousPosition_, previousVelocity_;
   std::vector<Vec2> heldVelocity_;     // of held nodes in the last step; empty if none was held
   std::vector<Scratch> scratch_;       // one per thread
   std::vector<double> leastStrength_;  // Pa, by component
   std::vector<ElementRange> stressed_;
   double speedLimit_ = tolerance::kAnySpeed;  // m/s
+  double leastHeight_ = 0;                    // m, of all elements, stress-free
   bool watching_ = false;
-  bool badElement_ = false, badNode_ = false, anyFaster_ = false;
+  bool badElement_ = false, badNode_ = false, anyFaster_ = false, anySwift_ = false;
 };
 
 }  // namespace yadefrag

@@ -40,9 +40,9 @@ struct alignas(64) Corners {
     }
 }
 
-/// Bad and stressed elements among kLanes.
+/// Flat and stressed elements among kLanes.
 struct Findings {
-  int bad = 0, stressed = 0;
+  int flat = 0, stressed = 0;
 };
 
 /// Numbers of lanes that hold a stressed element.

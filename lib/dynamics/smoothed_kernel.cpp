@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/tolerances.hpp"
 #include "dynamics/elastic_law.hpp"
 #include "dynamics/lane_corners.hpp"
 
@@ -13,14 +14,14 @@ template <bool kWatched>
                                                       const Corners& c, DistortionLanes& kept,
                                                       SplitGradient* weighted) {
   const StressLook look(chunk.shearFactor, chunk.friction, chunk.squaredLook);
-  int bad = 0;
+  int flat = 0;
   int stressed = 0;
-#pragma omp simd reduction(+ : bad, stressed)
+#pragma omp simd reduction(+ : flat, stressed)
   for (std::size_t k = 0; k < kLanes; ++k) {
     const Matrix2 f = deformationGradient(
         c.x[1][k] - c.x[0][k], c.y[1][k] - c.y[0][k], c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],
         e.inverseEdges[0][k], e.inverseEdges[1][k], e.inverseEdges[2][k], e.inverseEdges[3][k]);
-    bad += determinant(f) > 0 ? 0 : 1;  // NaN too
+    flat += determinant(f) > tolerance::kFlat ? 0 : 1;  // NaN too
     if constexpr (kWatched) stressed += isStressed(f, chunk.lame, chunk.shear, look) ? 1 : 0;
     const double third = e.volume[k] * (1. / 3);
     const double c1 = f.xx - f.yy;
@@ -32,7 +33,7 @@ template <bool kWatched>
     weighted[k].part[2] = third * c1;
     weighted[k].part[3] = third * c2;
   }
-  return {bad, stressed};
+  return {flat, stressed};
 }
 
 template <bool kWatched>
@@ -45,18 +46,18 @@ struct SumGradients {
   StressedLanes& stressed;
 
   [[gnu::always_inline]] bool operator()() const {
-    int bad = 0;
+    int flat = 0;
     Corners corners;
     alignas(64) SplitGradient weighted[kLanes];
     for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l) {
       gather(lanes[l], position, corners);
       const Findings found = splitGradients<kWatched>(lanes[l], chunk, corners, kept[l], weighted);
-      bad += found.bad;
+      flat += found.flat;
       if constexpr (kWatched) stressed.note(l, found.stressed);
       for (const auto& corner : lanes[l].corner)
         for (std::size_t k = 0; k < kLanes; ++k) nodes[corner[k]] += weighted[k];
     }
-    return bad == 0;
+    return flat == 0;
   }
 };
 

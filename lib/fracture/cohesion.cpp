@@ -56,6 +56,7 @@ void Cohesion::renumberEdges(std::span<const EdgeId> renumbered) {
 void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                        const StepLength& step, double drag) {
   points_.clear();
+  turned_.clear();
   for (std::uint32_t c = 0; c < edge.size(); ++c) {
     const auto [a, b] = nodesAt(model, edges, edge[c], 0);
     const auto [d, e] = nodesAt(model, edges, edge[c], 1);
@@ -64,7 +65,10 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
     const Vec2 first = before[d.value] - before[a.value];
     const Vec2 second = before[e.value] - before[b.value];
     // Faces at a right angle hang together by an end at most, and soon have no common normal.
-    if (dot(first, second) <= 0) largest[c] = {critical, critical};
+    if (dot(first, second) <= 0) {
+      turned_.push_back(c);
+      continue;
+    }
     const Vec2 across = rightOf(first + second);
     for (std::uint32_t end = 0; end < 2; ++end) {
       const NodeId here = end == 0 ? a : d, there = end == 0 ? b : e;
@@ -153,11 +157,6 @@ double Cohesion::correct(Model& model, const CrackEdges& edges, std::span<const 
   }
   double most = 0;
   for (const Point& point : points_) {
-    Vec2 direction;
-    const Vec2 apart =
-        model.nodes.position[point.there.value] - model.nodes.position[point.here.value];
-    double& widest = largest[point.crack][point.end];
-    widest = std::max(widest, openingOf(point, apart, direction));
     for (const double sign : {1., -1.}) {
       const NodeId node = sign > 0 ? point.here : point.there;
       const Vec2 mobile = mobility(model.nodes, node, drag);
@@ -177,8 +176,8 @@ void Cohesion::addForces(std::vector<Vec2>& forces) const {
   }
 }
 
-double Cohesion::book(const Model& model, const CrackEdges& edges,
-                      std::span<const Vec2> previousVelocity, const StepLength& step) {
+double Cohesion::work(const Model& model, std::span<const Vec2> previousVelocity,
+                      const StepLength& step) const {
   double work = 0;
   for (const Point& point : points_) {
     const auto mean = [&](NodeId node) {
@@ -186,15 +185,26 @@ double Cohesion::book(const Model& model, const CrackEdges& edges,
     };
     work += step.velocity * point.area * dot(point.traction, mean(point.there) - mean(point.here));
   }
+  return work;
+}
+
+void Cohesion::settle(const Model& model, const CrackEdges& edges) {
+  const std::vector<Vec2>& position = model.nodes.position;
+  for (const Point& point : points_) {
+    Vec2 direction;
+    double& widest = largest[point.crack][point.end];
+    const Vec2 apart = position[point.there.value] - position[point.here.value];
+    widest = std::max(widest, openingOf(point, apart, direction));
+  }
   points_.clear();
+  const auto critical = [&](std::size_t c) { return criticalOpening(model, edges, edge[c]); };
+  for (const std::uint32_t c : turned_) largest[c] = {critical(c), critical(c)};
   released.clear();
   keepOnly([&](std::size_t c) {
-    const double critical = criticalOpening(model, edges, edge[c]);
-    const bool holds = largest[c][0] < critical || largest[c][1] < critical;
+    const bool holds = largest[c][0] < critical(c) || largest[c][1] < critical(c);
     if (!holds) released.push_back(edge[c]);
     return holds;
   });
-  return work;
 }
 
 void Cohesion::removeDropped(const Triangles& triangles, const CrackEdges& edges) {

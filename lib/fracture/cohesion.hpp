@@ -32,14 +32,17 @@ class Cohesion {
   void renumberEdges(std::span<const EdgeId> renumbered);
 
   /// From the predicted x* and v* without cohesion to those with it; `before`: m, xⁿ, for the
-  /// normals. Returns the largest correction of a position (m).
+  /// normals. Returns the largest correction of a position (m). What the cracks know of their
+  /// openings changes in `settle` alone.
   double correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                  const StepLength& step, double drag);
 
-  /// (J) What the tractions of the last step took, with the mean velocity of the step; then those
-  /// that hold nothing any more are forgotten, and listed in `released`.
-  double book(const Model& model, const CrackEdges& edges, std::span<const Vec2> previousVelocity,
-              const StepLength& step);
+  /// (J) What the tractions of the step took, with its mean velocity.
+  [[nodiscard]] double work(const Model& model, std::span<const Vec2> previousVelocity,
+                            const StepLength& step) const;
+  /// At the end of the step, when contact has closed what it closes: cracks learn how far they have
+  /// opened, and those that hold nothing any more are forgotten, and listed in `released`.
+  void settle(const Model& model, const CrackEdges& edges);
 
   /// (N) Adds the tractions of the present step, by node.
   void addForces(std::vector<Vec2>& forces) const;
@@ -49,7 +52,7 @@ class Cohesion {
 
   std::vector<EdgeId> released;  ///< in the last step
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kCohesion, edge, largest, area, points_, released);
+    footprint.add(Use::kCohesion, edge, largest, area, points_, turned_, released);
   }
 
   // By crack that holds; both ends of an edge have an opening of their own.
@@ -79,7 +82,8 @@ class Cohesion {
   static Vec2 shut(const Point& point, Vec2 opening);
 
   std::vector<Point> points_;
-  double squaredStep_ = 0;  // s²
+  std::vector<std::uint32_t> turned_;  // cracks whose faces are at a right angle, or more
+  double squaredStep_ = 0;             // s²
   double drag_ = 0;
 };
 

@@ -23,8 +23,10 @@ std::vector<Box> bodyBoxes(const Model& model, const ContactSurfaces& surfaces, 
   return boxes;
 }
 
-/// Removed bodies leave their numbers behind.
-bool isThere(const Component& body) { return body.firstTriangle < body.lastTriangle; }
+/// Removed bodies leave their numbers behind; what touches itself is always watched.
+bool mayBeApart(const Component& body) {
+  return body.firstTriangle < body.lastTriangle && !body.selfContact;
+}
 
 /// (m) Of two boxes with margins: two bodies are at least so far from each other.
 double gapBetween(const Box& a, const Box& b, double margin) {
@@ -54,7 +56,7 @@ std::vector<ApartBodies::Gap> ApartBodies::gapsBelow(const Model& model,
 
 void ApartBodies::takeFrom(const Model& model, std::span<const NodeId> watched) {
   apart_.clear();
-  for (const Component& body : model.components) apart_.push_back(isThere(body) ? 1 : 0);
+  for (const Component& body : model.components) apart_.push_back(mayBeApart(body) ? 1 : 0);
   for (const NodeId node : watched) apart_[model.nodes.component[node.value].value] = 0;
   former_ = apart_;
   count_ = std::count(apart_.begin(), apart_.end(), 1);
@@ -65,10 +67,7 @@ bool ApartBodies::choose(const Model& model, const ContactSurfaces& surfaces, do
   std::swap(former_, apart_);
   const std::size_t bodies = model.components.size();
   apart_.resize(bodies);
-  for (std::size_t c = 0; c < bodies; ++c) {
-    const Component& body = model.components[c];
-    apart_[c] = isThere(body) && !body.selfContact ? 1 : 0;
-  }
+  for (std::size_t c = 0; c < bodies; ++c) apart_[c] = mayBeApart(model.components[c]) ? 1 : 0;
   count_ = std::count(apart_.begin(), apart_.end(), 1);
   if (count_ > 0) {
     const double widest = tolerance::kApartLook * reach;

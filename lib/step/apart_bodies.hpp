@@ -30,6 +30,7 @@ class ApartBodies {
   /// (m) So much nearer may anybody come to one that is apart, who then is farther than `reach`.
   [[nodiscard]] double spare() const { return spare_; }
   void comeNearer(double way) { spare_ -= way; }
+  void restoreSpare(double spare) { spare_ = spare; }
 
   void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, apart_, former_); }
 

@@ -7,36 +7,66 @@
 
 namespace yadefrag {
 
+/// All or nothing: whatever is thrown before the step is certain, it has not been.
 void World::step(double dt) {
-  requireStableStep(dt);
+  if (!broken_.empty()) throw RunError(broken_);
+  buildIfChanged();
+  beginUndo();
+  try {
+    requireStableStep(dt);
+    advance(dt);
+  } catch (const RunError& error) {
+    takeBack();
+    std::ostringstream text;
+    text << "Step " << steps << ", time " << time << " s: " << error.what();
+    throw RunError(text.str());
+  } catch (...) {
+    takeBack();
+    throw;
+  }
+  try {
+    conclude(dt);
+  } catch (...) {
+    // What has split in part cannot be mended: mostly there was no memory.
+    broken_ = "A step broke off while cracks opened; load a saved state.";
+    throw;
+  }
+}
+
+/// From xⁿ, vⁿ⁻½ to xⁿ⁺¹, vⁿ⁺½.
+void World::advance(double dt) {
   const StepLength length(dt, lastDt);
   // The leapfrog's energy is that of a step: before the first one there is none.
   if (steps == 0) watch.begin(kineticEnergy() + yadefrag::strainEnergy(model, dt), ledger);
-
-  // Where the surface is at xⁿ: contact forces act there, and a step that fails goes back there.
-  rememberSurface(dt);
+  foreseeMotion(dt);
 
   // Internal forces, then v* and x*, as if there were no contact.
   predict(length);
 
   // What still holds cracks together.
   cohere(length);
+  requireBoundedMotion(dt);
 
   // Global search, only if a node left the halo of the last one: mostly a collider has searched, or
   // the last candidates still hold.
   if (canTouch()) {
     measureMove(dt);
-    requireSearchableMotion(dt);
     searchIfLeft(dt);
     requireResolvedMotion(dt);
-    // Local search and correction, from x*, v* to xⁿ⁺¹, vⁿ⁺½.
+    // Local search and correction, from x*, v* to xⁿ⁺¹, vⁿ⁺½. Contact forces act at xⁿ.
     correctContact(length);
     bookContact(length);
   }
+  requireUpright(dt);
 
   // Works of everything but contact, with the mean of both velocities.
   finish(length);
   bookFracture(length);
+  requireFiniteEnergy();
+}
+
+/// What follows from the new state, which stands.
+void World::conclude(double dt) {
   ++steps;
   time += dt;
   lastDt = dt;
@@ -53,13 +83,13 @@ void World::step(double dt) {
 
 void World::predict(const StepLength& length) {
   const StageTimer timer(timesIfAsked(), &StageTimes::forces);
-  try {
-    dynamics_.predict(model, length, dynamicsSettings, outerForces, threads);
-  } catch (const RunError& error) {
-    std::ostringstream text;
-    text << "Step " << steps << ", time " << time << " s: " << error.what();
-    throw RunError(text.str());
-  }
+  dynamics_.predict(model, length, dynamicsSettings, outerForces, threads);
+  undo_.hasMoved = true;
+}
+
+void World::requireUpright(double dt) {
+  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
+  dynamics_.requireUpright(model, dt, canTouch() ? contact.largestCorrection() : 0);
 }
 
 void World::finish(const StepLength& length) {

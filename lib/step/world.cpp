@@ -114,24 +114,22 @@ void World::prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 vel
 }
 
 void World::rebuild() {
+  broken_.clear();
   contact.resize(model.nodes.size());
   isBuilt_ = false;
 }
 
 void World::buildIfChanged() {
   if (isBuilt_) return;
-  isBuilt_ = true;
   places_.forget();
   dynamics_.rebuild(model);
   const auto& owners = surfaces.component;
   severalBodies_ =
       std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();
-  if (canTouch()) before_.resize(model.nodes.size());
   if (fracture.isOn()) {
     fracture.prepare(model);
     const std::size_t room = model.nodes.position.capacity();
     reference.reserve(room);
-    before_.reserve(room);
     surfaces.nodeSegment.reserve(room);
     dynamics_.reserve(room);
     contact.reserve(room);
@@ -143,7 +141,8 @@ void World::buildIfChanged() {
   search_.reset();
   finest_ = finestSegment();
   droppedBelow_ = 0;
-  farthest_ = INFINITY;
+  motion_.farthest = INFINITY;
+  isBuilt_ = true;
 }
 
 /// Only what may crack is looked at, and only where it is stressed nearly up to its weakest edge.
@@ -165,7 +164,6 @@ double World::criticalTimeStep() const {
 /// Only before the first step, and when the step has grown or bodies came or went: a mesh that is
 /// compressed so far that this matters is the user's to watch.
 void World::requireStableStep(double dt) {
-  buildIfChanged();
   if (dt > 0 && dt <= stableStep) return;
   const double critical = criticalTimeStep();
   if (critical == 0)

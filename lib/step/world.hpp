@@ -21,6 +21,8 @@
 #include "step/apart_bodies.hpp"
 #include "step/body_places.hpp"
 #include "step/energy_watch.hpp"
+#include "step/search_state.hpp"
+#include "step/step_undo.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {
@@ -37,18 +39,6 @@ struct BodySpec {
   std::vector<Vec2> displacement;         ///< m, from the stress-free shape
   std::vector<std::uint8_t> held;         ///< Held
   std::vector<std::uint8_t> smoothNodes;  ///< is a boundary node on a C¹-smooth part
-};
-
-/// The state of the global search: what it covers, and until when.
-struct SearchState {
-  double halo = 0;      ///< m, δ of the last search
-  double shortest = 0;  ///< m, shortest boundary segment then
-  bool isDue = true;    ///< the next step may leave the halo
-  bool isVoid = true;   ///< entries came or went: there are no candidates to go on with
-  /// Of the surfaces of bodies that are not apart from all others; those that came by cracks are
-  /// the last ones.
-  std::vector<NodeId> nodes;
-  std::vector<Vec2> positions;  ///< m, of those nodes at the last search, or when they came
 };
 
 /// Fragments that were taken out because they were too small; their energy is in the ledger.
@@ -72,7 +62,8 @@ class World {
 
   /// One step of Δt (s), which may differ from the last one's. Throws TimeStepError for a step
   /// above the critical one, InputError where it does not resolve a crack's opening, RunError where
-  /// an element or a value gives out: the last good state is then there to be looked at.
+  /// an element or a value gives out. All state is then as it was before, to the last bit: the next
+  /// step is what it would have been.
   void step(double dt);
 
   /// (s) From the present mesh; infinite without elements.
@@ -134,20 +125,24 @@ class World {
   void buildIfChanged();
   void requireStableStep(double dt);
   void watchStrengths();
-  void rememberSurface(double dt);
-  void copySurface();
+  void foreseeMotion(double dt);
   void watchAll();
   void watchSpeed(double dt);
   void watchApart(double dt);
-  void chooseWatched(double ago);
+  void chooseWatched();
   [[nodiscard]] double apartReach() const;
+  void advance(double dt);
+  void beginUndo();
+  void keepSearch();
+  void takeBack();
+  void conclude(double dt);
   void searchIfLeft(double dt);
   void searchNow(double dt);
-  void considerPairs(std::span<const BoxPair> overlapping);
+  void considerPairs(std::span<const BoxPair> overlapping, std::span<const Vec2> before);
   void requireApart(const TriangleMesh& mesh, const BodySpec& spec);
-  void requireSearchableMotion(double dt);
+  void requireBoundedMotion(double dt);
   void requireResolvedMotion(double dt);
-  [[noreturn]] void refuseMotion(double dt, const std::string& why);
+  void requireFiniteEnergy() const;
   void correctContact(const StepLength& length);
   void bookContact(const StepLength& length);
   void foreseeSearch(double dt);
@@ -167,6 +162,7 @@ class World {
   [[nodiscard]] double wideHalo(double move) const;
   [[nodiscard]] double fastest(SegmentId first) const;
   void predict(const StepLength& length);
+  void requireUpright(double dt);
   void finish(const StepLength& length);
   [[nodiscard]] StageTimes* timesIfAsked() { return timing ? &times : nullptr; }
 
@@ -177,22 +173,18 @@ class World {
   LoosePieces loose_;
   BodyPlaces places_;
   std::vector<Vec2> surfaceForces_;  // N, by node, of contact and cohesion
-  std::vector<Vec2> before_;         // m, xⁿ by node; of surface nodes only
   std::vector<BoxPair> overlapping_;
   std::vector<SlaveMaster> pairs_;
   std::vector<Box> boxes_;
   bool isBuilt_ =
       false;  // do the arrays below fit the model: many bodies join, then one step comes
   bool severalBodies_ = false;
-  double largestMove_ = 0;  // m, of a watched node from xⁿ to x*; a bound
-  double mostMove_ = 0;     // m, of any node; a bound
-  bool isQuiet_ = false;    // nobody can come near another in this step: xⁿ is not remembered
+  MotionBounds motion_;
   ApartBodies apart_;
-  double farthest_ =
-      INFINITY;              // m, no surface node is farther from where it was at the last search
-  double fastest_ = 0;       // m/s, of all nodes when the halo was chosen
+  StepUndo undo_;
   double finest_ = 0;        // m, shortest stress-free segment: does not hang on when was searched
   double droppedBelow_ = 0;  // m², no loose fragment is smaller; 0: unknown
+  std::string broken_;       // why there is no state to go on with; empty: there is
 };
 
 }  // namespace yadefrag

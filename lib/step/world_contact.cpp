@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/errors.hpp"
 #include "core/tolerances.hpp"
 #include "step/entry_pairs.hpp"
 #include "step/world.hpp"
@@ -66,8 +65,8 @@ double World::wideHalo(double move) const {
 void World::chooseHalo(double dt, SegmentId first) {
   const double shortest = shortestSegment(surfaces, model.nodes.position, first);
   search.shortest = first.value == 0 ? shortest : std::min(search.shortest, shortest);
-  fastest_ = first.value == 0 ? fastest(first) : std::max(fastest_, fastest(first));
-  const double fast = wideHalo(2 * tolerance::kHaloSpare * fastest_ * dt);
+  motion_.fastest = first.value == 0 ? fastest(first) : std::max(motion_.fastest, fastest(first));
+  const double fast = wideHalo(2 * tolerance::kHaloSpare * motion_.fastest * dt);
   // A step that needs more is refused; until then nobody shall make candidates of everything.
   const double most = 4 * tolerance::kHaloSpare * tolerance::kFarthestMove * search.shortest;
   search.halo = std::min(fast, most);
@@ -80,20 +79,21 @@ void World::takePairs(std::span<const BoxPair> overlapping) {
     return;
   }
   watchSpeed(lastDt);
-  chooseWatched(0);
-  copySurface();
-  considerPairs(overlapping);
+  chooseWatched();
+  considerPairs(overlapping, model.nodes.position);
 }
 
-void World::considerPairs(std::span<const BoxPair> overlapping) {
+/// `before`: m, by node, at the end of the last step.
+void World::considerPairs(std::span<const BoxPair> overlapping, std::span<const Vec2> before) {
   passRule_.update(surfaces, model.nodes.position, contactSettings.passes);
   pairs_.clear();
   selectPairs(model, surfaces, passRule_, model.nodes.position, search.halo, overlapping, pairs_);
-  replaceCandidates(contact.candidates, pairs_, surfaces, before_);
+  undo_.candidates = replaceCandidates(contact.candidates, pairs_, surfaces, before);
+  undo_.hasCandidates = true;
   search.positions.resize(search.nodes.size());
   for (std::size_t i = 0; i < search.nodes.size(); ++i)
     search.positions[i] = model.nodes.position[search.nodes[i].value];
-  farthest_ = 0;
+  motion_.farthest = 0;
   search.isDue = search.isVoid = false;
   ++numSearches;
   // Where all are watched in every step anyway, nobody asks for more.
@@ -104,28 +104,29 @@ void World::considerPairs(std::span<const BoxPair> overlapping) {
 void World::searchIfLeft(double dt) {
   const StageTimer timer(timesIfAsked(), &StageTimes::search);
   if (search.isDue || search.isVoid) return searchNow(dt);
-  if (farthest_ <= search.halo / 2) return;
+  if (motion_.farthest <= search.halo / 2) return;
   double most = 0;
   for (std::size_t i = 0; i < search.nodes.size(); ++i) {
     const Vec2 moved = model.nodes.position[search.nodes[i].value] - search.positions[i];
     most = std::max(most, dot(moved, moved));
   }
-  farthest_ = std::sqrt(most);
-  if (!(farthest_ <= search.halo / 2)) searchNow(dt);
+  motion_.farthest = std::sqrt(most);
+  if (!(motion_.farthest <= search.halo / 2)) searchNow(dt);
 }
 
 /// The world's own search, at x*: all boxes but of bodies that are apart, position codes moved,
 /// pairs.
 void World::searchNow(double dt) {
+  keepSearch();
   // As wide as the collider's would be, and at least as wide as this step's own motion.
   if (apart_.any()) {
     chooseHalo(dt);
   } else {
     search.shortest = shortestSegment(surfaces, model.nodes.position);
-    search.halo = wideHalo(2 * tolerance::kHaloSpare * largestMove_);
+    search.halo = wideHalo(2 * tolerance::kHaloSpare * motion_.largest);
   }
   watchSpeed(dt);
-  chooseWatched(dt);
+  chooseWatched();
   if (!search_) search_ = makeSearch(SearchMethod::kLebesgue);
   boxes_.resize(surfaces.entries());
   for (std::size_t e = 0; e < boxes_.size(); ++e)
@@ -134,26 +135,23 @@ void World::searchNow(double dt) {
   search_->update(boxes_);
   overlapping_.clear();
   search_->findPairs(overlapping_);
-  considerPairs(overlapping_);
+  considerPairs(overlapping_, dynamics_.previousPosition());
 }
 
 void World::correctContact(const StepLength& length) {
   const ContactStep now{length,
                         dynamicsSettings.drag(length),
-                        largestMove_,
-                        2 * largestMove_ + tolerance::kTouching * finest_,
+                        motion_.largest,
+                        2 * motion_.largest + tolerance::kTouching * finest_,
                         finest_,
                         search.halo,
-                        before_,
+                        dynamics_.previousPosition(),
                         threads,
                         fracture.numCracks() > 0,
                         timesIfAsked()};
-  try {
-    contact.correct(model, surfaces, contactSettings, now);
-  } catch (const RunError& error) {
-    refuseMotion(length.position, error.what());
-  }
-  farthest_ += contact.largestCorrection();
+  undo_.hasCorrected = true;
+  contact.correct(model, surfaces, contactSettings, now);
+  motion_.farthest += contact.largestCorrection();
   apart_.comeNearer(2 * contact.largestCorrection());
 }
 

@@ -11,20 +11,21 @@ namespace yadefrag {
 void World::cohere(const StepLength& length) {
   if (fracture.cohesion.edge.empty()) return;
   const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
-  fracture.cohesion.correct(model, fracture.edges, before_, length, dynamicsSettings.drag(length));
+  fracture.cohesion.correct(model, fracture.edges, dynamics_.previousPosition(), length,
+                            dynamicsSettings.drag(length));
 }
 
 void World::bookFracture(const StepLength& length) {
   if (fracture.cohesion.edge.empty()) return;
   const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
-  ledger.fracture +=
-      fracture.cohesion.book(model, fracture.edges, dynamics_.previousVelocity(), length);
+  ledger.fracture += fracture.cohesion.work(model, dynamics_.previousVelocity(), length);
 }
 
 /// True if nodes have split.
 bool World::crack() {
   if (!fracture.isOn()) return false;
   const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
+  fracture.cohesion.settle(model, fracture.edges);
   const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), split_);
   if (opened) {
     ledger.fracture -= fracture.splitEnergy(model, split_.originals, lastDt);
@@ -40,7 +41,6 @@ void World::followSplit() {
     reference.push_back(Vec2(reference[original.value]));
   const std::size_t count = model.nodes.size();
   contact.resize(count);
-  before_.resize(count);
   dynamics_.follow(model, split_.changed, split_.originals);
   std::vector<EntryId> changed = relink(surfaces, split_.sides);
   const auto appear = [&](NodeId node) {

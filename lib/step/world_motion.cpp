@@ -59,25 +59,30 @@ void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec) {
   throw InputError(text.str());
 }
 
-void World::requireSearchableMotion(double dt) {
-  if (largestMove_ <= tolerance::kFarthestMove * finest_) return;
-  if (!std::isfinite(largestMove_))
-    refuseMotion(dt,
-                 "a surface node leaves the range of numbers; loads, gravity or velocities are "
-                 "too large for any step.");
+/// No search would come of it, and no good shape.
+void World::requireBoundedMotion(double dt) {
+  if (!dynamics_.anySwift()) return;
+  const std::span<const Vec2> before = dynamics_.previousPosition();
+  double most = 0;
+  for (std::size_t n = 0; n < before.size(); ++n)
+    most = std::max(most, norm(model.nodes.position[n] - before[n]));
+  if (most <= tolerance::kFarthestMove * finest_) return;
+  if (!std::isfinite(most))
+    throw RunError(
+        "a node leaves the range of numbers; loads, gravity or velocities are too large for any "
+        "step.");
   std::ostringstream text;
-  text << "a surface node moves by " << largestMove_ << " m in one step, but may not by more than "
+  text << "a node moves by " << most << " m in one step, but may not by more than "
        << tolerance::kFarthestMove << " times the shortest segment, " << finest_
-       << " m; take a step of at most " << dt * tolerance::kFarthestMove * finest_ / largestMove_
-       << " s.";
-  refuseMotion(dt, text.str());
+       << " m; take a step of at most " << dt * tolerance::kFarthestMove * finest_ / most << " s.";
+  throw RunError(text.str());
 }
 
 void World::requireResolvedMotion(double dt) {
   // Two nodes come nearer by twice the largest move at most.
-  if (2 * largestMove_ <= tolerance::kMostMotion * finest_) return;
-  const PieceGeometry before(surfaces, before_), now(surfaces, model.nodes.position),
-      free(surfaces, reference);
+  if (2 * motion_.largest <= tolerance::kMostMotion * finest_) return;
+  const PieceGeometry before(surfaces, dynamics_.previousPosition()),
+      now(surfaces, model.nodes.position), free(surfaces, reference);
   const Candidates& candidates = contact.candidates;
   double most = 0;
   EntryId fastest;
@@ -95,17 +100,13 @@ void World::requireResolvedMotion(double dt) {
        << " of a segment in one step, but may not by more than " << tolerance::kMostMotion
        << ", lest contact be missed; take a step of at most " << dt * tolerance::kMostMotion / most
        << " s.";
-  refuseMotion(dt, text.str());
+  throw RunError(text.str());
 }
 
-/// Back to xⁿ, vⁿ⁻½: a shorter step goes on from there.
-void World::refuseMotion(double dt, const std::string& why) {
-  dynamics_.takeBack(model, dt);
-  for (const NodeId node : search.nodes) model.nodes.position[node.value] = before_[node.value];
-  search.isVoid = true;
-  std::ostringstream text;
-  text << "Step " << steps << ", time " << time << " s: " << why;
-  throw RunError(text.str());
+/// Forces so large that their works leave the range of numbers.
+void World::requireFiniteEnergy() const {
+  if (std::isfinite(ledger.total(0, 0))) return;
+  throw RunError("the works of forces on the bodies are not finite; take smaller forces.");
 }
 
 }  // namespace yadefrag

@@ -16,19 +16,15 @@ void World::watchAll() {
   std::sort(search.nodes.begin(), search.nodes.end());
 }
 
-void World::copySurface() {
-  for (const NodeId node : search.nodes) before_[node.value] = model.nodes.position[node.value];
-}
-
-void World::rememberSurface(double dt) {
+/// Before the step moves anything.
+void World::foreseeMotion(double dt) {
   if (!canTouch()) return;
   const StageTimer timer(timesIfAsked(), &StageTimes::search);
   const double most = dynamics_.speedLimit() * dt;
-  isQuiet_ = contact.candidates.size() == 0 && !search.isDue && !search.isVoid &&
-             fracture.cohesion.edge.empty() && farthest_ + most <= search.halo / 2 &&
-             most <= tolerance::kFarthestMove * finest_ &&
-             !(apart_.any() && apart_.spare() < 2 * most);
-  if (!isQuiet_) copySurface();
+  motion_.isQuiet = contact.candidates.size() == 0 && !search.isDue && !search.isVoid &&
+                    fracture.cohesion.edge.empty() && motion_.farthest + most <= search.halo / 2 &&
+                    most <= tolerance::kFarthestMove * finest_ &&
+                    !(apart_.any() && apart_.spare() < 2 * most);
 }
 
 /// From x*. Where nobody is faster than foreseen, there is nothing to look at in a quiet step.
@@ -36,27 +32,23 @@ void World::measureMove(double dt) {
   const StageTimer timer(timesIfAsked(), &StageTimes::search);
   if (dynamics_.anyFaster()) {
     watchSpeed(dt);
-    // But for rounding.
-    if (isQuiet_)
-      for (const NodeId node : search.nodes)
-        before_[node.value] =
-            model.nodes.position[node.value] - dt * model.nodes.velocity[node.value];
-    isQuiet_ = false;
+    motion_.isQuiet = false;
   } else {
-    mostMove_ = dynamics_.speedLimit() * dt;
+    motion_.most = dynamics_.speedLimit() * dt;
   }
   watchApart(dt);
-  if (isQuiet_) {
-    largestMove_ = mostMove_;
+  if (motion_.isQuiet) {
+    motion_.largest = motion_.most;
   } else {
     double most = 0;
+    const std::span<const Vec2> before = dynamics_.previousPosition();
     for (const NodeId node : search.nodes) {
-      const Vec2 moved = model.nodes.position[node.value] - before_[node.value];
+      const Vec2 moved = model.nodes.position[node.value] - before[node.value];
       most = std::max(most, dot(moved, moved));
     }
-    largestMove_ = std::sqrt(most);
+    motion_.largest = std::sqrt(most);
   }
-  farthest_ += largestMove_;
+  motion_.farthest += motion_.largest;
 }
 
 /// How fast all nodes are now, and what the next steps are to tell.
@@ -64,37 +56,33 @@ void World::watchSpeed(double dt) {
   double most = 0;
   for (const Vec2 velocity : model.nodes.velocity) most = std::max(most, dot(velocity, velocity));
   most = std::sqrt(most);
-  mostMove_ = most * dt;
+  motion_.most = most * dt;
   dynamics_.watchSpeed(std::min(tolerance::kSpeedSpare * most, tolerance::kAnySpeed));
 }
 
 /// (m) Nobody comes so near to a body that is apart. Two bodies that meet in a step are not farther
 /// than twice its largest move at the end.
 double World::apartReach() const {
-  return std::max(search.halo, tolerance::kApartMoves * mostMove_);
+  return std::max(search.halo, tolerance::kApartMoves * motion_.most);
 }
 
 /// Bodies that are not apart any more are watched from this very step on.
 void World::watchApart(double dt) {
   if (!apart_.any()) return;
-  apart_.comeNearer(2 * mostMove_);
+  apart_.comeNearer(2 * motion_.most);
   if (apart_.spare() >= 0) return;
   apart_.look(model, surfaces, apartReach());
   if (apart_.spare() >= 0) return;
+  keepSearch();
   search.isDue = true;
-  chooseWatched(dt);
+  chooseWatched();
 }
 
-/// `ago`: how long (s) the end of the last step is past, at the present velocities.
-void World::chooseWatched(double ago) {
+void World::chooseWatched() {
   if (!apart_.choose(model, surfaces, apartReach())) return;
   watchAll();
   const std::vector<ComponentId>& bodies = model.nodes.component;
   std::erase_if(search.nodes, [&](NodeId node) { return apart_.isApart(bodies[node.value]); });
-  for (const NodeId node : search.nodes)
-    if (apart_.wasApart(bodies[node.value]))
-      before_[node.value] =
-          model.nodes.position[node.value] - ago * model.nodes.velocity[node.value];
   search.positions.clear();
   search.isVoid = true;
 }
@@ -109,8 +97,8 @@ void World::foreseeSearch(double dt) {
     search.isDue = apart_.spare() < 2 * dynamics_.speedLimit() * dt;
     if (search.isDue) return;
   }
-  const double most = largestMove_ + contact.largestCorrection();
-  if (farthest_ + tolerance::kHaloSpare * most <= search.halo / 2) return;
+  const double most = motion_.largest + contact.largestCorrection();
+  if (motion_.farthest + tolerance::kHaloSpare * most <= search.halo / 2) return;
   double farthest = 0;
   for (std::size_t i = 0; i < search.nodes.size(); ++i) {
     const std::uint32_t node = search.nodes[i].value;
@@ -122,7 +110,7 @@ void World::foreseeSearch(double dt) {
       return;
     }
   }
-  farthest_ = farthest;
+  motion_.farthest = farthest;
 }
 
 }  // namespace yadefrag

@@ -1,0 +1,88 @@
+// Steps that cannot be made: which element or node is the reason, and back to where they began.
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/tolerances.hpp"
+#include "dynamics/element_state.hpp"
+#include "dynamics/explicit_dynamics.hpp"
+
+namespace yadefrag {
+namespace {
+
+/// "element 5 of component 0 at (0.1, 0.2) m"
+std::string nameOf(const Model& model, ElementId element, std::span<const Vec2> position) {
+  Vec2 centre;
+  for (const NodeId node : model.triangles.nodes[element.value])
+    centre += 1. / 3 * position[node.value];
+  std::ostringstream text;
+  text << "element " << element.value << " of component "
+       << model.triangles.component[element.value].value << " at (" << centre.x << ", " << centre.y
+       << ") m";
+  return text.str();
+}
+
+}  // namespace
+
+/// A chunk with an element that is flat, inverted or not finite.
+void ExplicitDynamics::lookAtFlat(const Model& model, const Chunk& chunk, Scratch& scratch) {
+  scratch.flat.push_back({chunk.firstElement, chunk.lastElement});
+  for (std::uint32_t e = chunk.firstElement; e < chunk.lastElement; ++e)
+    if (!(determinant(deformationGradient(model, ElementId(e))) > 0))
+#pragma omp atomic write
+      badElement_ = true;
+}
+
+void ExplicitDynamics::requireUpright(const Model& model, double dt, double correction) const {
+  const auto look = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      if (determinant(deformationGradient(model, ElementId(e))) > 0) continue;
+      std::ostringstream text;
+      text << nameOf(model, ElementId(e), previousPosition_)
+           << " is turned inside out in a step of " << dt << " s; take a shorter one.";
+      throw RunError(text.str());
+    }
+  };
+  if (anySwift_ || correction > tolerance::kSwift * leastHeight_)
+    return look(0, model.triangles.size());
+  for (const Scratch& scratch : scratch_)
+    for (const ElementRange& range : scratch.flat) look(range.firstElement, range.lastElement);
+}
+
+/// Held directions: what the model says, and how the nodes moved before, change places again.
+void ExplicitDynamics::letGo(Nodes& nodes) {
+  if (heldVelocity_.empty()) return;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}})
+      if ((nodes.held[n] & flag) != 0) std::swap(nodes.velocity[n].*axis, heldVelocity_[n].*axis);
+}
+
+void ExplicitDynamics::takeBack(Model& model) {
+  model.nodes.position.swap(previousPosition_);
+  model.nodes.velocity.swap(previousVelocity_);
+  letGo(model.nodes);
+}
+
+void ExplicitDynamics::refuseElement(const Model& model) {
+  std::size_t e = 0;
+  while (determinant(deformationGradient(model, ElementId(e))) > 0) ++e;
+  const bool inverted = determinant(deformationGradient(model, ElementId(e))) <= 0;
+  throw RunError(nameOf(model, ElementId(e), model.nodes.position) +
+                 (inverted ? " is turned inside out." : " has a value that is not finite."));
+}
+
+void ExplicitDynamics::refuseNode(Model& model) {
+  Nodes& nodes = model.nodes;
+  letGo(nodes);
+  std::size_t bad = 0;
+  while (isFinite(previousPosition_[bad])) ++bad;
+  std::ostringstream text;
+  text << "node " << bad << " of component " << nodes.component[bad].value << " at ("
+       << nodes.position[bad].x << ", " << nodes.position[bad].y
+       << ") m has a force or a velocity that is not finite.";
+  throw RunError(text.str());
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,43 @@
+#include "core/failing_memory.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+thread_local bool counting = false, failed = false;
+thread_local std::size_t left = 0;
+
+void* allocate(std::size_t size, std::size_t alignment) {
+  if (counting && left-- == 0) {
+    counting = false, failed = true;
+    throw std::bad_alloc();
+  }
+  size = (std::max(size, std::size_t{1}) + alignment - 1) / alignment * alignment;
+  void* memory = std::aligned_alloc(alignment, size);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return allocate(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace yadefrag::test {
+
+FailingMemory::FailingMemory(std::size_t count) {
+  left = count;
+  counting = true, failed = false;
+}
+FailingMemory::~FailingMemory() { counting = false; }
+bool FailingMemory::hasFailed() { return failed; }
+
+}  // namespace yadefrag::test

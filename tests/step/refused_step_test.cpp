@@ -1,0 +1,145 @@
+// A step that is refused has not been: all state is as before, to the last bit, and the run goes on
+// as that of a twin that was never asked for the step. Whatever the scene, the moment, the reason.
+
+#include <gtest/gtest.h>
+
+#include <new>
+
+#include "core/failing_memory.hpp"
+#include "extremes/any_world.hpp"
+#include "extremes/limits.hpp"
+#include "step/eventful_scenes.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+/// A world that is asked for steps that cannot be, and one that is not.
+class Twins {
+ public:
+  Twins(const Scene& scene, std::uint64_t seed)
+      : asked_(scene()), spared_(scene()), chance_(seed), dt_(.3 * asked_.criticalTimeStep()) {}
+
+  std::map<std::string, int> refusals;
+
+  void run(int steps) {
+    for (int i = 0; i < steps && !testing::Test::HasFailure(); ++i) {
+      if (chance_.oneIn(8)) askForSteps();
+      if (chance_.oneIn(8)) askWithForces();
+      if (chance_.oneIn(8)) askWithoutMemory();
+      both(dt_);
+      rows_ += asked_.contact.rows().size();
+    }
+  }
+  [[nodiscard]] const World& world() const { return asked_; }
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+
+ private:
+  /// The sentence of the step, "" if it was taken.
+  std::string ask(const char* reason, double dt) {
+    const State before = stateOf(asked_);
+    const std::string sentence = sentenceOf([&] { asked_.step(dt); });
+    if (sentence.empty()) return sentence;
+    ++refusals[reason];
+    EXPECT_EQ(whatDiffers(before, stateOf(asked_)), "") << sentence;
+    return sentence;
+  }
+
+  void both(double dt) {
+    asked_.step(dt), spared_.step(dt);
+    EXPECT_EQ(whatDiffers(stateOf(spared_), stateOf(asked_)), "") << "step " << asked_.steps;
+  }
+
+  void askForSteps() {
+    const double critical = asked_.criticalTimeStep();
+    for (const double dt : {1.01 * critical, 1e9 * critical, -dt_, 0., double(NAN)})
+      EXPECT_NE(ask("step", dt), "") << dt;
+  }
+
+  void askWithForces() {
+    for (const double force : {double(NAN), double(INFINITY), -double(INFINITY), 1e308, 1e200})
+      push("wild force", force, anyNode());
+    // From hardly too much to far too much: too fast, inside out, through one another, jammed.
+    for (int i = 0; i < 4; ++i) {
+      const std::size_t node = anyNode();
+      push("strong force", chance_.power(-1, 3) * asked_.model.nodes.mass[node] / (dt_ * dt_),
+           node);
+    }
+  }
+
+  std::size_t anyNode() {
+    return static_cast<std::size_t>(chance_.below(static_cast<int>(asked_.model.nodes.size())));
+  }
+
+  void push(const char* reason, double force, std::size_t node) {
+    std::vector<Vec2> forces(asked_.model.nodes.size());
+    forces[node] = force * Vec2{1, chance_.from(-1, 1)};
+    if (isAccepted(forces)) return;
+    asked_.outerForces = std::move(forces);
+    const std::string sentence = ask(reason, dt_);
+    EXPECT_NE(sentence, "") << force;
+    for (const char* part : {"inside out", "be missed", "a node moves by", "range of numbers",
+                             "not finite", "contact moves"})
+      if (sentence.find(part) != std::string::npos) ++refusals[part];
+    asked_.outerForces.clear();
+  }
+
+  /// Tried on a copy: such a step would spoil the scene.
+  bool isAccepted(const std::vector<Vec2>& forces) {
+    World copy = copyOf(asked_);
+    copy.outerForces = forces;
+    return sentenceOf([&] { copy.step(dt_); }).empty();
+  }
+
+  /// At every place of the step where memory is asked for, up to where it is certain.
+  void askWithoutMemory() {
+    for (std::size_t count = 0; count < 1000; ++count) {
+      const State before = stateOf(asked_);
+      const std::uint64_t steps = asked_.steps;
+      try {
+        const FailingMemory memory(count);
+        asked_.step(dt_);
+      } catch (const std::bad_alloc&) {
+        ++refusals["memory"];
+        if (asked_.steps == steps) {
+          EXPECT_EQ(whatDiffers(before, stateOf(asked_)), "") << count;
+          continue;
+        }
+        // The step stands, but not all that follows from it, as cracks: there is no going on.
+        ++refusals["memory for cracks"];
+        EXPECT_NE(sentenceOf([&] { asked_.step(dt_); }).find("broke off"), std::string::npos);
+        spared_.step(dt_);
+        asked_ = copyOf(spared_);
+        return;
+      }
+      break;
+    }
+    spared_.step(dt_);
+  }
+
+  World asked_, spared_;
+  Chance chance_;
+  double dt_;
+  std::size_t rows_ = 0;
+};
+
+TEST(RefusedStep, ChangesNothing) {
+  std::map<std::string, int> refusals;
+  for (const auto& [name, scene] : scenes()) {
+    SCOPED_TRACE(name);
+    Twins twins(scene, 3);
+    twins.run(longRun() ? 2000 : 250);
+    for (const auto& [reason, count] : twins.refusals) refusals[reason] += count;
+    EXPECT_TRUE(name == "alone" || twins.rows() > 50);
+    const bool cracks = name == "rubble" || name == "cohesion" || name == "dropped";
+    EXPECT_EQ(twins.world().fracture.numCracks() > 0, cracks);
+    EXPECT_EQ(twins.world().dropped.count > 0, name == "dropped");
+    if (HasFailure()) return;
+  }
+  for (const char* reason : {"step", "wild force", "strong force", "memory", "inside out",
+                             "be missed", "a node moves by", "range of numbers", "not finite"})
+    EXPECT_GT(refusals[reason], 10) << reason;
+  for (const auto& [reason, count] : refusals) RecordProperty(reason, count);
+}
+
+}  // namespace
+}  // namespace yadefrag::test
