@@ -95,8 +95,20 @@ def _guardRemove(remove):
     return guarded
 
 
+def _guardCopy(reduce):
+    """What copy and pickle call, for a solver without bodies: a copy would have none of them."""
+    def guarded(self, protocol):
+        if len(self.masses) > 0:
+            raise TypeError('an FESolver that has bodies cannot be copied or pickled, for its '
+                            'bodies belong to the scene; O.save keeps them, or make a new one.')
+        return reduce(self, protocol)
+
+    return guarded
+
+
 def install():
     wrapper.FESolver.removeBody = _guardRemove(wrapper.FESolver.removeBody)
+    wrapper.FESolver.__reduce_ex__ = _guardCopy(wrapper.FESolver.__reduce_ex__)
     for guard, names in ((_guardErase, ['erase']), (_guardInsert, ['insertAtId']),
                          (_guardClump, ['clump', 'addToClump']),
                          (_guardBodies, ['deleteClumpMember', 'deleteClumpBody'])):
