@@ -3,18 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/random_bits.hpp"
+
 namespace yadefrag {
 namespace {
-
-constexpr std::uint64_t kStride = 0x9e3779b97f4a7c15;  // odd, near 2⁶⁴ over the golden ratio
-
-/// The finisher of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, "Fast splittable pseudorandom
-/// number generators", fig. 14): every bit of the result hangs on every bit of x.
-std::uint64_t mix(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
 
 /// The scatters are drawn apart, so that both may be set.
 enum Stream : std::uint64_t { kWeibull = 1, kEven = 2 };
@@ -22,8 +14,8 @@ enum Stream : std::uint64_t { kWeibull = 1, kEven = 2 };
 /// Even in (0, 1), never an end: number `edge` of SplitMix64's sequence, reached by one jump.
 double uniform(std::uint64_t seed, Stream stream, std::uint64_t edge) {
   // Neighbouring seeds would else share their sequences, shifted by one edge.
-  const std::uint64_t start = mix(mix(seed + kStride) + stream * kStride);
-  const std::uint64_t bits = mix(start + (edge + 1) * kStride);
+  const std::uint64_t start = mixBits(mixBits(seed + kRandomStride) + stream * kRandomStride);
+  const std::uint64_t bits = mixBits(start + (edge + 1) * kRandomStride);
   return (static_cast<double>(bits >> 12) + .5) * 0x1p-52;  // 53 bits: exact
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/size_field.hpp"
 #include "mesh/triangle_mesh.hpp"
 
 namespace yadefrag {
@@ -25,11 +26,12 @@ struct DividedBoundary {
   }
 };
 
-/// Checks `given` and divides each edge into round(length/size) equal parts, at least one. Vertex
-/// numbers are those of `given`. InputError as checkPolygon, and for a size that is not positive
-/// and finite, or too small for 32-bit numbers, for the rounding of the coordinates, or for
-/// triangles in `mostBytes` of memory.
-[[nodiscard]] DividedBoundary divideBoundary(const Polygon& given, double size,
+/// Checks `given` and divides each edge into round(length/size) equal parts, at least one; where
+/// the size varies, into parts of the size there, stretched alike. Vertex numbers are those of
+/// `given`. InputError as checkPolygon, and for a size that is not positive and finite, or too
+/// small for 32-bit numbers, for the rounding of the coordinates, or for triangles in `mostBytes`
+/// of memory.
+[[nodiscard]] DividedBoundary divideBoundary(const Polygon& given, const SizeField& size,
                                              double mostBytes = INFINITY);
 
 }  // namespace yadefrag

@@ -4,11 +4,16 @@
 #include <vector>
 
 #include "mesh/divided_boundary.hpp"
+#include "mesh/mesh_layout.hpp"
+#include "mesh/size_field.hpp"
 
 namespace yadefrag {
 
-/// Nodes at the corners of nearly equilateral triangles, laid in rows from the boundary inwards
-/// until the fronts meet. A few may be outside where the boundary is finer than its surroundings.
-[[nodiscard]] std::vector<Vec2> fillInterior(const DividedBoundary& boundary, double size);
+/// Nodes that go from the boundary inwards until the fronts meet: at the corners of nearly
+/// equilateral triangles, or at random places where the Poisson disks around all nodes leave room
+/// (Bridson 2007; a maximal sampling, Ebeida et al. 2011, but for gaps that 30 tries missed). A few
+/// may be outside where the boundary is finer than its surroundings.
+[[nodiscard]] std::vector<Vec2> fillInterior(const DividedBoundary& boundary, const SizeField& size,
+                                             MeshLayout layout = {});
 
 }  // namespace yadefrag

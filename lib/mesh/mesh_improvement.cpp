@@ -1,6 +1,8 @@
 #include "mesh/mesh_improvement.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -11,12 +13,18 @@ namespace yadefrag {
 namespace {
 
 constexpr std::uint32_t kNone = LinkedTriangles::kNone;
+
+/// (of the mean side around a node) Least height of the triangles at a scattered node from which on
+/// it is not moved for their sake. At .5 steps are 5 % shorter; at .6 angles fall below 30°.
+constexpr double kGoodHeight = .55;
+
 constexpr int next(int k) { return k == 2 ? 0 : k + 1; }
 constexpr int previous(int k) { return k == 0 ? 2 : k - 1; }
 
 class Improver {
  public:
-  explicit Improver(LinkedTriangles& mesh) : mesh_(mesh), triangleOf_(mesh.nodes.size()) {}
+  Improver(LinkedTriangles& mesh, bool evenHeights)
+      : mesh_(mesh), evenHeights_(evenHeights), triangleOf_(mesh.nodes.size()) {}
 
   void run() {
     flipAll();
@@ -93,10 +101,24 @@ class Improver {
     return ring_;
   }
 
-  static double worst(std::span<const std::pair<Vec2, Vec2>> ring, Vec2 p) {
+  /// Tangent of the smallest angle around p, or what a low triangle counts as.
+  [[nodiscard]] double worst(std::span<const std::pair<Vec2, Vec2>> ring, Vec2 p) const {
     double least = 2;
     for (const auto& [a, b] : ring) least = std::min(least, tanMinAngle(p, a, b));
-    return least;
+    return evenHeights_ ? std::min(least, heightMeasure(ring, p)) : least;
+  }
+
+  /// kGoodTan where the least height is that of good triangles, in proportion elsewhere.
+  static double heightMeasure(std::span<const std::pair<Vec2, Vec2>> ring, Vec2 p) {
+    double least = std::numeric_limits<double>::infinity(), around = 0;
+    for (const auto& [a, b] : ring) {
+      const double side = norm(b - a);
+      const double longest = std::max({side, norm(a - p), norm(b - p)});
+      least = std::min(least, cross(a - p, b - p) / longest);
+      around += side;
+    }
+    const double good = kGoodHeight * around / static_cast<double>(ring.size());
+    return tolerance::kGoodTan * least / good;
   }
 
   /// To the mean of the circumcentres, weighted by area, which makes Delaunay triangles even.
@@ -140,12 +162,13 @@ class Improver {
   }
 
   LinkedTriangles& mesh_;
+  bool evenHeights_;
   std::vector<std::uint32_t> triangleOf_;  // one at each node
   std::vector<std::pair<Vec2, Vec2>> ring_;
 };
 
 }  // namespace
 
-void improve(LinkedTriangles& mesh) { Improver(mesh).run(); }
+void improve(LinkedTriangles& mesh, bool evenHeights) { Improver(mesh, evenHeights).run(); }
 
 }  // namespace yadefrag

@@ -35,10 +35,11 @@ void checkThinnest(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh triangulate(const Polygon& polygon, double size, double mostBytes) {
+TriangleMesh triangulate(const Polygon& polygon, const SizeField& size, MeshLayout layout,
+                         double mostBytes) {
   const DividedBoundary boundary = divideBoundary(polygon, size, mostBytes);
-  LinkedTriangles linked = triangulateNodes(boundary, fillInterior(boundary, size));
-  improve(linked);
+  LinkedTriangles linked = triangulateNodes(boundary, fillInterior(boundary, size, layout));
+  improve(linked, layout.nodes == NodeLayout::kScattered);
 
   TriangleMesh mesh;
   mesh.nodes = std::move(linked.nodes);

@@ -1,16 +1,11 @@
 #include "fe/fe_arrays.hpp"
 
-#include <unistd.h>
-
 #include <mutex>
 
 #include "dynamics/element_state.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/fragments.hpp"
 #include "fe/running.hpp"
-#include "mesh/polygon.hpp"
-#include "mesh/structured.hpp"
-#include "mesh/triangulate.hpp"
 
 namespace yadefrag {
 
@@ -35,11 +30,6 @@ namespace {
 constexpr const char* kReal = "float64";
 constexpr const char* kIndex = "uint32";
 
-/// (bytes) Of which all the rest takes some, too.
-double memoryOfMachine() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 /// Runs `work`, which changes the scene, between two steps.
 template <class Work>
 auto change(const FESolver& solver, const Work& work) {
@@ -48,34 +38,7 @@ auto change(const FESolver& solver, const Work& work) {
   return asValueError(work);
 }
 
-py::dict toDict(const TriangleMesh& mesh) {
-  py::dict result;
-  py::list loops, vertices;
-  for (const auto& loop : mesh.loops) loops.append(toArray(loop, kIndex, 0));
-  for (const auto& loop : mesh.loopVertices) vertices.append(toArray(loop, kIndex, 0));
-  result["nodes"] = toArray(mesh.nodes, kReal, 2);
-  result["triangles"] = toArray(mesh.triangles, kIndex, 3);
-  result["loops"] = loops;
-  result["loopVertices"] = vertices;
-  return result;
-}
-
 }  // namespace
-
-py::dict meshOfPolygon(const py::object& outline, const py::list& holes, double size) {
-  return asValueError([&] {
-    Polygon polygon;
-    polygon.outline = fromBytes<Vec2>(outline);
-    for (int i = 0; i < py::len(holes); ++i) polygon.holes.push_back(fromBytes<Vec2>(holes[i]));
-    return toDict(triangulate(checkPolygon(std::move(polygon)), size, memoryOfMachine()));
-  });
-}
-
-py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
-                         bool crossed) {
-  const QuadPattern pattern = crossed ? QuadPattern::kCrossed : QuadPattern::kUnionJack;
-  return toDict(structuredRectangle({left, bottom}, {right, top}, nx, ny, pattern));
-}
 
 int addMesh(FESolver& solver, const py::dict& input) {
   TriangleMesh mesh;

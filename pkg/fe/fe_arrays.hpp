@@ -33,13 +33,6 @@ std::vector<Element> fromBytes(const yade::py::object& bytes) {
   return column;
 }
 
-/// The mesh of a polygon, as a dict of arrays: nodes, triangles, loops, loopVertices.
-yade::py::dict meshOfPolygon(const yade::py::object& outline, const yade::py::list& holes,
-                             double size);
-/// A regular mesh of a rectangle, likewise.
-yade::py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
-                               bool crossed);
-
 /// `FESolver._addMesh` of yadefrag/solver.py, which has checked all input.
 int addMesh(FESolver& solver, const yade::py::dict& input);
 

@@ -6,6 +6,7 @@
 
 #include "fe/fe_arrays.hpp"
 #include "fe/fe_solver.hpp"
+#include "fe/mesh_python.hpp"
 #include "fracture/checks.hpp"
 
 namespace yadefrag {
@@ -55,6 +56,8 @@ void FESolver::pyExtra(PyClass& pyClass) {
           "_lock", +[](const FESolver& self) { self.betweenSteps().lock(); })
       .def(
           "_unlock", +[](const FESolver& self) { self.betweenSteps().unlock(); })
+      .def("_meshQuality", &Locked<meshQualityOf>::call)
+      .def("_costlyStepWarning", &Locked<costlyStepWarningOf>::call)
       .def("_setLoads", &setLoads)
       .def("_prescribe", &prescribe);
   valuesOf(pyClass);

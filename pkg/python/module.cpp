@@ -6,6 +6,7 @@
 #include "collider/colliders.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/materials.hpp"
+#include "fe/mesh_python.hpp"
 #include "fe/polygon_python.hpp"
 #include "fe/running.hpp"
 #include "fe/segment_functors.hpp"

@@ -181,7 +181,7 @@ TEST(Triangulate, BadSizes) {
   const auto messageFor = [](const Polygon& polygon, double size,
                              double mostBytes = INFINITY) -> std::string {
     try {
-      (void)triangulate(polygon, size, mostBytes);
+      (void)triangulate(polygon, size, {}, mostBytes);
     } catch (const InputError& error) {
       return error.what();
     }

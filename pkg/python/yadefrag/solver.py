@@ -14,6 +14,8 @@ from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag import guards
 from yadefrag._yadefrag import requirePaused
+from yadefrag.meshing import isIrregular, meshOfPolygon
+from yadefrag.quality import meshQuality
 from yadefrag.shown import betweenSteps, shownTriangles
 from yadefrag.values import (flag, isWhole, number, numbersOf, pair, plain, positive, refuse, shown,
                              whole)
@@ -177,11 +179,14 @@ def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickn
 
 
 def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocity=(0, 0), spin=0,
-               displacement=None, fixed=None, thickness=1, selfContact=True, element='linear'):
+               displacement=None, fixed=None, thickness=1, selfContact=True, element='linear',
+               mesh=None, meshSeed=0):
     """Adds a plane body, meshed with triangles; returns its number (int).
 
     outline, holes  list of points (x, y) in m, and a list of such lists
-    size            length of the triangles' edges (m)
+    size            length of the triangles' edges (m), or a function (x, y) → m. The function is
+                    sampled on a grid of at least 128 and at most 1024 cells along the longer side.
+                    Where it grows by more than 0.25 m per metre, it is lowered to that.
     material        an FEMat, its label or its number in O.materials; as it is now: later changes of
                     it have no effect on the body
     smooth          False: straight boundary; True: C¹-smooth everywhere; or one flag per point of
@@ -200,9 +205,14 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     with the volume strain and 0.4 of the shear strains averaged at the nodes
                     (after Dohrmann et al. 2000, Int. J. Numer. Meth. Eng. 47, 1549, and Liu et al.
                     2008, Comput. Methods Appl. Mech. Eng. 197, 3883), for bodies that bend
+    mesh            'regular': rows of nearly equilateral triangles, whose edges have few
+                    directions; 'irregular': edges in all directions, for cracks that do not
+                    follow the mesh; None: 'irregular' for a BrittleFEMat, otherwise 'regular'
+    meshSeed        of an irregular mesh: the same outline, size and seed give the same mesh
     Functions are called at the nodes of the stress-free shape. ValueError before anything changes,
     also where the body would overlap another one; RuntimeError while O.run goes on in the
-    background; a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks.
+    background; a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks,
+    and one where short edges of the outline cost much of the time step.
     """
     points = _points('outline', outline, 3)
     try:
@@ -212,12 +222,15 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     if loops is None:
         refuse('holes', holes, 'a list of loops of points (x, y) in m')
     holePoints = [_points('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
-    size = positive('size', size, 'm')
     material = _material(material)
-    mesh = _yadefrag.meshOfPolygon(points.tobytes(), [h.tobytes() for h in holePoints], size)
-    smoothed = _smoothNodes(smooth, mesh, points)
-    return _add(self, mesh, smoothed, material, velocity, spin, displacement, fixed, thickness,
+    made = meshOfPolygon(points, holePoints, size, isIrregular(mesh, material), meshSeed)
+    smoothed = _smoothNodes(smooth, made, points)
+    body = _add(self, made, smoothed, material, velocity, spin, displacement, fixed, thickness,
                 selfContact, element)
+    costly = self._costlyStepWarning(body, made['smallestSize'])
+    if costly:
+        warnings.warn('addPolygon: ' + costly, stacklevel=2)
+    return body
 
 
 def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0, 0), spin=0,
@@ -375,6 +388,7 @@ def install():
     wrapper.FESolver.addPolygon = addPolygon
     wrapper.FESolver.addTriangles = addTriangles
     wrapper.FESolver.prescribe = prescribe
+    wrapper.FESolver.meshQuality = meshQuality
     wrapper.FESolver.minAngle = property(_minAngle, doc=_minAngle.__doc__)
     wrapper.FESolver.loads = property(_getLoads, _setLoads, doc=_getLoads.__doc__)
     wrapper.FESolver.fragments = _guardFragments(wrapper.FESolver.fragments)

@@ -1,0 +1,95 @@
+#include "fe/mesh_python.hpp"
+
+#include <unistd.h>
+
+#include "dynamics/mesh_step.hpp"
+#include "fe/fe_arrays.hpp"
+#include "fe/fe_solver.hpp"
+#include "mesh/mesh_quality.hpp"
+#include "mesh/polygon.hpp"
+#include "mesh/structured.hpp"
+#include "mesh/triangulate.hpp"
+
+namespace yadefrag {
+
+namespace py = yade::py;
+
+namespace {
+
+/// (bytes) Of which all the rest takes some, too.
+double memoryOfMachine() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+py::dict toDict(const TriangleMesh& mesh) {
+  py::dict result;
+  py::list loops, vertices;
+  for (const auto& loop : mesh.loops) loops.append(toArray(loop, "uint32", 0));
+  for (const auto& loop : mesh.loopVertices) vertices.append(toArray(loop, "uint32", 0));
+  result["nodes"] = toArray(mesh.nodes, "float64", 2);
+  result["triangles"] = toArray(mesh.triangles, "uint32", 3);
+  result["loops"] = loops;
+  result["loopVertices"] = vertices;
+  return result;
+}
+
+SizeField sizeField(const py::tuple& size) {
+  if (py::len(size) == 1) return py::extract<double>(size[0])();
+  const Vec2 low = {py::extract<double>(size[0]), py::extract<double>(size[1])};
+  return {low, py::extract<double>(size[2]), py::extract<std::uint32_t>(size[3]),
+          fromBytes<double>(size[4])};
+}
+
+}  // namespace
+
+py::dict meshOfPolygon(const py::object& outline, const py::list& holes, const py::tuple& size,
+                       bool irregular, std::uint64_t seed) {
+  return asValueError([&] {
+    const MeshLayout layout{irregular ? NodeLayout::kScattered : NodeLayout::kRows, seed};
+    Polygon polygon;
+    polygon.outline = fromBytes<Vec2>(outline);
+    for (int i = 0; i < py::len(holes); ++i) polygon.holes.push_back(fromBytes<Vec2>(holes[i]));
+    const SizeField field = sizeField(size);
+    py::dict mesh =
+        toDict(triangulate(checkPolygon(std::move(polygon)), field, layout, memoryOfMachine()));
+    mesh["smallestSize"] = field.smallest();
+    return mesh;
+  });
+}
+
+py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
+                         bool crossed) {
+  const QuadPattern pattern = crossed ? QuadPattern::kCrossed : QuadPattern::kUnionJack;
+  return toDict(structuredRectangle({left, bottom}, {right, top}, nx, ny, pattern));
+}
+
+py::dict meshQualityOf(const FESolver& solver, int component) {
+  const World& world = solver.world();
+  const Component& body = world.model.components[component];
+  const TriangleMesh mesh = stressFreeMesh(world.model, world.reference, ComponentId(component));
+  const MeshQuality quality = meshQuality(mesh.nodes, mesh.triangles);
+  const auto byDirection = [](const auto& values) {
+    return toArray(std::vector<double>(values.begin(), values.end()), "float64", 0);
+  };
+  py::dict result;
+  result["numTriangles"] = quality.numTriangles;
+  result["size"] = latticeSide(mesh);
+  result["shortestEdge"] = quality.shortestEdge;
+  result["minAngle"] = quality.minAngle;
+  result["timeStepRatio"] = meshTimeStep(mesh, body) / latticeTimeStep(body, latticeSide(mesh));
+  result["pathRatio"] = quality.meanPath;
+  result["pathSpread"] = quality.pathSpread;
+  result["edgeDeviation"] = quality.edgeDeviation;
+  result["pathRatioByDirection"] = byDirection(quality.paths);
+  result["edgesByDirection"] = byDirection(quality.edges);
+  return result;
+}
+
+std::string costlyStepWarningOf(const FESolver& solver, int component, double size) {
+  const World& world = solver.world();
+  const ComponentId id(component);
+  return costlyStepWarning(stressFreeMesh(world.model, world.reference, id),
+                           world.model.components[component], size);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,27 @@
+#pragma once
+// Meshes of polygons and rectangles for Python, and how good a body's mesh is.
+
+#include <cstdint>
+#include <string>
+
+#include "abi/yade.hpp"
+
+namespace yadefrag {
+
+class FESolver;
+
+/// The mesh of a polygon, as a dict of arrays: nodes, triangles, loops, loopVertices, and
+/// smallestSize (m). `size` is a tuple: one number (m), or left, bottom and cell (m) of a grid, its
+/// columns, and its values.
+yade::py::dict meshOfPolygon(const yade::py::object& outline, const yade::py::list& holes,
+                             const yade::py::tuple& size, bool irregular, std::uint64_t seed);
+/// A regular mesh of a rectangle, likewise.
+yade::py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
+                               bool crossed);
+
+/// `FESolver._meshQuality` of yadefrag/meshing.py, which has checked the component.
+yade::py::dict meshQualityOf(const FESolver& solver, int component);
+/// A sentence where the component's mesh makes steps far shorter than triangles of `size` (m).
+std::string costlyStepWarningOf(const FESolver& solver, int component, double size);
+
+}  // namespace yadefrag

@@ -1,0 +1,48 @@
+"""How addPolygon fills an outline: kind of mesh, seed, size of the triangles by place."""
+
+import math
+
+import numpy
+
+from yade import wrapper
+from yadefrag import _yadefrag
+from yadefrag.values import number, positive, refuse, whole
+
+_LEAST_SAMPLES, _MOST_SAMPLES = 128, 1024  # of a size function, along the outline's longer side
+
+
+def _sampledSize(function, points):
+    """(left, bottom, cell, columns, values): the size at the points of a square grid."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    samples = _LEAST_SAMPLES
+    while True:
+        cell = float((high - low).max()) / samples
+        columns, rows = (max(2, int(math.ceil(side / cell - 1e-9)) + 1) for side in high - low)
+        places = [(float(low[0] + i * cell), float(low[1] + j * cell)) for j in range(rows)
+                  for i in range(columns)]
+        values = numpy.array([positive('size(%g, %g)' % (x, y), function(x, y), 'm')
+                              for x, y in places])
+        if values.min() >= cell or samples >= _MOST_SAMPLES:
+            return float(low[0]), float(low[1]), cell, columns, values.tobytes()
+        samples *= 2
+
+
+def isIrregular(mesh, material):
+    """The kind of mesh that `mesh` asks for; None: irregular for a body that can crack."""
+    if mesh is None:
+        return isinstance(material, wrapper.BrittleFEMat)
+    if not isinstance(mesh, str) or mesh not in ('regular', 'irregular'):
+        refuse('mesh', mesh, "'regular', 'irregular' or None")
+    return mesh == 'irregular'
+
+
+def meshOfPolygon(points, holes, size, irregular, seed):
+    """The dict of arrays that _add takes, with `loopVertices` and `smallestSize` (m)."""
+    seed = whole('meshSeed', seed, least=0, right='a whole number, 0 or more', most=2**63 - 1)
+    if callable(size):
+        wanted = _sampledSize(size, points)
+    else:
+        wanted = (number('size', size, lambda v: math.isfinite(v) and v > 0,
+                         'a positive number (m) or a function (x, y) that returns one'),)
+    return _yadefrag.meshOfPolygon(points.tobytes(), [h.tobytes() for h in holes], wanted,
+                                   irregular, seed)
