@@ -164,7 +164,7 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
   const StageTimer timer(step.times, &StageTimes::localSearch);
   actives_.clear();
   search_.findActives(
-      candidates, surfaces, model.nodes.position, step.halo, actives_, known_,
+      candidates, surfaces, model.nodes.position, step.deepest, actives_, known_,
       lookedAt_ ? std::span<const std::uint8_t>(isTouched_) : std::span<const std::uint8_t>());
   lookedAt_ = true;
   if (!actives_.empty()) makeRoom(model.nodes.size());
@@ -354,13 +354,15 @@ void Contact::addTo(Footprint& footprint) const {
 }
 
 void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
-                            std::span<const EntryId> masters) {
-  if (masters.empty()) return;
+                            std::span<const EntryId> masters, std::span<const SlaveMaster> pairs) {
+  if (masters.empty() && pairs.empty()) return;
   const PieceGeometry geometry(surfaces, positions);
   for (std::size_t r = 0; r < candidates.slaves.size(); ++r)
     for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
       const SlaveMaster pair{candidates.slaves[r], candidates.masters[c]};
-      if (candidates.outside[c] == 0 || std::ranges::find(masters, pair.master) == masters.end())
+      if (candidates.outside[c] == 0) continue;
+      if (std::ranges::find(masters, pair.master) == masters.end() &&
+          !std::ranges::binary_search(pairs, pair))
         continue;
       const double gap = geometry.foot(pair.master, geometry.slave(pair.slave)).gap;
       if (gap >= 0) continue;

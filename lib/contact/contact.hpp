@@ -33,7 +33,7 @@ struct ContactStep {
   double move;                   ///< m, largest displacement of a surface node
   double reach;                  ///< m, twice the largest displacement of a surface node
   double shortest;               ///< m, shortest segment
-  double halo;                   ///< m, δ
+  double deepest;                ///< m, a smooth master holds nothing deeper
   std::span<const Vec2> before;  ///< m, xⁿ; of surface nodes only
   int threads;
   bool rubble;                  ///< do faces of cracks take part
@@ -68,10 +68,11 @@ class Contact {
   /// After pieces of surfaces are gone: nothing touches them any more.
   void removeGone(const ContactSurfaces& surfaces);
 
-  /// Masters that came nearer to their slaves because they changed their form, at `positions`
-  /// (m, by node): what they overlap by is let out in time, not pushed out in one step.
+  /// Masters that came nearer to their slaves because they changed their form, and single pairs
+  /// (ascending) that became outside, at `positions` (m, by node): what they overlap by is let out
+  /// in time, not pushed out in one step.
   void allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
-                     std::span<const EntryId> masters);
+                     std::span<const EntryId> masters, std::span<const SlaveMaster> pairs);
 
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
   /// (N) By node, of the last step.

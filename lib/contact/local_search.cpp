@@ -161,17 +161,17 @@ double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, do
 }
 
 void LocalSearch::findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
-                              std::span<const Vec2> positions, double halo,
+                              std::span<const Vec2> positions, double deepest,
                               std::vector<Active>& actives, std::span<const SlaveMaster> known,
                               std::span<const std::uint8_t> moved) {
   withGeometry(surfaces, positions, [&](const auto& geometry) {
-    tryAll(candidates, surfaces, geometry, halo, actives, known, moved);
+    tryAll(candidates, surfaces, geometry, deepest, actives, known, moved);
   });
 }
 
 template <class Geometry>
 void LocalSearch::tryAll(const Candidates& candidates, const ContactSurfaces& surfaces,
-                         const Geometry& geometry, double halo, std::vector<Active>& actives,
+                         const Geometry& geometry, double deepest, std::vector<Active>& actives,
                          std::span<const SlaveMaster> known, std::span<const std::uint8_t> moved) {
   const std::span<const Near> near(near_);
   auto next = known.begin();
@@ -186,7 +186,7 @@ void LocalSearch::tryAll(const Candidates& candidates, const ContactSurfaces& su
     if (allKnown) continue;
     if (!moved.empty() && !hasMoved(candidates, surfaces, near.subspan(begin, end - begin), moved))
       continue;
-    tryRow(candidates, surfaces, geometry, near.subspan(begin, end - begin), halo);
+    tryRow(candidates, surfaces, geometry, near.subspan(begin, end - begin), deepest);
     for (const Trial& trial : trials_)
       if (trial.active) actives.push_back({{slave, trial.master}, trial.foot, trial.cameAside});
   }
@@ -209,7 +209,7 @@ bool LocalSearch::hasMoved(const Candidates& candidates, const ContactSurfaces& 
 /// One slave and all masters that it is near to.
 template <class Geometry>
 void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
-                         const Geometry& geometry, std::span<const Near> row, double halo) {
+                         const Geometry& geometry, std::span<const Near> row, double deepest) {
   const EntryId slave = candidates.slaves[row.front().row];
   const Vec2 point = geometry.slave(slave);
   trials_.clear();
@@ -243,19 +243,21 @@ void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& su
     trials_.clear();
     return;
   }
-  decide(surfaces, geometry, halo);
+  decide(surfaces, geometry, deepest);
 }
 
 /// The outside-inside criterion (§5.1), then the exceptions where two masters meet (§5.2). A smooth
 /// master needs no flag (§5.3): its normal always exists and is unique. But where a body folds up,
-/// the normals of a tight arc reach far into it and out at the other side: a depth beyond the halo
-/// is none.
+/// the normals of a tight arc reach far into it and out at the other side: a depth beyond
+/// `deepest` is none.
 template <class Geometry>
-void LocalSearch::decide(const ContactSurfaces& surfaces, const Geometry& geometry, double halo) {
+void LocalSearch::decide(const ContactSurfaces& surfaces, const Geometry& geometry,
+                         double deepest) {
   for (Trial& trial : trials_) {
     const bool arc = geometry.isArc(trial.master);
     trial.active = trial.opposed && trial.foot.gap < 0 && (arc || trial.outside) &&
-                   (!arc || trial.foot.gap >= -halo) && isOver(geometry, trial.master, trial.foot);
+                   (!arc || trial.foot.gap >= -deepest) &&
+                   isOver(geometry, trial.master, trial.foot);
   }
   // All that came in past an end before any choice: else one neighbour would bring back what the
   // other one is nearer to.
@@ -265,21 +267,21 @@ void LocalSearch::decide(const ContactSurfaces& surfaces, const Geometry& geomet
     for (std::uint32_t k = 0; k < trials_.size(); ++k)
       if (trials_[k].master == after) joints_.emplace_back(i, k);
   }
-  for (const auto& [i, k] : joints_) enterAtJoint(geometry, trials_[i], trials_[k], halo);
+  for (const auto& [i, k] : joints_) enterAtJoint(geometry, trials_[i], trials_[k], deepest);
   for (const auto& [i, k] : joints_) decideNeighbours(geometry, trials_[i], trials_[k]);
 }
 
 /// `second` follows `first` on their surface.
 template <class Geometry>
 void LocalSearch::enterAtJoint(const Geometry& geometry, Trial& first, Trial& second,
-                               double halo) const {
+                               double deepest) const {
   const bool overFirst = isOver(geometry, first.master, first.foot);
   const bool overSecond = isOver(geometry, second.master, second.foot);
   const bool pastFirst = isBehindEnd(geometry, first.master, first.foot);
   const bool pastSecond = isBeforeBegin(geometry, second.master, second.foot);
-  if (overSecond && second.foot.gap >= -halo && (pastFirst || overFirst))
+  if (overSecond && second.foot.gap >= -deepest && (pastFirst || overFirst))
     enterFromNeighbour(first, second, pastFirst);
-  if (overFirst && first.foot.gap >= -halo && (pastSecond || overSecond))
+  if (overFirst && first.foot.gap >= -deepest && (pastSecond || overSecond))
     enterFromNeighbour(second, first, pastSecond);
 }
 

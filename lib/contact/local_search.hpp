@@ -39,11 +39,11 @@ class LocalSearch {
             std::span<const Vec2> positions, double reach, int threads, double moved = INFINITY);
 
   /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master. None is deeper
-  /// in a smooth master than `halo` (m). Slaves `known` (ascending) to be active on all masters
-  /// that they are near to are left out, and, if there is one, so are those of whom no node is in
-  /// `moved` (flags by node), which were looked at before.
+  /// in a smooth master than `deepest` (m), which is no matter of the halo. Slaves `known`
+  /// (ascending) to be active on all masters that they are near to are left out, and, if there is
+  /// one, so are those of whom no node is in `moved` (flags by node), which were looked at before.
   void findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
-                   std::span<const Vec2> positions, double halo, std::vector<Active>& actives,
+                   std::span<const Vec2> positions, double deepest, std::vector<Active>& actives,
                    std::span<const SlaveMaster> known = {},
                    std::span<const std::uint8_t> moved = {});
 
@@ -86,17 +86,17 @@ class LocalSearch {
 
   template <class Geometry>
   void tryAll(const Candidates& candidates, const ContactSurfaces& surfaces,
-              const Geometry& geometry, double halo, std::vector<Active>& actives,
+              const Geometry& geometry, double deepest, std::vector<Active>& actives,
               std::span<const SlaveMaster> known, std::span<const std::uint8_t> moved);
   template <class Geometry>
   void tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
-              const Geometry& geometry, std::span<const Near> row, double halo);
+              const Geometry& geometry, std::span<const Near> row, double deepest);
   template <class Geometry>
-  void decide(const ContactSurfaces& surfaces, const Geometry& geometry, double halo);
+  void decide(const ContactSurfaces& surfaces, const Geometry& geometry, double deepest);
   template <class Geometry>
   void decideNeighbours(const Geometry& geometry, Trial& first, Trial& second);
   template <class Geometry>
-  void enterAtJoint(const Geometry& geometry, Trial& first, Trial& second, double halo) const;
+  void enterAtJoint(const Geometry& geometry, Trial& first, Trial& second, double deepest) const;
   void enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom) const;
 
   double way_ = 0;    // m, of the fastest node since the candidates were found

@@ -41,7 +41,7 @@ std::pair<std::uint32_t, std::uint32_t> rowOf(const Candidates& candidates, Entr
 }
 
 /// Raises the flags of `to` that are raised in `from`.
-void takeFlags(Candidates& candidates, EntryId from, EntryId to, std::vector<EntryId>& masters) {
+void takeFlags(Candidates& candidates, EntryId from, EntryId to, std::vector<SlaveMaster>& raised) {
   auto [a, aEnd] = rowOf(candidates, from);
   for (auto [b, bEnd] = rowOf(candidates, to); b < bEnd; ++b) {
     while (a < aEnd && candidates.masters[a] < candidates.masters[b]) ++a;
@@ -50,7 +50,7 @@ void takeFlags(Candidates& candidates, EntryId from, EntryId to, std::vector<Ent
         candidates.outside[b] != 0)
       continue;
     candidates.outside[b] = 1;
-    masters.push_back(candidates.masters[b]);
+    raised.push_back({to, candidates.masters[b]});
   }
 }
 
@@ -96,9 +96,9 @@ std::vector<BoxPair> overlapsAmong(const ContactSurfaces& surfaces, std::span<co
   return pairs;
 }
 
-std::vector<EntryId> inheritFlags(Candidates& candidates, const ContactSurfaces& surfaces,
-                                  std::span<const NodeId> originals, std::size_t nodeCount) {
-  std::vector<EntryId> masters;
+std::vector<SlaveMaster> inheritFlags(Candidates& candidates, const ContactSurfaces& surfaces,
+                                      std::span<const NodeId> originals, std::size_t nodeCount) {
+  std::vector<SlaveMaster> raised;
   const auto slaveAt = [&](NodeId node) {
     return surfaces.segmentEntry[surfaces.nodeSegment[node.value].value];
   };
@@ -107,9 +107,10 @@ std::vector<EntryId> inheritFlags(Candidates& candidates, const ContactSurfaces&
     while (end < twins.size() && twins[end].original == twins[begin].original) ++end;
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t k = begin; k < end; ++k)
-        if (i != k) takeFlags(candidates, slaveAt(twins[i].node), slaveAt(twins[k].node), masters);
+        if (i != k) takeFlags(candidates, slaveAt(twins[i].node), slaveAt(twins[k].node), raised);
   }
-  return masters;
+  std::sort(raised.begin(), raised.end());
+  return raised;
 }
 
 }  // namespace yadefrag

@@ -21,8 +21,9 @@ std::vector<BoxPair> overlapsAmong(const ContactSurfaces& surfaces, std::span<co
 
 /// Of the slaves that a node became, each is outside whatever one of them was outside before: they
 /// are at the same place, and where it is inside by what the last correction left, geometry alone
-/// would call the new ones inside for good. Returns the masters of which that is told, in no order.
-std::vector<EntryId> inheritFlags(Candidates& candidates, const ContactSurfaces& surfaces,
-                                  std::span<const NodeId> originals, std::size_t nodeCount);
+/// would call the new ones inside for good. Returns the pairs that are outside from now on,
+/// ascending.
+std::vector<SlaveMaster> inheritFlags(Candidates& candidates, const ContactSurfaces& surfaces,
+                                      std::span<const NodeId> originals, std::size_t nodeCount);
 
 }  // namespace yadefrag

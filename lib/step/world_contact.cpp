@@ -144,7 +144,7 @@ void World::correctContact(const StepLength& length) {
                         motion_.largest,
                         2 * motion_.largest + tolerance::kTouching * finest_,
                         finest_,
-                        search.halo,
+                        tolerance::kWidestHalo * finest_ + 2 * motion_.largest,
                         dynamics_.previousPosition(),
                         threads,
                         fracture.numCracks() > 0,

@@ -42,7 +42,7 @@ void World::followSplit() {
   const std::size_t count = model.nodes.size();
   contact.resize(count);
   dynamics_.follow(model, split_.changed, split_.originals);
-  std::vector<EntryId> changed = relink(surfaces, split_.sides);
+  const std::vector<EntryId> changed = relink(surfaces, split_.sides);
   const auto appear = [&](NodeId node) {
     search.nodes.push_back(node);
     search.positions.push_back(model.nodes.position[node.value]);
@@ -53,10 +53,9 @@ void World::followSplit() {
     if (side.segment == SegmentId::none())
       finest_ = std::min(finest_, norm(reference[side.last.value] - reference[side.first.value]));
   addCrackCandidates();
-  const std::vector<EntryId> inherited =
+  const std::vector<SlaveMaster> inherited =
       inheritFlags(contact.candidates, surfaces, split_.originals, count);
-  changed.insert(changed.end(), inherited.begin(), inherited.end());
-  contact.allowOverlaps(surfaces, model.nodes.position, changed);
+  contact.allowOverlaps(surfaces, model.nodes.position, changed, inherited);
 }
 
 /// New faces, and all that came near them: what is within the halo of an old piece beside the crack

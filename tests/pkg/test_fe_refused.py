@@ -17,7 +17,7 @@ O = builtins.O
 def forced(force):
     """A step with a force on a piece of the boundary."""
     O.forces.setPermF(0, force)
-    with pytest.raises(RuntimeError, match='Step .*(not finite|beyond all numbers|a node moves)'):
+    with pytest.raises(RuntimeError, match='Step .*(not finite|range of numbers|a node moves)'):
         O.step()
     O.forces.setPermF(0, (0, 0, 0))
 
@@ -40,9 +40,10 @@ REFUSALS = {
 
 
 def state(solver):
+    # Without numSearches: the search that the collider made before the refused step stands.
     return (solver.nodes, solver.velocities, solver.contactForces, solver.stress,
-            list(solver.energy.items()), list(solver.warnings), solver.numSearches,
-            solver.numActives, solver.maxPenetration, [b.shape.halo for b in O.bodies if b],
+            list(solver.energy.items()), list(solver.warnings), solver.numActives,
+            solver.maxPenetration, [b.shape.halo for b in O.bodies if b],
             [tuple(b.state.pos) for b in O.bodies if b])
 
 
