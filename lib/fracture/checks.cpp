@@ -38,6 +38,7 @@ struct Edge {
   NodeId low, high;
   double length;       // m
   double inverseMass;  // 1/kg, of the least that one triangle can give to a node
+  double volume;       // m³, of a third of the triangle
   [[nodiscard]] bool joins(const Edge& o) const { return low == o.low && high == o.high; }
 };
 
@@ -52,7 +53,8 @@ std::vector<Edge> sidesOf(const Model& model, const Component& body) {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto [low, high] = std::minmax(nodes[i], nodes[(i + 1) % 3]);
       const Vec2 along = model.nodes.position[high.value] - model.nodes.position[low.value];
-      sides.push_back({low, high, norm(along), 3 / mass});
+      sides.push_back(
+          {low, high, norm(along), 3 / mass, body.thickness * model.triangles.area[e] / 3});
     }
   }
   std::sort(sides.begin(), sides.end(), [](const Edge& a, const Edge& b) {
@@ -66,6 +68,7 @@ struct EdgeSums {
   double meanLength = 0;  // m, of inner and outer ones
   /// (m²/kg) Greatest (L/2)(1/m₁ + 1/m₂) of the inner ones.
   double lightest = 0;
+  double leastVolume = INFINITY;  // m³, of the inner ones
 };
 
 EdgeSums sumsOf(const Model& model, const Component& body) {
@@ -76,6 +79,7 @@ EdgeSums sumsOf(const Model& model, const Component& body) {
       ++sums.inner;
       const double inverse = sides[i].inverseMass + sides[i - 1].inverseMass;
       sums.lightest = std::max(sums.lightest, sides[i].length / 2 * inverse);
+      sums.leastVolume = std::min(sums.leastVolume, sides[i].volume + sides[i - 1].volume);
     } else {
       sums.meanLength += sides[i].length;
     }
@@ -103,6 +107,8 @@ void checkBrittle(const BrittleMaterial& material) {
           "positive and finite");
   require(notNegative(material.weibullModulus), "weibullModulus", material.weibullModulus, "",
           "positive and finite, or 0 for strengths without this scatter");
+  require(notNegative(material.referenceVolume), "referenceVolume", material.referenceVolume, " m³",
+          "positive and finite, or 0 for strengths on which the volume has no influence");
   require(material.strengthScatter >= 0 && material.strengthScatter < 1, "strengthScatter",
           material.strengthScatter, "", "at least 0 and below 1");
 }
@@ -112,7 +118,7 @@ void checkCohesiveResolution(const Model& model, ComponentId component, double d
   if (!body.brittle.cracks() || body.brittle.fractureEnergy <= 0) return;
   const EdgeSums sums = sumsOf(model, body);
   if (sums.inner == 0) return;
-  const double strength = likelyLargestStrength(body.brittle, sums.inner);
+  const double strength = likelyLargestStrength(body.brittle, sums.inner, sums.leastVolume);
   const double critical = 2 * body.brittle.fractureEnergy / strength;
   const double crossed = dt * dt * body.thickness * sums.lightest * strength / 4;
   if (crossed < critical) return;

@@ -56,7 +56,10 @@ void CrackEdges::addBody(const Model& model, ComponentId component) {
     ofElement[a.element.value][a.corner] = ofElement[b.element.value][b.corner] = EdgeId(size());
     element.push_back({a.element, b.element});
     corner.push_back({a.corner, b.corner});
-    strength.push_back(edgeStrength(body.brittle, number++));
+    // Of each triangle a third belongs to each of its sides.
+    const double area =
+        model.triangles.area[a.element.value] + model.triangles.area[b.element.value];
+    strength.push_back(edgeStrength(body.brittle, number++, body.thickness * area / 3));
     cracked.push_back(0);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/random_bits.hpp"
 
@@ -19,24 +20,38 @@ double uniform(std::uint64_t seed, Stream stream, std::uint64_t edge) {
   return (static_cast<double>(bits >> 12) + .5) * 0x1p-52;  // 53 bits: exact
 }
 
+/// (Pa) 63 % of the edges of this volume (m³) are weaker.
+double scaleOf(const BrittleMaterial& material, double volume) {
+  if (material.weibullModulus <= 0 || material.referenceVolume <= 0)
+    return material.tensileStrength;
+  return material.tensileStrength *
+         std::pow(material.referenceVolume / volume, 1 / material.weibullModulus);
+}
+
+/// The power of a small modulus may leave the range of numbers.
+double inRange(double strength) {
+  return std::clamp(strength, std::numeric_limits<double>::min(),
+                    std::numeric_limits<double>::max());
+}
+
 }  // namespace
 
-double edgeStrength(const BrittleMaterial& material, std::uint64_t edge) {
-  double strength = material.tensileStrength;
+double edgeStrength(const BrittleMaterial& material, std::uint64_t edge, double volume) {
+  double strength = scaleOf(material, volume);
   if (material.weibullModulus > 0)
     strength *=
         std::pow(-std::log1p(-uniform(material.seed, kWeibull, edge)), 1 / material.weibullModulus);
   if (material.strengthScatter > 0)
     strength *= 1 + material.strengthScatter * (2 * uniform(material.seed, kEven, edge) - 1);
-  return strength;
+  return inRange(strength);
 }
 
-double likelyLargestStrength(const BrittleMaterial& material, std::size_t edges) {
-  double strength = material.tensileStrength * (1 + material.strengthScatter);
+double likelyLargestStrength(const BrittleMaterial& material, std::size_t edges, double volume) {
+  double strength = scaleOf(material, volume) * (1 + material.strengthScatter);
   if (material.weibullModulus > 0)  // of one or two edges: no less than the scale
     strength *=
         std::pow(std::max(1., std::log(static_cast<double>(edges))), 1 / material.weibullModulus);
-  return strength;
+  return inRange(strength);
 }
 
 }  // namespace yadefrag

@@ -204,6 +204,7 @@ class WorldArchive {
     member("weibullModulus", rows, [](C& c) -> double& { return c.brittle.weibullModulus; });
     member("strengthScatter", rows, [](C& c) -> double& { return c.brittle.strengthScatter; });
     member("seed", rows, [](C& c) -> std::uint64_t& { return c.brittle.seed; });
+    member("referenceVolume", rows, [](C& c) -> double& { return c.brittle.referenceVolume; });
     flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
     flags("selfContact", rows, [](C& c) -> bool& { return c.selfContact; });
     member("element", rows, [](C& c) -> std::uint8_t& {

@@ -141,7 +141,8 @@ int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
   if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(material.get())) {
     spec.brittle = {brittle->tensileStrength, brittle->fractureEnergy,
                     brittle->shearFactor,     brittle->weibullModulus,
-                    brittle->strengthScatter, static_cast<std::uint64_t>(brittle->seed)};
+                    brittle->strengthScatter, static_cast<std::uint64_t>(brittle->seed),
+                    brittle->referenceVolume};
     checkBrittle(spec.brittle);
     if (!spec.selfContact)
       throw InputError(

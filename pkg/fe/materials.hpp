@@ -37,20 +37,39 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
   double weibullModulus = 0;
   double strengthScatter = 0;
   int seed = 0;
+  double referenceVolume = 0;
 
   static constexpr auto attributes() {
     using C = BrittleFEMat;
     return std::tuple(
-        attribute("tensileStrength", &C::tensileStrength, "Stress (Pa) at which a crack starts."),
+        attribute("tensileStrength", &C::tensileStrength,
+                  "Tensile strength ft (Pa). An edge between two triangles cracks where its normal "
+                  "stress sigma (positive: tension) and its shear stress tau reach "
+                  "sqrt(sigma**2 + (tau/beta)**2) = ft under tension, or "
+                  "|tau| = beta*ft + tan(phi)*|sigma| under pressure (Camacho and Ortiz 1996, Int. "
+                  "J. Solids Struct. 33, 2899); beta is shearFactor, phi frictionAngle. So the "
+                  "cohesion of Mohr and Coulomb is c = beta*ft."),
         attribute("fractureEnergy", &C::fractureEnergy,
                   "Work (J/m²) that opens a crack; 0: it opens at once."),
         attribute("shearFactor", &C::shearFactor,
-                  "Weight of the shear stress beside the normal stress in the criterion (β)."),
-        attribute("weibullModulus", &C::weibullModulus,
-                  "Modulus of a Weibull scatter of the strength; 0: none."),
+                  "beta: shear strength over tensile strength. The shear strength is "
+                  "beta*tensileStrength + tan(frictionAngle)*pressure: the larger beta, the harder "
+                  "it is to crack by shear."),
+        attribute(
+            "weibullModulus", &C::weibullModulus,
+            "Modulus m of a Weibull scatter of the strength (Weibull 1951, J. Appl. Mech. 18, "
+            "293): a part 1 - exp(-(s/scale)**m) of the edges is weaker than s. The scale is "
+            "tensileStrength, or as referenceVolume says; 0: none."),
         attribute("strengthScatter", &C::strengthScatter,
                   "Relative half-width of an even scatter of the strength; 0: none."),
-        attribute("seed", &C::seed, "Of the scatter's random numbers."));
+        attribute("seed", &C::seed, "Of the scatter's random numbers."),
+        attribute("referenceVolume", &C::referenceVolume,
+                  "V0 (m³) for which tensileStrength is the scale of the Weibull scatter: an edge "
+                  "that stands for a volume V has the scale tensileStrength*(V0/V)**(1/m), so that "
+                  "a finer mesh is not weaker. V is thickness times a third of the areas of the "
+                  "edge's two triangles, so all edges together have the body's volume. 0: the "
+                  "scale is tensileStrength for edges of any size, and the more edges, the weaker "
+                  "the weakest. Without weibullModulus it has no effect."));
   }
 };
 

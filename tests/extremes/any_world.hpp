@@ -171,6 +171,7 @@ class AnyWorld {
       brittle.fractureEnergy = brittle.tensileStrength * scale_ * chance_.power(-6, 1);
     if (chance_.oneIn(2)) brittle.strengthScatter = chance_.from(0, .9);
     if (chance_.oneIn(4)) brittle.weibullModulus = chance_.power(-1, 3);
+    if (chance_.oneIn(4)) brittle.referenceVolume = chance_.power(-12, 6);
     brittle.shearFactor = chance_.power(-1, 1);
     brittle.seed = chance_.engine()();
     if (chance_.oneIn(100)) brittle.strengthScatter = chance_.wrong();

@@ -85,6 +85,9 @@ TEST(CheckBrittle, NamesArgumentValueAndWhatIsRight) {
   EXPECT_EQ(saidOf({.tensileStrength = 1, .weibullModulus = -20}),
             "weibullModulus is -20; it must be positive and finite, or 0 for strengths without "
             "this scatter.");
+  EXPECT_EQ(saidOf({.tensileStrength = 1, .referenceVolume = -1}),
+            "referenceVolume is -1 m³; it must be positive and finite, or 0 for strengths on which "
+            "the volume has no influence.");
   EXPECT_EQ(saidOf({.tensileStrength = 1, .strengthScatter = 1}),
             "strengthScatter is 1; it must be at least 0 and below 1.");
   EXPECT_EQ(saidOf({.tensileStrength = 1, .strengthScatter = -.1}),

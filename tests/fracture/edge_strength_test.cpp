@@ -9,6 +9,10 @@
 #include <thread>
 #include <vector>
 
+#include "fracture/crack_edges.hpp"
+#include "mesh/assembly.hpp"
+#include "mesh/structured.hpp"
+
 namespace yadefrag {
 namespace {
 
@@ -156,6 +160,66 @@ TEST(EdgeStrength, IsPositiveAndFiniteForAnySeedAndNumber) {
       EXPECT_GT(strength, 0);
       EXPECT_TRUE(std::isfinite(strength));
     }
+}
+
+// Of n edges that share a volume the weakest has one distribution, for any n: that of one edge of
+// the whole volume. Without V₀ the weakest of 100 would be 100^(1/m) times as weak.
+TEST(EdgeStrength, WeakestOfAVolumeDoesNotKnowHowManyEdgesThereAre) {
+  constexpr std::size_t kBodies = 2000;
+  BrittleMaterial material = weibull(5);
+  material.referenceVolume = 3;
+  for (const std::size_t n : {1, 10, 50}) {
+    const double volume = 2;
+    const double scale = kStrength * std::pow(3. / 2, 1. / 5);
+    std::vector<double> weakest(kBodies, INFINITY);
+    for (std::size_t body = 0; body < kBodies; ++body)
+      for (std::size_t i = 0; i < n; ++i)
+        weakest[body] = std::min(
+            weakest[body], edgeStrength(material, body * n + i, volume / static_cast<double>(n)));
+    EXPECT_LT(farthest(weakest, [&](double s) { return -std::expm1(-std::pow(s / scale, 5)); }),
+              1.63 / std::sqrt(kBodies))
+        << n;
+  }
+  material.referenceVolume = 0;
+  EXPECT_EQ(edgeStrength(material, 3, 1e-9), edgeStrength(weibull(5), 3));
+  BrittleMaterial scattered = even(.3);
+  scattered.referenceVolume = 3;
+  EXPECT_EQ(edgeStrength(scattered, 3, 1e-9), edgeStrength(even(.3), 3));
+}
+
+/// A square metre in n × n crossed quads.
+CrackEdges edgesOf(int n, const BrittleMaterial& material) {
+  Model model;
+  Component body;
+  body.material = {1, 0, 1};
+  body.brittle = material;
+  body.thickness = .5;
+  const auto mesh = structuredRectangle({0, 0}, {1, 1}, n, n, QuadPattern::kCrossed);
+  CrackEdges edges;
+  edges.addBody(model, appendBody(model, mesh, body));
+  return edges;
+}
+
+// The edges of a body share its volume, but for what would belong to its outline.
+TEST(EdgeStrength, FinerMeshesAreNotWeaker) {
+  BrittleMaterial material = weibull(4);
+  double mean[2] = {0, 0}, meanWithout[2] = {0, 0};
+  for (std::uint64_t seed = 0; seed < 200; ++seed)
+    for (const int k : {0, 1}) {
+      material.seed = seed;
+      material.referenceVolume = .5;
+      const auto least = [&] {
+        const CrackEdges edges = edgesOf(k == 0 ? 5 : 20, material);
+        return *std::min_element(edges.strength.begin(), edges.strength.end()) / kStrength / 200;
+      };
+      mean[k] += least();
+      material.referenceVolume = 0;
+      meanWithout[k] += least();
+    }
+  // Γ(1 + 1/4), with three deviations of the mean; the outline's part of the volume has no edge.
+  EXPECT_NEAR(mean[0], std::tgamma(1.25), .08);
+  EXPECT_NEAR(mean[1], std::tgamma(1.25), .06);
+  EXPECT_LT(meanWithout[1], .6 * meanWithout[0]);
 }
 
 TEST(LikelyLargestStrength, IsExceededByOneEdgeOnAverage) {

@@ -24,6 +24,7 @@ O = builtins.O
     (dict(fractureEnergy=-5), 'fractureEnergy is -5 J/m²; it must be'),
     (dict(shearFactor=0), 'shearFactor is 0; it must be'),
     (dict(weibullModulus=-2), 'weibullModulus is -2; it must be'),
+    (dict(referenceVolume=-1), 'referenceVolume is -1 m³; it must be'),
     (dict(strengthScatter=1), 'strengthScatter is 1; it must be'),
 ])
 def test_badMaterialIsRefused(wrong, sentence):
@@ -226,7 +227,7 @@ def test_brittleBodyIsRemoved():
 @pytest.mark.parametrize('energy', [0, 500])
 @pytest.mark.filterwarnings('ignore:fractureEnergy')
 def test_savedRunGoesOnBitForBit(ending, energy, folder):
-    solver = impact(fractureEnergy=energy, weibullModulus=10, seed=3)
+    solver = impact(fractureEnergy=energy, weibullModulus=10, seed=3, referenceVolume=1e-7)
     count = 120 if energy == 0 else 250
     steps(count)
     assert solver.numCracks > 5
