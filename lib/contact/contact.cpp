@@ -78,7 +78,13 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
     if (detection > 0) {
       updateGaps(model, surfaces, step);
       gapsAreKnown = true;
-      if (!anyNew && now_.maxPenetration <= std::max(worthwhile(step), 2 * inexact_)) break;
+      // What this detection found and does not penetrate by a worthwhile depth waits for the next
+      // step.
+      if (now_.maxPenetration <= worthwhile(step)) {
+        releaseUnsolved();
+        break;
+      }
+      if (!anyNew && now_.maxPenetration <= 2 * inexact_) break;
       if (!anyNew && settings.correction == Correction::kPenalty) break;
     }
     solve(model, settings, step, anyNew);
@@ -132,7 +138,11 @@ void Contact::takeBack() {
 /// that it came in from outside.
 void Contact::lookAgain(const Model& model, const ContactSurfaces& surfaces,
                         const ContactStep& step) {
-  if (!addRows(model, surfaces, step)) return;
+  if (addRows(model, surfaces, step)) releaseUnsolved();
+}
+
+/// Rows that no solve has seen have not moved a node: they carry no force.
+void Contact::releaseUnsolved() {
   for (ContactRow& row : rows_)
     if (!std::isfinite(row.left)) row.normalForce = row.tangentForce = 0;
 }
@@ -150,10 +160,13 @@ void Contact::solve(const Model& model, const ContactSettings& settings, const C
   if (settings.correction == Correction::kPenalty)
     penalize(rows_, model.nodes, step.length, step.drag, settings.penaltyFactor);
   else if (step.rubble)
-    inexact_ = sweeps_.solve(rows_, model.nodes, step.length, step.drag, worthwhile(step));
+    inexact_ = sweeps_.solve(rows_, model.nodes, step.length, step.drag,
+                             {worthwhile(step), tolerance::kRowSweeps});
   else {
     if (anyNew) lagrange_.setRows(rows_, model.nodes, step.length, step.drag);
-    now_.residual = lagrange_.solve(rows_, worthwhile(step));
+    const Lagrange::Outcome outcome =
+        lagrange_.solve(rows_, model.nodes, step.length, step.drag, worthwhile(step));
+    now_.residual = outcome.residual, inexact_ = outcome.change, now_.sweeps += outcome.sweeps;
   }
 }
 
@@ -350,7 +363,7 @@ void Contact::addTo(Footprint& footprint) const {
   candidates.addTo(footprint);
   search_.addTo(footprint);
   lagrange_.addTo(footprint);
-  sweeps_.addTo(footprint);
+  sweeps_.addTo(footprint, Use::kFracture);
 }
 
 void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,

@@ -83,6 +83,9 @@ class Contact {
   /// Largest residual of the last step's systems, relative to their largest gap.
   [[nodiscard]] double residual() const { return now_.residual; }
 
+  /// Sweeps over the rows of the largest swept group, in all detections of the last step.
+  [[nodiscard]] int sweeps() const { return now_.sweeps; }
+
   void addTo(Footprint& footprint) const;
 
   Candidates candidates;
@@ -94,6 +97,7 @@ class Contact {
     double largestCorrection = 0;  // m
     double maxPenetration = 0;     // m
     double residual = 0;
+    int sweeps = 0;
   };
 
   void makeRoom(std::size_t nodes);
@@ -114,6 +118,7 @@ class Contact {
   void updateGaps(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void move(Model& model, const ContactStep& step);
   void lookAgain(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
+  void releaseUnsolved();
   void touch(NodeId node);
   void sumForces();
   void finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);

@@ -40,16 +40,32 @@ void Lagrange::setRows(std::span<const ContactRow> rows, const Nodes& nodes, con
   for (std::size_t group = 0; group < groups; ++group) assemble(rows, nodes, group, step, drag);
 }
 
-double Lagrange::solve(std::span<ContactRow> rows, double tolerance) {
-  double residual = 0;
+Lagrange::Outcome Lagrange::solve(std::span<ContactRow> rows, const Nodes& nodes,
+                                  const StepLength& step, double drag, double tolerance) {
+  const RowSweeps::Stop stop{tolerance::kSweptChange * tolerance, tolerance::kGroupSweeps};
+  Outcome worst;
   for (std::size_t group = 0; group < groups_.rows.rows(); ++group) {
     const Members members = groups_.rows.row(group);
     System& system = systems_[group];
-    if (std::ranges::any_of(members, [&](std::uint32_t r) { return isOpen(rows[r], tolerance); }))
-      solveGroup(rows, members, system);
-    residual = std::max(residual, system.residual);
+    system.outcome.sweeps = 0;
+    if (std::ranges::any_of(members, [&](std::uint32_t r) { return isOpen(rows[r], tolerance); })) {
+      if (system.isSwept) {
+        const double change = sweeps_.solve(rows, members, nodes, step, drag, stop);
+        system.outcome = {0, change, sweeps_.sweeps()};
+      } else {
+        solveGroup(rows, members, system);
+      }
+    }
+    worst.residual = std::max(worst.residual, system.outcome.residual);
+    worst.change = std::max(worst.change, system.outcome.change);
+    worst.sweeps = std::max(worst.sweeps, system.outcome.sweeps);
   }
-  return residual;
+  return worst;
+}
+
+/// Without friction pivoting is as fast and exact. With it, the bounds change with each solve.
+bool Lagrange::isSwept(Members members) const {
+  return members.size() > tolerance::kPivotedRows && !tangentOf_.empty();
 }
 
 /// Normal forces first; tangential ones only where there is friction. Returns how many.
@@ -66,6 +82,9 @@ void Lagrange::assemble(std::span<const ContactRow> rows, const Nodes& nodes, st
                         const StepLength& step, double drag) {
   System& system = systems_[group];
   const Members members = groups_.rows.row(group);
+  system.outcome = {};
+  system.isSwept = isSwept(members);
+  if (system.isSwept) return;
   const std::size_t unknowns = numberUnknowns(rows, members);
   entries_.clear();
   const std::span<const RowNode> links(groups_.links);
@@ -81,7 +100,6 @@ void Lagrange::assemble(std::span<const ContactRow> rows, const Nodes& nodes, st
   system.problem.setMatrix(unknowns, entries_);
   setGaps(rows, members, system.problem);
   system.mostForce = tolerance::kJam * forceScale(system.problem);
-  system.residual = 0;
 }
 
 void Lagrange::setGaps(std::span<const ContactRow> rows, Members members, BoxProblem& problem) {
@@ -137,7 +155,7 @@ void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& s
     const double most = rows[r].friction * rows[r].normalForce;
     rows[r].tangentForce = std::clamp(result->lambda[tangentOf(r)], -most, most);
   }
-  system.residual = result->residual;
+  system.outcome = {result->residual, 0, 0};
 }
 
 /// Sets |τ| ≤ μλ; true if a bound has changed by more than the tolerance. Normal forces of bodies
@@ -164,6 +182,7 @@ void Lagrange::addTo(Footprint& footprint) const {
   footprint.add(Use::kContact, groups_.links, groups_.rows.values, groups_.rows.offsets,
                 groups_.spans.values, groups_.spans.offsets, systems_, entries_, normalOf_, start_);
   footprint.add(Use::kFriction, tangentOf_);
+  sweeps_.addTo(footprint, Use::kFriction);
   for (const System& system : systems_) {
     const BoxProblem& p = system.problem;
     footprint.add(Use::kContact, p.offsets, p.columns, p.values, p.constant, p.lower, p.upper);

@@ -8,6 +8,7 @@
 #include "contact/box_problem.hpp"
 #include "contact/contact_groups.hpp"
 #include "contact/contact_row.hpp"
+#include "contact/row_sweeps.hpp"
 #include "core/footprint.hpp"
 #include "core/step_length.hpp"
 #include "mesh/model.hpp"
@@ -18,21 +19,28 @@ namespace yadefrag {
 /// the tangential ones |τ| ≤ μλ, and no slip where less is enough.
 class Lagrange {
  public:
+  /// How far the forces of any group are from the solution, and what they took.
+  struct Outcome {
+    double residual = 0;  ///< of a pivoted group: largest wrong gap or slip, over its largest gap
+    double change = 0;  ///< m, of a swept group: largest change of a gap or slip in the last sweep
+    int sweeps = 0;     ///< of a swept group
+  };
   /// New rows, or the same ones in another order: finds their groups and systems.
   void setRows(std::span<const ContactRow> rows, const Nodes& nodes, const StepLength& step,
                double drag);
   /// Sets the forces of all rows, starting from those they have; groups in which no more than
-  /// `tolerance` (m) is `left` keep theirs. Returns the largest residual of any group, relative to
-  /// its largest gap.
-  double solve(std::span<ContactRow> rows, double tolerance);
+  /// `tolerance` (m) is `left` keep theirs. `nodes`, `step`, `drag` are those of `setRows`.
+  Outcome solve(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
+                double tolerance);
   /// Without what the solver of a group works with.
   void addTo(Footprint& footprint) const;
 
  private:
   struct System {
     BoxProblem problem;
+    bool isSwept = false;  ///< there is no matrix
     double mostForce = 0;  ///< N, what bounds friction
-    double residual = 0;
+    Outcome outcome;
   };
   using Members = std::span<const std::uint32_t>;
 
@@ -41,6 +49,7 @@ class Lagrange {
   [[nodiscard]] std::uint32_t tangentOf(std::uint32_t row) const {
     return tangentOf_.empty() ? kNone : tangentOf_[row];
   }
+  [[nodiscard]] bool isSwept(Members members) const;
   std::size_t numberUnknowns(std::span<const ContactRow> rows, Members members);
   void assemble(std::span<const ContactRow> rows, const Nodes& nodes, std::size_t group,
                 const StepLength& step, double drag);
@@ -54,6 +63,7 @@ class Lagrange {
   ContactGroups groups_;
   std::vector<System> systems_;  // of the groups; more than there are, to keep their memory
   BoxSolver solver_;
+  RowSweeps sweeps_;
   std::vector<MatrixEntry> entries_;
   std::vector<std::uint32_t> normalOf_;   // unknowns of a row, by row
   std::vector<std::uint32_t> tangentOf_;  // the same; empty without friction

@@ -9,34 +9,43 @@
 namespace yadefrag {
 
 double RowSweeps::solve(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step,
-                        double drag, double tolerance) {
-  begin(rows, nodes, step, drag);
+                        double drag, Stop stop) {
+  while (all_.size() < rows.size()) all_.push_back(static_cast<std::uint32_t>(all_.size()));
+  return solve(rows, std::span(all_).first(rows.size()), nodes, step, drag, stop);
+}
+
+double RowSweeps::solve(std::span<ContactRow> rows, std::span<const std::uint32_t> members,
+                        const Nodes& nodes, const StepLength& step, double drag, Stop stop) {
+  begin(rows, members, nodes, step, drag);
   double change = 0;
-  for (int count = 0; count < tolerance::kRowSweeps; ++count) {
-    // There and back: what jams goes along chains of pieces.
-    change = sweep(count % 2 == 0, tolerance);
-    if (!(change > tolerance)) break;
+  count_ = 0;
+  while (count_ < stop.most) {
+    // There and back: forces pass along chains of pieces.
+    change = sweep(count_++ % 2 == 0, stop.change);
+    if (!(change > stop.change)) break;
   }
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    rows[r].normalForce = rows_[r].normalForce;
-    rows[r].tangentForce = rows_[r].tangentForce;
-    rows[r].left = 0;
+  for (const Lean& lean : rows_) {
+    ContactRow& row = rows[lean.place];
+    row.normalForce = lean.normalForce;
+    row.tangentForce = lean.tangentForce;
+    row.left = 0;
   }
   return change;
 }
 
-void RowSweeps::begin(std::span<const ContactRow> rows, const Nodes& nodes, const StepLength& step,
-                      double drag) {
+void RowSweeps::begin(std::span<const ContactRow> rows, std::span<const std::uint32_t> members,
+                      const Nodes& nodes, const StepLength& step, double drag) {
   numbers_.resize(nodes.size());
   nodes_.clear();
   displacement_.clear();
   pushedAt_.clear();
-  rows_.resize(rows.size());
+  rows_.resize(members.size());
   now_ = 1;  // All are stale.
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const ContactRow& row = rows[r];
+  for (std::size_t r = 0; r < members.size(); ++r) {
+    const ContactRow& row = rows[members[r]];
     Lean& lean = rows_[r];
     lean = {};
+    lean.place = members[r];
     lean.count = static_cast<std::uint32_t>(row.count);
     lean.normal = row.normal;
     lean.gap = row.gap - row.allowed, lean.slip = row.slip, lean.friction = row.friction;

@@ -185,6 +185,13 @@ inline constexpr int kFrictionRounds = 8;
 inline constexpr int kRowSweeps = 20, kRubbleDetections = 2;
 inline constexpr double kRubbleRemainder = 1e-3;
 
+/// (rows; of the penetration that is worth another solve; count) A group with friction and more
+/// rows than the first is solved by sweeps, until no gap or slip changes by more than the second,
+/// or for so many sweeps.
+inline constexpr std::size_t kPivotedRows = 8;
+inline constexpr double kSweptChange = .1;
+inline constexpr int kGroupSweeps = 200;
+
 /// (ratio) Normal forces above this many times the largest that one row of their group needs by
 /// itself are a jam's, and bound friction no further.
 inline constexpr double kJam = 100;

@@ -17,7 +17,7 @@ constexpr double kLeft = 4 * tolerance::kBoxResidual + 1e-11;
 double solveAll(Lagrange& lagrange, std::span<ContactRow> rows, const Nodes& nodes, double drag) {
   for (ContactRow& row : rows) row.left = INFINITY;
   lagrange.setRows(rows, nodes, kDt, drag);
-  return lagrange.solve(rows, 0);
+  return lagrange.solve(rows, nodes, kDt, drag, 0).residual;
 }
 
 /// Node `slave` on the segment of nodes a and b at ξ.
