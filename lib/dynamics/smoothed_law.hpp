@@ -34,13 +34,15 @@ struct alignas(32) SplitGradient {
     for (int j = 0; j < 4; ++j) part[j] += other.part[j];
     return *this;
   }
-  friend SplitGradient operator-(SplitGradient a, const SplitGradient& b) {
-    for (int j = 0; j < 4; ++j) a.part[j] -= b.part[j];
-    return a;
+  friend SplitGradient operator-(const SplitGradient& a, const SplitGradient& b) {
+    SplitGradient difference;
+    for (int j = 0; j < 4; ++j) difference.part[j] = a.part[j] - b.part[j];
+    return difference;
   }
-  friend SplitGradient operator*(double factor, SplitGradient a) {
-    for (double& one : a.part) one *= factor;
-    return a;
+  friend SplitGradient operator*(double factor, const SplitGradient& a) {
+    SplitGradient product;
+    for (int j = 0; j < 4; ++j) product.part[j] = factor * a.part[j];
+    return product;
   }
 };
 

@@ -128,7 +128,7 @@ class World {
   void foreseeMotion(double dt);
   void watchAll();
   void watchSpeed(double dt);
-  void watchApart(double dt);
+  void watchApart();
   void chooseWatched();
   [[nodiscard]] double apartReach() const;
   void advance(double dt);

@@ -36,7 +36,7 @@ void World::measureMove(double dt) {
   } else {
     motion_.most = dynamics_.speedLimit() * dt;
   }
-  watchApart(dt);
+  watchApart();
   if (motion_.isQuiet) {
     motion_.largest = motion_.most;
   } else {
@@ -67,7 +67,7 @@ double World::apartReach() const {
 }
 
 /// Bodies that are not apart any more are watched from this very step on.
-void World::watchApart(double dt) {
+void World::watchApart() {
   if (!apart_.any()) return;
   apart_.comeNearer(2 * motion_.most);
   if (apart_.spare() >= 0) return;
