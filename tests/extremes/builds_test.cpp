@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6611494713654102);
-  expectNear(places.y, 1.4681895376443181);
-  expectNear(speeds, 4785.1274479081158);
-  expectNear(totalEnergy(world), 89.999270272999851);
-  expectNear(world.ledger.contact, 5.4915191474091234);
+  expectNear(places.x, 3.6577343763346031);
+  expectNear(places.y, 1.4562321576121136);
+  expectNear(speeds, 4631.4857672052804);
+  expectNear(totalEnergy(world), 89.999392929307405);
+  expectNear(world.ledger.contact, 5.2216945818490714);
 }
 
 }  // namespace

