@@ -45,7 +45,8 @@ inline void addBlockWall(World& world, const BlockWall& wall) {
   for (int row = 0; row < wall.blocks; ++row)
     for (int column = 0; column < wall.blocks; ++column) {
       const auto at = [&](int x, int y) {
-        return corners[static_cast<std::size_t>((row + y) * count + column + x)];
+        return corners[static_cast<std::size_t>(row + y) * static_cast<std::size_t>(count) +
+                       static_cast<std::size_t>(column + x)];
       };
       std::vector<Vec2> outline{at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
       const Vec2 middle = .25 * (outline[0] + outline[1] + outline[2] + outline[3]);

@@ -37,7 +37,7 @@ class Twins {
   /// The sentence of the step, "" if it was taken.
   std::string ask(const char* reason, double dt) {
     const State before = stateOf(asked_);
-    const std::string sentence = sentenceOf([&] { asked_.step(dt); });
+    std::string sentence = sentenceOf([&] { asked_.step(dt); });
     if (sentence.empty()) return sentence;
     ++refusals[reason];
     EXPECT_EQ(whatDiffers(before, stateOf(asked_)), "") << sentence;
@@ -75,7 +75,7 @@ class Twins {
     forces[node] = force * Vec2{1, chance_.from(-1, 1)};
     if (isAccepted(forces)) return;
     asked_.outerForces = std::move(forces);
-    const std::string sentence = ask(reason, dt_);
+    std::string sentence = ask(reason, dt_);
     EXPECT_NE(sentence, "") << force;
     for (const char* part : {"inside out", "be missed", "a node moves by", "range of numbers",
                              "not finite", "contact moves"})
