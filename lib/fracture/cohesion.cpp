@@ -199,6 +199,7 @@ void Cohesion::settle(const Model& model, const CrackEdges& edges) {
   points_.clear();
   const auto critical = [&](std::size_t c) { return criticalOpening(model, edges, edge[c]); };
   for (const std::uint32_t c : turned_) largest[c] = {critical(c), critical(c)};
+  turned_.clear();  // without a crack left, the next step collects nothing
   released.clear();
   keepOnly([&](std::size_t c) {
     const bool holds = largest[c][0] < critical(c) || largest[c][1] < critical(c);
