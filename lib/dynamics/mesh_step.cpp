@@ -5,16 +5,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/tolerances.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/quality.hpp"
 
 namespace yadefrag {
 namespace {
-
-/// (ratio) A mesh with a critical step so many times shorter than an even lattice's is warned of;
-/// irregular ones have up to 1.5.
-constexpr double kCostlyStep = 3;
 
 struct Shape {
   Vec2 centre;
@@ -73,7 +70,7 @@ double latticeSide(const TriangleMesh& mesh) {
 
 std::string costlyStepWarning(const TriangleMesh& mesh, const Component& component, double size) {
   const double factor = latticeTimeStep(component, size) / meshTimeStep(mesh, component);
-  if (factor < kCostlyStep) return {};
+  if (factor < tolerance::kCostlyStep) return {};
   Shape worst{{}, 0, INFINITY};
   for (const auto& t : mesh.triangles) {
     const Shape shape = shapeOf(mesh, t);

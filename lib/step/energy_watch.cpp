@@ -100,7 +100,7 @@ std::string EnergyWatch::complainOfGrowth(const WatchedStep& step, double energy
   if (!(over > std::max(tolerated(toldGrown), noise))) return {};
   toldGrown = over;
   std::ostringstream text = yadefrag::begin(step);
-  text << amountText(over, most) << ", came out of nothing; " << stepAdvice(step);
+  text << "the time integration has created " << amountText(over, most) << "; " << stepAdvice(step);
   return text.str();
 }
 
@@ -112,7 +112,8 @@ std::string EnergyWatch::stepAdvice(const WatchedStep& step) const {
             "between "
          << leastStep << " and " << mostStep << " s, it feeds vibrations.";
   else
-    text << "take a shorter step: in one of " << step.dt << " s they turn or deform too much.";
+    text << "take a shorter step: in one of " << step.dt
+         << " s the bodies turn or deform too much.";
   return text.str();
 }
 

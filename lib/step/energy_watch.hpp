@@ -3,7 +3,8 @@
 // apart. Where they give energy, or bodies sink into one another, a sentence says so, and again for
 // every doubling.
 //
-// All bounds are in joules: a few that were told of bodies at rest hide nothing once they move.
+// All bounds are in joules: a warning about a small energy of bodies at rest does not hide a larger
+// one once they move.
 
 #include <cstdint>
 #include <string>

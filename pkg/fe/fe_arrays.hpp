@@ -58,7 +58,8 @@ yade::py::list surfacesOf(const FESolver& solver);
 std::size_t segmentsOf(const FESolver& solver);
 yade::py::dict droppedOf(const FESolver& solver);
 yade::py::dict energyOf(const FESolver& solver);
-/// (J) What the bodies have out of nothing, the most they could have, what rounding makes.
+/// (J) Energy that the time integration has created, the largest energy that the bodies could have,
+/// and the energy of rounding errors.
 yade::py::tuple energyBalanceOf(const FESolver& solver);
 yade::py::list warningsOf(const FESolver& solver);
 yade::py::list fragmentsOf(const FESolver& solver, bool held);

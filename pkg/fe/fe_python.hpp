@@ -102,10 +102,10 @@ void FESolver::valuesOf(PyClass& pyClass) {
           "fragments).")
       .add_property("_energyBalance", &Locked<energyBalanceOf>::call)
       .add_property("warnings", &Locked<warningsOf>::call,
-                    "Sentences on energy out of nothing (contact, cracks, steps that cannot follow "
-                    "the motion or change too often), above 1 % of what the bodies had and above "
-                    "rounding, and on bodies deeper in one another than a tenth of the shortest "
-                    "segment; one per doubling, each also on stderr when it comes up.");
+                    "Sentences that warn of numerical errors: energy that contact, cracks or the "
+                    "time integration have created, above 1 % of the bodies' energy and above "
+                    "rounding, and penetration above a tenth of the shortest segment. One per "
+                    "doubling, each also on stderr when it comes up.");
 }
 
 template <class PyClass>

@@ -27,7 +27,7 @@ _Unwind_Reason_Code lookForStep(_Unwind_Context* context, void* found) {
   return _URC_NORMAL_STOP;
 }
 
-/// YADE's loop goes on until its last step is over, and is waited for by whoever destroys it.
+/// A new loop in place of the old one: YADE destroys the old one only when its last step is over.
 void replaceLoop() {
   const WithoutGil free;
   yade::Omega::instance().createSimulationLoop();

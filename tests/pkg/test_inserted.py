@@ -134,7 +134,7 @@ def testNodesOfABrokenConnectionMeetAgain(collider, place):
 
 
 def testVirtualInteractionOfBoundedBodiesGoes(collider):
-    """What the search can judge is judged, whoever made it."""
+    """The search erases a far potential interaction, whether or not it has made it."""
     ids = scenes.addSpheres([(0, 0, 0), (9, 0, 0)], [1, 1])
     setEngines(collider(verletDist=0))
     utils.createInteraction(*ids, virtualI=True)

@@ -1,4 +1,4 @@
-// Energy out of nothing is told, and so are bodies that sink into one another.
+// Warnings: energy that numerical errors create, and penetration that is too deep.
 
 #include "step/energy_watch.hpp"
 
@@ -118,8 +118,8 @@ TEST(EnergyWatch, SumsUpWhereBodiesMoveWithMoreThanThereIs) {
   EXPECT_EQ(saidOf(watch, 110, -9.1), "") << "lent by the strain";
   EXPECT_EQ(saidOf(watch, 110.5, 50), "") << "looked at already";
   EXPECT_EQ(saidOf(watch, 112, -10),
-            "Step 7, time 0.5 s: 2 J, 2 % of the bodies' energy, came out of nothing; take a "
-            "shorter step: in one of 0.1 s they turn or deform too much.");
+            "Step 7, time 0.5 s: the time integration has created 2 J, 2 % of the bodies' energy; "
+            "take a shorter step: in one of 0.1 s the bodies turn or deform too much.");
   EXPECT_EQ(saidOf(watch, 130, -26.1), "");
   EXPECT_NE(saidOf(watch, 150, -45.5), "") << "doubled";
 }
@@ -244,7 +244,8 @@ TEST(EnergyWatch, TellsOfAStepThatCannotFollow) {
   }
   const World fast = spreading(1.5);
   ASSERT_FALSE(fast.complaints.empty());
-  EXPECT_NE(fast.complaints.front().find("out of nothing; take a shorter step"), std::string::npos)
+  EXPECT_NE(fast.complaints.front().find("% of the bodies' energy; take a shorter step"),
+            std::string::npos)
       << fast.complaints.front();
 }
 
