@@ -55,16 +55,12 @@ struct AddForces {
   StressedLanes& stressed;
 
   [[gnu::always_inline]] bool operator()() const {
-    int flat = 0;
-    Corners corners;
-    for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l) {
-      gather(lanes[l], position, corners);
+    const auto add = [this](std::uint32_t l, Corners & corners) __attribute__((always_inline)) {
       const Findings found = elasticForces<kWatched>(lanes[l], chunk, corners);
-      flat += found.flat;
-      if constexpr (kWatched) stressed.note(l, found.stressed);
       scatter(lanes[l], corners, force);
-    }
-    return flat == 0;
+      return found;
+    };
+    return forEachLanes<kWatched>(chunk, lanes, position, stressed, add);
   }
 };
 

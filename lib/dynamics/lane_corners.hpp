@@ -66,6 +66,23 @@ struct StressedLanes {
   }
 };
 
+/// Calls `work(l, corners)`, which must be always inlined, for each lanes l of the chunk, and notes
+/// which have a stressed element if `kWatched`. Returns false if an element is flat.
+template <bool kWatched, class Work>
+[[gnu::always_inline]] inline bool forEachLanes(const Chunk& chunk, const ElementLanes* lanes,
+                                                const Vec2* position, StressedLanes& stressed,
+                                                const Work& work) {
+  int flat = 0;
+  Corners corners;
+  for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l) {
+    gather(lanes[l], position, corners);
+    const Findings found = work(l, corners);
+    flat += found.flat;
+    if constexpr (kWatched) stressed.note(l, found.stressed);
+  }
+  return flat == 0;
+}
+
 /// Runs `work()`, compiled for the instruction set. Its operator must be always inlined.
 template <class Work>
 auto runBaseline(Work work) {

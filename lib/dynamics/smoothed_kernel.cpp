@@ -46,18 +46,14 @@ struct SumGradients {
   StressedLanes& stressed;
 
   [[gnu::always_inline]] bool operator()() const {
-    int flat = 0;
-    Corners corners;
     alignas(64) SplitGradient weighted[kLanes];
-    for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l) {
-      gather(lanes[l], position, corners);
+    const auto sum = [&](std::uint32_t l, const Corners& corners) __attribute__((always_inline)) {
       const Findings found = splitGradients<kWatched>(lanes[l], chunk, corners, kept[l], weighted);
-      flat += found.flat;
-      if constexpr (kWatched) stressed.note(l, found.stressed);
       for (const auto& corner : lanes[l].corner)
         for (std::size_t k = 0; k < kLanes; ++k) nodes[corner[k]] += weighted[k];
-    }
-    return flat == 0;
+      return found;
+    };
+    return forEachLanes<kWatched>(chunk, lanes, position, stressed, sum);
   }
 };
 
