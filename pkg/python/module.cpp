@@ -12,6 +12,7 @@
 #include "fe/segment_functors.hpp"
 #include "fe/surface_segment.hpp"
 #include "publish/publish.hpp"
+#include "python/list_items.hpp"
 
 namespace yadefrag {
 
@@ -47,8 +48,8 @@ BOOST_PYTHON_MODULE(_yadefrag) {
           "Raises RuntimeError if another thread runs the scene.");
   py::def("waitForStart", &yadefrag::waitForStart);
   py::def("stopRun", &yadefrag::stopRun);
-  py::def(
-      "dropReference", +[](const py::object& object) { Py_DECREF(object.ptr()); });
+  py::def("releaseListItems", &yadefrag::releaseListItems,
+          "From now on YADE frees what was in a list that it was given.");
   py::def("publish", &yadefrag::NewClasses::publishAll,
           "Adds the new classes to YADE, once; returns their names.");
 }

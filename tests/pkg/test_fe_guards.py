@@ -124,3 +124,21 @@ def test_resetFreesTheSolver(collider):
     gc.collect()
     assert [engine() for engine in engines if not isinstance(engine(), w.PyRunner)] == \
         [None] * (len(engines) - 1)
+
+
+def test_whatWasInAListIsFreed():
+    """YADE alone keeps what is in a list of bodies, engines or functors for good."""
+    def made():
+        functors = [w.Bo1_Sphere_Aabb()], [w.Ig2_Sphere_Sphere_ScGeom()], \
+            [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]
+        listed = [w.Body(), w.Body(), *(functor for one in functors for functor in one)]
+        O.bodies.append(listed[:1])
+        O.bodies.append(tuple(listed[1:2]))
+        O.engines = [w.InsertionSortCollider(functors[0]), w.InteractionLoop(*functors[1:])]
+        return [weakref.ref(item) for item in listed + O.engines]
+    O.reset()
+    items = made()
+    assert all(item() for item in items)
+    O.reset()
+    gc.collect()
+    assert [item() for item in items] == [None] * len(items)

@@ -3,7 +3,6 @@
 import atexit
 import contextlib
 import functools
-import sys
 import threading
 
 from yade import wrapper
@@ -91,28 +90,6 @@ def _resetStopped(reset):
     return stopped
 
 
-@functools.lru_cache(maxsize=None)
-def _lostReferences():
-    """How many references YADE loses to each item of a list that is assigned to an attribute."""
-    dispatcher, functor = wrapper.BoundDispatcher(), wrapper.Bo1_Sphere_Aabb()
-    before = sys.getrefcount(functor)
-    dispatcher.functors = [functor]
-    dispatcher.functors = []
-    return sys.getrefcount(functor) - before
-
-
-def _setFreed(setEngines):
-    """O.engines = [...] after which the engines can be freed, with all that they hold."""
-    def setFreed(self, engines):
-        lost = _lostReferences()
-        setEngines(self, engines)
-        if isinstance(engines, (list, tuple)):
-            for engine in engines:
-                for _ in range(lost):
-                    _yadefrag.dropReference(engine)
-    return setFreed
-
-
 def install():
     for name in ('save', 'saveTmp', 'sceneToString'):
         setattr(_Omega, name, _savedWhole(getattr(_Omega, name)))
@@ -120,7 +97,6 @@ def install():
     _Omega.wait = _waitForAll(_Omega.wait)
     _Omega.run = _runBegun(_Omega.run)
     _Omega.reset = _resetStopped(_Omega.reset)
-    engines = _Omega.engines
-    _Omega.engines = property(engines.fget, _setFreed(engines.fset), doc=engines.__doc__)
+    _yadefrag.releaseListItems()
     # The process must not end in the middle of a step.
     atexit.register(_yadefrag.stopRun)

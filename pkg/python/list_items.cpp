@@ -1,0 +1,69 @@
+#include "python/list_items.hpp"
+
+#include <boost/python.hpp>
+#include <vector>
+
+#include "abi/yade.hpp"
+
+namespace yadefrag {
+namespace {
+
+namespace py = boost::python;
+namespace converter = py::converter;
+
+/// The one conversion to this vector that YADE has registered; null if there is another, too.
+template <class Item>
+converter::rvalue_from_python_chain* conversion() {
+  const converter::registration* known =
+      converter::registry::query(py::type_id<std::vector<boost::shared_ptr<Item>>>());
+  if (known == nullptr || known->rvalue_chain == nullptr) return nullptr;
+  return known->rvalue_chain->next == nullptr ? known->rvalue_chain : nullptr;
+}
+
+/// True if a conversion leaves a list's item with one reference more than before.
+bool keepsReferences() {
+  const py::object item(boost::shared_ptr<yade::Body>(new yade::Body));
+  py::list list;
+  list.append(item);
+  const Py_ssize_t before = Py_REFCNT(item.ptr());
+  {
+    const std::vector<boost::shared_ptr<yade::Body>> converted =
+        py::extract<std::vector<boost::shared_ptr<yade::Body>>>(list);
+  }
+  return Py_REFCNT(item.ptr()) == before + 1;
+}
+
+template <class Item>
+struct Releasing {
+  static inline converter::constructor_function yades = nullptr;
+
+  /// Other sequences may make an item anew each time it is asked for: theirs are left alone.
+  static void construct(PyObject* sequence, converter::rvalue_from_python_stage1_data* data) {
+    yades(sequence, data);
+    if (!PyList_Check(sequence) && !PyTuple_Check(sequence)) return;
+    const Py_ssize_t count = PySequence_Fast_GET_SIZE(sequence);
+    for (Py_ssize_t i = 0; i < count; ++i) Py_DECREF(PySequence_Fast_GET_ITEM(sequence, i));
+  }
+
+  static void install() {
+    converter::rvalue_from_python_chain* chain = conversion<Item>();
+    if (chain == nullptr || chain->construct == &construct) return;
+    yades = chain->construct;
+    chain->construct = &construct;
+  }
+};
+
+template <class... Items>
+void installFor() {
+  (Releasing<Items>::install(), ...);
+}
+
+}  // namespace
+
+void releaseListItems() {
+  if (!keepsReferences()) return;
+  installFor<yade::Body, yade::Engine, yade::BoundFunctor, yade::IGeomFunctor, yade::IPhysFunctor,
+             yade::LawFunctor>();
+}
+
+}  // namespace yadefrag
