@@ -22,11 +22,11 @@ bool isSharp(const ContactSurfaces& surfaces, const PieceGeometry& geometry, Ent
 
 }  // namespace
 
-void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
+void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> reference,
                       int passes) {
   passes_ = passes;
   if (passes == 2) return;
-  const PieceGeometry geometry(surfaces, positions);
+  const PieceGeometry geometry(surfaces, reference);
   const std::size_t count = surfaces.entries();
   std::uint32_t loops = 0;
   for (const std::uint32_t loop : surfaces.loop) loops = std::max(loops, loop + 1);
@@ -39,7 +39,7 @@ void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> pos
     pieces[surfaces.loop[e]] += 1;
     sharp_[e] = isSharp(surfaces, geometry, entry) ? 1 : 0;
   }
-  // Compared with a tolerance by rounding: equal meshes must not take turns as they deform.
+  // Compared with a tolerance by rounding: equal meshes at different places are equally fine.
   for (std::uint32_t l = 0; l < loops; ++l)
     if (pieces[l] > 0)
       fineness_[l] = std::round(std::log2(fineness_[l] / pieces[l]) * tolerance::kFinenessSteps);

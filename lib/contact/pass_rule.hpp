@@ -13,21 +13,29 @@ namespace yadefrag {
 
 /// Single pass: of two surfaces the finer one's sampling points are slaves, and the sharp corners
 /// of the coarser one, which would otherwise pass through the finer one's segments unseen. Within
-/// one surface, and in a double pass, every point is a slave.
+/// one surface, with bodies that crack, and in a double pass, every point is a slave: a crack makes
+/// corners and surfaces. Roles chosen anew at cracks were tried: candidates that were there kept
+/// the old ones until the next search, so that results depended on when that was.
 class PassRule {
  public:
-  /// Looks at the surfaces as they are at `positions` (m, by node).
-  void update(const ContactSurfaces& surfaces, std::span<const Vec2> positions, int passes);
+  /// `reference`: m, stress-free, by node, so that no motion changes a role.
+  void update(const ContactSurfaces& surfaces, std::span<const Vec2> reference, int passes);
 
-  [[nodiscard]] bool mayBeSlave(EntryId slave, std::uint32_t slaveLoop,
-                                std::uint32_t masterLoop) const {
-    return passes_ == 2 || slaveLoop == masterLoop || isFiner(slaveLoop, masterLoop) ||
-           sharp_[slave.value] != 0;
+  [[nodiscard]] bool mayBeSlave(const Model& model, const ContactSurfaces& surfaces, EntryId slave,
+                                EntryId master) const {
+    if (passes_ == 2 || mayCrack(model, surfaces, slave) || mayCrack(model, surfaces, master))
+      return true;
+    const std::uint32_t own = surfaces.loop[slave.value], other = surfaces.loop[master.value];
+    return own == other || isFiner(own, other) || sharp_[slave.value] != 0;
   }
 
   void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, fineness_, sharp_); }
 
  private:
+  [[nodiscard]] static bool mayCrack(const Model& model, const ContactSurfaces& surfaces,
+                                     EntryId entry) {
+    return model.components[surfaces.component[entry.value].value].brittle.cracks();
+  }
   [[nodiscard]] bool isFiner(std::uint32_t a, std::uint32_t b) const {
     return fineness_[a] != fineness_[b] ? fineness_[a] < fineness_[b] : a > b;
   }

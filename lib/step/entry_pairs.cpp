@@ -41,7 +41,7 @@ void selectPairs(const Model& model, const ContactSurfaces& surfaces, const Pass
   const PieceGeometry geometry(surfaces, positions);
   const auto consider = [&](EntryId slave, EntryId master) {
     if (surfaces.prev[slave.value] == master) return;  // its own end
-    if (!rule.mayBeSlave(slave, surfaces.loop[slave.value], surfaces.loop[master.value])) return;
+    if (!rule.mayBeSlave(model, surfaces, slave, master)) return;
     if (isInHalo(geometry, surfaces, positions, master, geometry.slave(slave), halo))
       pairs.push_back({slave, master});
   };

@@ -85,7 +85,7 @@ void World::takePairs(std::span<const BoxPair> overlapping) {
 
 /// `before`: m, by node, at the end of the last step.
 void World::considerPairs(std::span<const BoxPair> overlapping, std::span<const Vec2> before) {
-  passRule_.update(surfaces, model.nodes.position, contactSettings.passes);
+  passRule_.update(surfaces, reference, contactSettings.passes);
   pairs_.clear();
   selectPairs(model, surfaces, passRule_, model.nodes.position, search.halo, overlapping, pairs_);
   undo_.candidates = replaceCandidates(contact.candidates, pairs_, surfaces, before);

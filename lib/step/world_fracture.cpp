@@ -61,7 +61,6 @@ void World::followSplit() {
 /// New faces, and all that came near them: what is within the halo of an old piece beside the crack
 /// now may be in that of a new one.
 void World::addCrackCandidates() {
-  passRule_.update(surfaces, model.nodes.position, contactSettings.passes);
   pairs_.clear();
   const std::vector<EntryId> around = entriesAround(surfaces, contact.candidates, split_.sides);
   selectPairs(model, surfaces, passRule_, model.nodes.position, search.halo,

@@ -93,10 +93,11 @@ constexpr auto FESolver::attributes() {
                 "'lagrange': contact by forces that just prevent interpenetration; 'penalty': by "
                 "forces in proportion to it, to compare with.",
                 triggerPostLoad),
-      attribute("passes", &C::passes,
-                "1: of two surfaces the finer one's points must not penetrate the other; 2: the "
-                "points of both.",
-                triggerPostLoad),
+      attribute(
+          "passes", &C::passes,
+          "1: of two surfaces the finer one's points and the sharp corners of the other must not "
+          "penetrate; 2: the points of both. Where a body can crack, it is 2 in any case.",
+          triggerPostLoad),
       attribute("penaltyFactor", &C::penaltyFactor,
                 "Of correction='penalty': the stiffness, as a share of the one that would undo a "
                 "penetration within a step.",
@@ -104,8 +105,7 @@ constexpr auto FESolver::attributes() {
       attribute("halo", &C::halo,
                 "Width of the strip around a boundary in which contact is expected, over the "
                 "shortest segment, at most 0.5; 0: as wide as the bodies' speed asks for. Results "
-                "do not depend on it (but for bodies that crack with passes=1), the number of "
-                "searches does.",
+                "do not depend on it, the number of searches does.",
                 triggerPostLoad),
       attribute("damping", &C::damping, "Mass-proportional damping (1/s).", triggerPostLoad),
       attribute("gravity", &C::gravity,

@@ -1,6 +1,6 @@
 // Bodies far from all others are not watched node by node, and nothing is missed for that. The
 // yardstick are the same bodies with contact with themselves, which are always watched: blocks
-// never touch themselves.
+// never touch themselves at these speeds (at 40 m/s one is bent so far that it does).
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST_P(Apart, NothingIsMissed) {
   EXPECT_LT(seldom.numSearches, .9 * always.numSearches);
 }
 
-INSTANTIATE_TEST_SUITE_P(Speeds, Apart, testing::Values(3., 15., 40.));
+INSTANTIATE_TEST_SUITE_P(Speeds, Apart, testing::Values(3., 15., 30.));
 
 /// While two blocks hit each other, nobody looks at the nodes of the one that is far away.
 TEST(ApartBodies, OnlyThoseThatAreNearAreWatched) {

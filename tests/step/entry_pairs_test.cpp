@@ -88,9 +88,8 @@ TEST_P(EntryPairs, AllSlavesInTheHaloForEverySearch) {
     for (std::size_t s = 0; s < count; ++s)
       for (std::size_t m = 0; m < count; ++m) {
         const SlaveMaster pair{EntryId(s), EntryId(m)};
-        const auto& loop = bodies.scene.surfaces.loop;
-        if (bodies.mayTouch(pair) && rule.mayBeSlave(pair.slave, loop[s], loop[m]) &&
-            bodies.distance(pair) <= halo)
+        if (bodies.mayTouch(pair) && bodies.distance(pair) <= halo &&
+            rule.mayBeSlave(bodies.model, bodies.scene.surfaces, pair.slave, pair.master))
           wanted.insert(pair);
       }
     std::vector<SlaveMaster> brute = bodies.select(rule, halo, SearchMethod::kBruteForce);
@@ -99,8 +98,7 @@ TEST_P(EntryPairs, AllSlavesInTheHaloForEverySearch) {
     for (const SlaveMaster pair : wanted) ASSERT_TRUE(all.contains(pair)) << "scene " << scene;
     for (const SlaveMaster pair : all) {
       ASSERT_TRUE(bodies.mayTouch(pair));
-      ASSERT_TRUE(rule.mayBeSlave(pair.slave, bodies.scene.surfaces.loop[pair.slave.value],
-                                  bodies.scene.surfaces.loop[pair.master.value]));
+      ASSERT_TRUE(rule.mayBeSlave(bodies.model, bodies.scene.surfaces, pair.slave, pair.master));
     }
     for (const SearchMethod method :
          {SearchMethod::kLebesgue, SearchMethod::kLinearCode, SearchMethod::kHierarchy}) {
