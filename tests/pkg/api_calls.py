@@ -32,7 +32,7 @@ kRefusals = (ValueError, TypeError, RuntimeError, OSError, AttributeError)
 kInternal = (r"object has no attribute|unsupported operand|not iterable|not subscriptable|not callable|"
              r"indices must be|cannot unpack|to unpack|has no len|out of range|not supported between|"
              r"truth value of")
-kMoments = ('before', 'between', 'between', 'inside', 'thread')
+kMoments = ('before', 'between', 'between', 'inside', 'thread', 'running')
 
 
 def scene(moment):

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <new>
+#include <utility>
 
 #include "core/failing_memory.hpp"
 #include "extremes/any_world.hpp"
@@ -25,6 +26,7 @@ class Twins {
     for (int i = 0; i < steps && !testing::Test::HasFailure(); ++i) {
       if (chance_.oneIn(8)) askForSteps();
       if (chance_.oneIn(8)) askWithForces();
+      if (chance_.oneIn(8)) askWithBrittleCracks();
       if (chance_.oneIn(8)) askWithoutMemory();
       both(dt_);
       rows_ += asked_.contact.rows().size();
@@ -53,6 +55,20 @@ class Twins {
     const double critical = asked_.criticalTimeStep();
     for (const double dt : {1.01 * critical, 1e9 * critical, -dt_, 0., double(NAN)})
       EXPECT_NE(ask("step", dt), "") << dt;
+  }
+
+  /// Cracks that would break within a step, before what they spend is resolved.
+  void askWithBrittleCracks() {
+    for (Component& component : asked_.model.components) {
+      double& energy = component.brittle.fractureEnergy;
+      if (energy == 0) continue;
+      const double kept = energy;
+      energy = 1e-12 * kept;
+      const double stable = std::exchange(asked_.stableStep, 0.);  // looked at anew
+      EXPECT_NE(ask("opening", dt_).find("does not resolve"), std::string::npos);
+      energy = kept;
+      asked_.stableStep = stable;
+    }
   }
 
   void askWithForces() {
@@ -138,6 +154,8 @@ TEST(RefusedStep, ChangesNothing) {
   for (const char* reason : {"step", "wild force", "strong force", "memory", "inside out",
                              "be missed", "a node moves by", "range of numbers", "not finite"})
     EXPECT_GT(refusals[reason], 10) << reason;
+  EXPECT_GT(refusals["contact moves"], 0);
+  EXPECT_GT(refusals["opening"], 10);
   for (const auto& [reason, count] : refusals) RecordProperty(reason, count);
 }
 
