@@ -32,6 +32,7 @@ struct BulkViscosity {
   double quadratic = 0;  ///< b₂
 
   [[nodiscard]] bool isOn() const { return linear != 0 || quadratic != 0; }
+  bool operator==(const BulkViscosity&) const = default;
 };
 
 /// Adds the forces (N) of the bulk viscosity of a chunk.

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "contact/candidates.hpp"
+#include "dynamics/element_kernel.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "step/apart_bodies.hpp"
 #include "step/energy_watch.hpp"
@@ -34,6 +35,7 @@ struct StepUndo {
   EnergyWatch watch;
   MotionBounds motion;
   double stableStep = 0;  ///< s
+  BulkViscosity stableViscosity;
   double speedLimit = 0;  ///< m/s
   double spare = 0;       ///< m, of bodies that are apart
 

@@ -161,10 +161,11 @@ double World::criticalTimeStep() const {
   return yadefrag::criticalTimeStep(model, dynamicsSettings.viscosity, threads);
 }
 
-/// Only before the first step, and when the step has grown or bodies came or went: a mesh that is
-/// compressed so far that this matters is the user's to watch.
+/// Only before the first step, and when the step or the viscosity has changed or bodies came or
+/// went: a mesh that is compressed so far that this matters is the user's to watch.
 void World::requireStableStep(double dt) {
-  if (dt > 0 && dt <= stableStep) return;
+  const BulkViscosity& viscosity = dynamicsSettings.viscosity;
+  if (dt > 0 && dt <= stableStep && viscosity == stableViscosity) return;
   const double critical = criticalTimeStep();
   if (critical == 0)
     throw TimeStepError("No time step is stable: a velocity or a node's place is too large.");
@@ -179,6 +180,7 @@ void World::requireStableStep(double dt) {
   for (std::size_t c = 0; c < model.components.size(); ++c)
     if (model.components[c].brittle.cracks()) checkCohesiveResolution(model, ComponentId(c), dt);
   stableStep = dt;
+  stableViscosity = viscosity;
 }
 
 }  // namespace yadefrag

@@ -113,8 +113,10 @@ class World {
   std::uint64_t steps = 0;
   double time = 0;    ///< s
   double lastDt = 0;  ///< s
-  /// (s) The longest step that has been found stable since bodies came or went.
+  /// (s) The longest step that has been found stable since bodies came or went, with this
+  /// viscosity.
   double stableStep = 0;
+  BulkViscosity stableViscosity;
 
   // --- counters
   std::uint64_t numSearches = 0;

@@ -12,7 +12,7 @@ void World::beginUndo() {
   undo_.ledger = ledger;
   undo_.motion = motion_;
   undo_.watch = watch;
-  undo_.stableStep = stableStep;
+  undo_.stableStep = stableStep, undo_.stableViscosity = stableViscosity;
   undo_.speedLimit = dynamics_.speedLimit();
   undo_.spare = apart_.spare();
 }
@@ -40,7 +40,7 @@ void World::takeBack() {
   ledger = undo_.ledger;
   motion_ = undo_.motion;
   watch = undo_.watch;
-  stableStep = undo_.stableStep;
+  stableStep = undo_.stableStep, stableViscosity = undo_.stableViscosity;
   dynamics_.watchSpeed(undo_.speedLimit);
   apart_.restoreSpare(undo_.spare);
 }

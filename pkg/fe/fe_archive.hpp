@@ -95,6 +95,8 @@ class WorldArchive {
     column<double>("reference", world.reference);
     value("steps", world.steps), value("time", world.time), value("lastDt", world.lastDt);
     value("stableStep", world.stableStep);
+    value("stableLinearViscosity", world.stableViscosity.linear);
+    value("stableQuadraticViscosity", world.stableViscosity.quadratic);
     value("numSearches", world.numSearches);
   }
 

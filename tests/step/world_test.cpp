@@ -206,6 +206,18 @@ TEST(WorldStep, AFinerBodyLowersTheLimit) {
   EXPECT_EQ(world.steps, 2U);
 }
 
+TEST(WorldStep, MoreViscosityLowersTheLimit) {
+  World world = threeBodies();
+  const double dt = .9 * world.criticalTimeStep();
+  world.step(dt);
+  world.dynamicsSettings.viscosity = {.5, 0};
+  EXPECT_TRUE(contains(sentence<InputError>([&] { world.step(dt); }), number(dt)));
+  EXPECT_EQ(world.steps, 1U);
+  world.dynamicsSettings.viscosity = {.05, 0};
+  world.step(dt);
+  EXPECT_EQ(world.steps, 2U);
+}
+
 TEST(WorldStep, AnElementTurnedInsideOutStopsTheRun) {
   World world;
   const TriangleMesh mesh = block({0, 0}, 6);

@@ -87,6 +87,19 @@ def _guardBodies(function):
     return guarded
 
 
+def _guardPart(name):
+    """Body.state or Body.shape of a piece: without its own, other engines would end the process."""
+    part = getattr(wrapper.Body, name)
+
+    def guarded(self, value):
+        piece = _pieceOf(self)
+        if piece:
+            raise ValueError('body #%d is part of the boundary of body %d of FESolver: a script '
+                             'must not replace its %s.' % (self.id, piece.component, name))
+        part.fset(self, value)
+    return property(part.fget, guarded, doc=part.__doc__)
+
+
 def _guardRemove(remove):
     """FESolver.removeBody that says what is wrong with a number."""
     @functools.wraps(remove)
@@ -109,6 +122,8 @@ def _guardCopy(reduce):
 def install():
     wrapper.FESolver.removeBody = _guardRemove(wrapper.FESolver.removeBody)
     wrapper.FESolver.__reduce_ex__ = _guardCopy(wrapper.FESolver.__reduce_ex__)
+    for name in ('state', 'shape'):
+        setattr(wrapper.Body, name, _guardPart(name))
     for guard, names in ((_guardErase, ['erase']), (_guardInsert, ['insertAtId']),
                          (_guardClump, ['clump', 'addToClump']),
                          (_guardBodies, ['deleteClumpMember', 'deleteClumpBody'])):

@@ -11,11 +11,17 @@ from yadefrag import _yadefrag
 _Omega = wrapper.Omega
 _saving = threading.RLock()  # held as long as a run rests for a save
 _pauses = 0
+_stepsBefore = 0  # O.resetTime(), all calls together
 
 
 def pauses():
     """How often O.pause() has been called."""
     return _pauses
+
+
+def stepsDone():
+    """Steps so far: O.iter, but for what O.resetTime() has set back."""
+    return _Omega().iter + _stepsBefore
 
 
 @contextlib.contextmanager
@@ -53,6 +59,19 @@ def _countPauses(pause):
         global _pauses
         _pauses += 1
         pause(self)
+    return counted
+
+
+def _countSteps(resetTime):
+    """O.resetTime() after which a run that is under way still ends after its number of steps."""
+    @functools.wraps(resetTime)
+    def counted(self):
+        global _stepsBefore
+        ahead = self.stopAtIter - self.iter
+        _stepsBefore += self.iter
+        resetTime(self)
+        if ahead > 0:
+            self.stopAtIter = ahead
     return counted
 
 
@@ -94,6 +113,7 @@ def install():
     for name in ('save', 'saveTmp', 'sceneToString'):
         setattr(_Omega, name, _savedWhole(getattr(_Omega, name)))
     _Omega.pause = _countPauses(_Omega.pause)
+    _Omega.resetTime = _countSteps(_Omega.resetTime)
     _Omega.wait = _waitForAll(_Omega.wait)
     _Omega.run = _runBegun(_Omega.run)
     _Omega.reset = _resetStopped(_Omega.reset)

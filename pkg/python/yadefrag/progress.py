@@ -26,7 +26,7 @@ def runSteps(steps, every=None, call=None):
                          'to be called.' % (shown(call), shown(every)))
     requireNoStep('runSteps')
     omega = wrapper.Omega()
-    done, begin = 0, omega.iter
+    done, begin = 0, lifecycle.stepsDone()
     bar = _Bar(steps)
     try:
         portion = 1
@@ -44,7 +44,7 @@ def runSteps(steps, every=None, call=None):
             portion = _portion(now, time.perf_counter() - start)
     except KeyboardInterrupt:
         _yadefrag.stopRun()
-        done = omega.iter - begin
+        done = lifecycle.stepsDone() - begin
         bar.close()
         print('Stopped after %d of %d steps, at %.6g s.' % (done, steps, omega.time),
               file=sys.stderr)
@@ -60,12 +60,12 @@ def runPart(steps):
     RuntimeError where an engine stopped the run.
     """
     omega = wrapper.Omega()
-    begin, pauses = omega.iter, lifecycle.pauses()
+    begin, pauses = lifecycle.stepsDone(), lifecycle.pauses()
     omega.run(steps, True)
-    if omega.iter - begin == steps and pauses == lifecycle.pauses():
+    if lifecycle.stepsDone() - begin == steps and pauses == lifecycle.pauses():
         return steps, False
     _yadefrag.stopRun()  # O.wait() does not wait for the end of the step that was paused
-    done = omega.iter - begin
+    done = lifecycle.stepsDone() - begin
     if done < steps:
         omega.stopAtIter = -1  # or the next O.run() would stop there
     if omega.subStep != -1:
