@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import types
@@ -81,3 +82,15 @@ def test_yadesOwnClassesAreNotReplaced():
     for name in ('Collider', 'InsertionSortCollider', 'Sphere', 'Body'):
         assert getattr(yade, name) is getattr(wrapper, name)
     assert isinstance(wrapper.InsertionSortCollider(), yade.Collider)
+
+
+def test_ownCopiesOfEigenAndCgalStayInside():
+    """YADE's, compiled with other options, would be called instead."""
+    names = subprocess.run(['nm', '-DC', '--defined-only', _yadefrag.__file__], check=True,
+                           capture_output=True, text=True).stdout.splitlines()
+    names = [line.split(' ', 2)[2] for line in names]
+    assert 'PyInit__yadefrag' in names
+    assert any(name.startswith('typeinfo for yade') for name in names), 'one with YADE\'s'
+    functions = [name for name in names if 'CGAL::' in name or re.match(
+        r'(guard variable for |void |)Eigen::', name)]
+    assert functions == []
