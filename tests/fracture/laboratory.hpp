@@ -44,7 +44,7 @@ inline TriangleMesh turnedMesh(Polygon polygon, const SizeField& size, MeshLayou
 
 /// Which mesh, and how fast.
 struct Trial {
-  double size;  ///< m
+  double size = 0;  ///< m
   std::uint64_t seed = 1;
   double turned = 0;  ///< °, of the outline as it is meshed
   NodeLayout layout = NodeLayout::kScattered;
