@@ -22,8 +22,8 @@ void checkBrittle(const BrittleMaterial& material);
 /// resolve.
 void checkCohesiveResolution(const Model& model, ComponentId component, double dt);
 
-/// A sentence where the zone in which a crack's faces still hold is shorter than three elements, so
-/// that the energy of a running crack hangs on the mesh; else empty. Its length is E·Gc/σc²
+/// A sentence where the zone in which a crack's faces still hold is shorter than eight elements, so
+/// that bodies with a notch or a crack bear too much; else empty. Its length is E·Gc/σc²
 /// (Hillerborg, Modéer and Petersson 1976, Cem. Concr. Res. 6, 773), an element's the mean of the
 /// component's edges.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, ComponentId component);

@@ -48,7 +48,7 @@ TriangleMesh discOf(double size) {
     const double angle = 2 * std::numbers::pi * k / corners;
     polygon.outline.push_back(kRadius * Vec2{std::cos(angle), std::sin(angle)});
   }
-  return triangulate(polygon, size);
+  return triangulate(polygon, size, {NodeLayout::kScattered, 1});
 }
 
 void lookAtCrack(const World& world, Split& split) {
@@ -92,12 +92,12 @@ Split press(double size, double speed, double shearFactor) {
 
 class Brazilian : public testing::TestWithParam<double> {};
 
-// Edges of a random mesh lie up to some 10° beside the diameter, where they feel cos² of it, 3 %
-// less; the others are what a node's mean stress and the plates' width leave. 0 to 1.2 % measured.
+// Edges of an irregular mesh lie some degrees beside the diameter, where they feel cos² of it; the
+// others are what a node's mean stress and the plates' width leave. +0.1 to +1.4 % measured.
 TEST_P(Brazilian, SplitsAlongTheLoadedDiameter) {
   const Split split = press(GetParam(), .1, 20);
   ASSERT_TRUE(split.cracked);
-  figure("load", split.load, 1, .1);
+  figure("load", split.load, 1, .03);
   // Two elements, at least, and not below the plates.
   figure("beside_the_diameter", split.at.x, 0, std::max(.1, 2 * GetParam() / kRadius));
   figure("along_the_diameter", split.at.y, 0, .5);

@@ -47,7 +47,7 @@ def test_fragmentsAlwaysTouch():
 
 
 def test_coarseMeshIsWarnedOf():
-    with pytest.warns(UserWarning, match='less than three elements'):
+    with pytest.warns(UserWarning, match='less than eight elements'):
         impact(fractureEnergy=5)
 
 
