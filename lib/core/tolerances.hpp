@@ -372,6 +372,11 @@ inline constexpr std::size_t kPlainCholesky = 16, kDenseRows = 32, kMostDenseRow
 inline constexpr double kCohesionChange = 1e-8;
 inline constexpr int kCohesionSweeps = 100;
 
+/// (of the opening and what the tractions take from it; count) A Newton step of an opening in mixed
+/// mode that is as short as this was the last; three or four are usual.
+inline constexpr double kOpeningStep = 1e-14;
+inline constexpr int kMostOpeningSteps = 30;
+
 /// (one in so many) Room for nodes that cracks add, beside those that are there.
 inline constexpr std::size_t kSpareNodes = 8;
 

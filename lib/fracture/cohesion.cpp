@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/tolerances.hpp"
-#include "fracture/cohesive_law.hpp"
 #include "mesh/mobility.hpp"
 
 namespace yadefrag {
@@ -25,6 +24,21 @@ const BrittleMaterial& materialOf(const Model& model, const CrackEdges& edges, E
 /// (m) δc = 2Gc/σc.
 double criticalOpening(const Model& model, const CrackEdges& edges, EdgeId edge) {
   return 2 * materialOf(model, edges, edge).fractureEnergy / edges.strength[edge.value];
+}
+
+CohesiveHold holdOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const ElementId element = edges.side(edge, 0).element;
+  const Component& body = model.components[model.triangles.component[element.value].value];
+  const double beta = body.brittle.shearFactor;
+  return {0, 0, beta, beta * beta / body.brittle.shearEnergyFactor, body.friction, {}};
+}
+
+Vec2 times(Vec2 a, Vec2 b) { return {a.x * b.x, a.y * b.y}; }
+
+/// Of what is given by axis.
+AcrossAlong byDirection(Vec2 compliance, Vec2 normal) {
+  const double x = normal.x * normal.x, y = normal.y * normal.y;
+  return {compliance.x * x + compliance.y * y, compliance.x * y + compliance.y * x};
 }
 
 }  // namespace
@@ -70,101 +84,62 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
       continue;
     }
     const Vec2 across = rightOf(first + second);
+    const Vec2 normal = (1 / norm(across)) * across;
     for (std::uint32_t end = 0; end < 2; ++end) {
       const NodeId here = end == 0 ? a : d, there = end == 0 ? b : e;
       // What is broken touches like any other surface, whatever way it has turned since.
       if (here == there || largest[c][end] >= critical) continue;
-      const Vec2 mobile = step.squared() * area[c] *
-                          (mobility(model.nodes, here, drag) + mobility(model.nodes, there, drag));
-      points_.push_back({here,
-                         there,
-                         (1 / norm(across)) * across,
-                         mobile,
-                         area[c],
-                         edges.strength[edge[c].value],
-                         critical,
-                         materialOf(model, edges, edge[c]).shearFactor,
-                         largest[c][end],
-                         {},
-                         c,
-                         end});
+      Point& point = points_.emplace_back();
+      point.here = here, point.there = there;
+      point.normal = normal;
+      point.rateHere = step.squared() * area[c] * mobility(model.nodes, here, drag);
+      point.rateThere = step.squared() * area[c] * mobility(model.nodes, there, drag);
+      point.area = area[c], point.strength = edges.strength[edge[c].value];
+      point.critical = critical;
+      point.hold = holdOf(model, edges, edge[c]);
+      point.hold.most = envelope(point.strength, critical, largest[c][end]);
+      point.hold.largest = largest[c][end];
+      point.hold.compliance = byDirection(point.rateHere + point.rateThere, normal);
+      point.slid = dot(before[there.value] - before[here.value], -rightOf(normal));
+      point.crack = c, point.end = end;
     }
   }
 }
 
-/// The effective opening √(δₙ² + β²δₛ²) of faces that are `apart` (m); its direction is that of the
-/// traction.
-double Cohesion::openingOf(const Point& point, Vec2 apart, Vec2& direction) {
-  const Vec2 tangent = -rightOf(point.normal);
-  const double beta = point.shearFactor;
-  const double normal = std::max(0., dot(apart, point.normal));
-  const double shear = dot(apart, tangent);
-  const double effective = std::hypot(normal, beta * shear);
-  direction = {};
-  if (effective > 0)
-    direction = (normal / effective) * point.normal + (beta * beta * shear / effective) * tangent;
-  return effective;
-}
-
-/// (m/Pa) What a traction in this direction takes from the opening along it.
-double Cohesion::complianceAlong(const Point& point, Vec2 direction) {
-  return point.compliance.x * direction.x * direction.x +
-         point.compliance.y * direction.y * direction.y;
-}
-
-/// What the law does to faces that would end up `opening` apart without it.
-Vec2 Cohesion::held(const Point& point, Vec2 opening) {
-  Vec2 direction;
-  const double trial = openingOf(point, opening, direction);
-  return cohesiveTraction(point.strength, point.critical, point.largest, trial,
-                          complianceAlong(point, direction)) *
-         direction;
-}
-
-/// What keeps the faces from closing further than shut.
-Vec2 Cohesion::shut(const Point& point, Vec2 opening) {
-  const double gap = dot(opening, point.normal);
-  const double compliance = complianceAlong(point, point.normal);
-  if (gap >= 0 || compliance <= 0) return {};
-  return (gap / compliance) * point.normal;
-}
-
 /// Sets one point's traction right, the others being what they are; returns its change (Pa).
-double Cohesion::relax(Model& model, Point& point) const {
-  std::vector<Vec2>& position = model.nodes.position;
-  const Vec2 own{point.compliance.x * point.traction.x, point.compliance.y * point.traction.y};
-  const Vec2 opening = position[point.there.value] - position[point.here.value] + own;
-  const Vec2 traction = held(point, opening) + shut(point, opening);
+double Cohesion::relax(std::vector<Vec2>& position, Point& point) {
+  Vec2& here = position[point.here.value];
+  Vec2& there = position[point.there.value];
+  const Vec2 tangent = -rightOf(point.normal);
+  const Vec2 trial = there - here + times(point.rateHere + point.rateThere, point.traction);
+  point.tractions =
+      faceTractions(point.hold, {dot(trial, point.normal), dot(trial, tangent)}, point.slid);
+  const FaceTractions& t = point.tractions;
+  const Vec2 traction = t.normal * point.normal + (t.shear + t.friction) * tangent;
   const Vec2 change = traction - point.traction;
   point.traction = traction;
-  const double rate = squaredStep_ * point.area;
-  const Vec2 here = mobility(model.nodes, point.here, drag_);
-  const Vec2 there = mobility(model.nodes, point.there, drag_);
-  position[point.here.value] += rate * Vec2{here.x * change.x, here.y * change.y};
-  position[point.there.value] -= rate * Vec2{there.x * change.x, there.y * change.y};
+  here += times(point.rateHere, change);
+  there -= times(point.rateThere, change);
   return norm(change);
 }
 
 double Cohesion::correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                          const StepLength& step, double drag) {
   if (edge.empty()) return 0;
-  squaredStep_ = step.squared(), drag_ = drag;
   collect(model, edges, before, step, drag);
   for (int sweep = 0; sweep < tolerance::kCohesionSweeps; ++sweep) {
     double worst = 0;
-    for (Point& point : points_) worst = std::max(worst, relax(model, point) / point.strength);
+    for (Point& point : points_)
+      worst = std::max(worst, relax(model.nodes.position, point) / point.strength);
     if (worst <= tolerance::kCohesionChange) break;
   }
   double most = 0;
   for (const Point& point : points_) {
-    for (const double sign : {1., -1.}) {
-      const NodeId node = sign > 0 ? point.here : point.there;
-      const Vec2 mobile = mobility(model.nodes, node, drag);
-      const Vec2 u = sign * step.squared() * point.area *
-                     Vec2{mobile.x * point.traction.x, mobile.y * point.traction.y};
-      model.nodes.velocity[node.value] += (1 / step.position) * u;
-      most = std::max(most, norm(u));
-    }
+    const Vec2 here = times(point.rateHere, point.traction);
+    const Vec2 there = times(point.rateThere, point.traction);
+    model.nodes.velocity[point.here.value] += (1 / step.position) * here;
+    model.nodes.velocity[point.there.value] -= (1 / step.position) * there;
+    most = std::max({most, norm(here), norm(there)});
   }
   return most;
 }
@@ -176,25 +151,28 @@ void Cohesion::addForces(std::vector<Vec2>& forces) const {
   }
 }
 
-double Cohesion::work(const Model& model, std::span<const Vec2> previousVelocity,
-                      const StepLength& step) const {
-  double work = 0;
+void Cohesion::book(EnergyLedger& ledger, const Model& model,
+                    std::span<const Vec2> previousVelocity, const StepLength& step) const {
+  const auto mean = [&](NodeId node) {
+    return .5 * (previousVelocity[node.value] + model.nodes.velocity[node.value]);
+  };
   for (const Point& point : points_) {
-    const auto mean = [&](NodeId node) {
-      return .5 * (previousVelocity[node.value] + model.nodes.velocity[node.value]);
-    };
-    work += step.velocity * point.area * dot(point.traction, mean(point.there) - mean(point.here));
+    const Vec2 apart = step.velocity * point.area * (mean(point.there) - mean(point.here));
+    const double slip = dot(apart, -rightOf(point.normal));
+    const FaceTractions& t = point.tractions;
+    ledger.fracture += t.normal * dot(apart, point.normal) + t.shear * slip;
+    ledger.friction += t.friction * slip;
   }
-  return work;
 }
 
 void Cohesion::settle(const Model& model, const CrackEdges& edges) {
   const std::vector<Vec2>& position = model.nodes.position;
   for (const Point& point : points_) {
-    Vec2 direction;
     double& widest = largest[point.crack][point.end];
     const Vec2 apart = position[point.there.value] - position[point.here.value];
-    widest = std::max(widest, openingOf(point, apart, direction));
+    const AcrossAlong opening{dot(apart, point.normal), dot(apart, -rightOf(point.normal))};
+    widest =
+        std::max(widest, effectiveOpening(opening, point.hold.shearFactor, point.hold.shearRatio));
   }
   points_.clear();
   const auto critical = [&](std::size_t c) { return criticalOpening(model, edges, edge[c]); };

@@ -11,7 +11,8 @@
 //
 // As long as one end of a crack holds, its faces are opposite each other, node to node, and are
 // kept apart here, too: pulled together here and pushed apart by contact in turn, corner on corner,
-// they would slide past each other, and contact would push out what it has not kept out.
+// they would slide past each other, and contact would push out what it has not kept out. Pressed
+// together they rub, too: the traction along the face goes on from βσc + μp, at which it opened.
 
 #include <array>
 #include <span>
@@ -19,6 +20,8 @@
 
 #include "core/footprint.hpp"
 #include "core/step_length.hpp"
+#include "dynamics/energy_ledger.hpp"
+#include "fracture/cohesive_law.hpp"
 #include "fracture/crack_edges.hpp"
 
 namespace yadefrag {
@@ -37,9 +40,10 @@ class Cohesion {
   double correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                  const StepLength& step, double drag);
 
-  /// (J) What the tractions of the step took, with its mean velocity.
-  [[nodiscard]] double work(const Model& model, std::span<const Vec2> previousVelocity,
-                            const StepLength& step) const;
+  /// Adds what the tractions of the step took, with its mean velocity: of friction to `friction`,
+  /// of the law and of what keeps the faces apart to `fracture`.
+  void book(EnergyLedger& ledger, const Model& model, std::span<const Vec2> previousVelocity,
+            const StepLength& step) const;
   /// At the end of the step, when contact has closed what it closes: cracks learn how far they have
   /// opened, and those that hold nothing any more are forgotten, and listed in `released`.
   void settle(const Model& model, const CrackEdges& edges);
@@ -62,12 +66,14 @@ class Cohesion {
 
  private:
   struct Point {
-    NodeId here, there;  // of the edge's first and second triangle
-    Vec2 normal;         // out of the first
-    Vec2 compliance;     // m/Pa, by axis
-    double area, strength, critical, shearFactor;
-    double largest;
-    Vec2 traction{};  // Pa, on `here`
+    NodeId here, there;        // of the edge's first and second triangle
+    Vec2 normal;               // out of the first
+    Vec2 rateHere, rateThere;  // m/Pa, by axis
+    double area, strength, critical;
+    CohesiveHold hold;
+    double slid;  // m, at the step's begin
+    FaceTractions tractions{};
+    Vec2 traction{};  // Pa, all of them, on `here`
     std::uint32_t crack, end;
   };
 
@@ -75,16 +81,10 @@ class Cohesion {
   void keepOnly(Keep keep);
   void collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                const StepLength& step, double drag);
-  double relax(Model& model, Point& point) const;
-  static double openingOf(const Point& point, Vec2 apart, Vec2& direction);
-  static double complianceAlong(const Point& point, Vec2 direction);
-  static Vec2 held(const Point& point, Vec2 opening);
-  static Vec2 shut(const Point& point, Vec2 opening);
+  static double relax(std::vector<Vec2>& position, Point& point);
 
   std::vector<Point> points_;
   std::vector<std::uint32_t> turned_;  // cracks whose faces are at a right angle, or more
-  double squaredStep_ = 0;             // s²
-  double drag_ = 0;
 };
 
 }  // namespace yadefrag

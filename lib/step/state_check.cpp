@@ -40,8 +40,8 @@ bool isRight(const Component& c, std::size_t triangles) {
          isPositive(c.thickness) && c.friction >= 0 && std::isfinite(c.friction) &&
          c.brittle.tensileStrength >= 0 && c.brittle.fractureEnergy >= 0 &&
          c.element <= ElementKind::kSmoothed && c.brittle.shearFactor > 0 &&
-         c.brittle.referenceVolume >= 0 && c.firstTriangle <= c.lastTriangle &&
-         c.lastTriangle <= triangles;
+         c.brittle.shearEnergyFactor > 0 && c.brittle.referenceVolume >= 0 &&
+         c.firstTriangle <= c.lastTriangle && c.lastTriangle <= triangles;
 }
 
 bool componentsAreRight(const Model& model) {
