@@ -35,10 +35,14 @@ CohesiveHold holdOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
 
 Vec2 times(Vec2 a, Vec2 b) { return {a.x * b.x, a.y * b.y}; }
 
-/// Of what is given by axis.
+/// (m/Pa) Across the edge and along it, where `compliance` is given by axis. Nodes that are held in
+/// one direction couple the two. The larger value for both leaves what sweeps put right; it is 0
+/// where nothing can move.
 AcrossAlong byDirection(Vec2 compliance, Vec2 normal) {
+  const double most = std::max(compliance.x, compliance.y);
   const double x = normal.x * normal.x, y = normal.y * normal.y;
-  return {compliance.x * x + compliance.y * y, compliance.x * y + compliance.y * x};
+  return {compliance.x * x + compliance.y * y > 0 ? most : 0,
+          compliance.x * y + compliance.y * x > 0 ? most : 0};
 }
 
 }  // namespace
@@ -51,6 +55,7 @@ void Cohesion::add(const Model& model, const CrackEdges& edges, EdgeId cracked,
   const ComponentId body = model.triangles.component[side.element.value];
   edge.push_back(cracked);
   largest.push_back({0, 0});
+  traction.push_back({});
   area.push_back(norm(along) / 2 * model.components[body.value].thickness);
 }
 
@@ -58,8 +63,11 @@ template <class Keep>
 void Cohesion::keepOnly(Keep keep) {
   std::size_t kept = 0;
   for (std::size_t c = 0; c < edge.size(); ++c)
-    if (keep(c)) edge[kept] = edge[c], largest[kept] = largest[c], area[kept++] = area[c];
-  edge.resize(kept), largest.resize(kept), area.resize(kept);
+    if (keep(c)) {
+      edge[kept] = edge[c], largest[kept] = largest[c];
+      traction[kept] = traction[c], area[kept++] = area[c];
+    }
+  edge.resize(kept), largest.resize(kept), traction.resize(kept), area.resize(kept);
 }
 
 void Cohesion::renumberEdges(std::span<const EdgeId> renumbered) {
@@ -99,40 +107,111 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
       point.hold = holdOf(model, edges, edge[c]);
       point.hold.most = envelope(point.strength, critical, largest[c][end]);
       point.hold.largest = largest[c][end];
-      point.hold.compliance = byDirection(point.rateHere + point.rateThere, normal);
+      const Vec2 rate = point.rateHere + point.rateThere;
+      point.hold.compliance = byDirection(rate, normal);
+      point.isEven = rate.x == rate.y;
       point.slid = dot(before[there.value] - before[here.value], -rightOf(normal));
+      const Vec2 last = traction[c][end];
+      point.traction = last.x * normal - last.y * rightOf(normal);
       point.crack = c, point.end = end;
     }
   }
 }
 
-/// Sets one point's traction right, the others being what they are; returns its change (Pa).
-double Cohesion::relax(std::vector<Vec2>& position, Point& point) {
-  Vec2& here = position[point.here.value];
-  Vec2& there = position[point.there.value];
+std::uint32_t Cohesion::rootOf(NodeId node) {
+  std::uint32_t n = node.value;
+  while (group_[n] != n) n = group_[n] = group_[group_[n]];
+  return n;
+}
+
+/// Points that share a node, and those that share one with them: the parts of one node that split.
+void Cohesion::findGroups(std::size_t nodes) {
+  constexpr std::uint32_t none = ~std::uint32_t{0};
+  group_.resize(nodes);
+  for (const Point& point : points_)
+    for (const NodeId node : {point.here, point.there}) group_[node.value] = node.value;
+  for (const Point& point : points_) {
+    const std::uint32_t here = rootOf(point.here), there = rootOf(point.there);
+    group_[std::max(here, there)] = std::min(here, there);
+  }
+  number_.resize(nodes);
+  for (const Point& point : points_) number_[rootOf(point.here)] = none;
+  std::uint32_t count = 0;
+  for (Point& point : points_) {
+    std::uint32_t& number = number_[rootOf(point.here)];
+    if (number == none) number = count++;
+    point.group = number;
+  }
+  fillRows(
+      groups_, count, points_.size(), [&](std::size_t i) { return points_[i].group; },
+      [](std::size_t i) { return static_cast<std::uint32_t>(i); });
+}
+
+void Cohesion::apply(std::vector<Vec2>& position, const Point& point, Vec2 change) {
+  position[point.here.value] += times(point.rateHere, change);
+  position[point.there.value] -= times(point.rateThere, change);
+}
+
+/// Sets one point's traction right, the others being what they are.
+void Cohesion::relax(std::vector<Vec2>& position, Point& point) {
   const Vec2 tangent = -rightOf(point.normal);
-  const Vec2 trial = there - here + times(point.rateHere + point.rateThere, point.traction);
-  point.tractions =
-      faceTractions(point.hold, {dot(trial, point.normal), dot(trial, tangent)}, point.slid);
+  const Vec2 apart = position[point.there.value] - position[point.here.value];
+  const AcrossAlong& compliance = point.hold.compliance;
+  const AcrossAlong trial{
+      dot(apart, point.normal) + compliance.normal * dot(point.traction, point.normal),
+      dot(apart, tangent) + compliance.shear * dot(point.traction, tangent)};
+  point.tractions = faceTractions(point.hold, trial, point.slid);
   const FaceTractions& t = point.tractions;
   const Vec2 traction = t.normal * point.normal + (t.shear + t.friction) * tangent;
-  const Vec2 change = traction - point.traction;
+  point.change = traction - point.traction;
   point.traction = traction;
-  here += times(point.rateHere, change);
-  there -= times(point.rateThere, change);
-  return norm(change);
+  apply(position, point, point.change);
+}
+
+/// Sweeps over points that share nodes, from the tractions of the last step. Returns the change in
+/// the last sweep, of the strength.
+double Cohesion::solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group) {
+  for (const std::uint32_t i : group) points_[i].change = {};
+  double worst = 0;
+  for (int sweep = 1; sweep <= tolerance::kCohesionSweeps; ++sweep) {
+    double now = 0, before = 0, common = 0;  // Pa², of the changes
+    worst = 0;
+    for (const std::uint32_t i : group) {
+      Point& point = points_[i];
+      const Vec2 last = point.change;
+      relax(position, point);
+      now += dot(point.change, point.change), before += dot(last, last);
+      common += dot(point.change, last);
+      worst = std::max(worst, dot(point.change, point.change) / (point.strength * point.strength));
+    }
+    worst = std::sqrt(worst);
+    if (group.size() == 1 && points_[group[0]].isEven) return 0;  // right at once
+    if (worst <= tolerance::kCohesionChange) break;
+    const bool isSeries =
+        common > 0 && common < before && common * common >= tolerance::kSameChange * now * before;
+    if (!isSeries || sweep % tolerance::kSweepsToSumUp != 0 ||
+        sweep > tolerance::kCohesionSweeps - tolerance::kSweepsToSettle)
+      continue;
+    const double ratio = std::min(common / before, tolerance::kMostRatio);
+    for (const std::uint32_t i : group) {
+      const Vec2 rest = ratio / (1 - ratio) * points_[i].change;
+      points_[i].traction += rest;
+      apply(position, points_[i], rest);
+    }
+  }
+  return worst;
 }
 
 double Cohesion::correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                          const StepLength& step, double drag) {
   if (edge.empty()) return 0;
   collect(model, edges, before, step, drag);
-  for (int sweep = 0; sweep < tolerance::kCohesionSweeps; ++sweep) {
-    double worst = 0;
-    for (Point& point : points_)
-      worst = std::max(worst, relax(model.nodes.position, point) / point.strength);
-    if (worst <= tolerance::kCohesionChange) break;
-  }
+  findGroups(model.nodes.size());
+  std::vector<Vec2>& position = model.nodes.position;
+  for (const Point& point : points_) apply(position, point, point.traction);
+  residual_ = 0;
+  for (std::size_t g = 0; g < groups_.rows(); ++g)
+    residual_ = std::max(residual_, solve(position, groups_.row(g)));
   double most = 0;
   for (const Point& point : points_) {
     const Vec2 here = times(point.rateHere, point.traction);
@@ -168,6 +247,8 @@ void Cohesion::book(EnergyLedger& ledger, const Model& model,
 void Cohesion::settle(const Model& model, const CrackEdges& edges) {
   const std::vector<Vec2>& position = model.nodes.position;
   for (const Point& point : points_) {
+    const FaceTractions& t = point.tractions;
+    traction[point.crack][point.end] = {t.normal, t.shear + t.friction};
     double& widest = largest[point.crack][point.end];
     const Vec2 apart = position[point.there.value] - position[point.here.value];
     const AcrossAlong opening{dot(apart, point.normal), dot(apart, -rightOf(point.normal))};

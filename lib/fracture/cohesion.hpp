@@ -18,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include "core/csr.hpp"
 #include "core/footprint.hpp"
 #include "core/step_length.hpp"
 #include "dynamics/energy_ledger.hpp"
@@ -40,6 +41,9 @@ class Cohesion {
   double correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                  const StepLength& step, double drag);
 
+  /// Largest change of a traction, of its strength, in the last sweep of the last step.
+  [[nodiscard]] double residual() const { return residual_; }
+
   /// Adds what the tractions of the step took, with its mean velocity: of friction to `friction`,
   /// of the law and of what keeps the faces apart to `fracture`.
   void book(EnergyLedger& ledger, const Model& model, std::span<const Vec2> previousVelocity,
@@ -56,13 +60,17 @@ class Cohesion {
 
   std::vector<EdgeId> released;  ///< in the last step
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kCohesion, edge, largest, area, points_, turned_, released);
+    footprint.add(Use::kCohesion, edge, largest, traction, area, points_, group_, number_,
+                  groups_.values, groups_.offsets, turned_, released);
   }
 
   // By crack that holds; both ends of an edge have an opening of their own.
   std::vector<EdgeId> edge;
   std::vector<std::array<double, 2>> largest;  ///< m, δmax
-  std::vector<double> area;                    ///< m², half the face's
+  /// Pa, in the last step, across the crack and along it: where the next one begins. Cracks side by
+  /// side share a load in many ways that move the nodes alike, and sweeps are slow to choose.
+  std::vector<std::array<Vec2, 2>> traction;
+  std::vector<double> area;  ///< m², half the face's
 
  private:
   struct Point {
@@ -74,16 +82,26 @@ class Cohesion {
     double slid;  // m, at the step's begin
     FaceTractions tractions{};
     Vec2 traction{};  // Pa, all of them, on `here`
-    std::uint32_t crack, end;
+    Vec2 change{};    // Pa, in the last sweep
+    bool isEven;      // as compliant in all directions
+    std::uint32_t crack, end, group;
   };
 
   template <class Keep>
   void keepOnly(Keep keep);
   void collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                const StepLength& step, double drag);
-  static double relax(std::vector<Vec2>& position, Point& point);
+  void findGroups(std::size_t nodes);
+  [[nodiscard]] std::uint32_t rootOf(NodeId node);
+  double solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group);
+  static void apply(std::vector<Vec2>& position, const Point& point, Vec2 change);
+  static void relax(std::vector<Vec2>& position, Point& point);
 
   std::vector<Point> points_;
+  std::vector<std::uint32_t> group_;   // by node: another of its group, itself if it is the root
+  std::vector<std::uint32_t> number_;  // by node that is a root: the group's
+  Csr<std::uint32_t> groups_;          // of points that share nodes
+  double residual_ = 0;
   std::vector<std::uint32_t> turned_;  // cracks whose faces are at a right angle, or more
 };
 

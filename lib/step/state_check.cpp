@@ -151,7 +151,8 @@ bool edgesAreRight(const World& world) {
 bool fractureIsRight(const World& world) {
   const Cohesion& c = world.fracture.cohesion;
   return edgesAreRight(world) && c.largest.size() == c.edge.size() &&
-         c.area.size() == c.edge.size() && allBelow(c.edge, world.fracture.edges.size());
+         c.traction.size() == c.edge.size() && c.area.size() == c.edge.size() &&
+         allBelow(c.edge, world.fracture.edges.size());
 }
 
 }  // namespace

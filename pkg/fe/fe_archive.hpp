@@ -264,6 +264,7 @@ class WorldArchive {
     column<Index>("elementEdges", edges.ofElement), column<Index>("nodeElement", edges.ofNode);
     column<Index>("cohesiveEdge", fracture.cohesion.edge);
     column<double>("cohesiveLargest", fracture.cohesion.largest);
+    column<double>("cohesiveTraction", fracture.cohesion.traction);
     column<double>("cohesiveArea", fracture.cohesion.area);
     std::uint64_t numCracks = fracture.numCracks();
     value("numCracks", numCracks);
