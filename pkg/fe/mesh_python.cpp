@@ -7,6 +7,7 @@
 #include "fe/fe_solver.hpp"
 #include "mesh/mesh_quality.hpp"
 #include "mesh/polygon.hpp"
+#include "mesh/simplify.hpp"
 #include "mesh/structured.hpp"
 #include "mesh/triangulate.hpp"
 
@@ -33,6 +34,13 @@ py::dict toDict(const TriangleMesh& mesh) {
   return result;
 }
 
+Polygon polygonOf(const py::object& outline, const py::list& holes) {
+  Polygon polygon;
+  polygon.outline = fromBytes<Vec2>(outline);
+  for (int i = 0; i < py::len(holes); ++i) polygon.holes.push_back(fromBytes<Vec2>(holes[i]));
+  return polygon;
+}
+
 SizeField sizeField(const py::tuple& size) {
   if (py::len(size) == 1) return py::extract<double>(size[0])();
   const Vec2 low = {py::extract<double>(size[0]), py::extract<double>(size[1])};
@@ -46,14 +54,22 @@ py::dict meshOfPolygon(const py::object& outline, const py::list& holes, const p
                        bool irregular, std::uint64_t seed) {
   return asValueError([&] {
     const MeshLayout layout{irregular ? NodeLayout::kScattered : NodeLayout::kRows, seed};
-    Polygon polygon;
-    polygon.outline = fromBytes<Vec2>(outline);
-    for (int i = 0; i < py::len(holes); ++i) polygon.holes.push_back(fromBytes<Vec2>(holes[i]));
+    const Polygon polygon = checkPolygon(polygonOf(outline, holes));
     const SizeField field = sizeField(size);
-    py::dict mesh =
-        toDict(triangulate(checkPolygon(std::move(polygon)), field, layout, memoryOfMachine()));
+    py::dict mesh = toDict(triangulate(polygon, field, layout, memoryOfMachine()));
     mesh["smallestSize"] = field.smallest();
     return mesh;
+  });
+}
+
+py::list keptVertices(const py::object& outline, const py::list& holes, double tolerance,
+                      const py::object& pinned) {
+  return asValueError([&] {
+    py::list kept;
+    for (const auto& loop :
+         verticesToKeep(polygonOf(outline, holes), tolerance, fromBytes<std::uint8_t>(pinned)))
+      kept.append(toArray(loop, "uint32", 0));
+    return kept;
   });
 }
 

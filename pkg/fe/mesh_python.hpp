@@ -15,7 +15,11 @@ class FESolver;
 /// columns, and its values.
 yade::py::dict meshOfPolygon(const yade::py::object& outline, const yade::py::list& holes,
                              const yade::py::tuple& size, bool irregular, std::uint64_t seed);
-/// A regular mesh of a rectangle, likewise.
+/// Numbers of the vertices that stay, of the outline and of each hole: a list of arrays
+/// (mesh/simplify.hpp). `pinned` has a byte for each point of the outline, or is empty.
+yade::py::list keptVertices(const yade::py::object& outline, const yade::py::list& holes,
+                            double tolerance, const yade::py::object& pinned);
+/// A regular mesh of a rectangle, as meshOfPolygon.
 yade::py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
                                bool crossed);
 

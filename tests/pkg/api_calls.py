@@ -106,7 +106,7 @@ def right(fe, folder):
         recordFracture=dict(fe=fe, file=csv, append=True), plotFracture=dict(file=csv, picture=None),
         tradeoff=dict(job, reference=0., watch=None, every=0., limit=60., files=folder + '/t', title=''),
         addPolygon=dict(outline=square, holes=(), size=.5, material='m', smooth=False, velocity=(0, 0), spin=0,
-                        displacement=None, fixed=None, thickness=1, selfContact=True),
+                        displacement=None, fixed=None, thickness=1, selfContact=True, simplify=.1),
         addTriangles=dict(nodes=[(5, 5), (6, 5), (6, 6)], triangles=[(0, 1, 2)], material='m', smooth=False,
                           velocity=(0, 0), spin=0, displacement=None, fixed=None, thickness=1,
                           selfContact=True),

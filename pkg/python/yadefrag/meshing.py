@@ -27,6 +27,19 @@ def _sampledSize(function, points):
         samples *= 2
 
 
+def simplified(points, holes, tolerance, flags):
+    """Outline, holes and the outline's flags (None or an array) without the points that a
+    simplification within `tolerance` (m) leaves out: addPolygon's `simplify`."""
+    tolerance = positive('simplify', tolerance, 'm')
+    pinned = numpy.zeros(0, dtype=bool)
+    if flags is not None:  # a straight corner in a smooth part is meant
+        pinned = ~flags & (numpy.roll(flags, 1) | numpy.roll(flags, -1))
+    kept = _yadefrag.keptVertices(points.tobytes(), [h.tobytes() for h in holes], tolerance,
+                                  pinned.astype(numpy.uint8).tobytes())
+    return (points[kept[0]], [hole[stay] for hole, stay in zip(holes, kept[1:])],
+            None if flags is None else flags[kept[0]])
+
+
 def isIrregular(mesh, material):
     """The kind of mesh that `mesh` asks for; None: irregular for a body that can crack."""
     if mesh is None:

@@ -14,7 +14,7 @@ from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag import guards
 from yadefrag._yadefrag import requirePaused
-from yadefrag.meshing import isIrregular, meshOfPolygon
+from yadefrag.meshing import isIrregular, meshOfPolygon, simplified
 from yadefrag.quality import meshQuality
 from yadefrag.shown import betweenSteps, shownTriangles
 from yadefrag.values import (flag, isWhole, number, numbersOf, pair, plain, positive, refuse, shown,
@@ -96,21 +96,28 @@ def _heldNodes(fixed, nodes):
     return held
 
 
+def _smoothFlags(smooth, count):
+    """True, False, or an array of a flag for each of the outline's `count` points."""
+    smooth = plain(smooth)
+    if isinstance(smooth, bool):
+        return smooth
+    flags = _flags(smooth)
+    if flags is None:
+        refuse('smooth', smooth, 'True, False or a flag for each point of the outline')
+    if len(flags) != count:
+        raise ValueError('smooth has %d flags, it must have one for each of the %d points of '
+                         'the outline.' % (len(flags), count))
+    return flags
+
+
 def _smoothNodes(smooth, mesh, outline=()):
     """(n) of 0 or 1: is the node on a smooth part of the boundary; empty for none at all."""
-    smooth = plain(smooth)
     if isinstance(smooth, bool):
         if not smooth:
             return numpy.empty(0, dtype=numpy.uint8)
         chosen = [(loop, numpy.ones(len(loop), dtype=bool)) for loop in mesh['loops']]
     else:
-        count = len(outline)
-        flags = _flags(smooth)
-        if flags is None:
-            refuse('smooth', smooth, 'True, False or a flag for each point of the outline')
-        if len(flags) != count:
-            raise ValueError('smooth has %d flags, it must have one for each of the %d points of '
-                             'the outline.' % (len(flags), count))
+        flags, count = smooth, len(outline)
         if _isClockwise(outline):  # the mesh has it the other way round, with the same first point
             flags = flags[-numpy.arange(count) % count]
         loop, vertices = mesh['loops'][0], mesh['loopVertices'][0]
@@ -180,7 +187,7 @@ def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickn
 
 def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocity=(0, 0), spin=0,
                displacement=None, fixed=None, thickness=1, selfContact=True, element='linear',
-               mesh=None, meshSeed=0):
+               mesh=None, meshSeed=0, simplify=None):
     """Adds a plane body, meshed with triangles; returns its number (int).
 
     outline, holes  list of points (x, y) in m, and a list of such lists
@@ -209,6 +216,13 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     directions; 'irregular': edges in all directions, for cracks that do not
                     follow the mesh; None: 'irregular' for a BrittleFEMat, otherwise 'regular'
     meshSeed        of an irregular mesh: the same outline, size and seed give the same mesh
+    simplify        None: the outline as given; or the distance (m) by which its points, and those
+                    of the holes, may be off the mesh's: points that this leaves out are taken out
+                    before meshing, as of a contour of pixels. No edges cross by it, corners between
+                    edges that are long against the distance stay, and so do straight corners that
+                    `smooth` has next to smooth ones. It must be less than the area over the
+                    length of the outline and of each hole. By squared distances (Dyken, Dæhlen and
+                    Sevaldrud 2009, J. Geogr. Syst. 11, 273)
     Functions are called at the nodes of the stress-free shape. ValueError before anything changes,
     also where the body would overlap another one; RuntimeError while O.run goes on in the
     background; a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks,
@@ -222,7 +236,12 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     if loops is None:
         refuse('holes', holes, 'a list of loops of points (x, y) in m')
     holePoints = [_points('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
+    smooth = _smoothFlags(smooth, len(points))
     material = _material(material)
+    if simplify is not None:
+        flags = None if isinstance(smooth, bool) else smooth
+        points, holePoints, flags = simplified(points, holePoints, simplify, flags)
+        smooth = smooth if flags is None else flags
     made = meshOfPolygon(points, holePoints, size, isIrregular(mesh, material), meshSeed)
     smoothed = _smoothNodes(smooth, made, points)
     body = _add(self, made, smoothed, material, velocity, spin, displacement, fixed, thickness,
