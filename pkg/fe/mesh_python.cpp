@@ -29,6 +29,7 @@ py::dict toDict(const TriangleMesh& mesh) {
   for (const auto& loop : mesh.loopVertices) vertices.append(toArray(loop, "uint32", 0));
   result["nodes"] = toArray(mesh.nodes, "float64", 2);
   result["triangles"] = toArray(mesh.triangles, "uint32", 3);
+  result["joints"] = toArray(mesh.joints, "uint32", 3);
   result["loops"] = loops;
   result["loopVertices"] = vertices;
   return result;
@@ -51,12 +52,13 @@ SizeField sizeField(const py::tuple& size) {
 }  // namespace
 
 py::dict meshOfPolygon(const py::object& outline, const py::list& holes, const py::tuple& size,
-                       bool irregular, std::uint64_t seed) {
+                       bool irregular, std::uint64_t seed, const py::object& joints) {
   return asValueError([&] {
     const MeshLayout layout{irregular ? NodeLayout::kScattered : NodeLayout::kRows, seed};
     const Polygon polygon = checkPolygon(polygonOf(outline, holes));
     const SizeField field = sizeField(size);
-    py::dict mesh = toDict(triangulate(polygon, field, layout, memoryOfMachine()));
+    const auto lines = fromBytes<std::array<Vec2, 2>>(joints);
+    py::dict mesh = toDict(triangulate(polygon, field, layout, memoryOfMachine(), lines));
     mesh["smallestSize"] = field.smallest();
     return mesh;
   });

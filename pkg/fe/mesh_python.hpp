@@ -10,11 +10,13 @@ namespace yadefrag {
 
 class FESolver;
 
-/// The mesh of a polygon, as a dict of arrays: nodes, triangles, loops, loopVertices, and
-/// smallestSize (m). `size` is a tuple: one number (m), or left, bottom and cell (m) of a grid, its
+/// The mesh of a polygon, as a dict of arrays: nodes, triangles, loops, loopVertices, joints (both
+/// nodes and the number of the joint, of each side), and smallestSize (m). `joints` are four
+/// numbers each. `size` is a tuple: one number (m), or left, bottom and cell (m) of a grid, its
 /// columns, and its values.
 yade::py::dict meshOfPolygon(const yade::py::object& outline, const yade::py::list& holes,
-                             const yade::py::tuple& size, bool irregular, std::uint64_t seed);
+                             const yade::py::tuple& size, bool irregular, std::uint64_t seed,
+                             const yade::py::object& joints);
 /// Numbers of the vertices that stay, of the outline and of each hole: a list of arrays
 /// (mesh/simplify.hpp). `pinned` has a byte for each point of the outline, or is empty.
 yade::py::list keptVertices(const yade::py::object& outline, const yade::py::list& holes,
