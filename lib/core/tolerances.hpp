@@ -320,6 +320,14 @@ inline constexpr double kEdgeGrowth = .25;
 /// the boundary's edges; a regular layout has 1 and 0.87.
 inline constexpr double kNodeClearance = .75, kBoundaryClearance = .6;
 
+/// (of the squared tolerance) By how much equal costs of vertices that an outline could do without
+/// are told apart, so that their order is the same in every run.
+inline constexpr double kEqualCosts = 1e-6;
+
+/// (of the size there) A joint that ends this near the outline or another joint ends on it: the
+/// places where lines meet are known to rounding only.
+inline constexpr double kJointMeets = 1e-6;
+
 /// (of an edge's length) A point this near an edge of the boundary may be one that divides it.
 inline constexpr double kOnEdge = 1e-9;
 

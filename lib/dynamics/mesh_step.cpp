@@ -76,12 +76,12 @@ std::string costlyStepWarning(const TriangleMesh& mesh, const Component& compone
     const Shape shape = shapeOf(mesh, t);
     if (shape.altitude < worst.altitude) worst = shape;
   }
-  std::array<char, 300> text;
+  std::array<char, 400> text;
   (void)std::snprintf(
       text.data(), text.size(),
       "the critical time step is %.3g times shorter than with even triangles of the "
       "size %.4g m, since at (%.6g, %.6g) the outline asks for a triangle with an "
-      "edge of %.3g m and a height of %.3g m.",
+      "edge of %.3g m and a height of %.3g m; simplify= leaves out points that it can do without.",
       factor, size, worst.centre.x, worst.centre.y, worst.shortest, worst.altitude);
   return text.data();
 }

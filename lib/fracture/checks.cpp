@@ -90,9 +90,80 @@ EdgeSums sumsOf(const Model& model, const Component& body) {
   return sums;
 }
 
-std::string named(const BrittleMaterial& material, ComponentId component) {
-  return "fractureEnergy is " + text(material.fractureEnergy, " J/m²") + " in component " +
+std::string named(double fractureEnergy, ComponentId component) {
+  return "fractureEnergy is " + text(fractureEnergy, " J/m²") + " in component " +
          std::to_string(component.value);
+}
+
+/// An edge's own values.
+struct Cohesive {
+  double strength;        // Pa
+  double fractureEnergy;  // J/m²
+  std::string where;      // of edges in bodies that are not the same everywhere
+  [[nodiscard]] double critical() const { return 2 * fractureEnergy / strength; }
+};
+
+/// `crossed` (m): what a step takes from the opening.
+void requireResolved(const Cohesive& edge, double crossed, double meanLength, ComponentId component,
+                     double dt) {
+  const double critical = edge.critical();
+  if (crossed < critical) return;
+  const double ratio = critical / crossed;
+  // Masses go with the size squared; with a step in proportion, what is crossed goes with the size.
+  throw InputError(named(edge.fractureEnergy, component) + edge.where +
+                   ": a crack holds up to an opening of " + text(critical, " m") +
+                   ", which a step of " + text(dt, " s") + " does not resolve; a step of " +
+                   atMost(dt * std::sqrt(ratio), " s") + " would do, or elements of " +
+                   atMost(ratio * meanLength, " m") + " (now " + text(meanLength, " m") +
+                   ") with a step in proportion.");
+}
+
+std::string zoneSentence(const Component& body, const Cohesive& edge, double size,
+                         ComponentId component) {
+  const double zone = body.material.young / edge.strength * edge.fractureEnergy / edge.strength;
+  const double wanted = zone / kZoneElements;
+  if (size <= wanted) return {};
+  return named(edge.fractureEnergy, component) + edge.where + ": the cohesive zone is " +
+         text(zone, " m") + " long, less than eight elements of " + text(size, " m") +
+         "; notched or cracked bodies bear too much, with four elements half as much again, and "
+         "elements of " +
+         atMost(wanted, " m") + " would do.";
+}
+
+/// (m²/kg) (L/2)(1/m₁ + 1/m₂) of an edge, m the least that one triangle can give to a node.
+double lightnessOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const Side side = edges.side(edge, 0);
+  const Component& body = model.components[model.triangles.component[side.element.value].value];
+  double inverse = 0;
+  for (const ElementId element : edges.element[edge.value])
+    inverse += 3 / (body.material.density * body.thickness * model.triangles.area[element.value]);
+  const Vec2 along = model.nodes.position[lastNode(model, side).value] -
+                     model.nodes.position[firstNode(model, side).value];
+  return norm(along) / 2 * inverse;
+}
+
+/// The edge of a body with the least `measure`, of those that hold after they crack; none()
+/// without.
+template <class Measure>
+EdgeId leastOf(const Model& model, const CrackEdges& edges, ComponentId component,
+               Measure measure) {
+  EdgeId least = EdgeId::none();
+  double lowest = INFINITY;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const std::uint32_t element = edges.element[i][0].value;
+    if (model.triangles.component[element] != component || edges.fractureEnergy[i] <= 0 ||
+        model.triangles.isDropped(element) || model.triangles.isDropped(edges.element[i][1].value))
+      continue;
+    const double value = measure(EdgeId(i));
+    if (value < lowest) lowest = value, least = EdgeId(i);
+  }
+  return least;
+}
+
+Cohesive valuesOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const Vec2 at = model.nodes.position[firstNode(model, edges.side(edge, 0)).value];
+  return {edges.strength[edge.value], edges.fractureEnergy[edge.value],
+          " at (" + text(at.x, "") + ", " + text(at.y, "") + ")"};
 }
 
 }  // namespace
@@ -122,32 +193,46 @@ void checkCohesiveResolution(const Model& model, ComponentId component, double d
   const EdgeSums sums = sumsOf(model, body);
   if (sums.inner == 0) return;
   const double strength = likelyLargestStrength(body.brittle, sums.inner, sums.leastVolume);
-  const double critical = 2 * body.brittle.fractureEnergy / strength;
   const double crossed = dt * dt * body.thickness * sums.lightest * strength / 4;
-  if (crossed < critical) return;
-  const double ratio = critical / crossed;
-  // Masses go with the size squared; with a step in proportion, what is crossed goes with the size.
-  throw InputError(named(body.brittle, component) + ": a crack holds up to an opening of " +
-                   text(critical, " m") + ", which a step of " + text(dt, " s") +
-                   " does not resolve; a step of " + atMost(dt * std::sqrt(ratio), " s") +
-                   " would do, or elements of " + atMost(ratio * sums.meanLength, " m") + " (now " +
-                   text(sums.meanLength, " m") + ") with a step in proportion.");
+  requireResolved({strength, body.brittle.fractureEnergy, {}}, crossed, sums.meanLength, component,
+                  dt);
+}
+
+void checkCohesiveResolution(const Model& model, const CrackEdges& edges, ComponentId component,
+                             double dt) {
+  const Component& body = model.components[component.value];
+  if (!body.brittleByPlace) return checkCohesiveResolution(model, component, dt);
+  const auto crossed = [&](EdgeId edge) {
+    return dt * dt * body.thickness * lightnessOf(model, edges, edge) * edges.strength[edge.value] /
+           4;
+  };
+  const EdgeId worst = leastOf(model, edges, component, [&](EdgeId edge) {
+    return edges.fractureEnergy[edge.value] / edges.strength[edge.value] / crossed(edge);
+  });
+  if (worst == EdgeId::none()) return;
+  requireResolved(valuesOf(model, edges, worst), crossed(worst), sumsOf(model, body).meanLength,
+                  component, dt);
 }
 
 std::string cohesiveZoneWarning(const Model& model, ComponentId component) {
   const Component& body = model.components[component.value];
   const BrittleMaterial& brittle = body.brittle;
   if (!brittle.cracks() || brittle.fractureEnergy <= 0) return {};
-  const double zone = body.material.young / brittle.tensileStrength * brittle.fractureEnergy /
-                      brittle.tensileStrength;
-  const double size = sumsOf(model, body).meanLength;
-  const double wanted = zone / kZoneElements;
-  if (size <= wanted) return {};
-  return named(brittle, component) + ": the cohesive zone is " + text(zone, " m") +
-         " long, less than eight elements of " + text(size, " m") +
-         "; notched or cracked bodies bear too much, with four elements half as much again, and "
-         "elements of " +
-         atMost(wanted, " m") + " would do.";
+  return zoneSentence(body, {brittle.tensileStrength, brittle.fractureEnergy, {}},
+                      sumsOf(model, body).meanLength, component);
+}
+
+std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,
+                                ComponentId component) {
+  const Component& body = model.components[component.value];
+  if (!body.brittleByPlace) return cohesiveZoneWarning(model, component);
+  const EdgeId worst = leastOf(model, edges, component, [&](EdgeId edge) {
+    const double strength = edges.strength[edge.value];
+    return edges.fractureEnergy[edge.value] / strength / strength;
+  });
+  if (worst == EdgeId::none()) return {};
+  return zoneSentence(body, valuesOf(model, edges, worst), sumsOf(model, body).meanLength,
+                      component);
 }
 
 }  // namespace yadefrag

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/ids.hpp"
+#include "fracture/crack_edges.hpp"
 #include "mesh/brittle_material.hpp"
 #include "mesh/model.hpp"
 
@@ -22,10 +23,18 @@ void checkBrittle(const BrittleMaterial& material);
 /// resolve.
 void checkCohesiveResolution(const Model& model, ComponentId component, double dt);
 
+/// The same; of a body whose strength or fracture energy differ by place, edge by edge with the
+/// values that `edges` has.
+void checkCohesiveResolution(const Model& model, const CrackEdges& edges, ComponentId component,
+                             double dt);
+
 /// A sentence where the zone in which a crack's faces still hold is shorter than eight elements, so
 /// that bodies with a notch or a crack bear too much; else empty. Its length is E·Gc/σc²
 /// (Hillerborg, Modéer and Petersson 1976, Cem. Concr. Res. 6, 773), an element's the mean of the
 /// component's edges.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, ComponentId component);
+/// The same, of a body whose strength or fracture energy differ by place for its shortest zone.
+[[nodiscard]] std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,
+                                              ComponentId component);
 
 }  // namespace yadefrag

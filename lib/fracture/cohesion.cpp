@@ -22,8 +22,8 @@ const BrittleMaterial& materialOf(const Model& model, const CrackEdges& edges, E
 }
 
 /// (m) δc = 2Gc/σc.
-double criticalOpening(const Model& model, const CrackEdges& edges, EdgeId edge) {
-  return 2 * materialOf(model, edges, edge).fractureEnergy / edges.strength[edge.value];
+double criticalOpening(const CrackEdges& edges, EdgeId edge) {
+  return 2 * edges.fractureEnergy[edge.value] / edges.strength[edge.value];
 }
 
 CohesiveHold holdOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
@@ -83,7 +83,7 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
     const auto [a, b] = nodesAt(model, edges, edge[c], 0);
     const auto [d, e] = nodesAt(model, edges, edge[c], 1);
     if (a == b && d == e) continue;
-    const double critical = criticalOpening(model, edges, edge[c]);
+    const double critical = criticalOpening(edges, edge[c]);
     const Vec2 first = before[d.value] - before[a.value];
     const Vec2 second = before[e.value] - before[b.value];
     // Faces at a right angle hang together by an end at most, and soon have no common normal.
@@ -256,7 +256,7 @@ void Cohesion::settle(const Model& model, const CrackEdges& edges) {
         std::max(widest, effectiveOpening(opening, point.hold.shearFactor, point.hold.shearRatio));
   }
   points_.clear();
-  const auto critical = [&](std::size_t c) { return criticalOpening(model, edges, edge[c]); };
+  const auto critical = [&](std::size_t c) { return criticalOpening(edges, edge[c]); };
   for (const std::uint32_t c : turned_) largest[c] = {critical(c), critical(c)};
   turned_.clear();  // without a crack left, the next step collects nothing
   released.clear();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <map>
 #include <utility>
 
 #include "fracture/edge_strength.hpp"
@@ -35,6 +37,30 @@ std::vector<std::array<Side, 2>> innerEdges(const Model& model, const Component&
   return inner;
 }
 
+/// The joints by the model's nodes, the lower one first.
+using Joints = std::map<std::array<NodeId, 2>, const JointEdge*>;
+
+Joints byNodes(const std::vector<JointEdge>& joints, NodeId first) {
+  Joints result;
+  for (const JointEdge& joint : joints) {
+    const auto [low, high] = std::minmax(joint.nodes[0], joint.nodes[1]);
+    result[{NodeId(first.value + low), NodeId(first.value + high)}] = &joint;
+  }
+  return result;
+}
+
+/// The material as it is where an edge between these two triangles is.
+BrittleMaterial materialAt(const Component& body, const BrittlePlaces& places, ElementId a,
+                           ElementId b) {
+  const auto smaller = [&](const std::vector<double>& values) {
+    return std::min(values[a.value - body.firstTriangle], values[b.value - body.firstTriangle]);
+  };
+  BrittleMaterial material = body.brittle;
+  if (!places.strength.empty()) material.tensileStrength = smaller(places.strength);
+  if (!places.fractureEnergy.empty()) material.fractureEnergy = smaller(places.fractureEnergy);
+  return material;
+}
+
 }  // namespace
 
 int cornerOf(const Model& model, ElementId element, NodeId node) {
@@ -44,12 +70,19 @@ int cornerOf(const Model& model, ElementId element, NodeId node) {
   return corner;
 }
 
-void CrackEdges::addBody(const Model& model, ComponentId component) {
+std::vector<EdgeId> CrackEdges::addBody(const Model& model, ComponentId component,
+                                        const BrittlePlaces& places) {
   const Component& body = model.components[component.value];
   ofElement.resize(model.triangles.size(), kNoEdges);
   ofNode.resize(model.nodes.size(), ElementId::none());
+  NodeId firstOfBody = NodeId::none();
   for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e)
-    for (const NodeId node : model.triangles.nodes[e]) ofNode[node.value] = ElementId(e);
+    for (const NodeId node : model.triangles.nodes[e]) {
+      ofNode[node.value] = ElementId(e);
+      firstOfBody = std::min(firstOfBody, node);
+    }
+  const Joints joints = byNodes(places.joints, firstOfBody);
+  std::vector<EdgeId> open;
   // Two bodies of one material do not crack alike.
   std::uint64_t number = std::uint64_t{component.value} << 32;
   for (const auto& [a, b] : innerEdges(model, body)) {
@@ -59,9 +92,23 @@ void CrackEdges::addBody(const Model& model, ComponentId component) {
     // Of each triangle a third belongs to each of its sides.
     const double area =
         model.triangles.area[a.element.value] + model.triangles.area[b.element.value];
-    strength.push_back(edgeStrength(body.brittle, number++, body.thickness * area / 3));
+    const BrittleMaterial material = materialAt(body, places, a.element, b.element);
+    strength.push_back(edgeStrength(material, number++, body.thickness * area / 3));
+    fractureEnergy.push_back(material.fractureEnergy);
     cracked.push_back(0);
+    const auto [low, high] = std::minmax({firstNode(model, a), lastNode(model, a)});
+    const auto joint = joints.find({low, high});
+    if (joint == joints.end()) continue;
+    const JointEdge& own = *joint->second;
+    if (own.strength > 0) {
+      strength.back() = own.strength;
+      if (!std::isnan(own.fractureEnergy)) fractureEnergy.back() = own.fractureEnergy;
+    } else {
+      fractureEnergy.back() = 0;
+      open.emplace_back(size() - 1);
+    }
   }
+  return open;
 }
 
 std::vector<EdgeId> CrackEdges::removeBody(const Model& model, ElementId first, ElementId last,
@@ -76,12 +123,14 @@ std::vector<EdgeId> CrackEdges::removeBody(const Model& model, ElementId first, 
     element[kept] = {shifted(element[i][0]), shifted(element[i][1])};
     corner[kept] = corner[i];
     strength[kept] = strength[i];
+    fractureEnergy[kept] = fractureEnergy[i];
     cracked[kept] = cracked[i];
     for (std::size_t k = 0; k < 2; ++k)
       ofElement[element[kept][k].value][corner[kept][k]] = EdgeId(kept);
     renumbered[i] = EdgeId(kept++);
   }
-  element.resize(kept), corner.resize(kept), strength.resize(kept), cracked.resize(kept);
+  element.resize(kept), corner.resize(kept), strength.resize(kept);
+  fractureEnergy.resize(kept), cracked.resize(kept);
   std::vector<ElementId> elementOf(model.nodes.size(), ElementId::none());
   for (std::size_t n = 0; n < ofNode.size(); ++n)
     if (renumberedNodes[n] != NodeId::none() && ofNode[n] != ElementId::none())

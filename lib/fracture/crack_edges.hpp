@@ -35,6 +35,7 @@ struct CrackEdges {
   std::vector<std::array<ElementId, 2>> element;    ///< the lower one first
   std::vector<std::array<std::uint8_t, 2>> corner;  ///< of each: where the edge begins in it
   std::vector<double> strength;                     ///< Pa
+  std::vector<double> fractureEnergy;               ///< J/m²; 0: a crack opens at once
   std::vector<std::uint8_t> cracked;
 
   // By triangle and node of the whole model; none() for bodies that do not crack.
@@ -44,7 +45,10 @@ struct CrackEdges {
   [[nodiscard]] std::size_t size() const { return element.size(); }
 
   /// Adds the inner edges of a body that has just joined the model, in the order of its triangles.
-  void addBody(const Model& model, ComponentId component);
+  /// Of the values that its two triangles have in `places` an edge has the smaller. The strength's
+  /// scatter is about that value; joints have none. Returns the edges of joints without strength.
+  std::vector<EdgeId> addBody(const Model& model, ComponentId component,
+                              const BrittlePlaces& places = {});
   /// After a body has left the model: what is left is known by new numbers. Returns those of the
   /// edges, none() for edges that are gone.
   std::vector<EdgeId> removeBody(const Model& model, ElementId first, ElementId last,

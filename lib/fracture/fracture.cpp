@@ -7,8 +7,15 @@
 
 namespace yadefrag {
 
-void Fracture::addBody(const Model& model, ComponentId component) {
-  if (model.components[component.value].brittle.cracks()) edges.addBody(model, component);
+std::vector<EdgeId> Fracture::addBody(const Model& model, ComponentId component,
+                                      const BrittlePlaces& places) {
+  if (!model.components[component.value].brittle.cracks()) return {};
+  return edges.addBody(model, component, places);
+}
+
+void Fracture::open(Model& model, const ContactSurfaces& surfaces, std::span<const EdgeId> joints,
+                    SplitResult& result) {
+  splitNodes(model, edges, surfaces, joints, result);
 }
 
 void Fracture::removeBody(const Model& model, ElementId first, ElementId last,
@@ -71,19 +78,15 @@ double Fracture::splitEnergy(const Model& model, std::span<const NodeId> origina
 }
 
 void Fracture::addTo(Footprint& footprint) const {
-  footprint.add(Use::kFracture, edges.element, edges.corner, edges.strength, edges.cracked,
-                edges.ofElement, edges.ofNode, leastStrength, cracks_);
+  footprint.add(Use::kFracture, edges.element, edges.corner, edges.strength, edges.fractureEnergy,
+                edges.cracked, edges.ofElement, edges.ofNode, leastStrength, cracks_);
   cohesion.addTo(footprint);
   check_.addTo(footprint);
 }
 
 void Fracture::cohere(const Model& model, std::span<const Vec2> reference) {
-  for (const EdgeId edge : cracks_) {
-    const ElementId element = edges.side(edge, 0).element;
-    const ComponentId body = model.triangles.component[element.value];
-    if (model.components[body.value].brittle.fractureEnergy > 0)
-      cohesion.add(model, edges, edge, reference);
-  }
+  for (const EdgeId edge : cracks_)
+    if (edges.fractureEnergy[edge.value] > 0) cohesion.add(model, edges, edge, reference);
 }
 
 }  // namespace yadefrag

@@ -14,8 +14,13 @@ namespace yadefrag {
 
 class Fracture {
  public:
-  /// A body has joined the model; nothing happens unless it can crack.
-  void addBody(const Model& model, ComponentId component);
+  /// A body has joined the model; nothing happens unless it can crack. Returns edges that are to be
+  /// opened now: those of joints without strength.
+  std::vector<EdgeId> addBody(const Model& model, ComponentId component,
+                              const BrittlePlaces& places = {});
+  /// Opens edges that nothing has held so far, and splits nodes; they count as no cracks.
+  void open(Model& model, const ContactSurfaces& surfaces, std::span<const EdgeId> joints,
+            SplitResult& result);
   /// A body has left it: its triangles were [first, last).
   void removeBody(const Model& model, ElementId first, ElementId last,
                   std::span<const NodeId> renumberedNodes);

@@ -114,8 +114,7 @@ std::vector<EdgeId> StrengthCheck::pickApart(const Model& model, const CrackEdge
   std::vector<EdgeId> picked;
   for (const Overstressed& one : found_) {
     const Side side = edges.side(one.edge, 0);
-    const Component& body = model.components[model.triangles.component[side.element.value].value];
-    if (body.brittle.fractureEnergy == 0) {
+    if (edges.fractureEnergy[one.edge.value] == 0) {
       std::uint32_t& first = nodeTaken_[firstNode(model, side).value];
       std::uint32_t& last = nodeTaken_[lastNode(model, side).value];
       if (first == call_ || last == call_) continue;

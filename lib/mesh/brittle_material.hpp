@@ -1,7 +1,10 @@
 #pragma once
 // What makes a material crack.
 
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace yadefrag {
 
@@ -20,6 +23,24 @@ struct BrittleMaterial {
   [[nodiscard]] bool cracks() const { return tensileStrength > 0; }
   /// (m) Opening at which a crack no longer holds anything.
   [[nodiscard]] double criticalOpening() const { return 2 * fractureEnergy / tensileStrength; }
+};
+
+/// An edge of a body's mesh on a joint.
+struct JointEdge {
+  std::array<std::uint32_t, 2> nodes;  ///< of the mesh
+  double strength = 0;                 ///< Pa, without scatter; 0: open from the start
+  double fractureEnergy = NAN;         ///< J/m²; not a number: as the triangles beside it have it
+};
+
+/// Where a body's strength and fracture energy are not its material's.
+struct BrittlePlaces {
+  std::vector<double> strength;        ///< Pa, by triangle of the mesh; empty: the material's
+  std::vector<double> fractureEnergy;  ///< J/m², likewise
+  std::vector<JointEdge> joints;
+
+  [[nodiscard]] bool empty() const {
+    return strength.empty() && fractureEnergy.empty() && joints.empty();
+  }
 };
 
 }  // namespace yadefrag

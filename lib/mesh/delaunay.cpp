@@ -49,13 +49,20 @@ class Builder {
       hint = vertices_[i]->face();
     }
     if (triangulation_.number_of_vertices() != vertices_.size()) refuse(0);
+    after_.resize(boundary_.first.back());
     boundary_.forEachEdge([&](std::uint32_t a, std::uint32_t b) {
-      try {
-        triangulation_.insert_constraint(vertices_[a], vertices_[b]);
-      } catch (const Triangulation::Intersection_of_constraints_exception&) {
-        refuse(a);
-      }
+      after_[a] = b;
+      constrain(a, b);
     });
+    for (const auto& [a, b, joint] : boundary_.joints) constrain(a, b);
+  }
+
+  void constrain(std::uint32_t a, std::uint32_t b) {
+    try {
+      triangulation_.insert_constraint(vertices_[a], vertices_[b]);
+    } catch (const Triangulation::Intersection_of_constraints_exception&) {
+      refuse(a);
+    }
   }
 
   void insertInside(Vec2 p) {
@@ -72,13 +79,15 @@ class Builder {
   }
 
   void checkEdges() const {
-    boundary_.forEachEdge([&](std::uint32_t a, std::uint32_t b) {
+    const auto check = [&](std::uint32_t a, std::uint32_t b) {
       Face face;
       int index = 0;
       if (!triangulation_.is_edge(vertices_[a], vertices_[b], face, index) ||
           !face->is_constrained(index))
         refuse(a);
-    });
+    };
+    boundary_.forEachEdge(check);
+    for (const auto& [a, b, joint] : boundary_.joints) check(a, b);
   }
 
   [[noreturn]] void refuse(std::uint32_t node) const {
@@ -103,8 +112,16 @@ class Builder {
     while (done < faces_.size()) {
       const Face face = faces_[done++];
       for (int k = 0; k < 3; ++k)
-        if (!face->is_constrained(k)) visit(face->neighbor(k));
+        if (!isBoundary(face, k)) visit(face->neighbor(k));
     }
+  }
+
+  /// Constrained sides that are none are joints.
+  [[nodiscard]] bool isBoundary(Face face, int k) const {
+    if (!face->is_constrained(k)) return false;
+    const std::uint32_t a = face->vertex(Triangulation::ccw(k))->info();
+    const std::uint32_t b = face->vertex(Triangulation::cw(k))->info();
+    return (a < after_.size() && after_[a] == b) || (b < after_.size() && after_[b] == a);
   }
 
   void visit(Face face) {
@@ -136,8 +153,9 @@ class Builder {
 
   const DividedBoundary& boundary_;
   Triangulation triangulation_;
-  std::vector<Vertex> vertices_;  // of the boundary's nodes
-  std::vector<Face> faces_;       // inside
+  std::vector<Vertex> vertices_;      // of the boundary's nodes
+  std::vector<std::uint32_t> after_;  // the next node of its loop
+  std::vector<Face> faces_;           // inside
   Face hint_;
 };
 

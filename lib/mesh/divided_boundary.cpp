@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/tolerances.hpp"
+#include "mesh/joint_lines.hpp"
 #include "mesh/polygon.hpp"
 
 namespace yadefrag {
@@ -82,7 +84,7 @@ Vec2 pointOnEdge(Vec2 a, Vec2 b, std::uint32_t part, std::uint32_t parts) {
   return 2 * part < parts ? a + (b - a) * (part / n) : b + (a - b) * ((parts - part) / n);
 }
 
-/// The points within an edge, from a to b.
+/// The points that cut an edge into equal parts.
 std::vector<Vec2> evenPoints(Vec2 a, Vec2 b, double size) {
   const auto parts = static_cast<std::uint32_t>(std::max(1., std::round(norm(b - a) / size)));
   std::vector<Vec2> points;
@@ -112,35 +114,81 @@ std::vector<Vec2> gradedPoints(Vec2 a, Vec2 b, const SizeField& size) {
   return points;
 }
 
-void appendLoop(DividedBoundary& boundary, const std::vector<Vec2>& loop,
-                const std::vector<Vec2>& given, const SizeField& size) {
-  const auto count = static_cast<std::uint32_t>(loop.size());
-  const bool turned = loop[1] != given[1];
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec2 a = loop[i];
-    const Vec2 b = loop[(i + 1) % count];
-    boundary.nodes.push_back(a);
-    for (const Vec2 p :
-         size.isEven() ? evenPoints(a, b, size.smallest()) : gradedPoints(a, b, size))
-      boundary.nodes.push_back(p);
-    boundary.vertex.resize(boundary.nodes.size(), turned && i > 0 ? count - i : i);
-  }
-  boundary.first.push_back(static_cast<std::uint32_t>(boundary.nodes.size()));
+/// The points within an edge, from a to b.
+std::vector<Vec2> pointsWithin(Vec2 a, Vec2 b, const SizeField& size) {
+  return size.isEven() ? evenPoints(a, b, size.smallest()) : gradedPoints(a, b, size);
 }
+
+class Divider {
+ public:
+  Divider(const CutLines& lines, const SizeField& size)
+      : lines_(lines), size_(size), nodeOf_(lines.points.size(), kNone) {
+    boundary_.first.push_back(0);
+  }
+
+  void appendLoop(std::size_t number, const std::vector<Vec2>& loop,
+                  const std::vector<Vec2>& given) {
+    const auto count = static_cast<std::uint32_t>(loop.size());
+    const bool turned = loop[1] != given[1];
+    const auto& corners = lines_.loops[number];
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto [point, vertex] = corners[i];
+      const std::uint32_t next = corners[(i + 1) % corners.size()].point;
+      appendPoint(point);
+      appendWithin(point, next);
+      boundary_.vertex.resize(boundary_.nodes.size(),
+                              turned && vertex > 0 ? count - vertex : vertex);
+    }
+    boundary_.first.push_back(static_cast<std::uint32_t>(boundary_.nodes.size()));
+  }
+
+  void appendPiece(const CutLines::Piece& piece) {
+    for (const std::uint32_t point : piece.points)
+      if (nodeOf_[point] == kNone) appendPoint(point);
+    std::uint32_t from = nodeOf_[piece.points[0]];
+    auto within = static_cast<std::uint32_t>(boundary_.nodes.size());
+    appendWithin(piece.points[0], piece.points[1]);
+    for (; within < boundary_.nodes.size(); from = within++)
+      boundary_.joints.push_back({from, within, piece.joint});
+    boundary_.joints.push_back({from, nodeOf_[piece.points[1]], piece.joint});
+  }
+
+  DividedBoundary take() { return std::move(boundary_); }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  void appendPoint(std::uint32_t point) {
+    nodeOf_[point] = static_cast<std::uint32_t>(boundary_.nodes.size());
+    boundary_.nodes.push_back(lines_.points[point]);
+  }
+
+  void appendWithin(std::uint32_t a, std::uint32_t b) {
+    for (const Vec2 p : pointsWithin(lines_.points[a], lines_.points[b], size_))
+      boundary_.nodes.push_back(p);
+  }
+
+  const CutLines& lines_;
+  const SizeField& size_;
+  std::vector<std::uint32_t> nodeOf_;  // of each point, or kNone
+  DividedBoundary boundary_;
+};
 
 }  // namespace
 
-DividedBoundary divideBoundary(const Polygon& given, const SizeField& size, double mostBytes) {
+DividedBoundary divideBoundary(const Polygon& given, const SizeField& size, double mostBytes,
+                               const JointLines& joints) {
   if (!(size.smallest() > 0) || !std::isfinite(size.largest()))
     throw InputError("Size " + text(size.smallest()) + " m must be positive and finite.");
   const Polygon polygon = checkPolygon(given);
   checkSize(polygon, size, mostBytes);
-  DividedBoundary boundary;
-  boundary.first.push_back(0);
-  appendLoop(boundary, polygon.outline, given.outline, size);
+  const CutLines lines = cutAtJoints(polygon, joints, size);
+  Divider divider(lines, size);
+  divider.appendLoop(0, polygon.outline, given.outline);
   for (std::size_t i = 0; i < polygon.holes.size(); ++i)
-    appendLoop(boundary, polygon.holes[i], given.holes[i], size);
-  return boundary;
+    divider.appendLoop(i + 1, polygon.holes[i], given.holes[i]);
+  for (const CutLines::Piece& piece : lines.pieces) divider.appendPiece(piece);
+  return divider.take();
 }
 
 }  // namespace yadefrag

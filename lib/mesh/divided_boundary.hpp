@@ -1,6 +1,8 @@
 #pragma once
-// The loops of a polygon with their long edges divided: all boundary nodes of its mesh.
+// The loops of a polygon and its joints with their long edges divided: all nodes of its mesh that
+// are not free.
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -11,13 +13,14 @@
 namespace yadefrag {
 
 struct DividedBoundary {
-  std::vector<Vec2> nodes;            ///< m, loop by loop, material on the left
+  std::vector<Vec2> nodes;            ///< m, loop by loop, material on the left; then on joints
   std::vector<std::uint32_t> first;   ///< of each loop, and one past the last
-  std::vector<std::uint32_t> vertex;  ///< of each node, see TriangleMesh::loopVertices
+  std::vector<std::uint32_t> vertex;  ///< of each loop's node, see TriangleMesh::loopVertices
+  std::vector<std::array<std::uint32_t, 3>> joints;  ///< see TriangleMesh
 
   [[nodiscard]] std::size_t numLoops() const { return first.size() - 1; }
 
-  /// Calls `visit(begin, end)` for each edge.
+  /// Calls `visit(begin, end)` for each edge of the loops.
   template <class Visit>
   void forEachEdge(Visit visit) const {
     for (std::size_t loop = 0; loop + 1 < first.size(); ++loop)
@@ -30,8 +33,9 @@ struct DividedBoundary {
 /// the size varies, into parts of the size there, stretched alike. Vertex numbers are those of
 /// `given`. InputError as checkPolygon, and for a size that is not positive and finite, or too
 /// small for 32-bit numbers, for the rounding of the coordinates, or for triangles in `mostBytes`
-/// of memory.
+/// of memory; and as cutAtJoints. Parts of joints are divided in the same way.
 [[nodiscard]] DividedBoundary divideBoundary(const Polygon& given, const SizeField& size,
-                                             double mostBytes = INFINITY);
+                                             double mostBytes = INFINITY,
+                                             const JointLines& joints = {});
 
 }  // namespace yadefrag

@@ -16,8 +16,8 @@ const double kHeight = std::sqrt(.75);  // of an equilateral triangle of side 1
 /// A node of the front: from it the next ones are proposed.
 struct Source {
   Vec2 position;
-  Vec2 direction;  // of the row it is in, unit; of no use to scattered nodes
-  double spacing;  // wanted edge length here
+  Vec2 direction;      // of the row it is in, unit; of no use to scattered nodes
+  double spacing = 0;  // wanted edge length here
 };
 
 double distanceToSegment(Vec2 p, Vec2 a, Vec2 b) {
@@ -57,9 +57,12 @@ class Front {
     if (isScattered_) {
       for (std::uint32_t i = 0; i < after_.size(); ++i)
         scatterFrom({boundaryNode(i), {}, spacingAt(i)});
+      for (const Source& source : onJoints_) scatterFrom(source);
     } else {
       proposeFromEdges();
+      proposeFromJoints();
       proposeFromNodes();
+      for (const Source& source : onJoints_) proposeFrom(source);
     }
     while (!queue_.empty()) {
       auto& sources = queue_.begin()->second;
@@ -88,6 +91,32 @@ class Front {
       nodeGrid_.insert(nodes_.back(), spacingAt(i), i);
       edgeGrid_.insert((p + boundaryNode(after_[i])) * .5, length_[i], i);
     }
+    registerJoints();
+  }
+
+  /// Nodes on joints follow those of the loops, and their sides the loops' edges.
+  void registerJoints() {
+    const std::size_t first = after_.size();
+    onJoints_.resize(boundary_.nodes.size() - first);
+    std::vector<double> sides(onJoints_.size());
+    for (std::uint32_t k = 0; k < boundary_.joints.size(); ++k) {
+      const auto [a, b, joint] = boundary_.joints[k];
+      const Vec2 along = boundaryNode(b) - boundaryNode(a);
+      const double length = norm(along);
+      edgeGrid_.insert((boundaryNode(a) + boundaryNode(b)) * .5, length,
+                       static_cast<std::uint32_t>(first + k));
+      for (const std::uint32_t node : {a, b}) {
+        if (node < first) continue;
+        Source& source = onJoints_[node - first];
+        const double count = sides[node - first]++;
+        source = {boundaryNode(node), along * (1 / length),
+                  (count * source.spacing + length) / (count + 1)};
+      }
+    }
+    for (std::uint32_t i = 0; i < onJoints_.size(); ++i) {
+      nodes_.push_back(onJoints_[i].position);
+      nodeGrid_.insert(nodes_.back(), onJoints_[i].spacing, static_cast<std::uint32_t>(first + i));
+    }
   }
 
   /// Wanted edge length at `there`, a distance from where it is `spacing`.
@@ -104,6 +133,19 @@ class Front {
       const double spacing = grown(length_[i], length_[i], middle);
       const double height = kHeight * (length_[i] + spacing) / 2;
       propose(middle, middle - rightOf(along) * height, along, spacing);
+    }
+  }
+
+  /// To both sides.
+  void proposeFromJoints() {
+    for (const auto& [a, b, joint] : boundary_.joints) {
+      const Vec2 from = boundaryNode(a), edge = boundaryNode(b) - from;
+      const double length = norm(edge);
+      const Vec2 along = edge * (1 / length), middle = from + edge * .5;
+      const double spacing = grown(length, length, middle);
+      const Vec2 across = rightOf(along) * (kHeight * (length + spacing) / 2);
+      propose(middle, middle - across, along, spacing);
+      propose(middle, middle + across, along, spacing);
     }
   }
 
@@ -157,9 +199,11 @@ class Front {
         }))
       return;
     if (edgeGrid_.any(to, spacing, norm(to - from), .5, [&](std::uint32_t i) {
-          const Vec2 a = boundaryNode(i), b = boundaryNode(after_[i]);
+          const bool isJoint = i >= after_.size();
+          const Vec2 a = boundaryNode(isJoint ? boundary_.joints[i - after_.size()][0] : i);
+          const Vec2 b = boundaryNode(isJoint ? boundary_.joints[i - after_.size()][1] : after_[i]);
           return distanceToSegment(to, a, b) < tolerance::kBoundaryClearance * spacing ||
-                 leaves(from, to, a, b);
+                 (!isJoint && leaves(from, to, a, b));
         }))
       return;
     nodeGrid_.insert(to, spacing, static_cast<std::uint32_t>(nodes_.size()));
@@ -177,7 +221,8 @@ class Front {
   Vec2 low_, high_;  // corners of the boundary: rounding cannot make a front run away
   std::vector<std::uint32_t> after_, before_;  // boundary nodes
   std::vector<double> length_;                 // of the edge from each boundary node
-  std::vector<Vec2> nodes_;                    // boundary nodes, then those inside
+  std::vector<Source> onJoints_;               // nodes
+  std::vector<Vec2> nodes_;  // of the boundary, then those on joints, then those inside
   std::vector<Vec2> inside_;
   SpacingGrid nodeGrid_;
   SpacingGrid edgeGrid_;

@@ -16,7 +16,8 @@ struct LinkedTriangles {
   std::vector<Vec2> nodes;        ///< m
   std::uint32_t numBoundary = 0;  ///< the first ones, which must not move
   std::vector<Three> triangles;   ///< counter-clockwise
-  std::vector<Three> neighbours;  ///< across the side opposite to each node, or kNone
+  /// Across the side opposite to each node, or kNone: on the boundary, and on joints, which stay.
+  std::vector<Three> neighbours;
 
   [[nodiscard]] Vec2 at(std::uint32_t triangle, int corner) const {
     return nodes[triangles[triangle][corner]];

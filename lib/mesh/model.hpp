@@ -65,9 +65,10 @@ enum class ElementKind : std::uint8_t {
 struct Component {
   ElasticMaterial material;
   BrittleMaterial brittle;
-  double thickness = 1;     ///< m
-  double friction = 0;      ///< tan of the friction angle
-  bool selfContact = true;  ///< may its surfaces touch each other
+  bool brittleByPlace = false;  ///< do its edges have strengths or energies of their own
+  double thickness = 1;         ///< m
+  double friction = 0;          ///< tan of the friction angle
+  bool selfContact = true;      ///< may its surfaces touch each other
   ElementKind element = ElementKind::kLinear;
   std::uint32_t firstTriangle = 0;
   std::uint32_t lastTriangle = 0;  ///< one past; triangles of a component are consecutive

@@ -53,6 +53,7 @@ void numberAlongCurve(TriangleMesh& mesh) {
   mesh.nodes = std::move(nodes);
   for (auto& loop : mesh.loops)
     for (std::uint32_t& node : loop) node = numberOf[node];
+  for (auto& side : mesh.joints) side[0] = numberOf[side[0]], side[1] = numberOf[side[1]];
 
   std::vector<Vec2> centroids;
   centroids.reserve(mesh.triangles.size());

@@ -16,6 +16,9 @@ struct Polygon {
   std::vector<std::vector<Vec2>> holes;
 };
 
+/// Ends (m) of straight lines along which sides of triangles are to lie.
+using JointLines = std::vector<std::array<Vec2, 2>>;
+
 /// Node and triangle numbers follow the Lebesgue curve, so that neighbours are near in memory.
 struct TriangleMesh {
   std::vector<Vec2> nodes;                              ///< m
@@ -25,6 +28,8 @@ struct TriangleMesh {
   /// For each boundary node the vertex of its outline or hole that it is, or else (a node that
   /// divides a long edge) the vertex at which that edge begins.
   std::vector<std::vector<std::uint32_t>> loopVertices;
+  /// Sides of triangles on joints: both nodes, and the number of the joint.
+  std::vector<std::array<std::uint32_t, 3>> joints;
   double minAngle = 0;  ///< rad, smallest of all triangles
 };
 

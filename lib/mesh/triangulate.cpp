@@ -36,8 +36,8 @@ void checkThinnest(const TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh triangulate(const Polygon& polygon, const SizeField& size, MeshLayout layout,
-                         double mostBytes) {
-  const DividedBoundary boundary = divideBoundary(polygon, size, mostBytes);
+                         double mostBytes, const JointLines& joints) {
+  const DividedBoundary boundary = divideBoundary(polygon, size, mostBytes, joints);
   LinkedTriangles linked = triangulateNodes(boundary, fillInterior(boundary, size, layout));
   improve(linked, layout.nodes == NodeLayout::kScattered);
 
@@ -50,6 +50,7 @@ TriangleMesh triangulate(const Polygon& polygon, const SizeField& size, MeshLayo
     std::iota(loop.begin(), loop.end(), begin);
     mesh.loopVertices.emplace_back(boundary.vertex.begin() + begin, boundary.vertex.begin() + end);
   }
+  mesh.joints = boundary.joints;
   numberAlongCurve(mesh);
   mesh.minAngle = minAngle(mesh.nodes, mesh.triangles);
   checkThinnest(mesh);

@@ -1,6 +1,7 @@
 #include "step/body_check.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -77,6 +78,38 @@ void checkMaterial(const BodySpec& spec) {
   if (spec.brittle.tensileStrength != 0) checkBrittle(spec.brittle);
 }
 
+void requireOfTriangles(const char* name, const std::vector<double>& values,
+                        const TriangleMesh& mesh) {
+  if (values.empty() || values.size() == mesh.triangles.size()) return;
+  std::ostringstream text;
+  text << name << " has " << values.size() << " values, but the mesh has " << mesh.triangles.size()
+       << " triangles.";
+  throw InputError(text.str());
+}
+
+void checkPlaces(const TriangleMesh& mesh, const BodySpec& spec) {
+  const BrittlePlaces& places = spec.places;
+  if (!places.empty() && !spec.brittle.cracks())
+    throw InputError(
+        "strength, fractureEnergy and joints are given, but the material does not crack; it must "
+        "be a BrittleFEMat.");
+  const auto notNegative = [](double value) { return value >= 0 && std::isfinite(value); };
+  requireOfTriangles("strength", places.strength, mesh);
+  requireOfTriangles("fractureEnergy", places.fractureEnergy, mesh);
+  for (const double one : places.strength)
+    require(isPositive(one), "strength", one, " Pa", "positive and finite for every triangle");
+  for (const double one : places.fractureEnergy)
+    require(notNegative(one), "fractureEnergy", one, " J/m²",
+            "0 or positive, and finite, for every triangle");
+  for (const JointEdge& joint : places.joints) {
+    assert(joint.nodes[0] < mesh.nodes.size() && joint.nodes[1] < mesh.nodes.size());
+    require(notNegative(joint.strength), "jointStrength", joint.strength, " Pa",
+            "0 or positive, and finite");
+    require(std::isnan(joint.fractureEnergy) || notNegative(joint.fractureEnergy), "jointEnergy",
+            joint.fractureEnergy, " J/m²", "0 or positive, and finite");
+  }
+}
+
 /// A mass or a stiffness that is zero, or infinite, by the range of numbers alone.
 void checkMasses(const TriangleMesh& mesh, const BodySpec& spec) {
   constexpr const char* kRange = "in the range of numbers, from 2e-308 to 2e+305";
@@ -148,6 +181,7 @@ void checkBody(const TriangleMesh& mesh, const BodySpec& spec) {
   requireFinite("displacement", spec.displacement);
   requireHeld(spec.held);
   checkMaterial(spec);
+  checkPlaces(mesh, spec);
   checkTriangles(mesh);
   checkDisplacement(mesh, spec.displacement);
   checkMasses(mesh, spec);

@@ -131,9 +131,9 @@ bool searchIsRight(const World& world) {
 bool edgesAreRight(const World& world) {
   const CrackEdges& e = world.fracture.edges;
   const std::size_t count = e.size(), triangles = world.model.triangles.size();
-  if (e.corner.size() != count || e.strength.size() != count || e.cracked.size() != count ||
-      e.ofElement.size() > triangles || e.ofNode.size() > world.model.nodes.size() ||
-      !allBelowOrNone(e.ofNode, triangles))
+  if (e.corner.size() != count || e.strength.size() != count || e.fractureEnergy.size() != count ||
+      e.cracked.size() != count || e.ofElement.size() > triangles ||
+      e.ofNode.size() > world.model.nodes.size() || !allBelowOrNone(e.ofNode, triangles))
     return false;
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t k = 0; k < 2; ++k) {
@@ -142,6 +142,9 @@ bool edgesAreRight(const World& world) {
           e.ofElement[element][e.corner[i][k]] != EdgeId(i))
         return false;
     }
+  if (!std::ranges::all_of(e.strength, isPositive) ||
+      !std::ranges::all_of(e.fractureEnergy, [](double g) { return g >= 0 && std::isfinite(g); }))
+    return false;
   return std::ranges::all_of(e.ofElement, [&](const std::array<EdgeId, 3>& edges) {
     return std::ranges::all_of(
         edges, [&](EdgeId edge) { return edge == EdgeId::none() || edge.value < count; });

@@ -22,6 +22,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   Component component;
   component.material = spec.material;
   component.brittle = spec.brittle;
+  component.brittleByPlace = !spec.places.empty();
   component.thickness = spec.thickness;
   component.friction = spec.friction;
   // What comes off a body touches what is left of it.
@@ -44,7 +45,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
     }
     surfaces.addLoop(nodes, smooth, id);
   }
-  fracture.addBody(model, id);
+  openJoints(fracture.addBody(model, id, spec.places));
   watch.join(energyOf(id, NodeId(first), lastDt));
   stableStep = 0;
   search.nodes.clear();
@@ -178,7 +179,8 @@ void World::requireStableStep(double dt) {
     throw TimeStepError(text.str());
   }
   for (std::size_t c = 0; c < model.components.size(); ++c)
-    if (model.components[c].brittle.cracks()) checkCohesiveResolution(model, ComponentId(c), dt);
+    if (model.components[c].brittle.cracks())
+      checkCohesiveResolution(model, fracture.edges, ComponentId(c), dt);
   stableStep = dt;
   stableViscosity = viscosity;
 }

@@ -31,6 +31,7 @@ namespace yadefrag {
 struct BodySpec {
   ElasticMaterial material;
   BrittleMaterial brittle;
+  BrittlePlaces places;
   double friction = 0;   ///< tan of the friction angle
   double thickness = 1;  ///< m
   bool selfContact = true;
@@ -156,6 +157,7 @@ class World {
   void dropFragments(bool split);
   void takeOut(std::span<const ElementId> triangles);
   void forgetSurface();
+  void openJoints(std::span<const EdgeId> joints);
   void followSplit();
   void addCrackCandidates();
   [[nodiscard]] double finestSegment() const;

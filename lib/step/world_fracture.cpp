@@ -35,6 +35,15 @@ bool World::crack() {
   return opened;
 }
 
+/// Of a body that has just joined, before anything else knows of it.
+void World::openJoints(std::span<const EdgeId> joints) {
+  if (joints.empty()) return;
+  fracture.open(model, surfaces, joints, split_);
+  for (const NodeId original : split_.originals)
+    reference.push_back(Vec2(reference[original.value]));
+  (void)relink(surfaces, split_.sides);
+}
+
 /// Everybody who keeps something by node, triangle or entry.
 void World::followSplit() {
   for (const NodeId original : split_.originals)

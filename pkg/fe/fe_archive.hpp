@@ -49,7 +49,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 4;
+  static constexpr std::uint64_t kFormat = 5;
   /// (count) A damaged length must not take all memory: values are read in parts as large as this,
   /// and the archive ends before the memory does.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -209,6 +209,7 @@ class WorldArchive {
     member("seed", rows, [](C& c) -> std::uint64_t& { return c.brittle.seed; });
     member("referenceVolume", rows, [](C& c) -> double& { return c.brittle.referenceVolume; });
     flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
+    flags("brittleByPlace", rows, [](C& c) -> bool& { return c.brittleByPlace; });
     flags("selfContact", rows, [](C& c) -> bool& { return c.selfContact; });
     member("element", rows, [](C& c) -> std::uint8_t& {
       return reinterpret_cast<std::uint8_t&>(c.element);  // NOLINT: an unsigned char may name it
@@ -262,7 +263,9 @@ class WorldArchive {
     CrackEdges& edges = fracture.edges;
     column<Index>("crackElement", edges.element);
     column<std::uint8_t>("crackCorner", edges.corner);
-    column<double>("crackStrength", edges.strength), column<std::uint8_t>("cracked", edges.cracked);
+    column<double>("crackStrength", edges.strength);
+    column<double>("crackEnergy", edges.fractureEnergy),
+        column<std::uint8_t>("cracked", edges.cracked);
     column<Index>("elementEdges", edges.ofElement), column<Index>("nodeElement", edges.ofNode);
     column<Index>("cohesiveEdge", fracture.cohesion.edge);
     column<double>("cohesiveLargest", fracture.cohesion.largest);

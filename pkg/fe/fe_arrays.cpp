@@ -53,6 +53,13 @@ int addMesh(FESolver& solver, const py::dict& input) {
   spec.smoothNodes = fromBytes<std::uint8_t>(input["smooth"]);
   spec.thickness = py::extract<double>(input["thickness"]);
   spec.selfContact = py::extract<bool>(input["selfContact"]);
+  spec.places.strength = fromBytes<double>(input["strength"]);
+  spec.places.fractureEnergy = fromBytes<double>(input["fractureEnergy"]);
+  const auto ends = fromBytes<std::array<std::uint32_t, 2>>(input["jointEdges"]);
+  const auto strengths = fromBytes<double>(input["jointStrength"]);
+  const auto energies = fromBytes<double>(input["jointEnergy"]);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    spec.places.joints.push_back({ends[i], strengths[i], energies[i]});
   const bool smoothed = py::extract<bool>(input["smoothed"]);
   spec.element = smoothed ? ElementKind::kSmoothed : ElementKind::kLinear;
   const yade::shared_ptr<FEMat> material = py::extract<yade::shared_ptr<FEMat>>(input["material"]);

@@ -24,7 +24,8 @@ struct Locked<function> {
 
 inline double criticalTimeStepOf(FESolver& solver) { return solver.criticalTimeStep(); }
 inline std::string zoneWarningOf(const FESolver& solver, int component) {
-  return cohesiveZoneWarning(solver.world().model, ComponentId(component));
+  const World& world = solver.world();
+  return cohesiveZoneWarning(world.model, world.fracture.edges, ComponentId(component));
 }
 inline std::uint64_t searchesOf(const FESolver& solver) { return solver.world().numSearches; }
 inline std::size_t activesOf(const FESolver& solver) {

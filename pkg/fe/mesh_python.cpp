@@ -7,6 +7,7 @@
 #include "fe/fe_solver.hpp"
 #include "mesh/mesh_quality.hpp"
 #include "mesh/polygon.hpp"
+#include "mesh/simplify.hpp"
 #include "mesh/structured.hpp"
 #include "mesh/triangulate.hpp"
 
@@ -28,9 +29,17 @@ py::dict toDict(const TriangleMesh& mesh) {
   for (const auto& loop : mesh.loopVertices) vertices.append(toArray(loop, "uint32", 0));
   result["nodes"] = toArray(mesh.nodes, "float64", 2);
   result["triangles"] = toArray(mesh.triangles, "uint32", 3);
+  result["joints"] = toArray(mesh.joints, "uint32", 3);
   result["loops"] = loops;
   result["loopVertices"] = vertices;
   return result;
+}
+
+Polygon polygonOf(const py::object& outline, const py::list& holes) {
+  Polygon polygon;
+  polygon.outline = fromBytes<Vec2>(outline);
+  for (int i = 0; i < py::len(holes); ++i) polygon.holes.push_back(fromBytes<Vec2>(holes[i]));
+  return polygon;
 }
 
 SizeField sizeField(const py::tuple& size) {
@@ -43,17 +52,26 @@ SizeField sizeField(const py::tuple& size) {
 }  // namespace
 
 py::dict meshOfPolygon(const py::object& outline, const py::list& holes, const py::tuple& size,
-                       bool irregular, std::uint64_t seed) {
+                       bool irregular, std::uint64_t seed, const py::object& joints) {
   return asValueError([&] {
     const MeshLayout layout{irregular ? NodeLayout::kScattered : NodeLayout::kRows, seed};
-    Polygon polygon;
-    polygon.outline = fromBytes<Vec2>(outline);
-    for (int i = 0; i < py::len(holes); ++i) polygon.holes.push_back(fromBytes<Vec2>(holes[i]));
+    const Polygon polygon = checkPolygon(polygonOf(outline, holes));
     const SizeField field = sizeField(size);
-    py::dict mesh =
-        toDict(triangulate(checkPolygon(std::move(polygon)), field, layout, memoryOfMachine()));
+    const auto lines = fromBytes<std::array<Vec2, 2>>(joints);
+    py::dict mesh = toDict(triangulate(polygon, field, layout, memoryOfMachine(), lines));
     mesh["smallestSize"] = field.smallest();
     return mesh;
+  });
+}
+
+py::list keptVertices(const py::object& outline, const py::list& holes, double tolerance,
+                      const py::object& pinned) {
+  return asValueError([&] {
+    py::list kept;
+    for (const auto& loop :
+         verticesToKeep(polygonOf(outline, holes), tolerance, fromBytes<std::uint8_t>(pinned)))
+      kept.append(toArray(loop, "uint32", 0));
+    return kept;
   });
 }
 

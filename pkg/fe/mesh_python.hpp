@@ -10,12 +10,18 @@ namespace yadefrag {
 
 class FESolver;
 
-/// The mesh of a polygon, as a dict of arrays: nodes, triangles, loops, loopVertices, and
-/// smallestSize (m). `size` is a tuple: one number (m), or left, bottom and cell (m) of a grid, its
+/// The mesh of a polygon, as a dict of arrays: nodes, triangles, loops, loopVertices, joints (both
+/// nodes and the number of the joint, of each side), and smallestSize (m). `joints` are four
+/// numbers each. `size` is a tuple: one number (m), or left, bottom and cell (m) of a grid, its
 /// columns, and its values.
 yade::py::dict meshOfPolygon(const yade::py::object& outline, const yade::py::list& holes,
-                             const yade::py::tuple& size, bool irregular, std::uint64_t seed);
-/// A regular mesh of a rectangle, likewise.
+                             const yade::py::tuple& size, bool irregular, std::uint64_t seed,
+                             const yade::py::object& joints);
+/// Numbers of the vertices that stay, of the outline and of each hole: a list of arrays
+/// (mesh/simplify.hpp). `pinned` has a byte for each point of the outline, or is empty.
+yade::py::list keptVertices(const yade::py::object& outline, const yade::py::list& holes,
+                            double tolerance, const yade::py::object& pinned);
+/// A regular mesh of a rectangle, as meshOfPolygon.
 yade::py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
                                bool crossed);
 

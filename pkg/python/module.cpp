@@ -41,6 +41,7 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("checkRunningYade", &yadefrag::checkRunningYade,
           "Raises ImportError unless YADE's classes are laid out as this extension declares them.");
   py::def("meshOfPolygon", &yadefrag::meshOfPolygon);
+  py::def("keptVertices", &yadefrag::keptVertices);
   py::def("meshOfRectangle", &yadefrag::meshOfRectangle);
   py::def("polygonOfText", &yadefrag::polygonOfText);
   py::def("isInStep", &yadefrag::isInStep);

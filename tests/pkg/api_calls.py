@@ -105,11 +105,13 @@ def right(fe, folder):
         plotFragmentSizes=dict(fe=fe, file=folder + '/c.png', ax=None, components=[0, 1]),
         recordFracture=dict(fe=fe, file=csv, append=True), plotFracture=dict(file=csv, picture=None),
         tradeoff=dict(job, reference=0., watch=None, every=0., limit=60., files=folder + '/t', title=''),
-        addPolygon=dict(outline=square, holes=(), size=.5, material='m', smooth=False, velocity=(0, 0), spin=0,
-                        displacement=None, fixed=None, thickness=1, selfContact=True),
-        addTriangles=dict(nodes=[(5, 5), (6, 5), (6, 6)], triangles=[(0, 1, 2)], material='m', smooth=False,
+        addPolygon=dict(outline=square, holes=(), size=.5, material='b', smooth=False, velocity=(0, 0), spin=0,
+                        displacement=None, fixed=None, thickness=1, selfContact=True, simplify=.1,
+                        strength=lambda x, y: 1e4, fractureEnergy=lambda x, y: 0.,
+                        joints=[((5.2, 5.2), (5.8, 5.7))], jointStrength=[0.], jointEnergy=1.),
+        addTriangles=dict(nodes=[(5, 5), (6, 5), (6, 6)], triangles=[(0, 1, 2)], material='b', smooth=False,
                           velocity=(0, 0), spin=0, displacement=None, fixed=None, thickness=1,
-                          selfContact=True),
+                          selfContact=True, strength=[1e4], fractureEnergy=[0.]),
         prescribe=dict(nodes=[0], vx=0., vy=None), removeBody=dict(component=0), fragments=dict(held=False),
         updateAttrs=dict(attributes={'label': 'x'}))
 

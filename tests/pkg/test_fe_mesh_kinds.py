@@ -146,3 +146,62 @@ def test_shortEdgeOfTheOutlineIsWarnedOf():
         warnings.simplefilter('error')
         added()
         added(outline=yadefrag.circle((0, 0), .5, 100))
+
+
+def pixelContour(count, radius):
+    """The boundary of the unit pixels within `radius` of the middle of count × count, with every
+    pixel corner on it."""
+    middle = np.arange(count) + .5 - count / 2
+    inside = np.hypot(middle[:, None], middle) < radius
+    padded = np.pad(inside, 1)
+    after = {}
+    for i, j in np.argwhere(inside):
+        for across, start, end in (((i + 1, j), (i, j), (i + 1, j)),
+                                   ((i + 2, j + 1), (i + 1, j), (i + 1, j + 1)),
+                                   ((i + 1, j + 2), (i + 1, j + 1), (i, j + 1)),
+                                   ((i, j + 1), (i, j + 1), (i, j))):
+            if not padded[across]:
+                after[start] = end
+    first = min(after)
+    loop, point = [], first
+    while not loop or point != first:
+        loop.append((float(point[0]), float(point[1])))
+        point = after[point]
+    return loop
+
+
+def distanceTo(loop, points):
+    """Of the points, the farthest one's from the loop's edges."""
+    a = np.array(loop)
+    edge = np.roll(a, -1, axis=0) - a
+    to = np.asarray(points)[:, None] - a
+    t = np.clip((to * edge).sum(axis=2) / (edge**2).sum(axis=1), 0, 1)
+    return np.linalg.norm(to - t[..., None] * edge, axis=2).min(axis=1).max()
+
+
+def test_aContourOfPixelsFromAFileIsSimplified(tmp_path):
+    contour = pixelContour(60, 27)
+    file = tmp_path / 'pixels.txt'
+    file.write_text('\n'.join('%r %r' % p for p in contour))
+    outline, holes = yadefrag.readPolygon(str(file))
+    wanted = dict(outline=outline, holes=holes, size=9., material=elastic())
+    with pytest.warns(UserWarning, match=r'addPolygon: the critical time step .* simplify= leaves'):
+        rough = added(**wanted)
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')
+        simple = added(**wanted, simplify=1.5)
+    assert len(simple.surfaces[0]) < len(rough.surfaces[0]) / 6
+    assert simple.criticalTimeStep() > 3 * rough.criticalTimeStep()
+    assert distanceTo(simple.nodes[simple.surfaces[0]], contour) <= 1.5 * (1 + 1e-12)
+    mass = simple.masses.sum() / rough.masses.sum()
+    assert abs(mass - 1) < 1.5 * len(contour) / (math.pi * 27**2)
+
+
+def test_simplifyKeepsStraightCornersOfSmoothOutlines():
+    fine = yadefrag.circle((0, 0), 1, 400)
+    flags = [True] * 400
+    flags[37] = False
+    solver = added(outline=fine, size=.3, material=elastic(), simplify=.02, smooth=flags)
+    loop = solver.nodes[solver.surfaces[0]]
+    assert len(loop) < 60
+    assert np.any(np.all(loop == fine[37], axis=1))

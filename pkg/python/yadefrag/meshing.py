@@ -6,7 +6,7 @@ import numpy
 
 from yade import wrapper
 from yadefrag import _yadefrag
-from yadefrag.values import number, positive, refuse, whole
+from yadefrag.values import number, pair, positive, refuse, whole
 
 _LEAST_SAMPLES, _MOST_SAMPLES = 128, 1024  # of a size function, along the outline's longer side
 
@@ -27,6 +27,19 @@ def _sampledSize(function, points):
         samples *= 2
 
 
+def simplified(points, holes, tolerance, flags):
+    """Outline, holes and the outline's flags (None or an array) without the points that a
+    simplification within `tolerance` (m) leaves out: addPolygon's `simplify`."""
+    tolerance = positive('simplify', tolerance, 'm')
+    pinned = numpy.zeros(0, dtype=bool)
+    if flags is not None:  # a straight corner in a smooth part is meant
+        pinned = ~flags & (numpy.roll(flags, 1) | numpy.roll(flags, -1))
+    kept = _yadefrag.keptVertices(points.tobytes(), [h.tobytes() for h in holes], tolerance,
+                                  pinned.astype(numpy.uint8).tobytes())
+    return (points[kept[0]], [hole[stay] for hole, stay in zip(holes, kept[1:])],
+            None if flags is None else flags[kept[0]])
+
+
 def isIrregular(mesh, material):
     """The kind of mesh that `mesh` asks for; None: irregular for a body that can crack."""
     if mesh is None:
@@ -36,8 +49,30 @@ def isIrregular(mesh, material):
     return mesh == 'irregular'
 
 
-def meshOfPolygon(points, holes, size, irregular, seed):
-    """The dict of arrays that _add takes, with `loopVertices` and `smallestSize` (m)."""
+def jointLines(joints):
+    """(k, 4) floats, the ends of each joint: addPolygon's `joints`."""
+    lines = _listOf(joints)
+    if lines is None:
+        refuse('joints', joints, 'a list of pairs of points ((x, y), (x, y)) in m')
+    ends = numpy.zeros((len(lines), 4))
+    for i, line in enumerate(lines):
+        both = _listOf(line)
+        if both is None or len(both) != 2:
+            refuse('joints[%d]' % i, line, 'a pair of points ((x, y), (x, y)) in m')
+        ends[i] = [*pair('joints[%d][0]' % i, both[0]), *pair('joints[%d][1]' % i, both[1])]
+    return ends
+
+
+def _listOf(value):
+    """A list; None for what is none, and for what has no order."""
+    try:
+        return None if isinstance(value, (str, bytes, dict, set)) else list(value)
+    except TypeError:
+        return None
+
+
+def meshOfPolygon(points, holes, size, irregular, seed, joints):
+    """The dict of arrays that _add takes, with `loopVertices`, `joints` and `smallestSize` (m)."""
     seed = whole('meshSeed', seed, least=0, right='a whole number, 0 or more', most=2**63 - 1)
     if callable(size):
         wanted = _sampledSize(size, points)
@@ -45,4 +80,4 @@ def meshOfPolygon(points, holes, size, irregular, seed):
         wanted = (number('size', size, lambda v: math.isfinite(v) and v > 0,
                          'a positive number (m) or a function (x, y) that returns one'),)
     return _yadefrag.meshOfPolygon(points.tobytes(), [h.tobytes() for h in holes], wanted,
-                                   irregular, seed)
+                                   irregular, seed, joints.tobytes())

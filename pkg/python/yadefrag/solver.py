@@ -14,7 +14,8 @@ from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag import guards
 from yadefrag._yadefrag import requirePaused
-from yadefrag.meshing import isIrregular, meshOfPolygon
+from yadefrag.meshing import isIrregular, jointLines, meshOfPolygon, simplified
+from yadefrag.places import array, brittlePlaces
 from yadefrag.quality import meshQuality
 from yadefrag.shown import betweenSteps, shownTriangles
 from yadefrag.values import (flag, isWhole, number, numbersOf, pair, plain, positive, refuse, shown,
@@ -96,21 +97,28 @@ def _heldNodes(fixed, nodes):
     return held
 
 
+def _smoothFlags(smooth, count):
+    """True, False, or an array of a flag for each of the outline's `count` points."""
+    smooth = plain(smooth)
+    if isinstance(smooth, bool):
+        return smooth
+    flags = _flags(smooth)
+    if flags is None:
+        refuse('smooth', smooth, 'True, False or a flag for each point of the outline')
+    if len(flags) != count:
+        raise ValueError('smooth has %d flags, it must have one for each of the %d points of '
+                         'the outline.' % (len(flags), count))
+    return flags
+
+
 def _smoothNodes(smooth, mesh, outline=()):
     """(n) of 0 or 1: is the node on a smooth part of the boundary; empty for none at all."""
-    smooth = plain(smooth)
     if isinstance(smooth, bool):
         if not smooth:
             return numpy.empty(0, dtype=numpy.uint8)
         chosen = [(loop, numpy.ones(len(loop), dtype=bool)) for loop in mesh['loops']]
     else:
-        count = len(outline)
-        flags = _flags(smooth)
-        if flags is None:
-            refuse('smooth', smooth, 'True, False or a flag for each point of the outline')
-        if len(flags) != count:
-            raise ValueError('smooth has %d flags, it must have one for each of the %d points of '
-                             'the outline.' % (len(flags), count))
+        flags, count = smooth, len(outline)
         if _isClockwise(outline):  # the mesh has it the other way round, with the same first point
             flags = flags[-numpy.arange(count) % count]
         loop, vertices = mesh['loops'][0], mesh['loopVertices'][0]
@@ -147,7 +155,7 @@ def _centroid(nodes, triangles):
 
 
 def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickness, selfContact,
-         element):
+         element, places):
     requirePaused()
     if not isinstance(element, str) or element not in _ELEMENTS:
         refuse('element', element, "'linear' or 'smoothed'")
@@ -171,7 +179,8 @@ def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickn
              velocity=raw(speed, 'float64'), displacement=raw(moved, 'float64'),
              held=raw(_heldNodes(fixed, nodes), 'uint8'), smooth=raw(smooth, 'uint8'),
              thickness=thickness, selfContact=selfContact, smoothed=element == 'smoothed',
-             material=material))
+             material=material, **{name: raw(values, kind) for name, (values, kind)
+                                   in places.items()}))
     problem = fe._zoneWarning(component)
     if problem:
         warnings.warn(problem, stacklevel=3)
@@ -180,7 +189,8 @@ def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickn
 
 def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocity=(0, 0), spin=0,
                displacement=None, fixed=None, thickness=1, selfContact=True, element='linear',
-               mesh=None, meshSeed=0):
+               mesh=None, meshSeed=0, simplify=None, strength=None, fractureEnergy=None,
+               joints=(), jointStrength=0, jointEnergy=None):
     """Adds a plane body, meshed with triangles; returns its number (int).
 
     outline, holes  list of points (x, y) in m, and a list of such lists
@@ -209,8 +219,27 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     directions; 'irregular': edges in all directions, for cracks that do not
                     follow the mesh; None: 'irregular' for a BrittleFEMat, otherwise 'regular'
     meshSeed        of an irregular mesh: the same outline, size and seed give the same mesh
-    Functions are called at the nodes of the stress-free shape. ValueError before anything changes,
-    also where the body would overlap another one; RuntimeError while O.run goes on in the
+    simplify        None: the outline as given; or the distance (m) by which its points, and those
+                    of the holes, may be off the mesh's: points that this leaves out are taken out
+                    before meshing, as of a contour of pixels. No edges cross by it, corners between
+                    edges that are long against the distance stay, and so do straight corners that
+                    `smooth` has next to smooth ones. It must be less than the area over the
+                    length of the outline and of each hole. By squared distances (Dyken, Dæhlen and
+                    Sevaldrud 2009, J. Geogr. Syst. 11, 273)
+    strength        None: the tensileStrength of the BrittleFEMat; or a function (x, y) → Pa, or an
+                    array of one for each triangle, in place of it. The function is called at the
+                    triangles' centroids. An edge has the smaller of its two triangles' strengths,
+                    and the material's scatter is about that
+    fractureEnergy  None: that of the BrittleFEMat; or a function (x, y) → J/m², or an array,
+                    likewise; where it is 0, cracks open at once
+    joints          list of pairs of points ((x, y), (x, y)) in m, of a BrittleFEMat: sides of
+                    triangles lie along these lines. Lines may cross each other and the outline;
+                    what is outside is left out
+    jointStrength   Pa, of all joints or one for each, without scatter; 0: open from the start, as
+                    a crack that is there already, and not counted by numCracks
+    jointEnergy     J/m², likewise; None: as the triangles beside the joint have it
+    Other functions are called at the nodes of the stress-free shape. ValueError before anything
+    changes, also where the body would overlap another one; RuntimeError while O.run goes on in the
     background; a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks,
     and one where short edges of the outline cost much of the time step.
     """
@@ -222,11 +251,19 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     if loops is None:
         refuse('holes', holes, 'a list of loops of points (x, y) in m')
     holePoints = [_points('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
+    smooth = _smoothFlags(smooth, len(points))
     material = _material(material)
-    made = meshOfPolygon(points, holePoints, size, isIrregular(mesh, material), meshSeed)
+    if simplify is not None:
+        flags = None if isinstance(smooth, bool) else smooth
+        points, holePoints, flags = simplified(points, holePoints, simplify, flags)
+        smooth = smooth if flags is None else flags
+    lines = jointLines(joints)
+    made = meshOfPolygon(points, holePoints, size, isIrregular(mesh, material), meshSeed, lines)
     smoothed = _smoothNodes(smooth, made, points)
+    places = brittlePlaces(made, material, strength, fractureEnergy, lines, jointStrength,
+                           jointEnergy)
     body = _add(self, made, smoothed, material, velocity, spin, displacement, fixed, thickness,
-                selfContact, element)
+                selfContact, element, places)
     costly = self._costlyStepWarning(body, made['smallestSize'])
     if costly:
         warnings.warn('addPolygon: ' + costly, stacklevel=2)
@@ -234,14 +271,15 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
 
 
 def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0, 0), spin=0,
-                 displacement=None, fixed=None, thickness=1, selfContact=True, element='linear'):
+                 displacement=None, fixed=None, thickness=1, selfContact=True, element='linear',
+                 strength=None, fractureEnergy=None):
     """Adds a body of triangles of one's own; returns its number (int).
 
     nodes (n, 2) in m, all of them used; triangles (m, 3) node numbers, counter-clockwise. `smooth`
     is True or False; the rest is as in addPolygon. ValueError before anything changes.
     """
     points = _points('nodes', nodes, 3)
-    corners = _array(triangles)
+    corners = array(triangles)
     if corners is None or corners.ndim != 2 or corners.shape[1] != 3 or len(corners) == 0 \
             or not numpy.issubdtype(corners.dtype, numpy.integer):
         raise ValueError('triangles must be an array (m, 3) of node numbers.')
@@ -251,18 +289,9 @@ def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0,
     smooth = flag('smooth', smooth)
     material = _material(material)
     mesh = dict(nodes=points, triangles=corners, loops=_boundaryLoops(len(points), corners))
+    places = brittlePlaces(mesh, material, strength, fractureEnergy)
     return _add(self, mesh, _smoothNodes(smooth, mesh), material, velocity, spin, displacement,
-                fixed, thickness, selfContact, element)
-
-
-def _array(value, dtype=None):
-    """A NumPy array; None for what is none, as rows of different lengths."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter('error')  # NumPy's, about rows of different lengths
-            return numpy.asarray(value, dtype=dtype)
-    except (TypeError, ValueError, OverflowError, Warning):
-        return None
+                fixed, thickness, selfContact, element, places)
 
 
 def _boundaryLoops(count, triangles):
@@ -305,7 +334,7 @@ def _getLoads(self):
 
 def _setLoads(self, loads):
     requirePaused()
-    forces = numpy.zeros((0, 2)) if loads is None else _array(loads, float)
+    forces = numpy.zeros((0, 2)) if loads is None else array(loads, float)
     if forces is None:
         refuse('loads', loads, 'an array (n, 2) of N, or None')
     if forces.ndim != 2 or forces.shape[1] != 2:
@@ -326,7 +355,7 @@ def prescribe(self, nodes, vx=None, vy=None):
         chosen = numpy.array([flag('nodes(%g, %g)' % (x, y), nodes(x, y)) for x, y in places],
                              dtype=bool)
     else:
-        chosen = _array(nodes)
+        chosen = array(nodes)
     if chosen is None:
         refuse('nodes', nodes, 'node numbers, a flag for each node, or a function (x, y)')
     if chosen.dtype == bool:

@@ -1,0 +1,91 @@
+"""Values by place that bodies take from a script: functions of (x, y), or arrays by triangle."""
+
+import math
+import warnings
+
+import numpy
+
+from yade import wrapper
+from yadefrag.values import number, real, refuse, shown
+
+# name: (unit, is a value right, what is right)
+_BRITTLE = {
+    'strength': ('Pa', lambda v: math.isfinite(v) and v > 0, 'a positive number (Pa)'),
+    'fractureEnergy': ('J/m²', lambda v: math.isfinite(v) and v >= 0,
+                       '0 or a positive number (J/m²)'),
+    'jointStrength': ('Pa', lambda v: math.isfinite(v) and v >= 0, '0 or a positive number (Pa)'),
+    'jointEnergy': ('J/m²', lambda v: math.isfinite(v) and v >= 0,
+                    '0 or a positive number (J/m²)'),
+}
+
+
+def array(value, dtype=None):
+    """A NumPy array; None for what is none, as rows of different lengths."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter('error')  # NumPy's, about rows of different lengths
+            return numpy.asarray(value, dtype=dtype)
+    except (TypeError, ValueError, OverflowError, Warning):
+        return None
+
+
+def _ofTriangles(name, value, mesh):
+    """(m) floats of the mesh's triangles, a function's at their centroids; empty for None."""
+    if value is None:
+        return numpy.empty(0)
+    unit, isRight, right = _BRITTLE[name]
+    nodes, triangles = mesh['nodes'], mesh['triangles']
+    if callable(value):
+        return numpy.array([number('%s(%g, %g)' % (name, x, y), value(x, y), isRight, right)
+                            for x, y in nodes[triangles].mean(axis=1)])
+    values = array(value)
+    if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf':
+        refuse(name, value, 'None, a function (x, y) that returns %s, or an array of one for each '
+               'triangle' % unit)
+    if len(values) != len(triangles):
+        raise ValueError('%s has %d values, it must have one for each of the %d triangles.' %
+                         (name, len(values), len(triangles)))
+    values = values.astype(float)
+    for i, one in enumerate(values):
+        if not isRight(one):
+            raise ValueError('%s[%d] is %s, it must be %s.' % (name, i, shown(float(one)), right))
+    return values
+
+
+def _ofJoints(name, value, mesh, count):
+    """Floats of the mesh's sides on joints, from a number or one for each of `count` joints."""
+    unit, isRight, right = _BRITTLE[name]
+    sides = mesh['joints'][:, 2]
+    if real(value) is not None:
+        return numpy.full(len(sides), number(name, value, isRight, right))
+    values = array(value)
+    if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf':
+        refuse(name, value, 'a number (%s), or one for each joint' % unit)
+    if len(values) != count:
+        raise ValueError('%s has %d values, it must have one for each of the %d joints.' %
+                         (name, len(values), count))
+    for i, one in enumerate(values):
+        number('%s[%d]' % (name, i), one, isRight, right)
+    return values.astype(float)[sides]
+
+
+def brittlePlaces(mesh, material, strength, fractureEnergy, joints=(), jointStrength=0,
+                  jointEnergy=None):
+    """{name: (array, dtype)} that FESolver._addMesh takes. ValueError for a material that does not
+    crack, and for values that cannot be."""
+    given = dict(strength=strength, fractureEnergy=fractureEnergy,
+                 joints=joints if len(joints) else None)
+    for name, value in given.items():
+        if value is not None and not isinstance(material, wrapper.BrittleFEMat):
+            raise ValueError('%s is given, but the material does not crack; it must be a '
+                             'BrittleFEMat.' % name)
+    places = {name: (_ofTriangles(name, given[name], mesh), 'float64')
+              for name in ('strength', 'fractureEnergy')}
+    sides, count = mesh.get('joints', numpy.empty((0, 3))), len(joints)
+    energies = numpy.full(len(sides), math.nan)  # those of the triangles beside it
+    if count and jointEnergy is not None:
+        energies = _ofJoints('jointEnergy', jointEnergy, mesh, count)
+    strengths = _ofJoints('jointStrength', jointStrength, mesh, count) if count else energies
+    places.update(jointEdges=(sides[:, :2], 'uint32'), jointStrength=(strengths, 'float64'),
+                  jointEnergy=(energies, 'float64'))
+    return places

@@ -1,0 +1,172 @@
+"""Strength and fracture energy by place, from Python."""
+import builtins
+import math
+import os
+
+import numpy as np
+import pytest
+
+import yadefrag
+from fe_impact import brittle, engines
+from fe_scene import fe, finder  # noqa: F401  fixtures
+from yade import wrapper as w
+
+O = builtins.O
+kLength, kHeight, kWeak, kEnergy, kRate = .1, .02, 5e6, 60., 20.
+
+
+def inBand(x):
+    return abs(x - .7 * kLength) < .004
+
+
+def drawnBar(**given):
+    """A bar that is drawn at a constant rate of strain; its stress is even."""
+    solver = w.FESolver()
+    material = brittle(young=1e9, poisson=0, density=1000, planeStress=True, fractureEnergy=1000,
+                       tensileStrength=50e6)
+    wanted = dict(strength=lambda x, y: kWeak if inBand(x) else 50e6,
+                  fractureEnergy=lambda x, y: kEnergy if inBand(x) else 1000)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (kLength, kHeight)), size=.002, material=material,
+                      velocity=lambda x, y: (kRate * (x - kLength / 2), 0),
+                      fixed=lambda x, y: 'x' if x < 1e-9 or x > kLength - 1e-9 else False,
+                      **{**wanted, **given})
+    engines(solver, factor=.4)
+    return solver
+
+
+def cracks(solver):
+    """Nodes that are at one place without stress, each once."""
+    places = np.round(solver.nodes - solver.displacements, 9)
+    unique, count = np.unique(places, axis=0, return_counts=True)
+    return unique[count > 1]
+
+
+def test_aBarBreaksInItsWeakBand():
+    solver = drawnBar()
+    while solver.numCracks == 0:
+        O.step()
+    # The stress when the first edge cracks is the band's strength, to the node's mean of stresses.
+    assert 1e9 * kRate * O.time == pytest.approx(kWeak, rel=.02)
+    while len(solver.fragments()) < 2 and O.time < 2e-3:
+        O.run(50, True)
+    parts = solver.fragments()
+    assert len(parts) >= 2
+    assert all(abs(x - .7 * kLength) < .004 + .003 for x, _ in cracks(solver))
+    # A path along the edges of an irregular mesh is longer than the section, and some edges beside
+    # it open a little.
+    spent = solver.energy['fracture'] / (kEnergy * kHeight)
+    assert .8 < spent < 2.5
+
+
+def test_arraysAreTheSameAsFunctions(folder):
+    first = drawnBar()
+    middles = (first.nodes[first.triangles]).mean(axis=1)
+    O.run(700, True)
+    nodes, energy = first.nodes, first.energy
+    O.reset()
+    again = drawnBar(strength=np.array([kWeak if inBand(x) else 50e6 for x, _ in middles]),
+                     fractureEnergy=[kEnergy if inBand(x) else 1000 for x, _ in middles])
+    O.run(300, True)
+    O.save(os.path.join(folder, 'bar.yade'))
+    O.reset()
+    O.load(os.path.join(folder, 'bar.yade'))
+    again = next(e for e in O.engines if isinstance(e, w.FESolver))
+    O.run(400, True)
+    assert again.numCracks > 0
+    assert np.array_equal(again.nodes, nodes) and again.energy == energy
+
+
+@pytest.mark.parametrize('name', ['strength', 'fractureEnergy'])
+@pytest.mark.parametrize('wrong, sentence', [
+    (lambda x, y: -1, r'\(.*is -1, it must be'),
+    (lambda x, y: math.nan, r'\(.*is nan, it must be'),
+    (lambda x, y: 'hard', r"\(.*is 'hard', it must be"),
+    ([1., 2.], ' has 2 values, it must have one for each of the'),
+    (1e6, ' is 1000000.0, it must be None, a function'),
+    ([[1.]], r' is \[\[1.0\]\], it must be None, a function'),
+    ('weak', " is 'weak', it must be None, a function"),
+])
+def test_wrongValuesAreRefused(name, wrong, sentence):
+    solver = w.FESolver()
+    with pytest.raises(ValueError, match='^' + name + sentence) as error:
+        solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material=brittle(),
+                          **{name: wrong})
+    assert str(error.value).count('. ') == 0
+    assert len(O.bodies) == 0 and len(solver.nodes) == 0
+
+
+def test_wrongValuesInAnArrayAreNamed():
+    nodes, triangles = yadefrag.rectangleMesh((0, 0), (1, 1), 2, 2)
+    values = np.full(len(triangles), 1e6)
+    for wrong in (-1, 0, math.nan, math.inf):
+        values[5] = wrong
+        with pytest.raises(ValueError, match=r'strength\[5\] is .*, it must be a positive number'):
+            w.FESolver().addTriangles(nodes, triangles, material=brittle(), strength=values)
+
+
+# --- joints
+
+kJoint = [((.03, .01), (.07, .01))]
+
+
+def plate(**given):
+    solver = w.FESolver()
+    wanted = dict(size=.004, material=brittle(fractureEnergy=20), joints=kJoint)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .02)), **{**wanted, **given})
+    return solver
+
+
+def test_anOpenJointIsTwoFacesFromTheStart():
+    cut = plate()
+    assert cut.numCracks == 0 and len(cut.fragments()) == 1
+    places = cracks(cut)
+    assert len(places) >= 8 and np.all(np.abs(places[:, 1] - .01) < 1e-12)
+    assert places[:, 0].min() > .03 and places[:, 0].max() < .07  # its ends are the crack's tips
+    faces = [loop for loop in cut.surfaces if len(loop) == 2 * (len(places) + 1)]
+    assert len(faces) == 1 and len(cut.surfaces) == 2
+    assert len(O.bodies) == sum(map(len, cut.surfaces))
+    engines(cut)
+    O.run(20, True)
+    assert abs(cut.energy['total']) < 1e-20  # rounding
+
+
+def test_aJointThroughABodyMakesTwo():
+    solver = plate(joints=[((.05, -1), (.05, 1))])
+    assert len(solver.fragments()) == 2
+    assert sum(f['mass'] for f in solver.fragments()) == pytest.approx(2500 * .002)
+
+
+def test_jointsHoldUpToTheirOwnStrength():
+    solver = drawnBar(strength=None, fractureEnergy=None, joints=[((.07, 0), (.07, .02))],
+                      jointStrength=kWeak, jointEnergy=kEnergy)
+    while solver.numCracks == 0:
+        O.step()
+    assert 1e9 * kRate * O.time == pytest.approx(kWeak, rel=.02)
+    while len(solver.fragments()) < 2 and O.time < 2e-3:
+        O.run(50, True)
+    assert np.all(np.abs(cracks(solver)[:, 0] - .07) < 1e-9)
+    O.run(400, True)
+    # The error goes with how few steps an opening takes (tests/fracture/mode_one_test.cpp).
+    assert solver.energy['fracture'] == pytest.approx(kEnergy * kHeight, rel=.01)
+
+
+@pytest.mark.parametrize('wrong, sentence', [
+    (dict(joints=3), 'joints is 3, it must be a list of pairs of points'),
+    (dict(joints=[(0, 0)]), r'joints\[0\]\[0\] is 0, it must be a pair of numbers'),
+    (dict(joints=[((0, 0), (1, 1), (2, 2))]), r'joints\[0\] is .*, it must be a pair of points'),
+    (dict(joints=[((0, 0), (1, math.nan))]), r'joints\[0\]\[1\] is .*, both numbers must be finite'),
+    (dict(joints=[((5, 5), (6, 6))]), r'joints\[0\] from .* must run inside the outline'),
+    (dict(joints=[((.05, .01), (.05, .01))]), r'joints\[0\] .* must have two different ends'),
+    (dict(jointStrength=-1), 'jointStrength is -1, it must be 0 or a positive number'),
+    (dict(jointStrength=[1, 2]), 'jointStrength has 2 values, it must have one for each of the 1'),
+    (dict(jointStrength=[math.nan]), r'jointStrength\[0\] is .*nan.*, it must be 0 or a positive'),
+    (dict(jointEnergy='much'), "jointEnergy is 'much', it must be a number"),
+    (dict(material=w.FEMat(young=1e9, density=1000, poisson=.2)),
+     'joints is given, but the material does not crack; it must be a BrittleFEMat'),
+])
+def test_wrongJointsAreRefused(wrong, sentence):
+    solver = w.FESolver()
+    wanted = dict(size=.004, material=brittle(), joints=kJoint)
+    with pytest.raises(ValueError, match=sentence):
+        solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .02)), **{**wanted, **wrong})
+    assert len(O.bodies) == 0 and len(solver.nodes) == 0
