@@ -239,7 +239,8 @@ void Cohesion::book(EnergyLedger& ledger, const Model& model,
     const Vec2 apart = step.velocity * point.area * (mean(point.there) - mean(point.here));
     const double slip = dot(apart, -rightOf(point.normal));
     const FaceTractions& t = point.tractions;
-    ledger.fracture += t.normal * dot(apart, point.normal) + t.shear * slip;
+    (t.normal < 0 ? ledger.contact : ledger.fracture) += t.normal * dot(apart, point.normal);
+    ledger.fracture += t.shear * slip;
     ledger.friction += t.friction * slip;
   }
 }

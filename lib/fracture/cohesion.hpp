@@ -44,8 +44,8 @@ class Cohesion {
   /// Largest change of a traction, of its strength, in the last sweep of the last step.
   [[nodiscard]] double residual() const { return residual_; }
 
-  /// Adds what the tractions of the step took, with its mean velocity: of friction to `friction`,
-  /// of the law and of what keeps the faces apart to `fracture`.
+  /// Adds what the tractions of the step took, with its mean velocity: of the law to `fracture`, of
+  /// what keeps the faces apart to `contact`, of friction to `friction`.
   void book(EnergyLedger& ledger, const Model& model, std::span<const Vec2> previousVelocity,
             const StepLength& step) const;
   /// At the end of the step, when contact has closed what it closes: cracks learn how far they have

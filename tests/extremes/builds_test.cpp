@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6577343763346031);
-  expectNear(places.y, 1.4562321576121136);
-  expectNear(speeds, 4631.4857672052804);
-  expectNear(totalEnergy(world), 89.999392929307405);
-  expectNear(world.ledger.contact, 5.2216945818490714);
+  expectNear(places.x, 3.653286333504286);
+  expectNear(places.y, 1.4597249753255377);
+  expectNear(speeds, 4417.0312608387876);
+  expectNear(totalEnergy(world), 89.999330485380767);
+  expectNear(world.ledger.contact, 4.802068462132679);
 }
 
 }  // namespace

@@ -227,5 +227,47 @@ TEST(CrackShear, RestsBelowWhatHoldsIt) {
   }
 }
 
+// Nodes that are held in one direction, oblique to the edge: what pushes the faces apart moves them
+// along the edge as well. Pressed by a force that swings they stay where they are, and friction
+// gives nothing.
+TEST(CrackShear, ObliqueHoldingIsNoException) {
+  const Vec2 normal = std::sqrt(.5) * Vec2{1, 1}, along{-normal.y, normal.x};
+  TriangleMesh mesh;
+  mesh.nodes = {-kHalf * along, kHalf * along, -kHalf * normal, kHalf * normal};
+  mesh.triangles = {{0, 1, 2}, {0, 3, 1}};
+  mesh.loops = mesh.loopVertices = {{0, 3, 1, 2}};
+  BodySpec spec;
+  spec.material = kStiff;
+  spec.friction = .5;
+  spec.brittle.tensileStrength = kStrength;
+  spec.brittle.fractureEnergy = kEnergy;
+  spec.held = {kHeldY, kHeldY, 0, 0};
+  for (const Vec2 x : mesh.nodes)
+    spec.displacement.push_back(1.3 * kWeak * kStrength / 275e11 * dot(x, normal) * normal);
+  World world;
+  world.addBody(mesh, spec);
+  world.fracture.edges.strength[0] *= kWeak;
+  world.step(kStep);
+  ASSERT_EQ(world.fracture.numCracks(), 1U);
+  world.fracture.edges.strength[0] /= kWeak;
+  const auto& left = world.model.triangles.nodes[0];
+  const auto& right = world.model.triangles.nodes[1];
+  for (int n = 0; n < 400; ++n) {
+    const double force = 3 * kStrength * kHalf * (1 + .5 * std::sin(n / 5.));
+    world.outerForces.assign(world.model.nodes.size(), {});
+    for (const std::size_t end : {0, 1}) {
+      world.outerForces[left[end].value].x = force;
+      world.outerForces[right[end == 0 ? 0 : 2].value].x = -force;
+    }
+    world.step(kStep);
+    for (const std::size_t end : {0, 1}) {
+      const auto& x = world.model.nodes.position;
+      const Vec2 apart = x[right[end == 0 ? 0 : 2].value] - x[left[end].value];
+      ASSERT_NEAR(norm(apart), 0, 1e-6 * kCritical) << n;
+    }
+    ASSERT_GT(world.ledger.friction, -1e-6 * kEnergy * kArea) << n;
+  }
+}
+
 }  // namespace
 }  // namespace yadefrag

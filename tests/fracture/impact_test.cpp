@@ -97,8 +97,8 @@ Course run(const Setting& setting) {
   return course;
 }
 
-/// What must hold in any case.
-void expectSound(const Course& course) {
+/// What must hold in any case. `given`: most that contact may give.
+void expectSound(const Course& course, double given = .003) {
   record("cracks", static_cast<double>(course.cracks));
   record("growth", course.growth);
   // What is left of a step's motion, 0.006 of a segment, by sweeps that end before all is solved,
@@ -110,7 +110,7 @@ void expectSound(const Course& course) {
   // Rounding of some 10⁴ sums.
   figure("mass_error", course.massError, 0, 1e-12);
   // Contact takes energy. It gives a little where it lets old overlaps out.
-  figure("given_by_contact", course.given, 0, .003);
+  figure("given_by_contact", course.given, 0, given);
   EXPECT_GT(course.contact, 0);
   record("contact", course.contact);
   record("fracture", course.fracture);
@@ -125,7 +125,10 @@ TEST(Impact, ABlockFallsToPieces) {
 
 TEST(Impact, CohesionTakesItsEnergy) {
   const Course course = run({.fractureEnergy = 500});
-  expectSound(course);
+  // What keeps the faces of a crack apart knows nothing of what contact does afterwards in the same
+  // step: one gives what the other takes. 0.013 measured, a third and a ninth of it with half and a
+  // quarter of the step.
+  expectSound(course, .02);
   EXPECT_GT(course.growth, 2);
   EXPECT_GT(course.fracture, 0);
 }
