@@ -106,6 +106,8 @@ void checkBrittle(const BrittleMaterial& material) {
           "positive and finite, or 0 for cracks that open at once");
   require(positive(material.shearFactor), "shearFactor", material.shearFactor, "",
           "positive and finite");
+  require(positive(material.shearEnergyFactor), "shearEnergyFactor", material.shearEnergyFactor, "",
+          "positive and finite");
   require(notNegative(material.weibullModulus), "weibullModulus", material.weibullModulus, "",
           "positive and finite, or 0 for strengths without this scatter");
   require(notNegative(material.referenceVolume), "referenceVolume", material.referenceVolume, " m³",

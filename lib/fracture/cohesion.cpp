@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/tolerances.hpp"
-#include "fracture/cohesive_law.hpp"
 #include "mesh/mobility.hpp"
 
 namespace yadefrag {
@@ -27,6 +26,25 @@ double criticalOpening(const Model& model, const CrackEdges& edges, EdgeId edge)
   return 2 * materialOf(model, edges, edge).fractureEnergy / edges.strength[edge.value];
 }
 
+CohesiveHold holdOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const ElementId element = edges.side(edge, 0).element;
+  const Component& body = model.components[model.triangles.component[element.value].value];
+  const double beta = body.brittle.shearFactor;
+  return {0, 0, beta, beta * beta / body.brittle.shearEnergyFactor, body.friction, {}};
+}
+
+Vec2 times(Vec2 a, Vec2 b) { return {a.x * b.x, a.y * b.y}; }
+
+/// (m/Pa) Across the edge and along it, where `compliance` is given by axis. Nodes that are held in
+/// one direction couple the two. The larger value for both leaves what sweeps put right; it is 0
+/// where nothing can move.
+AcrossAlong byDirection(Vec2 compliance, Vec2 normal) {
+  const double most = std::max(compliance.x, compliance.y);
+  const double x = normal.x * normal.x, y = normal.y * normal.y;
+  return {compliance.x * x + compliance.y * y > 0 ? most : 0,
+          compliance.x * y + compliance.y * x > 0 ? most : 0};
+}
+
 }  // namespace
 
 void Cohesion::add(const Model& model, const CrackEdges& edges, EdgeId cracked,
@@ -37,6 +55,7 @@ void Cohesion::add(const Model& model, const CrackEdges& edges, EdgeId cracked,
   const ComponentId body = model.triangles.component[side.element.value];
   edge.push_back(cracked);
   largest.push_back({0, 0});
+  traction.push_back({});
   area.push_back(norm(along) / 2 * model.components[body.value].thickness);
 }
 
@@ -44,8 +63,11 @@ template <class Keep>
 void Cohesion::keepOnly(Keep keep) {
   std::size_t kept = 0;
   for (std::size_t c = 0; c < edge.size(); ++c)
-    if (keep(c)) edge[kept] = edge[c], largest[kept] = largest[c], area[kept++] = area[c];
-  edge.resize(kept), largest.resize(kept), area.resize(kept);
+    if (keep(c)) {
+      edge[kept] = edge[c], largest[kept] = largest[c];
+      traction[kept] = traction[c], area[kept++] = area[c];
+    }
+  edge.resize(kept), largest.resize(kept), traction.resize(kept), area.resize(kept);
 }
 
 void Cohesion::renumberEdges(std::span<const EdgeId> renumbered) {
@@ -70,101 +92,133 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
       continue;
     }
     const Vec2 across = rightOf(first + second);
+    const Vec2 normal = (1 / norm(across)) * across;
     for (std::uint32_t end = 0; end < 2; ++end) {
       const NodeId here = end == 0 ? a : d, there = end == 0 ? b : e;
       // What is broken touches like any other surface, whatever way it has turned since.
       if (here == there || largest[c][end] >= critical) continue;
-      const Vec2 mobile = step.squared() * area[c] *
-                          (mobility(model.nodes, here, drag) + mobility(model.nodes, there, drag));
-      points_.push_back({here,
-                         there,
-                         (1 / norm(across)) * across,
-                         mobile,
-                         area[c],
-                         edges.strength[edge[c].value],
-                         critical,
-                         materialOf(model, edges, edge[c]).shearFactor,
-                         largest[c][end],
-                         {},
-                         c,
-                         end});
+      Point& point = points_.emplace_back();
+      point.here = here, point.there = there;
+      point.normal = normal;
+      point.rateHere = step.squared() * area[c] * mobility(model.nodes, here, drag);
+      point.rateThere = step.squared() * area[c] * mobility(model.nodes, there, drag);
+      point.area = area[c], point.strength = edges.strength[edge[c].value];
+      point.critical = critical;
+      point.hold = holdOf(model, edges, edge[c]);
+      point.hold.most = envelope(point.strength, critical, largest[c][end]);
+      point.hold.largest = largest[c][end];
+      const Vec2 rate = point.rateHere + point.rateThere;
+      point.hold.compliance = byDirection(rate, normal);
+      point.isEven = rate.x == rate.y;
+      point.slid = dot(before[there.value] - before[here.value], -rightOf(normal));
+      const Vec2 last = traction[c][end];
+      point.traction = last.x * normal - last.y * rightOf(normal);
+      point.crack = c, point.end = end;
     }
   }
 }
 
-/// The effective opening √(δₙ² + β²δₛ²) of faces that are `apart` (m); its direction is that of the
-/// traction.
-double Cohesion::openingOf(const Point& point, Vec2 apart, Vec2& direction) {
+std::uint32_t Cohesion::rootOf(NodeId node) {
+  std::uint32_t n = node.value;
+  while (group_[n] != n) n = group_[n] = group_[group_[n]];
+  return n;
+}
+
+/// Points that share a node, and those that share one with them: the parts of one node that split.
+void Cohesion::findGroups(std::size_t nodes) {
+  constexpr std::uint32_t none = ~std::uint32_t{0};
+  group_.resize(nodes);
+  for (const Point& point : points_)
+    for (const NodeId node : {point.here, point.there}) group_[node.value] = node.value;
+  for (const Point& point : points_) {
+    const std::uint32_t here = rootOf(point.here), there = rootOf(point.there);
+    group_[std::max(here, there)] = std::min(here, there);
+  }
+  number_.resize(nodes);
+  for (const Point& point : points_) number_[rootOf(point.here)] = none;
+  std::uint32_t count = 0;
+  for (Point& point : points_) {
+    std::uint32_t& number = number_[rootOf(point.here)];
+    if (number == none) number = count++;
+    point.group = number;
+  }
+  fillRows(
+      groups_, count, points_.size(), [&](std::size_t i) { return points_[i].group; },
+      [](std::size_t i) { return static_cast<std::uint32_t>(i); });
+}
+
+void Cohesion::apply(std::vector<Vec2>& position, const Point& point, Vec2 change) {
+  position[point.here.value] += times(point.rateHere, change);
+  position[point.there.value] -= times(point.rateThere, change);
+}
+
+/// Sets one point's traction right, the others being what they are.
+void Cohesion::relax(std::vector<Vec2>& position, Point& point) {
   const Vec2 tangent = -rightOf(point.normal);
-  const double beta = point.shearFactor;
-  const double normal = std::max(0., dot(apart, point.normal));
-  const double shear = dot(apart, tangent);
-  const double effective = std::hypot(normal, beta * shear);
-  direction = {};
-  if (effective > 0)
-    direction = (normal / effective) * point.normal + (beta * beta * shear / effective) * tangent;
-  return effective;
-}
-
-/// (m/Pa) What a traction in this direction takes from the opening along it.
-double Cohesion::complianceAlong(const Point& point, Vec2 direction) {
-  return point.compliance.x * direction.x * direction.x +
-         point.compliance.y * direction.y * direction.y;
-}
-
-/// What the law does to faces that would end up `opening` apart without it.
-Vec2 Cohesion::held(const Point& point, Vec2 opening) {
-  Vec2 direction;
-  const double trial = openingOf(point, opening, direction);
-  return cohesiveTraction(point.strength, point.critical, point.largest, trial,
-                          complianceAlong(point, direction)) *
-         direction;
-}
-
-/// What keeps the faces from closing further than shut.
-Vec2 Cohesion::shut(const Point& point, Vec2 opening) {
-  const double gap = dot(opening, point.normal);
-  const double compliance = complianceAlong(point, point.normal);
-  if (gap >= 0 || compliance <= 0) return {};
-  return (gap / compliance) * point.normal;
-}
-
-/// Sets one point's traction right, the others being what they are; returns its change (Pa).
-double Cohesion::relax(Model& model, Point& point) const {
-  std::vector<Vec2>& position = model.nodes.position;
-  const Vec2 own{point.compliance.x * point.traction.x, point.compliance.y * point.traction.y};
-  const Vec2 opening = position[point.there.value] - position[point.here.value] + own;
-  const Vec2 traction = held(point, opening) + shut(point, opening);
-  const Vec2 change = traction - point.traction;
+  const Vec2 apart = position[point.there.value] - position[point.here.value];
+  const AcrossAlong& compliance = point.hold.compliance;
+  const AcrossAlong trial{
+      dot(apart, point.normal) + compliance.normal * dot(point.traction, point.normal),
+      dot(apart, tangent) + compliance.shear * dot(point.traction, tangent)};
+  point.tractions = faceTractions(point.hold, trial, point.slid);
+  const FaceTractions& t = point.tractions;
+  const Vec2 traction = t.normal * point.normal + (t.shear + t.friction) * tangent;
+  point.change = traction - point.traction;
   point.traction = traction;
-  const double rate = squaredStep_ * point.area;
-  const Vec2 here = mobility(model.nodes, point.here, drag_);
-  const Vec2 there = mobility(model.nodes, point.there, drag_);
-  position[point.here.value] += rate * Vec2{here.x * change.x, here.y * change.y};
-  position[point.there.value] -= rate * Vec2{there.x * change.x, there.y * change.y};
-  return norm(change);
+  apply(position, point, point.change);
+}
+
+/// Sweeps over points that share nodes, from the tractions of the last step. Returns the change in
+/// the last sweep, of the strength.
+double Cohesion::solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group) {
+  for (const std::uint32_t i : group) points_[i].change = {};
+  double worst = 0;
+  for (int sweep = 1; sweep <= tolerance::kCohesionSweeps; ++sweep) {
+    double now = 0, before = 0, common = 0;  // Pa², of the changes
+    worst = 0;
+    for (const std::uint32_t i : group) {
+      Point& point = points_[i];
+      const Vec2 last = point.change;
+      relax(position, point);
+      now += dot(point.change, point.change), before += dot(last, last);
+      common += dot(point.change, last);
+      worst = std::max(worst, dot(point.change, point.change) / (point.strength * point.strength));
+    }
+    worst = std::sqrt(worst);
+    if (group.size() == 1 && points_[group[0]].isEven) return 0;  // right at once
+    if (worst <= tolerance::kCohesionChange) break;
+    const bool isSeries =
+        common > 0 && common < before && common * common >= tolerance::kSameChange * now * before;
+    if (!isSeries || sweep % tolerance::kSweepsToSumUp != 0 ||
+        sweep > tolerance::kCohesionSweeps - tolerance::kSweepsToSettle)
+      continue;
+    const double ratio = std::min(common / before, tolerance::kMostRatio);
+    for (const std::uint32_t i : group) {
+      const Vec2 rest = ratio / (1 - ratio) * points_[i].change;
+      points_[i].traction += rest;
+      apply(position, points_[i], rest);
+    }
+  }
+  return worst;
 }
 
 double Cohesion::correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                          const StepLength& step, double drag) {
   if (edge.empty()) return 0;
-  squaredStep_ = step.squared(), drag_ = drag;
   collect(model, edges, before, step, drag);
-  for (int sweep = 0; sweep < tolerance::kCohesionSweeps; ++sweep) {
-    double worst = 0;
-    for (Point& point : points_) worst = std::max(worst, relax(model, point) / point.strength);
-    if (worst <= tolerance::kCohesionChange) break;
-  }
+  findGroups(model.nodes.size());
+  std::vector<Vec2>& position = model.nodes.position;
+  for (const Point& point : points_) apply(position, point, point.traction);
+  residual_ = 0;
+  for (std::size_t g = 0; g < groups_.rows(); ++g)
+    residual_ = std::max(residual_, solve(position, groups_.row(g)));
   double most = 0;
   for (const Point& point : points_) {
-    for (const double sign : {1., -1.}) {
-      const NodeId node = sign > 0 ? point.here : point.there;
-      const Vec2 mobile = mobility(model.nodes, node, drag);
-      const Vec2 u = sign * step.squared() * point.area *
-                     Vec2{mobile.x * point.traction.x, mobile.y * point.traction.y};
-      model.nodes.velocity[node.value] += (1 / step.position) * u;
-      most = std::max(most, norm(u));
-    }
+    const Vec2 here = times(point.rateHere, point.traction);
+    const Vec2 there = times(point.rateThere, point.traction);
+    model.nodes.velocity[point.here.value] += (1 / step.position) * here;
+    model.nodes.velocity[point.there.value] -= (1 / step.position) * there;
+    most = std::max({most, norm(here), norm(there)});
   }
   return most;
 }
@@ -176,25 +230,30 @@ void Cohesion::addForces(std::vector<Vec2>& forces) const {
   }
 }
 
-double Cohesion::work(const Model& model, std::span<const Vec2> previousVelocity,
-                      const StepLength& step) const {
-  double work = 0;
+void Cohesion::book(EnergyLedger& ledger, const Model& model,
+                    std::span<const Vec2> previousVelocity, const StepLength& step) const {
+  const auto mean = [&](NodeId node) {
+    return .5 * (previousVelocity[node.value] + model.nodes.velocity[node.value]);
+  };
   for (const Point& point : points_) {
-    const auto mean = [&](NodeId node) {
-      return .5 * (previousVelocity[node.value] + model.nodes.velocity[node.value]);
-    };
-    work += step.velocity * point.area * dot(point.traction, mean(point.there) - mean(point.here));
+    const Vec2 apart = step.velocity * point.area * (mean(point.there) - mean(point.here));
+    const double slip = dot(apart, -rightOf(point.normal));
+    const FaceTractions& t = point.tractions;
+    ledger.fracture += t.normal * dot(apart, point.normal) + t.shear * slip;
+    ledger.friction += t.friction * slip;
   }
-  return work;
 }
 
 void Cohesion::settle(const Model& model, const CrackEdges& edges) {
   const std::vector<Vec2>& position = model.nodes.position;
   for (const Point& point : points_) {
-    Vec2 direction;
+    const FaceTractions& t = point.tractions;
+    traction[point.crack][point.end] = {t.normal, t.shear + t.friction};
     double& widest = largest[point.crack][point.end];
     const Vec2 apart = position[point.there.value] - position[point.here.value];
-    widest = std::max(widest, openingOf(point, apart, direction));
+    const AcrossAlong opening{dot(apart, point.normal), dot(apart, -rightOf(point.normal))};
+    widest =
+        std::max(widest, effectiveOpening(opening, point.hold.shearFactor, point.hold.shearRatio));
   }
   points_.clear();
   const auto critical = [&](std::size_t c) { return criticalOpening(model, edges, edge[c]); };

@@ -11,14 +11,18 @@
 //
 // As long as one end of a crack holds, its faces are opposite each other, node to node, and are
 // kept apart here, too: pulled together here and pushed apart by contact in turn, corner on corner,
-// they would slide past each other, and contact would push out what it has not kept out.
+// they would slide past each other, and contact would push out what it has not kept out. Pressed
+// together they rub, too: the traction along the face goes on from βσc + μp, at which it opened.
 
 #include <array>
 #include <span>
 #include <vector>
 
+#include "core/csr.hpp"
 #include "core/footprint.hpp"
 #include "core/step_length.hpp"
+#include "dynamics/energy_ledger.hpp"
+#include "fracture/cohesive_law.hpp"
 #include "fracture/crack_edges.hpp"
 
 namespace yadefrag {
@@ -37,9 +41,13 @@ class Cohesion {
   double correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                  const StepLength& step, double drag);
 
-  /// (J) What the tractions of the step took, with its mean velocity.
-  [[nodiscard]] double work(const Model& model, std::span<const Vec2> previousVelocity,
-                            const StepLength& step) const;
+  /// Largest change of a traction, of its strength, in the last sweep of the last step.
+  [[nodiscard]] double residual() const { return residual_; }
+
+  /// Adds what the tractions of the step took, with its mean velocity: of friction to `friction`,
+  /// of the law and of what keeps the faces apart to `fracture`.
+  void book(EnergyLedger& ledger, const Model& model, std::span<const Vec2> previousVelocity,
+            const StepLength& step) const;
   /// At the end of the step, when contact has closed what it closes: cracks learn how far they have
   /// opened, and those that hold nothing any more are forgotten, and listed in `released`.
   void settle(const Model& model, const CrackEdges& edges);
@@ -52,39 +60,49 @@ class Cohesion {
 
   std::vector<EdgeId> released;  ///< in the last step
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kCohesion, edge, largest, area, points_, turned_, released);
+    footprint.add(Use::kCohesion, edge, largest, traction, area, points_, group_, number_,
+                  groups_.values, groups_.offsets, turned_, released);
   }
 
   // By crack that holds; both ends of an edge have an opening of their own.
   std::vector<EdgeId> edge;
   std::vector<std::array<double, 2>> largest;  ///< m, δmax
-  std::vector<double> area;                    ///< m², half the face's
+  /// Pa, in the last step, across the crack and along it: where the next one begins. Cracks side by
+  /// side share a load in many ways that move the nodes alike, and sweeps are slow to choose.
+  std::vector<std::array<Vec2, 2>> traction;
+  std::vector<double> area;  ///< m², half the face's
 
  private:
   struct Point {
-    NodeId here, there;  // of the edge's first and second triangle
-    Vec2 normal;         // out of the first
-    Vec2 compliance;     // m/Pa, by axis
-    double area, strength, critical, shearFactor;
-    double largest;
-    Vec2 traction{};  // Pa, on `here`
-    std::uint32_t crack, end;
+    NodeId here, there;        // of the edge's first and second triangle
+    Vec2 normal;               // out of the first
+    Vec2 rateHere, rateThere;  // m/Pa, by axis
+    double area, strength, critical;
+    CohesiveHold hold;
+    double slid;  // m, at the step's begin
+    FaceTractions tractions{};
+    Vec2 traction{};  // Pa, all of them, on `here`
+    Vec2 change{};    // Pa, in the last sweep
+    bool isEven;      // as compliant in all directions
+    std::uint32_t crack, end, group;
   };
 
   template <class Keep>
   void keepOnly(Keep keep);
   void collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                const StepLength& step, double drag);
-  double relax(Model& model, Point& point) const;
-  static double openingOf(const Point& point, Vec2 apart, Vec2& direction);
-  static double complianceAlong(const Point& point, Vec2 direction);
-  static Vec2 held(const Point& point, Vec2 opening);
-  static Vec2 shut(const Point& point, Vec2 opening);
+  void findGroups(std::size_t nodes);
+  [[nodiscard]] std::uint32_t rootOf(NodeId node);
+  double solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group);
+  static void apply(std::vector<Vec2>& position, const Point& point, Vec2 change);
+  static void relax(std::vector<Vec2>& position, Point& point);
 
   std::vector<Point> points_;
+  std::vector<std::uint32_t> group_;   // by node: another of its group, itself if it is the root
+  std::vector<std::uint32_t> number_;  // by node that is a root: the group's
+  Csr<std::uint32_t> groups_;          // of points that share nodes
+  double residual_ = 0;
   std::vector<std::uint32_t> turned_;  // cracks whose faces are at a right angle, or more
-  double squaredStep_ = 0;             // s²
-  double drag_ = 0;
 };
 
 }  // namespace yadefrag

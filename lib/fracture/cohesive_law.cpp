@@ -1,8 +1,60 @@
 #include "fracture/cohesive_law.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/tolerances.hpp"
 
 namespace yadefrag {
+namespace {
+
+/// (m) D of the law's tractions T(δmax)·(oₙ, (β²/κ)oₛ)/D at the step's end: δmax on the unloading
+/// line, δ(o) where the opening grows. With o = o* − C·T,
+///   Tₙ = T(δmax) oₙ*/(D + Cₙ T(δmax)),  Tₛ = T(δmax) (β²/κ)oₛ*/(D + Cₛ (β²/κ)T(δmax)),
+/// and δ(o) = D is an equation of one unknown, |f(D)| = 1. 1/|f| is nearly a line: one Newton step
+/// where both directions are alike, else a few.
+double denominator(const CohesiveHold& hold, AcrossAlong trial) {
+  const double beta = hold.shearFactor, weight = hold.shearRatio / beta;  // β/κ
+  const double normal = std::max(0., trial.normal), shear = weight * trial.shear;
+  const double stiffNormal = hold.compliance.normal * hold.most;
+  const double stiffShear = hold.compliance.shear * hold.shearRatio * hold.most;
+  double d = hold.largest;
+  for (int i = 0; i < tolerance::kMostOpeningSteps; ++i) {
+    const double below = d + stiffNormal, aside = d + stiffShear;
+    if ((normal > 0 && below <= 0) || (shear != 0 && aside <= 0)) return std::hypot(normal, shear);
+    const double a = normal > 0 ? normal / below : 0, b = shear != 0 ? shear / aside : 0;
+    const double squared = a * a + b * b;
+    if (squared <= 1) return d;
+    // Newton on 1/√squared − 1 = 0.
+    const double fall = (a > 0 ? a * a / below : 0) + (b != 0 ? b * b / aside : 0);
+    const double change = (std::sqrt(squared) - 1) * squared / fall;
+    d += change;
+    if (change <= tolerance::kOpeningStep * (d + std::max(stiffNormal, stiffShear))) return d;
+  }
+  return d;
+}
+
+/// Without friction, of faces that are not pressed together.
+FaceTractions cohesive(const CohesiveHold& hold, AcrossAlong trial) {
+  if (hold.most <= 0) return {};
+  const double d = denominator(hold, trial);
+  const auto along = [&](double opening, double factor, double compliance) {
+    const double stiff = factor * hold.most, whole = d + compliance * stiff;
+    return whole > 0 ? stiff * opening / whole : 0;
+  };
+  return {along(std::max(0., trial.normal), 1, hold.compliance.normal),
+          along(trial.shear, hold.shearRatio, hold.compliance.shear), 0};
+}
+
+/// (Pa) The law's shear at the slip at the step's begin, of shut faces; `all`: Pa, what keeps them
+/// there. An edge that has not opened takes what it can.
+double shearAt(const CohesiveHold& hold, double slid, double all) {
+  const double most = hold.shearFactor * hold.most;
+  if (hold.largest <= 0) return std::clamp(all, -most, most);
+  return std::clamp(hold.shearRatio * hold.most * slid / hold.largest, -most, most);
+}
+
+}  // namespace
 
 double envelope(double strength, double criticalOpening, double opening) {
   if (opening >= criticalOpening) return 0;  // with δc = 0, too
@@ -20,12 +72,32 @@ double recoverableEnergy(double strength, double criticalOpening, double largest
   return held * opening / largestOpening * opening / 2;
 }
 
-double cohesiveTraction(double strength, double criticalOpening, double largestOpening,
-                        double trial, double compliance) {
-  const double held = envelope(strength, criticalOpening, largestOpening);
-  if (held <= 0 || trial <= 0) return 0;
-  const double kink = largestOpening + compliance * held;
-  return trial < kink ? held * (trial / kink) : held;
+double effectiveOpening(AcrossAlong opening, double shearFactor, double shearRatio) {
+  return std::hypot(std::max(0., opening.normal), shearRatio / shearFactor * opening.shear);
+}
+
+FaceTractions faceTractions(const CohesiveHold& hold, AcrossAlong trial, double slid) {
+  if (trial.normal >= 0 || hold.compliance.normal <= 0) return cohesive(hold, trial);
+  const double push = trial.normal / hold.compliance.normal;
+  const double bound = -hold.friction * push;
+  const double compliance = hold.compliance.shear;
+  FaceTractions result;
+  if (bound <= 0 || compliance <= 0) {
+    result = cohesive(hold, {0, trial.shear});
+  } else {
+    // Law and friction both grow with the slip: there is one where they agree with the motion.
+    const double all = (trial.shear - slid) / compliance;
+    const double stuck = shearAt(hold, slid, all);
+    if (std::abs(all - stuck) <= bound) {
+      result.shear = stuck, result.friction = all - stuck;
+    } else {
+      const double friction = std::copysign(bound, all - stuck);
+      result = cohesive(hold, {0, trial.shear - compliance * friction});
+      result.friction = friction;
+    }
+  }
+  result.normal = push;
+  return result;
 }
 
 }  // namespace yadefrag

@@ -11,6 +11,11 @@
 //        │╱   ╲
 //        └──┴──┴─ δ      from δc on: nothing, for good. Gc = 0: δc = 0, opens at once
 //          δmax δc
+//
+//   Shear has its own strength βσc and its own work GII = κGc (Snozzi and Molinari 2013, Int. J.
+//   Numer. Meth. Eng. 93, 510): of a normal opening δₙ and a slip δₛ,
+//     δ = √(δₙ² + (β²/κ²)δₛ²),  Tₙ = T δₙ/δ,  Tₛ = T (β²/κ)δₛ/δ.
+//   Faces that are pressed together push, and rub beside that: |τ| ≤ μp against the slip.
 
 namespace yadefrag {
 
@@ -25,14 +30,39 @@ namespace yadefrag {
 [[nodiscard]] double recoverableEnergy(double strength, double criticalOpening,
                                        double largestOpening, double opening);
 
-/// (Pa) What the law puts against a motion that would end at the opening `trial` (m, ≥ 0) without
-/// it. `compliance`: k (m/Pa), what a traction takes from the opening. While the opening grows it
-/// is the envelope at δmax, the largest opening before the step: then the leapfrog's work is a
-/// trapezoid sum, exact for a line. Where that much would close the edge below the unloading line,
-/// it is what ends on that line: T = T(δmax)·δ/δmax with δ = δ* − kT, implicit, so that the
-/// stiffest line does no harm. With δmax = 0 it holds the edge closed as long as T ≤ σc suffices:
-/// the bounded multiplier.
-[[nodiscard]] double cohesiveTraction(double strength, double criticalOpening,
-                                      double largestOpening, double trial, double compliance);
+/// Across a crack and along it.
+struct AcrossAlong {
+  double normal, shear;
+};
+
+/// How the faces of a crack hold each other in one step.
+struct CohesiveHold {
+  double most;             ///< Pa, the envelope at δmax
+  double largest;          ///< m, δmax, before the step
+  double shearFactor;      ///< β
+  double shearRatio;       ///< β²/κ
+  double friction;         ///< μ
+  AcrossAlong compliance;  ///< m/Pa: what a traction takes from the opening, by direction
+};
+
+struct FaceTractions {
+  double normal = 0;    ///< Pa, positive: pulls the faces together
+  double shear = 0;     ///< Pa, of the law alone
+  double friction = 0;  ///< Pa, along the face, too
+};
+
+/// (m) δ; faces that overlap are shut.
+[[nodiscard]] double effectiveOpening(AcrossAlong opening, double shearFactor, double shearRatio);
+
+/// (Pa) Against a motion that would end at the opening `trial` (m) without them. `slid`: m, the
+/// slip at the step's begin, which friction keeps as far as it can.
+///
+/// While the opening grows the law gives T(δmax), the envelope at the largest opening before the
+/// step: then the leapfrog's work is a trapezoid sum, exact for a line. Its direction is that of
+/// the opening at the step's end. Where that much would close the edge below the unloading line,
+/// the tractions are those that end on that line, implicit, so that the stiffest line does no harm.
+/// With δmax = 0 they hold the edge closed as long as √(Tₙ² + (Tₛ/β)²) ≤ σc suffices, and go on
+/// from there without a jump, in both directions: the bounded multiplier.
+[[nodiscard]] FaceTractions faceTractions(const CohesiveHold& hold, AcrossAlong trial, double slid);
 
 }  // namespace yadefrag

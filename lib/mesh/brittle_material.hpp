@@ -10,6 +10,8 @@ struct BrittleMaterial {
   double fractureEnergy = 0;   ///< J/m², Gc; 0: a crack opens at once
   /// β: shear strength over tensile strength. The shear strength is β·σc + tan φ · pressure.
   double shearFactor = 1;
+  /// κ = GII/GI: work that a crack takes by shear, over Gc, which it takes by tension.
+  double shearEnergyFactor = 1;
   double weibullModulus = 0;   ///< of the strengths' scatter; 0: none
   double strengthScatter = 0;  ///< relative half-width of an even scatter; 0: none
   std::uint64_t seed = 0;      ///< of the scatter

@@ -40,8 +40,8 @@ bool isRight(const Component& c, std::size_t triangles) {
          isPositive(c.thickness) && c.friction >= 0 && std::isfinite(c.friction) &&
          c.brittle.tensileStrength >= 0 && c.brittle.fractureEnergy >= 0 &&
          c.element <= ElementKind::kSmoothed && c.brittle.shearFactor > 0 &&
-         c.brittle.referenceVolume >= 0 && c.firstTriangle <= c.lastTriangle &&
-         c.lastTriangle <= triangles;
+         c.brittle.shearEnergyFactor > 0 && c.brittle.referenceVolume >= 0 &&
+         c.firstTriangle <= c.lastTriangle && c.lastTriangle <= triangles;
 }
 
 bool componentsAreRight(const Model& model) {
@@ -151,7 +151,8 @@ bool edgesAreRight(const World& world) {
 bool fractureIsRight(const World& world) {
   const Cohesion& c = world.fracture.cohesion;
   return edgesAreRight(world) && c.largest.size() == c.edge.size() &&
-         c.area.size() == c.edge.size() && allBelow(c.edge, world.fracture.edges.size());
+         c.traction.size() == c.edge.size() && c.area.size() == c.edge.size() &&
+         allBelow(c.edge, world.fracture.edges.size());
 }
 
 }  // namespace

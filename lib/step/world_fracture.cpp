@@ -18,7 +18,7 @@ void World::cohere(const StepLength& length) {
 void World::bookFracture(const StepLength& length) {
   if (fracture.cohesion.edge.empty()) return;
   const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
-  ledger.fracture += fracture.cohesion.work(model, dynamics_.previousVelocity(), length);
+  fracture.cohesion.book(ledger, model, dynamics_.previousVelocity(), length);
 }
 
 /// True if nodes have split.

@@ -201,6 +201,7 @@ class WorldArchive {
     member("tensileStrength", rows, [](C& c) -> double& { return c.brittle.tensileStrength; });
     member("fractureEnergy", rows, [](C& c) -> double& { return c.brittle.fractureEnergy; });
     member("shearFactor", rows, [](C& c) -> double& { return c.brittle.shearFactor; });
+    member("shearEnergyFactor", rows, [](C& c) -> double& { return c.brittle.shearEnergyFactor; });
     member("weibullModulus", rows, [](C& c) -> double& { return c.brittle.weibullModulus; });
     member("strengthScatter", rows, [](C& c) -> double& { return c.brittle.strengthScatter; });
     member("seed", rows, [](C& c) -> std::uint64_t& { return c.brittle.seed; });
@@ -263,6 +264,7 @@ class WorldArchive {
     column<Index>("elementEdges", edges.ofElement), column<Index>("nodeElement", edges.ofNode);
     column<Index>("cohesiveEdge", fracture.cohesion.edge);
     column<double>("cohesiveLargest", fracture.cohesion.largest);
+    column<double>("cohesiveTraction", fracture.cohesion.traction);
     column<double>("cohesiveArea", fracture.cohesion.area);
     std::uint64_t numCracks = fracture.numCracks();
     value("numCracks", numCracks);

@@ -139,10 +139,14 @@ int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
   spec.material = {material->young, material->poisson, material->density, material->planeStress};
   spec.friction = std::tan(material->frictionAngle);
   if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(material.get())) {
-    spec.brittle = {brittle->tensileStrength, brittle->fractureEnergy,
-                    brittle->shearFactor,     brittle->weibullModulus,
-                    brittle->strengthScatter, static_cast<std::uint64_t>(brittle->seed),
-                    brittle->referenceVolume};
+    spec.brittle = {.tensileStrength = brittle->tensileStrength,
+                    .fractureEnergy = brittle->fractureEnergy,
+                    .shearFactor = brittle->shearFactor,
+                    .shearEnergyFactor = brittle->shearEnergyFactor,
+                    .weibullModulus = brittle->weibullModulus,
+                    .strengthScatter = brittle->strengthScatter,
+                    .seed = static_cast<std::uint64_t>(brittle->seed),
+                    .referenceVolume = brittle->referenceVolume};
     checkBrittle(spec.brittle);
     if (!spec.selfContact)
       throw InputError(

@@ -34,6 +34,7 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
   double tensileStrength = 0;
   double fractureEnergy = 0;
   double shearFactor = 1;
+  double shearEnergyFactor = 1;
   double weibullModulus = 0;
   double strengthScatter = 0;
   int seed = 0;
@@ -50,11 +51,16 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
                   "J. Solids Struct. 33, 2899); beta is shearFactor, phi frictionAngle. So the "
                   "cohesion of Mohr and Coulomb is c = beta*ft."),
         attribute("fractureEnergy", &C::fractureEnergy,
-                  "Work (J/m²) that opens a crack; 0: it opens at once."),
+                  "Work (J/m²) that opens a crack by tension; 0: it opens at once."),
         attribute("shearFactor", &C::shearFactor,
                   "beta: shear strength over tensile strength. The shear strength is "
                   "beta*tensileStrength + tan(frictionAngle)*pressure: the larger beta, the harder "
                   "it is to crack by shear."),
+        attribute("shearEnergyFactor", &C::shearEnergyFactor,
+                  "kappa: work per area that a crack takes by shear alone, over fractureEnergy, "
+                  "which it takes by tension alone (Snozzi and Molinari 2013, Int. J. Numer. Meth. "
+                  "Eng. 93, 510). Friction between the faces takes its own work beside it. Without "
+                  "fractureEnergy it has no effect."),
         attribute(
             "weibullModulus", &C::weibullModulus,
             "Modulus m of a Weibull scatter of the strength (Weibull 1951, J. Appl. Mech. 18, "

@@ -173,6 +173,7 @@ class AnyWorld {
     if (chance_.oneIn(4)) brittle.weibullModulus = chance_.power(-1, 3);
     if (chance_.oneIn(4)) brittle.referenceVolume = chance_.power(-12, 6);
     brittle.shearFactor = chance_.power(-1, 1);
+    if (chance_.oneIn(4)) brittle.shearEnergyFactor = chance_.power(-2, 2);
     brittle.seed = chance_.engine()();
     if (chance_.oneIn(100)) brittle.strengthScatter = chance_.wrong();
     if (chance_.oneIn(100)) brittle.shearFactor = 0;

@@ -83,6 +83,8 @@ TEST(CheckBrittle, NamesArgumentValueAndWhatIsRight) {
             "at once.");
   EXPECT_EQ(saidOf({.tensileStrength = 1, .shearFactor = 0}),
             "shearFactor is 0; it must be positive and finite.");
+  EXPECT_EQ(saidOf({.tensileStrength = 1, .shearEnergyFactor = 0}),
+            "shearEnergyFactor is 0; it must be positive and finite.");
   EXPECT_EQ(saidOf({.tensileStrength = 1, .weibullModulus = -20}),
             "weibullModulus is -20; it must be positive and finite, or 0 for strengths without "
             "this scatter.");
@@ -100,6 +102,7 @@ TEST(CheckBrittle, RefusesWhatIsNotFinite) {
     EXPECT_NE(saidOf({.tensileStrength = bad}), "");
     EXPECT_NE(saidOf({.tensileStrength = 1, .fractureEnergy = bad}), "");
     EXPECT_NE(saidOf({.tensileStrength = 1, .shearFactor = bad}), "");
+    EXPECT_NE(saidOf({.tensileStrength = 1, .shearEnergyFactor = bad}), "");
     EXPECT_NE(saidOf({.tensileStrength = 1, .weibullModulus = bad}), "");
     EXPECT_NE(saidOf({.tensileStrength = 1, .strengthScatter = bad}), "");
   }

@@ -23,6 +23,7 @@ O = builtins.O
     (dict(tensileStrength=float('nan')), 'tensileStrength is nan'),
     (dict(fractureEnergy=-5), 'fractureEnergy is -5 J/m²; it must be'),
     (dict(shearFactor=0), 'shearFactor is 0; it must be'),
+    (dict(shearEnergyFactor=0), 'shearEnergyFactor is 0; it must be'),
     (dict(weibullModulus=-2), 'weibullModulus is -2; it must be'),
     (dict(referenceVolume=-1), 'referenceVolume is -1 m³; it must be'),
     (dict(strengthScatter=1), 'strengthScatter is 1; it must be'),

@@ -27,7 +27,7 @@ def hexagon():
 @pytest.mark.parametrize('ending', ['.xml', '.yade.gz'])
 def test_allIsSavedAndLoaded(ending, folder):
     brittle = w.BrittleFEMat(tensileStrength=3e8, fractureEnergy=50, shearFactor=2,
-                             weibullModulus=20, strengthScatter=.1, seed=7, planeStress=True,
+                             shearEnergyFactor=3, weibullModulus=20, strengthScatter=.1, seed=7, planeStress=True,
                              young=3e11, poisson=.2, density=3900, frictionAngle=.3, label='c')
     O.materials.append(brittle)
     O.bodies.append(chain.smooth(hexagon(), brittle, halo=.01, entry=3, component=1,

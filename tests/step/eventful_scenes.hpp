@@ -39,6 +39,7 @@ inline State stateOf(World& world) {
   add("search", world.search.isVoid), add("search", world.numSearches);
   add("ledger", world.ledger);
   for (const auto& opening : world.fracture.cohesion.largest) add("openings", opening);
+  for (const auto& traction : world.fracture.cohesion.traction) add("tractions", traction);
   state["saved"] = saved(world);
   return state;
 }

@@ -1,0 +1,231 @@
+// One edge between two triangles, pressed or pulled, and sheared: what holds it, against the law's
+// curves, and where the work goes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "fracture/cohesive_law.hpp"
+#include "step/bodies.hpp"
+
+namespace yadefrag {
+namespace {
+
+constexpr double kStrength = 300e6, kEnergy = 100;           // Pa, J/m²
+constexpr double kCritical = 2 * kEnergy / kStrength;        // m
+constexpr double kHalf = 1e-4;                               // m, half the edge
+constexpr double kArea = 2 * kHalf;                          // m²
+constexpr ElasticMaterial kStiff{275e11, 0, 2750, true};     // it hardly stores anything
+constexpr double kSpeed = 50;                                // m/s of each half
+constexpr int kSteps = 200;                                  // from shut to δc, by tension
+constexpr double kStep = kCritical / (2 * kSpeed) / kSteps;  // s
+
+constexpr double kWeak = 1e-6;  // of the strength, before it cracks
+
+struct Law {
+  double beta = 1, kappa = 1, friction = 0;
+};
+
+/// Two triangles left and right of the edge x = 0, hardly stretched. The edge is as weak until it
+/// has cracked, in the first step, and has its strength from then on.
+class Pair {
+ public:
+  explicit Pair(const Law& law) {
+    TriangleMesh mesh;
+    mesh.nodes = {{0, -kHalf}, {0, kHalf}, {-kHalf, 0}, {kHalf, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 3, 1}};
+    mesh.loops = mesh.loopVertices = {{0, 3, 1, 2}};
+    BodySpec spec;
+    spec.material = kStiff;
+    spec.friction = law.friction;
+    spec.brittle.tensileStrength = kStrength;
+    spec.brittle.fractureEnergy = kEnergy;
+    spec.brittle.shearFactor = law.beta;
+    spec.brittle.shearEnergyFactor = law.kappa;
+    for (const Vec2 x : mesh.nodes)
+      spec.displacement.push_back({1.3 * kWeak * kStrength / 275e11 * x.x, 0});
+    world.addBody(mesh, spec);
+    world.fracture.edges.strength[0] *= kWeak;
+    world.step(kStep);
+    EXPECT_EQ(world.fracture.numCracks(), 1U);
+    world.fracture.edges.strength[0] /= kWeak;
+    start_ = test::totalEnergy(world);
+  }
+
+  /// (m) From the left face to the right one.
+  [[nodiscard]] Vec2 opening(std::size_t end) const {
+    const auto& left = world.model.triangles.nodes[0];
+    const auto& right = world.model.triangles.nodes[1];
+    const auto& x = world.model.nodes.position;
+    return x[right[end == 0 ? 0 : 2].value] - x[left[end].value];
+  }
+
+  /// One step in which forces give each half this velocity (m/s; the left one its opposite), and
+  /// press the faces together by `pressure` (Pa).
+  void step(Vec2 speed, double pressure = 0) {
+    Nodes& nodes = world.model.nodes;
+    world.outerForces.assign(nodes.size(), {});
+    Vec2 push;
+    for (std::size_t element = 0; element < 2; ++element) {
+      const double sign = element == 0 ? -1 : 1;
+      const auto& corners = world.model.triangles.nodes[element];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double share = nodes.mass[corners[i].value] / kStep;
+        Vec2 force = share * (sign * speed - nodes.velocity[corners[i].value]);
+        // Pressed faces keep apart by themselves.
+        if (pressure > 0) force.x = i == (element == 0 ? 2U : 1U) ? 0 : -sign * pressure * kHalf;
+        world.outerForces[corners[i].value] = force;
+        if (element == 0) push += force;
+      }
+    }
+    const Vec2 before = leftMomentum();
+    world.step(kStep);
+    traction = 1 / kArea * (1 / kStep * (leftMomentum() - before) - push);
+    worstEnergy = std::max(worstEnergy, std::abs(test::totalEnergy(world) - start_));
+  }
+
+  World world;
+  Vec2 traction;           ///< Pa, on the left half, as its momentum tells
+  double worstEnergy = 0;  ///< J
+
+ private:
+  [[nodiscard]] Vec2 leftMomentum() const {
+    Vec2 sum;
+    for (const NodeId node : world.model.triangles.nodes[0])
+      sum += world.model.nodes.mass[node.value] * world.model.nodes.velocity[node.value];
+    return sum;
+  }
+
+  double start_ = 0;
+};
+
+// --- fixed ratios of opening and slip
+
+/// (of Gc) What is spent when the faces part in the direction `angle` (rad) from the normal.
+double spentAt(const Law& law, double angle) {
+  Pair pair(law);
+  const Vec2 speed = kSpeed * Vec2{std::cos(angle), std::sin(angle)};
+  for (int n = 0; n < 100 * kSteps && !pair.world.fracture.cohesion.edge.empty(); ++n)
+    pair.step(speed);
+  EXPECT_TRUE(pair.world.fracture.cohesion.edge.empty());
+  EXPECT_LT(pair.worstEnergy, 1e-6 * kEnergy * kArea);
+  return pair.world.ledger.fracture / (kEnergy * kArea);
+}
+
+/// The integral of T·dδ along a ray: of what δ² has of the opening, Gc, and of the slip, κGc.
+double expectedAt(const Law& law, double angle) {
+  const double normal = std::cos(angle), shear = law.beta / law.kappa * std::sin(angle);
+  return (normal * normal + law.kappa * shear * shear) / (normal * normal + shear * shear);
+}
+
+// Work is a trapezoid sum below a straight line; forces keep the direction within a part of δ that
+// is what the tractions move in a step, 3·10⁻⁵ of what the faces part in it.
+TEST(CrackShear, SpendsGcByTensionAndKappaGcByShear) {
+  for (const Law& law : {Law{}, Law{2, 1}, Law{1, 4}, Law{2, 3}, Law{.7, .5}, Law{3, 9}}) {
+    EXPECT_NEAR(spentAt(law, 0), 1, 1e-3);
+    for (const double degrees : {10., 30., 45., 60., 80., 90., -45.}) {
+      const double angle = degrees * std::numbers::pi / 180;
+      EXPECT_NEAR(spentAt(law, angle) / expectedAt(law, angle), 1, .01)
+          << law.beta << ' ' << law.kappa << ' ' << degrees;
+    }
+    EXPECT_NEAR(expectedAt(law, std::numbers::pi / 2), law.kappa, 1e-12);
+  }
+}
+
+// --- pressed faces
+
+/// (Pa) What the law gives in a step that ends at the slip `end` (m); `largest`: δmax.
+double lawfulShear(const Law& law, double& largest, double end) {
+  const double most = law.beta * envelope(kStrength, kCritical, largest);
+  const double opening = law.beta / law.kappa * end;
+  const double shear = largest > 0 && std::abs(opening) < largest ? most * opening / largest
+                                                                  : std::copysign(most, opening);
+  largest = std::max(largest, std::abs(opening));
+  return shear;
+}
+
+struct Rub {
+  double worstShear = 0, worstPressure = 0;  // of σc + p
+  double first = 0, last = 0;                // Pa, total shear
+  double path = 0;                           // m
+};
+
+/// Slips to the wanted values in turn (of δc), pressed by `pressure`.
+Rub rub(Pair& pair, const Law& law, double pressure, std::initializer_list<double> turns) {
+  std::array<double, 2> largest{};
+  Rub result;
+  for (const double turn : turns) {
+    const double sign = turn * kCritical > pair.opening(0).y ? 1 : -1;
+    for (int n = 0; n < 100 * kSteps && sign * (turn * kCritical - pair.opening(0).y) > 0; ++n) {
+      const std::array<double, 2> begin{pair.opening(0).y, pair.opening(1).y};
+      pair.step({0, sign * kSpeed}, pressure);
+      double wanted = sign * law.friction * pressure;
+      for (std::size_t end = 0; end < 2; ++end) {
+        wanted += lawfulShear(law, largest[end], pair.opening(end).y) / 2;
+        result.path += std::abs(pair.opening(end).y - begin[end]) / 2;
+      }
+      const double whole = kStrength + pressure;
+      result.worstShear = std::max(result.worstShear, std::abs(pair.traction.y - wanted) / whole);
+      result.worstPressure =
+          std::max(result.worstPressure, std::abs(pair.traction.x + pressure) / whole);
+      if (result.first == 0) result.first = pair.traction.y;
+      result.last = pair.traction.y;
+    }
+  }
+  return result;
+}
+
+// βσc + μp at opening, to 10⁻⁵; then a straight line to μp at the slip κδc/β, step by step to 0.2
+// %: what presses and holds the edge does not act on the triangles' tips, so that the faces turn by
+// some 10⁻³. Its work is κGc and μp times the slip, each in its own entry.
+TEST(CrackShear, PressedFacesRubBesideWhatHoldsThem) {
+  for (const Law& law : {Law{1, 1, .5}, Law{2, 3, .5}, Law{1, 1, 0}, Law{.5, 1, 2}})
+    for (const double part : {.1, 1., 3.}) {
+      const double pressure = part * kStrength;
+      Pair pair(law);
+      const double rest = law.kappa / law.beta;  // of δc
+      const Rub result = rub(pair, law, pressure, {.98 * rest});
+      EXPECT_LT(result.worstShear, 2e-3);
+      EXPECT_LT(result.worstPressure, 2e-3);
+      EXPECT_NEAR(result.first, law.beta * kStrength + law.friction * pressure, 1e-5 * kStrength);
+      EXPECT_NEAR(result.last, .02 * law.beta * kStrength + law.friction * pressure,
+                  .005 * (law.beta * kStrength + pressure));
+      EXPECT_LT(pair.worstEnergy, 1e-6 * kEnergy * kArea);
+      const EnergyLedger& ledger = pair.world.ledger;
+      const double rubbed = law.friction * pressure * result.path;
+      EXPECT_NEAR(ledger.friction / kArea, rubbed, 3e-3 * rubbed);
+      EXPECT_NEAR(ledger.fracture / kArea, law.kappa * kEnergy, 2e-3 * law.kappa * kEnergy);
+    }
+}
+
+// The law goes back by its line to the origin and beyond; friction turns with the slip at once.
+TEST(CrackShear, FrictionTurnsWithTheSlip) {
+  const Law law{1, 1, .5};
+  const double pressure = kStrength;
+  Pair pair(law);
+  const Rub result = rub(pair, law, pressure, {.4, -.3, .6, -.7, .2});
+  EXPECT_LT(result.worstShear, 3e-3);
+  EXPECT_LT(pair.worstEnergy, 1e-6 * kEnergy * kArea);
+  const double rubbed = law.friction * pressure * result.path;
+  EXPECT_NEAR(pair.world.ledger.friction / kArea, rubbed, .01 * rubbed);
+}
+
+// What friction and the law can hold does not move: below βσc + μp an edge that has cracked stays
+// as it is, also after the law alone has given way.
+TEST(CrackShear, RestsBelowWhatHoldsIt) {
+  const Law law{1, 1, .5};
+  for (const double slipped : {0., .5}) {
+    Pair pair(law);
+    if (slipped > 0) rub(pair, law, kStrength, {slipped});
+    pair.step({}, kStrength);  // what was kinetic energy is gone
+    const Vec2 before = pair.opening(0);
+    for (int n = 0; n < 200; ++n) pair.step({}, kStrength);
+    EXPECT_NEAR(norm(pair.opening(0) - before), 0, 1e-3 * kCritical) << slipped;
+  }
+}
+
+}  // namespace
+}  // namespace yadefrag
