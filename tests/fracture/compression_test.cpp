@@ -187,15 +187,15 @@ TEST_P(BiaxialPressure, BearsWhatMohrAndCoulombSay) {
 
 INSTANTIATE_TEST_SUITE_P(Pressures, BiaxialPressure, testing::Values(1e6, 2.5e6, 5e6));
 
-/// At 3 ft it begins to crack at the load of theory, too, but the load then rises on, by 10 % at
-/// 1.25 times the shortening: faces that zigzag by ±i slide at the angle φ + i (Patton 1966, Proc.
-/// 1st Congr. ISRM, 509). With the i ≈ 17° of irregular edges such rubble bears 8.2 σ₃, more than
-/// the whole block where σ₃ > 12 MPa.
+/// Wanted: 5 %. At 3 ft it begins to crack at the load of theory, too, but the load then rises on,
+/// at 1.25 times the shortening to +10 to +13 %: faces that zigzag by ±i slide at the angle φ + i
+/// (Patton 1966, Proc. 1st Congr. ISRM, 509). With i ≈ 17°, as irregular edges have it, such rubble
+/// bears 8.2 σ₃, more than the whole block where σ₃ > 12 MPa.
 TEST(Biaxial, UnderHighPressureItYieldsThereAndHardens) {
-  const Course course = Press({2e-3}, rock(), 15e6).run(1.15, .5);
+  const Course course = Press({2e-3}, rock(), 15e6).run(1.25, .5);
   figure("first_crack", course.first, 1, kFirst);
-  figure("peak", course.peak, 1.05, .1);
-  figure("last", course.last, 1, .15);
+  figure("peak", course.peak, 1.1, .05);
+  figure("last", course.last, 1.1, .1);
 }
 
 }  // namespace

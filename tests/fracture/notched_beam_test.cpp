@@ -140,12 +140,13 @@ TEST(NotchedBeam, EightElementsInAZoneAreWhatTheWarningAsksFor) {
   }
 }
 
+/// No better: the tip lies between triangles as well.
 TEST(NotchedBeam, RowsAndSmoothedStrains) {
   Trial rows, smoothed;
   rows.layout = NodeLayout::kRows;
   smoothed.element = ElementKind::kSmoothed;
-  record("rows", strength(4, rows));
-  record("smoothed", strength(4, smoothed));
+  figure("rows", strength(4, rows), 1.4, .1);
+  figure("smoothed", strength(4, smoothed), 1.25, .1);
 }
 
 }  // namespace

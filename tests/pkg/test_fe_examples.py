@@ -139,6 +139,21 @@ def test_ringBreaksAsTheorySays(folder):
     assert all(os.path.getsize(os.path.join(folder, f)) > 5000 for f in os.listdir(folder))
 
 
+@pytest.mark.parametrize('held', [False, True])
+def test_compressedBlocksBreakAsMohrAndCoulombSay(held, folder):
+    """5 %: measured +0.2, +1.4 %; with held ends, whose corners bear more, −2.8, −2.4 %."""
+    options = ['--size', '2e-3', '--pressures', '0', '2.5', '--scatter', '0', '--fracture-energy', '0',
+               '--out', folder]
+    out, _ = run('compression', *options, *['--held'] * held)
+    table = np.array([line.split() for line in out.splitlines() if line.strip()[:1].isdigit()],
+                     dtype=float)
+    assert table[:, 1] == pytest.approx([56.87, 65.86], rel=1e-3)
+    assert table[:, 3] == pytest.approx(1, abs=.05)
+    assert table[0, 4] < .5 and (table[:, 5] > 50).all() and (abs(table[:, 7]) < 1e-3).all()
+    assert os.listdir(folder) == ['compression_held.png' if held else 'compression.png']
+    assert os.path.getsize(os.path.join(folder, os.listdir(folder)[0])) > 5000
+
+
 def test_smoothCylinderRollsMoreEvenly():
     out, _ = run('rolling', '--no-pictures')
     ripples = [numbers(report['ripple'])[0] for report in rows(out)]
@@ -171,6 +186,8 @@ def test_picturesAreWritten(name, folder):
     ('impact', ['--speed', '0'], "it is '0', it must be a positive number"),
     ('impact', ['--fracture-energy', '-1'], "it is '-1', it must be a number of at least 0"),
     ('rolling', ['--out', '/dev/null/x'], "--out is '/dev/null/x', which is no folder"),
+    ('compression', ['--scatter', '1'], "it is '1', it must be at least 0 and below 1"),
+    ('compression', ['--size', '1'], "it is '1', it must be from 0.0002 to 0.005 m"),
     ('ring_fragments', ['--rates', '1e7'], "it is '1e7', it must be from 500 to 200,000"),
     ('ring_fragments', ['--out', '/dev/null/x'], "--out is '/dev/null/x', which is no folder"),
 ])
