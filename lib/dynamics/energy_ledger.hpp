@@ -19,9 +19,9 @@ namespace yadefrag {
 /// J, summed since the start. Each is what left the bodies' kinetic and strain energy, except
 /// `external`, which is what came in.
 struct EnergyLedger {
-  double contact = 0;   ///< −ΣF·v̄Δt of normal contact forces
-  double friction = 0;  ///< −ΣF·v̄Δt of tangential contact forces
-  double fracture = 0;
+  double contact = 0;   ///< −ΣF·v̄Δt of normal contact forces, of cracks that still hold, too
+  double friction = 0;  ///< −ΣF·v̄Δt of friction, of cracks that still hold, too
+  double fracture = 0;  ///< of the cohesive law, and of strains that split nodes no longer share
   double damping = 0;   ///< mass-proportional damping and bulk viscosity
   double dropped = 0;   ///< of fragments that were taken out
   double external = 0;  ///< gravity, loads, forces from outside, prescribed motion
