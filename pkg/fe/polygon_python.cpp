@@ -2,6 +2,7 @@
 
 #include "fe/fe_arrays.hpp"
 #include "mesh/polygon_text.hpp"
+#include "mesh/voronoi.hpp"
 
 namespace yadefrag {
 
@@ -23,6 +24,18 @@ py::tuple polygonOfText(const std::string& text) {
     py::list holes;
     for (const auto& hole : polygon.holes) holes.append(pairsOf(hole));
     return py::make_tuple(pairsOf(polygon.outline), holes);
+  });
+}
+
+py::list voronoiOf(const py::object& outline, std::uint32_t count, std::uint64_t seed, int rounds,
+                   double shortest) {
+  return asValueError([&] {
+    py::list grains;
+    const std::vector<Vec2> points = fromBytes<Vec2>(outline);
+    auto loops = voronoiGrains(points, count, seed, rounds);
+    if (shortest > 0) loops = withoutShortSides(std::move(loops), points, shortest);
+    for (const auto& grain : loops) grains.append(pairsOf(grain));
+    return grains;
   });
 }
 

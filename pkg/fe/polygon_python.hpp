@@ -1,6 +1,7 @@
 #pragma once
-// The reader of polygon files, for Python.
+// The reader of polygon files, and grains, for Python.
 
+#include <cstdint>
 #include <string>
 
 #include "abi/yade.hpp"
@@ -9,5 +10,9 @@ namespace yadefrag {
 
 /// (outline, holes) as lists of pairs; ValueError as polygonFromText.
 yade::py::tuple polygonOfText(const std::string& text);
+
+/// The grains of mesh/voronoi.hpp, as lists of pairs; `outline` is the bytes of its points.
+yade::py::list voronoiOf(const yade::py::object& outline, std::uint32_t count, std::uint64_t seed,
+                         int rounds, double shortest);
 
 }  // namespace yadefrag

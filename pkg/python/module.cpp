@@ -44,6 +44,7 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("keptVertices", &yadefrag::keptVertices);
   py::def("meshOfRectangle", &yadefrag::meshOfRectangle);
   py::def("polygonOfText", &yadefrag::polygonOfText);
+  py::def("voronoiOf", &yadefrag::voronoiOf);
   py::def("isInStep", &yadefrag::isInStep);
   py::def("requirePaused", &yadefrag::requirePaused,
           "Raises RuntimeError if another thread runs the scene.");

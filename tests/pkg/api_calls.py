@@ -96,6 +96,7 @@ def right(fe, folder):
     return dict(
         rectangle=dict(low=(0, 0), high=(1, 1)), circle=dict(centre=(0, 0), radius=1, n=8),
         ring=dict(centre=(0, 0), inner=1, outer=2, n=8), readPolygon=dict(file=folder + '/plate'),
+        voronoi=dict(outline=square, n=3, seed=1, rounds=1, shortest=.01), grainJoints=dict(grains=[square, square[::-1]]),
         rectangleMesh=dict(low=(0, 0), high=(1, 1), nx=2, ny=2, crossed=False),
         plotMesh=dict(fe=fe, field='mises', file=folder + '/a.png', ax=None, limits=(0, 1)),
         animate=dict(fe=fe, file=folder + '/a.gif', steps=1, every=1, field=None, limits=None, window=None,

@@ -170,3 +170,37 @@ def test_wrongJointsAreRefused(wrong, sentence):
     with pytest.raises(ValueError, match=sentence):
         solver.addPolygon(yadefrag.rectangle((0, 0), (.1, .02)), **{**wanted, **wrong})
     assert len(O.bodies) == 0 and len(solver.nodes) == 0
+
+
+# --- grains
+
+def test_grainsAsJointsOfOneBody():
+    outline = yadefrag.rectangle((0, 0), (.1, .02))
+    whole = plate(joints=()).criticalTimeStep()
+    O.reset()
+    grains = yadefrag.voronoi(outline, 30, seed=2, rounds=3, shortest=.0015)
+    joints = yadefrag.grainJoints(grains)
+    open_ = plate(joints=joints)
+    assert len(open_.fragments()) == 30
+    assert sorted(f['area'] for f in open_.fragments()) == \
+        pytest.approx(sorted(area(grain) for grain in grains), rel=1e-9)
+    O.reset()
+    weak = plate(joints=joints, jointStrength=1e6)
+    assert weak.criticalTimeStep() > whole / 8  # with sides of any length: a 200th
+    assert len(weak.fragments()) == 1
+    engines(weak)
+    O.run(20, True)
+    assert weak.numCracks == 0
+
+
+def area(loop):
+    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(loop, loop[1:] + loop[:1])) / 2
+
+
+def test_grainsAsBodies():
+    solver = w.FESolver()
+    for grain in yadefrag.voronoi(yadefrag.rectangle((0, 0), (.1, .02)), 12, seed=2, rounds=3):
+        solver.addPolygon(grain, size=.004, material=brittle())
+    engines(solver)
+    O.run(50, True)
+    assert solver.maxPenetration < 1e-12 and solver.energy['kinetic'] < 1e-15

@@ -78,3 +78,45 @@ def test_badPolygonFileNamesTheLine(folder, text, line):
         geometry.readPolygon(path)
     assert path in str(error.value) and line in str(error.value)
     assert str(error.value).endswith('.')
+
+
+def test_grainsFillTheirOutline():
+    outline = geometry.circle((1, 2), 3, 40)
+    grains = geometry.voronoi(outline, 60, seed=5)
+    assert len(grains) == 60 and all(area(grain) > 0 for grain in grains)
+    assert sum(map(area, grains)) == pytest.approx(area(outline), rel=1e-12)
+    assert geometry.voronoi(outline, 60, seed=5) == grains
+    assert geometry.voronoi(outline, 60, seed=6) != grains
+    assert len(geometry.voronoi(outline, 1)) == 1
+    even = geometry.voronoi(outline, 60, seed=5, rounds=10)
+    assert max(map(area, even)) / min(map(area, even)) < 3 < max(map(area, grains)) / min(map(area, grains))
+
+
+def test_grainsShareSides():
+    outline = geometry.rectangle((0, 0), (2, 1))
+    grains = geometry.voronoi(outline, 20)
+    joints = geometry.grainJoints(grains)
+    inner = sum(math.dist(*side) for side in joints)
+    around = sum(math.dist(a, b) for g in grains for a, b in zip(g, g[1:] + g[:1]))
+    assert around == pytest.approx(2 * inner + 6, rel=1e-12)
+    assert geometry.grainJoints(grains[:1]) == []
+
+
+@pytest.mark.parametrize('call, words', [
+    (lambda: geometry.voronoi([(0, 0), (1, 0)], 3), ('outline', '2 points')),
+    (lambda: geometry.voronoi([(0, 0), (1, 1), (1, 0), (0, 1)], 3), ('vertex', 'outline')),
+    (lambda: geometry.voronoi(geometry.circle((0, 0), 1), 0), ('n is 0', 'positive whole')),
+    (lambda: geometry.voronoi(geometry.circle((0, 0), 1), 10**6), ('n is 1000000', 'at most')),
+    (lambda: geometry.voronoi(geometry.circle((0, 0), 1), 3, seed=-1), ('seed is -1', '0 or more')),
+    (lambda: geometry.voronoi(geometry.circle((0, 0), 1), 3, rounds=1.5), ('rounds is 1.5', 'whole')),
+    (lambda: geometry.voronoi(geometry.circle((0, 0), 1), 3, shortest=-1), ('shortest is -1', '0 or a')),
+    (lambda: geometry.voronoi(geometry.rectangle((0, 0), (1, 1)), 30, shortest=.8),
+     ('shortest is 0.8 m, too long for these grains',)),
+    (lambda: geometry.voronoi([(0, 0), (1, 1), (1 + 1e-9, 1)], 3), ('no room for 3 grains',)),
+    (lambda: geometry.grainJoints(3), ('grains is 3', 'list of outlines')),
+    (lambda: geometry.grainJoints([[(0, 0)]]), ('grains[0]', '1 points')),
+])
+def test_wrongGrainsAreRefused(call, words):
+    with pytest.raises(ValueError) as error:
+        call()
+    assert isOneSentence(error) and all(word in str(error.value) for word in words)

@@ -22,7 +22,8 @@ from yadefrag import attributes, lifecycle, solver  # noqa: E402
 from yadefrag.export import exportVTK  # noqa: E402
 from yadefrag.fragments import (fragmentTable, plotFracture, plotFragmentSizes,  # noqa: E402
                                  recordFracture)
-from yadefrag.geometry import circle, readPolygon, rectangle, ring  # noqa: E402
+from yadefrag.geometry import (circle, grainJoints, readPolygon, rectangle, ring,  # noqa: E402
+                                voronoi)
 from yadefrag.pictures import animate, plotMesh  # noqa: E402
 from yadefrag.progress import runSteps  # noqa: E402
 from yadefrag.solver import rectangleMesh  # noqa: E402
@@ -47,6 +48,6 @@ for _name in __all__:
     setattr(builtins, _name, globals()[_name])
     attributes.install(globals()[_name])
 
-__all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'rectangleMesh', 'plotMesh', 'animate',
-            'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
+__all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'voronoi', 'grainJoints',
+            'rectangleMesh', 'plotMesh', 'animate', 'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
             'plotFracture', 'tradeoff', 'TradeoffTable']

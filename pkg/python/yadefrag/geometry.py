@@ -5,6 +5,7 @@ import math
 from yadefrag import _yadefrag, values
 
 CIRCLE_POINTS = 64
+MOST_GRAINS = 10**5
 MOST_POINTS = 10**7  # a list of more pairs takes gigabytes
 
 
@@ -68,6 +69,49 @@ def ring(centre, inner, outer, n=None):
         raise ValueError('inner is %g m, it must be less than outer, which is %g m.' %
                          (inner, outer))
     return circle(centre, outer, n), [circle(centre, inner, n)]
+
+
+def voronoi(outline, n, seed=0, rounds=0, shortest=0):
+    """`n` grains that fill an outline, as a list of outlines: Voronoi cells of random places.
+
+    outline  list of points (x, y) in m
+    n        grains, at most 10⁵; where the outline is not convex a cell may fall apart, and there
+             are more
+    seed     the same seed gives the same grains
+    rounds   of Lloyd (1982, IEEE Trans. Inf. Theory 28, 129), at most 100: each moves the places to
+             the middles of their cells, and makes the grains more even
+    shortest (m) sides that are shorter, and are none of the outline's, shrink to a point: else the
+             shortest of a few hundred makes the time step a hundred times as short; 0: none.
+             A third of addPolygon's `size` is a good choice
+    Neighbours share their corners to the last bit. Each may become a body, or all of them one body
+    with `joints=grainJoints(grains)`. ValueError for an outline that addPolygon would refuse, or
+    without room for so many places; and where `shortest` is too long for such grains.
+    """
+    points = values.pointsOf('outline', outline, 3)
+    n = values.whole('n', n, most=MOST_GRAINS)
+    seed = values.whole('seed', seed, least=0, right='a whole number, 0 or more', most=2**63 - 1)
+    rounds = values.whole('rounds', rounds, least=0, right='a whole number, 0 or more', most=100)
+    shortest = values.number('shortest', shortest, lambda v: math.isfinite(v) and v >= 0,
+                             '0 or a positive number (m)')
+    return _yadefrag.voronoiOf(points.tobytes(), n, seed, rounds, shortest)
+
+
+def grainJoints(grains):
+    """The sides that two of the grains share, each once, for addPolygon's `joints`.
+
+    grains  list of outlines, as `voronoi` returns them. A side counts as shared where both its ends
+    are the same points in both grains. ValueError for anything else than outlines.
+    """
+    if isinstance(grains, (str, bytes, dict, set)) or not hasattr(grains, '__iter__'):
+        values.refuse('grains', grains, 'a list of outlines')
+    known, joints = set(), []
+    for i, grain in enumerate(grains):
+        corners = [tuple(p) for p in values.pointsOf('grains[%d]' % i, grain, 3).tolist()]
+        for side in zip(corners, corners[1:] + corners[:1]):
+            if side[::-1] in known:
+                joints.append(side)
+            known.add(side)
+    return joints
 
 
 def readPolygon(file):

@@ -18,39 +18,11 @@ from yadefrag.meshing import isIrregular, jointLines, meshOfPolygon, simplified
 from yadefrag.places import array, brittlePlaces
 from yadefrag.quality import meshQuality
 from yadefrag.shown import betweenSteps, shownTriangles
-from yadefrag.values import (flag, isWhole, number, numbersOf, pair, plain, positive, refuse, shown,
+from yadefrag.values import (flag, isWhole, number, pair, plain, pointsOf, positive, refuse, shown,
                              whole)
 
 _ELEMENTS = ('linear', 'smoothed')
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
-
-
-def _points(name, value, least):
-    """(n, 2) floats, finite, of at least `least` points."""
-    points = _pairs(value)
-    if points is None:
-        raise ValueError('%s must be a list of points (x, y) in m.' % name)
-    if len(points) < least:
-        raise ValueError('%s has %d points, it must have at least %d.' %
-                         (name, len(points), least))
-    if not numpy.isfinite(points).all():
-        bad = int(numpy.nonzero(~numpy.isfinite(points).all(axis=1))[0][0])
-        raise ValueError('%s has a point %d at %s, which is not finite.' %
-                         (name, bad, shown(tuple(points[bad].tolist()))))
-    return points
-
-
-def _pairs(value):
-    """(n, 2) floats; None for what is no list of pairs of numbers."""
-    if isinstance(value, numpy.ndarray) and value.dtype.kind in 'iuf':
-        return value.astype(float) if value.ndim == 2 and value.shape[1] == 2 else None
-    if isinstance(value, (str, bytes, dict, set)):
-        return None
-    try:
-        pairs = [numbersOf(one, 2) for one in value]
-    except TypeError:
-        return None
-    return None if None in pairs else numpy.array(pairs, dtype=float).reshape(-1, 2)
 
 
 def _material(material):
@@ -243,14 +215,14 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     background; a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks,
     and one where short edges of the outline cost much of the time step.
     """
-    points = _points('outline', outline, 3)
+    points = pointsOf('outline', outline, 3)
     try:
         loops = None if isinstance(holes, (str, bytes, dict, set)) else list(holes)
     except TypeError:
         loops = None
     if loops is None:
         refuse('holes', holes, 'a list of loops of points (x, y) in m')
-    holePoints = [_points('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
+    holePoints = [pointsOf('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
     smooth = _smoothFlags(smooth, len(points))
     material = _material(material)
     if simplify is not None:
@@ -278,7 +250,7 @@ def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0,
     nodes (n, 2) in m, all of them used; triangles (m, 3) node numbers, counter-clockwise. `smooth`
     is True or False; the rest is as in addPolygon. ValueError before anything changes.
     """
-    points = _points('nodes', nodes, 3)
+    points = pointsOf('nodes', nodes, 3)
     corners = array(triangles)
     if corners is None or corners.ndim != 2 or corners.shape[1] != 3 or len(corners) == 0 \
             or not numpy.issubdtype(corners.dtype, numpy.integer):

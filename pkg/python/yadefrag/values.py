@@ -123,6 +123,34 @@ def pair(name, value, right='a pair of numbers'):
     return result
 
 
+def pointsOf(name, value, least):
+    """(n, 2) floats, finite, of at least `least` points."""
+    found = _pairs(value)
+    if found is None:
+        raise ValueError('%s must be a list of points (x, y) in m.' % name)
+    if len(found) < least:
+        raise ValueError('%s has %d points, it must have at least %d.' %
+                         (name, len(found), least))
+    if not numpy.isfinite(found).all():
+        bad = int(numpy.nonzero(~numpy.isfinite(found).all(axis=1))[0][0])
+        raise ValueError('%s has a point %d at %s, which is not finite.' %
+                         (name, bad, shown(tuple(found[bad].tolist()))))
+    return found
+
+
+def _pairs(value):
+    """(n, 2) floats; None for what is no list of pairs of numbers."""
+    if isinstance(value, numpy.ndarray) and value.dtype.kind in 'iuf':
+        return value.astype(float) if value.ndim == 2 and value.shape[1] == 2 else None
+    if isinstance(value, (str, bytes, dict, set)):
+        return None
+    try:
+        pairs = [numbersOf(one, 2) for one in value]
+    except TypeError:
+        return None
+    return None if None in pairs else numpy.array(pairs, dtype=float).reshape(-1, 2)
+
+
 def text(name, value):
     """A text that a file in UTF-8 can hold."""
     value = plain(value)
