@@ -48,11 +48,9 @@ TEST(ExtremeSaveOf, ARunGoesOnWithTheStepItHas) {
   const TriangleMesh mesh = structuredRectangle({}, {1, 1}, 2, 2);
   world.addBody(mesh, moving(mesh, {1e9, .2, 1000, false}, {1, 0}));
   const double dt = .999 * world.criticalTimeStep();
-  // It is pressed together, and its critical step becomes shorter.
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
-    world.model.nodes.velocity[n] = -20 * world.model.nodes.position[n];
   world.step(dt);
-  world.step(dt);
+  // It flies, and feels nothing of a material that has become stiffer.
+  world.model.components[0].material.young *= 1.1;
   ASSERT_LT(world.criticalTimeStep(), dt);
   World loaded;
   load(saved(world), loaded);

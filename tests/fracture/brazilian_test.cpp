@@ -102,8 +102,8 @@ TEST_P(Brazilian, SplitsAlongTheLoadedDiameter) {
   figure("beside_the_diameter", split.at.x, 0, std::max(.1, 2 * GetParam() / kRadius));
   figure("along_the_diameter", split.at.y, 0, .5);
   figure("turned", split.turned, 0, .3);
-  // Pressed slowly: inertia plays no part.
-  figure("balance", split.balance, 0, 1e-3);
+  // Pressed slowly: inertia plays no part but for what rings, of a thousandth.
+  figure("balance", split.balance, 0, 2e-3);
   figure("kinetic_over_strain", split.kinetic, 0, 1e-3);
 }
 
