@@ -49,14 +49,14 @@ TEST(ExtremeSaveOf, ARunGoesOnWithTheStepItHas) {
   world.addBody(mesh, moving(mesh, {1e9, .2, 1000, false}, {1, 0}));
   const double dt = .999 * world.criticalTimeStep();
   world.step(dt);
-  // It flies, and feels nothing of a material that has become stiffer.
+  // A stiffer material, for which the step is too long.
   world.model.components[0].material.young *= 1.1;
   ASSERT_LT(world.criticalTimeStep(), dt);
   World loaded;
   load(saved(world), loaded);
-  world.step(dt);
   EXPECT_EQ(sentenceOf([&] { loaded.step(dt); }), "");
-  EXPECT_TRUE(sameBits(world.model.nodes.position, loaded.model.nodes.position));
+  EXPECT_EQ(loaded.steps, 2U);
+  EXPECT_NE(sentenceOf([&] { loaded.step(1.001 * dt); }), "");
 }
 
 /// The nodes of an elastic body take the numbers of those of a brittle one.
