@@ -1,6 +1,8 @@
 #pragma once
 // Which edges reach their strength: the stress at a node is that of the triangles around it, by
-// area; at an edge it is the mean of its ends'.
+// area; at an edge it is the mean of its ends'. At the tip of a notch or a crack that mean takes in
+// what lies behind it, and an edge would give way much too late: where there is a fracture energy,
+// the forces that the edge transmits there count, too.
 
 #include <array>
 #include <span>
@@ -9,6 +11,7 @@
 #include "core/footprint.hpp"
 #include "dynamics/element_kernel.hpp"
 #include "fracture/crack_edges.hpp"
+#include "fracture/separation.hpp"
 
 namespace yadefrag {
 
@@ -40,6 +43,8 @@ class StrengthCheck {
   const Stress& stressOf(const Model& model, ElementId element);
   const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
   double ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge);
+  Traction tractionAtTip(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId tip,
+                         Vec2 normal);
   std::vector<EdgeId> pickApart(const Model& model, const CrackEdges& edges);
 
   // Looked at in this call if the mark is the call's number.
