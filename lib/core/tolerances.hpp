@@ -125,6 +125,10 @@ inline constexpr double kTouching = 1e-9;
 /// (of the coordinates) The same where coordinates are large: what a few of their roundings are.
 inline constexpr double kTouchRounding = 0x1p-50;
 
+/// (rad) A node whose triangles fill more of its surroundings is the tip of a notch or a crack: a
+/// straight boundary fills π, and a deformed or rounded one some degrees more.
+inline constexpr double kTipAngle = 3.46;
+
 /// (rad) A corner that turns by more is a slave in a single pass too: 30°.
 inline constexpr double kSharpCorner = .52;
 

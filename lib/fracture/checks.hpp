@@ -28,7 +28,7 @@ void checkCohesiveResolution(const Model& model, ComponentId component, double d
 void checkCohesiveResolution(const Model& model, const CrackEdges& edges, ComponentId component,
                              double dt);
 
-/// A sentence where the zone in which a crack's faces still hold is shorter than eight elements, so
+/// A sentence where the zone in which a crack's faces still hold is shorter than four elements, so
 /// that bodies with a notch or a crack bear too much; else empty. Its length is E·Gc/σc²
 /// (Hillerborg, Modéer and Petersson 1976, Cem. Concr. Res. 6, 773), an element's the mean of the
 /// component's edges.

@@ -4,6 +4,7 @@
 
 #include "dynamics/element_state.hpp"
 #include "fracture/separation.hpp"
+#include "fracture/tip_pull.hpp"
 
 namespace yadefrag {
 
@@ -37,11 +38,14 @@ void StrengthCheck::lookAround(const Model& model, const CrackEdges& edges, Node
   // Of an edge's two ends one at least bears as much by itself as their mean.
   const ComponentId body = model.nodes.component[node.value];
   const Component& component = model.components[body.value];
-  if (largestTraction(stressAt(model, edges, node), component.brittle, component.friction) <
-      leastStrength[body.value])
-    return;
+  const double most =
+      largestTraction(stressAt(model, edges, node), component.brittle, component.friction);
+  const bool isWeak = most >= leastStrength[body.value];
+  const bool mayHold = component.brittle.fractureEnergy > 0 || component.brittleByPlace;
+  if (!isWeak && !mayHold) return;
   around_.clear();
-  edges.appendFan(model, node, around_);
+  const bool isInside = edges.appendFan(model, node, around_);
+  if (!isWeak && (isInside || !isTip(model, around_, node))) return;
   for (const ElementId element : around_) {
     const int corner = cornerOf(model, element, node);
     for (const int side : {corner, static_cast<int>(beforeCorner(corner))}) {
@@ -101,10 +105,22 @@ double StrengthCheck::ratioOf(const Model& model, const CrackEdges& edges, EdgeI
   const Stress& other = stressAt(model, edges, b);
   for (std::size_t i = 0; i < 3; ++i) mean[i] = .5 * (mean[i] + other[i]);
   const Vec2 across = rightOf(model.nodes.position[b.value] - model.nodes.position[a.value]);
-  const Traction traction = tractionOn(mean, (1 / norm(across)) * across);
+  const Vec2 normal = (1 / norm(across)) * across;
+  const Traction traction = tractionOn(mean, normal);
   const Component& body = model.components[model.triangles.component[side.element.value].value];
-  return effectiveTraction(traction.normal, traction.shear, body.brittle, body.friction) /
-         edges.strength[edge.value];
+  double most = effectiveTraction(traction.normal, traction.shear, body.brittle, body.friction);
+  if (edges.fractureEnergy[edge.value] > 0)
+    for (const NodeId end : {a, b}) most = std::max(most, pullAt(model, edges, edge, end, normal));
+  return most / edges.strength[edge.value];
+}
+
+/// (Pa) At a node that is the tip of a notch or a crack; 0 at any other.
+double StrengthCheck::pullAt(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node,
+                             Vec2 normal) {
+  if (model.nodes.held[node.value] != kFree) return 0;
+  fan_.clear();
+  if (edges.appendFan(model, node, fan_) || !isTip(model, fan_, node)) return 0;
+  return tipPull(model, edges, edge, node, fan_, normal);
 }
 
 std::vector<EdgeId> StrengthCheck::pickApart(const Model& model, const CrackEdges& edges) {

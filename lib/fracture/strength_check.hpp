@@ -1,6 +1,7 @@
 #pragma once
 // Which edges reach their strength: the stress at a node is that of the triangles around it, by
-// area; at an edge it is the mean of its ends'.
+// area; at an edge it is the mean of its ends'. Where there is a fracture energy, the pull at the
+// tip of a notch or a crack counts, too (tip_pull.hpp).
 
 #include <array>
 #include <span>
@@ -40,6 +41,7 @@ class StrengthCheck {
   const Stress& stressOf(const Model& model, ElementId element);
   const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
   double ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge);
+  double pullAt(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node, Vec2 normal);
   std::vector<EdgeId> pickApart(const Model& model, const CrackEdges& edges);
 
   // Looked at in this call if the mark is the call's number.

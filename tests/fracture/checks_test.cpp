@@ -185,10 +185,10 @@ TEST(CohesiveZoneWarning, SaysZoneElementAndWhatWouldDo) {
   const std::string sentence = cohesiveZoneWarning(body(20, kBrittle), kBody);
   EXPECT_EQ(sentence.substr(0, sentence.find(';')),
             "fractureEnergy is 100 J/m² in component 0: the cohesive zone is 0.0003056 m long, "
-            "less than eight elements of 0.0005668 m");
+            "less than four elements of 0.0005668 m");
   const double wanted = numberAfter(sentence, "at most ");
-  EXPECT_LT(wanted, zone / 8);
-  EXPECT_GT(wanted, .98 * zone / 8);
+  EXPECT_LT(wanted, zone / 4);
+  EXPECT_GT(wanted, .98 * zone / 4);
   const double legToMean = (2 + std::sqrt(2.)) / 3;
   EXPECT_EQ(cohesiveZoneWarning(body(std::ceil(.01 * legToMean / wanted), kBrittle), kBody), "");
   EXPECT_NE(cohesiveZoneWarning(body(.01 * legToMean / wanted * .95, kBrittle), kBody), "");

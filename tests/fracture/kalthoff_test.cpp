@@ -28,7 +28,7 @@ void addPlate(World& world, double size) {
                                           kTip,
                                           {0, kTip.y - slit}},
                                          {}},
-                                        size);
+                                        size, {NodeLayout::kScattered, 1});
   BodySpec spec;
   spec.material = {190e9, .3, 8000, false};
   spec.brittle.tensileStrength = kStrength;

@@ -142,6 +142,7 @@ TEST(Strip, CrackRunsAtTheFractureEnergy) {
   double least = INFINITY, most = 0;
   for (const int rows : {24, 30, 36}) {
     const Outcome outcome = pullUntilBreak(rows);
+    RecordProperty("release_" + std::to_string(rows), std::to_string(outcome.release));
     EXPECT_NEAR(outcome.release, 1, .05) << rows;
     EXPECT_LT(outcome.ledger, .002) << rows;
     least = std::min(least, outcome.release), most = std::max(most, outcome.release);

@@ -95,23 +95,22 @@ Spread pullTurned(Trial trial, const std::vector<double>& turns) {
   return spread;
 }
 
-/// Wanted: 3° and 3 %. The crack goes from one node to a next one, up to 30° aside, and is one or
-/// two elements beside the middle: over 24 elements up to 6.3°, in both directions alike. The load
-/// scatters by 7 %, with how well an edge at the notch's tip lies.
+/// Wanted: 3° and 3 %. Measured: 2.4° over 24 elements, 2.8 %.
 TEST(TurnedPlate, CrackGoesAcross) {
   const Spread spread = pullTurned({kWide / 40}, {0, 15, 30, 45});
-  figure("steepest", spread.steepest, 0, 7);
-  figure("mean_angle", spread.mean, 0, 4);
-  figure("most_over_least", spread.most / spread.least, 1, .08);
+  figure("steepest", spread.steepest, 0, 3);
+  figure("mean_angle", spread.mean, 0, 2);
+  figure("most_over_least", spread.most / spread.least, 1, .03);
 }
 
-/// Over 36 elements nine of ten are within 3°, all within 5°, and the load scatters by 5 to 7 %.
+/// Over 36 elements, ten turns: 4.8°, the mean 0.8°, and the load scatters by 4.8 %. The crack goes
+/// from one node to a next one, up to 30° aside, and is one or two elements beside the middle.
 TEST(TurnedPlate, AllTurnsOfAFinerMesh) {
   if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   const Spread spread = pullTurned({kWide / 60}, {0, 5, 10, 15, 20, 25, 30, 35, 40, 45});
   figure("steepest", spread.steepest, 0, 5);
   figure("mean_angle", spread.mean, 0, 2);
-  figure("most_over_least", spread.most / spread.least, 1, .08);
+  figure("most_over_least", spread.most / spread.least, 1, .055);
 }
 
 }  // namespace

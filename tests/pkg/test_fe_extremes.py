@@ -282,7 +282,7 @@ def test_strengthOfNextToNothing():
 
 def test_fractureEnergyOfNextToNothing():
     """No step resolves it; none at all opens at once."""
-    with pytest.warns(UserWarning, match='less than eight elements'):
+    with pytest.warns(UserWarning, match='less than four elements'):
         solver, _ = brittle(1e6, 1e-9)
     before = solver.nodes
     with pytest.raises(ValueError, match='^fractureEnergy is 1e-09 J/m² .* would do'):

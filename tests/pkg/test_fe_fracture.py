@@ -48,7 +48,7 @@ def test_fragmentsAlwaysTouch():
 
 
 def test_coarseMeshIsWarnedOf():
-    with pytest.warns(UserWarning, match='less than eight elements'):
+    with pytest.warns(UserWarning, match='less than four elements'):
         impact(fractureEnergy=5)
 
 
