@@ -1,6 +1,7 @@
 #include "python/list_items.hpp"
 
 #include <boost/python.hpp>
+#include <unordered_map>
 #include <vector>
 
 #include "abi/yade.hpp"
@@ -33,8 +34,14 @@ bool keepsReferences() {
   return Py_REFCNT(item.ptr()) == before + 1;
 }
 
+/// References that YADE has lost, by item. Guarded by Python's lock.
+std::unordered_map<PyObject*, Py_ssize_t>& lostReferences() {
+  static std::unordered_map<PyObject*, Py_ssize_t> lost;
+  return lost;
+}
+
 template <class Item>
-struct Releasing {
+struct Watching {
   static inline converter::constructor_function yades = nullptr;
 
   /// Other sequences may make an item anew each time it is asked for: theirs are left alone.
@@ -42,7 +49,8 @@ struct Releasing {
     yades(sequence, data);
     if (!PyList_Check(sequence) && !PyTuple_Check(sequence)) return;
     const Py_ssize_t count = PySequence_Fast_GET_SIZE(sequence);
-    for (Py_ssize_t i = 0; i < count; ++i) Py_DECREF(PySequence_Fast_GET_ITEM(sequence, i));
+    for (Py_ssize_t i = 0; i < count; ++i)
+      ++lostReferences()[PySequence_Fast_GET_ITEM(sequence, i)];
   }
 
   static void install() {
@@ -55,15 +63,33 @@ struct Releasing {
 
 template <class... Items>
 void installFor() {
-  (Releasing<Items>::install(), ...);
+  (Watching<Items>::install(), ...);
 }
 
 }  // namespace
 
-void releaseListItems() {
+void watchListItems() {
   if (!keepsReferences()) return;
   installFor<yade::Body, yade::Engine, yade::BoundFunctor, yade::IGeomFunctor, yade::IPhysFunctor,
              yade::LawFunctor>();
+}
+
+std::size_t freeListItems() {
+  std::size_t freed = 0;
+  auto& lost = lostReferences();
+  // An engine that goes lets go of its functors, which may be in the list, too.
+  for (bool again = true; again;) {
+    std::vector<PyObject*> alone;
+    for (const auto& [item, count] : lost)
+      if (Py_REFCNT(item) == count) alone.push_back(item);
+    for (PyObject* item : alone) {
+      const Py_ssize_t count = lost.extract(item).mapped();
+      for (Py_ssize_t i = 0; i < count; ++i) Py_DECREF(item);
+    }
+    freed += alone.size();
+    again = !alone.empty();
+  }
+  return freed;
 }
 
 }  // namespace yadefrag

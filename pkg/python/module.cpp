@@ -50,8 +50,9 @@ BOOST_PYTHON_MODULE(_yadefrag) {
           "Raises RuntimeError if another thread runs the scene.");
   py::def("waitForStart", &yadefrag::waitForStart);
   py::def("stopRun", &yadefrag::stopRun);
-  py::def("releaseListItems", &yadefrag::releaseListItems,
-          "From now on YADE frees what was in a list that it was given.");
+  py::def("watchListItems", &yadefrag::watchListItems);
+  py::def("freeListItems", &yadefrag::freeListItems,
+          "Frees engines, functors and bodies that only YADE's lost references keep.");
   py::def("publish", &yadefrag::NewClasses::publishAll,
           "Adds the new classes to YADE, once; returns their names.");
 }

@@ -100,12 +100,15 @@ def _runBegun(run):
 
 
 def _resetStopped(reset):
-    """YADE's O.reset() waits for the last step with Python's lock, which a PyRunner would need."""
+    """YADE's O.reset() waits for the last step with Python's lock, which a PyRunner would need; and
+    what was in lists that it was given is never freed."""
     @functools.wraps(reset)
     def stopped(self):
-        if not _yadefrag.isInStep():
-            _yadefrag.stopRun()
+        if _yadefrag.isInStep():
+            return reset(self)
+        _yadefrag.stopRun()
         reset(self)
+        _yadefrag.freeListItems()
     return stopped
 
 
@@ -117,6 +120,6 @@ def install():
     _Omega.wait = _waitForAll(_Omega.wait)
     _Omega.run = _runBegun(_Omega.run)
     _Omega.reset = _resetStopped(_Omega.reset)
-    _yadefrag.releaseListItems()
+    _yadefrag.watchListItems()
     # The process must not end in the middle of a step.
     atexit.register(_yadefrag.stopRun)
