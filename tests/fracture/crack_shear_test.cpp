@@ -9,16 +9,11 @@
 #include <numbers>
 
 #include "fracture/cohesive_law.hpp"
-#include "step/bodies.hpp"
+#include "fracture/two_triangles.hpp"
 
-namespace yadefrag {
+namespace yadefrag::test {
 namespace {
 
-constexpr double kStrength = 300e6, kEnergy = 100;           // Pa, J/m²
-constexpr double kCritical = 2 * kEnergy / kStrength;        // m
-constexpr double kHalf = 1e-4;                               // m, half the edge
-constexpr double kArea = 2 * kHalf;                          // m²
-constexpr ElasticMaterial kStiff{275e11, 0, 2750, true};     // it hardly stores anything
 constexpr double kSpeed = 50;                                // m/s of each half
 constexpr int kSteps = 200;                                  // from shut to δc, by tension
 constexpr double kStep = kCritical / (2 * kSpeed) / kSteps;  // s
@@ -34,34 +29,20 @@ struct Law {
 class Pair {
  public:
   explicit Pair(const Law& law) {
-    TriangleMesh mesh;
-    mesh.nodes = {{0, -kHalf}, {0, kHalf}, {-kHalf, 0}, {kHalf, 0}};
-    mesh.triangles = {{0, 1, 2}, {0, 3, 1}};
-    mesh.loops = mesh.loopVertices = {{0, 3, 1, 2}};
     BodySpec spec;
-    spec.material = kStiff;
     spec.friction = law.friction;
-    spec.brittle.tensileStrength = kStrength;
-    spec.brittle.fractureEnergy = kEnergy;
     spec.brittle.shearFactor = law.beta;
     spec.brittle.shearEnergyFactor = law.kappa;
-    for (const Vec2 x : mesh.nodes)
-      spec.displacement.push_back({1.3 * kWeak * kStrength / 275e11 * x.x, 0});
-    world.addBody(mesh, spec);
+    addTwoTriangles(world, spec, 1.3 * kWeak);
     world.fracture.edges.strength[0] *= kWeak;
     world.step(kStep);
     EXPECT_EQ(world.fracture.numCracks(), 1U);
     world.fracture.edges.strength[0] /= kWeak;
-    start_ = test::totalEnergy(world);
+    start_ = totalEnergy(world);
   }
 
   /// (m) From the left face to the right one.
-  [[nodiscard]] Vec2 opening(std::size_t end) const {
-    const auto& left = world.model.triangles.nodes[0];
-    const auto& right = world.model.triangles.nodes[1];
-    const auto& x = world.model.nodes.position;
-    return x[right[end == 0 ? 0 : 2].value] - x[left[end].value];
-  }
+  [[nodiscard]] Vec2 opening(std::size_t end) const { return openingOf(world, end); }
 
   /// One step in which forces give each half this velocity (m/s; the left one its opposite), and
   /// press the faces together by `pressure` (Pa).
@@ -84,7 +65,7 @@ class Pair {
     const Vec2 before = leftMomentum();
     world.step(kStep);
     traction = 1 / kArea * (1 / kStep * (leftMomentum() - before) - push);
-    worstEnergy = std::max(worstEnergy, std::abs(test::totalEnergy(world) - start_));
+    worstEnergy = std::max(worstEnergy, std::abs(totalEnergy(world) - start_));
   }
 
   World world;
@@ -270,4 +251,4 @@ TEST(CrackShear, ObliqueHoldingIsNoException) {
 }
 
 }  // namespace
-}  // namespace yadefrag
+}  // namespace yadefrag::test

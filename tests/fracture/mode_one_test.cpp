@@ -8,46 +8,26 @@
 #include <numbers>
 
 #include "fracture/cohesive_law.hpp"
-#include "step/bodies.hpp"
+#include "fracture/two_triangles.hpp"
 
-namespace yadefrag {
+namespace yadefrag::test {
 namespace {
 
-constexpr double kStrength = 300e6, kEnergy = 100;         // Pa, J/m²
-constexpr double kCritical = 2 * kEnergy / kStrength;      // m
-constexpr double kHalf = 1e-4;                             // m, half the edge
-constexpr double kArea = 2 * kHalf;                        // m²
 constexpr std::array<std::uint32_t, 3> kLeft = {0, 1, 2};  // nodes of the left triangle
-constexpr ElasticMaterial kStiff{275e11, 0, 2750, true};   // it hardly stores anything
 
 /// Two triangles, stretched by more than the edge x = 0 between them bears: it cracks in the first
 /// step, in which they have shrunk a little.
 class TwoTriangles {
  public:
   explicit TwoTriangles(double dt) {
-    TriangleMesh mesh;
-    mesh.nodes = {{0, -kHalf}, {0, kHalf}, {-kHalf, 0}, {kHalf, 0}};
-    mesh.triangles = {{0, 1, 2}, {0, 3, 1}};
-    mesh.loops = mesh.loopVertices = {{0, 3, 1, 2}};
-    BodySpec spec;
-    spec.material = kStiff;
-    spec.brittle.tensileStrength = kStrength;
-    spec.brittle.fractureEnergy = kEnergy;
-    for (const Vec2 x : mesh.nodes)
-      spec.displacement.push_back({1.3 * kStrength / 275e11 * x.x, 0});
-    world.addBody(mesh, spec);
+    addTwoTriangles(world, {}, 1.3);
     world.step(dt);
     EXPECT_EQ(world.fracture.numCracks(), 1U);
     EXPECT_EQ(world.model.nodes.size(), 6U);
   }
 
   /// (m) Opening at an end.
-  [[nodiscard]] double opening(std::size_t end) const {
-    const auto& left = world.model.triangles.nodes[0];
-    const auto& right = world.model.triangles.nodes[1];
-    const auto& x = world.model.nodes.position;
-    return x[right[end == 0 ? 0 : 2].value].x - x[left[end].value].x;
-  }
+  [[nodiscard]] double opening(std::size_t end) const { return openingOf(world, end).x; }
 
   /// In the next step forces give each half this speed (m/s), away from the other.
   void drive(double speed, double dt) {
@@ -105,7 +85,7 @@ Course run(std::initializer_list<double> turns, int steps) {
   TwoTriangles pair(dt);
   const World& world = pair.world;
   const auto least = [&] { return std::min(pair.opening(0), pair.opening(1)); };
-  const double start = test::totalEnergy(world);
+  const double start = totalEnergy(world);
   double largest[2] = {0, 0};
   Course course;
   for (const double turn : turns) {
@@ -125,8 +105,8 @@ Course run(std::initializer_list<double> turns, int steps) {
       if (least() > 1e-6 * kCritical)
         course.worstTraction =
             std::max(course.worstTraction, std::abs(traction - wanted) / kStrength);
-      course.worstEnergy = std::max(course.worstEnergy,
-                                    std::abs(test::totalEnergy(world) - start) / (kEnergy * kArea));
+      course.worstEnergy =
+          std::max(course.worstEnergy, std::abs(totalEnergy(world) - start) / (kEnergy * kArea));
     }
   }
   course.spent = world.ledger.fracture / (kEnergy * kArea);
@@ -188,11 +168,11 @@ TEST(ModeOne, ADoorOpensAllTheWayRound) {
       nodes.velocity[node.value] = (element == 0 ? kSpin : -kSpin) * Vec2{-arm.y, arm.x};
     }
   }
-  const double start = test::totalEnergy(world);
+  const double start = totalEnergy(world);
   double worst = 0, turned = 0, released = 0;
   for (int n = 0; n < 40000; ++n) {
     world.step(kDt);
-    worst = std::max(worst, std::abs(test::totalEnergy(world) / start - 1));
+    worst = std::max(worst, std::abs(totalEnergy(world) / start - 1));
     turned += 2 * kSpin * kDt;
     if (released == 0 && world.fracture.cohesion.edge.empty()) released = turned;
   }
@@ -203,4 +183,4 @@ TEST(ModeOne, ADoorOpensAllTheWayRound) {
 }
 
 }  // namespace
-}  // namespace yadefrag
+}  // namespace yadefrag::test
