@@ -16,11 +16,6 @@ std::array<NodeId, 2> nodesAt(const Model& model, const CrackEdges& edges, EdgeI
   return {lastNode(model, first), firstNode(model, second)};
 }
 
-const BrittleMaterial& materialOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
-  const ElementId element = edges.side(edge, 0).element;
-  return model.components[model.triangles.component[element.value].value].brittle;
-}
-
 /// (m) δc = 2Gc/σc.
 double criticalOpening(const CrackEdges& edges, EdgeId edge) {
   return 2 * edges.fractureEnergy[edge.value] / edges.strength[edge.value];
