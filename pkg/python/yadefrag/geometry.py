@@ -102,7 +102,7 @@ def grainJoints(grains):
     grains  list of outlines, as `voronoi` returns them. A side counts as shared where both its ends
     are the same points in both grains. ValueError for anything else than outlines.
     """
-    if isinstance(grains, (str, bytes, dict, set)) or not hasattr(grains, '__iter__'):
+    if isinstance(grains, (str, bytes, dict, set, type)) or not hasattr(grains, '__iter__'):
         values.refuse('grains', grains, 'a list of outlines')
     known, joints = set(), []
     for i, grain in enumerate(grains):
