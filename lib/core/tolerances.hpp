@@ -325,7 +325,7 @@ inline constexpr double kEdgeGrowth = .25;
 inline constexpr double kNodeClearance = .75, kBoundaryClearance = .6;
 
 /// (of the squared tolerance) By how much equal costs of vertices that an outline could do without
-/// are told apart, so that their order is the same in every run.
+/// get different values, so that their order is the same in every run.
 inline constexpr double kEqualCosts = 1e-6;
 
 /// (of the size there) A joint that ends this near the outline or another joint ends on it: the
