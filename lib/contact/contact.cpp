@@ -188,7 +188,7 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
     if (isThroughItself(surfaces, before, active.pair, step)) continue;
     ContactRow row = makeRow(surfaces, before, active);
     startRow(row, model, surfaces, before, active, step);
-    if (contradicts(surfaces, row)) row.friction = 0;
+    if (contradicts(surfaces, row)) row.friction = row.tangentForce = 0;
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
     // Actives come in order: only the rows of a later detection go between others.
     rows_.insert(std::upper_bound(rows_.begin(), rows_.end(), row, byPair), row);

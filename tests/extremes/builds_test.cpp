@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.653286333504286);
-  expectNear(places.y, 1.4597249753255377);
-  expectNear(speeds, 4417.0312608387876);
-  expectNear(totalEnergy(world), 89.999330485380767);
-  expectNear(world.ledger.contact, 4.802068462132679);
+  expectNear(places.x, 3.6532863516331351);
+  expectNear(places.y, 1.4597252706768371);
+  expectNear(speeds, 4417.4916809185734);
+  expectNear(totalEnergy(world), 89.999329978014487);
+  expectNear(world.ledger.contact, 4.801786498768438);
 }
 
 }  // namespace

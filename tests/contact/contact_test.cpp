@@ -1,0 +1,71 @@
+// All of contact in one step: what it keeps from the step before.
+
+#include "contact/contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include "contact/contact_scenes.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+/// Surfaces with masses, and what the caller says of a step.
+struct ContactScene {
+  SurfaceScene scene;
+  Model model;
+  Contact contact;
+  std::vector<Vec2> before;
+  double move = .05;  ///< m
+  bool rubble = false;
+
+  void build(double friction, std::vector<SlaveMaster> pairs) {
+    model.nodes = plainNodes(scene.at.size());
+    model.nodes.position = before = scene.at;
+    model.components.resize(scene.components);
+    for (Component& component : model.components) component.friction = friction;
+    replaceCandidates(contact.candidates, pairs, scene.surfaces, scene.at);
+  }
+  void hold(EntryId first, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) model.nodes.held[nodeOf(first + k)] = kHeldXY;
+  }
+  [[nodiscard]] std::uint32_t nodeOf(EntryId entry) const {
+    return scene.surfaces.slave(entry).node[0].value;
+  }
+  /// From where the nodes were at the end of the last step, and where they have been put since.
+  void correct() {
+    constexpr double kDt = 1, kShortest = 1;
+    contact.correct(model, scene.surfaces, {},
+                    {kDt, 0, move, 2 * move, kShortest, 1, before, 1, rubble});
+    before = model.nodes.position;
+  }
+  [[nodiscard]] const ContactRow* rowOf(SlaveMaster pair) const {
+    for (const ContactRow& row : contact.rows())
+      if (row.slave == pair.slave && row.master == pair.master) return &row;
+    return nullptr;
+  }
+};
+
+/// Two roofs whose tips have passed each other: each is under the other's slope, and both rows push
+/// upwards. The second one may not rub, and what it held by friction in the step before is over.
+TEST(Contact, ARowThatContradictsAnotherCarriesNoFriction) {
+  for (const bool rubble : {false, true}) {
+    ContactScene s;
+    s.rubble = rubble;
+    const EntryId a = s.scene.addBody({{.1, 0}, {-1, .3}, {-1, -1}});
+    const EntryId b = s.scene.addBody({{-.1, 0}, {1, -1}, {1, .3}});
+    const SlaveMaster first{a, b + 2}, second{b, a};
+    s.build(.5, {first, second});
+    s.contact.candidates.outside.assign(2, 1);
+    s.contact.touches = {{first, 1, .4, 0}, {second, 1, .4, 0}};
+    s.correct();
+    ASSERT_NE(s.rowOf(first), nullptr);
+    ASSERT_NE(s.rowOf(second), nullptr);
+    EXPECT_EQ(s.rowOf(first)->friction, .5);
+    EXPECT_EQ(s.rowOf(second)->friction, 0);
+    EXPECT_EQ(s.rowOf(second)->tangentForce, 0);
+    EXPECT_EQ(s.contact.touches[1].tangentForce, 0);
+  }
+}
+
+}  // namespace
+}  // namespace yadefrag::test
