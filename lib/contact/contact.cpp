@@ -66,11 +66,10 @@ void Contact::reserve(std::size_t nodes) {
 
 void Contact::correct(Model& model, const ContactSurfaces& surfaces,
                       const ContactSettings& settings, const ContactStep& step) {
-  const double moved = step.move + now_.largestCorrection;
   begin();
   bool gapsAreKnown = false;
   double reach = step.reach;
-  scan(model, surfaces, step, reach, moved);
+  scan(model, surfaces, step, reach, step.move);
   const int most = step.rubble ? tolerance::kRubbleDetections : tolerance::kDetections;
   for (int detection = 0; detection < most; ++detection) {
     const bool anyNew = addRows(model, surfaces, step);
@@ -93,7 +92,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
     gapsAreKnown = false;
     if (2 * now_.largestCorrection > reach) {
       reach = 2 * now_.largestCorrection;
-      scan(model, surfaces, step, reach, now_.largestCorrection);
+      scan(model, surfaces, step, reach);
     }
   }
   if (step.rubble && !gapsAreKnown) lookAgain(model, surfaces, step);
@@ -147,10 +146,12 @@ void Contact::releaseUnsolved() {
     if (!std::isfinite(row.left)) row.normalForce = row.tangentForce = 0;
 }
 
+/// `moved`: m, by no more than this has anything but corrections moved a node since the last scan.
 void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
                    double reach, double moved) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
-  search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads, moved);
+  search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads, moved + sinceScan_);
+  sinceScan_ = 0;
   lookedAt_ = false;
 }
 
@@ -306,15 +307,18 @@ void Contact::move(Model& model, const ContactStep& step) {
   for (const NodeId node : touched_) forces_[node.value] = {};
   sumForces();
   const double squared = step.length.squared();
-  double largest = 0;
+  double largest = 0, farthest = 0;
   for (const NodeId node : touched_) {
     const Vec2 mobile = mobility(model.nodes, node, step.drag);
     const Vec2 force = forces_[node.value];
     const Vec2 u{squared * mobile.x * force.x, squared * mobile.y * force.y};
-    model.nodes.position[node.value] += u - displacement_[node.value];
+    const Vec2 by = u - displacement_[node.value];
+    model.nodes.position[node.value] += by;
     displacement_[node.value] = u;
     largest = std::max(largest, dot(u, u));
+    farthest = std::max(farthest, dot(by, by));
   }
+  sinceScan_ += std::sqrt(farthest);
   now_.largestCorrection = std::sqrt(largest);
   if (now_.largestCorrection <= 2 * tolerance::kFarthestMove * step.shortest) return;
   std::ostringstream text;

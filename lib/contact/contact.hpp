@@ -104,7 +104,7 @@ class Contact {
   void begin();
   void clearForces();
   void scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
-            double reach, double moved);
+            double reach, double moved = 0);
   void solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
              bool anyNew);
   [[nodiscard]] std::span<const ContactRow> rowsOf(EntryId slave) const;
@@ -136,6 +136,7 @@ class Contact {
   std::vector<std::uint8_t> isTouched_;  // by node
   bool lookedAt_ = false;                // what the last scan found near, where it then was
   double inexact_ = 0;                   // m, by how much sweeps may be wrong
+  double sinceScan_ = 0;                 // m, by no more have corrections moved a node since then
   // Of the step before, for `takeBack`; touches once the step has some of its own.
   std::vector<ContactRow> formerRows_;
   std::vector<Touch> formerTouches_;

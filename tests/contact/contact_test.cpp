@@ -67,5 +67,36 @@ TEST(Contact, ARowThatContradictsAnotherCarriesNoFriction) {
   }
 }
 
+/// A light corner that one row throws far and the next one brings back, and a needle that comes
+/// down on the side of it. The second scan sees that side far away; the needle must be seen all the
+/// same when it arrives, in the step in which it would be without any row asleep.
+int stepsUntilTouch(bool sleeps) {
+  ContactScene s;
+  const EntryId body = s.scene.addBody({{0, 0}, {9, -1}, {10, 0}});
+  const EntryId floor = s.scene.addBody({{-5, -5}, {.01, -5}, {.01, -.05}, {-5, -.05}});
+  const EntryId pressing = s.scene.addNeedle({0, -1}), coming = s.scene.addNeedle({0, -1});
+  s.scene.moveNeedle(pressing, {9.5, 0});
+  s.scene.moveNeedle(coming, {.5, .2});
+  const SlaveMaster arrival{coming, body + 2};
+  s.build(0, {{pressing, body + 2}, {body, floor + 2}, arrival});
+  s.hold(floor, 4), s.hold(pressing, 3);
+  s.model.nodes.mass[s.nodeOf(body)] = 1e-6;
+  s.model.nodes.mass[s.nodeOf(coming)] = 1e-9;
+  for (std::size_t k = 0; k < 3; ++k) s.model.nodes.position[s.nodeOf(pressing + k)].y -= .1;
+  for (int step = 0; step < 40; ++step) {
+    if (!sleeps) s.contact.candidates.asleep.clear();
+    s.correct();
+    if (s.rowOf(arrival)) return step;
+    for (std::size_t k = 0; k < 3; ++k) s.model.nodes.position[s.nodeOf(coming + k)].y -= s.move;
+  }
+  return -1;
+}
+
+TEST(Contact, NoRowSleepsTooLongAfterAStepWithTwoScans) {
+  const int wanted = stepsUntilTouch(false);
+  EXPECT_GT(wanted, 3);
+  EXPECT_EQ(stepsUntilTouch(true), wanted);
+}
+
 }  // namespace
 }  // namespace yadefrag::test
