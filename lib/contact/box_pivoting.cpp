@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/solver.hpp"
 
 namespace yadefrag {
 
@@ -126,7 +126,6 @@ void BoxPivoting::readStates(const Shifted& shifted) {
 
 /// Goes from `current_` towards the target, clamped, as far as the energy falls enough.
 bool BoxPivoting::descend(const Shifted& shifted, const std::vector<double>& target) {
-  constexpr double kArmijo = 1e-4;
   const ScaledBox& box = shifted.box;
   step_.resize(box.size());
   for (double part = 1; part > tolerance::kLeastDescent; part *= .5) {
@@ -139,7 +138,7 @@ bool BoxPivoting::descend(const Shifted& shifted, const std::vector<double>& tar
     }
     for (std::size_t i = 0; i < box.size(); ++i)
       second += step_[i] * (box.matrix.rowTimes(i, step_.data()) + shifted.added * step_[i]);
-    if (!(first + .5 * second <= kArmijo * first) || first >= 0) continue;
+    if (!(first + .5 * second <= tolerance::kArmijo * first) || first >= 0) continue;
     for (std::size_t i = 0; i < box.size(); ++i)
       current_[i] = std::clamp(current_[i] + step_[i], box.lower[i], box.upper[i]);
     readStates(shifted);

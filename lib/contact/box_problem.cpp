@@ -6,7 +6,7 @@
 
 #include "contact/box_pivoting.hpp"
 #include "contact/box_small.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/solver.hpp"
 
 namespace yadefrag {
 
@@ -118,7 +118,6 @@ void BoxSolver::Work::startAt(const BoxProblem& p, std::span<const double> start
 
 /// The true error of `lambda`, which is clamped into the box; is it within tolerance or rounding.
 double BoxSolver::Work::errorOf(bool& enough) {
-  constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
   double error = 0;
   enough = true;
   for (std::size_t i = 0; i < lambda.size(); ++i)
@@ -133,7 +132,8 @@ double BoxSolver::Work::errorOf(bool& enough) {
     }
     const double rowError =
         std::abs(lambda[i] - std::clamp(lambda[i] - r, box.lower[i], box.upper[i])) * root[i];
-    enough = enough && rowError <= tolerance::kBoxResidual * largest + kRounding * sum * root[i];
+    enough = enough && rowError <= tolerance::kBoxResidual * largest +
+                                       tolerance::kGapRounding * sum * root[i];
     if (!(rowError <= error)) error = rowError;  // and NaN stays
   }
   return error;

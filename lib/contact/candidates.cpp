@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/contact.hpp"
 #include "surface/piece_geometry.hpp"
 
 namespace yadefrag {

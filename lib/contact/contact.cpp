@@ -7,7 +7,9 @@
 
 #include "contact/row_builder.hpp"
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/contact.hpp"
+#include "core/tolerances/solver.hpp"
+#include "core/tolerances/step.hpp"
 #include "mesh/mobility.hpp"
 
 namespace yadefrag {

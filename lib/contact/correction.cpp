@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/solver.hpp"
 #include "mesh/mobility.hpp"
 
 namespace yadefrag {

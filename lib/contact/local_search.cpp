@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/contact.hpp"
 
 namespace yadefrag {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/contact.hpp"
 #include "surface/piece_geometry.hpp"
 
 namespace yadefrag {

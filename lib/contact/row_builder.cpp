@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/contact.hpp"
 
 namespace yadefrag {
 

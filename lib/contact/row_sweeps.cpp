@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tolerances.hpp"
 #include "mesh/mobility.hpp"
 
 namespace yadefrag {

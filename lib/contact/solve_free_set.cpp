@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/solver.hpp"
 
 namespace yadefrag {
 namespace {

@@ -12,7 +12,7 @@
 #include <mutex>
 #include <vector>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/threads.hpp"
 
 namespace yadefrag {
 

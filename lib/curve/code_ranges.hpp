@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/search.hpp"
 #include "curve/position_code.hpp"
 
 namespace yadefrag {

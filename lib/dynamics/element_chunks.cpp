@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/csr.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
 
 namespace yadefrag {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "dynamics/elastic_law.hpp"
 #include "dynamics/lane_corners.hpp"
 

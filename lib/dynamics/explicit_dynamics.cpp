@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "dynamics/chunk_nodes.hpp"
 
 namespace yadefrag {

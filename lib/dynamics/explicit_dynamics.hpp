@@ -9,7 +9,7 @@
 
 #include "core/parallel.hpp"
 #include "core/step_length.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "dynamics/element_kernel.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "dynamics/strain_smoothing.hpp"

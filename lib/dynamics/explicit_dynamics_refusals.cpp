@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "core/vec2.hpp"
 #include "dynamics/element_chunks.hpp"
 #include "dynamics/element_kernel.hpp"

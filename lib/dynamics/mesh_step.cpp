@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/mesh.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/quality.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/fracture.hpp"
 #include "dynamics/smoothed_state.hpp"
 
 namespace yadefrag {

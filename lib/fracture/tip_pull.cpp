@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/fracture.hpp"
 #include "dynamics/element_state.hpp"
 
 namespace yadefrag {

@@ -8,15 +8,12 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/mesh.hpp"
 #include "mesh/joint_lines.hpp"
 #include "mesh/polygon.hpp"
 
 namespace yadefrag {
 namespace {
-
-/// (count) Steps of the integral along an edge in each of its parts.
-constexpr double kStepsPerPart = 8;
 
 std::string text(double value) {
   std::array<char, 32> buffer;
@@ -98,7 +95,7 @@ std::vector<Vec2> gradedPoints(Vec2 a, Vec2 b, const SizeField& size) {
   std::vector<double> ends{0}, sums{0};  // of short steps along the edge
   while (ends.back() < length) {
     const double here = size.at(a + (b - a) * (ends.back() / length));
-    const double end = std::min(length, ends.back() + here / kStepsPerPart);
+    const double end = std::min(length, ends.back() + here / tolerance::kStepsPerPart);
     sums.push_back(sums.back() + (end - ends.back()) / size.at(a + (b - a) * (end / length)));
     ends.push_back(end);
   }

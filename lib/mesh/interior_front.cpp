@@ -5,7 +5,7 @@
 #include <map>
 
 #include "core/random_bits.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/mesh.hpp"
 #include "mesh/spacing_grid.hpp"
 
 namespace yadefrag {
@@ -75,8 +75,6 @@ class Front {
   }
 
  private:
-  static constexpr int kTries = 30;  // with 20, one triangle in 10⁴ has a corner below 35°
-
   [[nodiscard]] Vec2 boundaryNode(std::uint32_t i) const { return boundary_.nodes[i]; }
   [[nodiscard]] double spacingAt(std::uint32_t i) const {
     return (length_[before_[i]] + length_[i]) / 2;
@@ -181,7 +179,7 @@ class Front {
   /// At random places between one and two radii away.
   void scatterFrom(const Source& source) {
     const double farthest = 2 * tolerance::kNodeClearance * source.spacing;
-    for (int k = 0; k < kTries; ++k) {
+    for (int k = 0; k < tolerance::kNodeTries; ++k) {
       Vec2 way;
       do way = {random_.symmetric(), random_.symmetric()};
       while (dot(way, way) > 1 || dot(way, way) < .25);

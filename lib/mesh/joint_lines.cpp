@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/mesh.hpp"
 
 namespace yadefrag {
 namespace {

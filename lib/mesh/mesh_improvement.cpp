@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/mesh.hpp"
 #include "mesh/quality.hpp"
 
 namespace yadefrag {

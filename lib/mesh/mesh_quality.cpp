@@ -7,6 +7,7 @@
 #include <queue>
 #include <utility>
 
+#include "core/tolerances/mesh.hpp"
 #include "mesh/numbering.hpp"
 #include "mesh/quality.hpp"
 
@@ -63,8 +64,6 @@ std::vector<Edge> edgesOf(std::span<const Triangle> triangles) {
 
 class Paths {
   static constexpr double kFar = std::numeric_limits<double>::infinity();
-  static constexpr double kShortest = .6;      // of the longest line
-  static constexpr double kLongestPath = 1.3;  // of the line; in a lattice at most 1.16
 
  public:
   Paths(std::span<const Vec2> nodes, std::span<const Edge> edges, double longest)
@@ -129,7 +128,7 @@ class Paths {
       const auto [distance, node] = queue.top();
       queue.pop();
       if (distance > distance_[node]) continue;
-      if (distance > kLongestPath * longest_) break;
+      if (distance > tolerance::kLongestPath * longest_) break;
       count(source, node);
       for (std::uint32_t i = first_[node]; i < first_[node + 1]; ++i) {
         const auto [to, length] = links_[i];
@@ -158,7 +157,8 @@ class Paths {
   void count(std::uint32_t source, std::uint32_t target) {
     const Vec2 line = nodes_[target] - nodes_[source];
     const double length = norm(line);
-    if (!isInner_[target] || length < kShortest * longest_ || length > longest_) return;
+    if (!isInner_[target] || length < tolerance::kShortestLine * longest_ || length > longest_)
+      return;
     if (leavesBody(nodes_[source], nodes_[target])) return;
     const std::size_t i = directionOf(line);
     sum_[i] += distance_[target] / length;

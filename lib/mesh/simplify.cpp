@@ -17,7 +17,7 @@
 
 #include "core/errors.hpp"
 #include "core/random_bits.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/mesh.hpp"
 #include "mesh/polygon.hpp"
 
 namespace yadefrag {

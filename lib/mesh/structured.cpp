@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/mesh.hpp"
 #include "mesh/numbering.hpp"
 #include "mesh/quality.hpp"
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/mesh.hpp"
 #include "mesh/delaunay.hpp"
 #include "mesh/divided_boundary.hpp"
 #include "mesh/interior_front.hpp"

@@ -16,6 +16,7 @@
 
 #include "core/errors.hpp"
 #include "core/random_bits.hpp"
+#include "core/tolerances/mesh.hpp"
 #include "mesh/polygon.hpp"
 
 namespace yadefrag {
@@ -121,13 +122,10 @@ class Grains {
   }
 
  private:
-  /// Of an outline that fills a thousandth of its box, `kTries` find ten places on average.
-  static constexpr int kTries = 10000;
-
   void scatter(std::uint32_t count) {
     std::set<std::pair<double, double>> known;
     for (int tries = 0; places_.size() < count; ++tries) {
-      if (tries == kTries)
+      if (tries == tolerance::kPlaceTries)
         throw InputError("The outline has no room for " + std::to_string(count) +
                          " grains: it is too thin, or too far from the origin.");
       const Vec2 way{(random_.symmetric() + 1) / 2, (random_.symmetric() + 1) / 2};

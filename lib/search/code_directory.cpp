@@ -4,7 +4,7 @@
 #include <bit>
 #include <cassert>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/search.hpp"
 
 namespace yadefrag {
 

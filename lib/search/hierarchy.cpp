@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/search.hpp"
 
 namespace yadefrag {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/search.hpp"
 #include "curve/position_code.hpp"
 #include "search/filter_box.hpp"
 #include "search/search_plan.hpp"

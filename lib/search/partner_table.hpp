@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/csr.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/search.hpp"
 
 namespace yadefrag {
 

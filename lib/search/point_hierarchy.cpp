@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/search.hpp"
 
 namespace yadefrag {
 namespace {

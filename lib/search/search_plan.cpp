@@ -4,12 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/search.hpp"
 
 namespace yadefrag {
 namespace {
-
-constexpr std::size_t kSample = 1024;
 
 struct Sample {
   std::vector<double> sides;
@@ -20,7 +18,7 @@ struct Sample {
 Sample takeSample(std::span<const Box> boxes) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Sample s{{}, {inf, inf, inf}, {-inf, -inf, -inf}};
-  const std::size_t stride = boxes.size() / kSample + 1;
+  const std::size_t stride = boxes.size() / tolerance::kSample + 1;
   for (std::size_t i = 0; i < boxes.size(); i += stride) {
     const Box& box = boxes[i];
     const double side = longestSide(box);

@@ -1,4 +1,5 @@
 #include "search/sorted_list.hpp"
+#include "core/tolerances/search.hpp"
 
 #include <array>
 #include <bit>
@@ -9,12 +10,11 @@ namespace {
 
 constexpr int kDigitBits = 11;  // 2048 counters stay in the first-level cache
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
-constexpr std::size_t kRadixPays = 256;  // a shorter list has fewer entries than there are counters
 
 }  // namespace
 
 void sortByCode(std::vector<CodedSlot>& list) {
-  if (list.size() < kRadixPays) {
+  if (list.size() < tolerance::kRadixPays) {
     std::sort(list.begin(), list.end());
     return;
   }

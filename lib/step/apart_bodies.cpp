@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/step.hpp"
 #include "search/contact_search.hpp"
 #include "step/body_places.hpp"
 

@@ -7,7 +7,8 @@
 #include <sstream>
 
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
+#include "core/tolerances/mesh.hpp"
 #include "fracture/checks.hpp"
 #include "mesh/assembly.hpp"
 #include "step/world.hpp"

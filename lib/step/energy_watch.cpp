@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/step.hpp"
 
 namespace yadefrag {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/contact.hpp"
 #include "search/contact_search.hpp"
 #include "step/world.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "fracture/checks.hpp"
 #include "mesh/assembly.hpp"

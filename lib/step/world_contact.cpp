@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/contact.hpp"
+#include "core/tolerances/dynamics.hpp"
+#include "core/tolerances/step.hpp"
 #include "step/entry_pairs.hpp"
 #include "step/world.hpp"
 #include "surface/piece_geometry.hpp"

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/step.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "step/world.hpp"
 

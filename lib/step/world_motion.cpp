@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/step.hpp"
 #include "step/overlap_check.hpp"
 #include "step/world.hpp"
 #include "surface/piece_geometry.hpp"

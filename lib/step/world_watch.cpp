@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
+#include "core/tolerances/step.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/surface.hpp"
 
 namespace yadefrag {
 namespace {

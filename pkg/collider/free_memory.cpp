@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/collider.hpp"
 
 namespace yadefrag {
 namespace {

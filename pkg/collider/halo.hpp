@@ -8,7 +8,7 @@
 #include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"
 #include "core/ids.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/collider.hpp"
 
 namespace yadefrag {
 

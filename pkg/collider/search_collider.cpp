@@ -9,7 +9,7 @@
 #include "collider/complaints.hpp"
 #include "collider/interval.hpp"
 #include "core/parallel.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/collider.hpp"
 #include "fe/surface_segment.hpp"
 #include "search/periodic_overlap.hpp"
 

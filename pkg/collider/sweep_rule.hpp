@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "abi/yade.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/collider.hpp"
 
 namespace yadefrag {
 

@@ -12,7 +12,8 @@
 
 #include "collider/motion_watch.hpp"
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
+#include "core/tolerances/step.hpp"
 #include "fe/pair_source.hpp"
 #include "fracture/checks.hpp"
 

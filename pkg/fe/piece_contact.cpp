@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tolerances.hpp"
-
 namespace yadefrag {
 namespace {
 

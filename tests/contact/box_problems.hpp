@@ -7,7 +7,7 @@
 #include <random>
 
 #include "contact/box_problem.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/solver.hpp"
 
 namespace yadefrag::test {
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/contact_scenes.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/solver.hpp"
 
 namespace yadefrag::test {
 namespace {

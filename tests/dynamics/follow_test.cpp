@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/same_bits.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "dynamics/blocks.hpp"
 
 namespace yadefrag {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/dynamics.hpp"
 #include "dynamics/blocks.hpp"
 #include "dynamics/element_state.hpp"
 #include "fracture/separation.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/mesh.hpp"
 #include "mesh/triangulate.hpp"
 #include "polygons.hpp"
 

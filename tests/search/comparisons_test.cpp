@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/search.hpp"
 #include "search/contact_search.hpp"
 
 namespace yadefrag {

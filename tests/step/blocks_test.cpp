@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/solver.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
 

@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "core/tolerances.hpp"
+#include "core/tolerances/step.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
 

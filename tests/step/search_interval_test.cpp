@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/same_bits.hpp"
-#include "core/tolerances.hpp"
+#include "core/tolerances/step.hpp"
 #include "mesh/polygon.hpp"
 #include "step/course.hpp"
 

@@ -1,0 +1,37 @@
+#pragma once
+// Tolerances and thresholds of the colliders (pkg/collider), each with its unit and its reason.
+
+#include <cstddef>
+
+namespace yadefrag::tolerance {
+
+/// (relative to coordinates) Covers the rounding of the test of the true halo and of YADE's
+/// geometry functors, so that balls that touch to the last bit are not lost where there is no
+/// sweep.
+inline constexpr double kHaloRounding = 2e-15;
+
+/// (bytes) Memory of a potential interaction with its pair in the search, and what contact adds to
+/// it (measured: 417; 380 to 660).
+inline constexpr double kPairBytes = 420, kContactBytes = 650;
+
+/// (count) Pairs per body of which few are contacts; where there are more, bodies lie on one
+/// another and all of them may be.
+inline constexpr double kUsualPairs = 20;
+
+/// (count; ratio) Bodies below which all pairs fit any memory, and how much their number may grow
+/// before the free memory is looked up again.
+inline constexpr std::size_t kFewBodies = 4000;
+inline constexpr double kMemoryLookUp = 1.1;
+
+/// (ratio) Spare in the length of a sweep for acceleration: without it a body at constant speed
+/// calls for a search one step early.
+inline constexpr double kSweepSpare = 1.02;
+
+/// (steps) Shortest and longest interval between searches that is aimed at.
+inline constexpr double kLeastInterval = 3, kMostInterval = 200;
+
+/// (ratio) Growth of the interval from one search to the next. Growth is blind: in a dense block a
+/// whole shell of further neighbours comes near at once. Small steps overshoot little.
+inline constexpr double kIntervalGrowth = 1.25;
+
+}  // namespace yadefrag::tolerance

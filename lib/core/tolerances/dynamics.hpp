@@ -1,0 +1,38 @@
+#pragma once
+// Tolerances and thresholds of internal forces and of the time integration, each with its unit and
+// its reason.
+
+#include <cstddef>
+
+#include "core/tolerances/threads.hpp"
+
+namespace yadefrag::tolerance {
+
+/// (m/s) Nobody is fast below this if nothing else is said; its square and its way are finite.
+/// Bodies may not be sent at more.
+inline constexpr double kAnySpeed = 1e100;
+
+/// (1) Largest coefficients of bulk viscosity: usual ones are 0.06 and 1.2, and the critical step
+/// falls in proportion.
+inline constexpr double kMostViscosity = 1e6;
+
+/// (det F; of the least stress-free height) An element that is compressed to `kFlat` of its area is
+/// flat. Only a flat element, or one whose nodes move by `kSwift` or more, can be turned inside out
+/// in one step; elements that were stretched as well are the exception.
+inline constexpr double kFlat = .2, kSwift = .1;
+
+/// (count) Elements whose forces are summed in one go: their nodes stay in the first-level cache,
+/// and few of them belong to another chunk too.
+inline constexpr std::size_t kChunkElements = 512;
+
+/// (ratio) Elements stressed to this part of their body's lowest strength are looked at more
+/// closely: the stress is that of the step before.
+inline constexpr double kStrengthLook = .9;
+
+/// (count) Fewer elements than this per thread are not worth two meetings of the threads a step.
+inline constexpr std::size_t kElementsPerThread = 4 * kMinItemsPerThread;
+
+/// (count) Nodes whose works are summed in one go: sums do not depend on the number of threads.
+inline constexpr std::size_t kNodesPerSum = 2048;
+
+}  // namespace yadefrag::tolerance
