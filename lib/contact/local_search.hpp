@@ -1,14 +1,14 @@
 #pragma once
 // From candidates to actives (paper §5): a scan of all candidates that leaves the few which are
-// near, then, for each slave, the masters it is active on.
+// near, then, for each slave, the masters it is active on (joint_rules.hpp).
 
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "contact/candidates.hpp"
+#include "contact/joint_rules.hpp"
 #include "surface/piece_geometry.hpp"
 
 namespace yadefrag {
@@ -17,8 +17,6 @@ namespace yadefrag {
 struct Active {
   SlaveMaster pair;
   Foot foot;
-  bool
-      cameAside;  ///< through a face that does not oppose it: the overlap is older than the contact
 };
 
 /// The chord of a piece at the scan's positions.
@@ -56,7 +54,8 @@ class LocalSearch {
 
   [[nodiscard]] bool anyNear() const { return !near_.empty(); }
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kSearch, near_, nearByPart_, chords_, trials_, joints_);
+    footprint.add(Use::kSearch, near_, nearByPart_, chords_, trials_);
+    rules_.addTo(footprint);
   }
 
  private:
@@ -75,14 +74,6 @@ class LocalSearch {
                   const Geometry& geometry, int threads);
   static bool hasMoved(const Candidates& candidates, const ContactSurfaces& surfaces,
                        std::span<const Near> row, std::span<const std::uint8_t> moved);
-  struct Trial {
-    EntryId master;
-    Foot foot;
-    bool outside;  ///< flag
-    bool opposed;
-    bool active;
-    bool cameAside;
-  };
 
   template <class Geometry>
   void tryAll(const Candidates& candidates, const ContactSurfaces& surfaces,
@@ -91,13 +82,6 @@ class LocalSearch {
   template <class Geometry>
   void tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
               const Geometry& geometry, std::span<const Near> row, double deepest);
-  template <class Geometry>
-  void decide(const ContactSurfaces& surfaces, const Geometry& geometry, double deepest);
-  template <class Geometry>
-  void decideNeighbours(const Geometry& geometry, Trial& first, Trial& second);
-  template <class Geometry>
-  void enterAtJoint(const Geometry& geometry, Trial& first, Trial& second, double deepest) const;
-  void enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom) const;
 
   double way_ = 0;    // m, of the fastest node since the candidates were found
   double reach_ = 0;  // m, of the last scan
@@ -105,7 +89,7 @@ class LocalSearch {
   std::vector<std::vector<Near>> nearByPart_;
   std::vector<Chord> chords_;  // by entry; empty where few are needed
   std::vector<Trial> trials_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> joints_;  // trials, one after the other
+  JointRules rules_;
 };
 
 }  // namespace yadefrag

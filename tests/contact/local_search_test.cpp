@@ -27,7 +27,6 @@ TEST(LocalSearch, ActiveIsWhatWasOutsideAndIsInside) {
   EXPECT_NEAR(actives[0].foot.gap, -.03, 1e-15);
   EXPECT_NEAR(actives[0].foot.xi, .45, 1e-15);
   EXPECT_EQ(actives[0].foot.normal, (Vec2{0, 1}));
-  EXPECT_FALSE(actives[0].cameAside);
   EXPECT_EQ(chase.masters({.55, 1.1}), Masters{}) << "it leaves";
   EXPECT_EQ(chase.masters({.55, .99}), Masters{2}) << "and comes back";
 }
@@ -147,7 +146,6 @@ TEST(LocalSearch, CornerThatGrazesACorner) {
   search.findActives(candidates, scene.surfaces, scene.at, kUnlimited, actives);
   ASSERT_EQ(actives.size(), 1U);
   EXPECT_EQ(actives[0].pair.master, low + 2);
-  EXPECT_TRUE(actives[0].cameAside);
   search.settle(candidates, scene.surfaces, scene.at, pairsOf(actives));
   EXPECT_EQ(candidates.outside, (std::vector<std::uint8_t>{1, 0})) << "it stays the upper one's";
 }

@@ -27,7 +27,7 @@ struct Approach {
   [[nodiscard]] ContactRow row(EntryId master) const {
     const PieceGeometry now = scene.geometry();
     return makeRow(scene.surfaces, {scene.surfaces, before},
-                   {{tip, master}, now.foot(master, now.slave(tip)), false});
+                   {{tip, master}, now.foot(master, now.slave(tip))});
   }
 
   [[nodiscard]] Vec2 masterPoint(const ContactRow& row) const {
@@ -146,8 +146,8 @@ TEST(RowBuilder, HalfpointsAreSlavesOfTwoNodes) {
   // The halfpoint between the first two nodes: (.25, 2.45); the square's top is at 1.
   const PieceGeometry geometry = scene.geometry();
   const EntryId top(std::size_t{2});
-  const ContactRow row = makeRow(
-      scene.surfaces, geometry, {{smooth, top}, geometry.foot(top, geometry.slave(smooth)), false});
+  const ContactRow row = makeRow(scene.surfaces, geometry,
+                                 {{smooth, top}, geometry.foot(top, geometry.slave(smooth))});
   ASSERT_EQ(row.count, 4);
   EXPECT_EQ(row.weight[0], .5);
   EXPECT_EQ(row.weight[1], .5);

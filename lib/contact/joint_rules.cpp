@@ -1,0 +1,105 @@
+#include "contact/joint_rules.hpp"
+
+#include "core/tolerances/contact.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+template <class Geometry>
+bool isOver(const Geometry& geometry, EntryId master, const Foot& foot) {
+  const PieceRange range = geometry.range(master);
+  return foot.xi >= range.begin - tolerance::kFootRange &&
+         foot.xi <= range.end + tolerance::kFootRange;
+}
+
+template <class Geometry>
+bool isBehindEnd(const Geometry& geometry, EntryId master, const Foot& foot) {
+  return foot.xi > geometry.range(master).end;
+}
+template <class Geometry>
+bool isBeforeBegin(const Geometry& geometry, EntryId master, const Foot& foot) {
+  return foot.xi < geometry.range(master).begin;
+}
+
+/// A slave that was outside `from` is now inside `to`, whose flag says that it was behind its line
+/// before: it came in past the end of `from`, along which it may have slid, or, a corner that
+/// grazes a corner, through `from` itself, a lateral face that does not oppose it. Nothing slides
+/// deeper in a step than it moves.
+void enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom, double reach) {
+  if (!from.outside || !to.opposed || to.active || to.foot.gap >= 0) return;
+  if (!pastFrom && (from.opposed || from.foot.gap >= 0)) return;
+  if (pastFrom && to.foot.gap < -2 * reach) return;
+  to.active = true;
+}
+
+/// `second` follows `first` on their surface.
+template <class Geometry>
+void enterAtJoint(const Geometry& geometry, Trial& first, Trial& second, double deepest,
+                  double reach) {
+  const bool overFirst = isOver(geometry, first.master, first.foot);
+  const bool overSecond = isOver(geometry, second.master, second.foot);
+  const bool pastFirst = isBehindEnd(geometry, first.master, first.foot);
+  const bool pastSecond = isBeforeBegin(geometry, second.master, second.foot);
+  if (overSecond && second.foot.gap >= -deepest && (pastFirst || overFirst))
+    enterFromNeighbour(first, second, pastFirst, reach);
+  if (overFirst && first.foot.gap >= -deepest && (pastSecond || overSecond))
+    enterFromNeighbour(second, first, pastSecond, reach);
+}
+
+/// `second` follows `first` on their surface.
+template <class Geometry>
+void decideNeighbours(const Geometry& geometry, Trial& first, Trial& second) {
+  const PieceRange range = geometry.range(first.master);
+  const PieceRange rangeAfter = geometry.range(second.master);
+  const bool pastFirst = isBehindEnd(geometry, first.master, first.foot);
+  const bool pastSecond = isBeforeBegin(geometry, second.master, second.foot);
+  const bool concave = cross(geometry.tangent(first.master, range.end),
+                             geometry.tangent(second.master, rangeAfter.begin)) < 0;
+  if (concave && pastFirst && pastSecond) {
+    // No orthogonal correction is possible: to the corner, which both masters' rows together do. In
+    // a notch narrower than a right angle the slave may be behind one of them only.
+    const bool both = first.foot.gap < 0 && second.foot.gap < 0;
+    const bool wasOutside = first.outside || second.outside;
+    for (Trial* trial : {&first, &second})
+      if (trial->foot.gap < 0 && (both ? wasOutside : trial->outside))
+        trial->active = trial->opposed;
+  } else if (!concave && first.active && second.active) {
+    const bool firstIsNearer = first.foot.gap >= second.foot.gap;
+    (firstIsNearer ? second : first).active = false;
+  }
+}
+
+}  // namespace
+
+/// The outside-inside criterion (§5.1), then the exceptions where two masters meet (§5.2). A smooth
+/// master needs no flag (§5.3): its normal always exists and is unique. But where a body folds up,
+/// the normals of a tight arc reach far into it and out at the other side: a depth beyond
+/// `deepest` is none.
+template <class Geometry>
+void JointRules::decide(const ContactSurfaces& surfaces, const Geometry& geometry,
+                        std::span<Trial> trials, double deepest, double reach) {
+  for (Trial& trial : trials) {
+    const bool arc = geometry.isArc(trial.master);
+    trial.active = trial.opposed && trial.foot.gap < 0 && (arc || trial.outside) &&
+                   (!arc || trial.foot.gap >= -deepest) &&
+                   isOver(geometry, trial.master, trial.foot);
+  }
+  // All that came in past an end before any choice: else one neighbour would bring back what the
+  // other one is nearer to.
+  joints_.clear();
+  for (std::uint32_t i = 0; i < trials.size(); ++i) {
+    const EntryId after = surfaces.next[trials[i].master.value];
+    for (std::uint32_t k = 0; k < trials.size(); ++k)
+      if (trials[k].master == after) joints_.emplace_back(i, k);
+  }
+  for (const auto& [i, k] : joints_) enterAtJoint(geometry, trials[i], trials[k], deepest, reach);
+  for (const auto& [i, k] : joints_) decideNeighbours(geometry, trials[i], trials[k]);
+}
+
+template void JointRules::decide(const ContactSurfaces&, const PieceGeometryOf<true>&,
+                                 std::span<Trial>, double, double);
+template void JointRules::decide(const ContactSurfaces&, const PieceGeometryOf<false>&,
+                                 std::span<Trial>, double, double);
+
+}  // namespace yadefrag
