@@ -63,7 +63,7 @@ void Contact::reserve(std::size_t nodes) {
   forces_.reserve(nodes);
   displacement_.reserve(nodes);
   isTouched_.reserve(nodes);
-  sweeps_.reserve(nodes);
+  lagrange_.reserve(nodes);
 }
 
 void Contact::correct(Model& model, const ContactSurfaces& surfaces,
@@ -163,8 +163,7 @@ void Contact::solve(const Model& model, const ContactSettings& settings, const C
   if (settings.correction == Correction::kPenalty)
     penalize(rows_, model.nodes, step.length, step.drag, settings.penaltyFactor);
   else if (step.rubble)
-    inexact_ = sweeps_.solve(rows_, model.nodes, step.length, step.drag,
-                             {worthwhile(step), tolerance::kRowSweeps});
+    inexact_ = lagrange_.sweep(rows_, model.nodes, step.length, step.drag, worthwhile(step));
   else {
     if (anyNew) lagrange_.setRows(rows_, model.nodes, step.length, step.drag);
     const Lagrange::Outcome outcome =
@@ -369,7 +368,6 @@ void Contact::addTo(Footprint& footprint) const {
   candidates.addTo(footprint);
   search_.addTo(footprint);
   lagrange_.addTo(footprint);
-  sweeps_.addTo(footprint, Use::kFracture);
 }
 
 void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,

@@ -11,7 +11,6 @@
 #include "contact/contact_settings.hpp"
 #include "contact/correction.hpp"
 #include "contact/local_search.hpp"
-#include "contact/row_sweeps.hpp"
 #include "core/stage_times.hpp"
 #include "core/step_length.hpp"
 #include "mesh/model.hpp"
@@ -125,7 +124,6 @@ class Contact {
 
   LocalSearch search_;
   Lagrange lagrange_;
-  RowSweeps sweeps_;
   std::vector<Active> actives_;
   std::vector<ContactRow> rows_;
   Figures now_;

@@ -63,6 +63,11 @@ Lagrange::Outcome Lagrange::solve(std::span<ContactRow> rows, const Nodes& nodes
   return worst;
 }
 
+double Lagrange::sweep(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step,
+                       double drag, double change) {
+  return sweeps_.solve(rows, nodes, step, drag, {change, tolerance::kRowSweeps});
+}
+
 /// Without friction pivoting is as fast and exact. With it, the bounds change with each solve.
 bool Lagrange::isSwept(Members members) const {
   return members.size() > tolerance::kPivotedRows && !tangentOf_.empty();
@@ -182,7 +187,8 @@ void Lagrange::addTo(Footprint& footprint) const {
   footprint.add(Use::kContact, groups_.links, groups_.rows.values, groups_.rows.offsets,
                 groups_.spans.values, groups_.spans.offsets, systems_, entries_, normalOf_, start_);
   footprint.add(Use::kFriction, tangentOf_);
-  sweeps_.addTo(footprint, Use::kFriction);
+  // Sweeps are for large groups with friction, and for rubble.
+  sweeps_.addTo(footprint, tangentOf_.empty() ? Use::kFracture : Use::kFriction);
   for (const System& system : systems_) {
     const BoxProblem& p = system.problem;
     footprint.add(Use::kContact, p.offsets, p.columns, p.values, p.constant, p.lower, p.upper);

@@ -32,6 +32,12 @@ class Lagrange {
   /// `tolerance` (m) is `left` keep theirs. `nodes`, `step`, `drag` are those of `setRows`.
   Outcome solve(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
                 double tolerance);
+  /// The same in rubble: for all rows by a few sweeps, whatever their groups are, until no gap or
+  /// slip changes by more than `change` (m). Needs no `setRows`; returns the last change (m).
+  double sweep(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
+               double change);
+  /// Room for so many nodes of the model.
+  void reserve(std::size_t nodes) { sweeps_.reserve(nodes); }
   /// Without what the solver of a group works with.
   void addTo(Footprint& footprint) const;
 

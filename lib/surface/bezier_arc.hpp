@@ -25,9 +25,6 @@ inline ArcWeights arcShapeDerivative(double xi) {
   return {.75 * (square - 1), .75 * (1 - 2 * xi), .75 * (2 * xi - square)};
 }
 
-/// d²hᵢ/dξ².
-inline ArcWeights arcShapeSecondDerivative(double xi) { return {1.5 * xi, -1.5, 1.5 * (1 - xi)}; }
-
 inline Vec2 combine(const ArcWeights& h, Vec2 a, Vec2 b, Vec2 c) {
   return h[0] * a + h[1] * b + h[2] * c;
 }

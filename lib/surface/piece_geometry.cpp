@@ -62,16 +62,6 @@ Vec2 PieceGeometryOf<kSmooth>::normal(EntryId entry, double xi) const {
 }
 
 template <bool kSmooth>
-Vec2 PieceGeometryOf<kSmooth>::slaveNormal(EntryId entry) const {
-  const EntryId before = surfaces_.prev[entry.value];
-  const Vec2 arriving = unitOrZero(tangent(before, range(before).end));
-  const Vec2 leaving = unitOrZero(tangent(entry, range(entry).begin));
-  const Vec2 sum = rightOf(arriving + leaving);
-  if (dot(sum, sum) < tolerance::kFold) return arriving;
-  return unitOrZero(sum);
-}
-
-template <bool kSmooth>
 Foot PieceGeometryOf<kSmooth>::foot(EntryId entry, Vec2 point) const {
   const Corners n = corners(entry);
   if (n.arc) return nearestOnArc(n.a, n.b, n.c, point);

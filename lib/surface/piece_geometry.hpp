@@ -73,9 +73,6 @@ class PieceGeometryOf {
     const SegmentId following = surfaces_.segmentNext[segment.value];
     return .5 * a + .5 * positions_[surfaces_.segmentNode[following.value].value];
   }
-  /// Unit outward normal there: halfway between those of the two pieces that meet; at the tip of a
-  /// fold by 180° the direction in which it points.
-  [[nodiscard]] Vec2 slaveNormal(EntryId entry) const;
 
   /// The foot of a point: on a straight piece with ξ of the whole segment, unclamped.
   [[nodiscard]] Foot foot(EntryId entry, Vec2 point) const;

@@ -89,7 +89,7 @@ TEST(LocalSearch, JointsAtHalfpointsAreTight) {
       if (s.surfaces.slave(body + k).count != 2) continue;
       for (const double beside : {0., 1e-16, -1e-16, 1e-12, -1e-12, 1e-8, -1e-8}) {
         SurfaceScene with = s;
-        const Vec2 normal = s.geometry().slaveNormal(body + k);
+        const Vec2 normal = s.geometry().normal(body + k, s.geometry().range(body + k).begin);
         const Vec2 on = s.geometry().slave(body + k) + beside * rightOf(normal);
         const EntryId tip = with.addNeedle(-normal);
         with.moveNeedle(tip, on + 1e-4 * normal);

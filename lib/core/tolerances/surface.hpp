@@ -17,8 +17,4 @@ inline constexpr int kMostArcCuts = 20;
 /// (relative to the chord) Rounding that the quick line test of a boundary piece forgives.
 inline constexpr double kQuickLine = 1e-14;
 
-/// (squared length of the sum of two unit vectors) A corner folded nearer to 180° than 10⁻⁶ rad has
-/// no normal between its two sides'.
-inline constexpr double kFold = 1e-12;
-
 }  // namespace yadefrag::tolerance
