@@ -1,30 +1,12 @@
 #include "contact/contact_groups.hpp"
 
 #include <algorithm>
-#include <numeric>
+
+#include "core/disjoint_sets.hpp"
 
 namespace yadefrag {
 
 namespace {
-
-/// Disjoint sets of rows; the smallest row is the root of its set.
-class RowSets {
- public:
-  explicit RowSets(std::size_t rows) : parent_(rows) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t root(std::uint32_t row) {
-    while (parent_[row] != row) row = parent_[row] = parent_[parent_[row]];
-    return row;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 void listLinks(std::span<const ContactRow> rows, const Nodes& nodes, std::vector<RowNode>& links) {
   links.clear();
@@ -49,14 +31,18 @@ void findContactGroups(std::span<const ContactRow> rows, const Nodes& nodes,
                        ContactGroups& groups) {
   listLinks(rows, nodes, groups.links);
   const std::span<const RowNode> links(groups.links);
-  RowSets sets(rows.size());
+  DisjointSets sets(rows.size());
   for (std::size_t i = 1; i < links.size(); ++i)
     if (!beginsNode(links, i)) sets.join(links[i - 1].row, links[i].row);
 
-  std::vector<std::uint32_t> groupOfRow(rows.size());
+  constexpr std::uint32_t kNone = 0xffffffff;
+  std::vector<std::uint32_t> groupOfRow(rows.size()), groupOfSet(rows.size(), kNone);
   std::uint32_t count = 0;
-  for (std::uint32_t r = 0; r < rows.size(); ++r)
-    groupOfRow[r] = sets.root(r) == r ? count++ : groupOfRow[sets.root(r)];
+  for (std::uint32_t r = 0; r < rows.size(); ++r) {
+    std::uint32_t& group = groupOfSet[sets.find(r)];
+    if (group == kNone) group = count++;
+    groupOfRow[r] = group;
+  }
   fillRows(
       groups.rows, count, rows.size(), [&](std::size_t r) { return groupOfRow[r]; },
       [](std::size_t r) { return static_cast<std::uint32_t>(r); });

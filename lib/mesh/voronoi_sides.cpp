@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "core/disjoint_sets.hpp"
 #include "core/errors.hpp"
 #include "mesh/polygon.hpp"
 #include "mesh/voronoi.hpp"
@@ -36,13 +37,15 @@ class Merging {
       for (std::size_t i = 0; i < grain.size(); ++i) {
         const Vec2 a = grain[i], b = grain[(i + 1) % grain.size()];
         sides_.insert({keyOf(a), keyOf(b)});
-        places_.try_emplace(keyOf(a), Place{keyOf(a), a, 1, kInside});
+        if (numbers_.try_emplace(keyOf(a), places_.size()).second)
+          places_.push_back({a, 1, kInside});
       }
+    sets_.reset(places_.size());
     for (const auto& [a, b] : sides_)
-      if (!sides_.contains({b, a})) places_.at(a).rank = places_.at(b).rank = kOnOutline;
+      if (!sides_.contains({b, a})) placeOf(a).rank = placeOf(b).rank = kOnOutline;
     for (const Vec2 corner : outline) {
-      const auto place = places_.find(keyOf(corner));
-      if (place != places_.end()) place->second.rank = kCorner;
+      const auto number = numbers_.find(keyOf(corner));
+      if (number != numbers_.end()) places_[number->second].rank = kCorner;
     }
   }
 
@@ -50,11 +53,10 @@ class Merging {
   bool run(double shortest) {
     bool any = false;
     for (const auto& [a, b] : sides_) {
-      const Key first = rootOf(a), second = rootOf(b);
+      const std::uint32_t first = setOf(a), second = setOf(b);
       if (first == second || std::hypot(a.first - b.first, a.second - b.second) >= shortest)
         continue;
-      const bool isOuter = !sides_.contains({b, a});
-      any = join(places_.at(first), places_.at(second), isOuter) || any;
+      any = join(first, second, !sides_.contains({b, a})) || any;
     }
     return any;
   }
@@ -62,7 +64,7 @@ class Merging {
   [[nodiscard]] Loop moved(const Loop& grain) {
     Loop result;
     for (const Vec2 p : grain) {
-      const Vec2 at = places_.at(rootOf(keyOf(p))).at;
+      const Vec2 at = placeOf(keyOf(p)).at;
       if (result.empty() || result.back() != at) result.push_back(at);
     }
     while (result.size() > 1 && result.front() == result.back()) result.pop_back();
@@ -70,34 +72,37 @@ class Merging {
   }
 
  private:
+  /// Of all points that have been joined.
   struct Place {
-    Key root;  // another place that it has been joined to, or itself
     Vec2 at;
     double count;  // of points that `at` is the mean of
     Rank rank;
   };
 
-  Key rootOf(Key key) {
-    while (places_.at(key).root != key) key = places_.at(key).root;
-    return key;
-  }
+  std::uint32_t setOf(Key key) { return sets_.find(static_cast<std::uint32_t>(numbers_.at(key))); }
+  Place& placeOf(Key key) { return places_[setOf(key)]; }
 
   /// `isOuter`: is the side between them one of the outline; others must not pinch it off.
-  static bool join(Place& a, Place& b, bool isOuter) {
+  bool join(std::uint32_t first, std::uint32_t second, bool isOuter) {
+    const Place& a = places_[first];
+    const Place& b = places_[second];
     if (a.rank == kCorner && b.rank == kCorner) return false;
     if (a.rank != kInside && b.rank != kInside && !isOuter) return false;
-    Place& stays = a.rank >= b.rank ? a : b;
-    Place& goes = a.rank >= b.rank ? b : a;
+    Place stays = a.rank >= b.rank ? a : b;
+    const Place& goes = a.rank >= b.rank ? b : a;
     if (stays.rank == kInside) {
       stays.at = (1 / (stays.count + goes.count)) * (stays.count * stays.at + goes.count * goes.at);
       stays.count += goes.count;
     }
-    goes.root = stays.root;
+    sets_.join(first, second);
+    places_[sets_.find(first)] = stays;
     return true;
   }
 
   std::set<std::pair<Key, Key>> sides_;
-  std::map<Key, Place> places_;
+  std::map<Key, std::size_t> numbers_;
+  DisjointSets sets_;          // of numbers
+  std::vector<Place> places_;  // by number; of a set, with the one that stands for it
 };
 
 bool isSound(const Loop& grain) {

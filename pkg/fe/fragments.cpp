@@ -1,30 +1,11 @@
 #include "fe/fragments.hpp"
 
-#include <numeric>
+#include "core/disjoint_sets.hpp"
 
 namespace yadefrag {
 namespace {
 
-/// Sets of nodes that grow together; the smallest number stands for all.
-class NodeSets {
- public:
-  explicit NodeSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t find(std::uint32_t node) {
-    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
-    return node;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    parent_[a < b ? b : a] = a < b ? a : b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-void joinHeld(const Model& model, const Fracture& fracture, NodeSets& sets) {
+void joinHeld(const Model& model, const Fracture& fracture, DisjointSets& sets) {
   for (const EdgeId edge : fracture.cohesion.edge)
     sets.join(firstNode(model, fracture.edges.side(edge, 0)).value,
               firstNode(model, fracture.edges.side(edge, 1)).value);
@@ -53,7 +34,7 @@ void sumNodes(const Nodes& nodes, const ForNodes& forNodes, std::vector<Fragment
 std::vector<Fragment> findFragments(const Model& model, std::vector<std::uint32_t>* ofTriangle,
                                     const Fracture* holding) {
   const Nodes& nodes = model.nodes;
-  NodeSets sets(nodes.size());
+  DisjointSets sets(nodes.size());
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
     if (model.triangles.isDropped(t)) continue;
     const auto& [a, b, c] = model.triangles.nodes[t];
