@@ -4,10 +4,10 @@
 #include <tuple>
 
 #include "abi/yade.hpp"
-#include "fe/piece_contact.hpp"
 #include "publish/indexed.hpp"
 #include "publish/published.hpp"
 #include "surface/contact_surface.hpp"
+#include "surface/disc_contact.hpp"
 
 namespace yadefrag {
 

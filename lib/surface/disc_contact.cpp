@@ -1,7 +1,8 @@
-#include "fe/piece_contact.hpp"
+#include "surface/disc_contact.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "surface/bezier_arc.hpp"
 
 namespace yadefrag {
 namespace {
@@ -63,42 +64,22 @@ DiscContact freeEnd(Vec2 at, Vec2 outward, Vec2 centre, double radius) {
   return {radius - distance, distance > 0 ? (1 / distance) * from : outward};
 }
 
-/// Foot of the point on a piece that it is alongside of: the slope times the way to the point
-/// changes its sign between the ends, so Newton's steps can be kept inside a bracket.
-double footOn(const BoundaryPiece& piece, Vec2 point) {
-  const auto behind = [&](double xi) { return dot(piece.pointAt(xi) - point, piece.slopeAt(xi)); };
-  double low = 0, high = 1, xi = .5;
-  for (int i = 0; i < 60 && high - low > 4e-16; ++i) {
-    const double value = behind(xi);
-    (value < 0 ? low : high) = xi;
-    if (value == 0) break;
-    const Vec2 slope = piece.slopeAt(xi);
-    const double newton = xi - value / dot(slope, slope);  // without the curve's bend: the steps
-    xi = newton > low && newton < high ? newton : .5 * (low + high);  // shrink linearly, safely
-    if (i % 3 == 2) xi = .5 * (low + high);
+/// The foot of a point on a piece that it is alongside of.
+Foot footOn(const BoundaryPiece& piece, Vec2 point) {
+  if (piece.isArc) {
+    const Vec2 before = 2 * piece.start - piece.middle, after = 2 * piece.end - piece.middle;
+    return nearestOnArc(before, piece.middle, after, point);
   }
-  return xi;
+  Foot foot;
+  foot.normal = rightOf(unit(piece.end - piece.start));
+  foot.gap = dot(point - piece.start, foot.normal);
+  return foot;
 }
 
 }  // namespace
 
 Vec2 BoundaryPiece::tangentAtStart() const { return unit((isArc ? middle : end) - start); }
 Vec2 BoundaryPiece::tangentAtEnd() const { return unit(end - (isArc ? middle : start)); }
-
-Vec2 BoundaryPiece::pointAt(double xi) const {
-  if (!isArc) return start + xi * (end - start);
-  // The inner control points lie halfway between the ends and the middle.
-  const double co = 1 - xi;
-  const double mid = 1.5 * xi * co;
-  return (co * co * co + mid * co) * start + mid * middle + (xi * xi * xi + mid * xi) * end;
-}
-
-Vec2 BoundaryPiece::slopeAt(double xi) const {
-  if (!isArc) return end - start;
-  const double co = 1 - xi;
-  const Vec2 first = .5 * (middle - start), last = .5 * (end - middle);
-  return 3 * (co * co * first + xi * co * (end - start) + xi * xi * last);
-}
 
 std::optional<DiscContact> discContact(const BoundaryPiece& piece, Vec2 centre, double radius) {
   const Vec2 leave = piece.tangentAtStart(), arrive = piece.tangentAtEnd();
@@ -130,12 +111,10 @@ std::optional<DiscContact> discContact(const BoundaryPiece& piece, Vec2 centre, 
     if (owner == Owner::kAfter || owner == Owner::kCorner) return {};
     if (owner == Owner::kBoth) shared += joint.sharedByBefore(radius);
   }
-  const double xi = piece.isArc ? footOn(piece, centre) : 0;
-  const Vec2 normal = rightOf(unit(piece.slopeAt(xi)));
-  const double distance = dot(centre - piece.pointAt(xi), normal);
-  const double penetration = radius - distance - shared;
-  if (!(penetration > 0) || distance <= -radius) return {};
-  return DiscContact{penetration, normal};
+  const Foot foot = footOn(piece, centre);
+  const double penetration = radius - foot.gap - shared;
+  if (!(penetration > 0) || foot.gap <= -radius) return {};
+  return DiscContact{penetration, foot.normal};
 }
 
 }  // namespace yadefrag

@@ -8,15 +8,12 @@
 namespace yadefrag {
 
 struct BoundaryPiece {
-  Vec2 start, middle, end;  ///< m; `middle` of an arc only: where its end tangents meet
+  Vec2 start, middle, end;  ///< m; `middle` of an arc only: the node that it goes around
   Vec2 before, after;       ///< unit tangents of the neighbours at the joints; zero: a free end
   bool isArc = false;
 
   [[nodiscard]] Vec2 tangentAtStart() const;
   [[nodiscard]] Vec2 tangentAtEnd() const;
-  /// Point and derivative at 0 ≤ ξ ≤ 1 (an arc: the cubic of eq. 2 in the paper).
-  [[nodiscard]] Vec2 pointAt(double xi) const;
-  [[nodiscard]] Vec2 slopeAt(double xi) const;
 };
 
 struct DiscContact {
