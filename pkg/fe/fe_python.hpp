@@ -8,6 +8,7 @@
 #include "fe/fe_solver.hpp"
 #include "fe/mesh_python.hpp"
 #include "fracture/checks.hpp"
+#include "step/overlap_depth.hpp"
 
 namespace yadefrag {
 
@@ -34,6 +35,9 @@ inline std::size_t activesOf(const FESolver& solver) {
 inline double penetrationOf(const FESolver& solver) {
   return solver.world().contact.maxPenetration();
 }
+inline double deepestOverlapOf(const FESolver& solver) {
+  return deepestOverlap(solver.world().model, solver.world().threads);
+}
 inline std::uint64_t cracksOf(const FESolver& solver) {
   return solver.world().fracture.numCracks();
 }
@@ -48,6 +52,12 @@ void FESolver::pyExtra(PyClass& pyClass) {
            "Longest stable time step (s) of the present mesh, of a body that cracks also when all "
            "its triangles have come apart; infinite without bodies. An O.dt that changes all the "
            "time should stay below a third of it. It knows of no spheres: see README.md, Limits.")
+      .def(
+          "deepestOverlap", &Locked<deepestOverlapOf>::call,
+          "Deepest overlap (m) of any two triangles that share no node: the shortest way that gets "
+          "them apart, at most a triangle's height. Looks at all triangles at each call, whatever "
+          "contact knows of them; maxPenetration knows only points in contact. 0 where bodies "
+          "touch, but for rounding.")
       .def("fragments", &Locked<fragmentsOf>::call, (yade::py::arg("held") = false),
            "List of dicts, one per part that hangs together: component, triangles (how many), mass "
            "(kg), area (m²), centroid (m), velocity (m/s), spin (rad/s). With held=True, parts "
@@ -114,7 +124,8 @@ void FESolver::countersOf(PyClass& pyClass) {
   pyClass.add_property("numSearches", &Locked<searchesOf>::call, "Contact searches so far.")
       .add_property("numActives", &Locked<activesOf>::call, "Points in contact in the last step.")
       .add_property("maxPenetration", &Locked<penetrationOf>::call,
-                    "Deepest penetration (m) that was left in the last step.")
+                    "Deepest penetration (m) that was left at points in contact in the last step; "
+                    "deepestOverlap() looks at everything.")
       .add_property("numCracks", &Locked<cracksOf>::call, "Cracked edges so far.");
 }
 

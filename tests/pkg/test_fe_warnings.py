@@ -91,3 +91,12 @@ def test_untouchedBodyIsQuiet():
     run(solver, finder('LebesgueCollider'))
     O.run(7000, True)
     assert solver.energy['total'] > 0 and solver.warnings == []
+
+
+def test_deepestOverlapKnowsWhatContactKnows():
+    """Faces that a soft penalty lets into one another: the same depth by triangles as by points."""
+    solver = blow(correction='penalty', penaltyFactor=1e-4)
+    assert solver.deepestOverlap() == 0
+    O.run(60, True)
+    assert solver.maxPenetration > 1e-5
+    assert abs(solver.deepestOverlap() / solver.maxPenetration - 1) < .05
