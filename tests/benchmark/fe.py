@@ -1,8 +1,8 @@
 """Finite-element bodies: scripts/bench fe [--repeat 5] [--out FOLDER]
 
-Three tables. The step without contact, ns per triangle, at 10⁴ to 10⁶ triangles on one thread and
-two; where the time of a step with contact goes, in rings, squares and an impact; the impact beside
-CalculiX (fe_ccx.py). The scenes and our measurements are in fe_bench.cpp, fe_contact_bench.cpp and
+Tables. The step without contact, ns per triangle, at 10⁴ to 10⁶ triangles on one thread and
+two; where the time of a step with contact goes, in rings, squares, an impact and walls of blocks;
+the same blocks touching and apart; the impact beside CalculiX (fe_ccx.py). The scenes and our measurements are in fe_bench.cpp, fe_contact_bench.cpp and
 fe_impact_bench.cpp. Medians over the repeats. Writes fe.json (raw) and fe.md (tables) to the
 folder, by default out/bench.
 """
@@ -32,7 +32,7 @@ def main(arguments):
     machine = report._machine([])
     text = '\n'.join(
         ['# Finite elements', '', _line(machine) + f'; medians of {options.repeat} runs.', '']
-        + stepTable(steps) + [''] + contactTable(contact)
+        + stepTable(steps) + [''] + contactTable(contact) + [''] + blockTable(contact)
         + ['', '## Beside CalculiX', '']
         + fe_ccx.compare(options.program, 10, options.repeat))
     with open(os.path.join(options.out, 'fe.json'), 'w') as f:
@@ -109,6 +109,20 @@ def contactTable(rows):
         words = row['name'].split('/')
         cells = words[1:4] + [_digits(key, row[key]) for key in COUNTERS]
         out.append('| ' + ' | '.join(cells + [f"{row['real_time']:.3f}"]) + ' |')
+    return out
+
+
+def blockTable(rows):
+    """Markdown: a step of blocks that touch exactly, over one of the same blocks apart."""
+    times = {tuple(row['name'].split('/')[1:4]): row['real_time'] for row in rows}
+    out = ['## Blocks that touch exactly', '', 'Blocks on a floor, with friction and gravity; the '
+           'first 300 steps.', '', '| blocks | threads | apart, ms a step | touching, ms | × |',
+           '|--:|--:|--:|--:|--:|']
+    for (scene, size, threads), touching in times.items():
+        if scene == 'touching blocks':
+            apart = times['blocks apart', size, threads]
+            out.append(f'| {int(size) ** 2} | {threads} | {apart:.3f} | {touching:.3f} | '
+                       f'{touching / apart:.1f} |')
     return out
 
 

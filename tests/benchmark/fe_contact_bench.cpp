@@ -2,12 +2,14 @@
 //
 // Names: contact/<scene>/<size>/<threads>. Counters are ns per step and triangle (forces) or per
 // step and surface entry (search, local search, correction), and ns per entry of one search. A
-// first part of each run, until bodies have met, is not measured.
+// first part of each run, until bodies have met, is not measured; of blocks, which touch from the
+// start or stay apart, all of it is.
 #include <benchmark/benchmark.h>
 
 #include <functional>
 
 #include "benchmark/fe_scenes.hpp"
+#include "step/blocks.hpp"
 
 namespace yadefrag {
 namespace {
@@ -15,6 +17,7 @@ namespace {
 struct Scene {
   const char* name;
   void (*add)(World& world, int size);
+  int toMeet = 300;  ///< steps
 };
 
 const Scene kScenes[] = {
@@ -24,6 +27,13 @@ const Scene kScenes[] = {
     {"impact", [](World& world, int size) { fescenes::addImpact(world, 10e-3 / size, false); }},
     {"smooth impact",
      [](World& world, int size) { fescenes::addImpact(world, 10e-3 / size, true); }},
+    {"touching blocks", [](World& world, int size) { test::addBlockWall(world, {size}); }, 0},
+    // Joints that gravity does not close in the run.
+    {"blocks apart",
+     [](World& world, int size) {
+       test::addBlockWall(world, {size, 5e-5});
+     },
+     0},
 };
 
 void report(benchmark::State& state, const World& world, std::uint64_t searches, double rows) {
@@ -49,8 +59,7 @@ void contactSteps(benchmark::State& state, const Scene& scene) {
   world.threads = static_cast<int>(state.range(1));
   scene.add(world, static_cast<int>(state.range(0)));
   const double dt = .8 * world.criticalTimeStep();
-  constexpr int kToMeet = 300;
-  for (int i = 0; i < kToMeet; ++i) world.step(dt);
+  for (int i = 0; i < scene.toMeet; ++i) world.step(dt);
   world.timing = true;
   const std::uint64_t searched = world.numSearches;
   double rows = 0;
@@ -76,6 +85,8 @@ void registerScene(const Scene& scene, std::int64_t size, std::int64_t threads) 
     for (const std::int64_t size : {12, 48}) registerScene(kScenes[2], size, threads);
     for (const std::int64_t size : {40, 160}) registerScene(kScenes[3], size, threads);
     registerScene(kScenes[4], 160, threads);
+    for (const std::int64_t size : {5, 14, 32})
+      for (const Scene* scene : {&kScenes[5], &kScenes[6]}) registerScene(*scene, size, threads);
   }
   return true;
 }();
