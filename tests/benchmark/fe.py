@@ -1,10 +1,11 @@
 """Finite-element bodies: scripts/bench fe [--repeat 5] [--out FOLDER]
 
-Tables. The step without contact, ns per triangle, at 10⁴ to 10⁶ triangles on one thread and
+Four tables. The step without contact, ns per triangle, at 10⁴ to 10⁶ triangles on one thread and
 two; where the time of a step with contact goes, in rings, squares, an impact and walls of blocks;
-the same blocks touching and apart; the impact beside CalculiX (fe_ccx.py). The scenes and our measurements are in fe_bench.cpp, fe_contact_bench.cpp and
-fe_impact_bench.cpp. Medians over the repeats. Writes fe.json (raw) and fe.md (tables) to the
-folder, by default out/bench.
+blocks that touch exactly beside the same blocks apart; the impact beside CalculiX (fe_ccx.py). The
+scenes and our measurements are in fe_bench.cpp, fe_contact_bench.cpp and fe_impact_bench.cpp.
+Medians over the repeats. Writes fe.json (raw) and fe.md (tables) to the folder, by default
+out/bench.
 """
 import argparse
 import collections
