@@ -105,7 +105,8 @@ constexpr auto FESolver::attributes() {
       attribute("halo", &C::halo,
                 "Width of the strip around a boundary in which contact is expected, over the "
                 "shortest segment, at most 0.5; 0: as wide as the bodies' speed asks for. Results "
-                "do not depend on it, the number of searches does.",
+                "do not depend on it, the number of searches does; but with "
+                "correction='penalty' nothing is held that is deeper than the halo.",
                 triggerPostLoad),
       attribute("damping", &C::damping, "Mass-proportional damping (1/s).", triggerPostLoad),
       attribute("gravity", &C::gravity,

@@ -171,8 +171,9 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     Where it grows by more than 0.25 m per metre, it is lowered to that.
     material        an FEMat, its label or its number in O.materials; as it is now: later changes of
                     it have no effect on the body
-    smooth          False: straight boundary; True: C¹-smooth everywhere; or one flag per point of
-                    the outline (then the holes are straight): is the corner there smoothed
+    smooth          False: straight boundary; True: C¹-smooth everywhere, inside the outline; or
+                    one flag per point of the outline (then the holes are straight): is the corner
+                    there smoothed
     velocity        (x, y) in m/s, or a function (x, y) → pair
     spin            rad/s about the centroid, added to `velocity`
     displacement    None, or a function (x, y) → pair: the start's displacement from the stress-free
