@@ -14,6 +14,7 @@
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/step.hpp"
+#include "fe/born_inside.hpp"
 #include "fe/pair_source.hpp"
 #include "fracture/checks.hpp"
 
@@ -39,6 +40,8 @@ void FESolver::action() {
   const std::uint64_t dropped = world_.dropped.count;
   const std::size_t complaints = world_.complaints.size();
   bodies_.collectForces(*scene, world_, world_.outerForces);
+  const bool mayBeBorn = world_.fracture.numCracks() > 0 && !world_.outerForces.empty();
+  const double born = mayBeBorn ? energyBornInside(*scene, bodies_) : 0;
   try {
     world_.step(scene->dt);
   } catch (const TimeStepError& error) {
@@ -46,11 +49,32 @@ void FESolver::action() {
   } catch (const InputError& error) {
     throw std::invalid_argument(error.what());
   }
+  bookSpheres(born);
   warn(complaints);
   followCracks(dropped);
   bodies_.update(world_, timeToIntegrate(), world_.threads);
   prepareSearch(scene->dt);
   if (scene->trackEnergy) trackEnergy();
+}
+
+/// `born`: J, what contacts with spheres have begun with. Told above 1 % of the bodies' energy and
+/// once per doubling.
+void FESolver::bookSpheres(double born) {
+  if (born == 0) return;
+  const double least = tolerance::kGivenEnergy * world_.watch.most;
+  const auto doublings = [&](double energy) {
+    return energy > least ? std::ilogb(energy / least) : -1;
+  };
+  const int before = doublings(energyFromSpheres);
+  energyFromSpheres += born;
+  if (doublings(energyFromSpheres) <= before) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "Step " << world_.steps << ", time " << world_.time
+       << " s: where cracks opened under spheres, contacts began with " << energyFromSpheres
+       << " J out of nothing, " << 100 * energyFromSpheres / world_.watch.most
+       << " % of the bodies' energy; stiffer spheres are less deep in a wall that cracks.";
+  world_.complaints.push_back(text.str());
 }
 
 /// Of those complaints that are new.

@@ -53,6 +53,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   double quadraticViscosity = 0;
   int maxCracks = -1;
   double minFragmentArea = 0;
+  double energyFromSpheres = 0;
 
   static constexpr auto attributes();
   template <class PyClass>
@@ -68,6 +69,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
   void giveSettings();
+  void bookSpheres(double born);
   void warn(std::size_t known) const;
   void followCracks(std::uint64_t dropped);
   void prepareSearch(double dt);
@@ -124,7 +126,11 @@ constexpr auto FESolver::attributes() {
       attribute("minFragmentArea", &C::minFragmentArea,
                 "Fragments that come loose with a smaller area (m², stress-free) are taken out of "
                 "the scene, and booked in `dropped`; none that is held is. 0: all stay.",
-                triggerPostLoad));
+                triggerPostLoad),
+      attribute("energyFromSpheres", &C::energyFromSpheres,
+                "Energy (J) out of nothing, so far: where a crack opens under a sphere, the corner "
+                "beside it is in contact at once, with a spring that nobody has compressed.",
+                yade::Attr::readonly));
 }
 
 template <class Archive>
