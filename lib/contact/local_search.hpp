@@ -37,7 +37,8 @@ class LocalSearch {
             std::span<const Vec2> positions, double reach, int threads, double moved = INFINITY);
 
   /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master. None is deeper
-  /// in a smooth master than `deepest` (m), which is no matter of the halo. Slaves `known`
+  /// in a smooth master than `deepest` (m), whatever the halo is; but what is deeper than the halo
+  /// at a search, as a penalty may leave it, is no candidate at all. Slaves `known`
   /// (ascending) to be active on all masters that they are near to are left out, and, if there is
   /// one, so are those of whom no node is in `moved` (flags by node), which were looked at before.
   void findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
