@@ -129,6 +129,12 @@ inline constexpr double kTouchRounding = 0x1p-50;
 /// straight boundary fills π, and a deformed or rounded one some degrees more.
 inline constexpr double kTipAngle = 3.46;
 
+/// (of a side) Ends of sides that are bonded are no farther apart: what the bond pulls together in
+/// its first step strains a body by no more.
+inline constexpr double kBondGap = 1e-9;
+/// (of a side) Sides that run along each other, no farther apart, but do not match: meant to.
+inline constexpr double kBondMeant = .01;
+
 /// (rad) A corner that turns by more is a slave in a single pass too: 30°.
 inline constexpr double kSharpCorner = .52;
 
