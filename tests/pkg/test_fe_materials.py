@@ -85,8 +85,8 @@ def test_aWeakInterfaceCracks(weak):
 
 def test_materialsThatDoNotCrackByThemselvesCrackBetween():
     plain = dict(poisson=0, density=1000, planeStress=True)
-    solver = drawnBar(lambda: w.FEMat(young=2e9, label='hard', **plain), lambda: w.FEMat(young=1e9, label='soft', **plain),
-                      interfaceStrength=2e6, interfaceEnergy=100)
+    solver = drawnBar(lambda: w.FEMat(young=2e9, label='hard', **plain),
+                      lambda: w.FEMat(young=1e9, label='soft', **plain), interfaceStrength=2e6, interfaceEnergy=100)
     O.run(3000, True)
     assert len(solver.fragments()) == 2
     assert solver.energy['fracture'] == pytest.approx(100 * kHeight, rel=.02)

@@ -10,8 +10,9 @@ def bond(self, a, b, strength, energy):
     """From the next step on bodies a and b hang together along all sides that they have in common
     now; returns how many these are (int).
 
-    a, b      numbers of two bodies that touch, with nodes at the same places along what they have in
-              common, to 1e-9 of a side: give both outlines the same points there, and the same size
+    a, b      numbers of two bodies that touch, with nodes at the same places along what they have
+              in common, to 1e-9 of a side: give both outlines the same points there, and the same
+              size
     strength  Pa, tensile; the shear strength is shearFactor times that, shearFactor and
               shearEnergyFactor being those of the body with the smaller tensileStrength, 1 of FEMat
     energy    J/m², that opens the bond by tension; positive

@@ -100,8 +100,8 @@ def _key(material):
 
 def sidesBetween(triangles, numbers):
     """(k, 2) nodes of the sides between triangles with different numbers, and (k, 2) these."""
-    sides = numpy.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)]).astype(numpy.int64)
-    sides.sort(axis=1)
+    sides = numpy.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)])
+    sides = numpy.sort(sides.astype(numpy.int64), axis=1)
     owner = numpy.tile(numbers, 3)
     order = numpy.lexsort((sides[:, 1], sides[:, 0]))
     sides, owner = sides[order], owner[order]

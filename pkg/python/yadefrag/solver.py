@@ -20,7 +20,7 @@ from yadefrag.meshing import isIrregular, jointLines, meshOfPolygon, simplified
 from yadefrag.places import brittlePlaces
 from yadefrag.quality import meshQuality
 from yadefrag.shown import betweenSteps, shownTriangles
-from yadefrag.values import (array, flag, isWhole, number, pair, plain, pointsOf, positive, refuse, shown,
+from yadefrag.values import (array, flag, number, pair, plain, pointsOf, positive, refuse, shown,
                              whole)
 
 _ELEMENTS = ('linear', 'smoothed')
@@ -133,8 +133,8 @@ def _add(fe, mesh, smooth, materials, velocity, spin, displacement, fixed, thick
              velocity=raw(speed, 'float64'), displacement=raw(moved, 'float64'),
              held=raw(_heldNodes(fixed, nodes), 'uint8'), smooth=raw(smooth, 'uint8'),
              thickness=thickness, selfContact=selfContact, smoothed=element == 'smoothed',
-             materials=materials.of, materialOf=raw(materials.numbers, 'uint32'), **{name: raw(values, kind) for name, (values, kind)
-                                   in places.items()}))
+             materials=materials.of, materialOf=raw(materials.numbers, 'uint32'),
+             **{name: raw(values, kind) for name, (values, kind) in places.items()}))
     problem = fe._zoneWarning(component)
     if problem:
         warnings.warn(problem, stacklevel=3)
