@@ -24,9 +24,9 @@ double criticalOpening(const CrackEdges& edges, EdgeId edge) {
 
 CohesiveHold holdOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const auto [a, b] = edges.element[edge.value];
-  const BrittleMaterial& weaker = weakerOf(model, a, b).brittle;
-  const double beta = weaker.shearFactor;
-  return {0, 0, beta, beta * beta / weaker.shearEnergyFactor, frictionBetween(model, a, b), {}};
+  const auto [brittle, friction] = materialBetween(model, a, b);
+  const double beta = brittle.shearFactor;
+  return {0, 0, beta, beta * beta / brittle.shearEnergyFactor, friction, {}};
 }
 
 Vec2 times(Vec2 a, Vec2 b) { return {a.x * b.x, a.y * b.y}; }

@@ -17,9 +17,18 @@ namespace yadefrag {
   return second.brittle.tensileStrength < first.brittle.tensileStrength ? second : first;
 }
 
-/// Tan of the friction angle between two triangles: the smaller one, as in contact.
-[[nodiscard]] inline double frictionBetween(const Model& model, ElementId a, ElementId b) {
-  return std::min(model.materialOf(a).friction, model.materialOf(b).friction);
+/// What cracks and rubs between two triangles.
+struct EdgeMaterial {
+  const BrittleMaterial& brittle;  ///< of the weaker one
+  double friction;                 ///< tan of the friction angle: the smaller one, as in contact
+};
+
+[[nodiscard]] inline EdgeMaterial materialBetween(const Model& model, ElementId a, ElementId b) {
+  const Component& body = model.bodyOf(a);
+  if (!body.isMixed() && model.triangles.component[a.value] == model.triangles.component[b.value])
+    return {body.brittle, body.friction};
+  return {weakerOf(model, a, b).brittle,
+          std::min(model.materialOf(a).friction, model.materialOf(b).friction)};
 }
 
 }  // namespace yadefrag

@@ -132,25 +132,20 @@ StrengthCheck::Stress StrengthCheck::stressOfMaterials(const Model& model, const
   return mean;
 }
 
-StrengthCheck::Stress StrengthCheck::stressFor(const Model& model, const CrackEdges& edges,
-                                               EdgeId edge, NodeId node) {
-  if (!model.bodyOf(edges.element[edge.value][0]).isMixed()) return stressAt(model, edges, node);
-  return stressOfMaterials(model, edges, edge, node);
-}
-
 double StrengthCheck::ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const Side side = edges.side(edge, 0);
   const NodeId a = firstNode(model, side), b = lastNode(model, side);
-  Stress mean = stressFor(model, edges, edge, a);
-  const Stress other = stressFor(model, edges, edge, b);
+  const bool isMixed = model.bodyOf(side.element).isMixed();
+  Stress mean = isMixed ? stressOfMaterials(model, edges, edge, a) : stressAt(model, edges, a);
+  const Stress other =
+      isMixed ? stressOfMaterials(model, edges, edge, b) : stressAt(model, edges, b);
   for (std::size_t i = 0; i < 3; ++i) mean[i] = .5 * (mean[i] + other[i]);
   const Vec2 across = rightOf(model.nodes.position[b.value] - model.nodes.position[a.value]);
   const Vec2 normal = (1 / norm(across)) * across;
   const Traction traction = tractionOn(mean, normal);
   const auto [first, second] = edges.element[edge.value];
-  double most =
-      effectiveTraction(traction.normal, traction.shear, weakerOf(model, first, second).brittle,
-                        frictionBetween(model, first, second));
+  const auto [brittle, friction] = materialBetween(model, first, second);
+  double most = effectiveTraction(traction.normal, traction.shear, brittle, friction);
   if (edges.fractureEnergy[edge.value] > 0)
     for (const NodeId end : {a, b}) most = std::max(most, pullAt(model, edges, edge, end, normal));
   return most / edges.strength[edge.value];

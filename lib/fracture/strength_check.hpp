@@ -43,7 +43,6 @@ class StrengthCheck {
   const Stress& stressOf(const Model& model, ElementId element);
   const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
   Stress stressOfMaterials(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node);
-  Stress stressFor(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node);
   double ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge);
   double pullAt(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node, Vec2 normal);
   std::vector<EdgeId> pickApart(const Model& model, const CrackEdges& edges);

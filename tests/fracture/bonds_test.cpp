@@ -89,7 +89,7 @@ TEST(Bonds, ABondedPairFailsAtItsStrengthAndTakesItsEnergy) {
   for (const bool canCrack : {false, true}) {
     const Pull pull = pullApart(2e6, 20, canCrack);
     EXPECT_NEAR(pull.most / 2e6, 1, 1e-6) << canCrack;
-    figure("spent", pull.spent, 1, .01);
+    figure("spent", pull.spent, 1, 1e-3);
     EXPECT_NEAR(pull.excess, 0, .01);
     EXPECT_EQ(pull.held, 0U);
   }
@@ -134,7 +134,7 @@ TEST(Bonds, ABondedBarCarriesAWaveAsOneBarDoes) {
     ASSERT_NE(same, whole.end());
     worst = std::max(worst, std::abs((*same)[1] - v));
   }
-  figure("bonded_wave", worst, 0, 1e-3);  // of the pulse's 1 m/s
+  figure("bonded_wave", worst, 0, 1e-6);  // of the pulse's 1 m/s
 }
 
 // --- grains
