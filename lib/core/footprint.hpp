@@ -12,6 +12,7 @@ enum class Use : std::uint8_t {
   kMesh,       ///< nodes, triangles, bodies
   kDynamics,   ///< the step without contact
   kHeld,       ///< nodes with a prescribed motion
+  kMaterials,  ///< of bodies with several
   kLoads,      ///< constant and outer forces
   kViscosity,  ///< bulk viscosity
   kSmoothing,  ///< smoothed strains

@@ -20,13 +20,18 @@ std::array<Vec2, 3> gradients(const Model& model, std::size_t element) {
 }
 
 const Component& componentOf(const Model& model, std::size_t element) {
-  return model.components[model.triangles.component[element].value];
+  return model.bodyOf(ElementId(element));
+}
+
+const ElasticMaterial& elasticOf(const Model& model, std::size_t element) {
+  return model.materialOf(ElementId(element)).material;
 }
 
 /// (N/m) How stiffly an element holds its corners.
 std::array<double, 3> cornerStiffness(const Model& model, std::size_t element) {
   const Component& c = componentOf(model, element);
-  const double modulus = c.material.waveModulus() * c.thickness * model.triangles.area[element];
+  const double modulus =
+      elasticOf(model, element).waveModulus() * c.thickness * model.triangles.area[element];
   std::array<double, 3> stiffness;
   const auto gradient = gradients(model, element);
   for (int i = 0; i < 3; ++i) stiffness[i] = modulus * dot(gradient[i], gradient[i]);
@@ -52,7 +57,8 @@ Masses massShares(const Model& model, const std::vector<double>& nodeStiffness,
                   std::size_t element) {
   const Component& c = componentOf(model, element);
   if (c.brittle.cracks()) return {1. / 3, 1. / 3, 1. / 3};
-  const double own = c.material.density * c.thickness * model.triangles.area[element];
+  const double own =
+      elasticOf(model, element).density * c.thickness * model.triangles.area[element];
   Masses shares = cornerStiffness(model, element);
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t n = model.triangles.nodes[element][i].value;
@@ -65,9 +71,9 @@ Masses massShares(const Model& model, const std::vector<double>& nodeStiffness,
 /// its stiffness is that of the stress-free shape. With S = Σ∇N∇Nᵀ/m the modes fall into two pairs:
 /// stretches, and shear with rotation, which stiffens where the element is drawn out.
 double squaredFrequency(const Model& model, std::size_t element, const Masses& mass) {
-  const Component& c = componentOf(model, element);
-  const double lame = c.material.lame();
-  const double shear = c.material.shearModulus();
+  const ElasticMaterial& material = elasticOf(model, element);
+  const double lame = material.lame();
+  const double shear = material.shearModulus();
   const auto gradient = gradients(model, element);
   double xx = 0;
   double yy = 0;
@@ -86,13 +92,13 @@ double squaredFrequency(const Model& model, std::size_t element, const Masses& m
   const Matrix2 f = deformationGradient(model, ElementId(element));
   const double drawn = std::hypot(f.xx + f.yy, f.yx - f.xy);  // 2 where there is no stretch
   const double turn = (shear + std::max(0., (lame + shear) * (1 - 2 / drawn))) * trace;
-  return std::max(stretch, turn) / c.material.density;
+  return std::max(stretch, turn) / material.density;
 }
 
 /// (1/s) The fastest decay rate of the element's bulk viscosity, of its present shape.
 double viscousRate(const BulkViscosity& viscosity, const Model& model, std::size_t element,
                    const Masses& mass) {
-  const Component& c = componentOf(model, element);
+  const ElasticMaterial& material = elasticOf(model, element);
   const auto& nodes = model.triangles.nodes[element];
   std::array<Vec2, 3> x;
   for (int i = 0; i < 3; ++i) x[i] = model.nodes.position[nodes[i].value];
@@ -107,7 +113,7 @@ double viscousRate(const BulkViscosity& viscosity, const Model& model, std::size
     sum += dot(edge, edge) / (twiceArea * twiceArea * mass[i]);
   }
   const double length = twiceArea / longest;
-  const double wave = std::sqrt(c.material.waveModulus() / c.material.density);
+  const double wave = std::sqrt(material.waveModulus() / material.density);
   const double squeeze = viscosity.quadratic * viscosity.quadratic * length * std::max(0., -rate);
   // The mass is that of the stress-free shape, the area the present one.
   return twiceArea / 2 / model.triangles.area[element] * length *

@@ -16,10 +16,13 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 Chunk chunkOf(const Component& c) {
   const ElasticMaterial& m = c.material;
   Chunk chunk{};
-  chunk.lame = m.lame();
-  chunk.shear = m.shearModulus();
-  chunk.density = m.density;
-  chunk.waveSpeed = std::sqrt(m.waveModulus() / m.density);
+  chunk.isMixed = c.isMixed();
+  if (!chunk.isMixed) {
+    chunk.lame = m.lame();
+    chunk.shear = m.shearModulus();
+    chunk.density = m.density;
+    chunk.waveSpeed = std::sqrt(m.waveModulus() / m.density);
+  }
   chunk.thickness = c.thickness;
   chunk.element = c.element;
   chunk.strength = c.brittle.cracks() ? c.brittle.tensileStrength : 0;
@@ -31,8 +34,8 @@ Chunk chunkOf(const Component& c) {
 
 bool sameMaterial(const Chunk& a, const Chunk& b) {
   return a.lame == b.lame && a.shear == b.shear && a.density == b.density &&
-         a.thickness == b.thickness && a.element == b.element && a.strength == b.strength &&
-         a.shearFactor == b.shearFactor && a.friction == b.friction;
+         a.thickness == b.thickness && a.element == b.element && a.isMixed == b.isMixed &&
+         a.strength == b.strength && a.shearFactor == b.shearFactor && a.friction == b.friction;
 }
 
 /// Cuts the elements into chunks. Small bodies of one material share chunks: a scene of a thousand
@@ -102,11 +105,24 @@ void appendLanes(const Model& model, Chunk& chunk, std::vector<ElementLanes>& la
   chunk.lastLanes = static_cast<std::uint32_t>(lanes.size());
 }
 
+void appendLaws(const Model& model, Chunk& chunk, std::vector<ElementLaws>& laws) {
+  chunk.firstLaws = static_cast<std::uint32_t>(laws.size());
+  for (std::uint32_t first = chunk.firstElement; first < chunk.lastElement; first += kLanes) {
+    ElementLaws& l = laws.emplace_back();
+    for (std::uint32_t k = 0; k < kLanes; ++k) {
+      const ElementId e(std::min(first + k, chunk.lastElement - 1));
+      const ElasticMaterial& m = model.materialOf(e).material;
+      l.lame[k] = m.lame(), l.shear[k] = m.shearModulus(), l.density[k] = m.density;
+    }
+  }
+}
+
 }  // namespace
 
 void ElementChunks::build(const Model& model) {
   chunks = cutElements(model);
   lanes.clear();
+  laws.clear();
   nodes.clear();
   mostNodes = 0;
   const std::vector<std::uint8_t> shared = findShared(model, chunks);
@@ -115,6 +131,7 @@ void ElementChunks::build(const Model& model) {
     appendNodes(model, shared, chunk, nodes);
     chunk.endOfRoom = chunk.lastNode;
     appendLanes(model, chunk, lanes);
+    if (chunk.isMixed) appendLaws(model, chunk, laws);
     numberCorners(model, chunk);
     mostNodes = std::max<std::size_t>(mostNodes, chunk.lastNode - chunk.firstNode);
   }

@@ -24,6 +24,12 @@ struct alignas(64) ElementLanes {
   std::uint16_t corner[3][kLanes];  ///< local number of the node
 };
 
+/// The elastic laws of kLanes elements, where those of a chunk differ.
+struct alignas(64) ElementLaws {
+  double lame[kLanes], shear[kLanes];  ///< Pa
+  double density[kLanes];              ///< kg/m³
+};
+
 /// Successive elements, `lastElement` one past.
 struct ElementRange {
   std::uint32_t firstElement, lastElement;
@@ -35,7 +41,9 @@ struct Chunk {
   double density, waveSpeed;  ///< kg/m³, m/s; for the bulk viscosity
   double thickness;           ///< m
   ElementKind element;
-  /// Pa, β and μ of a brittle material, 0 of others.
+  bool isMixed;             ///< elements have laws of their own, in place of the first four values
+  std::uint32_t firstLaws;  ///< of its lanes in `ElementChunks::laws`
+  /// Pa, β and μ of a brittle material or, of several, their least; 0 of others.
   double strength, shearFactor, friction;
   /// (Pa²) Squared stress measure from which elements count as stressed; infinite: not watched.
   double squaredLook;
@@ -50,6 +58,7 @@ struct Chunk {
 struct ElementChunks {
   std::vector<Chunk> chunks;  ///< by ascending elements
   std::vector<ElementLanes> lanes;
+  std::vector<ElementLaws> laws;         ///< of mixed chunks
   std::vector<NodeId> nodes;             ///< by chunk and local number
   std::vector<std::uint32_t> partialOf;  ///< parallel to `nodes`: where a shared one's sum goes
   std::vector<NodeId> sharedNodes;       ///< ascending
@@ -76,6 +85,11 @@ struct ElementChunks {
   /// Sets what is watched; `leastStrength` by component. Returns whether anything is.
   bool watch(const std::vector<double>& leastStrength);
 
+  /// Of the chunk's lanes; null if it has one law.
+  [[nodiscard]] const ElementLaws* lawsOf(const Chunk& chunk) const {
+    return chunk.isMixed ? laws.data() + chunk.firstLaws : nullptr;
+  }
+
   [[nodiscard]] std::size_t partials() const {
     return firstPartial.empty() ? 0 : firstPartial.back();
   }
@@ -83,6 +97,7 @@ struct ElementChunks {
   void addTo(Footprint& footprint) const {
     footprint.add(Use::kDynamics, chunks, lanes, nodes, partialOf, sharedNodes, firstPartial,
                   local_);
+    footprint.add(Use::kMaterials, laws);
   }
 
  private:

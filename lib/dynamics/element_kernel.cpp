@@ -10,17 +10,19 @@
 namespace yadefrag {
 namespace {
 
-/// Replaces the corners' coordinates by their forces.
-template <bool kWatched>
+/// Replaces the corners' coordinates by their forces. `laws`: of the lanes, if `kMixed`.
+template <bool kWatched, bool kMixed>
 [[gnu::always_inline]] inline Findings elasticForces(const ElementLanes& e, const Chunk& chunk,
-                                                     Corners& c) {
-  const double lame = chunk.lame;
-  const double shear = chunk.shear;
+                                                     const ElementLaws* laws, Corners& c) {
+  const double chunkLame = chunk.lame;
+  const double chunkShear = chunk.shear;
   const StressLook look(chunk.shearFactor, chunk.friction, chunk.squaredLook);
   int flat = 0;
   int stressed = 0;
 #pragma omp simd reduction(+ : flat, stressed)
   for (std::size_t k = 0; k < kLanes; ++k) {
+    double lame = chunkLame, shear = chunkShear;
+    if constexpr (kMixed) lame = laws->lame[k], shear = laws->shear[k];
     const double i11 = e.inverseEdges[0][k];
     const double i12 = e.inverseEdges[1][k];
     const double i21 = e.inverseEdges[2][k];
@@ -46,23 +48,34 @@ template <bool kWatched>
   return {flat, stressed};
 }
 
-template <bool kWatched>
+template <bool kWatched, bool kMixed>
 struct AddForces {
   const Chunk& chunk;
   const ElementLanes* lanes;
+  const ElementLaws* laws;
   const Vec2* position;
   Vec2* force;
   StressedLanes& stressed;
 
   [[gnu::always_inline]] bool operator()() const {
     const auto add = [this](std::uint32_t l, Corners & corners) __attribute__((always_inline)) {
-      const Findings found = elasticForces<kWatched>(lanes[l], chunk, corners);
+      const ElementLaws* own = kMixed ? laws + (l - chunk.firstLanes) : nullptr;
+      const Findings found = elasticForces<kWatched, kMixed>(lanes[l], chunk, own, corners);
       scatter(lanes[l], corners, force);
       return found;
     };
     return forEachLanes<kWatched>(chunk, lanes, position, stressed, add);
   }
 };
+
+template <bool kWatched>
+bool addForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
+               const ElementLaws* laws, const Vec2* position, Vec2* force,
+               StressedLanes& stressed) {
+  if (chunk.isMixed)
+    return runFor(set, AddForces<kWatched, true>{chunk, lanes, laws, position, force, stressed});
+  return runFor(set, AddForces<kWatched, false>{chunk, lanes, laws, position, force, stressed});
+}
 
 }  // namespace
 
@@ -74,24 +87,32 @@ InstructionSet bestInstructionSet() {
 }
 
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                      const Vec2* position, Vec2* force) {
+                      const ElementLaws* laws, const Vec2* position, Vec2* force) {
   StressedLanes none;
-  return runFor(set, AddForces<false>{chunk, lanes, position, force, none});
+  return addForces<false>(set, chunk, lanes, laws, position, force, none);
 }
 
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                      const Vec2* position, Vec2* force, std::vector<ElementRange>& stressed) {
+                      const ElementLaws* laws, const Vec2* position, Vec2* force,
+                      std::vector<ElementRange>& stressed) {
   StressedLanes found;
-  const bool good = runFor(set, AddForces<true>{chunk, lanes, position, force, found});
+  const bool good = addForces<true>(set, chunk, lanes, laws, position, force, found);
   found.appendTo(stressed, chunk);
   return good;
 }
 
 void addViscousForces(const BulkViscosity& viscosity, const Chunk& chunk, const ElementLanes* lanes,
-                      const Vec2* position, const Vec2* velocity, Vec2* force) {
+                      const ElementLaws* laws, const Vec2* position, const Vec2* velocity,
+                      Vec2* force) {
+  double density = chunk.density, waveSpeed = chunk.waveSpeed;
   for (std::uint32_t e = 0; e < chunk.lastElement - chunk.firstElement; ++e) {
     const ElementLanes& l = lanes[chunk.firstLanes + e / kLanes];
     const std::size_t k = e % kLanes;
+    if (chunk.isMixed) {
+      const ElementLaws& own = laws[e / kLanes];
+      density = own.density[k];
+      waveSpeed = std::sqrt((own.lame[k] + 2 * own.shear[k]) / density);
+    }
     const std::uint16_t corner[3] = {l.corner[0][k], l.corner[1][k], l.corner[2][k]};
     const Vec2 a = position[corner[0]];
     const Vec2 b = position[corner[1]];
@@ -107,7 +128,7 @@ void addViscousForces(const BulkViscosity& viscosity, const Chunk& chunk, const 
     for (int i = 0; i < 3; ++i) rate += dot(velocity[corner[i]], gradient[i]) / twiceArea;
     const double squeezed = viscosity.quadratic * length * std::min(rate, 0.);
     const double tension =
-        chunk.density * (viscosity.linear * chunk.waveSpeed * length * rate - squeezed * squeezed);
+        density * (viscosity.linear * waveSpeed * length * rate - squeezed * squeezed);
     for (int i = 0; i < 3; ++i) force[corner[i]] -= tension * chunk.thickness / 2 * gradient[i];
   }
 }

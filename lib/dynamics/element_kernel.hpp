@@ -15,14 +15,16 @@ enum class InstructionSet { kBaseline, kAvx2 };
 InstructionSet bestInstructionSet();
 
 /// Adds the elastic forces (N) of a chunk to `force`; positions and forces by local node number.
-/// Returns false if an element is flat (`kFlat`), inverted or not finite.
+/// `laws`: of the chunk, if it is mixed. Returns false if an element is flat (`kFlat`), inverted or
+/// not finite.
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                      const Vec2* position, Vec2* force);
+                      const ElementLaws* laws, const Vec2* position, Vec2* force);
 
 /// The same bits; appends also those ranges of up to kLanes elements, ascending, of which at least
 /// one is stressed (`Chunk::squaredLook`).
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                      const Vec2* position, Vec2* force, std::vector<ElementRange>& stressed);
+                      const ElementLaws* laws, const Vec2* position, Vec2* force,
+                      std::vector<ElementRange>& stressed);
 
 /// Coefficients of the bulk viscosity: a pressure −ρL(b₁cε̇) + ρ(b₂Lε̇)², ε̇ the rate of the volume
 /// strain and L the smallest altitude of the present triangle. The linear part acts in compression
@@ -37,6 +39,7 @@ struct BulkViscosity {
 
 /// Adds the forces (N) of the bulk viscosity of a chunk.
 void addViscousForces(const BulkViscosity& viscosity, const Chunk& chunk, const ElementLanes* lanes,
-                      const Vec2* position, const Vec2* velocity, Vec2* force);
+                      const ElementLaws* laws, const Vec2* position, const Vec2* velocity,
+                      Vec2* force);
 
 }  // namespace yadefrag

@@ -34,8 +34,7 @@ Matrix2 deformationStep(const Model& model, ElementId element, double dt) {
 }
 
 std::array<double, 3> stressOf(const Model& model, ElementId element) {
-  const ComponentId body = model.triangles.component[element.value];
-  const ElasticMaterial& material = model.components[body.value].material;
+  const ElasticMaterial& material = model.materialOf(element).material;
   const Matrix2 f = deformationGradient(model, element);
   return cauchy(firstPiola(f, material.lame(), material.shearModulus()), f);
 }
@@ -44,11 +43,11 @@ std::vector<std::array<double, 3>> stresses(const Model& model) {
   std::vector<std::array<double, 3>> result(model.triangles.size());
   for (const Component& c : model.components) {
     if (c.element == ElementKind::kSmoothed) continue;
-    const double lame = c.material.lame();
-    const double shear = c.material.shearModulus();
+    Moduli m(c.material);
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
+      m.take(model, c, ElementId(e));
       const Matrix2 f = deformationGradient(model, ElementId(e));
-      result[e] = cauchy(firstPiola(f, lame, shear), f);
+      result[e] = cauchy(firstPiola(f, m.lame, m.shear), f);
     }
   }
   setSmoothedStresses(model, result);
@@ -59,11 +58,12 @@ std::vector<double> elementEnergies(const Model& model) {
   std::vector<double> result(model.triangles.size());
   for (const Component& c : model.components) {
     if (c.element == ElementKind::kSmoothed) continue;
-    const double lame = c.material.lame();
-    const double shear = c.material.shearModulus();
-    for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e)
+    Moduli m(c.material);
+    for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
+      m.take(model, c, ElementId(e));
       result[e] = c.thickness * model.triangles.area[e] *
-                  energyDensity(deformationGradient(model, ElementId(e)), lame, shear);
+                  energyDensity(deformationGradient(model, ElementId(e)), m.lame, m.shear);
+    }
   }
   setSmoothedEnergies(model, result);
   return result;

@@ -9,6 +9,18 @@
 
 namespace yadefrag {
 
+/// (Pa) Of elements one after the other: those of their body, or their own.
+class Moduli {
+ public:
+  explicit Moduli(const ElasticMaterial& m) : lame(m.lame()), shear(m.shearModulus()) {}
+  /// Costs nothing where the body has one material.
+  void take(const Model& model, const Component& body, ElementId element) {
+    if (body.isMixed()) *this = Moduli(model.materialOf(element).material);
+  }
+
+  double lame, shear;
+};
+
 /// F at the present positions.
 Matrix2 deformationGradient(const Model& model, ElementId element);
 

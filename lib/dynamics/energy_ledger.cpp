@@ -7,10 +7,8 @@ namespace yadefrag {
 namespace {
 
 /// (J/m) Twice an element's energy at the half step, per thickness.
-double twiceEnergy(const Model& model, ElementId element, const ElasticMaterial& material,
-                   double dt) {
-  const double lame = material.lame();
-  const double shear = material.shearModulus();
+double twiceEnergy(const Model& model, ElementId element, const Moduli& moduli, double dt) {
+  const auto [lame, shear] = moduli;
   const Matrix2 now = deformationGradient(model, element);
   const Matrix2 before = now - deformationStep(model, element, dt);
   const Matrix2 stress = firstPiola(now, lame, shear) - firstPiola(before, lame, shear);
@@ -33,8 +31,11 @@ double strainEnergy(const Model& model, double dt) {
   for (const Component& c : model.components) {
     if (c.element == ElementKind::kSmoothed) continue;
     double twice = 0;
-    for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e)
-      twice += twiceEnergy(model, ElementId(e), c.material, dt);
+    Moduli moduli(c.material);
+    for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
+      moduli.take(model, c, ElementId(e));
+      twice += twiceEnergy(model, ElementId(e), moduli, dt);
+    }
     sum += twice * c.thickness / 2;
   }
   return sum;
@@ -43,9 +44,10 @@ double strainEnergy(const Model& model, double dt) {
 double strainEnergy(const Model& model, double dt, std::span<const ElementId> elements) {
   double sum = smoothedEnergy(model, elements, dt);
   for (const ElementId element : elements) {
-    const Component& c = model.components[model.triangles.component[element.value].value];
+    const Component& c = model.bodyOf(element);
     if (c.element == ElementKind::kLinear)
-      sum += twiceEnergy(model, element, c.material, dt) * c.thickness / 2;
+      sum += twiceEnergy(model, element, Moduli(model.materialOf(element).material), dt) *
+             c.thickness / 2;
   }
   return sum;
 }

@@ -126,6 +126,7 @@ void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
   Vec2* position = scratch.values.data();
   Vec2* force = position + elements_.mostNodes;
   const ElementLanes* lanes = elements_.lanes.data();
+  const ElementLaws* laws = elements_.lawsOf(chunk);
   const bool smoothed = chunk.element == ElementKind::kSmoothed;
   if (!smoothed || viscosity.isOn()) fetchNodes(elements_, chunk, model.nodes.position, position);
   std::fill_n(force, count, Vec2{});
@@ -134,8 +135,8 @@ void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
   else {
     const bool upright =
         std::isfinite(chunk.squaredLook)
-            ? addElasticForces(set_, chunk, lanes, position, force, scratch.stressed)
-            : addElasticForces(set_, chunk, lanes, position, force);
+            ? addElasticForces(set_, chunk, lanes, laws, position, force, scratch.stressed)
+            : addElasticForces(set_, chunk, lanes, laws, position, force);
     if (!upright) lookAtFlat(model, chunk, scratch);
   }
   if (viscosity.isOn()) {
@@ -143,7 +144,7 @@ void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
     Vec2* viscous = velocity + elements_.mostNodes;
     fetchNodes(elements_, chunk, model.nodes.velocity, velocity);
     std::fill_n(viscous, count, Vec2{});
-    addViscousForces(viscosity, chunk, lanes, position, velocity, viscous);
+    addViscousForces(viscosity, chunk, lanes, laws, position, velocity, viscous);
     for (std::size_t i = 0; i < count; ++i) force[i] += viscous[i];
     handOut(elements_, chunk, viscous, viscousForce_, partialViscous_);
   }

@@ -49,7 +49,8 @@ std::vector<Edge> sidesOf(const Model& model, const Component& body) {
   sides.reserve(3 * std::size_t{body.lastTriangle - body.firstTriangle});
   for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e) {
     if (model.triangles.isDropped(e)) continue;
-    const double mass = body.material.density * body.thickness * model.triangles.area[e];
+    const double density = model.materialOf(ElementId(e)).material.density;
+    const double mass = density * body.thickness * model.triangles.area[e];
     const auto& nodes = model.triangles.nodes[e];
     for (std::size_t i = 0; i < 3; ++i) {
       const auto [low, high] = std::minmax(nodes[i], nodes[(i + 1) % 3]);
@@ -99,32 +100,29 @@ std::string named(double fractureEnergy, ComponentId component) {
 struct Cohesive {
   double strength;        // Pa
   double fractureEnergy;  // J/m²
-  std::string where;      // of edges in bodies that are not the same everywhere
+  std::string name;       // of the energy and of whatever has it
   [[nodiscard]] double critical() const { return 2 * fractureEnergy / strength; }
 };
 
 /// `crossed` (m): what a step takes from the opening.
-void requireResolved(const Cohesive& edge, double crossed, double meanLength, ComponentId component,
-                     double dt) {
+void requireResolved(const Cohesive& edge, double crossed, double meanLength, double dt) {
   const double critical = edge.critical();
   if (crossed < critical) return;
   const double ratio = critical / crossed;
   // Masses go with the size squared; with a step in proportion, what is crossed goes with the size.
-  throw InputError(named(edge.fractureEnergy, component) + edge.where +
-                   ": a crack holds up to an opening of " + text(critical, " m") +
+  throw InputError(edge.name + ": a crack holds up to an opening of " + text(critical, " m") +
                    ", which a step of " + text(dt, " s") + " does not resolve; a step of " +
                    atMost(dt * std::sqrt(ratio), " s") + " would do, or elements of " +
                    atMost(ratio * meanLength, " m") + " (now " + text(meanLength, " m") +
                    ") with a step in proportion.");
 }
 
-std::string zoneSentence(const Component& body, const Cohesive& edge, double size,
-                         ComponentId component) {
-  const double zone = body.material.young / edge.strength * edge.fractureEnergy / edge.strength;
+std::string zoneSentence(double young, const Cohesive& edge, double size) {
+  const double zone = young / edge.strength * edge.fractureEnergy / edge.strength;
   const double wanted = zone / kZoneElements;
   if (size <= wanted) return {};
-  return named(edge.fractureEnergy, component) + edge.where + ": the cohesive zone is " +
-         text(zone, " m") + " long, less than four elements of " + text(size, " m") +
+  return edge.name + ": the cohesive zone is " + text(zone, " m") +
+         " long, less than four elements of " + text(size, " m") +
          "; notched or cracked bodies bear too much, and elements of " + atMost(wanted, " m") +
          " would do.";
 }
@@ -132,26 +130,26 @@ std::string zoneSentence(const Component& body, const Cohesive& edge, double siz
 /// (m²/kg) (L/2)(1/m₁ + 1/m₂) of an edge, m the least that one triangle can give to a node.
 double lightnessOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const Side side = edges.side(edge, 0);
-  const Component& body = model.components[model.triangles.component[side.element.value].value];
   double inverse = 0;
   for (const ElementId element : edges.element[edge.value])
-    inverse += 3 / (body.material.density * body.thickness * model.triangles.area[element.value]);
+    inverse += 3 / (model.materialOf(element).material.density * model.bodyOf(element).thickness *
+                    model.triangles.area[element.value]);
   const Vec2 along = model.nodes.position[lastNode(model, side).value] -
                      model.nodes.position[firstNode(model, side).value];
   return norm(along) / 2 * inverse;
 }
 
-/// The edge of a body with the least `measure`, of those that hold after they crack; none()
-/// without.
-template <class Measure>
-EdgeId leastOf(const Model& model, const CrackEdges& edges, ComponentId component,
+/// Of the edges from `first` on for which `counts` and that hold after they crack, the one with the
+/// least `measure`; none() without.
+template <class Counts, class Measure>
+EdgeId leastOf(const Model& model, const CrackEdges& edges, EdgeId first, Counts counts,
                Measure measure) {
   EdgeId least = EdgeId::none();
   double lowest = INFINITY;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const std::uint32_t element = edges.element[i][0].value;
-    if (model.triangles.component[element] != component || edges.fractureEnergy[i] <= 0 ||
-        model.triangles.isDropped(element) || model.triangles.isDropped(edges.element[i][1].value))
+  for (std::size_t i = first.value; i < edges.size(); ++i) {
+    const auto& [a, b] = edges.element[i];
+    if (edges.fractureEnergy[i] <= 0 || !counts(EdgeId(i)) || model.triangles.isDropped(a.value) ||
+        model.triangles.isDropped(b.value))
       continue;
     const double value = measure(EdgeId(i));
     if (value < lowest) lowest = value, least = EdgeId(i);
@@ -159,10 +157,60 @@ EdgeId leastOf(const Model& model, const CrackEdges& edges, ComponentId componen
   return least;
 }
 
+/// Is an edge inside the body?
+auto inside(const Model& model, const CrackEdges& edges, ComponentId component) {
+  return [&model, &edges, component](EdgeId edge) {
+    return model.triangles.component[edges.element[edge.value][0].value] == component &&
+           !edges.isBond(model, edge);
+  };
+}
+
 Cohesive valuesOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const Vec2 at = model.nodes.position[firstNode(model, edges.side(edge, 0)).value];
-  return {edges.strength[edge.value], edges.fractureEnergy[edge.value],
-          " at (" + text(at.x, "") + ", " + text(at.y, "") + ")"};
+  const auto [a, b] = edges.element[edge.value];
+  const ComponentId one = model.triangles.component[a.value];
+  const ComponentId other = model.triangles.component[b.value];
+  const double energy = edges.fractureEnergy[edge.value];
+  const std::string name =
+      one == other ? named(energy, one)
+                   : "energy is " + text(energy, " J/m²") + " of the bond between the bodies " +
+                         std::to_string(one.value) + " and " + std::to_string(other.value);
+  return {edges.strength[edge.value], energy,
+          name + " at (" + text(at.x, "") + ", " + text(at.y, "") + ")"};
+}
+
+double crossedBy(const Model& model, const CrackEdges& edges, EdgeId edge, double dt) {
+  const double thickness = model.bodyOf(edges.element[edge.value][0]).thickness;
+  return dt * dt * thickness * lightnessOf(model, edges, edge) * edges.strength[edge.value] / 4;
+}
+
+/// Against what a step crosses, the edge whose opening is the smallest.
+template <class Counts>
+EdgeId leastResolved(const Model& model, const CrackEdges& edges, Counts counts, double dt) {
+  return leastOf(model, edges, EdgeId(std::size_t{0}), counts, [&](EdgeId edge) {
+    return edges.fractureEnergy[edge.value] / edges.strength[edge.value] /
+           crossedBy(model, edges, edge, dt);
+  });
+}
+
+double lengthOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const Side side = edges.side(edge, 0);
+  return norm(model.nodes.position[lastNode(model, side).value] -
+              model.nodes.position[firstNode(model, side).value]);
+}
+
+/// (Pa) Of a crack between two materials: the mean of their compliances counts.
+double youngAt(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const auto [a, b] = edges.element[edge.value];
+  const double first = model.materialOf(a).material.young;
+  const double second = model.materialOf(b).material.young;
+  return first == second ? first : 2 / (1 / first + 1 / second);
+}
+
+/// (m) E·Gc/σc²
+double zoneOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const double strength = edges.strength[edge.value];
+  return youngAt(model, edges, edge) * edges.fractureEnergy[edge.value] / strength / strength;
 }
 
 }  // namespace
@@ -193,45 +241,56 @@ void checkCohesiveResolution(const Model& model, ComponentId component, double d
   if (sums.inner == 0) return;
   const double strength = likelyLargestStrength(body.brittle, sums.inner, sums.leastVolume);
   const double crossed = dt * dt * body.thickness * sums.lightest * strength / 4;
-  requireResolved({strength, body.brittle.fractureEnergy, {}}, crossed, sums.meanLength, component,
-                  dt);
+  const double energy = body.brittle.fractureEnergy;
+  requireResolved({strength, energy, named(energy, component)}, crossed, sums.meanLength, dt);
 }
 
 void checkCohesiveResolution(const Model& model, const CrackEdges& edges, ComponentId component,
                              double dt) {
   const Component& body = model.components[component.value];
   if (!body.brittleByPlace) return checkCohesiveResolution(model, component, dt);
-  const auto crossed = [&](EdgeId edge) {
-    return dt * dt * body.thickness * lightnessOf(model, edges, edge) * edges.strength[edge.value] /
-           4;
-  };
-  const EdgeId worst = leastOf(model, edges, component, [&](EdgeId edge) {
-    return edges.fractureEnergy[edge.value] / edges.strength[edge.value] / crossed(edge);
-  });
+  const EdgeId worst = leastResolved(model, edges, inside(model, edges, component), dt);
   if (worst == EdgeId::none()) return;
-  requireResolved(valuesOf(model, edges, worst), crossed(worst), sumsOf(model, body).meanLength,
-                  component, dt);
+  requireResolved(valuesOf(model, edges, worst), crossedBy(model, edges, worst, dt),
+                  sumsOf(model, body).meanLength, dt);
+}
+
+void checkBondResolution(const Model& model, const CrackEdges& edges, double dt) {
+  const auto isBond = [&](EdgeId edge) { return edges.isBond(model, edge); };
+  const EdgeId worst = leastResolved(model, edges, isBond, dt);
+  if (worst == EdgeId::none()) return;
+  requireResolved(valuesOf(model, edges, worst), crossedBy(model, edges, worst, dt),
+                  lengthOf(model, edges, worst), dt);
 }
 
 std::string cohesiveZoneWarning(const Model& model, ComponentId component) {
   const Component& body = model.components[component.value];
   const BrittleMaterial& brittle = body.brittle;
   if (!brittle.cracks() || brittle.fractureEnergy <= 0) return {};
-  return zoneSentence(body, {brittle.tensileStrength, brittle.fractureEnergy, {}},
-                      sumsOf(model, body).meanLength, component);
+  const std::string name = named(brittle.fractureEnergy, component);
+  return zoneSentence(body.material.young, {brittle.tensileStrength, brittle.fractureEnergy, name},
+                      sumsOf(model, body).meanLength);
 }
 
 std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,
                                 ComponentId component) {
   const Component& body = model.components[component.value];
   if (!body.brittleByPlace) return cohesiveZoneWarning(model, component);
-  const EdgeId worst = leastOf(model, edges, component, [&](EdgeId edge) {
-    const double strength = edges.strength[edge.value];
-    return edges.fractureEnergy[edge.value] / strength / strength;
-  });
+  const EdgeId worst =
+      leastOf(model, edges, EdgeId(std::size_t{0}), inside(model, edges, component),
+              [&](EdgeId edge) { return zoneOf(model, edges, edge); });
   if (worst == EdgeId::none()) return {};
-  return zoneSentence(body, valuesOf(model, edges, worst), sumsOf(model, body).meanLength,
-                      component);
+  return zoneSentence(youngAt(model, edges, worst), valuesOf(model, edges, worst),
+                      sumsOf(model, body).meanLength);
+}
+
+std::string bondZoneWarning(const Model& model, const CrackEdges& edges, EdgeId first) {
+  const EdgeId worst = leastOf(
+      model, edges, first, [&](EdgeId edge) { return edges.isBond(model, edge); },
+      [&](EdgeId edge) { return zoneOf(model, edges, edge) / lengthOf(model, edges, edge); });
+  if (worst == EdgeId::none()) return {};
+  return zoneSentence(youngAt(model, edges, worst), valuesOf(model, edges, worst),
+                      lengthOf(model, edges, worst));
 }
 
 }  // namespace yadefrag

@@ -28,6 +28,9 @@ void checkCohesiveResolution(const Model& model, ComponentId component, double d
 void checkCohesiveResolution(const Model& model, const CrackEdges& edges, ComponentId component,
                              double dt);
 
+/// The same for bonds between bodies.
+void checkBondResolution(const Model& model, const CrackEdges& edges, double dt);
+
 /// A sentence where the zone in which a crack's faces still hold is shorter than four elements, so
 /// that bodies with a notch or a crack bear too much; else empty. Its length is E·Gc/σc²
 /// (Hillerborg, Modéer and Petersson 1976, Cem. Concr. Res. 6, 773), an element's the mean of the
@@ -36,5 +39,8 @@ void checkCohesiveResolution(const Model& model, const CrackEdges& edges, Compon
 /// The same, of a body whose strength or fracture energy differ by place for its shortest zone.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,
                                               ComponentId component);
+/// The same of the bonds from edge `first` on.
+[[nodiscard]] std::string bondZoneWarning(const Model& model, const CrackEdges& edges,
+                                          EdgeId first);
 
 }  // namespace yadefrag

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/tolerances/fracture.hpp"
+#include "fracture/edge_material.hpp"
 #include "mesh/mobility.hpp"
 
 namespace yadefrag {
@@ -22,10 +23,10 @@ double criticalOpening(const CrackEdges& edges, EdgeId edge) {
 }
 
 CohesiveHold holdOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
-  const ElementId element = edges.side(edge, 0).element;
-  const Component& body = model.components[model.triangles.component[element.value].value];
-  const double beta = body.brittle.shearFactor;
-  return {0, 0, beta, beta * beta / body.brittle.shearEnergyFactor, body.friction, {}};
+  const auto [a, b] = edges.element[edge.value];
+  const auto [brittle, friction] = materialBetween(model, a, b);
+  const double beta = brittle.shearFactor;
+  return {0, 0, beta, beta * beta / brittle.shearEnergyFactor, friction, {}};
 }
 
 Vec2 times(Vec2 a, Vec2 b) { return {a.x * b.x, a.y * b.y}; }
@@ -47,11 +48,12 @@ void Cohesion::add(const Model& model, const CrackEdges& edges, EdgeId cracked,
   const Side side = edges.side(cracked, 0);
   const Vec2 along =
       reference[lastNode(model, side).value] - reference[firstNode(model, side).value];
-  const ComponentId body = model.triangles.component[side.element.value];
+  const auto [a, b] = edges.element[cracked.value];
+  const double thickness = std::min(model.bodyOf(a).thickness, model.bodyOf(b).thickness);
   edge.push_back(cracked);
   largest.push_back({0, 0});
   traction.push_back({});
-  area.push_back(norm(along) / 2 * model.components[body.value].thickness);
+  area.push_back(norm(along) / 2 * thickness);
 }
 
 template <class Keep>
@@ -264,8 +266,10 @@ void Cohesion::settle(const Model& model, const CrackEdges& edges) {
 }
 
 void Cohesion::removeDropped(const Triangles& triangles, const CrackEdges& edges) {
-  keepOnly(
-      [&](std::size_t c) { return !triangles.isDropped(edges.side(edge[c], 0).element.value); });
+  keepOnly([&](std::size_t c) {
+    const auto& [a, b] = edges.element[edge[c].value];
+    return !triangles.isDropped(a.value) && !triangles.isDropped(b.value);
+  });
 }
 
 }  // namespace yadefrag

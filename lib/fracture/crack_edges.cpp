@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "fracture/edge_material.hpp"
 #include "fracture/edge_strength.hpp"
 
 namespace yadefrag {
@@ -49,16 +50,25 @@ Joints byNodes(const std::vector<JointEdge>& joints, NodeId first) {
   return result;
 }
 
-/// The material as it is where an edge between these two triangles is.
-BrittleMaterial materialAt(const Component& body, const BrittlePlaces& places, ElementId a,
+/// The material as it is where an edge between these two triangles is; that of a triangle which
+/// never cracks does not count.
+BrittleMaterial materialAt(const Model& model, const BrittlePlaces& places, ElementId a,
                            ElementId b) {
-  const auto smaller = [&](const std::vector<double>& values) {
-    return std::min(values[a.value - body.firstTriangle], values[b.value - body.firstTriangle]);
-  };
-  BrittleMaterial material = body.brittle;
-  if (!places.strength.empty()) material.tensileStrength = smaller(places.strength);
-  if (!places.fractureEnergy.empty()) material.fractureEnergy = smaller(places.fractureEnergy);
-  return material;
+  BrittleMaterial material = weakerOf(model, a, b).brittle;
+  material.tensileStrength = material.fractureEnergy = kUnbreakable;
+  bool cracks = false;
+  for (const ElementId e : {a, b}) {
+    const BrittleMaterial& own = model.materialOf(e).brittle;
+    if (!own.cracks()) continue;
+    cracks = true;
+    const std::size_t i = e.value - model.bodyOf(e).firstTriangle;
+    const double strength = places.strength.empty() ? own.tensileStrength : places.strength[i];
+    const double energy =
+        places.fractureEnergy.empty() ? own.fractureEnergy : places.fractureEnergy[i];
+    material.tensileStrength = std::min(material.tensileStrength, strength);
+    material.fractureEnergy = std::min(material.fractureEnergy, energy);
+  }
+  return cracks ? material : BrittleMaterial{};
 }
 
 }  // namespace
@@ -92,17 +102,20 @@ std::vector<EdgeId> CrackEdges::addBody(const Model& model, ComponentId componen
     // Of each triangle a third belongs to each of its sides.
     const double area =
         model.triangles.area[a.element.value] + model.triangles.area[b.element.value];
-    const BrittleMaterial material = materialAt(body, places, a.element, b.element);
-    strength.push_back(edgeStrength(material, number++, body.thickness * area / 3));
+    const BrittleMaterial material = materialAt(model, places, a.element, b.element);
+    strength.push_back(material.cracks() ? edgeStrength(material, number, body.thickness * area / 3)
+                                         : kUnbreakable);
+    ++number;
     fractureEnergy.push_back(material.fractureEnergy);
     cracked.push_back(0);
     const auto [low, high] = std::minmax({firstNode(model, a), lastNode(model, a)});
     const auto joint = joints.find({low, high});
     if (joint == joints.end()) continue;
     const JointEdge& own = *joint->second;
-    if (own.strength > 0) {
-      strength.back() = own.strength;
-      if (!std::isnan(own.fractureEnergy)) fractureEnergy.back() = own.fractureEnergy;
+    if (own.strength != 0) {
+      if (!std::isnan(own.strength)) strength.back() = own.strength;
+      if (!std::isnan(own.fractureEnergy) && strength.back() != kUnbreakable)
+        fractureEnergy.back() = own.fractureEnergy;
     } else {
       fractureEnergy.back() = 0;
       open.emplace_back(size() - 1);
@@ -111,15 +124,31 @@ std::vector<EdgeId> CrackEdges::addBody(const Model& model, ComponentId componen
   return open;
 }
 
+void CrackEdges::addBonds(const Model& model, std::span<const std::array<Side, 2>> sides,
+                          double ofStrength, double ofEnergy) {
+  ofElement.resize(model.triangles.size(), kNoEdges);
+  ofNode.resize(model.nodes.size(), ElementId::none());
+  for (const auto& both : sides) {
+    const auto& [a, b] = std::minmax(both[0], both[1]);
+    ofElement[a.element.value][a.corner] = ofElement[b.element.value][b.corner] = EdgeId(size());
+    element.push_back({a.element, b.element});
+    corner.push_back({a.corner, b.corner});
+    strength.push_back(ofStrength);
+    fractureEnergy.push_back(ofEnergy);
+    cracked.push_back(1);
+  }
+}
+
 std::vector<EdgeId> CrackEdges::removeBody(const Model& model, ElementId first, ElementId last,
                                            std::span<const NodeId> renumberedNodes) {
   const std::uint32_t gone = last.value - first.value;
   const auto shifted = [&](ElementId e) { return e < last ? e : ElementId(e.value - gone); };
   std::size_t kept = 0;
   std::vector<EdgeId> renumbered(size(), EdgeId::none());
+  const auto isGone = [&](ElementId e) { return e >= first && e < last; };
   ofElement.assign(model.triangles.size(), kNoEdges);
   for (std::size_t i = 0; i < size(); ++i) {
-    if (element[i][0] >= first && element[i][0] < last) continue;
+    if (isGone(element[i][0]) || isGone(element[i][1])) continue;
     element[kept] = {shifted(element[i][0]), shifted(element[i][1])};
     corner[kept] = corner[i];
     strength[kept] = strength[i];

@@ -45,10 +45,18 @@ struct CrackEdges {
   [[nodiscard]] std::size_t size() const { return element.size(); }
 
   /// Adds the inner edges of a body that has just joined the model, in the order of its triangles.
-  /// Of the values that its two triangles have in `places` an edge has the smaller. The strength's
-  /// scatter is about that value; joints have none. Returns the edges of joints without strength.
+  /// Of the values that its two triangles have, by material or in `places`, an edge has the
+  /// smaller; it never cracks where both do not. The strength's scatter is about that value; joints
+  /// have none. Returns the edges of joints without strength.
   std::vector<EdgeId> addBody(const Model& model, ComponentId component,
                               const BrittlePlaces& places = {});
+  /// Adds edges between two bodies, that are cracked already.
+  void addBonds(const Model& model, std::span<const std::array<Side, 2>> sides, double ofStrength,
+                double ofEnergy);
+  [[nodiscard]] bool isBond(const Model& model, EdgeId edge) const {
+    const auto& [a, b] = element[edge.value];
+    return model.triangles.component[a.value] != model.triangles.component[b.value];
+  }
   /// After a body has left the model: what is left is known by new numbers. Returns those of the
   /// edges, none() for edges that are gone.
   std::vector<EdgeId> removeBody(const Model& model, ElementId first, ElementId last,

@@ -18,6 +18,14 @@ void Fracture::open(Model& model, const ContactSurfaces& surfaces, std::span<con
   splitNodes(model, edges, surfaces, joints, result);
 }
 
+void Fracture::bond(const Model& model, std::span<const std::array<Side, 2>> sides, double strength,
+                    double energy, std::span<const Vec2> reference) {
+  const std::size_t first = edges.size();
+  edges.addBonds(model, sides, strength, energy);
+  for (std::size_t i = first; i < edges.size(); ++i)
+    cohesion.add(model, edges, EdgeId(i), reference);
+}
+
 void Fracture::removeBody(const Model& model, ElementId first, ElementId last,
                           std::span<const NodeId> renumberedNodes) {
   // A brittle body of a single triangle has no edges, and is known by its nodes nevertheless.

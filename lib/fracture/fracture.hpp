@@ -21,6 +21,9 @@ class Fracture {
   /// Opens edges that nothing has held so far, and splits nodes; they count as no cracks.
   void open(Model& model, const ContactSurfaces& surfaces, std::span<const EdgeId> joints,
             SplitResult& result);
+  /// Two bodies hang together along these sides, as cracks that hold.
+  void bond(const Model& model, std::span<const std::array<Side, 2>> sides, double strength,
+            double energy, std::span<const Vec2> reference);
   /// A body has left it: its triangles were [first, last).
   void removeBody(const Model& model, ElementId first, ElementId last,
                   std::span<const NodeId> renumberedNodes);

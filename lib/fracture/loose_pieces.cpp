@@ -14,6 +14,7 @@ void LoosePieces::find(const Model& model, const CrackEdges& edges, const Cohesi
   firstWalk_ = walk_ + 1;
   for (const ElementId start : around) {
     if (met_[start.value] >= firstWalk_ || model.triangles.isDropped(start.value)) continue;
+    if (!model.bodyOf(start).brittle.cracks()) continue;  // only bonded
     if (!grow(model, edges, start, area)) continue;
     // In one order, wherever the walk began: the area's last bit may decide.
     std::sort(piece_.begin(), piece_.end());

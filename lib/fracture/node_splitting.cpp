@@ -137,8 +137,8 @@ class Splitting {
     double mass = 0;
     for (const ElementId element : part) {
       const Triangles& triangles = model_.triangles;
-      const Component& body = model_.components[triangles.component[element.value].value];
-      mass += body.material.density * body.thickness * triangles.area[element.value] / 3;
+      mass += model_.materialOf(element).material.density * model_.bodyOf(element).thickness *
+              triangles.area[element.value] / 3;
       if (node == former) continue;
       const auto corner = static_cast<std::size_t>(cornerOf(model_, element, former));
       model_.triangles.nodes[element.value][corner] = node;

@@ -3,10 +3,21 @@
 #include <algorithm>
 
 #include "dynamics/element_state.hpp"
+#include "fracture/edge_material.hpp"
 #include "fracture/separation.hpp"
 #include "fracture/tip_pull.hpp"
 
 namespace yadefrag {
+namespace {
+
+bool haveSeveralMaterials(const Model& model, std::span<const ElementId> elements) {
+  if (!model.bodyOf(elements.front()).isMixed()) return false;
+  const auto number = [&](ElementId e) { return model.triangles.material[e.value]; };
+  return std::ranges::any_of(elements,
+                             [&](ElementId e) { return number(e) != number(elements.front()); });
+}
+
+}  // namespace
 
 std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackEdges& edges,
                                                 std::span<const ElementRange> where,
@@ -35,7 +46,8 @@ void StrengthCheck::lookAround(const Model& model, const CrackEdges& edges, Node
                                std::span<const double> leastStrength) {
   if (nodeLookedAt_[node.value] == call_) return;
   nodeLookedAt_[node.value] = call_;
-  // Of an edge's two ends one at least bears as much by itself as their mean.
+  // Of an edge's two ends one at least bears as much by itself as their mean. Where materials meet,
+  // a node's mean is not that of its edges.
   const ComponentId body = model.nodes.component[node.value];
   const Component& component = model.components[body.value];
   const double most =
@@ -45,7 +57,9 @@ void StrengthCheck::lookAround(const Model& model, const CrackEdges& edges, Node
   if (!isWeak && !mayHold) return;
   around_.clear();
   const bool isInside = edges.appendFan(model, node, around_);
-  if (!isWeak && (isInside || !isTip(model, around_, node))) return;
+  if (!isWeak && !haveSeveralMaterials(model, around_) &&
+      (isInside || !isTip(model, around_, node)))
+    return;
   for (const ElementId element : around_) {
     const int corner = cornerOf(model, element, node);
     for (const int side : {corner, static_cast<int>(beforeCorner(corner))}) {
@@ -98,17 +112,40 @@ const StrengthCheck::Stress& StrengthCheck::stressAt(const Model& model, const C
   return mean;
 }
 
+/// At an end of an edge: the mean over those triangles that have one of the edge's two materials.
+StrengthCheck::Stress StrengthCheck::stressOfMaterials(const Model& model, const CrackEdges& edges,
+                                                       EdgeId edge, NodeId node) {
+  const auto number = [&](ElementId e) { return model.triangles.material[e.value]; };
+  const auto [a, b] = edges.element[edge.value];
+  fan_.clear();
+  edges.appendFan(model, node, fan_);
+  Stress mean{};
+  double whole = 0;
+  for (const ElementId element : fan_) {
+    if (number(element) != number(a) && number(element) != number(b)) continue;
+    const double area = model.triangles.area[element.value];
+    const Stress& stress = stressOf(model, element);
+    for (std::size_t i = 0; i < 3; ++i) mean[i] += area * stress[i];
+    whole += area;
+  }
+  for (double& component : mean) component /= whole;
+  return mean;
+}
+
 double StrengthCheck::ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const Side side = edges.side(edge, 0);
   const NodeId a = firstNode(model, side), b = lastNode(model, side);
-  Stress mean = stressAt(model, edges, a);
-  const Stress& other = stressAt(model, edges, b);
+  const bool isMixed = model.bodyOf(side.element).isMixed();
+  Stress mean = isMixed ? stressOfMaterials(model, edges, edge, a) : stressAt(model, edges, a);
+  const Stress other =
+      isMixed ? stressOfMaterials(model, edges, edge, b) : stressAt(model, edges, b);
   for (std::size_t i = 0; i < 3; ++i) mean[i] = .5 * (mean[i] + other[i]);
   const Vec2 across = rightOf(model.nodes.position[b.value] - model.nodes.position[a.value]);
   const Vec2 normal = (1 / norm(across)) * across;
   const Traction traction = tractionOn(mean, normal);
-  const Component& body = model.components[model.triangles.component[side.element.value].value];
-  double most = effectiveTraction(traction.normal, traction.shear, body.brittle, body.friction);
+  const auto [first, second] = edges.element[edge.value];
+  const auto [brittle, friction] = materialBetween(model, first, second);
+  double most = effectiveTraction(traction.normal, traction.shear, brittle, friction);
   if (edges.fractureEnergy[edge.value] > 0)
     for (const NodeId end : {a, b}) most = std::max(most, pullAt(model, edges, edge, end, normal));
   return most / edges.strength[edge.value];

@@ -1,7 +1,9 @@
 #pragma once
 // Which edges reach their strength: the stress at a node is that of the triangles around it, by
-// area; at an edge it is the mean of its ends'. Where there is a fracture energy, the pull at the
-// tip of a notch or a crack counts, too (tip_pull.hpp).
+// area; at an edge it is the mean of its ends'. Where triangles of several materials meet, only
+// those of the edge's own one or two count: beside an interface the stress along it jumps, and only
+// the traction on it does not. Where there is a fracture energy, the pull at the tip of a notch or
+// a crack counts, too (tip_pull.hpp).
 
 #include <array>
 #include <span>
@@ -40,6 +42,7 @@ class StrengthCheck {
                   std::span<const double> leastStrength);
   const Stress& stressOf(const Model& model, ElementId element);
   const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
+  Stress stressOfMaterials(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node);
   double ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge);
   double pullAt(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node, Vec2 normal);
   std::vector<EdgeId> pickApart(const Model& model, const CrackEdges& edges);

@@ -62,17 +62,19 @@ double tipPull(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId 
     return std::find(fan.begin(), fan.end(), edges.side(edge, which).element) - fan.begin();
   };
   const auto first = placeOf(0), second = placeOf(1);
-  std::array<Vec2, 2> force{};  // N/m, on the node's parts at the first and second triangle
-  std::array<double, 2> area{};
+  std::array<Vec2, 2> force{};   // N/m, on the node's parts at the first and second triangle
+  std::array<double, 2> mass{};  // per thickness and density of the first triangle
+  const double density = model.materialOf(fan.front()).material.density;
   for (std::ptrdiff_t i = 0; i < std::ssize(fan); ++i) {
     const ElementId element = fan[static_cast<std::size_t>(i)];
     const std::size_t part = (i <= std::min(first, second)) == (first < second) ? 0 : 1;
     const auto [after, before] = oppositeEnds(model, element, tip);
     force[part] += forceOn(stressOf(model, element), after, before);
-    area[part] += model.triangles.area[element.value];
+    mass[part] +=
+        model.materialOf(element).material.density / density * model.triangles.area[element.value];
   }
   // What is left of either's force once both move alike.
-  const Vec2 pull = (1 / (area[0] + area[1])) * (area[1] * force[0] - area[0] * force[1]);
+  const Vec2 pull = (1 / (mass[0] + mass[1])) * (mass[1] * force[0] - mass[0] * force[1]);
   const double length =
       (lengthOf(model, edges.side(edge, 0)) + crackAt(model, edges, fan, tip)) / 2;
   return -dot(normal, pull) / length;

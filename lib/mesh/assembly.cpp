@@ -8,10 +8,12 @@ namespace yadefrag {
 namespace {
 
 void addMasses(Model& model, const Component& c) {
-  const double density = c.material.density * c.thickness;
-  for (std::size_t t = c.firstTriangle; t < c.lastTriangle; ++t)
+  double density = c.material.density * c.thickness;
+  for (std::size_t t = c.firstTriangle; t < c.lastTriangle; ++t) {
+    if (c.isMixed()) density = model.materialOf(ElementId(t)).material.density * c.thickness;
     for (const NodeId node : model.triangles.nodes[t])
       model.nodes.mass[node.value] += density * model.triangles.area[t] / 3;
+  }
 }
 
 void appendTriangle(Triangles& triangles, const std::array<Vec2, 3>& x) {
@@ -39,12 +41,36 @@ void removeTriangles(Model& model, Component& gone) {
   t.inverseEdges.erase(t.inverseEdges.begin() + first, t.inverseEdges.begin() + last);
   t.area.erase(t.area.begin() + first, t.area.begin() + last);
   t.component.erase(t.component.begin() + first, t.component.begin() + last);
+  if (!t.material.empty()) t.material.erase(t.material.begin() + first, t.material.begin() + last);
   for (Component& c : model.components)
     if (c.firstTriangle >= last) {
       c.firstTriangle -= last - first;
       c.lastTriangle -= last - first;
     }
   gone.firstTriangle = gone.lastTriangle = first;
+}
+
+void appendMaterials(Model& model, const MaterialPlaces& places, Component& added) {
+  added.firstMaterial = static_cast<std::uint32_t>(model.materials.size());
+  model.materials.insert(model.materials.end(), places.materials.begin(), places.materials.end());
+  added.lastMaterial = static_cast<std::uint32_t>(model.materials.size());
+  std::vector<std::uint32_t>& material = model.triangles.material;
+  if (places.empty() && material.empty()) return;
+  material.resize(added.firstTriangle);
+  material.insert(material.end(), places.ofTriangle.begin(), places.ofTriangle.end());
+  material.resize(model.triangles.size());
+}
+
+void removeMaterials(Model& model, Component& gone) {
+  const std::uint32_t first = gone.firstMaterial, last = gone.lastMaterial;
+  model.materials.erase(model.materials.begin() + first, model.materials.begin() + last);
+  for (Component& c : model.components)
+    if (c.firstMaterial >= last) {
+      c.firstMaterial -= last - first;
+      c.lastMaterial -= last - first;
+    }
+  gone.firstMaterial = gone.lastMaterial = 0;
+  if (model.materials.empty()) model.triangles.material = {};
 }
 
 }  // namespace
@@ -59,7 +85,8 @@ void checkTriangles(const TriangleMesh& mesh) {
   }
 }
 
-ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component) {
+ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component,
+                       const MaterialPlaces& materials) {
   checkTriangles(mesh);
   const ComponentId id(model.components.size());
   Nodes& nodes = model.nodes;
@@ -83,6 +110,7 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
   }
   added.lastTriangle = static_cast<std::uint32_t>(triangles.size());
   triangles.component.resize(triangles.size(), id);
+  appendMaterials(model, materials, added);
   model.components.push_back(added);
   addMasses(model, added);
   return id;
@@ -90,6 +118,7 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
 
 std::vector<NodeId> removeBody(Model& model, ComponentId component) {
   removeTriangles(model, model.components[component.value]);
+  removeMaterials(model, model.components[component.value]);
   Nodes& nodes = model.nodes;
   const auto stays = [&](std::size_t n) { return nodes.component[n] != component; };
   std::vector<NodeId> renumbered(nodes.size(), NodeId::none());

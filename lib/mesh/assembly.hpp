@@ -12,11 +12,12 @@ namespace yadefrag {
 void checkTriangles(const TriangleMesh& mesh);
 
 /// Adds a mesh, at rest, free, and without stress where its nodes are, as a new component (the
-/// range of triangles in `component` is filled in). Throws as checkTriangles.
-ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component);
+/// ranges of triangles and materials in `component` are filled in). Throws as checkTriangles.
+ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component,
+                       const MaterialPlaces& materials = {});
 
-/// Takes away a component's nodes and triangles; the others keep their order and components their
-/// ids. Returns the new number of each old node, none() for those that are gone.
+/// Takes away a component's nodes, triangles and materials; the others keep their order and
+/// components their ids. Returns the new number of each old node, none() for those that are gone.
 std::vector<NodeId> removeBody(Model& model, ComponentId component);
 
 /// Sets the mass of every node: a third of ρ·area·thickness of each of its triangles.

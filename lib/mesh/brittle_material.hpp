@@ -28,8 +28,9 @@ struct BrittleMaterial {
 /// An edge of a body's mesh on a joint.
 struct JointEdge {
   std::array<std::uint32_t, 2> nodes;  ///< of the mesh
-  double strength = 0;                 ///< Pa, without scatter; 0: open from the start
-  double fractureEnergy = NAN;         ///< J/m²; not a number: as the triangles beside it have it
+  /// Pa, without scatter; 0: open from the start; not a number: as the triangles beside it have it.
+  double strength = 0;
+  double fractureEnergy = NAN;  ///< J/m²; not a number: as the triangles beside it have it
 };
 
 /// Where a body's strength and fracture energy are not its material's.

@@ -7,8 +7,7 @@
 
 #include "core/ids.hpp"
 #include "core/vec2.hpp"
-#include "mesh/brittle_material.hpp"
-#include "mesh/elastic_material.hpp"
+#include "mesh/body_material.hpp"
 
 namespace yadefrag {
 
@@ -49,6 +48,8 @@ struct Triangles {
   std::vector<std::array<double, 4>> inverseEdges;
   std::vector<double> area;  ///< m², stress-free; 0: dropped
   std::vector<ComponentId> component;
+  /// Number of its material among its body's; empty if no body has several.
+  std::vector<std::uint32_t> material;
 
   [[nodiscard]] std::size_t size() const { return nodes.size(); }
   /// A dropped triangle keeps its number and its nodes, and does nothing any more.
@@ -61,23 +62,35 @@ enum class ElementKind : std::uint8_t {
   kSmoothed,  ///< with its neighbours: strains averaged at the nodes
 };
 
-/// What all triangles of one body share. A removed component keeps its slot with no triangles.
-struct Component {
-  ElasticMaterial material;
-  BrittleMaterial brittle;
-  bool brittleByPlace = false;  ///< do its edges have strengths or energies of their own
+/// What all triangles of one body share; its material, or the bound of several (`boundOf`). A
+/// removed component keeps its slot with no triangles.
+struct Component : BodyMaterial {
   double thickness = 1;         ///< m
-  double friction = 0;          ///< tan of the friction angle
+  bool brittleByPlace = false;  ///< do its edges have strengths or energies of their own
   bool selfContact = true;      ///< may its surfaces touch each other
   ElementKind element = ElementKind::kLinear;
   std::uint32_t firstTriangle = 0;
-  std::uint32_t lastTriangle = 0;  ///< one past; triangles of a component are consecutive
+  std::uint32_t lastTriangle = 0;   ///< one past; triangles of a component are consecutive
+  std::uint32_t firstMaterial = 0;  ///< in Model::materials, if it has several
+  std::uint32_t lastMaterial = 0;   ///< one past
+
+  [[nodiscard]] bool isMixed() const { return firstMaterial != lastMaterial; }
 };
 
 struct Model {
   Nodes nodes;
   Triangles triangles;
   std::vector<Component> components;
+  std::vector<BodyMaterial> materials;  ///< of bodies that have several, body by body
+
+  [[nodiscard]] const Component& bodyOf(ElementId element) const {
+    return components[triangles.component[element.value].value];
+  }
+  [[nodiscard]] const BodyMaterial& materialOf(ElementId element) const {
+    const Component& body = bodyOf(element);
+    if (!body.isMixed()) return body;
+    return materials[body.firstMaterial + triangles.material[element.value]];
+  }
 };
 
 }  // namespace yadefrag

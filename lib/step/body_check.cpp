@@ -65,21 +65,8 @@ void checkDisplacement(const TriangleMesh& mesh, const std::vector<Vec2>& displa
   }
 }
 
-bool isPositive(double value) { return value > 0 && std::isfinite(value); }
-
-void checkMaterial(const BodySpec& spec) {
-  const ElasticMaterial& m = spec.material;
-  const char* positive = "positive and finite";
-  require(isPositive(m.young), "young", m.young, " Pa", positive);
-  require(m.poisson > -1 && m.poisson < .5, "poisson", m.poisson, "", "above -1 and below 0.5");
-  require(isPositive(m.density), "density", m.density, " kg/m³", positive);
-  require(isPositive(spec.thickness), "thickness", spec.thickness, " m", positive);
-  require(spec.friction >= 0 && std::isfinite(spec.friction), "friction", spec.friction, "",
-          "0 or positive, and finite");
-  if (spec.brittle.tensileStrength != 0) checkBrittle(spec.brittle);
-}
-
-void requireOfTriangles(const char* name, const std::vector<double>& values,
+template <class Value>
+void requireOfTriangles(const char* name, const std::vector<Value>& values,
                         const TriangleMesh& mesh) {
   if (values.empty() || values.size() == mesh.triangles.size()) return;
   std::ostringstream text;
@@ -88,9 +75,41 @@ void requireOfTriangles(const char* name, const std::vector<double>& values,
   throw InputError(text.str());
 }
 
+bool isPositive(double value) { return value > 0 && std::isfinite(value); }
+
+void checkMaterial(const BodyMaterial& one) {
+  const ElasticMaterial& m = one.material;
+  const char* positive = "positive and finite";
+  require(isPositive(m.young), "young", m.young, " Pa", positive);
+  require(m.poisson > -1 && m.poisson < .5, "poisson", m.poisson, "", "above -1 and below 0.5");
+  require(isPositive(m.density), "density", m.density, " kg/m³", positive);
+  require(one.friction >= 0 && std::isfinite(one.friction), "friction", one.friction, "",
+          "0 or positive, and finite");
+  if (one.brittle.tensileStrength != 0) checkBrittle(one.brittle);
+}
+
+/// One material, or several and a number for each triangle.
+void checkMaterials(const TriangleMesh& mesh, const BodySpec& spec) {
+  if (spec.materials.empty()) return checkMaterial(spec);
+  if (spec.element == ElementKind::kSmoothed)
+    throw InputError(
+        "element is 'smoothed', but the body has several materials, whose strains must not be "
+        "averaged where they meet; it must be 'linear', or bodies of one material each, bonded.");
+  for (const BodyMaterial& one : spec.materials.materials) checkMaterial(one);
+  requireOfTriangles("material", spec.materials.ofTriangle, mesh);
+  for (const std::uint32_t number : spec.materials.ofTriangle)
+    require(number < spec.materials.materials.size(), "material", number, "",
+            "the number of one of the body's materials");
+}
+
+const BodyMaterial& materialOf(const BodySpec& spec, std::size_t triangle) {
+  if (spec.materials.empty()) return spec;
+  return spec.materials.materials[spec.materials.ofTriangle[triangle]];
+}
+
 void checkPlaces(const TriangleMesh& mesh, const BodySpec& spec) {
   const BrittlePlaces& places = spec.places;
-  if (!places.empty() && !spec.brittle.cracks())
+  if (!places.empty() && !wholeOf(spec).brittle.cracks())
     throw InputError(
         "strength, fractureEnergy and joints are given, but the material does not crack; it must "
         "be a BrittleFEMat.");
@@ -104,8 +123,8 @@ void checkPlaces(const TriangleMesh& mesh, const BodySpec& spec) {
             "0 or positive, and finite, for every triangle");
   for (const JointEdge& joint : places.joints) {
     assert(joint.nodes[0] < mesh.nodes.size() && joint.nodes[1] < mesh.nodes.size());
-    require(notNegative(joint.strength), "jointStrength", joint.strength, " Pa",
-            "0 or positive, and finite");
+    require(std::isnan(joint.strength) || notNegative(joint.strength), "jointStrength",
+            joint.strength, " Pa", "0 or positive, and finite");
     require(std::isnan(joint.fractureEnergy) || notNegative(joint.fractureEnergy), "jointEnergy",
             joint.fractureEnergy, " J/m²", "0 or positive, and finite");
   }
@@ -118,10 +137,12 @@ void checkMasses(const TriangleMesh& mesh, const BodySpec& spec) {
     using Limits = std::numeric_limits<double>;
     return value >= Limits::min() && value <= Limits::max() / tolerance::kMostSummed;
   };
-  const double modulus = spec.material.waveModulus();
-  for (const auto& [a, b, c] : mesh.triangles) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const ElasticMaterial& material = materialOf(spec, t).material;
+    const double modulus = material.waveModulus();
     const double twice = cross(mesh.nodes[b] - mesh.nodes[a], mesh.nodes[c] - mesh.nodes[a]);
-    const double mass = spec.material.density * spec.thickness * twice / 2;
+    const double mass = material.density * spec.thickness * twice / 2;
     require(isInRange(mass), "the mass of a triangle", mass, " kg", kRange);
     const Vec2 edges[] = {mesh.nodes[b] - mesh.nodes[a], mesh.nodes[c] - mesh.nodes[b],
                           mesh.nodes[a] - mesh.nodes[c]};
@@ -148,6 +169,16 @@ Extent extentOf(const TriangleMesh& mesh) {
   return extent;
 }
 
+/// (m/s)
+double fastestWave(const BodySpec& spec) {
+  const auto wave = [](const ElasticMaterial& m) { return std::sqrt(m.waveModulus() / m.density); };
+  if (spec.materials.empty()) return wave(spec.material);
+  double fastest = 0;
+  for (const BodyMaterial& one : spec.materials.materials)
+    fastest = std::max(fastest, wave(one.material));
+  return fastest;
+}
+
 /// Can coordinates hold what elements strain by, and what a step moves them by?
 void checkRounding(const TriangleMesh& mesh, const BodySpec& spec) {
   const Extent extent = extentOf(mesh);
@@ -160,8 +191,7 @@ void checkRounding(const TriangleMesh& mesh, const BodySpec& spec) {
   }
   double fastest = 0;
   for (const Vec2 velocity : spec.velocity) fastest = std::max(fastest, norm(velocity));
-  const double wave = std::sqrt(spec.material.waveModulus() / spec.material.density);
-  const double step = extent.shortest / wave;
+  const double step = extent.shortest / fastestWave(spec);
   const double seen = tolerance::kSeenMotion * extent.farthest;
   if (fastest == 0 || fastest * step >= seen) return;
   text << "velocity is " << fastest << " m/s at most: at coordinates of " << extent.farthest
@@ -181,7 +211,8 @@ void checkBody(const TriangleMesh& mesh, const BodySpec& spec) {
   requireSlow(spec.velocity);
   requireFinite("displacement", spec.displacement);
   requireHeld(spec.held);
-  checkMaterial(spec);
+  require(isPositive(spec.thickness), "thickness", spec.thickness, " m", "positive and finite");
+  checkMaterials(mesh, spec);
   checkPlaces(mesh, spec);
   checkTriangles(mesh);
   checkDisplacement(mesh, spec.displacement);

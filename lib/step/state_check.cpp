@@ -34,19 +34,26 @@ bool areLinks(const std::vector<Id>& next, const std::vector<Id>& prev) {
   return true;
 }
 
-bool isRight(const Component& c, std::size_t triangles) {
-  const ElasticMaterial& m = c.material;
+bool materialIsRight(const BodyMaterial& one) {
+  const ElasticMaterial& m = one.material;
   return isPositive(m.young) && m.poisson > -1 && m.poisson < .5 && isPositive(m.density) &&
-         isPositive(c.thickness) && c.friction >= 0 && std::isfinite(c.friction) &&
-         c.brittle.tensileStrength >= 0 && c.brittle.fractureEnergy >= 0 &&
-         c.element <= ElementKind::kSmoothed && c.brittle.shearFactor > 0 &&
-         c.brittle.shearEnergyFactor > 0 && c.brittle.referenceVolume >= 0 &&
-         c.firstTriangle <= c.lastTriangle && c.lastTriangle <= triangles;
+         one.friction >= 0 && std::isfinite(one.friction) && one.brittle.tensileStrength >= 0 &&
+         one.brittle.fractureEnergy >= 0 && one.brittle.shearFactor > 0 &&
+         one.brittle.shearEnergyFactor > 0 && one.brittle.referenceVolume >= 0;
+}
+
+bool isRight(const Component& c, const Model& model) {
+  return materialIsRight(c) && isPositive(c.thickness) && c.element <= ElementKind::kSmoothed &&
+         !(c.isMixed() && c.element == ElementKind::kSmoothed) &&
+         c.firstTriangle <= c.lastTriangle && c.lastTriangle <= model.triangles.size() &&
+         c.firstMaterial <= c.lastMaterial && c.lastMaterial <= model.materials.size() &&
+         !(c.isMixed() && model.triangles.material.empty());
 }
 
 bool componentsAreRight(const Model& model) {
-  return std::ranges::all_of(
-      model.components, [&](const Component& c) { return isRight(c, model.triangles.size()); });
+  return std::ranges::all_of(model.components,
+                             [&](const Component& c) { return isRight(c, model); }) &&
+         std::ranges::all_of(model.materials, materialIsRight);
 }
 
 bool nodesAreRight(const World& world) {
@@ -70,16 +77,19 @@ bool triangleIsRight(const Model& model, std::size_t element) {
         (!t.isDropped(element) && !(model.nodes.mass[node.value] > 0)))
       return false;
   const std::uint32_t body = t.component[element].value;
-  return body < components.size() && element >= components[body].firstTriangle &&
-         element < components[body].lastTriangle && t.area[element] >= 0 &&
-         std::isfinite(t.area[element]) &&
+  if (body >= components.size()) return false;
+  const std::uint32_t materials = components[body].lastMaterial - components[body].firstMaterial;
+  if (materials > 0 && t.material[element] >= materials) return false;
+  return element >= components[body].firstTriangle && element < components[body].lastTriangle &&
+         t.area[element] >= 0 && std::isfinite(t.area[element]) &&
          std::ranges::all_of(t.inverseEdges[element], [](double v) { return std::isfinite(v); });
 }
 
 bool trianglesAreRight(const Model& model) {
   const Triangles& t = model.triangles;
   const std::size_t count = t.size();
-  if (t.inverseEdges.size() != count || t.area.size() != count || t.component.size() != count)
+  if (t.inverseEdges.size() != count || t.area.size() != count || t.component.size() != count ||
+      (!t.material.empty() && t.material.size() != count))
     return false;
   for (std::size_t e = 0; e < count; ++e)
     if (!triangleIsRight(model, e)) return false;

@@ -20,16 +20,14 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   checkBody(mesh, spec);
   requireApart(mesh, spec);
   Component component;
-  component.material = spec.material;
-  component.brittle = spec.brittle;
-  component.brittleByPlace = !spec.places.empty();
+  static_cast<BodyMaterial&>(component) = wholeOf(spec);
+  component.brittleByPlace = !spec.places.empty() || !spec.materials.empty();
   component.thickness = spec.thickness;
-  component.friction = spec.friction;
   // What comes off a body touches what is left of it.
-  component.selfContact = spec.selfContact || spec.brittle.cracks();
+  component.selfContact = spec.selfContact || component.brittle.cracks();
   component.element = spec.element;
   const std::size_t first = model.nodes.size();
-  const ComponentId id = appendBody(model, mesh, component);
+  const ComponentId id = appendBody(model, mesh, component, spec.materials);
   reference.insert(reference.end(), mesh.nodes.begin(), mesh.nodes.end());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (!spec.displacement.empty()) model.nodes.position[first + i] += spec.displacement[i];
@@ -152,6 +150,7 @@ void World::watchStrengths() {
   least.assign(fracture.isOn() ? model.components.size() : 0, INFINITY);
   const CrackEdges& edges = fracture.edges;
   for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (edges.isBond(model, EdgeId(i))) continue;
     const ComponentId body = model.triangles.component[edges.element[i][0].value];
     least[body.value] = std::min(least[body.value], edges.strength[i]);
   }
@@ -181,6 +180,7 @@ void World::requireStableStep(double dt) {
   for (std::size_t c = 0; c < model.components.size(); ++c)
     if (model.components[c].brittle.cracks())
       checkCohesiveResolution(model, fracture.edges, ComponentId(c), dt);
+  checkBondResolution(model, fracture.edges, dt);
   stableStep = dt;
   stableViscosity = viscosity;
 }

@@ -28,11 +28,9 @@
 namespace yadefrag {
 
 /// What a body is beside its mesh. Arrays are by node of the mesh; empty ones stand for zeros.
-struct BodySpec {
-  ElasticMaterial material;
-  BrittleMaterial brittle;
+struct BodySpec : BodyMaterial {
+  MaterialPlaces materials;  ///< in place of the one above, if there are several
   BrittlePlaces places;
-  double friction = 0;   ///< tan of the friction angle
   double thickness = 1;  ///< m
   bool selfContact = true;
   ElementKind element = ElementKind::kLinear;
@@ -41,6 +39,12 @@ struct BodySpec {
   std::vector<std::uint8_t> held;         ///< Held
   std::vector<std::uint8_t> smoothNodes;  ///< is a boundary node on a C¹-smooth part
 };
+
+/// Its material, or the bound of several.
+[[nodiscard]] inline BodyMaterial wholeOf(const BodySpec& spec) {
+  if (spec.materials.empty()) return spec;
+  return boundOf(spec.materials, spec.places);
+}
 
 /// Fragments that were taken out because they were too small; their energy is in the ledger.
 struct Dropped {
@@ -54,6 +58,10 @@ class World {
   /// Both throw InputError before anything is changed.
   ComponentId addBody(const TriangleMesh& mesh, const BodySpec& spec);
   void removeBody(ComponentId component);
+  /// From the next step on the bodies hang together along all sides that they have in common now,
+  /// as a crack that holds does, of this strength (Pa) and energy (J/m²). Returns how many sides
+  /// these are. InputError before anything is changed.
+  std::size_t bond(ComponentId a, ComponentId b, double strength, double energy);
 
   /// (N) Constant outer forces by node; empty: none. InputError unless one per node, all finite.
   void setLoads(std::vector<Vec2> loads);

@@ -11,6 +11,7 @@ Footprint World::footprint() const {
   sum.add(Use::kMesh, nodes.position, nodes.velocity, nodes.mass, nodes.held, nodes.component,
           triangles.nodes, triangles.inverseEdges, triangles.area, triangles.component,
           model.components, reference);
+  sum.add(Use::kMaterials, triangles.material, model.materials);
   sum.add(Use::kLoads, nodes.load, outerForces);
   const ContactSurfaces& s = surfaces;
   sum.add(Use::kSurfaces, s.segmentNode, s.segmentNext, s.segmentPrev, s.segmentEntry,

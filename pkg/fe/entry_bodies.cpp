@@ -62,6 +62,29 @@ double momentAbout(Vec2 about, const yade::Body& body, Vec2 force, double torque
   return moment + cross((1. / count) * points - about, force - explained);
 }
 
+/// By node of the last body, if it has several materials: that of the triangle whose side on the
+/// boundary begins there; else empty.
+std::vector<std::uint32_t> materialsAlong(const World& world) {
+  const Model& model = world.model;
+  const Component& body = model.components.back();
+  if (!body.isMixed()) return {};
+  std::vector<std::uint32_t> numbers(model.nodes.size());
+  const ContactSurfaces& surfaces = world.surfaces;
+  const auto endOf = [&](NodeId node) {
+    if (node.value >= surfaces.nodeSegment.size()) return NodeId::none();
+    const SegmentId segment = surfaces.nodeSegment[node.value];
+    if (segment == SegmentId::none()) return NodeId::none();
+    return surfaces.segmentNode[surfaces.segmentNext[segment.value].value];
+  };
+  for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& nodes = model.triangles.nodes[e];
+      if (endOf(nodes[i]) == nodes[(i + 1) % 3])
+        numbers[nodes[i].value] = model.triangles.material[e];
+    }
+  return numbers;
+}
+
 bool isPresent(const yade::Scene& scene, yade::Body::id_t id) {
   const auto place = static_cast<std::size_t>(id);
   return place < scene.bodies->size() && scene.bodies->body[place] &&
@@ -110,10 +133,13 @@ void EntryBodies::appendNone() {
 }
 
 void EntryBodies::add(yade::Scene& scene, const World& world,
-                      const yade::shared_ptr<yade::Material>& material) {
+                      const std::vector<yade::shared_ptr<FEMat>>& materials) {
   const std::size_t first = bodies_.size();
-  for (std::size_t e = first; e < world.surfaces.entries(); ++e)
-    append(scene, world, EntryId(e), material);
+  const std::vector<std::uint32_t> numbers = materialsAlong(world);
+  for (std::size_t e = first; e < world.surfaces.entries(); ++e) {
+    const NodeId begin = world.surfaces.segmentNode[world.surfaces.entrySegment[e].value];
+    append(scene, world, EntryId(e), materials[numbers.empty() ? 0 : numbers[begin.value]]);
+  }
   mapEntries(first);
   update(world, 0, 1, first);
 }

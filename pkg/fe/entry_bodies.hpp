@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "abi/yade.hpp"
+#include "fe/materials.hpp"
 #include "fe/surface_segment.hpp"
 #include "step/world.hpp"
 
@@ -14,9 +15,10 @@ namespace yadefrag {
 /// see the right velocities.
 class EntryBodies {
  public:
-  /// Bodies of all entries that have none yet, into the scene that `O` stands for.
+  /// Bodies of all entries that have none yet, into the scene that `O` stands for: those of the
+  /// last component, whose materials are given by number.
   void add(yade::Scene& scene, const World& world,
-           const yade::shared_ptr<yade::Material>& material);
+           const std::vector<yade::shared_ptr<FEMat>>& materials);
   /// Cracks have brought further entries, at the end: they get bodies that are like those that
   /// their component has already (material, mask, colour). Does nothing, at no cost, if there are
   /// none.

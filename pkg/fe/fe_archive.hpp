@@ -49,7 +49,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 5;
+  static constexpr std::uint64_t kFormat = 6;
   /// (count) A damaged length must not take all memory: values are read in parts as large as this,
   /// and the archive ends before the memory does.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -80,6 +80,7 @@ class WorldArchive {
     nodes(world.model.nodes);
     triangles(world.model.triangles);
     components(world.model.components);
+    materials(world.model.materials);
     surfaces(world.surfaces);
     contact(world.contact);
     search(world.search);
@@ -189,17 +190,31 @@ class WorldArchive {
     column<std::uint32_t>("triangles", triangles.nodes);
     column<double>("inverseEdges", triangles.inverseEdges), column<double>("area", triangles.area);
     column<std::uint32_t>("triangleComponent", triangles.component);
+    column<std::uint32_t>("triangleMaterial", triangles.material);
   }
 
   void components(std::vector<Component>& rows) {
     using C = Component;
+    materials(rows);
+    member("thickness", rows, [](C& c) -> double& { return c.thickness; });
+    member("firstTriangle", rows, [](C& c) -> std::uint32_t& { return c.firstTriangle; });
+    member("lastTriangle", rows, [](C& c) -> std::uint32_t& { return c.lastTriangle; });
+    member("firstMaterial", rows, [](C& c) -> std::uint32_t& { return c.firstMaterial; });
+    member("lastMaterial", rows, [](C& c) -> std::uint32_t& { return c.lastMaterial; });
+    flags("brittleByPlace", rows, [](C& c) -> bool& { return c.brittleByPlace; });
+    flags("selfContact", rows, [](C& c) -> bool& { return c.selfContact; });
+    member("element", rows, [](C& c) -> std::uint8_t& {
+      return reinterpret_cast<std::uint8_t&>(c.element);  // NOLINT: an unsigned char may name it
+    });
+  }
+
+  /// Of bodies, or of a list.
+  template <class C>
+  void materials(std::vector<C>& rows) {
     member("young", rows, [](C& c) -> double& { return c.material.young; });
     member("poisson", rows, [](C& c) -> double& { return c.material.poisson; });
     member("density", rows, [](C& c) -> double& { return c.material.density; });
-    member("thickness", rows, [](C& c) -> double& { return c.thickness; });
     member("friction", rows, [](C& c) -> double& { return c.friction; });
-    member("firstTriangle", rows, [](C& c) -> std::uint32_t& { return c.firstTriangle; });
-    member("lastTriangle", rows, [](C& c) -> std::uint32_t& { return c.lastTriangle; });
     member("tensileStrength", rows, [](C& c) -> double& { return c.brittle.tensileStrength; });
     member("fractureEnergy", rows, [](C& c) -> double& { return c.brittle.fractureEnergy; });
     member("shearFactor", rows, [](C& c) -> double& { return c.brittle.shearFactor; });
@@ -209,11 +224,6 @@ class WorldArchive {
     member("seed", rows, [](C& c) -> std::uint64_t& { return c.brittle.seed; });
     member("referenceVolume", rows, [](C& c) -> double& { return c.brittle.referenceVolume; });
     flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
-    flags("brittleByPlace", rows, [](C& c) -> bool& { return c.brittleByPlace; });
-    flags("selfContact", rows, [](C& c) -> bool& { return c.selfContact; });
-    member("element", rows, [](C& c) -> std::uint8_t& {
-      return reinterpret_cast<std::uint8_t&>(c.element);  // NOLINT: an unsigned char may name it
-    });
   }
 
   /// Of rows that are there already: a vector of bool has no elements to refer to.

@@ -6,6 +6,7 @@
 #include "fe/fe_solver.hpp"
 #include "fe/fragments.hpp"
 #include "fe/running.hpp"
+#include "fracture/checks.hpp"
 
 namespace yadefrag {
 
@@ -62,8 +63,23 @@ int addMesh(FESolver& solver, const py::dict& input) {
     spec.places.joints.push_back({ends[i], strengths[i], energies[i]});
   const bool smoothed = py::extract<bool>(input["smoothed"]);
   spec.element = smoothed ? ElementKind::kSmoothed : ElementKind::kLinear;
-  const yade::shared_ptr<FEMat> material = py::extract<yade::shared_ptr<FEMat>>(input["material"]);
-  return change(solver, [&] { return solver.addBody(mesh, std::move(spec), material); });
+  spec.materials.ofTriangle = fromBytes<std::uint32_t>(input["materialOf"]);
+  const py::list given(input["materials"]);
+  std::vector<yade::shared_ptr<FEMat>> materials;
+  for (int i = 0; i < py::len(given); ++i)
+    materials.push_back(py::extract<yade::shared_ptr<FEMat>>(given[i]));
+  return change(solver, [&] { return solver.addBody(mesh, std::move(spec), materials); });
+}
+
+py::tuple bond(FESolver& solver, int a, int b, double strength, double energy) {
+  return change(solver, [&] {
+    World& world = solver.changeWorld();
+    const EdgeId first(world.fracture.edges.size());
+    const std::size_t sides =
+        world.bond(ComponentId(static_cast<std::size_t>(a)),
+                   ComponentId(static_cast<std::size_t>(b)), strength, energy);
+    return py::make_tuple(sides, bondZoneWarning(world.model, world.fracture.edges, first));
+  });
 }
 
 void takeBody(FESolver& solver, int component) {
@@ -104,6 +120,12 @@ py::object stressArrayOf(const FESolver& solver) {
 }
 py::object componentsOf(const FESolver& solver) {
   return toArray(solver.world().model.triangles.component, kIndex, 0);
+}
+
+py::object materialNumbersOf(const FESolver& solver) {
+  const Triangles& triangles = solver.world().model.triangles;
+  if (!triangles.material.empty()) return toArray(triangles.material, kIndex, 0);
+  return toArray(std::vector<std::uint32_t>(triangles.size()), kIndex, 0);
 }
 
 py::object displacementsOf(const FESolver& solver) {

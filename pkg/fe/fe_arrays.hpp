@@ -38,6 +38,9 @@ int addMesh(FESolver& solver, const yade::py::dict& input);
 
 void takeBody(FESolver& solver, int component);
 
+/// `FESolver._bond`, likewise: how many sides, and a sentence about the mesh, or an empty one.
+yade::py::tuple bond(FESolver& solver, int a, int b, double strength, double energy);
+
 /// `FESolver._setLoads` and `_prescribe`, likewise.
 void setLoads(FESolver& solver, const yade::py::object& loads);
 void prescribe(FESolver& solver, const yade::py::object& nodes, int held, double vx, double vy);
@@ -50,6 +53,7 @@ yade::py::object massesOf(const FESolver& solver);
 yade::py::object trianglesOf(const FESolver& solver);
 yade::py::object stressArrayOf(const FESolver& solver);
 yade::py::object componentsOf(const FESolver& solver);
+yade::py::object materialNumbersOf(const FESolver& solver);
 yade::py::object fragmentOf(const FESolver& solver);
 yade::py::object referenceOf(const FESolver& solver);
 yade::py::object contactForcesOf(const FESolver& solver);

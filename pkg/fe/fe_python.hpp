@@ -69,6 +69,7 @@ void FESolver::pyExtra(PyClass& pyClass) {
           "_unlock", +[](const FESolver& self) { self.betweenSteps().unlock(); })
       .def("_meshQuality", &Locked<meshQualityOf>::call)
       .def("_costlyStepWarning", &Locked<costlyStepWarningOf>::call)
+      .def("_bond", &bond)
       .def("_setLoads", &setLoads)
       .def("_prescribe", &prescribe);
   valuesOf(pyClass);
@@ -90,6 +91,9 @@ void FESolver::valuesOf(PyClass& pyClass) {
                     "Cauchy stress xx, yy, xy (Pa) of the triangles, array (m, 3).")
       .add_property("components", &Locked<componentsOf>::call,
                     "Number of each triangle's body, array (m).")
+      .add_property("materialNumbers", &Locked<materialNumbersOf>::call,
+                    "Number of each triangle's material among those of its body, in the order of "
+                    "their first triangles, array (m); 0 in bodies of one.")
       .add_property("fragmentOf", &Locked<fragmentOf>::call,
                     "Number of each triangle's fragment, its place in fragments(), array (m); -1: "
                     "dropped.")

@@ -155,33 +155,47 @@ void FESolver::requireAlone(const yade::Scene& here) const {
   }
 }
 
+namespace {
+
+/// InputError for one that cannot crack though it is meant to.
+BodyMaterial bodyMaterialOf(const FEMat& material) {
+  BodyMaterial one;
+  one.material = {material.young, material.poisson, material.density, material.planeStress};
+  one.friction = std::tan(material.frictionAngle);
+  if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(&material)) {
+    one.brittle = {.tensileStrength = brittle->tensileStrength,
+                   .fractureEnergy = brittle->fractureEnergy,
+                   .shearFactor = brittle->shearFactor,
+                   .shearEnergyFactor = brittle->shearEnergyFactor,
+                   .weibullModulus = brittle->weibullModulus,
+                   .strengthScatter = brittle->strengthScatter,
+                   .seed = static_cast<std::uint64_t>(brittle->seed),
+                   .referenceVolume = brittle->referenceVolume};
+    checkBrittle(one.brittle);
+  }
+  return one;
+}
+
+}  // namespace
+
 int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
-                      const yade::shared_ptr<FEMat>& material) {
+                      const std::vector<yade::shared_ptr<FEMat>>& materials) {
   yade::Scene& here = *yade::Omega::instance().getScene();
   if (here.isPeriodic) throw InputError("The scene is periodic, which FESolver cannot be.");
   bodies_.requireAll(here);
   requireAlone(here);
-  spec.material = {material->young, material->poisson, material->density, material->planeStress};
-  spec.friction = std::tan(material->frictionAngle);
-  if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(material.get())) {
-    spec.brittle = {.tensileStrength = brittle->tensileStrength,
-                    .fractureEnergy = brittle->fractureEnergy,
-                    .shearFactor = brittle->shearFactor,
-                    .shearEnergyFactor = brittle->shearEnergyFactor,
-                    .weibullModulus = brittle->weibullModulus,
-                    .strengthScatter = brittle->strengthScatter,
-                    .seed = static_cast<std::uint64_t>(brittle->seed),
-                    .referenceVolume = brittle->referenceVolume};
-    checkBrittle(spec.brittle);
-    if (!spec.selfContact)
-      throw InputError(
-          "selfContact is False, but the material is a BrittleFEMat, whose fragments must touch "
-          "each other; it must be True, or the material an FEMat.");
-  }
+  if (spec.materials.ofTriangle.empty())
+    static_cast<BodyMaterial&>(spec) = bodyMaterialOf(*materials.front());
+  else
+    for (const auto& one : materials) spec.materials.materials.push_back(bodyMaterialOf(*one));
+  if (!spec.selfContact && wholeOf(spec).brittle.cracks())
+    throw InputError(
+        "selfContact is False, but the material is a BrittleFEMat, whose fragments must touch "
+        "each other; it must be True, or the material an FEMat.");
   const ComponentId component = world_.addBody(mesh, spec);
   scene = &here;
   const std::size_t first = bodies_.ids().size();
-  bodies_.add(here, world_, material);
+  bodies_.add(here, world_, materials);
   prepareNewcomer(first);
   return static_cast<int>(component.value);
 }

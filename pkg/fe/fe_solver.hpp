@@ -29,8 +29,10 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void postLoad(FESolver& self);
 
   /// Adds a body, and its entries' bodies to the scene that `O` stands for; InputError before
-  /// anything is changed.
-  int addBody(const TriangleMesh& mesh, BodySpec spec, const yade::shared_ptr<FEMat>& material);
+  /// anything is changed. `materials`: one, or those that `spec.materials.ofTriangle` has by
+  /// number.
+  int addBody(const TriangleMesh& mesh, BodySpec spec,
+              const std::vector<yade::shared_ptr<FEMat>>& materials);
   void removeBody(int component);
 
   [[nodiscard]] double criticalTimeStep();

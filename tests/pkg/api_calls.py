@@ -113,6 +113,7 @@ def right(fe, folder):
         addTriangles=dict(nodes=[(5, 5), (6, 5), (6, 6)], triangles=[(0, 1, 2)], material='b', smooth=False,
                           velocity=(0, 0), spin=0, displacement=None, fixed=None, thickness=1,
                           selfContact=True, strength=[1e4], fractureEnergy=[0.]),
+        bond=dict(a=0, b=1, strength=1e6, energy=1e3),
         prescribe=dict(nodes=[0], vx=0., vy=None), removeBody=dict(component=0), fragments=dict(held=False),
         updateAttrs=dict(attributes={'label': 'x'}))
 
@@ -196,7 +197,7 @@ class Call:
             lambda: function(**args)
 
     def ofFunction(self):
-        name = self.draw.choice(ownFunctions() + ['addPolygon', 'addTriangles', 'prescribe'])
+        name = self.draw.choice(ownFunctions() + ['addPolygon', 'addTriangles', 'bond', 'prescribe'])
         function = getattr(yadefrag, name, None) or getattr(self.fe, name)
         return self.withKeywords(name, function, right(self.fe, self.folder)[name])
 

@@ -154,6 +154,16 @@ def test_compressedBlocksBreakAsMohrAndCoulombSay(held, folder):
     assert os.path.getsize(os.path.join(folder, os.listdir(folder)[0])) > 5000
 
 
+def test_mortarCracksAroundItsStones(folder):
+    out, _ = run('aggregates', '--steps', '400', '--out', folder)
+    report = rows(out)[0]
+    assert max(map(abs, numbers(report['energy drift']))) < 1e-3
+    # Each crack that has opened has two entries more than the outline had.
+    assert numbers(report['surface entries'])[0] > 300
+    assert numbers(report['deepest penetration'])[0] < 1e-3
+    assert os.path.getsize(os.path.join(folder, 'aggregates.png')) > 10000
+
+
 def test_smoothCylinderRollsMoreEvenly():
     out, _ = run('rolling', '--no-pictures')
     ripples = [numbers(report['ripple'])[0] for report in rows(out)]

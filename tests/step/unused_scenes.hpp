@@ -11,14 +11,15 @@ namespace yadefrag::test {
 
 struct Uses {
   bool fracture = false, cohesion = false, friction = false, smooth = false, selfContact = false;
-  bool viscosity = false, held = false, loads = false;
+  bool viscosity = false, held = false, loads = false, materials = false;
 
   /// Turns on what is called so; false if nothing is.
   bool turnOn(const std::string& name) {
-    bool Uses::*const all[] = {&Uses::fracture,    &Uses::cohesion,  &Uses::friction, &Uses::smooth,
-                               &Uses::selfContact, &Uses::viscosity, &Uses::held,     &Uses::loads};
-    const char* const names[] = {"fracture",    "cohesion",  "friction", "smooth",
-                                 "selfContact", "viscosity", "held",     "loads"};
+    bool Uses::*const all[] = {&Uses::fracture,    &Uses::cohesion,  &Uses::friction,
+                               &Uses::smooth,      &Uses::viscosity, &Uses::held,
+                               &Uses::selfContact, &Uses::loads,     &Uses::materials};
+    const char* const names[] = {"fracture", "cohesion",    "friction", "smooth",   "viscosity",
+                                 "held",     "selfContact", "loads",    "materials"};
     for (std::size_t i = 0; i < std::size(all); ++i)
       if (name == names[i]) return this->*all[i] = true;
     return false;
@@ -68,6 +69,11 @@ inline void addRings(World& world, int count, const Uses& uses) {
     if (uses.smooth) spec.smoothNodes.assign(mesh.nodes.size(), 1);
     if (uses.fracture || uses.cohesion) spec.brittle.tensileStrength = 250e6;
     if (uses.cohesion) spec.brittle.fractureEnergy = 2e3;
+    if (uses.materials) {
+      spec.materials.materials = {spec, spec};
+      for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        spec.materials.ofTriangle.push_back(t % 2);
+    }
     if (uses.held && i == 0) spec.held.assign(mesh.nodes.size(), kHeldXY);
     world.addBody(mesh, spec);
   }

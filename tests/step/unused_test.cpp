@@ -49,8 +49,8 @@ TEST_P(Unused, HasNoArrays) {
 TEST_P(Unused, HasNoArraysBesideAllTheOthers) {
   const auto [name, use] = GetParam();
   Uses others;
-  for (const char* other :
-       {"fracture", "cohesion", "friction", "smooth", "selfContact", "viscosity", "held", "loads"})
+  for (const char* other : {"fracture", "cohesion", "friction", "smooth", "selfContact",
+                            "viscosity", "held", "loads", "materials"})
     if (std::string(other) != name) others.turnOn(other);
   if (use == Use::kFracture) others.cohesion = false;
   EXPECT_EQ(Ringing(others).bytes(use), 0U);
@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Feature{"fracture", Use::kFracture}, Feature{"cohesion", Use::kCohesion},
                       Feature{"friction", Use::kFriction}, Feature{"smooth", Use::kSmooth},
                       Feature{"viscosity", Use::kViscosity}, Feature{"held", Use::kHeld},
-                      Feature{"loads", Use::kLoads}),
+                      Feature{"loads", Use::kLoads}, Feature{"materials", Use::kMaterials}),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(UnusedContact, OneBodyThatCannotTouchItselfHasNone) {

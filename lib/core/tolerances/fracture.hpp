@@ -9,6 +9,12 @@ namespace yadefrag::tolerance {
 /// straight boundary fills π, and a deformed or rounded one some degrees more.
 inline constexpr double kTipAngle = 3.46;
 
+/// (of a side) Ends of sides that are bonded are no farther apart: what the bond pulls together in
+/// its first step strains a body by no more.
+inline constexpr double kBondGap = 1e-9;
+/// (of a side) Sides that run along each other, no farther apart, but do not match: meant to.
+inline constexpr double kBondMeant = .01;
+
 /// (of the strength; count) Change of cohesive tractions at which the sweeps over those that share
 /// nodes end, and how many there may be. With ten times the first a plate's cracks spend 0.2 %
 /// less; with thirty times the second the same to 10⁻⁵.

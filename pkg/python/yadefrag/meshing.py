@@ -6,6 +6,7 @@ import numpy
 
 from yade import wrapper
 from yadefrag import _yadefrag
+from yadefrag.materials import isField
 from yadefrag.values import number, pair, positive, refuse, whole
 
 _LEAST_SAMPLES, _MOST_SAMPLES = 128, 1024  # of a size function, along the outline's longer side
@@ -41,9 +42,10 @@ def simplified(points, holes, tolerance, flags):
 
 
 def isIrregular(mesh, material):
-    """The kind of mesh that `mesh` asks for; None: irregular for a body that can crack."""
+    """The kind of mesh that `mesh` asks for; None: irregular for a body that can crack, or whose
+    materials are known only when it is meshed."""
     if mesh is None:
-        return isinstance(material, wrapper.BrittleFEMat)
+        return isField(material) or isinstance(material, wrapper.BrittleFEMat)
     if not isinstance(mesh, str) or mesh not in ('regular', 'irregular'):
         refuse('mesh', mesh, "'regular', 'irregular' or None")
     return mesh == 'irregular'

@@ -1,12 +1,10 @@
 """Values by place that bodies take from a script: functions of (x, y), or arrays by triangle."""
 
 import math
-import warnings
 
 import numpy
 
-from yade import wrapper
-from yadefrag.values import number, real, refuse, shown
+from yadefrag.values import array, number, real, refuse, shown
 
 # name: (unit, is a value right, what is right)
 _BRITTLE = {
@@ -17,16 +15,6 @@ _BRITTLE = {
     'jointEnergy': ('J/m²', lambda v: math.isfinite(v) and v >= 0,
                     '0 or a positive number (J/m²)'),
 }
-
-
-def array(value, dtype=None):
-    """A NumPy array; None for what is none, as rows of different lengths."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter('error')  # NumPy's, about rows of different lengths
-            return numpy.asarray(value, dtype=dtype)
-    except (TypeError, ValueError, OverflowError, Warning):
-        return None
 
 
 def _ofTriangles(name, value, mesh):
@@ -69,23 +57,28 @@ def _ofJoints(name, value, mesh, count):
     return values.astype(float)[sides]
 
 
-def brittlePlaces(mesh, material, strength, fractureEnergy, joints=(), jointStrength=0,
-                  jointEnergy=None):
-    """{name: (array, dtype)} that FESolver._addMesh takes. ValueError for a material that does not
-    crack, and for values that cannot be."""
+def brittlePlaces(mesh, materials, interfaces, strength, fractureEnergy, joints=(),
+                  jointStrength=None, jointEnergy=None):
+    """{name: (array, dtype)} that FESolver._addMesh takes. `interfaces` as materials.interfaces
+    returns them; joints count more. ValueError for a material that does not crack, and for values
+    that cannot be."""
+    areOwn = len(joints) and (jointStrength is not None or jointEnergy is not None)
     given = dict(strength=strength, fractureEnergy=fractureEnergy,
-                 joints=joints if len(joints) else None)
+                 joints=joints if areOwn else None)
     for name, value in given.items():
-        if value is not None and not isinstance(material, wrapper.BrittleFEMat):
+        if value is not None and not materials.crack:
             raise ValueError('%s is given, but the material does not crack; it must be a '
                              'BrittleFEMat.' % name)
     places = {name: (_ofTriangles(name, given[name], mesh), 'float64')
               for name in ('strength', 'fractureEnergy')}
-    sides, count = mesh.get('joints', numpy.empty((0, 3))), len(joints)
-    energies = numpy.full(len(sides), math.nan)  # those of the triangles beside it
-    if count and jointEnergy is not None:
-        energies = _ofJoints('jointEnergy', jointEnergy, mesh, count)
-    strengths = _ofJoints('jointStrength', jointStrength, mesh, count) if count else energies
-    places.update(jointEdges=(sides[:, :2], 'uint32'), jointStrength=(strengths, 'float64'),
+    edges, strengths, energies = interfaces
+    if areOwn:
+        own = [numpy.full(len(mesh['joints']), math.nan) if value is None else
+               _ofJoints(name, value, mesh, len(joints))
+               for name, value in (('jointStrength', jointStrength), ('jointEnergy', jointEnergy))]
+        edges = numpy.concatenate([edges, mesh['joints'][:, :2]])
+        strengths = numpy.concatenate([strengths, own[0]])
+        energies = numpy.concatenate([energies, own[1]])
+    places.update(jointEdges=(edges, 'uint32'), jointStrength=(strengths, 'float64'),
                   jointEnergy=(energies, 'float64'))
     return places

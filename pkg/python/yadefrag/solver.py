@@ -14,35 +14,17 @@ from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag import guards
 from yadefrag._yadefrag import requirePaused
+from yadefrag.bonds import bond
+from yadefrag.materials import Materials, interfaces, isField, oneMaterial
 from yadefrag.meshing import isIrregular, jointLines, meshOfPolygon, simplified
-from yadefrag.places import array, brittlePlaces
+from yadefrag.places import brittlePlaces
 from yadefrag.quality import meshQuality
 from yadefrag.shown import betweenSteps, shownTriangles
-from yadefrag.values import (flag, isWhole, number, pair, plain, pointsOf, positive, refuse, shown,
+from yadefrag.values import (array, flag, number, pair, plain, pointsOf, positive, refuse, shown,
                              whole)
 
 _ELEMENTS = ('linear', 'smoothed')
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
-
-
-def _material(material):
-    """The FEMat that `material` names: the object, its label or its number in O.materials."""
-    found = plain(material)
-    if isinstance(found, str) or isWhole(found):
-        try:
-            found = wrapper.Omega().materials[found]
-        except (KeyError, IndexError, RuntimeError, OverflowError, UnicodeError):
-            raise ValueError('material is %s, which is not in O.materials.' %
-                             shown(material)) from None
-    if not isinstance(found, wrapper.FEMat):
-        refuse('material', material, 'an FEMat, its label or its number in O.materials')
-    positive("the material's young", found.young, 'Pa')
-    positive("the material's density", found.density, 'kg/m³')
-    number("the material's poisson", found.poisson, lambda v: -1 < v < .5,
-           'above -1 and below 0.5')
-    number("the material's frictionAngle", found.frictionAngle, lambda v: 0 <= v < math.pi / 2,
-           'at least 0 and below π/2 (rad)')
-    return found
 
 
 def _field(name, value, nodes, isOptional=True):
@@ -126,7 +108,7 @@ def _centroid(nodes, triangles):
     return (corners.mean(axis=1) * areas[:, None]).sum(axis=0) / areas.sum()
 
 
-def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickness, selfContact,
+def _add(fe, mesh, smooth, materials, velocity, spin, displacement, fixed, thickness, selfContact,
          element, places):
     requirePaused()
     if not isinstance(element, str) or element not in _ELEMENTS:
@@ -151,8 +133,8 @@ def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickn
              velocity=raw(speed, 'float64'), displacement=raw(moved, 'float64'),
              held=raw(_heldNodes(fixed, nodes), 'uint8'), smooth=raw(smooth, 'uint8'),
              thickness=thickness, selfContact=selfContact, smoothed=element == 'smoothed',
-             material=material, **{name: raw(values, kind) for name, (values, kind)
-                                   in places.items()}))
+             materials=materials.of, materialOf=raw(materials.numbers, 'uint32'),
+             **{name: raw(values, kind) for name, (values, kind) in places.items()}))
     problem = fe._zoneWarning(component)
     if problem:
         warnings.warn(problem, stacklevel=3)
@@ -162,7 +144,8 @@ def _add(fe, mesh, smooth, material, velocity, spin, displacement, fixed, thickn
 def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocity=(0, 0), spin=0,
                displacement=None, fixed=None, thickness=1, selfContact=True, element='linear',
                mesh=None, meshSeed=0, simplify=None, strength=None, fractureEnergy=None,
-               joints=(), jointStrength=0, jointEnergy=None):
+               joints=(), jointStrength=0, jointEnergy=None, interfaceStrength=None,
+               interfaceEnergy=None):
     """Adds a plane body, meshed with triangles; returns its number (int).
 
     outline, holes  list of points (x, y) in m, and a list of such lists
@@ -170,7 +153,13 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     sampled on a grid of at least 128 and at most 1024 cells along the longer side.
                     Where it grows by more than 0.25 m per metre, it is lowered to that.
     material        an FEMat, its label or its number in O.materials; as it is now: later changes of
-                    it have no effect on the body
+                    it have no effect on the body. Or several: a function (x, y) that returns one,
+                    called at the triangles' centroids; a list with one for each triangle; or a pair
+                    of a list of materials and an array of numbers in it, one for each triangle.
+                    Sides of triangles lie along places where they meet if `joints` has lines there.
+                    An edge between two materials cracks as the one with the smaller
+                    tensileStrength, with the smaller energy and friction; surfaces have the least
+                    friction of all. Of several materials `element` must be 'linear'
     smooth          False: straight boundary; True: C¹-smooth everywhere, inside the outline; or
                     one flag per point of the outline (then the holes are straight): is the corner
                     there smoothed
@@ -190,7 +179,8 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     2008, Comput. Methods Appl. Mech. Eng. 197, 3883), for bodies that bend
     mesh            'regular': rows of nearly equilateral triangles, whose edges have few
                     directions; 'irregular': edges in all directions, for cracks that do not
-                    follow the mesh; None: 'irregular' for a BrittleFEMat, otherwise 'regular'
+                    follow the mesh; None: 'irregular' for a BrittleFEMat or several materials,
+                    otherwise 'regular'
     meshSeed        of an irregular mesh: the same outline, size and seed give the same mesh
     simplify        None: the outline as given; or the distance (m) by which its points, and those
                     of the holes, may be off the mesh's: points that this leaves out are taken out
@@ -205,12 +195,19 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     and the material's scatter is about that
     fractureEnergy  None: that of the BrittleFEMat; or a function (x, y) → J/m², or an array,
                     likewise; where it is 0, cracks open at once
-    joints          list of pairs of points ((x, y), (x, y)) in m, of a BrittleFEMat: sides of
-                    triangles lie along these lines. Lines may cross each other and the outline;
-                    what is outside is left out
-    jointStrength   Pa, of all joints or one for each, without scatter; 0: open from the start, as
-                    a crack that is there already, and not counted by numCracks
+    joints          list of pairs of points ((x, y), (x, y)) in m: sides of triangles lie along
+                    these lines. Lines may cross each other and the outline; what is outside is left
+                    out
+    jointStrength   Pa, of all joints or one for each, of a BrittleFEMat, without scatter; 0: open
+                    from the start, as a crack that is there already, and not counted by numCracks;
+                    None: as the triangles beside the joint have it, which then only shapes the mesh
     jointEnergy     J/m², likewise; None: as the triangles beside the joint have it
+    interfaceStrength  Pa, of edges between two materials, without scatter: a number, a function
+                    (x, y) called at their middles, or a dict {(material, material): number}; 0:
+                    open from the start; None, and pairs that are not in the dict: as the weaker of
+                    both. Materials that do not crack by themselves crack there. A joint's own
+                    strength goes before
+    interfaceEnergy J/m², likewise
     Other functions are called at the nodes of the stress-free shape. ValueError before anything
     changes, also where the body would overlap another one; RuntimeError while O.run goes on in the
     background; a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks,
@@ -225,7 +222,7 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
         refuse('holes', holes, 'a list of loops of points (x, y) in m')
     holePoints = [pointsOf('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
     smooth = _smoothFlags(smooth, len(points))
-    material = _material(material)
+    material = material if isField(material) else oneMaterial(material)
     if simplify is not None:
         flags = None if isinstance(smooth, bool) else smooth
         points, holePoints, flags = simplified(points, holePoints, simplify, flags)
@@ -233,9 +230,11 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     lines = jointLines(joints)
     made = meshOfPolygon(points, holePoints, size, isIrregular(mesh, material), meshSeed, lines)
     smoothed = _smoothNodes(smooth, made, points)
-    places = brittlePlaces(made, material, strength, fractureEnergy, lines, jointStrength,
+    materials = Materials(made, material)
+    between = interfaces(made, materials, interfaceStrength, interfaceEnergy)
+    places = brittlePlaces(made, materials, between, strength, fractureEnergy, lines, jointStrength,
                            jointEnergy)
-    body = _add(self, made, smoothed, material, velocity, spin, displacement, fixed, thickness,
+    body = _add(self, made, smoothed, materials, velocity, spin, displacement, fixed, thickness,
                 selfContact, element, places)
     costly = self._costlyStepWarning(body, made['smallestSize'])
     if costly:
@@ -245,11 +244,13 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
 
 def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0, 0), spin=0,
                  displacement=None, fixed=None, thickness=1, selfContact=True, element='linear',
-                 strength=None, fractureEnergy=None):
+                 strength=None, fractureEnergy=None, interfaceStrength=None,
+                 interfaceEnergy=None):
     """Adds a body of triangles of one's own; returns its number (int).
 
     nodes (n, 2) in m, all of them used; triangles (m, 3) node numbers, counter-clockwise. `smooth`
-    is True or False; the rest is as in addPolygon. ValueError before anything changes.
+    is True or False; the rest, materials by triangle too, is as in addPolygon. ValueError before
+    anything changes.
     """
     points = pointsOf('nodes', nodes, 3)
     corners = array(triangles)
@@ -260,10 +261,11 @@ def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0,
         raise ValueError('triangles has node numbers from %d to %d, but there are %d nodes.' %
                          (corners.min(), corners.max(), len(points)))
     smooth = flag('smooth', smooth)
-    material = _material(material)
     mesh = dict(nodes=points, triangles=corners, loops=_boundaryLoops(len(points), corners))
-    places = brittlePlaces(mesh, material, strength, fractureEnergy)
-    return _add(self, mesh, _smoothNodes(smooth, mesh), material, velocity, spin, displacement,
+    materials = Materials(mesh, material)
+    between = interfaces(mesh, materials, interfaceStrength, interfaceEnergy)
+    places = brittlePlaces(mesh, materials, between, strength, fractureEnergy)
+    return _add(self, mesh, _smoothNodes(smooth, mesh), materials, velocity, spin, displacement,
                 fixed, thickness, selfContact, element, places)
 
 
@@ -389,6 +391,7 @@ def install():
     """Gives FESolver its methods, and keeps O.bodies.erase and clumps off its bodies."""
     wrapper.FESolver.addPolygon = addPolygon
     wrapper.FESolver.addTriangles = addTriangles
+    wrapper.FESolver.bond = bond
     wrapper.FESolver.prescribe = prescribe
     wrapper.FESolver.meshQuality = meshQuality
     wrapper.FESolver.minAngle = property(_minAngle, doc=_minAngle.__doc__)

@@ -9,6 +9,7 @@ import numbers
 import operator
 import os
 import reprlib
+import warnings
 
 import numpy
 
@@ -136,6 +137,16 @@ def pointsOf(name, value, least):
         raise ValueError('%s has a point %d at %s, which is not finite.' %
                          (name, bad, shown(tuple(found[bad].tolist()))))
     return found
+
+
+def array(value, dtype=None):
+    """A NumPy array; None for what is none, as rows of different lengths."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter('error')  # NumPy's, about rows of different lengths
+            return numpy.asarray(value, dtype=dtype)
+    except (TypeError, ValueError, OverflowError, Warning):
+        return None
 
 
 def _pairs(value):

@@ -1,0 +1,149 @@
+#include "fracture/bonds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "core/errors.hpp"
+#include "core/tolerances.hpp"
+#include "search/contact_search.hpp"
+
+namespace yadefrag {
+namespace {
+
+struct KeyedSide {
+  NodeId low, high;
+  Side side;
+  friend auto operator<=>(const KeyedSide&, const KeyedSide&) = default;
+};
+
+/// Sides of one triangle only, that no edge knows.
+std::vector<Side> freeSides(const Model& model, const CrackEdges& edges, ComponentId component) {
+  const Component& body = model.components[component.value];
+  std::vector<KeyedSide> sides;
+  for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e) {
+    if (model.triangles.isDropped(e)) continue;
+    for (std::uint8_t c = 0; c < 3; ++c) {
+      const Side side{ElementId(e), c};
+      const auto [low, high] = std::minmax({firstNode(model, side), lastNode(model, side)});
+      sides.push_back({low, high, side});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  const auto joins = [](const KeyedSide& x, const KeyedSide& y) {
+    return x.low == y.low && x.high == y.high;
+  };
+  std::vector<Side> result;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (i + 1 < sides.size() && joins(sides[i], sides[i + 1])) {
+      ++i;
+      continue;
+    }
+    const Side side = sides[i].side;
+    if (side.element.value >= edges.ofElement.size() ||
+        edges.ofElement[side.element.value][side.corner] == EdgeId::none())
+      result.push_back(side);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+struct Line {
+  Vec2 begin, end;
+  [[nodiscard]] double length() const { return norm(end - begin); }
+};
+
+Line lineOf(const Model& model, Side side) {
+  return {model.nodes.position[firstNode(model, side).value],
+          model.nodes.position[lastNode(model, side).value]};
+}
+
+/// Sides of two bodies have the material on the left: they match where they run against each other.
+bool match(const Line& a, const Line& b) {
+  double farthest = 0;
+  for (const Vec2 x : {a.begin, a.end})
+    farthest = std::max({farthest, std::abs(x.x), std::abs(x.y)});
+  // Outlines that mean the same may differ by some roundings of their coordinates.
+  const double gap = std::max(tolerance::kBondGap * std::min(a.length(), b.length()),
+                              8 * std::numeric_limits<double>::epsilon() * farthest);
+  return norm(a.begin - b.end) <= gap && norm(a.end - b.begin) <= gap;
+}
+
+/// Do two sides run along each other, for a part of the shorter one?
+bool runAlong(const Line& a, const Line& b) {
+  const double size = std::min(a.length(), b.length());
+  const double near = tolerance::kBondMeant * size;
+  const Vec2 along = (1 / a.length()) * (a.end - a.begin);
+  const auto aside = [&](Vec2 x) { return std::abs(cross(along, x - a.begin)); };
+  const double from = dot(along, b.end - a.begin), to = dot(along, b.begin - a.begin);
+  return from < to && aside(b.begin) <= near && aside(b.end) <= near &&
+         std::min(to, a.length()) - std::max(from, 0.) > near;
+}
+
+std::vector<BoxPair> nearPairs(const std::vector<Line>& lines) {
+  std::vector<Box> boxes;
+  for (const Line& l : lines) {
+    const double by = tolerance::kBondMeant * l.length();
+    boxes.push_back({{std::min(l.begin.x, l.end.x) - by, std::min(l.begin.y, l.end.y) - by, 0},
+                     {std::max(l.begin.x, l.end.x) + by, std::max(l.begin.y, l.end.y) + by, 0}});
+  }
+  const std::unique_ptr<ContactSearch> search = makeSearch(SearchMethod::kLebesgue);
+  search->update(boxes);
+  std::vector<BoxPair> pairs;
+  search->findPairs(pairs);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::string named(ComponentId a, ComponentId b) {
+  return "the bodies " + std::to_string(a.value) + " and " + std::to_string(b.value);
+}
+
+[[noreturn]] void refuseMismatch(ComponentId a, ComponentId b, Vec2 at) {
+  std::ostringstream text;
+  text << "At (" << at.x << ", " << at.y << ") sides of " << named(a, b)
+       << " run along each other without the same ends, as bonded ones must have; give both "
+          "outlines the same points there and the same size, or add one body with joints.";
+  throw InputError(text.str());
+}
+
+}  // namespace
+
+std::vector<std::array<Side, 2>> matchingSides(const Model& model, const CrackEdges& edges,
+                                               ComponentId a, ComponentId b) {
+  std::vector<Side> sides = freeSides(model, edges, a);
+  const std::size_t count = sides.size();
+  for (const Side side : freeSides(model, edges, b)) sides.push_back(side);
+  std::vector<Line> lines;
+  for (const Side side : sides) lines.push_back(lineOf(model, side));
+  std::vector<std::array<Side, 2>> result;
+  for (const auto& [first, second] : nearPairs(lines)) {
+    if (first.value >= count || second.value < count) continue;
+    const Line &x = lines[first.value], &y = lines[second.value];
+    if (match(x, y))
+      result.push_back({sides[first.value], sides[second.value]});
+    else if (runAlong(x, y))
+      refuseMismatch(a, b, .5 * (x.begin + x.end));
+  }
+  if (result.empty())
+    throw InputError("No sides of " + named(a, b) +
+                     " that are not bonded yet lie on each other; bodies to be bonded must touch "
+                     "along sides with the same ends.");
+  return result;
+}
+
+void checkBond(double strength, double energy) {
+  const auto require = [](const char* name, double value, const char* unit) {
+    if (value > 0 && std::isfinite(value)) return;
+    std::ostringstream text;
+    text << name << " is " << value << unit << "; that of a bond must be positive and finite.";
+    throw InputError(text.str());
+  };
+  require("strength", strength, " Pa");
+  require("energy", energy, " J/m²");
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,34 @@
+#pragma once
+// How an edge cracks whose two triangles may differ in material: as the weaker of the two.
+
+#include <algorithm>
+
+#include "mesh/model.hpp"
+
+namespace yadefrag {
+
+/// The material with the smaller tensile strength, of equal ones that of `a`; one that never cracks
+/// only if the other does not either.
+[[nodiscard]] inline const BodyMaterial& weakerOf(const Model& model, ElementId a, ElementId b) {
+  const BodyMaterial& first = model.materialOf(a);
+  const BodyMaterial& second = model.materialOf(b);
+  if (!second.brittle.cracks()) return first;
+  if (!first.brittle.cracks()) return second;
+  return second.brittle.tensileStrength < first.brittle.tensileStrength ? second : first;
+}
+
+/// What cracks and rubs between two triangles.
+struct EdgeMaterial {
+  const BrittleMaterial& brittle;  ///< of the weaker one
+  double friction;                 ///< tan of the friction angle: the smaller one, as in contact
+};
+
+[[nodiscard]] inline EdgeMaterial materialBetween(const Model& model, ElementId a, ElementId b) {
+  const Component& body = model.bodyOf(a);
+  if (!body.isMixed() && model.triangles.component[a.value] == model.triangles.component[b.value])
+    return {body.brittle, body.friction};
+  return {weakerOf(model, a, b).brittle,
+          std::min(model.materialOf(a).friction, model.materialOf(b).friction)};
+}
+
+}  // namespace yadefrag
