@@ -93,7 +93,8 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
     for (std::uint32_t end = 0; end < 2; ++end) {
       const NodeId here = end == 0 ? a : d, there = end == 0 ? b : e;
       // What is broken touches like any other surface, whatever way it has turned since.
-      if (here == there || largest[c][end] >= critical) continue;
+      const double opening = counted(c, end, critical);
+      if (here == there || opening >= critical) continue;
       Point& point = points_.emplace_back();
       point.here = here, point.there = there;
       point.normal = normal;
@@ -102,7 +103,7 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
       point.area = area[c], point.strength = edges.strength[edge[c].value];
       point.critical = critical;
       point.hold = holdOf(model, edges, edge[c]);
-      point.hold.most = envelope(point.strength, critical, largest[c][end]);
+      point.hold.most = envelope(point.strength, critical, opening);
       point.hold.largest = largest[c][end];
       const Vec2 rate = point.rateHere + point.rateThere;
       point.hold.compliance = byDirection(rate, normal);
@@ -242,6 +243,20 @@ void Cohesion::book(EnergyLedger& ledger, const Model& model,
   }
 }
 
+/// Broken ends of edges that hold at the other one: they pull no more, but how far they open
+/// counts.
+void Cohesion::widenBroken(const Model& model, const CrackEdges& edges) {
+  for (std::size_t c = 0; c < edge.size(); ++c) {
+    const double critical = criticalOpening(edges, edge[c]);
+    for (const std::size_t end : {0, 1}) {
+      if (largest[c][end] < critical) continue;
+      const auto [here, there] = nodesAt(model, edges, edge[c], static_cast<int>(end));
+      const Vec2 apart = model.nodes.position[there.value] - model.nodes.position[here.value];
+      largest[c][end] = std::max(largest[c][end], norm(apart));
+    }
+  }
+}
+
 void Cohesion::settle(const Model& model, const CrackEdges& edges) {
   const std::vector<Vec2>& position = model.nodes.position;
   for (const Point& point : points_) {
@@ -254,12 +269,14 @@ void Cohesion::settle(const Model& model, const CrackEdges& edges) {
         std::max(widest, effectiveOpening(opening, point.hold.shearFactor, point.hold.shearRatio));
   }
   points_.clear();
+  widenBroken(model, edges);
   const auto critical = [&](std::size_t c) { return criticalOpening(edges, edge[c]); };
   for (const std::uint32_t c : turned_) largest[c] = {critical(c), critical(c)};
   turned_.clear();  // without a crack left, the next step collects nothing
   released.clear();
   keepOnly([&](std::size_t c) {
-    const bool holds = largest[c][0] < critical(c) || largest[c][1] < critical(c);
+    const bool holds =
+        counted(c, 0, critical(c)) < critical(c) || counted(c, 1, critical(c)) < critical(c);
     if (!holds) released.push_back(edge[c]);
     return holds;
   });

@@ -64,7 +64,7 @@ class Cohesion {
                   groups_.values, groups_.offsets, turned_, released);
   }
 
-  // By crack that holds; both ends of an edge have an opening of their own.
+  // By crack that holds; both ends of an edge have an opening of their own (see countedOpening).
   std::vector<EdgeId> edge;
   std::vector<std::array<double, 2>> largest;  ///< m, δmax
   /// Pa, in the last step, across the crack and along it: where the next one begins. Cracks side by
@@ -89,6 +89,10 @@ class Cohesion {
 
   template <class Keep>
   void keepOnly(Keep keep);
+  [[nodiscard]] double counted(std::size_t crack, std::size_t end, double critical) const {
+    return countedOpening(largest[crack][end], largest[crack][1 - end], critical);
+  }
+  void widenBroken(const Model& model, const CrackEdges& edges);
   void collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                const StepLength& step, double drag);
   void findGroups(std::size_t nodes);

@@ -72,6 +72,13 @@ double recoverableEnergy(double strength, double criticalOpening, double largest
   return held * opening / largestOpening * opening / 2;
 }
 
+double countedOpening(double own, double other, double criticalOpening) {
+  const double apart = other - own;
+  if (std::abs(apart) >= criticalOpening) return own + apart / 2;
+  const double part = apart / criticalOpening;
+  return own + part * part * apart / 2;
+}
+
 double effectiveOpening(AcrossAlong opening, double shearFactor, double shearRatio) {
   return std::hypot(std::max(0., opening.normal), shearRatio / shearFactor * opening.shear);
 }

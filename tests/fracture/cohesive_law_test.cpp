@@ -137,5 +137,21 @@ TEST(CohesiveTraction, ClosedOrBrokenHoldsNothing) {
   }
 }
 
+// By its own opening where both ends are alike, by the mean where they differ by δc: without a
+// jump, and never back while either end opens on.
+TEST(CohesiveLaw, AnEdgeOpensAsAWholeWhenItsEndsDiffer) {
+  EXPECT_EQ(countedOpening(.4, .4, 1), .4);
+  EXPECT_EQ(countedOpening(0, 1, 1), .5);
+  EXPECT_EQ(countedOpening(1, 0, 1), .5);
+  EXPECT_EQ(countedOpening(0, 2, 1), 1);
+  EXPECT_NEAR(countedOpening(.5, .75, 1), .5 + .25 / 32, 1e-15);
+  for (double own = 0; own < 2; own += .1)
+    for (double other = 0; other < 2; other += .1) {
+      const double counted = countedOpening(own, other, 1);
+      EXPECT_NEAR(counted + countedOpening(other, own, 1), own + other, 1e-12);
+      EXPECT_LE(counted, countedOpening(own, other + .01, 1) + 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace yadefrag

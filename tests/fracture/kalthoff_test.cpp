@@ -8,17 +8,26 @@
 
 #include "fracture/open_edges.hpp"
 #include "mesh/triangulate.hpp"
+#include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {
 
 constexpr double kEdge = .1;                // m
 constexpr Vec2 kTip{.05, .025};             // m
+constexpr double kRayleigh = 2800;          // m/s
 constexpr double kSpeed = 16.5;             // m/s
 constexpr double kStrength = 1.07e9;        // Pa
 constexpr double kFractureEnergy = 22.2e3;  // J/m²
 
-void addPlate(World& world, double size) {
+/// Which mesh.
+struct Plate {
+  double size;  // m
+  std::uint64_t seed = 1;
+};
+
+void addPlate(World& world, const Plate& plate) {
+  const double size = plate.size;
   const double slit = size / 20;
   const TriangleMesh mesh = triangulate({{{0, 0},
                                           {kEdge, 0},
@@ -28,7 +37,7 @@ void addPlate(World& world, double size) {
                                           kTip,
                                           {0, kTip.y - slit}},
                                          {}},
-                                        size, {NodeLayout::kScattered, 1});
+                                        size, {NodeLayout::kScattered, plate.seed});
   BodySpec spec;
   spec.material = {190e9, .3, 8000, false};
   spec.brittle.tensileStrength = kStrength;
@@ -44,35 +53,68 @@ void addPlate(World& world, double size) {
   world.addBody(mesh, spec);
 }
 
-class KalthoffWinkler : public testing::TestWithParam<double> {};
+struct Crack {
+  double fit = 0;  // °, of the line through the notch's tip that fits all open edges above it best
+  double chord = 0;    // °, from the notch's tip to the highest point
+  double highest = 0;  // m
+};
 
-/// 60° to 75° is what codes report. Measured by the line through the notch's tip that fits all open
-/// edges above it best: 66.7°, 65.9°, 65.4°, 64.3° with 1.5, 1.25, 1 and 0.8 mm; from the tip to
-/// where the crack leaves at the top 69° to 71°.
-TEST_P(KalthoffWinkler, CracksAtTheKnownAngle) {
-  World world;
-  addPlate(world, GetParam());
-  const double start = world.kineticEnergy();
-  const double dt = .8 * world.criticalTimeStep();
-  while (world.time < 90e-6) world.step(dt);
-  double along = 0, up = 0, highest = 0;
+Crack crackOf(const World& world) {
+  Crack crack;
+  double along = 0, up = 0;
+  Vec2 top = kTip;
   for (const OpenEdge& edge : openEdges(world)) {
     const Vec2 from = edge.middle() - kTip;
     if (from.y < 0 || (from.x < .01 && from.y < .005)) continue;
     along += from.x * from.y;
     up += from.y * from.y;
-    highest = std::max(highest, edge.middle().y);
+    for (const Vec2 end : {edge.first, edge.last})
+      if (end.y > top.y) top = end;
   }
-  const double angle = std::atan2(up, along) * 180 / std::numbers::pi;
-  EXPECT_GT(angle, 60);
-  EXPECT_LT(angle, 75);
-  EXPECT_GT(highest, .095) << "it runs through";
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  crack.fit = std::atan2(up, along) * kDegrees;
+  crack.chord = std::atan2(top.y - kTip.y, top.x - kTip.x) * kDegrees;
+  crack.highest = top.y;
+  return crack;
+}
+
+class KalthoffWinkler : public testing::TestWithParam<Plate> {};
+
+/// Wanted: 67° to 72°, and less than 0.75 of the speed of Rayleigh's waves. Measured from the
+/// notch's tip to where the crack leaves at the top, on meshes with four elements in a cohesive
+/// zone of 3.7 mm: 66.9° to 71.7°, mean 69.1°, where an element at the top is 0.5°; the line that
+/// fits all edges has 63.0° to 67.6°, for a crack sets out at less and turns up. Speeds, in 10 µs:
+/// .66 to .72. With three elements or fewer (1.25, 1.5 mm) angles are 65.0° to 72.4°.
+TEST_P(KalthoffWinkler, CracksAtTheKnownAngle) {
+  World world;
+  addPlate(world, GetParam());
+  const double start = world.kineticEnergy();
+  const double dt = .8 * world.criticalTimeStep();
+  constexpr double kWindow = 10e-6;  // s
+  double next = 0, former = kTip.y, fastest = 0;
+  while (world.time < 90e-6) {
+    world.step(dt);
+    if (world.time < next) continue;
+    next += kWindow;
+    const Crack crack = crackOf(world);
+    const double rise = crack.highest - former;
+    fastest = std::max(fastest, rise / std::sin(crack.chord * std::numbers::pi / 180) / kWindow);
+    former = crack.highest;
+  }
+  const Crack crack = crackOf(world);
+  figure("angle", crack.chord, 69.5, 3);
+  record("fitted_angle", crack.fit);
+  record("speed_over_rayleigh", fastest / kRayleigh);
+  EXPECT_LT(fastest, .75 * kRayleigh);
+  EXPECT_GT(crack.highest, .095) << "it runs through";
   // Measured 6·10⁻⁶ to 1.2·10⁻⁵: strains of a percent behind the shock, of second order in Δt.
   EXPECT_NEAR(world.ledger.total(world.kineticEnergy(), world.strainEnergy()), start,
               1e-4 * world.ledger.external);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, KalthoffWinkler, testing::Values(1.5e-3, 1.25e-3, 1e-3));
+INSTANTIATE_TEST_SUITE_P(Meshes, KalthoffWinkler,
+                         testing::Values(Plate{.9e-3, 1}, Plate{.9e-3, 2}, Plate{.9e-3, 3},
+                                         Plate{.9e-3, 4}, Plate{.9e-3, 5}));
 
 }  // namespace
 }  // namespace yadefrag::test

@@ -8,8 +8,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <numeric>
 
 #include "step/bodies.hpp"
+#include "step/figures.hpp"
 
 namespace yadefrag {
 namespace {
@@ -71,23 +73,28 @@ struct Case {
   double duration;      // s, after which no further edge breaks
 };
 
-/// (m) Mean size of the fragments. The ring starts just below its strength: at 10³ s⁻¹ a free ring
-/// would swing back before it broke.
-double fragmentSize(const Case& one, std::uint64_t seed) {
-  const TriangleMesh mesh = ring(one.count);
+/// The ring starts just below its strength: at 10³ s⁻¹ a free ring would swing back before it
+/// broke.
+BodySpec ringSpec(const TriangleMesh& mesh, double rate, double scatter, std::uint64_t seed) {
   BodySpec spec;
   spec.material = kCeramic;
   spec.brittle.tensileStrength = kStrength;
   spec.brittle.fractureEnergy = kEnergy;
-  spec.brittle.strengthScatter = 1e-4;
+  spec.brittle.strengthScatter = scatter;
   spec.brittle.seed = seed;
   for (const Vec2 x : mesh.nodes) {
     const Vec2 out = (kRadius / norm(x)) * x;
-    spec.displacement.push_back(.98 * kStrength / kCeramic.young * out);
-    spec.velocity.push_back(one.rate * out);
+    spec.displacement.push_back(.98 * (1 - scatter) * kStrength / kCeramic.young * out);
+    spec.velocity.push_back(rate * out);
   }
+  return spec;
+}
+
+/// (m) Mean size of the fragments.
+double fragmentSize(const Case& one, std::uint64_t seed) {
+  const TriangleMesh mesh = ring(one.count);
   World world;
-  world.addBody(mesh, spec);
+  world.addBody(mesh, ringSpec(mesh, one.rate, 1e-4, seed));
   crackOnlyAcross(world, one.count);
   const double dt = .4 * world.criticalTimeStep();
   world.step(dt);
@@ -125,6 +132,64 @@ TEST(Ring, ThreeRatesFiveSeedsTwoMeshes) {
     RecordProperty("sizes at " + std::to_string(one.rate),
                    std::to_string(coarse) + " " + std::to_string(fine));
   }
+}
+
+/// A ring on addPolygon's mesh, of elements of `size` (m) and as wide as `rows` of them; every edge
+/// may crack.
+TriangleMesh polygonRing(double size, int rows, std::uint64_t seed) {
+  const auto count = static_cast<std::uint32_t>(std::lround(kCircumference / size));
+  Polygon polygon;
+  polygon.holes.resize(1);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    polygon.outline.push_back(onCircle(double(i) / count, kRadius + rows * size / 2));
+    polygon.holes[0].push_back(onCircle(double(i) / count, kRadius - rows * size / 2));
+  }
+  return triangulate(polygon, size, {NodeLayout::kScattered, seed});
+}
+
+/// Pieces that nothing holds any more.
+std::size_t countPieces(const World& world) {
+  const CrackEdges& edges = world.fracture.edges;
+  std::vector<std::uint32_t> root(world.model.triangles.size());
+  std::iota(root.begin(), root.end(), 0U);
+  const auto rootOf = [&](std::uint32_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  std::size_t count = root.size();
+  const auto join = [&](EdgeId edge) {
+    const std::uint32_t a = rootOf(edges.element[edge.value][0].value);
+    const std::uint32_t b = rootOf(edges.element[edge.value][1].value);
+    count -= a != b ? 1 : 0;
+    root[a] = b;
+  };
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (edges.cracked[i] == 0) join(EdgeId(i));
+  for (const EdgeId edge : world.fracture.cohesion.edge) join(edge);
+  return count;
+}
+
+/// Pieces of a ring as a user gets it, over the formula's.
+double piecesOverTheory(double rate, double width, int rows, double scatter, std::uint64_t seed) {
+  World world;
+  const TriangleMesh mesh = polygonRing(width / rows, rows, seed);
+  world.addBody(mesh, ringSpec(mesh, rate, scatter, seed));
+  const double dt = .8 * world.criticalTimeStep(), duration = .7e-6 * std::pow(1e4 / rate, .4);
+  while (world.time < duration) world.step(dt);
+  EXPECT_TRUE(world.complaints.empty());
+  return static_cast<double>(countPieces(world)) * expectedSize(rate) / kCircumference;
+}
+
+// Wanted: 8 %. An irregular mesh has paths across that are up to 1.15 times as strong as others,
+// and breaks as one of rows does whose strengths scatter by ±5 %: weak places relieve the others,
+// and there are fewer pieces. Before ends that open differently counted by their mean, hinges held
+// rings of one row together: 30 pieces instead of 132 at 10⁴ s⁻¹, 1 instead of 498 at 10⁵.
+// Now they break to .75 and .91 of the formula's pieces. Of two rows .64, and .54 at 10⁵ (not run
+// here). The limits keep what was measured, and that no hinges come back.
+TEST(Ring, OnTheMeshOfAPolygon) {
+  test::figure("pieces_1e4_1", piecesOverTheory(1e4, 1e-4, 1, 1e-4, 1), .75, .15);
+  test::figure("pieces_1e4_2", piecesOverTheory(1e4, 1e-4, 2, 1e-4, 1), .65, .15);
+  test::figure("pieces_1e5_1", piecesOverTheory(1e5, 4e-5, 1, 1e-4, 1), .9, .15);
 }
 
 }  // namespace
