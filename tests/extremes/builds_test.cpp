@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6532863516331351);
-  expectNear(places.y, 1.4597252706768371);
-  expectNear(speeds, 4417.4916809185734);
-  expectNear(totalEnergy(world), 89.999329978014487);
-  expectNear(world.ledger.contact, 4.801786498768438);
+  expectNear(places.x, 3.6527169429289912);
+  expectNear(places.y, 1.4595943539110814);
+  expectNear(speeds, 4429.8265690144126);
+  expectNear(totalEnergy(world), 89.999375284883513);
+  expectNear(world.ledger.contact, 4.7150795145922437);
 }
 
 }  // namespace
