@@ -118,6 +118,7 @@ std::vector<std::array<Side, 2>> matchingSides(const Model& model, const CrackEd
   const std::size_t count = sides.size();
   for (const Side side : freeSides(model, edges, b)) sides.push_back(side);
   std::vector<Line> lines;
+  lines.reserve(sides.size());
   for (const Side side : sides) lines.push_back(lineOf(model, side));
   std::vector<std::array<Side, 2>> result;
   for (const auto& [first, second] : nearPairs(lines)) {
