@@ -66,7 +66,9 @@ int addMesh(FESolver& solver, const py::dict& input) {
   spec.materials.ofTriangle = fromBytes<std::uint32_t>(input["materialOf"]);
   const py::list given(input["materials"]);
   std::vector<yade::shared_ptr<FEMat>> materials;
-  for (int i = 0; i < py::len(given); ++i)
+  const auto count = py::len(given);
+  materials.reserve(static_cast<std::size_t>(count));
+  for (py::ssize_t i = 0; i < count; ++i)
     materials.push_back(py::extract<yade::shared_ptr<FEMat>>(given[i]));
   return change(solver, [&] { return solver.addBody(mesh, std::move(spec), materials); });
 }

@@ -128,11 +128,11 @@ TEST(Bonds, ABondedBarCarriesAWaveAsOneBarDoes) {
   const auto whole = pulseIn({barFrom(0, .4)});
   const auto bonded = pulseIn({barFrom(0, .1), barFrom(.1, .2), barFrom(.2, .4)});
   double worst = 0;
-  for (const auto& [x, v] : bonded) {
-    const auto same = std::find_if(whole.begin(), whole.end(),
-                                   [&](const auto& one) { return std::abs(one[0] - x) < 1e-9; });
+  for (const auto& point : bonded) {
+    const auto isThere = [&](const auto& one) { return std::abs(one[0] - point[0]) < 1e-9; };
+    const auto same = std::find_if(whole.begin(), whole.end(), isThere);
     ASSERT_NE(same, whole.end());
-    worst = std::max(worst, std::abs((*same)[1] - v));
+    worst = std::max(worst, std::abs((*same)[1] - point[1]));
   }
   figure("bonded_wave", worst, 0, 1e-6);  // of the pulse's 1 m/s
 }
@@ -143,7 +143,7 @@ TEST(Bonds, ABrickOfGrainsHoldsAndFallsApart) {
   // Four squares meet at a point; pulled apart, then driven against a wall.
   World world;
   for (int k = 0; k < 4; ++k) {
-    const Vec2 low{.02 * (k % 2), .02 * (k / 2)};
+    const Vec2 low{k % 2 == 0 ? 0 : .02, k < 2 ? 0 : .02};
     const TriangleMesh mesh = structuredRectangle(low, low + Vec2{.02, .02}, 4, 4);
     BodySpec spec = moving(mesh, kMaterial, {0, -30});
     world.addBody(mesh, spec);
@@ -219,7 +219,7 @@ TEST(Bonds, WhatCannotBeIsRefusedAndTheWorldAsItWas) {
     World world;
     world.addBody(left, resting(left));
     world.addBody(other, resting(other));
-    const std::string text = complaintOf([&] { world.bond(kLeft, kRight, strength, energy); });
+    std::string text = complaintOf([&] { world.bond(kLeft, kRight, strength, energy); });
     EXPECT_EQ(world.fracture.edges.size(), 0U);
     EXPECT_TRUE(world.fracture.cohesion.edge.empty());
     return text;
