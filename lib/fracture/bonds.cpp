@@ -3,42 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <sstream>
 #include <string>
 
 #include "core/errors.hpp"
-#include "core/tolerances.hpp"
-#include "search/contact_search.hpp"
+#include "core/tolerances/fracture.hpp"
+#include "search/overlapping_pairs.hpp"
 
 namespace yadefrag {
 namespace {
 
-struct KeyedSide {
-  NodeId low, high;
-  Side side;
-  friend auto operator<=>(const KeyedSide&, const KeyedSide&) = default;
-};
-
 /// Sides of one triangle only, that no edge knows.
 std::vector<Side> freeSides(const Model& model, const CrackEdges& edges, ComponentId component) {
-  const Component& body = model.components[component.value];
-  std::vector<KeyedSide> sides;
-  for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e) {
-    if (model.triangles.isDropped(e)) continue;
-    for (std::uint8_t c = 0; c < 3; ++c) {
-      const Side side{ElementId(e), c};
-      const auto [low, high] = std::minmax({firstNode(model, side), lastNode(model, side)});
-      sides.push_back({low, high, side});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  const auto joins = [](const KeyedSide& x, const KeyedSide& y) {
-    return x.low == y.low && x.high == y.high;
-  };
+  const std::vector<KeyedSide> sides = sidesByNodes(model, model.components[component.value]);
   std::vector<Side> result;
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (i + 1 < sides.size() && joins(sides[i], sides[i + 1])) {
+    if (i + 1 < sides.size() && sides[i].joins(sides[i + 1])) {
       ++i;
       continue;
     }
@@ -90,10 +70,7 @@ std::vector<BoxPair> nearPairs(const std::vector<Line>& lines) {
     boxes.push_back({{std::min(l.begin.x, l.end.x) - by, std::min(l.begin.y, l.end.y) - by, 0},
                      {std::max(l.begin.x, l.end.x) + by, std::max(l.begin.y, l.end.y) + by, 0}});
   }
-  const std::unique_ptr<ContactSearch> search = makeSearch(SearchMethod::kLebesgue);
-  search->update(boxes);
-  std::vector<BoxPair> pairs;
-  search->findPairs(pairs);
+  std::vector<BoxPair> pairs = overlappingPairs(boxes);
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

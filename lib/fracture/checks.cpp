@@ -8,14 +8,11 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/tolerances/fracture.hpp"
 #include "fracture/edge_strength.hpp"
 
 namespace yadefrag {
 namespace {
-
-/// (elements) Along the cohesive zone. A notched beam bears 2 to 9 % too much with four
-/// (notched_beam_test.cpp).
-constexpr double kZoneElements = 4;
 
 std::string text(double value, const char* unit) {
   std::array<char, 48> buffer;
@@ -35,36 +32,6 @@ void require(bool holds, const char* name, double value, const char* unit, const
   throw InputError(std::string(name) + " is " + text(value, unit) + "; it must be " + right + ".");
 }
 
-struct Edge {
-  NodeId low, high;
-  double length;       // m
-  double inverseMass;  // 1/kg, of the least that one triangle can give to a node
-  double volume;       // m³, of a third of the triangle
-  [[nodiscard]] bool joins(const Edge& o) const { return low == o.low && high == o.high; }
-};
-
-/// The three sides of every triangle of a component; the two of an inner edge are neighbours.
-std::vector<Edge> sidesOf(const Model& model, const Component& body) {
-  std::vector<Edge> sides;
-  sides.reserve(3 * std::size_t{body.lastTriangle - body.firstTriangle});
-  for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e) {
-    if (model.triangles.isDropped(e)) continue;
-    const double density = model.materialOf(ElementId(e)).material.density;
-    const double mass = density * body.thickness * model.triangles.area[e];
-    const auto& nodes = model.triangles.nodes[e];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax(nodes[i], nodes[(i + 1) % 3]);
-      const Vec2 along = model.nodes.position[high.value] - model.nodes.position[low.value];
-      sides.push_back(
-          {low, high, norm(along), 3 / mass, body.thickness * model.triangles.area[e] / 3});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Edge& a, const Edge& b) {
-    return a.low != b.low ? a.low < b.low : a.high < b.high;
-  });
-  return sides;
-}
-
 struct EdgeSums {
   std::size_t inner = 0;
   double meanLength = 0;  // m, of inner and outer ones
@@ -74,16 +41,25 @@ struct EdgeSums {
 };
 
 EdgeSums sumsOf(const Model& model, const Component& body) {
-  const std::vector<Edge> sides = sidesOf(model, body);
+  const std::vector<KeyedSide> sides = sidesByNodes(model, body);
   EdgeSums sums;
+  const auto thirdOf = [&](ElementId e) {  // m³, of a triangle
+    return body.thickness * model.triangles.area[e.value] / 3;
+  };
+  const auto inverseMass = [&](ElementId e) {  // 1/kg, of the least that it can give to a node
+    return 3 /
+           (model.materialOf(e).material.density * body.thickness * model.triangles.area[e.value]);
+  };
   for (std::size_t i = 0; i < sides.size(); ++i) {
+    const std::vector<Vec2>& at = model.nodes.position;
+    const double length = norm(at[sides[i].high.value] - at[sides[i].low.value]);
     if (i > 0 && sides[i].joins(sides[i - 1])) {
+      const ElementId a = sides[i].side.element, b = sides[i - 1].side.element;
       ++sums.inner;
-      const double inverse = sides[i].inverseMass + sides[i - 1].inverseMass;
-      sums.lightest = std::max(sums.lightest, sides[i].length / 2 * inverse);
-      sums.leastVolume = std::min(sums.leastVolume, sides[i].volume + sides[i - 1].volume);
+      sums.lightest = std::max(sums.lightest, length / 2 * (inverseMass(a) + inverseMass(b)));
+      sums.leastVolume = std::min(sums.leastVolume, thirdOf(a) + thirdOf(b));
     } else {
-      sums.meanLength += sides[i].length;
+      sums.meanLength += length;
     }
   }
   const std::size_t edges = sides.size() - sums.inner;
@@ -119,7 +95,7 @@ void requireResolved(const Cohesive& edge, double crossed, double meanLength, do
 
 std::string zoneSentence(double young, const Cohesive& edge, double size) {
   const double zone = young / edge.strength * edge.fractureEnergy / edge.strength;
-  const double wanted = zone / kZoneElements;
+  const double wanted = zone / tolerance::kZoneElements;
   if (size <= wanted) return {};
   return edge.name + ": the cohesive zone is " + text(zone, " m") +
          " long, less than four elements of " + text(size, " m") +

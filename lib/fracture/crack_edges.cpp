@@ -14,26 +14,12 @@ namespace {
 
 constexpr std::array<EdgeId, 3> kNoEdges{EdgeId::none(), EdgeId::none(), EdgeId::none()};
 
-struct KeyedSide {
-  NodeId low, high;
-  Side side;
-  friend auto operator<=>(const KeyedSide&, const KeyedSide&) = default;
-};
-
 /// Pairs of sides between the same two nodes, in the order of the triangles.
 std::vector<std::array<Side, 2>> innerEdges(const Model& model, const Component& body) {
-  std::vector<KeyedSide> sides;
-  for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e)
-    for (std::uint8_t c = 0; c < 3; ++c) {
-      const Side side{ElementId(e), c};
-      const auto [low, high] = std::minmax({firstNode(model, side), lastNode(model, side)});
-      sides.push_back({low, high, side});
-    }
-  std::sort(sides.begin(), sides.end());
+  const std::vector<KeyedSide> sides = sidesByNodes(model, body);
   std::vector<std::array<Side, 2>> inner;
   for (std::size_t i = 1; i < sides.size(); ++i)
-    if (sides[i].low == sides[i - 1].low && sides[i].high == sides[i - 1].high)
-      inner.push_back({sides[i - 1].side, sides[i].side});
+    if (sides[i].joins(sides[i - 1])) inner.push_back({sides[i - 1].side, sides[i].side});
   std::sort(inner.begin(), inner.end());
   return inner;
 }
@@ -72,6 +58,21 @@ BrittleMaterial materialAt(const Model& model, const BrittlePlaces& places, Elem
 }
 
 }  // namespace
+
+std::vector<KeyedSide> sidesByNodes(const Model& model, const Component& body) {
+  std::vector<KeyedSide> sides;
+  sides.reserve(3 * std::size_t{body.lastTriangle - body.firstTriangle});
+  for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e) {
+    if (model.triangles.isDropped(e)) continue;
+    for (std::uint8_t c = 0; c < 3; ++c) {
+      const Side side{ElementId(e), c};
+      const auto [low, high] = std::minmax({firstNode(model, side), lastNode(model, side)});
+      sides.push_back({low, high, side});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
 
 int cornerOf(const Model& model, ElementId element, NodeId node) {
   const auto& nodes = model.triangles.nodes[element.value];

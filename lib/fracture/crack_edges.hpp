@@ -30,6 +30,17 @@ inline constexpr std::uint8_t beforeCorner(int corner) {
   return static_cast<std::uint8_t>(corner == 0 ? 2 : corner - 1);
 }
 
+/// A side with its two nodes, the lower one first: two triangles side by side have equal ones.
+struct KeyedSide {
+  NodeId low, high;
+  Side side;
+  friend auto operator<=>(const KeyedSide&, const KeyedSide&) = default;
+  [[nodiscard]] bool joins(const KeyedSide& o) const { return low == o.low && high == o.high; }
+};
+
+/// All sides of a body's triangles, ascending; dropped triangles have none.
+[[nodiscard]] std::vector<KeyedSide> sidesByNodes(const Model& model, const Component& body);
+
 struct CrackEdges {
   // By edge.
   std::vector<std::array<ElementId, 2>> element;    ///< the lower one first

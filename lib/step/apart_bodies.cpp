@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/tolerances/step.hpp"
-#include "search/contact_search.hpp"
+#include "search/overlapping_pairs.hpp"
 #include "step/body_places.hpp"
 
 namespace yadefrag {
@@ -42,10 +42,8 @@ std::vector<ApartBodies::Gap> ApartBodies::gapsBelow(const Model& model,
                                                      double width) {
   const std::vector<Box> boxes = bodyBoxes(model, surfaces, width / 2);
   const bool few = boxes.size() <= tolerance::kFewBoxes;
-  const auto search = makeSearch(few ? SearchMethod::kBruteForce : SearchMethod::kLebesgue);
-  std::vector<BoxPair> pairs;
-  search->update(boxes);
-  search->findPairs(pairs);
+  const SearchMethod method = few ? SearchMethod::kBruteForce : SearchMethod::kLebesgue;
+  const std::vector<BoxPair> pairs = overlappingPairs(boxes, 1, method);
   std::vector<Gap> gaps;
   gaps.reserve(pairs.size());
   for (const auto& [first, second] : pairs)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "search/contact_search.hpp"
+#include "search/overlapping_pairs.hpp"
 #include "step/entry_pairs.hpp"
 
 namespace yadefrag {
@@ -86,10 +86,7 @@ std::vector<BoxPair> overlapsAmong(const ContactSurfaces& surfaces, std::span<co
   std::vector<Box> boxes;
   boxes.reserve(entries.size());
   for (const EntryId entry : entries) boxes.push_back(entryBox(surfaces, positions, entry, halo));
-  const std::unique_ptr<ContactSearch> search = makeSearch(SearchMethod::kLebesgue);
-  search->update(boxes);
-  std::vector<BoxPair> pairs;
-  search->findPairs(pairs);
+  std::vector<BoxPair> pairs = overlappingPairs(boxes);
   for (BoxPair& pair : pairs)
     pair = orderedPair(BoxId(entries[pair.first.value].value),
                        BoxId(entries[pair.second.value].value));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/tolerances/contact.hpp"
-#include "search/contact_search.hpp"
+#include "search/overlapping_pairs.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -93,11 +93,8 @@ class OverlapSearch {
     std::vector<Box> boxes;
     for (const Side& side : sides_) boxes.push_back(boxOf(side));
     for (const Facet& facet : facets_) boxes.push_back(boxOf(facet));
-    const std::unique_ptr<ContactSearch> search = makeSearch(SearchMethod::kLebesgue);
-    search->update(boxes);
-    std::vector<BoxPair> pairs;
-    search->findPairs(pairs);
-    for (const BoxPair& pair : pairs) {  // first < second: a side comes before a triangle
+    for (const BoxPair& pair :
+         overlappingPairs(boxes)) {  // first < second: a side comes before a triangle
       const std::size_t a = pair.first.value, b = pair.second.value;
       if (a >= sides_.size() || b < sides_.size()) continue;
       const Side& side = sides_[a];

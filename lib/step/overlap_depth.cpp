@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "search/contact_search.hpp"
+#include "search/overlapping_pairs.hpp"
 
 namespace yadefrag {
 namespace {
@@ -48,13 +48,8 @@ double deepestOverlap(const Model& model, int threads) {
   boxes.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
     boxes.push_back(triangles.isDropped(t) ? Box::absent() : boxOf(cornersOf(model, t)));
-  const std::unique_ptr<ContactSearch> search = makeSearch(SearchMethod::kLebesgue);
-  search->setThreads(threads);
-  search->update(boxes);
-  std::vector<BoxPair> pairs;
-  search->findPairs(pairs);
   double deepest = 0;
-  for (const auto& [first, second] : pairs)
+  for (const auto& [first, second] : overlappingPairs(boxes, threads))
     if (!shareNode(triangles.nodes[first.value], triangles.nodes[second.value]))
       deepest = std::max(deepest,
                          overlapOf(cornersOf(model, first.value), cornersOf(model, second.value)));
