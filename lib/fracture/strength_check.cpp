@@ -98,18 +98,7 @@ const StrengthCheck::Stress& StrengthCheck::stressAt(const Model& model, const C
   Stress& mean = nodeStress_[node.value];
   if (nodeSeen_[node.value] == call_) return mean;
   nodeSeen_[node.value] = call_;
-  fan_.clear();
-  edges.appendFan(model, node, fan_);
-  mean = {};
-  double whole = 0;
-  for (const ElementId element : fan_) {
-    const double area = model.triangles.area[element.value];
-    const Stress& stress = stressOf(model, element);
-    for (std::size_t i = 0; i < 3; ++i) mean[i] += area * stress[i];
-    whole += area;
-  }
-  for (double& component : mean) component /= whole;
-  return mean;
+  return mean = meanAt(model, edges, node, [](ElementId) { return true; });
 }
 
 /// At an end of an edge: the mean over those triangles that have one of the edge's two materials.
@@ -117,12 +106,21 @@ StrengthCheck::Stress StrengthCheck::stressOfMaterials(const Model& model, const
                                                        EdgeId edge, NodeId node) {
   const auto number = [&](ElementId e) { return model.triangles.material[e.value]; };
   const auto [a, b] = edges.element[edge.value];
+  const std::uint32_t first = number(a), second = number(b);
+  return meanAt(model, edges, node,
+                [&](ElementId e) { return number(e) == first || number(e) == second; });
+}
+
+/// By area, over those triangles of a node's fan that count.
+template <class Counts>
+StrengthCheck::Stress StrengthCheck::meanAt(const Model& model, const CrackEdges& edges,
+                                            NodeId node, Counts counts) {
   fan_.clear();
   edges.appendFan(model, node, fan_);
   Stress mean{};
   double whole = 0;
   for (const ElementId element : fan_) {
-    if (number(element) != number(a) && number(element) != number(b)) continue;
+    if (!counts(element)) continue;
     const double area = model.triangles.area[element.value];
     const Stress& stress = stressOf(model, element);
     for (std::size_t i = 0; i < 3; ++i) mean[i] += area * stress[i];

@@ -42,6 +42,8 @@ class StrengthCheck {
                   std::span<const double> leastStrength);
   const Stress& stressOf(const Model& model, ElementId element);
   const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
+  template <class Counts>
+  Stress meanAt(const Model& model, const CrackEdges& edges, NodeId node, Counts counts);
   Stress stressOfMaterials(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node);
   double ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge);
   double pullAt(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node, Vec2 normal);
