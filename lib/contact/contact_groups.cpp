@@ -35,14 +35,8 @@ void findContactGroups(std::span<const ContactRow> rows, const Nodes& nodes,
   for (std::size_t i = 1; i < links.size(); ++i)
     if (!beginsNode(links, i)) sets.join(links[i - 1].row, links[i].row);
 
-  constexpr std::uint32_t kNone = 0xffffffff;
-  std::vector<std::uint32_t> groupOfRow(rows.size()), groupOfSet(rows.size(), kNone);
-  std::uint32_t count = 0;
-  for (std::uint32_t r = 0; r < rows.size(); ++r) {
-    std::uint32_t& group = groupOfSet[sets.find(r)];
-    if (group == kNone) group = count++;
-    groupOfRow[r] = group;
-  }
+  std::vector<std::uint32_t> groupOfRow;
+  const std::uint32_t count = sets.number(groupOfRow);
   fillRows(
       groups.rows, count, rows.size(), [&](std::size_t r) { return groupOfRow[r]; },
       [](std::size_t r) { return static_cast<std::uint32_t>(r); });

@@ -116,32 +116,19 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
   }
 }
 
-std::uint32_t Cohesion::rootOf(NodeId node) {
-  std::uint32_t n = node.value;
-  while (group_[n] != n) n = group_[n] = group_[group_[n]];
-  return n;
-}
-
 /// Points that share a node, and those that share one with them: the parts of one node that split.
 void Cohesion::findGroups(std::size_t nodes) {
-  constexpr std::uint32_t none = ~std::uint32_t{0};
-  group_.resize(nodes);
-  for (const Point& point : points_)
-    for (const NodeId node : {point.here, point.there}) group_[node.value] = node.value;
-  for (const Point& point : points_) {
-    const std::uint32_t here = rootOf(point.here), there = rootOf(point.there);
-    group_[std::max(here, there)] = std::min(here, there);
-  }
-  number_.resize(nodes);
-  for (const Point& point : points_) number_[rootOf(point.here)] = none;
-  std::uint32_t count = 0;
-  for (Point& point : points_) {
-    std::uint32_t& number = number_[rootOf(point.here)];
-    if (number == none) number = count++;
-    point.group = number;
-  }
+  firstAt_.resize(nodes);
+  const auto count = static_cast<std::uint32_t>(points_.size());
+  for (std::uint32_t i = count; i-- > 0;)
+    firstAt_[points_[i].here.value] = firstAt_[points_[i].there.value] = i;
+  sets_.reset(count);
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (const NodeId node : {points_[i].here, points_[i].there})
+      sets_.join(firstAt_[node.value], i);
+  const std::uint32_t groups = sets_.number(groupOf_);
   fillRows(
-      groups_, count, points_.size(), [&](std::size_t i) { return points_[i].group; },
+      groups_, groups, count, [&](std::size_t i) { return groupOf_[i]; },
       [](std::size_t i) { return static_cast<std::uint32_t>(i); });
 }
 

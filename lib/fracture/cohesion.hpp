@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/csr.hpp"
+#include "core/disjoint_sets.hpp"
 #include "core/footprint.hpp"
 #include "core/step_length.hpp"
 #include "dynamics/energy_ledger.hpp"
@@ -60,8 +61,9 @@ class Cohesion {
 
   std::vector<EdgeId> released;  ///< in the last step
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kCohesion, edge, largest, traction, area, points_, group_, number_,
+    footprint.add(Use::kCohesion, edge, largest, traction, area, points_, firstAt_, groupOf_,
                   groups_.values, groups_.offsets, turned_, released);
+    sets_.addTo(footprint, Use::kCohesion);
   }
 
   // By crack that holds; both ends of an edge have an opening of their own (see countedOpening).
@@ -84,7 +86,7 @@ class Cohesion {
     Vec2 traction{};  // Pa, all of them, on `here`
     Vec2 change{};    // Pa, in the last sweep
     bool isEven;      // as compliant in all directions
-    std::uint32_t crack, end, group;
+    std::uint32_t crack, end;
   };
 
   template <class Keep>
@@ -96,15 +98,15 @@ class Cohesion {
   void collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                const StepLength& step, double drag);
   void findGroups(std::size_t nodes);
-  [[nodiscard]] std::uint32_t rootOf(NodeId node);
   double solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group);
   static void apply(std::vector<Vec2>& position, const Point& point, Vec2 change);
   static void relax(std::vector<Vec2>& position, Point& point);
 
   std::vector<Point> points_;
-  std::vector<std::uint32_t> group_;   // by node: another of its group, itself if it is the root
-  std::vector<std::uint32_t> number_;  // by node that is a root: the group's
-  Csr<std::uint32_t> groups_;          // of points that share nodes
+  std::vector<std::uint32_t> firstAt_;  // by node of a point: the first point there
+  DisjointSets sets_;                   // of points
+  std::vector<std::uint32_t> groupOf_;  // by point
+  Csr<std::uint32_t> groups_;           // of points that share nodes
   double residual_ = 0;
   std::vector<std::uint32_t> turned_;  // cracks whose faces are at a right angle, or more
 };
