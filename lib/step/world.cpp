@@ -52,14 +52,17 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   return id;
 }
 
-void World::removeBody(ComponentId component) {
-  if (component.value >= model.components.size() ||
-      model.components[component.value].firstTriangle ==
-          model.components[component.value].lastTriangle) {
-    std::ostringstream text;
-    text << "There is no body " << component.value << " to remove.";
-    throw InputError(text.str());
+/// `purpose`: what is to be done with it.
+void World::requireBody(ComponentId component, const char* purpose) const {
+  if (component.value < model.components.size()) {
+    const Component& body = model.components[component.value];
+    if (body.firstTriangle != body.lastTriangle) return;
   }
+  throw InputError("There is no body " + std::to_string(component.value) + " to " + purpose + ".");
+}
+
+void World::removeBody(ComponentId component) {
+  requireBody(component, "remove");
   const ElementId first(model.components[component.value].firstTriangle);
   const ElementId last(model.components[component.value].lastTriangle);
   const std::vector<NodeId> renumbered = yadefrag::removeBody(model, component);

@@ -150,6 +150,7 @@ class World {
   void searchIfLeft(double dt);
   void searchNow(double dt);
   void considerPairs(std::span<const BoxPair> overlapping, std::span<const Vec2> before);
+  void requireBody(ComponentId component, const char* purpose) const;
   void requireApart(const TriangleMesh& mesh, const BodySpec& spec);
   void requireBoundedMotion(double dt);
   void requireResolvedMotion(double dt);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fracture/random_cracks.hpp"
+#include "step/overlap_depth.hpp"
 
 namespace yadefrag::test {
 
@@ -33,21 +34,6 @@ inline double distanceToSide(Vec2 point, Vec2 a, Vec2 b) {
 }
 
 using Corners = std::array<Vec2, 3>;
-
-/// (m) The shortest push that would get two triangles apart, along a normal of one of their sides;
-/// 0 if they are apart.
-inline double overlapOf(const Corners& a, const Corners& b) {
-  double least = INFINITY;
-  for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)})
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 along = (*own)[(k + 1) % 3] - (*own)[k];
-      double inside = 0;
-      for (const Vec2 point : *other)
-        inside = std::max(inside, cross(along, point - (*own)[k]) / norm(along));
-      least = std::min(least, inside);
-    }
-  return least;
-}
 
 struct Overlap {
   double depth = 0;  ///< m

@@ -88,3 +88,10 @@ def requireBodiesAreEntries(solver):
     # In half segments: an arc takes one half of each of two segments.
     share = {0: 2, 1: 1, 2: 1, 3: 2}
     assert sum(share[shape.kind] for shape in pieces) == 2 * solver.numSegments
+
+
+def cracks(solver):
+    """Nodes that are at one place without stress, each once."""
+    places = np.round(solver.nodes - solver.displacements, 9)
+    unique, count = np.unique(places, axis=0, return_counts=True)
+    return unique[count > 1]

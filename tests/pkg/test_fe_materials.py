@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import engines
+from fe_impact import cracks, engines
 from yade import wrapper as w
 
 O = builtins.O
@@ -38,12 +38,6 @@ def drawnBar(first=hard, second=soft, material=halves, factor=.4, **given):
     solver.addPolygon(yadefrag.rectangle((0, 0), (kLength, kHeight)), material=material, **{**args, **given})
     engines(solver, factor=factor)
     return solver
-
-
-def cracks(solver):
-    places = np.round(solver.nodes - solver.displacements, 9)
-    unique, count = np.unique(places, axis=0, return_counts=True)
-    return unique[count > 1]
 
 
 def test_halvesHaveTheirOwnMassesStressesAndSteps():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import brittle, engines
+from fe_impact import brittle, cracks, engines
 from fe_scene import fe, finder  # noqa: F401  fixtures
 from yade import wrapper as w
 
@@ -32,13 +32,6 @@ def drawnBar(**given):
                       **{**wanted, **given})
     engines(solver, factor=.4)
     return solver
-
-
-def cracks(solver):
-    """Nodes that are at one place without stress, each once."""
-    places = np.round(solver.nodes - solver.displacements, 9)
-    unique, count = np.unique(places, axis=0, return_counts=True)
-    return unique[count > 1]
 
 
 def test_aBarBreaksInItsWeakBand():
