@@ -1,8 +1,8 @@
 #pragma once
 // Contacts with spheres that begin deep inside. A sphere that presses on a boundary is held by one
 // piece. When a crack opens there, the piece beside it has a corner of its own, which the sphere
-// overlaps at once: YADE's law takes the spring to be as far compressed, and nobody has done the
-// work.
+// overlaps at once. YADE's law starts with a spring that is compressed by this overlap, though no
+// force has done the work.
 
 #include "fe/entry_bodies.hpp"
 

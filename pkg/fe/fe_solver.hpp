@@ -129,10 +129,12 @@ constexpr auto FESolver::attributes() {
                 "Fragments that come loose with a smaller area (m², stress-free) are taken out of "
                 "the scene, and booked in `dropped`; none that is held is. 0: all stay.",
                 triggerPostLoad),
-      attribute("energyFromSpheres", &C::energyFromSpheres,
-                "Energy (J) out of nothing, so far: where a crack opens under a sphere, the corner "
-                "beside it is in contact at once, with a spring that nobody has compressed.",
-                yade::Attr::readonly));
+      attribute(
+          "energyFromSpheres", &C::energyFromSpheres,
+          "Energy (J) that contacts with spheres have created so far. Where a crack opens "
+          "under a sphere, the sphere overlaps the new corner at once, and the contact starts "
+          "with a compressed spring.",
+          yade::Attr::readonly));
 }
 
 template <class Archive>

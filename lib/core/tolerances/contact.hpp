@@ -55,8 +55,8 @@ inline constexpr double kRemainder = 1e-5, kPenetrationLeft = 1e-10;
 inline constexpr int kDetections = 10;
 
 /// (ratio) An overlap older than its contact is let out by this part in every step, and by no more
-/// than this part of the largest displacement: all at once it
-/// would become a velocity, and energy out of nothing.
+/// than this part of the largest displacement. Pushed out in one step it would become a velocity,
+/// and contact would create energy.
 inline constexpr double kOverlapDecay = .02;
 
 }  // namespace yadefrag::tolerance

@@ -8,8 +8,8 @@
 
 namespace yadefrag::tolerance {
 
-/// (m/s) Nobody is fast below this if nothing else is said; its square and its way are finite.
-/// Bodies may not be sent at more.
+/// (m/s) Speed limit of the motion watch where no lower one is set: its square, and the way in a
+/// step, are finite. No velocity may be prescribed above it.
 inline constexpr double kAnySpeed = 1e100;
 
 /// (1) Largest coefficients of bulk viscosity: usual ones are 0.06 and 1.2, and the critical step

@@ -47,17 +47,17 @@ inline constexpr double kHaloSteps = 40;
 /// (ratio) Spare for acceleration when it is foreseen whether the next step leaves the halo.
 inline constexpr double kHaloSpare = 1.1;
 
-/// (of the reach within which nobody may be) A body is apart from others that are farther than
-/// `kApart`, so that not every look finds another choice; gaps up to `kApartLook` are looked at,
-/// which a body eats up in some hundred steps.
+/// (of the reach) A body is isolated if all others are farther away than `kApart` times the reach.
+/// The margin keeps the choice the same from one check to the next. Gaps up to `kApartLook` times
+/// the reach are computed; a body covers such a gap in some hundred steps.
 inline constexpr double kApart = 2, kApartLook = 8;
 
 /// (of the largest move in a step) Reach of bodies that are apart, if that is more than the halo:
 /// even two that fly towards each other are seen well before they could meet.
 inline constexpr double kApartMoves = 8;
 
-/// (ratio) Spare for acceleration until all velocities are looked at again: steps in which nobody
-/// is faster need no look at the nodes.
+/// (ratio) Margin for acceleration until all velocities are checked again. As long as no node is
+/// faster than this, a step needs no check of the nodes.
 inline constexpr double kSpeedSpare = 1.25;
 
 /// (count) Boxes that are sooner compared with each other than sorted.
