@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 #include <utility>
 
@@ -15,6 +16,7 @@
 namespace yadefrag {
 
 namespace {
+double tolE() { static const double t = getenv("TOLE") ? atof(getenv("TOLE")) : 1e-3; return t; }
 
 SlaveMaster pairOf(const ContactRow& row) { return {row.slave, row.master}; }
 
@@ -69,6 +71,7 @@ void Contact::reserve(std::size_t nodes) {
 void Contact::correct(Model& model, const ContactSurfaces& surfaces,
                       const ContactSettings& settings, const ContactStep& step) {
   begin();
+  entry_ = settings.entry;
   bool gapsAreKnown = false;
   double reach = step.reach;
   scan(model, surfaces, step, reach, step.move);
@@ -178,10 +181,13 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
   if (!search_.anyNear()) return false;
   const StageTimer timer(step.times, &StageTimes::localSearch);
   actives_.clear();
+  const PathStart start{step.before, touches, tolE() * step.shortest};
+  search_.startFrom(entry_ == Entry::kPath ? &start : nullptr);
   search_.findActives(
       candidates, surfaces, model.nodes.position, step.deepest, actives_, known_,
       lookedAt_ ? std::span<const std::uint8_t>(isTouched_) : std::span<const std::uint8_t>());
   lookedAt_ = true;
+  search_.startFrom(nullptr);
   if (!actives_.empty()) makeRoom(model.nodes.size());
   const PieceGeometry before(surfaces, step.before);
   bool anyNew = false;

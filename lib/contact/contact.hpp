@@ -11,19 +11,13 @@
 #include "contact/contact_settings.hpp"
 #include "contact/correction.hpp"
 #include "contact/local_search.hpp"
+#include "contact/touch.hpp"
 #include "core/stage_times.hpp"
 #include "core/step_length.hpp"
 #include "mesh/model.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {
-
-/// What the next step has to know of an active.
-struct Touch {
-  SlaveMaster pair;
-  double normalForce, tangentForce;  ///< N, where the next solve starts from
-  double allowed;  ///< m, ≤ 0: what is left of an overlap older than the contact
-};
 
 /// The step that contact is part of. Spans are by node.
 struct ContactStep {
@@ -122,6 +116,7 @@ class Contact {
   void sumForces();
   void finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
 
+  Entry entry_ = Entry::kPath;
   LocalSearch search_;
   Lagrange lagrange_;
   std::vector<Active> actives_;

@@ -7,7 +7,13 @@ enum class Correction {
   kPenalty,   ///< forces in proportion to penetration, for comparison
 };
 
+enum class Entry {
+  kPath,   ///< where the slave's way crosses the piece
+  kFlags,  ///< by one flag per slave and master's line, and exceptions (paper §5.1, §5.2)
+};
+
 struct ContactSettings {
+  Entry entry = Entry::kPath;
   Correction correction = Correction::kLagrange;
   /// 1: of two surfaces the finer one's points are slaves, and the other's sharp corners.
   /// 2: every point of both.

@@ -97,6 +97,19 @@ void JointRules::decide(const ContactSurfaces& surfaces, const Geometry& geometr
   for (const auto& [i, k] : joints_) decideNeighbours(geometry, trials[i], trials[k]);
 }
 
+template <class Geometry>
+void JointRules::decideByPath(const ContactSurfaces& surfaces, const Geometry& geometry,
+                              std::span<Trial> trials) {
+  for (Trial& first : trials)
+    for (Trial& second : trials)
+      if (second.master == surfaces.next[first.master.value])
+        decideNeighbours(geometry, first, second);
+}
+
+template void JointRules::decideByPath(const ContactSurfaces&, const PieceGeometryOf<true>&,
+                                       std::span<Trial>);
+template void JointRules::decideByPath(const ContactSurfaces&, const PieceGeometryOf<false>&,
+                                       std::span<Trial>);
 template void JointRules::decide(const ContactSurfaces&, const PieceGeometryOf<true>&,
                                  std::span<Trial>, double, double);
 template void JointRules::decide(const ContactSurfaces&, const PieceGeometryOf<false>&,

@@ -33,6 +33,9 @@ class JointRules {
   template <class Geometry>
   void decide(const ContactSurfaces& surfaces, const Geometry& geometry, std::span<Trial> trials,
               double deepest, double reach);
+  template <class Geometry>
+  void decideByPath(const ContactSurfaces& surfaces, const Geometry& geometry,
+                    std::span<Trial> trials);
   void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, joints_); }
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/entry_path.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/contact.hpp"
 
@@ -170,7 +171,11 @@ void LocalSearch::tryAll(const Candidates& candidates, const ContactSurfaces& su
     if (allKnown) continue;
     if (!moved.empty() && !hasMoved(candidates, surfaces, near.subspan(begin, end - begin), moved))
       continue;
-    tryRow(candidates, surfaces, geometry, near.subspan(begin, end - begin), deepest);
+    const std::span<const Near> row = near.subspan(begin, end - begin);
+    if (start_)
+      tryRowByPath(candidates, surfaces, geometry, row, deepest);
+    else
+      tryRow(candidates, surfaces, geometry, row, deepest);
     for (const Trial& trial : trials_)
       if (trial.active) actives.push_back({{slave, trial.master}, trial.foot});
   }
@@ -228,6 +233,65 @@ void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& su
     return;
   }
   rules_.decide(surfaces, geometry, trials_, deepest, reach_);
+}
+
+template <class Geometry>
+void LocalSearch::tryRowByPath(const Candidates& candidates, const ContactSurfaces& surfaces,
+                               const Geometry& geometry, std::span<const Near> row,
+                               double deepest) {
+  const EntryId slave = candidates.slaves[row.front().row];
+  const Vec2 point = geometry.slave(slave);
+  trials_.clear();
+  if (std::ranges::none_of(row, [&](const Near& near) {
+        return geometry.mayPenetrate(candidates.masters[near.candidate], point);
+      }))
+    return;
+  const Geometry before(surfaces, start_->positions);
+  const Vec2 from = before.slave(slave);
+  const SlaveNormals normals = slaveNormals(surfaces, geometry, slave);
+  bool any = false;
+  for (const Near& near : row) {
+    const EntryId master = candidates.masters[near.candidate];
+    if (isArcAmongArcs(surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
+      continue;
+    Trial trial{master, geometry.foot(master, point), false, false, false};
+    trial.opposed = normals.oppose(trial.foot.normal);
+    if (trial.foot.gap < 0 && trial.opposed) {
+      const SlaveMaster pair{slave, master};
+      const auto touch = std::ranges::lower_bound(start_->touches, pair, {}, &Touch::pair);
+      const bool held = touch != start_->touches.end() && touch->pair == pair;
+      const PieceRange range = geometry.range(master);
+      const bool over = trial.foot.xi >= range.begin - tolerance::kFootRange &&
+                        trial.foot.xi <= range.end + tolerance::kFootRange;
+      if (geometry.isArc(master)) {
+        trial.outside = held || before.foot(master, from).gap >= -start_->depth;
+        trial.active = trial.outside && over && trial.foot.gap >= -deepest;
+      } else {
+        const auto crossed = crossing({from, before.ends(master)}, {point, geometry.ends(master)},
+                                      start_->depth);
+        trial.outside = held && over;
+        if (!trial.outside && crossed) {
+          const double end = 10 * start_->depth / norm(geometry.ends(master).end - geometry.ends(master).begin);
+          const double xi = crossed->xi;
+          const auto concave = [&](EntryId a, EntryId b) {
+            return cross(geometry.tangent(a, geometry.range(a).end),
+                         geometry.tangent(b, geometry.range(b).begin)) < 0;
+          };
+          // At a joint that turns away from the void, what is past both ends is inside, too.
+          const double least = -tolerance::kFootRange, most = 1 + tolerance::kFootRange;
+          trial.outside = (xi >= least || (xi >= -end && concave(surfaces.prev[master.value], master))) &&
+                          (xi <= most || (xi <= 1 + end && concave(master, surfaces.next[master.value])));
+        }
+        trial.active = trial.outside;
+      }
+      any = any || trial.active;
+    }
+    trials_.push_back(trial);
+  }
+  if (any)
+    rules_.decideByPath(surfaces, geometry, trials_);
+  else
+    trials_.clear();
 }
 
 void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces,

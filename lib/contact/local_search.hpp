@@ -9,6 +9,7 @@
 
 #include "contact/candidates.hpp"
 #include "contact/joint_rules.hpp"
+#include "contact/touch.hpp"
 #include "surface/piece_geometry.hpp"
 
 namespace yadefrag {
@@ -26,8 +27,17 @@ struct Chord {
   double bulge;    ///< m, of an arc over it: near an arc is near its chord by that much more
 };
 
+/// What entry by the path has to know of the step before.
+struct PathStart {
+  std::span<const Vec2> positions;  ///< m, xⁿ, by node; of surface nodes only
+  std::span<const Touch> touches;   ///< by pair
+  double depth;                     ///< m, at which a slave is behind a line
+};
+
 class LocalSearch {
  public:
+  /// Null: entry by flags. Must outlive the next `findActives`.
+  void startFrom(const PathStart* start) { start_ = start; }
   /// First phase (§5.1) at `positions` (m, by node). A candidate is near if its slave is inside the
   /// master's line or within `reach` (m) of it, beside the piece by no more than a few `reach`.
   /// Outside flags of all that are not near are brought up to date. No surface node has moved by
@@ -84,6 +94,11 @@ class LocalSearch {
   void tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
               const Geometry& geometry, std::span<const Near> row, double deepest);
 
+  template <class Geometry>
+  void tryRowByPath(const Candidates& candidates, const ContactSurfaces& surfaces,
+                    const Geometry& geometry, std::span<const Near> row, double deepest);
+
+  const PathStart* start_ = nullptr;
   double way_ = 0;    // m, of the fastest node since the candidates were found
   double reach_ = 0;  // m, of the last scan
   std::vector<Near> near_;

@@ -1,0 +1,39 @@
+#include "contact/entry_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace yadefrag {
+
+namespace {
+
+Crossing at(double time, Vec2 from, Vec2 along) {
+  const double square = dot(along, along);
+  return {time, square > 0 ? dot(from, along) / square : 0};
+}
+
+}  // namespace
+
+std::optional<Crossing> crossing(const PointAndPiece& before, const PointAndPiece& now,
+                                 double depth) {
+  const Vec2 from0 = before.point - before.piece.begin, from1 = now.point - now.piece.begin;
+  const Vec2 along0 = before.piece.end - before.piece.begin,
+             along1 = now.piece.end - now.piece.begin;
+  const double behind = depth * std::max(norm(along0), norm(along1));
+  const Vec2 from = from1 - from0, along = along1 - along0;
+  // Gap × length + depth × length = a t² + b t + c.
+  const double c = cross(from0, along0) + behind;
+  const double b = cross(from0, along) + cross(from, along0);
+  const double a = cross(from, along);
+  if (!(cross(from1, along1) < 0)) return std::nullopt;
+  if (a + b + c >= 0) return at(1, from1, along1);
+  // The one root at which the gap falls.
+  const double square = b * b - 4 * a * c;
+  if (square < 0) return std::nullopt;
+  const double root = std::sqrt(square);
+  const double time = b < 0 ? 2 * c / (root - b) : (a != 0 ? (-b - root) / (2 * a) : -1.);
+  if (!(time >= 0 && time <= 1)) return std::nullopt;
+  return at(time, from0 + time * from, along0 + time * along);
+}
+
+}  // namespace yadefrag
