@@ -26,7 +26,10 @@ std::optional<Crossing> crossing(const PointAndPiece& before, const PointAndPiec
   const double b = cross(from0, along) + cross(from, along0);
   const double a = cross(from, along);
   if (!(cross(from1, along1) < 0)) return std::nullopt;
-  if (a + b + c >= 0) return at(1, from1, along1);
+  if (a + b + c >= 0) {
+    if (c < 0) return std::nullopt;  // It came from behind.
+    return at(1, from1, along1);
+  }
   // The one root at which the gap falls.
   const double square = b * b - 4 * a * c;
   if (square < 0) return std::nullopt;

@@ -62,8 +62,9 @@ void World::followSplit() {
     if (side.segment == SegmentId::none())
       finest_ = std::min(finest_, norm(reference[side.last.value] - reference[side.first.value]));
   addCrackCandidates();
-  const std::vector<SlaveMaster> inherited =
-      inheritFlags(contact.candidates, surfaces, split_.originals, count);
+  std::vector<SlaveMaster> inherited;
+  if (contactSettings.entry == Entry::kFlags)
+    inherited = inheritFlags(contact.candidates, surfaces, split_.originals, count);
   contact.allowOverlaps(surfaces, model.nodes.position, changed, inherited);
 }
 
