@@ -249,6 +249,9 @@ void LocalSearch::tryRowByPath(const Candidates& candidates, const ContactSurfac
   const Geometry before(surfaces, start_->positions);
   const Vec2 from = before.slave(slave);
   const SlaveNormals normals = slaveNormals(surfaces, geometry, slave);
+  double depth = start_->depth;
+  for (auto t = std::ranges::lower_bound(start_->touches, slave, {}, [](const Touch& a) { return a.pair.slave; }); t != start_->touches.end() && t->pair.slave == slave; ++t)
+    depth = std::max(depth, -1.01 * before.foot(t->pair.master, from).gap);
   bool any = false;
   for (const Near& near : row) {
     const EntryId master = candidates.masters[near.candidate];
@@ -264,14 +267,14 @@ void LocalSearch::tryRowByPath(const Candidates& candidates, const ContactSurfac
       const bool over = trial.foot.xi >= range.begin - tolerance::kFootRange &&
                         trial.foot.xi <= range.end + tolerance::kFootRange;
       if (geometry.isArc(master)) {
-        trial.outside = held || before.foot(master, from).gap >= -start_->depth;
+        trial.outside = held || before.foot(master, from).gap >= -depth;
         trial.active = trial.outside && over && trial.foot.gap >= -deepest;
       } else {
         const auto crossed = crossing({from, before.ends(master)}, {point, geometry.ends(master)},
-                                      start_->depth);
+                                      depth);
         trial.outside = held && over;
         if (!trial.outside && crossed) {
-          const double end = 10 * start_->depth / norm(geometry.ends(master).end - geometry.ends(master).begin);
+          const double end = 10 * depth / norm(geometry.ends(master).end - geometry.ends(master).begin);
           const double xi = crossed->xi;
           const auto concave = [&](EntryId a, EntryId b) {
             return cross(geometry.tangent(a, geometry.range(a).end),

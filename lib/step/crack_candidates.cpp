@@ -110,4 +110,34 @@ std::vector<SlaveMaster> inheritFlags(Candidates& candidates, const ContactSurfa
   return raised;
 }
 
+void inheritTouches(std::vector<Touch>& touches, const ContactSurfaces& surfaces,
+                    std::span<const NodeId> originals, std::size_t nodeCount) {
+  if (touches.empty()) return;
+  const auto slaveAt = [&](NodeId node) {
+    return surfaces.segmentEntry[surfaces.nodeSegment[node.value].value];
+  };
+  std::vector<Touch> more;
+  const std::vector<Twin> twins = twinsOf(originals, nodeCount);
+  for (std::size_t begin = 0, end = 0; begin < twins.size(); begin = end) {
+    while (end < twins.size() && twins[end].original == twins[begin].original) ++end;
+    for (std::size_t i = begin; i < end; ++i) {
+      const EntryId from = slaveAt(twins[i].node);
+      for (auto t = std::ranges::lower_bound(touches, from, {}, [](const Touch& a) { return a.pair.slave; });
+           t != touches.end() && t->pair.slave == from; ++t)
+        for (std::size_t k = begin; k < end; ++k) {
+          const EntryId to = slaveAt(twins[k].node);
+          if (k != i && to != t->pair.master && surfaces.prev[to.value] != t->pair.master)
+            more.push_back({{to, t->pair.master}, 0, 0, t->allowed});
+        }
+    }
+  }
+  const auto byPair = [](const Touch& a, const Touch& b) { return a.pair < b.pair; };
+  // Those that are there come first: they know their forces.
+  touches.insert(touches.end(), more.begin(), more.end());
+  std::stable_sort(touches.begin(), touches.end(), byPair);
+  touches.erase(std::unique(touches.begin(), touches.end(),
+                            [](const Touch& a, const Touch& b) { return a.pair == b.pair; }),
+                touches.end());
+}
+
 }  // namespace yadefrag

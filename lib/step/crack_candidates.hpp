@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/candidates.hpp"
+#include "contact/touch.hpp"
 #include "core/vec2.hpp"
 #include "surface/relink.hpp"
 
@@ -25,5 +26,10 @@ std::vector<BoxPair> overlapsAmong(const ContactSurfaces& surfaces, std::span<co
 /// ascending.
 std::vector<SlaveMaster> inheritFlags(Candidates& candidates, const ContactSurfaces& surfaces,
                                       std::span<const NodeId> originals, std::size_t nodeCount);
+
+/// Of the slaves that a node became, each touches what one of them touched: they are at the same
+/// place, and a slave's number may have gone to another of these nodes.
+void inheritTouches(std::vector<Touch>& touches, const ContactSurfaces& surfaces,
+                    std::span<const NodeId> originals, std::size_t nodeCount);
 
 }  // namespace yadefrag

@@ -65,6 +65,8 @@ void World::followSplit() {
   std::vector<SlaveMaster> inherited;
   if (contactSettings.entry == Entry::kFlags)
     inherited = inheritFlags(contact.candidates, surfaces, split_.originals, count);
+  else
+    inheritTouches(contact.touches, surfaces, split_.originals, count);
   contact.allowOverlaps(surfaces, model.nodes.position, changed, inherited);
 }
 
