@@ -18,7 +18,8 @@ struct Candidates {
   std::vector<EntryId> slaves;         ///< those that have any, ascending
   std::vector<std::uint32_t> offsets;  ///< row r: [offsets[r], offsets[r + 1])
   std::vector<EntryId> masters;        ///< ascending within a row
-  /// Was the slave on the void side of the master (paper fig. 8) at the end of the last step.
+  /// Was the slave on the void side of the master (paper fig. 8) at the end of the last step. Empty
+  /// if entry is by the path.
   std::vector<std::uint8_t> outside;
   /// By row: the way of the fastest node up to which nothing can come of it (LocalSearch::scan);
   /// empty: unknown. Follows from the rest.
@@ -38,15 +39,21 @@ struct SlaveMaster {
   friend auto operator<=>(const SlaveMaster&, const SlaveMaster&) = default;
 };
 
-/// Sorts the pairs into rows. Outside flags of pairs that `candidates` had already are kept, those
-/// of new ones come from `before`, the positions at the end of the last step (m, by node). Returns
+/// Sorts the pairs into rows. Outside flags, if there are any, are kept of pairs that `candidates`
+/// had already; those of new ones come from `before`, the positions at the end of the last step (m, by node). Returns
 /// what `candidates` were.
 Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
-                             const ContactSurfaces& surfaces, std::span<const Vec2> before);
+                             const ContactSurfaces& surfaces, std::span<const Vec2> before,
+                             bool flags = true);
 
 /// The same, but in addition to what is there already.
 void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
-                   const ContactSurfaces& surfaces, std::span<const Vec2> before);
+                   const ContactSurfaces& surfaces, std::span<const Vec2> before,
+                   bool flags = true);
+
+/// With flags for all pairs, from `before` where there are none yet, or without any.
+void keepFlags(Candidates& candidates, const ContactSurfaces& surfaces,
+               std::span<const Vec2> before, bool keep);
 
 /// Leaves out those in which a piece takes part that is gone.
 void removeGone(Candidates& candidates, const ContactSurfaces& surfaces);

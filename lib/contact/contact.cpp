@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 #include <utility>
 
@@ -16,7 +15,6 @@
 namespace yadefrag {
 
 namespace {
-double tolE() { static const double t = getenv("TOLE") ? atof(getenv("TOLE")) : 1e-3; return t; }
 
 SlaveMaster pairOf(const ContactRow& row) { return {row.slave, row.master}; }
 
@@ -72,6 +70,8 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
                       const ContactSettings& settings, const ContactStep& step) {
   begin();
   entry_ = settings.entry;
+  keepFlags(candidates, surfaces, step.before, entry_ == Entry::kFlags);
+  deepest_ = deepestTouch(surfaces, step.before);
   bool gapsAreKnown = false;
   double reach = step.reach;
   scan(model, surfaces, step, reach, step.move);
@@ -155,9 +155,21 @@ void Contact::releaseUnsolved() {
 void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
                    double reach, double moved) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
-  search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads, moved + sinceScan_);
+  search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads, moved + sinceScan_,
+               entry_ == Entry::kPath ? deepest_ : INFINITY);
   sinceScan_ = 0;
   lookedAt_ = false;
+}
+
+/// (m) How deep the deepest is, at xⁿ, of those that touched in the last step.
+double Contact::deepestTouch(const ContactSurfaces& surfaces, std::span<const Vec2> before) const {
+  double most = 0;
+  withGeometry(surfaces, before, [&](const auto& geometry) {
+    for (const Touch& touch : touches)
+      most = std::max(
+          most, -geometry.foot(touch.pair.master, geometry.slave(touch.pair.slave)).gap);
+  });
+  return most;
 }
 
 void Contact::solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
@@ -181,13 +193,12 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
   if (!search_.anyNear()) return false;
   const StageTimer timer(step.times, &StageTimes::localSearch);
   actives_.clear();
-  const PathStart start{step.before, touches, tolE() * step.shortest};
-  search_.startFrom(entry_ == Entry::kPath ? &start : nullptr);
+  const PathStart start{step.before, touches, tolerance::kEntryDepth * step.shortest};
   search_.findActives(
       candidates, surfaces, model.nodes.position, step.deepest, actives_, known_,
-      lookedAt_ ? std::span<const std::uint8_t>(isTouched_) : std::span<const std::uint8_t>());
+      lookedAt_ ? std::span<const std::uint8_t>(isTouched_) : std::span<const std::uint8_t>(),
+      entry_ == Entry::kPath ? &start : nullptr);
   lookedAt_ = true;
-  search_.startFrom(nullptr);
   if (!actives_.empty()) makeRoom(model.nodes.size());
   const PieceGeometry before(surfaces, step.before);
   bool anyNew = false;
@@ -357,7 +368,8 @@ void Contact::finish(Model& model, const ContactSurfaces& surfaces, const Contac
   touches.swap(formerTouches_);
   isFinished_ = true;
   const double left = step.rubble ? tolerance::kLeftInside * step.reach : 0;
-  if (search_.anyNear()) search_.settle(candidates, surfaces, model.nodes.position, known_, left);
+  if (entry_ == Entry::kFlags && search_.anyNear())
+    search_.settle(candidates, surfaces, model.nodes.position, known_, left);
 }
 
 void Contact::removeGone(const ContactSurfaces& surfaces) {
@@ -383,12 +395,17 @@ void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec
   for (std::size_t r = 0; r < candidates.slaves.size(); ++r)
     for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
       const SlaveMaster pair{candidates.slaves[r], candidates.masters[c]};
-      if (candidates.outside[c] == 0) continue;
+      if (!candidates.outside.empty() && candidates.outside[c] == 0) continue;
       if (std::ranges::find(masters, pair.master) == masters.end() &&
           !std::ranges::binary_search(pairs, pair))
         continue;
-      const double gap = geometry.foot(pair.master, geometry.slave(pair.slave)).gap;
+      const Foot foot = geometry.foot(pair.master, geometry.slave(pair.slave));
+      const double gap = foot.gap;
       if (gap >= 0) continue;
+      // Without flags: a form changes by a part of a piece's length only.
+      if (candidates.outside.empty() && (!isOver(geometry, pair.master, foot) ||
+                                         gap < -.25 * geometry.length(pair.master)))
+        continue;
       const auto at =
           std::lower_bound(touches.begin(), touches.end(), pair,
                            [](const Touch& t, const SlaveMaster& p) { return t.pair < p; });

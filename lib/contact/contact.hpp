@@ -100,6 +100,8 @@ class Contact {
             double reach, double moved = 0);
   void solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
              bool anyNew);
+  [[nodiscard]] double deepestTouch(const ContactSurfaces& surfaces,
+                                    std::span<const Vec2> before) const;
   [[nodiscard]] std::span<const ContactRow> rowsOf(EntryId slave) const;
   bool hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair) const;
   bool isThroughItself(const ContactSurfaces& surfaces, const PieceGeometry& before,
@@ -117,6 +119,7 @@ class Contact {
   void finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
 
   Entry entry_ = Entry::kPath;
+  double deepest_ = 0;  // m, of the touches at the step's start
   LocalSearch search_;
   Lagrange lagrange_;
   std::vector<Active> actives_;

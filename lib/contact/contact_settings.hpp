@@ -7,13 +7,13 @@ enum class Correction {
   kPenalty,   ///< forces in proportion to penetration, for comparison
 };
 
+/// How a slave becomes active on a master.
 enum class Entry {
-  kPath,   ///< where the slave's way crosses the piece
-  kFlags,  ///< by one flag per slave and master's line, and exceptions (paper §5.1, §5.2)
+  kPath,   ///< its path through the step crosses the moving piece (path_rules.hpp)
+  kFlags,  ///< a flag says that it was outside the piece's line (paper §5.1, §5.2; joint_rules.hpp)
 };
 
 struct ContactSettings {
-  Entry entry = Entry::kPath;
   Correction correction = Correction::kLagrange;
   /// 1: of two surfaces the finer one's points are slaves, and the other's sharp corners.
   /// 2: every point of both.
@@ -22,6 +22,7 @@ struct ContactSettings {
   double penaltyFactor = .2;
   /// Width of the halo over the shortest segment; 0: what the bodies' speed asks for.
   double halo = 0;
+  Entry entry = Entry::kPath;
 };
 
 }  // namespace yadefrag

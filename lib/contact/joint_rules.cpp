@@ -7,13 +7,6 @@ namespace yadefrag {
 namespace {
 
 template <class Geometry>
-bool isOver(const Geometry& geometry, EntryId master, const Foot& foot) {
-  const PieceRange range = geometry.range(master);
-  return foot.xi >= range.begin - tolerance::kFootRange &&
-         foot.xi <= range.end + tolerance::kFootRange;
-}
-
-template <class Geometry>
 bool isBehindEnd(const Geometry& geometry, EntryId master, const Foot& foot) {
   return foot.xi > geometry.range(master).end;
 }
@@ -50,12 +43,9 @@ void enterAtJoint(const Geometry& geometry, Trial& first, Trial& second, double 
 /// `second` follows `first` on their surface.
 template <class Geometry>
 void decideNeighbours(const Geometry& geometry, Trial& first, Trial& second) {
-  const PieceRange range = geometry.range(first.master);
-  const PieceRange rangeAfter = geometry.range(second.master);
   const bool pastFirst = isBehindEnd(geometry, first.master, first.foot);
   const bool pastSecond = isBeforeBegin(geometry, second.master, second.foot);
-  const bool concave = cross(geometry.tangent(first.master, range.end),
-                             geometry.tangent(second.master, rangeAfter.begin)) < 0;
+  const bool concave = isConcaveJoint(geometry, first.master, second.master);
   if (concave && pastFirst && pastSecond) {
     // No orthogonal correction is possible: to the corner, which both masters' rows together do. In
     // a notch narrower than a right angle the slave may be behind one of them only.
@@ -98,18 +88,17 @@ void JointRules::decide(const ContactSurfaces& surfaces, const Geometry& geometr
 }
 
 template <class Geometry>
-void JointRules::decideByPath(const ContactSurfaces& surfaces, const Geometry& geometry,
-                              std::span<Trial> trials) {
-  for (Trial& first : trials)
+void decideJoints(const ContactSurfaces& surfaces, const Geometry& geometry,
+                  std::span<Trial> trials) {
+  for (Trial& first : trials) {
+    const EntryId after = surfaces.next[first.master.value];
     for (Trial& second : trials)
-      if (second.master == surfaces.next[first.master.value])
-        decideNeighbours(geometry, first, second);
+      if (second.master == after) decideNeighbours(geometry, first, second);
+  }
 }
 
-template void JointRules::decideByPath(const ContactSurfaces&, const PieceGeometryOf<true>&,
-                                       std::span<Trial>);
-template void JointRules::decideByPath(const ContactSurfaces&, const PieceGeometryOf<false>&,
-                                       std::span<Trial>);
+template void decideJoints(const ContactSurfaces&, const PieceGeometryOf<true>&, std::span<Trial>);
+template void decideJoints(const ContactSurfaces&, const PieceGeometryOf<false>&, std::span<Trial>);
 template void JointRules::decide(const ContactSurfaces&, const PieceGeometryOf<true>&,
                                  std::span<Trial>, double, double);
 template void JointRules::decide(const ContactSurfaces&, const PieceGeometryOf<false>&,

@@ -1,5 +1,5 @@
 #pragma once
-// Which of its masters a slave is active on (paper §5.1, the outside-inside criterion, fig. 8), and
+// Entry by flags: which of its masters a slave is active on (paper §5.1, the outside-inside criterion, fig. 8), and
 // the exceptions where two masters meet (§5.2, fig. 9):
 //
 // - case C of fig. 9: active on both, at a convex joint: the nearer one;
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/footprint.hpp"
+#include "core/tolerances/contact.hpp"
 #include "surface/piece_geometry.hpp"
 
 namespace yadefrag {
@@ -26,6 +27,26 @@ struct Trial {
   bool active;
 };
 
+/// Is a foot over its piece; at a joint of two, rounding leaves none between them.
+template <class Geometry>
+bool isOver(const Geometry& geometry, EntryId master, const Foot& foot) {
+  const PieceRange range = geometry.range(master);
+  return foot.xi >= range.begin - tolerance::kFootRange &&
+         foot.xi <= range.end + tolerance::kFootRange;
+}
+
+/// Does the boundary turn towards the void between two pieces that follow each other.
+template <class Geometry>
+bool isConcaveJoint(const Geometry& geometry, EntryId first, EntryId second) {
+  return cross(geometry.tangent(first, geometry.range(first).end),
+               geometry.tangent(second, geometry.range(second).begin)) < 0;
+}
+
+/// §5.2 for all joints among one slave's masters, from their `active` and `outside`.
+template <class Geometry>
+void decideJoints(const ContactSurfaces& surfaces, const Geometry& geometry,
+                  std::span<Trial> trials);
+
 class JointRules {
  public:
   /// Sets `active` of all masters of one slave. Nothing is deeper in a smooth master than `deepest`
@@ -33,9 +54,6 @@ class JointRules {
   template <class Geometry>
   void decide(const ContactSurfaces& surfaces, const Geometry& geometry, std::span<Trial> trials,
               double deepest, double reach);
-  template <class Geometry>
-  void decideByPath(const ContactSurfaces& surfaces, const Geometry& geometry,
-                    std::span<Trial> trials);
   void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, joints_); }
 
  private:

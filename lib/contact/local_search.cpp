@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/entry_path.hpp"
+#include "contact/slave_normals.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/contact.hpp"
 
@@ -46,35 +46,13 @@ Chord chordOf(const Geometry& geometry, EntryId entry) {
           geometry.isArc(entry) ? geometry.bulge(entry, ends) : 0};
 }
 
-/// The slave's outward normals, of the piece before it and of its own: a corner has two, and if it
-/// is convex all between them. The two sides of a splinter do not oppose what its tip pricks. A
-/// sharp corner one of whose sides lies on the master's inner side has come past the master's end,
-/// where the other side of it touches, or that end touches the slave's side.
-struct SlaveNormals {
-  Vec2 before, after;
-  [[nodiscard]] bool oppose(Vec2 normal) const {
-    const bool convex = cross(before, after) > 0;
-    const double leaning = std::min(cross(normal, before), cross(after, normal));
-    if (convex && leaning >= 0) return true;
-    const bool sharp = convex && dot(before, after) < tolerance::kSameFace;
-    if (sharp && leaning < -tolerance::kLeansIn) return false;
-    return std::min(dot(before, normal), dot(after, normal)) < tolerance::kOpposed;
-  }
-};
-
-template <class Geometry>
-SlaveNormals slaveNormals(const ContactSurfaces& surfaces, const Geometry& geometry,
-                          EntryId slave) {
-  const EntryId former = surfaces.prev[slave.value];
-  return {geometry.normal(former, geometry.range(former).end),
-          geometry.normal(slave, geometry.range(slave).begin)};
-}
-
 }  // namespace
 
 void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
-                       std::span<const Vec2> positions, double reach, int threads, double moved) {
+                       std::span<const Vec2> positions, double reach, int threads, double moved,
+                       double deepest) {
   reach_ = reach;
+  deepest_ = deepest;
   const std::size_t rows = candidates.slaves.size();
   way_ += moved;
   if (candidates.asleep.size() != rows || !std::isfinite(way_))
@@ -104,7 +82,7 @@ int LocalSearch::scanRows(Candidates& candidates, const Geometry& geometry, doub
         found.clear();
         for (std::size_t r = begin; r < end; ++r) {
           if (candidates.asleep[r] > way_ + reach) continue;
-          candidates.asleep[r] = way_ + scanRow(candidates, geometry, reach,
+          candidates.asleep[r] = way_ + scanRow(candidates, geometry, reach, deepest_,
                                                 static_cast<std::uint32_t>(r), chord, found);
         }
       });
@@ -124,22 +102,25 @@ void LocalSearch::findChords(const Candidates& candidates, const ContactSurfaces
 
 template <class Geometry, class ChordOf>
 double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, double reach,
-                            std::uint32_t row, ChordOf chordOfEntry, std::vector<Near>& found) {
+                            double deepest, std::uint32_t row, ChordOf chordOfEntry, std::vector<Near>& found) {
   const Vec2 point = geometry.slave(candidates.slaves[row]);
+  const bool flags = !candidates.outside.empty();
   double clear = INFINITY;
   for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c) {
     const EntryId master = candidates.masters[c];
     const Chord chord = chordOfEntry(master);
     const Beside beside = besideChord(chord, point);
     const double wide = reach + chord.bulge;
-    if (beside.gap < wide && beside.beyond < 4 * wide)
+    if (beside.gap < wide && beside.gap > -wide - deepest && beside.beyond < 4 * wide)
       found.push_back({row, c});
-    else
+    else if (flags)
       candidates.outside[c] = beside.gap >= 0 ? 1 : 0;
     const bool arc = geometry.isArc(master);
-    // Nothing comes of a straight master that the slave is behind of, until it has come out.
-    const bool behind = !arc && candidates.outside[c] == 0;
-    const double open = (behind ? std::abs(beside.gap) : beside.gap) - chord.bulge;
+    // By flags, nothing comes of a straight master that the slave is behind of, until it has come
+    // out; by the path, of any master that it is deeper in.
+    const bool behind = flags ? !arc && candidates.outside[c] == 0 : beside.gap < -deepest;
+    const double open =
+        (behind ? std::abs(beside.gap) - (flags ? 0 : deepest) : beside.gap) - chord.bulge;
     clear = std::min(clear, open / beside.leverage(arc));
   }
   return clear;
@@ -148,16 +129,17 @@ double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, do
 void LocalSearch::findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
                               std::span<const Vec2> positions, double deepest,
                               std::vector<Active>& actives, std::span<const SlaveMaster> known,
-                              std::span<const std::uint8_t> moved) {
+                              std::span<const std::uint8_t> moved, const PathStart* start) {
   withGeometry(surfaces, positions, [&](const auto& geometry) {
-    tryAll(candidates, surfaces, geometry, deepest, actives, known, moved);
+    tryAll(candidates, surfaces, geometry, deepest, actives, known, moved, start);
   });
 }
 
 template <class Geometry>
 void LocalSearch::tryAll(const Candidates& candidates, const ContactSurfaces& surfaces,
                          const Geometry& geometry, double deepest, std::vector<Active>& actives,
-                         std::span<const SlaveMaster> known, std::span<const std::uint8_t> moved) {
+                         std::span<const SlaveMaster> known, std::span<const std::uint8_t> moved,
+                         const PathStart* start) {
   const std::span<const Near> near(near_);
   auto next = known.begin();
   for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
@@ -171,11 +153,7 @@ void LocalSearch::tryAll(const Candidates& candidates, const ContactSurfaces& su
     if (allKnown) continue;
     if (!moved.empty() && !hasMoved(candidates, surfaces, near.subspan(begin, end - begin), moved))
       continue;
-    const std::span<const Near> row = near.subspan(begin, end - begin);
-    if (start_)
-      tryRowByPath(candidates, surfaces, geometry, row, deepest);
-    else
-      tryRow(candidates, surfaces, geometry, row, deepest);
+    tryRow(candidates, surfaces, geometry, near.subspan(begin, end - begin), deepest, start);
     for (const Trial& trial : trials_)
       if (trial.active) actives.push_back({{slave, trial.master}, trial.foot});
   }
@@ -195,31 +173,44 @@ bool LocalSearch::hasMoved(const Candidates& candidates, const ContactSurfaces& 
              row, [&](const Near& near) { return of(candidates.masters[near.candidate]); });
 }
 
-/// One slave and all masters that it is near to.
+/// One slave and all masters that it is near to. Most slaves are outside all of them.
 template <class Geometry>
 void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
-                         const Geometry& geometry, std::span<const Near> row, double deepest) {
+                         const Geometry& geometry, std::span<const Near> row, double deepest,
+                         const PathStart* start) {
+  trials_.clear();
   const EntryId slave = candidates.slaves[row.front().row];
   const Vec2 point = geometry.slave(slave);
-  trials_.clear();
-  // The quick tests first. Whatever `decide` does, it wakes no master without a flag or an arc in
-  // the row: in rubble, most slaves are near to their own body's faces alone.
-  if (std::ranges::none_of(row, [&](const Near& near) {
+  // Whatever the flags' rules do, they wake no master without a flag or an arc in the row.
+  if (!start && std::ranges::none_of(row, [&](const Near& near) {
         return candidates.outside[near.candidate] != 0 ||
                geometry.isArc(candidates.masters[near.candidate]);
       }))
     return;
-  // And most slaves are outside all masters.
   if (std::ranges::none_of(row, [&](const Near& near) {
         const EntryId master = candidates.masters[near.candidate];
         return geometry.isArc(master) || geometry.mayPenetrate(master, point);
       }))
     return;
+  takeTrials(candidates, surfaces, geometry, row);
+  if (start)
+    decideByPath(surfaces, geometry, *start, slave, trials_, deepest);
+  else
+    rules_.decide(surfaces, geometry, trials_, deepest, reach_);
+}
+
+/// None if the slave is inside no master that opposes it.
+template <class Geometry>
+void LocalSearch::takeTrials(const Candidates& candidates, const ContactSurfaces& surfaces,
+                             const Geometry& geometry, std::span<const Near> row) {
+  const EntryId slave = candidates.slaves[row.front().row];
+  const Vec2 point = geometry.slave(slave);
+  const bool flags = !candidates.outside.empty();
   const SlaveNormals normals = slaveNormals(surfaces, geometry, slave);
   bool anyInside = false;
   for (const Near& near : row) {
     const EntryId master = candidates.masters[near.candidate];
-    Trial trial{master, {}, candidates.outside[near.candidate] != 0, false, false};
+    Trial trial{master, {}, flags && candidates.outside[near.candidate] != 0, false, false};
     // The quick test spares the iteration.
     if (isArcAmongArcs(surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
       continue;
@@ -228,73 +219,7 @@ void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& su
     anyInside = anyInside || (trial.opposed && trial.foot.gap < 0);
     trials_.push_back(trial);
   }
-  if (!anyInside) {
-    trials_.clear();
-    return;
-  }
-  rules_.decide(surfaces, geometry, trials_, deepest, reach_);
-}
-
-template <class Geometry>
-void LocalSearch::tryRowByPath(const Candidates& candidates, const ContactSurfaces& surfaces,
-                               const Geometry& geometry, std::span<const Near> row,
-                               double deepest) {
-  const EntryId slave = candidates.slaves[row.front().row];
-  const Vec2 point = geometry.slave(slave);
-  trials_.clear();
-  if (std::ranges::none_of(row, [&](const Near& near) {
-        return geometry.mayPenetrate(candidates.masters[near.candidate], point);
-      }))
-    return;
-  const Geometry before(surfaces, start_->positions);
-  const Vec2 from = before.slave(slave);
-  const SlaveNormals normals = slaveNormals(surfaces, geometry, slave);
-  double depth = start_->depth;
-  for (auto t = std::ranges::lower_bound(start_->touches, slave, {}, [](const Touch& a) { return a.pair.slave; }); t != start_->touches.end() && t->pair.slave == slave; ++t)
-    depth = std::max(depth, -1.01 * before.foot(t->pair.master, from).gap);
-  bool any = false;
-  for (const Near& near : row) {
-    const EntryId master = candidates.masters[near.candidate];
-    if (isArcAmongArcs(surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
-      continue;
-    Trial trial{master, geometry.foot(master, point), false, false, false};
-    trial.opposed = normals.oppose(trial.foot.normal);
-    if (trial.foot.gap < 0 && trial.opposed) {
-      const SlaveMaster pair{slave, master};
-      const auto touch = std::ranges::lower_bound(start_->touches, pair, {}, &Touch::pair);
-      const bool held = touch != start_->touches.end() && touch->pair == pair;
-      const PieceRange range = geometry.range(master);
-      const bool over = trial.foot.xi >= range.begin - tolerance::kFootRange &&
-                        trial.foot.xi <= range.end + tolerance::kFootRange;
-      if (geometry.isArc(master)) {
-        trial.outside = held || before.foot(master, from).gap >= -depth;
-        trial.active = trial.outside && over && trial.foot.gap >= -deepest;
-      } else {
-        const auto crossed = crossing({from, before.ends(master)}, {point, geometry.ends(master)},
-                                      depth);
-        trial.outside = held && over;
-        if (!trial.outside && crossed) {
-          const double end = 10 * depth / norm(geometry.ends(master).end - geometry.ends(master).begin);
-          const double xi = crossed->xi;
-          const auto concave = [&](EntryId a, EntryId b) {
-            return cross(geometry.tangent(a, geometry.range(a).end),
-                         geometry.tangent(b, geometry.range(b).begin)) < 0;
-          };
-          // At a joint that turns away from the void, what is past both ends is inside, too.
-          const double least = -tolerance::kFootRange, most = 1 + tolerance::kFootRange;
-          trial.outside = (xi >= least || (xi >= -end && concave(surfaces.prev[master.value], master))) &&
-                          (xi <= most || (xi <= 1 + end && concave(master, surfaces.next[master.value])));
-        }
-        trial.active = trial.outside;
-      }
-      any = any || trial.active;
-    }
-    trials_.push_back(trial);
-  }
-  if (any)
-    rules_.decideByPath(surfaces, geometry, trials_);
-  else
-    trials_.clear();
+  if (!anyInside) trials_.clear();
 }
 
 void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces,

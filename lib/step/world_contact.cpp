@@ -90,7 +90,8 @@ void World::considerPairs(std::span<const BoxPair> overlapping, std::span<const 
   passRule_.update(surfaces, reference, contactSettings.passes);
   pairs_.clear();
   selectPairs(model, surfaces, passRule_, model.nodes.position, search.halo, overlapping, pairs_);
-  undo_.candidates = replaceCandidates(contact.candidates, pairs_, surfaces, before);
+  undo_.candidates = replaceCandidates(contact.candidates, pairs_, surfaces, before,
+                                       contactSettings.entry == Entry::kFlags);
   undo_.hasCandidates = true;
   search.positions.resize(search.nodes.size());
   for (std::size_t i = 0; i < search.nodes.size(); ++i)

@@ -77,7 +77,8 @@ void World::addCrackCandidates() {
   const std::vector<EntryId> around = entriesAround(surfaces, contact.candidates, split_.sides);
   selectPairs(model, surfaces, passRule_, model.nodes.position, search.halo,
               overlapsAmong(surfaces, model.nodes.position, around, search.halo), pairs_);
-  addCandidates(contact.candidates, pairs_, surfaces, model.nodes.position);
+  addCandidates(contact.candidates, pairs_, surfaces, model.nodes.position,
+                contactSettings.entry == Entry::kFlags);
 }
 
 }  // namespace yadefrag

@@ -38,6 +38,15 @@ inline constexpr double kLeansIn = .5;
 /// created ten times as much energy.
 inline constexpr double kLeftInside = .02;
 
+/// (of the shortest segment) By the path, a slave behind a piece by no more than this at the start
+/// of a step counts as before it. Rounding and what a step's corrections leave are less; bodies
+/// thinner than this are none.
+inline constexpr double kEntryDepth = 2e-4;
+
+/// (of that depth, along the piece) A path that comes so deep past the end of a piece at a concave
+/// joint, and so near to it, went through the joint itself: no corner in there is narrower than 6°.
+inline constexpr double kPastConcave = 10;
+
 /// (ξ) Farthest beyond a piece's end that the foot at xⁿ may be for the force to act at that foot,
 /// which keeps the angular momentum; the shape functions go on linearly.
 inline constexpr double kFootBeyond = .25;

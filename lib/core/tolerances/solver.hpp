@@ -3,7 +3,6 @@
 
 #include <cstddef>
 
-#include <cstdlib>
 namespace yadefrag::tolerance {
 
 /// (relative to the largest bound) Change of the friction bounds at which their iteration ends, and
@@ -15,8 +14,8 @@ inline constexpr int kFrictionRounds = 8;
 /// at each of so many detections, until they change so little. With twice as many detections and a
 /// hundredth of the change, what an impact spends in friction and in touching is the same within
 /// what other strengths make of it; with a single detection touching takes half as much.
-inline int kRowSweeps = getenv("RS")?atoi(getenv("RS")):20, kRubbleDetections = getenv("RD")?atoi(getenv("RD")):2;
-inline double kRubbleRemainder = getenv("RR")?atof(getenv("RR")):1e-3;
+inline constexpr int kRowSweeps = 20, kRubbleDetections = 4;
+inline constexpr double kRubbleRemainder = 1e-4;
 
 /// (rows; of the penetration that is worth another solve; count) A group with friction and more
 /// rows than the first is solved by sweeps, until no gap or slip changes by more than the second,
