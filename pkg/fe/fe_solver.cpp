@@ -227,11 +227,13 @@ void FESolver::checkSettings() const {
     text << "FESolver." << name << " is " << value << ", it must be " << right << ".";
     throw std::invalid_argument(text.str());
   };
+  const auto shown = [](const std::string& text) {
+    return text.size() <= 40 ? "'" + text + "'"
+                             : "a text of " + std::to_string(text.size()) + " bytes";
+  };
   if (correction != "lagrange" && correction != "penalty")
-    refuse("correction",
-           correction.size() <= 40 ? "'" + correction + "'"
-                                   : "a text of " + std::to_string(correction.size()) + " bytes",
-           "'lagrange' or 'penalty'");
+    refuse("correction", shown(correction), "'lagrange' or 'penalty'");
+  if (entry != "path" && entry != "flags") refuse("entry", shown(entry), "'path' or 'flags'");
   if (passes != 1 && passes != 2) refuse("passes", passes, "1 or 2");
   if (!(penaltyFactor > 0 && penaltyFactor <= 1))
     refuse("penaltyFactor", penaltyFactor, "above 0 and at most 1");
@@ -259,6 +261,7 @@ void FESolver::postLoad(FESolver& /*self*/) {
     // What was there before is still in the world.
     const StepSettings& step = world_.dynamicsSettings;
     correction = world_.contactSettings.correction == Correction::kPenalty ? "penalty" : "lagrange";
+    entry = world_.contactSettings.entry == Entry::kFlags ? "flags" : "path";
     passes = world_.contactSettings.passes;
     penaltyFactor = world_.contactSettings.penaltyFactor;
     halo = world_.contactSettings.halo;
@@ -276,6 +279,7 @@ void FESolver::postLoad(FESolver& /*self*/) {
 void FESolver::giveSettings() {
   world_.contactSettings.correction =
       correction == "penalty" ? Correction::kPenalty : Correction::kLagrange;
+  world_.contactSettings.entry = entry == "flags" ? Entry::kFlags : Entry::kPath;
   world_.contactSettings.passes = passes;
   world_.contactSettings.penaltyFactor = penaltyFactor;
   world_.contactSettings.halo = halo;

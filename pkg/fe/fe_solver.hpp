@@ -46,6 +46,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   [[nodiscard]] StepLock& betweenSteps() const { return betweenSteps_; }
 
   std::string correction = "lagrange";
+  std::string entry = "path";
   int passes = 1;
   double penaltyFactor = ContactSettings().penaltyFactor;
   double halo = ContactSettings().halo;
@@ -96,6 +97,12 @@ constexpr auto FESolver::attributes() {
       attribute("correction", &C::correction,
                 "'lagrange': contact by forces that just prevent interpenetration; 'penalty': by "
                 "forces in proportion to it, to compare with.",
+                triggerPostLoad),
+      attribute("entry", &C::entry,
+                "How a point becomes active on a surface. 'path': its path through the step "
+                "crosses the moving surface; 'flags': a flag says that it was outside the line of "
+                "the surface's segment (Diekmann et al. 2000, section 5), to compare with; where "
+                "bodies crack, fragments then overlap by up to a hundredth of a segment.",
                 triggerPostLoad),
       attribute(
           "passes", &C::passes,

@@ -42,6 +42,7 @@ KNOWN = {
     'correction': (lambda v: v == 'lagrange' or _isPenalty(v),
                    "'lagrange', 'penalty', or 'penalty:F' with a factor F above 0 and at most 1"),
     'passes': (_isOneOf(1, 2), '1 or 2'),
+    'entry': (_isOneOf('path', 'flags'), "'path' or 'flags'"),
     'smooth': (_isOneOf(True, False), 'True or False'),
     'size': (lambda v: _isNumber(v) and v > 0, 'a positive length (m)'),
     'timeStep': (lambda v: _isNumber(v) and v > 0,
@@ -114,7 +115,7 @@ class Choices:
                                         KNOWN['timeStep'][1])
 
     def solver(self, **settings):
-        """An FESolver with `settings`, and correction, passes, halo and bulk viscosity as chosen.
+        """An FESolver with `settings`, and correction, entry, passes, halo and bulk viscosity as chosen.
 
         'penalty:F' is correction='penalty' with penaltyFactor=F. ValueError as FESolver.
         """
@@ -122,6 +123,7 @@ class Choices:
                                  self.get('correction', settings.pop('correction', 'lagrange')))
         kind, _, factor = correction.partition(':')
         settings.update(correction=kind, passes=self.get('passes', settings.get('passes', 1)),
+                        entry=self.get('entry', settings.get('entry', 'path')),
                         halo=self.get('halo', settings.get('halo', 0)))
         if factor:
             settings['penaltyFactor'] = float(factor)

@@ -36,7 +36,7 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
                helpers of yadefrag.choices.Choices where they apply; returns what `measure` needs
     vary       dict {name: [values]}: all combinations are run; or a list of such dicts, whose grids
                are run one after the other ([{}, {'passes': [1, 2]}]: the scene's own choices,
-               then those varied). Known names: correction, passes, smooth, size, timeStep, halo,
+               then those varied). Known names: correction, entry, passes, smooth, size, timeStep, halo,
                collider, verletDist, plane, bulkViscosity, fracture, threads; others are handed on.
     measure    function (built) of what scene returned → number or numbers (n), after the run
     duration   s, simulated
