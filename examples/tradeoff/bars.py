@@ -5,7 +5,7 @@ With ν = 0 and the long faces held sideways, waves run along x at c = √(E/ρ)
 import numpy as np
 
 from yade import O
-from yadefrag import rectangleMesh
+from yadefrag import rectangle, rectangleMesh
 
 LENGTH, HEIGHT, SPEED = .1, .004, 1.  # m, m, m/s closing
 YOUNG, DENSITY = 210e9, 7800  # Pa, kg/m³
@@ -18,12 +18,17 @@ def scene(choices):
     """The bars, both at half the closing speed."""
     fe = choices.solver()
     material = choices.material(young=YOUNG, poisson=0, density=DENSITY, frictionAngle=0)
-    size = choices.size(1e-3)
+    size, kind = choices.size(1e-3), choices.get('mesh', 'crossed')
     cells = round(LENGTH / size), max(1, round(HEIGHT / size))
     for begin, speed in ((-LENGTH, SPEED / 2), (0, -SPEED / 2)):
-        mesh = rectangleMesh((begin, 0), (begin + LENGTH, HEIGHT), *cells, crossed=True)
-        fe.addTriangles(*mesh, material=material, velocity=(speed, 0), smooth=choices.smooth(),
-                        fixed=lambda x, y: 'y' if y < 1e-9 or y > HEIGHT - 1e-9 else False)
+        corners = (begin, 0), (begin + LENGTH, HEIGHT)
+        of = dict(material=material, velocity=(speed, 0), smooth=choices.smooth(),
+                  element=choices.get('element', 'linear'),
+                  fixed=lambda x, y: 'y' if y < 1e-9 or y > HEIGHT - 1e-9 else False)
+        if kind == 'crossed':
+            fe.addTriangles(*rectangleMesh(*corners, *cells, crossed=True), **of)
+        else:
+            fe.addPolygon(rectangle(*corners), size=size, mesh=kind, **of)
     choices.engines(fe)
     nodes = np.unique(fe.triangles[fe.components == 1])
     return fe, nodes
@@ -59,6 +64,8 @@ VARY = [{},
         {'halo': [.05, .5]},
         {'collider': ['none', 'InsertionSortCollider']},
         {'plane': ['stress']},
-        {'threads': [2]}]
+        {'threads': [2]},
+        {'mesh': ['regular', 'irregular']},
+        {'element': ['smoothed']}]
 ARGUMENTS = dict(duration=DURATION, reference=right(), watch=watch,
                  title='Two bars: contact stress over time, rms error')

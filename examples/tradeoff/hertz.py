@@ -49,7 +49,8 @@ def scene(choices):
             ([(-WIDE, -WIDE), (WIDE, -WIDE)] + flat, light, lambda x, y: y < 1e-9 - WIDE)):
         flags = [wanted and abs(x) < SMOOTH and abs(y) < SMOOTH for x, y in outline]
         fe.addPolygon(outline, size=FAR, material=material, fixed=held, smooth=flags,
-                      selfContact=False)
+                      selfContact=False, mesh=choices.get('mesh', 'regular'),
+                      element=choices.get('element', 'linear'))
     load(fe)
     choices.engines(fe)
     return fe, ellipse(steel.planeStress)
@@ -94,5 +95,7 @@ VARY = [{},
         {'bulkViscosity': [1.]},
         {'halo': [.05, .5]},
         {'collider': ['none', 'InsertionSortCollider']},
-        {'threads': [2]}]
+        {'threads': [2]},
+        {'mesh': ['irregular']},
+        {'element': ['smoothed']}]
 ARGUMENTS = dict(duration=.7e-3, title='Hertz: pressure off the ellipse, rms')

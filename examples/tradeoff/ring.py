@@ -7,6 +7,8 @@ import math
 
 import numpy as np
 
+from yadefrag import circle
+
 YOUNG, DENSITY, STRENGTH, ENERGY = 275e9, 2750, 300e6, 100  # Pa, kg/m³, Pa, J/m²
 AROUND, RATE, DURATION, RINGS = 50e-3, 1e4, 1e-6, 3  # m, 1/s, s
 RADIUS = AROUND / (2 * math.pi)
@@ -45,29 +47,29 @@ def out(centre, factor):
 def scene(choices):
     """The rings beside each other, just below their strength, and flying apart."""
     fe = choices.solver()
-    nodes, triangles = ring(round(AROUND / choices.size(1e-4)))
+    count, kind = round(AROUND / choices.size(1e-4)), choices.get('mesh', 'crossed')
     for seed in range(1, RINGS + 1):
         material = choices.material(
             young=YOUNG, poisson=0, density=DENSITY, frictionAngle=0, planeStress=True,
             tensileStrength=STRENGTH, fractureEnergy=ENERGY, strengthScatter=1e-4, seed=seed)
         centre = 4 * RADIUS * seed
-        fe.addTriangles(nodes + (centre, 0), triangles, material=material,
-                        velocity=out(centre, RATE),
-                        displacement=out(centre, .98 * STRENGTH / YOUNG))
+        of = dict(material=material, element=choices.get('element', 'linear'),
+                  velocity=out(centre, RATE), displacement=out(centre, .98 * STRENGTH / YOUNG))
+        if kind == 'crossed':
+            nodes, triangles = ring(count)
+            fe.addTriangles(nodes + (centre, 0), triangles, **of)
+        else:
+            width = AROUND / count
+            outer, inner = (circle((centre, 0), RADIUS + side * width / 2, count)
+                            for side in (1, -1))
+            fe.addPolygon(outer, holes=[inner], size=width, mesh=kind, meshSeed=seed, **of)
     choices.engines(fe)
-    return fe, 2 * getattr(material, 'fractureEnergy', 0) / STRENGTH  # m, up to which a crack holds
+    return fe
 
 
-def watch(built):
-    """(rings, cells) Is the crack between a cell and the next open further than it holds."""
-    fe, held = built
-    ends = fe.nodes[fe.triangles[:, :2]].mean(axis=1).reshape(RINGS, 4, -1, 2)  # of cells, by side
-    return np.linalg.norm(ends[:, 2] - np.roll(ends[:, 0], -1, axis=1), axis=2) > held
-
-
-def measure(_, watched):
-    """Mean size of what is broken off, over the formula's."""
-    return RINGS * AROUND / max(1, np.any(watched, axis=0).sum()) / expected()
+def measure(fe):
+    """Mean size of the pieces that no crack holds any more, over the formula's."""
+    return RINGS * AROUND / len(fe.fragments(held=True)) / expected()
 
 
 VARY = [{},
@@ -80,6 +82,8 @@ VARY = [{},
         {'correction': ['penalty:1', 'penalty:0.02']},
         {'passes': [2]},
         {'collider': ['none', 'InsertionSortCollider']},
-        {'threads': [2]}]
-ARGUMENTS = dict(duration=DURATION, reference=1., watch=watch, every=DURATION / 50,
+        {'threads': [2]},
+        {'mesh': ['irregular']},
+        {'element': ['smoothed']}]
+ARGUMENTS = dict(duration=DURATION, reference=1.,
                  title='Expanding ring: mean size of its pieces, off the formula')

@@ -28,11 +28,12 @@ def scene(choices):
                                 frictionAngle=math.atan(.6))
     far = SPEED * DURATION
     segments = round(2 * math.pi * RADIUS / size)
-    fe.addPolygon(rectangle((-4e-3, -5e-3), (far + 5e-3, 0)), size=BLOCK * size, material=material,
-                  fixed=lambda x, y: y < -4.999e-3, selfContact=False)
-    fe.addPolygon(circle((0, RADIUS), RADIUS, segments), size=1.01 * size, material=material,
-                  smooth=choices.smooth(True), velocity=(SPEED, 0), spin=-SPEED / RADIUS,
-                  selfContact=False)
+    of = dict(material=material, selfContact=False, mesh=choices.get('mesh', 'regular'),
+              element=choices.get('element', 'linear'))
+    fe.addPolygon(rectangle((-4e-3, -5e-3), (far + 5e-3, 0)), size=BLOCK * size,
+                  fixed=lambda x, y: y < -4.999e-3, **of)
+    fe.addPolygon(circle((0, RADIUS), RADIUS, segments), size=1.01 * size,
+                  smooth=choices.smooth(True), velocity=(SPEED, 0), spin=-SPEED / RADIUS, **of)
     choices.engines(fe)
     nodes = np.unique(fe.triangles[fe.components == 1])
     return fe, nodes, fe.masses[nodes].sum() * GRAVITY
@@ -59,6 +60,8 @@ VARY = [{},
         {'halo': [.05, .5]},
         {'collider': ['none', 'InsertionSortCollider']},
         {'verletDist': [-.1]},
-        {'threads': [2]}]
+        {'threads': [2]},
+        {'mesh': ['irregular']},
+        {'element': ['smoothed']}]
 ARGUMENTS = dict(duration=DURATION, watch=watch, every=EVERY,
                  title='Rolling cylinder: force off the weight, rms')

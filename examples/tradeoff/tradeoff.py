@@ -1,9 +1,10 @@
-"""What speed costs in accuracy, in four problems with known answers.
+"""What speed costs in accuracy, in five problems with known answers.
 
-    scripts/bench tradeoff [--problems bars,hertz,rolling,ring] [--repeats 3] [--out FOLDER] …
+    scripts/bench tradeoff [--problems bars,hertz,rolling,ring,compression] [--repeats 3]
+        [--time wall|cpu] [--out FOLDER]
 
 For each problem a table of choices (NAME.csv, NAME.md) with times and errors, and a plot with the
-Pareto front (NAME.png), by yadefrag.tradeoff; tradeoff.png has the four. What they teach is in
+Pareto front (NAME.png), by yadefrag.tradeoff; tradeoff.png has all of them. What they teach is in
 README.md.
 """
 import argparse
@@ -14,7 +15,7 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
 sys.path.insert(0, HERE)
-PROBLEMS = 'bars', 'hertz', 'rolling', 'ring'
+PROBLEMS = 'bars', 'hertz', 'rolling', 'ring', 'compression'
 
 
 def parse():
@@ -53,9 +54,9 @@ def together(tables, file, time):
     """The plots of all tables in one picture, with the names at the points."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
-    figure = Figure(figsize=(13, 9), layout='constrained')
+    figure = Figure(figsize=(18, 9), layout='constrained')
     FigureCanvasAgg(figure)
-    places = [figure.add_subplot(2, 2, i + 1) for i in range(len(tables))]
+    places = [figure.add_subplot(2, 3, i + 1) for i in range(len(tables))]
     for table, place in zip(tables, places):
         table.plot(ax=place, time=time, names=False)
     figure.savefig(file, dpi=100)

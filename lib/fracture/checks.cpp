@@ -9,6 +9,7 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/fracture.hpp"
+#include "fracture/edge_material.hpp"
 #include "fracture/edge_strength.hpp"
 
 namespace yadefrag {
@@ -77,6 +78,7 @@ struct Cohesive {
   double strength;        // Pa
   double fractureEnergy;  // J/m²
   std::string name;       // of the energy and of whatever has it
+  double sliding = 1;     // κ/β², of the zone's length where a crack slides
   [[nodiscard]] double critical() const { return 2 * fractureEnergy / strength; }
 };
 
@@ -93,12 +95,18 @@ void requireResolved(const Cohesive& edge, double crossed, double meanLength, do
                    ") with a step in proportion.");
 }
 
+/// κ/β²: the zone of a crack that slides is E·κGc/(βσc)² long.
+double slidingOf(const BrittleMaterial& brittle) {
+  return brittle.shearEnergyFactor / brittle.shearFactor / brittle.shearFactor;
+}
+
 std::string zoneSentence(double young, const Cohesive& edge, double size) {
-  const double zone = young / edge.strength * edge.fractureEnergy / edge.strength;
+  const double zone =
+      young / edge.strength * edge.fractureEnergy / edge.strength * std::min(1., edge.sliding);
   const double wanted = zone / tolerance::kZoneElements;
   if (size <= wanted) return {};
-  return edge.name + ": the cohesive zone is " + text(zone, " m") +
-         " long, less than four elements of " + text(size, " m") +
+  return edge.name + ": the cohesive zone " + (edge.sliding < 1 ? "of a crack that slides " : "") +
+         "is " + text(zone, " m") + " long, less than four elements of " + text(size, " m") +
          "; notched or cracked bodies bear too much, and elements of " + atMost(wanted, " m") +
          " would do.";
 }
@@ -152,7 +160,8 @@ Cohesive valuesOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
                    : "energy is " + text(energy, " J/m²") + " of the bond between the bodies " +
                          std::to_string(one.value) + " and " + std::to_string(other.value);
   return {edges.strength[edge.value], energy,
-          name + " at (" + text(at.x, "") + ", " + text(at.y, "") + ")"};
+          name + " at (" + text(at.x, "") + ", " + text(at.y, "") + ")",
+          slidingOf(materialBetween(model, a, b).brittle)};
 }
 
 double crossedBy(const Model& model, const CrackEdges& edges, EdgeId edge, double dt) {
@@ -183,10 +192,12 @@ double youngAt(const Model& model, const CrackEdges& edges, EdgeId edge) {
   return first == second ? first : 2 / (1 / first + 1 / second);
 }
 
-/// (m) E·Gc/σc²
+/// (m) E·Gc/σc², or κ/β² of it if that is shorter.
 double zoneOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const double strength = edges.strength[edge.value];
-  return youngAt(model, edges, edge) * edges.fractureEnergy[edge.value] / strength / strength;
+  const auto [a, b] = edges.element[edge.value];
+  return youngAt(model, edges, edge) * edges.fractureEnergy[edge.value] / strength / strength *
+         std::min(1., slidingOf(materialBetween(model, a, b).brittle));
 }
 
 }  // namespace
@@ -244,7 +255,8 @@ std::string cohesiveZoneWarning(const Model& model, ComponentId component) {
   const BrittleMaterial& brittle = body.brittle;
   if (!brittle.cracks() || brittle.fractureEnergy <= 0) return {};
   const std::string name = named(brittle.fractureEnergy, component);
-  return zoneSentence(body.material.young, {brittle.tensileStrength, brittle.fractureEnergy, name},
+  return zoneSentence(body.material.young,
+                      {brittle.tensileStrength, brittle.fractureEnergy, name, slidingOf(brittle)},
                       sumsOf(model, body).meanLength);
 }
 

@@ -33,8 +33,9 @@ void checkBondResolution(const Model& model, const CrackEdges& edges, double dt)
 
 /// A sentence where the zone in which a crack's faces still hold is shorter than four elements, so
 /// that bodies with a notch or a crack bear too much; else empty. Its length is E·Gc/σc²
-/// (Hillerborg, Modéer and Petersson 1976, Cem. Concr. Res. 6, 773), an element's the mean of the
-/// component's edges.
+/// (Hillerborg, Modéer and Petersson 1976, Cem. Concr. Res. 6, 773), and that of a crack that
+/// slides E·κGc/(βσc)²: the shorter one counts. An element's length is the mean of the component's
+/// edges.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, ComponentId component);
 /// The same, of a body whose strength or fracture energy differ by place for its shortest zone.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,

@@ -194,6 +194,20 @@ TEST(CohesiveZoneWarning, SaysZoneElementAndWhatWouldDo) {
   EXPECT_NE(cohesiveZoneWarning(body(.01 * legToMean / wanted * .95, kBrittle), kBody), "");
 }
 
+TEST(CohesiveZoneWarning, GoesByTheZoneOfACrackThatSlidesIfThatIsShorter) {
+  constexpr int kSide = 100;
+  ASSERT_EQ(cohesiveZoneWarning(body(kSide, kTough), kBody), "");  // 0.92 mm, eight elements
+  BrittleMaterial material = kTough;
+  material.shearFactor = 3, material.shearEnergyFactor = 2;
+  const double zone = 275e9 * 300 / 9e16 * 2 / 9;
+  const std::string sentence = cohesiveZoneWarning(body(kSide, material), kBody);
+  EXPECT_NEAR(numberAfter(sentence, "the cohesive zone of a crack that slides is "), zone,
+              1e-3 * zone);
+  EXPECT_NEAR(numberAfter(sentence, "at most "), zone / 4, .02 * zone / 4);
+  material.shearEnergyFactor = 9;
+  EXPECT_EQ(cohesiveZoneWarning(body(kSide, material), kBody), "");
+}
+
 TEST(CohesiveZoneWarning, IsEmptyWithoutAFractureEnergy) {
   EXPECT_EQ(cohesiveZoneWarning(body(2, {.tensileStrength = 300e6}), kBody), "");
   EXPECT_EQ(cohesiveZoneWarning(body(2, {}), kBody), "");

@@ -1,55 +1,17 @@
-// A crack that branches: the plate of 100 × 40 mm with a notch to its middle, pulled by 1 MPa at
-// its long sides (Borden et al. 2012, Comput. Methods Appl. Mech. Eng. 217, 77; Song, Wang and
-// Belytschko 2008, Comput. Mech. 42, 239).
+// A crack that branches on a mesh that is symmetric about its line.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "fracture/open_edges.hpp"
-#include "mesh/triangulate.hpp"
+#include "fracture/pulled_plate.hpp"
 
 namespace yadefrag::test {
 namespace {
 
-constexpr double kLong = .1, kHigh = .04, kSize = 1e-3;  // m
-constexpr double kTraction = 1e6;                        // Pa
-constexpr double kRayleigh = 2125;                       // m/s
-
-/// (N) Of the nodes of the upper or the lower side.
-void pullSide(const TriangleMesh& mesh, double y, double traction, std::vector<Vec2>& loads) {
-  std::vector<std::size_t> side;
-  for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
-    if (std::abs(mesh.nodes[i].y - y) < 1e-9) side.push_back(i);
-  std::ranges::sort(side, {}, [&](std::size_t i) { return mesh.nodes[i].x; });
-  for (std::size_t k = 1; k < side.size(); ++k) {
-    const double length = mesh.nodes[side[k]].x - mesh.nodes[side[k - 1]].x;
-    loads[side[k]].y += traction * length / 2;
-    loads[side[k - 1]].y += traction * length / 2;
-  }
-}
-
-void addPlate(World& world) {
-  constexpr double kSlit = kSize / 20, kMiddle = kHigh / 2;
-  const TriangleMesh mesh = triangulate({{{0, 0},
-                                          {kLong, 0},
-                                          {kLong, kHigh},
-                                          {0, kHigh},
-                                          {0, kMiddle + kSlit},
-                                          {kLong / 2, kMiddle},
-                                          {0, kMiddle - kSlit}},
-                                         {}},
-                                        kSize);
-  BodySpec spec;
-  spec.material = {32e9, .2, 2450, false};
-  spec.brittle.tensileStrength = 3.08e6;
-  spec.brittle.fractureEnergy = 3;
-  world.addBody(mesh, spec);
-  std::vector<Vec2> loads(mesh.nodes.size());
-  pullSide(mesh, kHigh, kTraction, loads);
-  pullSide(mesh, 0, -kTraction, loads);
-  world.setLoads(loads);
-}
+constexpr double kLong = PulledPlate::kLong, kHigh = PulledPlate::kHigh, kSize = 1e-3;  // m
+constexpr double kRayleigh = PulledPlate::kRayleigh;                                    // m/s
 
 double tipOf(const std::vector<OpenEdge>& open) {
   double tip = kLong / 2;
@@ -64,7 +26,7 @@ double tipOf(const std::vector<OpenEdge>& open) {
 /// with half the size at two of four; elsewhere one is left behind.
 TEST(NotchedPlate, CrackBranchesSymmetrically) {
   World world;
-  addPlate(world);
+  PulledPlate::add(world, triangulate(PulledPlate::outline(kSize), kSize), PulledPlate::spec());
   const double dt = world.criticalTimeStep();
   double former = kLong / 2, next = 0, fastest = 0;
   while (world.time < 80e-6) {

@@ -334,7 +334,8 @@ kExamples = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..',
 
 
 @pytest.mark.parametrize('name, size, most', [
-    ('bars', 2e-3, .08), ('hertz', 2e-3, .06), ('rolling', 2e-3, .03), ('ring', 2e-4, .3)])
+    ('bars', 2e-3, .08), ('hertz', 2e-3, .06), ('rolling', 2e-3, .03), ('ring', 2e-4, .3),
+    ('compression', 2.5e-3, .1)])
 def test_problemsOfTheBenchmark(monkeypatch, name, size, most):
     monkeypatch.syspath_prepend(kExamples)
     problem = importlib.import_module(name)
