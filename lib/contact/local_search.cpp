@@ -111,7 +111,8 @@ double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, do
     const Chord chord = chordOfEntry(master);
     const Beside beside = besideChord(chord, point);
     const double wide = reach + chord.bulge;
-    if (beside.gap < wide && beside.gap > -wide - deepest && beside.beyond < 4 * wide)
+    const double aside = flags ? 4 * wide : 6 * (wide + deepest);
+    if (beside.gap < wide && beside.gap > -wide - deepest && beside.beyond < aside)
       found.push_back({row, c});
     else if (flags)
       candidates.outside[c] = beside.gap >= 0 ? 1 : 0;

@@ -25,7 +25,7 @@ class Path {
   /// Has it come into a piece that it is behind now.
   [[nodiscard]] bool enters(const Trial& trial, double deepest) const {
     const EntryId master = trial.master;
-    if (isTouched(master) && staysOver(master, trial.foot.xi)) return true;
+    if (isTouched(master) && staysOver(trial)) return true;
     if (!now_.isArc(master)) return crosses(master);
     return isOver(now_, master, trial.foot) && trial.foot.gap >= -deepest &&
            before_.foot(master, from_).gap >= -start_.depth;
@@ -37,24 +37,27 @@ class Path {
                                       &Touch::pair);
   }
 
-  /// What is past an end at a concave joint is as deep inside as before.
-  [[nodiscard]] bool staysOver(EntryId master, double xi) const {
-    const PieceRange range = now_.range(master);
-    return (xi >= range.begin - tolerance::kFootRange ||
-            isConcave(surfaces_.prev[master.value], master)) &&
-           (xi <= range.end + tolerance::kFootRange ||
-            isConcave(master, surfaces_.next[master.value]));
+  /// Is ξ (0 at the begin of a piece, 1 at its end) over it, or, at a concave joint, not farther
+  /// past it than a slave `depth` (m) behind the piece may be inside a notch.
+  [[nodiscard]] bool isWithin(EntryId master, double xi, double length, double depth) const {
+    const double past = tolerance::kPastConcave * depth / length;
+    const double least = isConcave(surfaces_.prev[master.value], master) ? past : 0;
+    const double most = isConcave(master, surfaces_.next[master.value]) ? past : 0;
+    return xi >= -least - tolerance::kFootRange && xi <= 1 + most + tolerance::kFootRange;
+  }
+
+  [[nodiscard]] bool staysOver(const Trial& trial) const {
+    if (now_.isArc(trial.master)) return isOver(now_, trial.master, trial.foot);
+    const PieceRange range = now_.range(trial.master);
+    const PieceEnds ends = now_.ends(trial.master);
+    return isWithin(trial.master, (trial.foot.xi - range.begin) / (range.end - range.begin),
+                    norm(ends.end - ends.begin), -trial.foot.gap);
   }
 
   [[nodiscard]] bool crosses(EntryId master) const {
     const PieceEnds ends = now_.ends(master);
     const auto at = crossing({from_, before_.ends(master)}, {to_, ends}, start_.depth);
-    if (!at) return false;
-    // What is past both ends of a concave joint is inside: a path into it crosses no piece.
-    const double past = tolerance::kPastConcave * start_.depth / norm(ends.end - ends.begin);
-    const double least = isConcave(surfaces_.prev[master.value], master) ? past : 0;
-    const double most = isConcave(master, surfaces_.next[master.value]) ? past : 0;
-    return at->xi >= -least - tolerance::kFootRange && at->xi <= 1 + most + tolerance::kFootRange;
+    return at && isWithin(master, at->xi, norm(ends.end - ends.begin), start_.depth);
   }
 
   [[nodiscard]] bool isConcave(EntryId first, EntryId second) const {

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "contact/contact_scenes.hpp"
+#include "contact/contact_settings.hpp"
 #include "contact/local_search.hpp"
 
 namespace yadefrag::test {
@@ -22,7 +25,8 @@ inline std::vector<SlaveMaster> pairsOf(const std::vector<Active>& actives) {
 class Chase {
  public:
   Chase(const std::vector<Vec2>& points, const std::vector<std::uint8_t>& smooth, Vec2 direction,
-        Vec2 from) {
+        Vec2 from, Entry entry = Entry::kFlags)
+      : entry_(entry) {
     body_ = scene_.addBody(points, smooth);
     tip_ = scene_.addNeedle(direction);
     scene_.moveNeedle(tip_, from);
@@ -30,11 +34,12 @@ class Chase {
     std::vector<SlaveMaster> pairs;
     for (EntryId master = body_; master < tip_; master = master + 1)
       pairs.push_back({tip_, master});
-    replaceCandidates(candidates_, pairs, scene_.surfaces, scene_.at);
+    replaceCandidates(candidates_, pairs, scene_.surfaces, scene_.at, entry == Entry::kFlags);
   }
 
   /// The actives where the tip is predicted to be; it ends the step at `corrected`.
   std::vector<Active> step(Vec2 predicted, Vec2 corrected) {
+    before_ = scene_.at;
     scene_.moveNeedle(tip_, predicted);
     Candidates all = candidates_;
     const std::vector<Active> wanted = find(all, kUnlimited);
@@ -43,6 +48,9 @@ class Chase {
     EXPECT_EQ(pairsOf(actives), pairsOf(wanted));
     scene_.moveNeedle(tip_, corrected);
     at_ = corrected;
+    touches_.clear();
+    for (const Active& active : actives) touches_.push_back({active.pair, 0, 0, 0});
+    if (entry_ == Entry::kPath) return actives;
     search_.settle(candidates_, scene_.surfaces, scene_.at, pairsOf(actives), left);
     return actives;
   }
@@ -63,13 +71,21 @@ class Chase {
   [[nodiscard]] EntryId tip() const { return tip_; }
 
   double halo = kUnlimited;
-  double left = 0;  ///< m, what a correction may leave inside
+  static constexpr double kDepth = 1e-4;  ///< m, entry by the path
+  double left = 0;                        ///< m, what a correction may leave inside
 
  private:
+  Entry entry_;
+  std::vector<Vec2> before_;
+  std::vector<Touch> touches_;
   std::vector<Active> find(Candidates& candidates, double reach) {
     std::vector<Active> actives;
-    search_.scan(candidates, scene_.surfaces, scene_.at, reach, 1);
-    search_.findActives(candidates, scene_.surfaces, scene_.at, halo, actives);
+    const PathStart start{before_, touches_, kDepth};
+    const bool path = entry_ == Entry::kPath;
+    search_.scan(candidates, scene_.surfaces, scene_.at, reach, 1, INFINITY,
+                 path ? .1 : INFINITY);
+    search_.findActives(candidates, scene_.surfaces, scene_.at, halo, actives, {}, {},
+                        path ? &start : nullptr);
     return actives;
   }
 

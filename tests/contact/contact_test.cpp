@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "contact/contact_scenes.hpp"
+#include "core/errors.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -96,6 +99,25 @@ TEST(Contact, NoRowSleepsTooLongAfterAStepWithTwoScans) {
   const int wanted = stepsUntilTouch(false);
   EXPECT_GT(wanted, 3);
   EXPECT_EQ(stepsUntilTouch(true), wanted);
+}
+
+/// A push beside a corner so light that it would be thrown over many segments.
+TEST(Contact, ACorrectionOfManySegmentsIsRefused) {
+  ContactScene s;
+  const EntryId body = s.scene.addBody({{0, 0}, {9, -1}, {10, 0}});
+  const EntryId pressing = s.scene.addNeedle({0, -1});
+  s.scene.moveNeedle(pressing, {9.96, 0});
+  s.build(0, {{pressing, body + 2}});
+  s.hold(pressing, 3);
+  s.model.nodes.mass[s.nodeOf(body)] = 1e-9;
+  s.move = .1;
+  for (std::size_t k = 0; k < 3; ++k) s.model.nodes.position[s.nodeOf(pressing + k)].y -= .1;
+  try {
+    s.correct();
+    FAIL() << "it is thrown by 25 m, and a segment is 1 m long";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("contact moves a surface node"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6527169429289912);
-  expectNear(places.y, 1.4595943539110814);
-  expectNear(speeds, 4429.8265690144126);
-  expectNear(totalEnergy(world), 89.999375284883513);
-  expectNear(world.ledger.contact, 4.7150795145922437);
+  expectNear(places.x, 3.6573701343200615);
+  expectNear(places.y, 1.4585922900888253);
+  expectNear(speeds, 4523.8440318537323);
+  expectNear(totalEnergy(world), 89.999327000080015);
+  expectNear(world.ledger.contact, 4.4391342847171691);
 }
 
 }  // namespace

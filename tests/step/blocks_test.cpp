@@ -47,7 +47,7 @@ TEST_P(TouchingBlocks, AreSolvedInFewSweeps) {
   // The bound of all detections of a step together is ten times kGroupSweeps. In a few steps
   // corners that have passed each other lose the friction of the last step, and the group starts
   // anew.
-  EXPECT_LE(most, 4 * tolerance::kGroupSweeps);
+  EXPECT_LE(most, 6 * tolerance::kGroupSweeps);
   EXPECT_LT(double(sum) / kSteps, 150);
   EXPECT_TRUE(world_.complaints.empty());
 }

@@ -43,8 +43,8 @@ inline constexpr double kLeftInside = .02;
 /// thinner than this are none.
 inline constexpr double kEntryDepth = 2e-4;
 
-/// (of that depth, along the piece) A path that comes so deep past the end of a piece at a concave
-/// joint, and so near to it, went through the joint itself: no corner in there is narrower than 6°.
+/// (of a slave's depth behind a piece) Farthest past an end of the piece, at a concave joint, that
+/// it is inside the piece all the same: at the bottom of a notch of 11° it is as far.
 inline constexpr double kPastConcave = 10;
 
 /// (ξ) Farthest beyond a piece's end that the foot at xⁿ may be for the force to act at that foot,
