@@ -40,8 +40,8 @@ struct SlaveMaster {
 };
 
 /// Sorts the pairs into rows. Outside flags, if there are any, are kept of pairs that `candidates`
-/// had already; those of new ones come from `before`, the positions at the end of the last step (m, by node). Returns
-/// what `candidates` were.
+/// had already; those of new ones come from `before`, the positions at the end of the last step (m,
+/// by node). Returns what `candidates` were.
 Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
                              const ContactSurfaces& surfaces, std::span<const Vec2> before,
                              bool flags = true);

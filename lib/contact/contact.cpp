@@ -166,8 +166,8 @@ double Contact::deepestTouch(const ContactSurfaces& surfaces, std::span<const Ve
   double most = 0;
   withGeometry(surfaces, before, [&](const auto& geometry) {
     for (const Touch& touch : touches)
-      most = std::max(
-          most, -geometry.foot(touch.pair.master, geometry.slave(touch.pair.slave)).gap);
+      most =
+          std::max(most, -geometry.foot(touch.pair.master, geometry.slave(touch.pair.slave)).gap);
   });
   return most;
 }
@@ -403,8 +403,8 @@ void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec
       const double gap = foot.gap;
       if (gap >= 0) continue;
       // Without flags: a form changes by a part of a piece's length only.
-      if (candidates.outside.empty() && (!isOver(geometry, pair.master, foot) ||
-                                         gap < -.25 * geometry.length(pair.master)))
+      if (candidates.outside.empty() &&
+          (!isOver(geometry, pair.master, foot) || gap < -.25 * geometry.length(pair.master)))
         continue;
       const auto at =
           std::lower_bound(touches.begin(), touches.end(), pair,

@@ -9,7 +9,7 @@ enum class Correction {
 
 /// How a slave becomes active on a master.
 enum class Entry {
-  kPath,   ///< its path through the step crosses the moving piece (path_rules.hpp)
+  kPath,  ///< its path through the step crosses the moving piece (path_rules.hpp)
   kFlags,  ///< a flag says that it was outside the piece's line (paper §5.1, §5.2; joint_rules.hpp)
 };
 

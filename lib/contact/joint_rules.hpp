@@ -1,6 +1,6 @@
 #pragma once
-// Entry by flags: which of its masters a slave is active on (paper §5.1, the outside-inside criterion, fig. 8), and
-// the exceptions where two masters meet (§5.2, fig. 9):
+// Entry by flags: which of its masters a slave is active on (paper §5.1, the outside-inside
+// criterion, fig. 8), and the exceptions where two masters meet (§5.2, fig. 9):
 //
 // - case C of fig. 9: active on both, at a convex joint: the nearer one;
 // - near a concave corner without an orthogonal foot on either: to the corner's node;

@@ -102,7 +102,8 @@ void LocalSearch::findChords(const Candidates& candidates, const ContactSurfaces
 
 template <class Geometry, class ChordOf>
 double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, double reach,
-                            double deepest, std::uint32_t row, ChordOf chordOfEntry, std::vector<Near>& found) {
+                            double deepest, std::uint32_t row, ChordOf chordOfEntry,
+                            std::vector<Near>& found) {
   const Vec2 point = geometry.slave(candidates.slaves[row]);
   const bool flags = !candidates.outside.empty();
   double clear = INFINITY;

@@ -31,10 +31,10 @@ class LocalSearch {
  public:
   /// First phase (§5.1) at `positions` (m, by node). A candidate is near if its slave is within
   /// `reach` (m) of the master's line, or inside it by no more than `deepest` (m) and `reach`, and
-  /// beside the piece by no more than a few `reach`. With flags, depth is no bound, and those of all
-  /// that are not near are brought up to date. No surface node has moved by
-  /// more than `moved` (m) since the last scan: rows too far away to become near by all the ways
-  /// since they were looked at are left alone. Infinite: nothing is known.
+  /// beside the piece by no more than a few `reach`. With flags, depth is no bound, and those of
+  /// all that are not near are brought up to date. No surface node has moved by more than `moved`
+  /// (m) since the last scan: rows too far away to become near by all the ways since they were
+  /// looked at are left alone. Infinite: nothing is known.
   void scan(Candidates& candidates, const ContactSurfaces& surfaces,
             std::span<const Vec2> positions, double reach, int threads, double moved = INFINITY,
             double deepest = INFINITY);
@@ -71,7 +71,8 @@ class LocalSearch {
   /// What `scan` does with one slave; returns how far everything may move before it is near.
   template <class Geometry, class ChordOf>
   static double scanRow(Candidates& candidates, const Geometry& geometry, double reach,
-                        double deepest, std::uint32_t row, ChordOf chordOfEntry, std::vector<Near>& found);
+                        double deepest, std::uint32_t row, ChordOf chordOfEntry,
+                        std::vector<Near>& found);
   template <class Geometry>
   int scanRows(Candidates& candidates, const Geometry& geometry, double reach, int threads);
   template <class Geometry>
@@ -93,8 +94,8 @@ class LocalSearch {
   void takeTrials(const Candidates& candidates, const ContactSurfaces& surfaces,
                   const Geometry& geometry, std::span<const Near> row);
 
-  double way_ = 0;    // m, of the fastest node since the candidates were found
-  double reach_ = 0;  // m, of the last scan
+  double way_ = 0;      // m, of the fastest node since the candidates were found
+  double reach_ = 0;    // m, of the last scan
   double deepest_ = 0;  // m, of the last scan
   std::vector<Near> near_;
   std::vector<std::vector<Near>> nearByPart_;

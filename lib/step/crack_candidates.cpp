@@ -122,7 +122,8 @@ void inheritTouches(std::vector<Touch>& touches, const ContactSurfaces& surfaces
     while (end < twins.size() && twins[end].original == twins[begin].original) ++end;
     for (std::size_t i = begin; i < end; ++i) {
       const EntryId from = slaveAt(twins[i].node);
-      for (auto t = std::ranges::lower_bound(touches, from, {}, [](const Touch& a) { return a.pair.slave; });
+      for (auto t = std::ranges::lower_bound(touches, from, {},
+                                             [](const Touch& a) { return a.pair.slave; });
            t != touches.end() && t->pair.slave == from; ++t)
         for (std::size_t k = begin; k < end; ++k) {
           const EntryId to = slaveAt(twins[k].node);

@@ -82,8 +82,7 @@ class Chase {
     std::vector<Active> actives;
     const PathStart start{before_, touches_, kDepth};
     const bool path = entry_ == Entry::kPath;
-    search_.scan(candidates, scene_.surfaces, scene_.at, reach, 1, INFINITY,
-                 path ? .1 : INFINITY);
+    search_.scan(candidates, scene_.surfaces, scene_.at, reach, 1, INFINITY, path ? .1 : INFINITY);
     search_.findActives(candidates, scene_.surfaces, scene_.at, halo, actives, {}, {},
                         path ? &start : nullptr);
     return actives;

@@ -29,9 +29,7 @@ class Moves {
     return {chance(random_), chance(random_)};
   }
   /// A piece from near (0, 0) to near (1, 0), and a point near it.
-  PointAndPiece state() {
-    return {Vec2{.5, 0} + any(.5), {any(.2), Vec2{1, 0} + any(.2)}};
-  }
+  PointAndPiece state() { return {Vec2{.5, 0} + any(.5), {any(.2), Vec2{1, 0} + any(.2)}}; }
 
  private:
   std::mt19937 random_{7};

@@ -80,7 +80,8 @@ TEST_P(SharpMasterByPath, TheFaceThatWasCrossed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Figure9, SharpMasterByPath,
-                         testing::Values(Fig9{{-.3, .6}, {.05, .6}, 2}, Fig9{{-.3, .6}, {-.1, .6}, 2},
+                         testing::Values(Fig9{{-.3, .6}, {.05, .6}, 2},
+                                         Fig9{{-.3, .6}, {-.1, .6}, 2},
                                          Fig9{{.3, .6}, {-.05, .6}, 1}, Fig9{{.3, .6}, {.1, .6}, 1},
                                          Fig9{{.02, 1.1}, {.01, .8}, 1},
                                          Fig9{{-.02, 1.1}, {-.01, .8}, 2}));

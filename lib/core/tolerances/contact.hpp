@@ -31,17 +31,18 @@ inline constexpr double kOpposed = -.1;
 /// dropped and come back as overlaps: in impacts contact then created ten times as much energy.
 inline constexpr double kLeansIn = .5;
 
-/// (of the reach, which is twice the largest displacement) In rubble a slave that was outside and
-/// is left this little inside by rounding or by the others' correction is still the master's. With
-/// half or twice of it one impact in twelve had pieces that overlap by more than half a segment;
-/// with ten times as much, corners that had gone round a master's end were pushed back, and contact
-/// created ten times as much energy.
+/// (of the reach, which is twice the largest displacement) By flags, in rubble, a slave that was
+/// outside and is left this little inside by rounding or by the others' correction is still the
+/// master's. With half or twice of it one impact in twelve had pieces that overlap by more than
+/// half a segment; with ten times as much, corners that had gone round a master's end were pushed
+/// back, and contact created ten times as much energy.
 inline constexpr double kLeftInside = .02;
 
 /// (of the shortest segment) By the path, a slave behind a piece by no more than this at the start
-/// of a step counts as before it. Rounding and what a step's corrections leave are less; bodies
-/// thinner than this are none.
-inline constexpr double kEntryDepth = 2e-4;
+/// of a step counts as before it. In twelve impacts pieces overlap by up to 1.7e-4 of a segment
+/// with this, 1.7e-4 with half and 4.2e-4 with twice of it; with a quarter, less than what a step's
+/// corrections leave in rubble, one of the twelve loses a contact.
+inline constexpr double kEntryDepth = 4e-4;
 
 /// (of a slave's depth behind a piece) Farthest past an end of the piece, at a concave joint, that
 /// it is inside the piece all the same: at the bottom of a notch of 11° it is as far.

@@ -11,9 +11,10 @@ inline constexpr double kFrictionBound = 1e-4;
 inline constexpr int kFrictionRounds = 8;
 
 /// (count; of the largest displacement in the step) Contact in rubble is solved by so many sweeps
-/// at each of so many detections, until they change so little. With twice as many detections and a
-/// hundredth of the change, what an impact spends in friction and in touching is the same within
-/// what other strengths make of it; with a single detection touching takes half as much.
+/// at each of so many detections, until they change so little. What is left is to be less than
+/// kEntryDepth. With 2 detections and ten times the change an impact takes 0.9 of the time, and
+/// pieces overlap by up to 4e-4 of a segment; with 10 detections of 400 sweeps and a hundredth of
+/// the change, 4 times the time, and overlaps are below 2e-5.
 inline constexpr int kRowSweeps = 20, kRubbleDetections = 4;
 inline constexpr double kRubbleRemainder = 1e-4;
 
