@@ -279,6 +279,19 @@ struct ExplicitDynamics::Works {
   const StepSettings& settings;
   std::span<const Vec2> outer, contact;
 
+  /// (N) Of what acts from outside on a node, held or not, over Δv.
+  [[nodiscard]] double outerForce(std::size_t n, double Vec2::*axis) const {
+    double force = nodes.mass[n] * settings.gravity.*axis;
+    if (!nodes.load.empty()) force += nodes.load[n].*axis;
+    if (!outer.empty()) force += length.position / length.velocity * outer[n].*axis;
+    return force;
+  }
+
+  /// (N) Of elements and of other surfaces.
+  [[nodiscard]] double innerForce(std::size_t n, double Vec2::*axis) const {
+    return dynamics.force_[n].*axis + (contact.empty() ? 0 : contact[n].*axis);
+  }
+
   void addNode(std::size_t n, double Vec2::*axis, bool held, EnergyLedger& ledger) const {
     const double mass = nodes.mass[n];
     const double before = dynamics.previousVelocity_[n].*axis;
@@ -287,14 +300,10 @@ struct ExplicitDynamics::Works {
     if (!dynamics.viscousForce_.empty()) ledger.damping -= dynamics.viscousForce_[n].*axis * way;
     if (held) {
       // The reaction is whatever the node needs to move as it does.
-      const double pushed = dynamics.force_[n].*axis + (contact.empty() ? 0 : contact[n].*axis);
-      ledger.external += mass * (after + before) * (after - before) / 2 - pushed * way;
+      ledger.external += mass * (after + before) * (after - before) / 2 - innerForce(n, axis) * way;
       return;
     }
-    double force = mass * settings.gravity.*axis;
-    if (!nodes.load.empty()) force += nodes.load[n].*axis;
-    if (!outer.empty()) force += length.position / length.velocity * outer[n].*axis;
-    ledger.external += force * way;
+    ledger.external += outerForce(n, axis) * way;
     ledger.damping += settings.damping * mass * way * way / length.velocity;
   }
 };
@@ -325,6 +334,25 @@ void ExplicitDynamics::finish(const Model& model, const StepLength& length,
   for (const EnergyLedger& sum : sums) {
     ledger.external += sum.external;
     ledger.damping += sum.damping;
+  }
+}
+
+void ExplicitDynamics::measureReactions(const Model& model, const StepLength& length,
+                                        const StepSettings& settings,
+                                        std::span<const Vec2> outerForces,
+                                        std::span<const Vec2> contactForces,
+                                        std::vector<Vec2>& reactions) const {
+  const Nodes& nodes = model.nodes;
+  const Works works{*this, nodes, length, settings, outerForces, contactForces};
+  reactions.assign(nodes.size(), Vec2{});
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (nodes.held[n] == kFree || nodes.mass[n] == 0) continue;
+    for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}}) {
+      if ((nodes.held[n] & flag) == 0) continue;
+      const double gained = nodes.velocity[n].*axis - previousVelocity_[n].*axis;
+      reactions[n].*axis = nodes.mass[n] * gained / length.velocity - works.innerForce(n, axis) -
+                           works.outerForce(n, axis);
+    }
   }
 }
 

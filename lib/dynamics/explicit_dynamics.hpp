@@ -82,6 +82,14 @@ class ExplicitDynamics {
               std::span<const Vec2> outerForces, std::span<const Vec2> contactForces,
               EnergyLedger& ledger, int threads = 1) const;
 
+  /// Was no node held in the last step, nor since the last `rebuild`?
+  [[nodiscard]] bool holdsNone() const { return heldVelocity_.empty(); }
+  /// (N) By node, 0 in directions that are not held: what is needed, over all forces that act on
+  /// the node, to move it as it is prescribed. Arguments as those of `finish`, after it.
+  void measureReactions(const Model& model, const StepLength& length, const StepSettings& settings,
+                        std::span<const Vec2> outerForces, std::span<const Vec2> contactForces,
+                        std::vector<Vec2>& reactions) const;
+
   /// (m) xⁿ and (m/s) vⁿ⁻½ by node, between `predict` and the next change of the model:
   /// v̄ = ½(previous + present) is what contact books with.
   [[nodiscard]] std::span<const Vec2> previousPosition() const { return previousPosition_; }

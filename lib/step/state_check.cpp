@@ -56,6 +56,13 @@ bool componentsAreRight(const Model& model) {
          std::ranges::all_of(model.materials, materialIsRight);
 }
 
+bool motionsAreRight(const Model& model) {
+  const Nodes& n = model.nodes;
+  return (n.motion.empty() || n.motion.size() == n.size()) && n.arm.size() == n.motion.size() &&
+         allFinite(n.arm) &&
+         std::ranges::all_of(n.motion, [&](std::uint32_t m) { return m <= model.motions.size(); });
+}
+
 bool nodesAreRight(const World& world) {
   const Nodes& n = world.model.nodes;
   const std::size_t count = n.size();
@@ -65,7 +72,7 @@ bool nodesAreRight(const World& world) {
          allFinite(n.load) && allFinite(world.reference) &&
          std::ranges::all_of(n.mass, [](double m) { return m >= 0 && std::isfinite(m); }) &&
          std::ranges::all_of(n.held, [](std::uint8_t h) { return h <= kHeldXY; }) &&
-         allBelow(n.component, world.model.components.size());
+         allBelow(n.component, world.model.components.size()) && motionsAreRight(world.model);
 }
 
 /// Nodes of triangles that count have a mass.

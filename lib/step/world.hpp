@@ -31,6 +31,7 @@ namespace yadefrag {
 struct BodySpec : BodyMaterial {
   MaterialPlaces materials;  ///< in place of the one above, if there are several
   BrittlePlaces places;
+  std::string name;      ///< one that no other body has, without line breaks; may be empty
   double thickness = 1;  ///< m
   bool selfContact = true;
   ElementKind element = ElementKind::kLinear;
@@ -66,8 +67,13 @@ class World {
   /// (N) Constant outer forces by node; empty: none. InputError unless one per node, all finite.
   void setLoads(std::vector<Vec2> loads);
   /// From now on the nodes move at `velocity` (m/s) in the directions `held`, and freely in the
-  /// others.
+  /// others. InputError before anything is changed.
   void prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 velocity);
+  /// The same with a velocity for each of the nodes.
+  void prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
+                     std::span<const Vec2> velocity);
+  /// The same as a motion, which begins now, has it; one that turns holds both directions.
+  void prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Motion motion);
 
   /// One step of Δt (s), which may differ from the last one's. Throws TimeStepError for a step
   /// above the critical one, InputError where it does not resolve a crack's opening, RunError where
@@ -107,6 +113,8 @@ class World {
   bool timing = false;  ///< fill `times`
   /// (N) By node, for the next step only; empty: none.
   std::vector<Vec2> outerForces;
+  /// (m/s) By node, for the next step only: of nodes whose motion has a function.
+  std::vector<Vec2> givenVelocities;
 
   // --- state
   Model model;
@@ -119,6 +127,9 @@ class World {
   std::vector<std::string> complaints;  ///< of the watch, all so far
   Dropped dropped;
   std::vector<Vec2> reference;  ///< m, stress-free positions by node
+  /// (N) Of the last step, by node, in held directions: what the node needs to move as it does,
+  /// over its weight, loads and all forces of bodies. Not saved; empty before the first step.
+  std::vector<Vec2> reactions;
   std::uint64_t steps = 0;
   double time = 0;    ///< s
   double lastDt = 0;  ///< s
@@ -133,6 +144,10 @@ class World {
   [[nodiscard]] std::span<const NodeId> surfaceNodes() const { return search.nodes; }
 
  private:
+  void requireNodes(std::span<const NodeId> nodes) const;
+  void forgetUnusedMotions();
+  void drive(double dt);
+  void letDrivenGo();
   void buildIfChanged();
   void requireStableStep(double dt);
   void watchStrengths();
@@ -177,6 +192,7 @@ class World {
   void predict(const StepLength& length);
   void requireUpright(double dt);
   void finish(const StepLength& length);
+  void measureReactions(const StepLength& length);
   [[nodiscard]] StageTimes* timesIfAsked() { return timing ? &times : nullptr; }
 
   ExplicitDynamics dynamics_;
@@ -186,6 +202,7 @@ class World {
   LoosePieces loose_;
   BodyPlaces places_;
   std::vector<Vec2> surfaceForces_;  // N, by node, of contact and cohesion
+  std::span<const Vec2> pushes_;     // N, the same or those of contact alone, of the present step
   std::vector<BoxPair> overlapping_;
   std::vector<SlaveMaster> pairs_;
   std::vector<Box> boxes_;

@@ -13,6 +13,8 @@ Footprint World::footprint() const {
           model.components, reference);
   sum.add(Use::kMaterials, triangles.material, model.materials);
   sum.add(Use::kLoads, nodes.load, outerForces);
+  sum.add(Use::kHeld, nodes.motion, nodes.arm, model.motions, givenVelocities, undo_.driven,
+          reactions);
   const ContactSurfaces& s = surfaces;
   sum.add(Use::kSurfaces, s.segmentNode, s.segmentNext, s.segmentPrev, s.segmentEntry,
           s.nodeSegment, s.entrySegment, s.piece, s.next, s.prev, s.loop, s.component);

@@ -49,7 +49,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 6;
+  static constexpr std::uint64_t kFormat = 7;
   /// (count) A damaged length must not take all memory: values are read in parts as large as this,
   /// and the archive ends before the memory does.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -78,6 +78,7 @@ class WorldArchive {
 
   void state(World& world) {
     nodes(world.model.nodes);
+    motions(world.model.motions);
     triangles(world.model.triangles);
     components(world.model.components);
     materials(world.model.materials);
@@ -111,16 +112,20 @@ class WorldArchive {
     value("toldDepth", watch.toldDepth), value("lastStep", watch.lastStep);
     value("leastStep", watch.leastStep), value("mostStep", watch.mostStep);
     value("stepChanges", watch.changes);
+    lines("complaints", world.complaints);
+  }
+
+  void lines(const char* name, std::vector<std::string>& all) {
     std::vector<char> text;
-    for (const std::string& sentence : world.complaints) {
-      text.insert(text.end(), sentence.begin(), sentence.end());
+    for (const std::string& line : all) {
+      text.insert(text.end(), line.begin(), line.end());
       text.push_back('\n');
     }
-    value("complaints", text);
+    value(name, text);
     if constexpr (Archive::is_loading::value) {
-      world.complaints.clear();
+      all.clear();
       std::istringstream lines(std::string(text.begin(), text.end()));
-      for (std::string line; std::getline(lines, line);) world.complaints.push_back(line);
+      for (std::string line; std::getline(lines, line);) all.push_back(line);
     }
   }
 
@@ -184,6 +189,14 @@ class WorldArchive {
     column<double>("mass", nodes.mass), column<double>("load", nodes.load);
     column<std::uint8_t>("held", nodes.held);
     column<std::uint32_t>("nodeComponent", nodes.component);
+    value("motion", nodes.motion), column<double>("arm", nodes.arm);
+  }
+
+  void motions(std::vector<Motion>& motions) {
+    FlatMotions flat = flatten(motions);
+    value("motionCounts", flat.counts), value("motionNumbers", flat.numbers);
+    if constexpr (Archive::is_loading::value)
+      if (!unflatten(flat, motions)) refuse("its motions cannot be");
   }
 
   void triangles(Triangles& triangles) {
@@ -206,6 +219,11 @@ class WorldArchive {
     member("element", rows, [](C& c) -> std::uint8_t& {
       return reinterpret_cast<std::uint8_t&>(c.element);  // NOLINT: an unsigned char may name it
     });
+    std::vector<std::string> names;
+    for (const C& c : rows) names.push_back(c.name);
+    lines("names", names);
+    if (names.size() != rows.size()) refuse("names has a wrong length");
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].name = names[i];
   }
 
   /// Of bodies, or of a list.

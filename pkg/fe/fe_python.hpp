@@ -28,6 +28,7 @@ inline std::string zoneWarningOf(const FESolver& solver, int component) {
   const World& world = solver.world();
   return cohesiveZoneWarning(world.model, world.fracture.edges, ComponentId(component));
 }
+inline double timeOf(const FESolver& solver) { return solver.world().time; }
 inline std::uint64_t searchesOf(const FESolver& solver) { return solver.world().numSearches; }
 inline std::size_t activesOf(const FESolver& solver) {
   return solver.world().contact.rows().size();
@@ -70,8 +71,11 @@ void FESolver::pyExtra(PyClass& pyClass) {
       .def("_meshQuality", &Locked<meshQualityOf>::call)
       .def("_costlyStepWarning", &Locked<costlyStepWarningOf>::call)
       .def("_bond", &bond)
+      .def("_nodesOf", &Locked<nodesOfBody>::call)
+      .def("_isGone", &Locked<isGone>::call)
       .def("_setLoads", &setLoads)
-      .def("_prescribe", &prescribe);
+      .def("_prescribe", &prescribe)
+      .def("_move", &prescribeMotion);
   valuesOf(pyClass);
   countersOf(pyClass);
 }
@@ -79,6 +83,7 @@ void FESolver::pyExtra(PyClass& pyClass) {
 template <class PyClass>
 void FESolver::valuesOf(PyClass& pyClass) {
   pyClass.add_property("_loads", &Locked<loadsOf>::call)
+      .add_property("_names", &Locked<namesOf>::call)
       .add_property("nodes", &Locked<nodesOf>::call,
                     "Positions (m), array (n, 2); a copy, as all arrays.")
       .add_property("velocities", &Locked<velocitiesOf>::call, "Of the nodes (m/s), array (n, 2).")
@@ -101,6 +106,14 @@ void FESolver::valuesOf(PyClass& pyClass) {
       .add_property("contactForces", &Locked<contactForcesOf>::call,
                     "Of contact between bodies of this engine, on the nodes, in the last step (N), "
                     "array (n, 2).")
+      .add_property(
+          "reactions", &Locked<reactionsOf>::call,
+          "At held nodes, in the last step (N), array (n, 2): what the support gives, over "
+          "the node's own weight, its loads and all forces of bodies; 0 in free "
+          "directions, and before the first step and after O.load.")
+      .add_property("time", &Locked<timeOf>::call,
+                    "Time that the bodies have been stepped for (s); motions and loads that change "
+                    "in time go by it.")
       .add_property("surfaces", &Locked<surfacesOf>::call,
                     "List of closed loops, each an array of node numbers, material on the left.")
       .add_property(

@@ -10,6 +10,7 @@
 #include "fe/entry_bodies.hpp"
 #include "fe/fe_archive.hpp"
 #include "fe/materials.hpp"
+#include "fe/script_functions.hpp"
 #include "fe/step_lock.hpp"
 #include "publish/published.hpp"
 #include "step/world.hpp"
@@ -42,6 +43,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
     return world_;
   }
   [[nodiscard]] const EntryBodies& entryBodies() const { return bodies_; }
+  [[nodiscard]] ScriptFunctions& scriptFunctions() { return functions_; }
   /// Held by each step, and by each read and change from Python.
   [[nodiscard]] StepLock& betweenSteps() const { return betweenSteps_; }
 
@@ -83,6 +85,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   World world_;
   EntryBodies bodies_;
   EngineOrder order_;
+  ScriptFunctions functions_;
   std::vector<BoxPair> pairs_;
   std::size_t surveyed_ =
       0;  // segments that the halo was chosen for, and that have not moved since

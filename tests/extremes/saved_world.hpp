@@ -28,6 +28,10 @@ inline World eventfulWorld() {
     if (k == 2) smoothAll(spec, mesh);
     world.addBody(mesh, spec);
   }
+  const std::vector<NodeId> driven{NodeId(world.model.nodes.size() - 1)};
+  world.prescribeMotion(
+      driven, kHeldXY,
+      {.centre = {.02, 0}, .speedX = TimeTable({0, 1e-5}, {0, -30}), .turn = TimeTable(3)});
   world.setLoads(std::vector<Vec2>(world.model.nodes.size(), {1, 2}));
   const double dt = .3 * world.criticalTimeStep();
   while (world.steps < 30) world.step(dt);
