@@ -227,6 +227,7 @@ py::dict energyOf(const FESolver& solver) {
   if (solver.world().dropped.count > 0 || solver.world().fracture.minFragmentArea > 0)
     result["dropped"] = ledger.dropped;
   result["external"] = ledger.external;
+  result["outside"] = -ledger.external;
   result["total"] = ledger.total(kinetic, strain);
   return result;
 }

@@ -125,9 +125,11 @@ void FESolver::valuesOf(PyClass& pyClass) {
                     "(kg), momentum (kg m/s, a pair), energy (J) they had when they went, count.")
       .add_property(
           "energy", &Locked<energyOf>::call,
-          "Dict of J: kinetic, strain, contact, friction, fracture, damping, external (what came "
-          "in from outside), total (constant); with minFragmentArea, dropped (went with "
-          "fragments).")
+          "Dict of J: kinetic, strain, contact, friction, fracture, damping, outside (what went "
+          "outside: negative where work was done on the bodies); with minFragmentArea, dropped "
+          "(went with fragments); total, their sum, is constant. O.energy has the same, with the "
+          "same signs, as feKinetic, feStrain ... feOutside, if O.trackEnergy. Besides, external "
+          "is -outside.")
       .add_property("_energyBalance", &Locked<energyBalanceOf>::call)
       .add_property("warnings", &Locked<warningsOf>::call,
                     "Sentences that warn of numerical errors: energy that contact, cracks or the "

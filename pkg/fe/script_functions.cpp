@@ -6,23 +6,12 @@
 #include <vector>
 
 #include "fe/fe_arrays.hpp"
+#include "fe/with_gil.hpp"
 
 namespace yadefrag {
 namespace {
 
 namespace py = yade::py;
-
-/// Takes Python's lock as long as it lives.
-class WithGil {
- public:
-  WithGil() : state_(PyGILState_Ensure()) {}
-  ~WithGil() { PyGILState_Release(state_); }
-  WithGil(const WithGil&) = delete;
-  WithGil& operator=(const WithGil&) = delete;
-
- private:
-  const PyGILState_STATE state_;
-};
 
 /// What Python has raised, as "ValueError: what"; nothing is raised any more.
 std::string takeRaised() {

@@ -112,7 +112,16 @@ def _resetStopped(reset):
     return stopped
 
 
+def _underOldName(get):
+    """O.energy['feExternal'], which is 'feOutside' now."""
+    @functools.wraps(get)
+    def item(self, name):
+        return get(self, 'feOutside' if name == 'feExternal' else name)
+    return item
+
+
 def install():
+    wrapper.EnergyTracker.__getitem__ = _underOldName(wrapper.EnergyTracker.__getitem__)
     for name in ('save', 'saveTmp', 'sceneToString'):
         setattr(_Omega, name, _savedWhole(getattr(_Omega, name)))
     _Omega.pause = _countPauses(_Omega.pause)
