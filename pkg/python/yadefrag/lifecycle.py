@@ -87,6 +87,15 @@ def _waitForAll(wait):
     return waited
 
 
+def waitForEnd():
+    """O.wait() that is not late by up to 40 ms; what a step raised is not raised again."""
+    while True:
+        _yadefrag.waitForEnd()
+        with _saving:
+            if not _Omega().running:
+                return
+
+
 def _runBegun(run):
     """O.run() that returns once the run has begun: YADE's may crash if it is stopped before."""
     @functools.wraps(run)
