@@ -76,7 +76,6 @@ enum class ElementKind : std::uint8_t {
 /// What all triangles of one body share; its material, or the bound of several (`boundOf`). A
 /// removed component keeps its slot with no triangles.
 struct Component : BodyMaterial {
-  std::string name;             ///< that a script gave it, or empty
   double thickness = 1;         ///< m
   bool brittleByPlace = false;  ///< do its edges have strengths or energies of their own
   bool selfContact = true;      ///< may its surfaces touch each other
@@ -85,6 +84,7 @@ struct Component : BodyMaterial {
   std::uint32_t lastTriangle = 0;   ///< one past; triangles of a component are consecutive
   std::uint32_t firstMaterial = 0;  ///< in Model::materials, if it has several
   std::uint32_t lastMaterial = 0;   ///< one past
+  std::string name = {};            ///< that a script gave it, or empty
 
   [[nodiscard]] bool isMixed() const { return firstMaterial != lastMaterial; }
 };

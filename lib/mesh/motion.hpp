@@ -13,10 +13,10 @@
 namespace yadefrag {
 
 struct Motion {
-  Vec2 centre;               ///< m, of the turn, at `begin`
-  double begin = 0;          ///< s, when the frame starts
-  TimeTable speedX, speedY;  ///< m/s, of the centre
-  TimeTable turn;            ///< rad/s
+  Vec2 centre = {};                    ///< m, of the turn, at `begin`
+  double begin = 0;                    ///< s, when the frame starts
+  TimeTable speedX = {}, speedY = {};  ///< m/s, of the centre
+  TimeTable turn = {};                 ///< rad/s
   /// A script's own function gives the nodes' velocities, by this number; 0: the tables do.
   std::uint32_t function = 0;
 };

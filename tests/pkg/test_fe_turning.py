@@ -86,6 +86,18 @@ def test_heldNodesOfABodyThatIsThrownTurnAboutItsCentroid():
     assert abs(radii(solver, centre) / before - 1).max() < 1e-6
 
 
+def test_doubledNodesOfOpenJointsTurn():
+    O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e9, label='b'))
+    solver = w.FESolver()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='b', fixed=everywhere,
+                      velocity=lambda x, y: (-20 * y, 20 * x), joints=[((0, .5), (1, .5))])
+    run(solver)
+    before = np.linalg.norm(solver.nodes, axis=1)
+    assert len(np.unique(solver.nodes, axis=0)) < len(solver.nodes)
+    steps(100)
+    assert np.linalg.norm(solver.nodes, axis=1) == pytest.approx(before, abs=1e-12)
+
+
 def test_oneHeldNodeTurnsAboutTheCentroid():
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', spin=20.,

@@ -24,7 +24,8 @@ def bond(self, a, b, strength, energy):
     warning where sides are too long for the energy.
     """
     requirePaused()
-    first, second = bodyNumber(self, a, 'a'), bodyNumber(self, b, 'b')
+    first, second = (bodyNumber(self, one, name, least=0)
+                     for name, one in (('a', a), ('b', b)))
     sides, problem = self._bond(first, second, positive('strength', strength, 'Pa'),
                                 positive('energy', energy, 'J/m²'))
     if problem:

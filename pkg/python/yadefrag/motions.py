@@ -195,7 +195,12 @@ def keepTurning(fe, component, held, velocity, spin, places, centroid):
         x, y = turn * middle + spin * centroid
         origin = speed + numpy.array([y, -x])
         centre, drift = numpy.array([-origin[1], origin[0]]) / total, numpy.zeros(2)
-    chosen = fe.nodesOf(component)[fixed].astype(numpy.uint32)
+    # Open joints have doubled nodes, which are behind all others.
+    own = fe.nodesOf(component)
+    present = fe.nodes[own]
+    held = set(map(tuple, present[fixed].tolist()))
+    doubled = [i for i in range(len(places), len(own)) if tuple(present[i].tolist()) in held]
+    chosen = own[numpy.concatenate([fixed, doubled]).astype(int)].astype(numpy.uint32)
     drifts = [tableOrNumber('velocity', float(one), 'm/s') for one in drift]
     _move(fe, chosen, 3, tuple(map(float, centre)), ('table', 'table'), drifts,
           tableOrNumber('spin', float(total), 'rad/s'))

@@ -23,7 +23,7 @@ def newName(fe, name):
     return name
 
 
-def bodyNumber(fe, value, argument='component'):
+def bodyNumber(fe, value, argument='component', least=-2**31):
     """The number of the body that `value`, a number or a name, means; ValueError for none."""
     names = fe._names
     if isinstance(value, str):
@@ -32,7 +32,7 @@ def bodyNumber(fe, value, argument='component'):
             refuse(argument, value, 'the number or the name of a body' +
                    (', one of %s' % shown(known) if known else '; no body has a name'))
         return names.index(value)
-    return whole(argument, value, -2**31, 'the number or the name of a body')
+    return whole(argument, value, least, 'the number or the name of a body')
 
 
 def existingBody(fe, value, argument='component'):
