@@ -14,11 +14,6 @@
 namespace yadefrag {
 namespace {
 
-bool anyHeld(const Nodes& nodes) {
-  return std::any_of(nodes.held.begin(), nodes.held.end(),
-                     [](std::uint8_t held) { return held != kFree; });
-}
-
 /// (m) Of all triangles, stress-free: 1/|∇Nᵢ| is the height on corner i.
 double leastHeight(const Triangles& triangles) {
   double steepest = 0;  // 1/m²
@@ -56,7 +51,10 @@ void ExplicitDynamics::rebuild(const Model& model) {
   previousVelocity_ = model.nodes.velocity;
   leastHeight_ = leastHeight(model.triangles);
   heldVelocity_.clear();
-  if (anyHeld(model.nodes)) heldVelocity_ = model.nodes.velocity;
+  heldNodes_.clear();
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    if (model.nodes.held[n] != kFree) heldNodes_.emplace_back(n);
+  if (!heldNodes_.empty()) heldVelocity_ = model.nodes.velocity;
   scratch_.clear();
 }
 
@@ -85,6 +83,8 @@ std::size_t ExplicitDynamics::follow(const Model& model, std::span<const Element
   for (const NodeId original : originals) {
     previousPosition_.push_back(Vec2(previousPosition_[original.value]));
     previousVelocity_.push_back(Vec2(previousVelocity_[original.value]));
+    if (model.nodes.held[original.value] != kFree)
+      heldNodes_.emplace_back(previousPosition_.size() - 1);
     if (!heldVelocity_.empty()) heldVelocity_.push_back(Vec2(heldVelocity_[original.value]));
   }
   return chunks;
@@ -344,9 +344,11 @@ void ExplicitDynamics::measureReactions(const Model& model, const StepLength& le
                                         std::vector<Vec2>& reactions) const {
   const Nodes& nodes = model.nodes;
   const Works works{*this, nodes, length, settings, outerForces, contactForces};
-  reactions.assign(nodes.size(), Vec2{});
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    if (nodes.held[n] == kFree || nodes.mass[n] == 0) continue;
+  reactions.resize(nodes.size());
+  for (const NodeId node : heldNodes_) {
+    const std::uint32_t n = node.value;
+    reactions[n] = {};
+    if (nodes.mass[n] == 0) continue;  // of a dropped triangle
     for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}}) {
       if ((nodes.held[n] & flag) == 0) continue;
       const double gained = nodes.velocity[n].*axis - previousVelocity_[n].*axis;
@@ -362,7 +364,7 @@ void ExplicitDynamics::addTo(Footprint& footprint) const {
   footprint.add(Use::kDynamics, force_, partialForce_, previousPosition_, previousVelocity_,
                 scratch_);
   footprint.add(Use::kViscosity, viscousForce_, partialViscous_);
-  footprint.add(Use::kHeld, heldVelocity_);
+  footprint.add(Use::kHeld, heldVelocity_, heldNodes_);
   footprint.add(Use::kFracture, leastStrength_, stressed_);
   for (const Scratch& scratch : scratch_) {
     footprint.add(Use::kDynamics, scratch.values, scratch.flat);

@@ -39,10 +39,12 @@ void World::advance(double dt) {
   // The leapfrog's energy is that of a step: before the first one there is none.
   if (steps == 0) watch.begin(kineticEnergy() + yadefrag::strainEnergy(model, dt), ledger);
   drive(dt);
+  sumOuterForces();
   foreseeMotion(dt);
 
   // Internal forces, then v* and x*, as if there were no contact.
   predict(length);
+  absorb(length);
 
   // What still holds cracks together.
   cohere(length);
@@ -74,6 +76,7 @@ void World::conclude(double dt) {
   lastDt = dt;
   outerForces.clear();
   givenVelocities.clear();
+  givenPressures.clear();
   watchEnergy();
 
   // Cracks at xⁿ⁺¹: nodes split, surfaces are linked anew, and the new faces are candidates. What
@@ -86,7 +89,7 @@ void World::conclude(double dt) {
 
 void World::predict(const StepLength& length) {
   const StageTimer timer(timesIfAsked(), &StageTimes::forces);
-  dynamics_.predict(model, length, dynamicsSettings, outerForces, threads);
+  dynamics_.predict(model, length, dynamicsSettings, allOuterForces(), threads);
   undo_.hasMoved = true;
 }
 
@@ -105,13 +108,15 @@ void World::finish(const StepLength& length) {
     fracture.cohesion.addForces(surfaceForces_);
     pushes_ = surfaceForces_;
   }
-  dynamics_.finish(model, length, dynamicsSettings, outerForces, pushes_, ledger, threads);
+  dynamics_.finish(model, length, dynamicsSettings, allOuterForces(), pushes_, ledger, threads);
+  if (!absorbing.segments.empty())
+    absorbing.book(ledger, model, dynamics_.previousVelocity(), length);
 }
 
 void World::measureReactions(const StepLength& length) {
   if (dynamics_.holdsNone()) return reactions.clear();
   const StageTimer timer(timesIfAsked(), &StageTimes::forces);
-  dynamics_.measureReactions(model, length, dynamicsSettings, outerForces, pushes_, reactions);
+  dynamics_.measureReactions(model, length, dynamicsSettings, allOuterForces(), pushes_, reactions);
 }
 
 }  // namespace yadefrag

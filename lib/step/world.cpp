@@ -73,6 +73,8 @@ void World::removeBody(ComponentId component) {
   for (std::size_t i = 0; i < renumbered.size(); ++i)
     if (renumbered[i] != NodeId::none()) reference[renumbered[i].value] = reference[i];
   reference.resize(model.nodes.size());
+  takeLoadsOff(component);
+  reactions.clear();
   surfaces.removeComponent(component);
   surfaces.renumberNodes(renumbered, model.nodes.size());
   forgetUnusedMotions();
@@ -103,6 +105,7 @@ void World::buildIfChanged() {
   if (isBuilt_) return;
   places_.forget();
   dynamics_.rebuild(model);
+  reactions.clear();
   const auto& owners = surfaces.component;
   severalBodies_ =
       std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();

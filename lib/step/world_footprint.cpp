@@ -12,7 +12,7 @@ Footprint World::footprint() const {
           triangles.nodes, triangles.inverseEdges, triangles.area, triangles.component,
           model.components, reference);
   sum.add(Use::kMaterials, triangles.material, model.materials);
-  sum.add(Use::kLoads, nodes.load, outerForces);
+  sum.add(Use::kLoads, nodes.load, outerForces, allOuterForces_, pressures, absorbing.segments);
   sum.add(Use::kHeld, nodes.motion, nodes.arm, model.motions, givenVelocities, undo_.driven,
           reactions);
   const ContactSurfaces& s = surfaces;

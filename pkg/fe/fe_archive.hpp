@@ -83,6 +83,7 @@ class WorldArchive {
     components(world.model.components);
     materials(world.model.materials);
     surfaces(world.surfaces);
+    loads(world);
     contact(world.contact);
     search(world.search);
     fracture(world.fracture);
@@ -220,6 +221,7 @@ class WorldArchive {
       return reinterpret_cast<std::uint8_t&>(c.element);  // NOLINT: an unsigned char may name it
     });
     std::vector<std::string> names;
+    names.reserve(rows.size());
     for (const C& c : rows) names.push_back(c.name);
     lines("names", names);
     if (names.size() != rows.size()) refuse("names has a wrong length");
@@ -265,6 +267,29 @@ class WorldArchive {
     column<Index>("loop", s.loop), column<Index>("entryComponent", s.component);
   }
 
+  void loads(World& world) {
+    std::uint64_t count = world.pressures.size();
+    value("pressures", count);
+    if (count > world.surfaces.segments()) refuse("its pressures cannot be");
+    world.pressures.resize(count);
+    for (Pressure& one : world.pressures) {
+      column<std::uint32_t>("pressureSegments", one.segments);
+      value("pressureFunction", one.function);
+      table("pressure", one.value);
+    }
+    column<std::uint32_t>("absorbing", world.absorbing.segments);
+  }
+
+  void table(const char* name, TimeTable& table) {
+    std::vector<double> times = table.times(), values = table.values();
+    value(name, times), value(name, values);
+    if constexpr (Archive::is_loading::value) {
+      if (!times.empty() || !values.empty())
+        if (!TimeTable::isRight(times, values)) refuse(std::string(name) + " cannot be");
+      table = TimeTable(std::move(times), std::move(values));
+    }
+  }
+
   void contact(Contact& contact) {
     using Index = std::uint32_t;
     Candidates& candidates = contact.candidates;
@@ -292,6 +317,7 @@ class WorldArchive {
     column<Index>("crackElement", edges.element);
     column<std::uint8_t>("crackCorner", edges.corner);
     column<double>("crackStrength", edges.strength);
+    value("crackStart", fracture.started);
     column<double>("crackEnergy", edges.fractureEnergy),
         column<std::uint8_t>("cracked", edges.cracked);
     column<Index>("elementEdges", edges.ofElement), column<Index>("nodeElement", edges.ofNode);

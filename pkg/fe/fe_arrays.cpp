@@ -100,6 +100,29 @@ void prescribe(FESolver& solver, const py::object& nodes, int held, const py::ob
   });
 }
 
+namespace {
+
+std::uint32_t numberOf(FESolver& solver, const py::object& function) {
+  ScriptFunctions& functions = solver.scriptFunctions();
+  functions.keep(solver.world());
+  return function.is_none() ? 0 : functions.add(function);
+}
+
+}  // namespace
+
+void setPressure(FESolver& solver, const py::object& nodes, const py::object& times,
+                 const py::object& values, const py::object& function) {
+  change(solver, [&] {
+    solver.changeWorld().setPressure(fromBytes<NodeId>(nodes),
+                                     {fromBytes<double>(times), fromBytes<double>(values)},
+                                     numberOf(solver, function));
+  });
+}
+
+void setAbsorbing(FESolver& solver, const py::object& nodes) {
+  change(solver, [&] { solver.changeWorld().setAbsorbing(fromBytes<NodeId>(nodes)); });
+}
+
 void prescribeMotion(FESolver& solver, const py::object& nodes, int held, const py::dict& input) {
   const auto table = [&](const char* name) {
     const py::object pair = input[name];
@@ -110,10 +133,7 @@ void prescribeMotion(FESolver& solver, const py::object& nodes, int held, const 
                    py::extract<double>(input["centre"][1])};
   motion.speedX = table("speedX"), motion.speedY = table("speedY"), motion.turn = table("turn");
   change(solver, [&] {
-    const py::object function = input["function"];
-    ScriptFunctions& functions = solver.scriptFunctions();
-    functions.keep(solver.world());
-    if (!function.is_none()) motion.function = functions.add(function);
+    motion.function = numberOf(solver, input["function"]);
     solver.changeWorld().prescribeMotion(fromBytes<NodeId>(nodes), static_cast<std::uint8_t>(held),
                                          std::move(motion));
   });

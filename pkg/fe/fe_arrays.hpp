@@ -50,6 +50,11 @@ void prescribe(FESolver& solver, const yade::py::object& nodes, int held,
 void prescribeMotion(FESolver& solver, const yade::py::object& nodes, int held,
                      const yade::py::dict& motion);
 
+/// `FESolver._pressure`: times and values of a table as bytes, or a function (s) → Pa.
+void setPressure(FESolver& solver, const yade::py::object& nodes, const yade::py::object& times,
+                 const yade::py::object& values, const yade::py::object& function);
+void setAbsorbing(FESolver& solver, const yade::py::object& nodes);
+
 yade::py::object reactionsOf(const FESolver& solver);
 yade::py::object loadsOf(const FESolver& solver);
 yade::py::object nodesOf(const FESolver& solver);

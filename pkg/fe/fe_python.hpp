@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "fe/fe_arrays.hpp"
+#include "fe/fe_results.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/mesh_python.hpp"
 #include "fracture/checks.hpp"
@@ -39,7 +40,7 @@ inline double penetrationOf(const FESolver& solver) {
 inline double deepestOverlapOf(const FESolver& solver) {
   return deepestOverlap(solver.world().model, solver.world().threads);
 }
-inline std::uint64_t cracksOf(const FESolver& solver) {
+inline std::uint64_t numCracksOf(const FESolver& solver) {
   return solver.world().fracture.numCracks();
 }
 
@@ -75,7 +76,11 @@ void FESolver::pyExtra(PyClass& pyClass) {
       .def("_isGone", &Locked<isGone>::call)
       .def("_setLoads", &setLoads)
       .def("_prescribe", &prescribe)
-      .def("_move", &prescribeMotion);
+      .def("_move", &prescribeMotion)
+      .def("_pressure", &setPressure)
+      .def("_absorb", &setAbsorbing)
+      .def("_pairForce", &Locked<pairForceOf>::call)
+      .def("_cracks", &Locked<cracksOf>::call);
   valuesOf(pyClass);
   countersOf(pyClass);
 }
@@ -94,6 +99,11 @@ void FESolver::valuesOf(PyClass& pyClass) {
                     "Node numbers, counter-clockwise, array (m, 3).")
       .add_property("stress", &Locked<stressArrayOf>::call,
                     "Cauchy stress xx, yy, xy (Pa) of the triangles, array (m, 3).")
+      .add_property(
+          "strain", &Locked<strainArrayOf>::call,
+          "Green and Lagrange's strain xx, yy, xy (half the shear angle) of the triangles, "
+          "array (m, 3): (FᵀF - 1)/2, of each triangle alone where `element` is 'smoothed', "
+          "too.")
       .add_property("components", &Locked<componentsOf>::call,
                     "Number of each triangle's body, array (m).")
       .add_property("materialNumbers", &Locked<materialNumbersOf>::call,
@@ -145,7 +155,7 @@ void FESolver::countersOf(PyClass& pyClass) {
       .add_property("maxPenetration", &Locked<penetrationOf>::call,
                     "Deepest penetration (m) that was left at points in contact in the last step; "
                     "deepestOverlap() looks at everything.")
-      .add_property("numCracks", &Locked<cracksOf>::call, "Cracked edges so far.");
+      .add_property("numCracks", &Locked<numCracksOf>::call, "Cracked edges so far.");
 }
 
 }  // namespace yadefrag

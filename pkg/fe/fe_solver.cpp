@@ -43,7 +43,7 @@ void FESolver::action() {
   bodies_.collectForces(*scene, world_, world_.outerForces);
   const bool mayBeBorn = world_.fracture.numCracks() > 0 && !world_.outerForces.empty();
   const double born = mayBeBorn ? energyBornInside(*scene, bodies_) : 0;
-  functions_.giveVelocities(world_, scene->dt);
+  functions_.giveValues(world_, scene->dt);
   try {
     world_.step(scene->dt);
   } catch (const TimeStepError& error) {

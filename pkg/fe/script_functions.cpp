@@ -38,6 +38,7 @@ void callOne(const py::object& function, const World& world, std::uint32_t motio
   for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
     if (world.model.nodes.motion[n] == motion + 1) nodes.push_back(static_cast<std::uint32_t>(n));
   std::vector<Vec2> places;
+  places.reserve(nodes.size());
   for (const std::uint32_t n : nodes) places.push_back(world.model.nodes.position[n]);
   const auto given = fromBytes<Vec2>(function(toArray(places, "float64", 2), middle));
   if (given.size() != nodes.size())
@@ -66,28 +67,49 @@ std::uint32_t ScriptFunctions::add(const py::object& function) {
 
 void ScriptFunctions::keep(const World& world) {
   std::erase_if(functions_, [&](const auto& one) {
-    return std::ranges::none_of(world.model.motions,
-                                [&](const Motion& motion) { return motion.function == one.first; });
+    const auto isOf = [&](const auto& user) { return user.function == one.first; };
+    return std::ranges::none_of(world.model.motions, isOf) &&
+           std::ranges::none_of(world.pressures, isOf);
   });
+}
+
+void ScriptFunctions::giveValues(World& world, double dt) const {
+  world.givenVelocities.clear();
+  world.givenPressures.clear();
+  const auto isScripted = [](const auto& user) { return user.function != 0; };
+  if (std::ranges::none_of(world.model.motions, isScripted) &&
+      std::ranges::none_of(world.pressures, isScripted))
+    return;
+  const WithGil gil;
+  try {
+    giveVelocities(world, dt);
+    givePressures(world);
+  } catch (const py::error_already_set&) {
+    throw std::runtime_error("A function of the script, for a motion or a pressure, raised " +
+                             takeRaised());
+  }
 }
 
 void ScriptFunctions::giveVelocities(World& world, double dt) const {
   const std::vector<Motion>& motions = world.model.motions;
-  world.givenVelocities.clear();
-  if (std::ranges::none_of(motions, [](const Motion& m) { return m.function != 0; })) return;
-  const WithGil gil;
+  if (motions.empty()) return;
   std::vector<Vec2> velocities(world.model.nodes.size());
   for (std::uint32_t m = 0; m < motions.size(); ++m) {
     if (motions[m].function == 0) continue;
     const auto known = functions_.find(motions[m].function);
     if (known == functions_.end()) return;
-    try {
-      callOne(known->second, world, m, world.time + dt / 2, velocities);
-    } catch (const py::error_already_set&) {
-      throw std::runtime_error("A function of FESolver.prescribe raised " + takeRaised());
-    }
+    callOne(known->second, world, m, world.time + dt / 2, velocities);
   }
   world.givenVelocities = std::move(velocities);
+}
+
+void ScriptFunctions::givePressures(World& world) const {
+  for (const Pressure& pressure : world.pressures) {
+    const auto known = functions_.find(pressure.function);
+    if (known == functions_.end()) continue;
+    world.givenPressures.push_back(
+        {pressure.function, py::extract<double>(known->second(world.time))});
+  }
 }
 
 }  // namespace yadefrag

@@ -21,13 +21,16 @@ class ScriptFunctions {
   /// Forgets those that nothing in the world names.
   void keep(const World& world);
 
-  /// Calls the functions of motions for the step of `dt` (s) that comes: (numbers of nodes, the
-  /// middle of the step in s) → bytes of a velocity (m/s) for each. Leaves `givenVelocities` empty
-  /// where there are none, or one is missing. Throws std::runtime_error with what a function
-  /// raised.
-  void giveVelocities(World& world, double dt) const;
+  /// Calls the functions of motions and pressures for the step of `dt` (s) that comes: (places of
+  /// the nodes, the middle of the step in s) → bytes of a velocity (m/s) for each; time (s) → Pa.
+  /// Gives nothing where there are none, or one is missing. Throws std::runtime_error with what a
+  /// function raised.
+  void giveValues(World& world, double dt) const;
 
  private:
+  void giveVelocities(World& world, double dt) const;
+  void givePressures(World& world) const;
+
   std::map<std::uint32_t, yade::py::object> functions_;
 };
 

@@ -26,6 +26,7 @@ from yadefrag.geometry import (circle, grainJoints, readPolygon, rectangle, ring
                                 voronoi)
 from yadefrag.pictures import animate, plotMesh  # noqa: E402
 from yadefrag.progress import runSteps  # noqa: E402
+from yadefrag.results import crackTable  # noqa: E402
 from yadefrag.solver import rectangleMesh  # noqa: E402
 from yadefrag.tradeoff import tradeoff  # noqa: E402
 from yadefrag.tradeoff_table import TradeoffTable  # noqa: E402
@@ -50,4 +51,4 @@ for _name in __all__:
 
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'voronoi', 'grainJoints',
             'rectangleMesh', 'plotMesh', 'animate', 'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
-            'plotFracture', 'tradeoff', 'TradeoffTable']
+            'plotFracture', 'crackTable', 'tradeoff', 'TradeoffTable']

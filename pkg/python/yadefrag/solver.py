@@ -15,12 +15,14 @@ from yadefrag import _yadefrag
 from yadefrag import guards
 from yadefrag._yadefrag import requirePaused
 from yadefrag.bonds import bond
+from yadefrag.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.materials import Materials, interfaces, isField, oneMaterial
 from yadefrag.meshing import isIrregular, jointLines, meshOfPolygon, simplified
 from yadefrag.motions import keepTurning, prescribe, rotate
 from yadefrag.names import componentOf, newName, nodesOf
 from yadefrag.places import brittlePlaces
 from yadefrag.quality import meshQuality
+from yadefrag.results import contactForce, principalStress, reaction
 from yadefrag.shown import betweenSteps, shownTriangles
 from yadefrag.values import (array, flag, number, pair, plain, pointsOf, positive, refuse, shown,
                              whole)
@@ -307,25 +309,6 @@ def _boundaryLoops(count, triangles):
     return loops
 
 
-def _getLoads(self):
-    """Constant outer forces on the nodes (N), array (n, 2); to be set as a whole, or None for none.
-
-    A copy: `loads = fe.loads; loads[top] = (0, -1); fe.loads = loads`. ValueError unless there is
-    one finite pair for each node.
-    """
-    return self._loads
-
-
-def _setLoads(self, loads):
-    requirePaused()
-    forces = numpy.zeros((0, 2)) if loads is None else array(loads, float)
-    if forces is None:
-        refuse('loads', loads, 'an array (n, 2) of N, or None')
-    if forces.ndim != 2 or forces.shape[1] != 2:
-        raise ValueError('loads has the shape %s, it must be (n, 2).' % shown(forces.shape))
-    self._setLoads(numpy.ascontiguousarray(forces).tobytes())
-
-
 def _guardFragments(fragments):
     @functools.wraps(fragments)
     def guarded(self, held=False):
@@ -373,8 +356,14 @@ def install():
     wrapper.FESolver.rotate = rotate
     wrapper.FESolver.nodesOf = nodesOf
     wrapper.FESolver.componentOf = componentOf
+    wrapper.FESolver.pressure = pressure
+    wrapper.FESolver.absorb = absorb
+    wrapper.FESolver.relax = relax
+    wrapper.FESolver.reaction = reaction
+    wrapper.FESolver.contactForce = contactForce
+    wrapper.FESolver.principalStress = property(principalStress, doc=principalStress.__doc__)
     wrapper.FESolver.meshQuality = meshQuality
     wrapper.FESolver.minAngle = property(_minAngle, doc=_minAngle.__doc__)
-    wrapper.FESolver.loads = property(_getLoads, _setLoads, doc=_getLoads.__doc__)
+    wrapper.FESolver.loads = property(getLoads, setLoads, doc=getLoads.__doc__)
     wrapper.FESolver.fragments = _guardFragments(wrapper.FESolver.fragments)
     guards.install()
