@@ -146,7 +146,8 @@ def test_aFolderThatGoesIsASentence(folder, capfd):
 
 @pytest.mark.parametrize('settings, error', [
     (dict(file='/nowhere/run'), OSError), (dict(file=3), ValueError), (dict(file=''), ValueError),
-    (dict(fields=['heat']), ValueError), (dict(fields=3), ValueError), (dict(iterPeriod='often'), TypeError)])
+    (dict(fields=['heat']), ValueError), (dict(fields=3), ValueError), (dict(iterPeriod='often'), ValueError),
+    (dict(iterPeriod=10**400), ValueError), (dict(virtPeriod=10**400), ValueError)])
 def test_wrongRecordersAreRefused(settings, error, folder):
     with pytest.raises(error):
         yadefrag.FERecorder(**{'file': folder + '/run', 'iterPeriod': 5, **settings})
@@ -179,7 +180,8 @@ def test_enginesTakeTheSolversGravity():
 
 
 @pytest.mark.parametrize('settings', [dict(fe=3), dict(gravity='down'), dict(gravity=(0, 0, -9.81)),
-                                      dict(gravity=(1,)), dict(spheres='many')])
+                                      dict(gravity=(1,)), dict(spheres='many'), dict(damping=10**400),
+                                      dict(collider=3)])
 def test_wrongEnginesAreRefused(settings):
     solver = fe(gravity=(0, -1))
     with pytest.raises(ValueError):

@@ -1,7 +1,9 @@
 """A set of engines that is ready to run."""
 
+import math
+
 from yade import wrapper
-from yadefrag.values import flag, numbersOf, refuse
+from yadefrag.values import flag, number, numbersOf, refuse
 
 
 def engines(fe, gravity=None, spheres=False, damping=0., collider=None):
@@ -24,6 +26,7 @@ def engines(fe, gravity=None, spheres=False, damping=0., collider=None):
     finder = wrapper.LebesgueCollider if collider is None else collider
     if not isinstance(finder, type) or not issubclass(finder, wrapper.Collider):
         refuse('collider', collider, 'a class of colliders, or None')
+    damping = number('damping', damping, lambda v: math.isfinite(v) and v >= 0, '0 or positive')
     integrator = wrapper.NewtonIntegrator(damping=damping)
     if gravity is not None:
         fe.gravity = _inPlane(gravity)

@@ -7,8 +7,9 @@ import sys
 from yade import wrapper
 from yadefrag.export import exportVTK, fieldNames
 from yadefrag.files import appendText, requireWritable, writeText
+from yadefrag.progress import MOST_STEPS
 from yadefrag.shown import betweenSteps
-from yadefrag.values import path, shownPath
+from yadefrag.values import path, shown, shownPath, whole
 
 _ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped', 'outside',
              'total')
@@ -36,9 +37,13 @@ def FERecorder(iterPeriod=0, file='run', fields=None, **settings):
     """
     name = path('file', file)
     chosen = fieldNames(fields)
+    every = whole('iterPeriod', iterPeriod, 0, 'a whole number of steps', MOST_STEPS)
     requireWritable(name + '.csv')
     command = '__import__("yadefrag.recorder").recorder.record(%r, %r)' % (os.path.abspath(name), chosen)
-    return wrapper.PyRunner(command=command, **{'initRun': True, 'iterPeriod': iterPeriod, **settings})
+    try:
+        return wrapper.PyRunner(command=command, **{'initRun': True, 'iterPeriod': every, **settings})
+    except OverflowError:
+        raise ValueError('A setting of FERecorder is too large: %s.' % shown(settings)) from None
 
 
 def record(name, fields):
