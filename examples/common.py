@@ -6,7 +6,7 @@ import os
 import sys
 
 import numpy as np
-import yadefrag  # noqa: F401  (adds its classes to yade.wrapper)
+import yadefrag
 from yade import O, wrapper as w
 
 COLLIDERS = dict(Lebesgue='LebesgueCollider', LinearCode='LinearCodeCollider',
@@ -85,15 +85,7 @@ def notNegative(text):
 def setEngines(fe, collider):
     """The usual loop around the solver `fe`, and a time step of 0.8 of the critical one."""
     finder = getattr(w, COLLIDERS[collider])
-    O.engines = [
-        w.ForceResetter(),
-        finder([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()], label='collider'),
-        w.InteractionLoop([w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom()],
-                          [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-                          [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
-        fe,
-        w.NewtonIntegrator(),
-    ]
+    O.engines = yadefrag.engines(fe, spheres=True, collider=finder)
     O.dt = .8 * fe.criticalTimeStep()
     O.timingEnabled = True
 

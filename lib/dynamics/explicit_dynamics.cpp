@@ -14,11 +14,6 @@
 namespace yadefrag {
 namespace {
 
-bool anyHeld(const Nodes& nodes) {
-  return std::any_of(nodes.held.begin(), nodes.held.end(),
-                     [](std::uint8_t held) { return held != kFree; });
-}
-
 /// (m) Of all triangles, stress-free: 1/|∇Nᵢ| is the height on corner i.
 double leastHeight(const Triangles& triangles) {
   double steepest = 0;  // 1/m²
@@ -56,7 +51,10 @@ void ExplicitDynamics::rebuild(const Model& model) {
   previousVelocity_ = model.nodes.velocity;
   leastHeight_ = leastHeight(model.triangles);
   heldVelocity_.clear();
-  if (anyHeld(model.nodes)) heldVelocity_ = model.nodes.velocity;
+  heldNodes_.clear();
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    if (model.nodes.held[n] != kFree) heldNodes_.emplace_back(n);
+  if (!heldNodes_.empty()) heldVelocity_ = model.nodes.velocity;
   scratch_.clear();
 }
 
@@ -85,6 +83,8 @@ std::size_t ExplicitDynamics::follow(const Model& model, std::span<const Element
   for (const NodeId original : originals) {
     previousPosition_.push_back(Vec2(previousPosition_[original.value]));
     previousVelocity_.push_back(Vec2(previousVelocity_[original.value]));
+    if (model.nodes.held[original.value] != kFree)
+      heldNodes_.emplace_back(previousPosition_.size() - 1);
     if (!heldVelocity_.empty()) heldVelocity_.push_back(Vec2(heldVelocity_[original.value]));
   }
   return chunks;
@@ -279,6 +279,19 @@ struct ExplicitDynamics::Works {
   const StepSettings& settings;
   std::span<const Vec2> outer, contact;
 
+  /// (N) Of what acts from outside on a node, held or not, over Δv.
+  [[nodiscard]] double outerForce(std::size_t n, double Vec2::*axis) const {
+    double force = nodes.mass[n] * settings.gravity.*axis;
+    if (!nodes.load.empty()) force += nodes.load[n].*axis;
+    if (!outer.empty()) force += length.position / length.velocity * outer[n].*axis;
+    return force;
+  }
+
+  /// (N) Of elements and of other surfaces.
+  [[nodiscard]] double innerForce(std::size_t n, double Vec2::*axis) const {
+    return dynamics.force_[n].*axis + (contact.empty() ? 0 : contact[n].*axis);
+  }
+
   void addNode(std::size_t n, double Vec2::*axis, bool held, EnergyLedger& ledger) const {
     const double mass = nodes.mass[n];
     const double before = dynamics.previousVelocity_[n].*axis;
@@ -287,14 +300,10 @@ struct ExplicitDynamics::Works {
     if (!dynamics.viscousForce_.empty()) ledger.damping -= dynamics.viscousForce_[n].*axis * way;
     if (held) {
       // The reaction is whatever the node needs to move as it does.
-      const double pushed = dynamics.force_[n].*axis + (contact.empty() ? 0 : contact[n].*axis);
-      ledger.external += mass * (after + before) * (after - before) / 2 - pushed * way;
+      ledger.external += mass * (after + before) * (after - before) / 2 - innerForce(n, axis) * way;
       return;
     }
-    double force = mass * settings.gravity.*axis;
-    if (!nodes.load.empty()) force += nodes.load[n].*axis;
-    if (!outer.empty()) force += length.position / length.velocity * outer[n].*axis;
-    ledger.external += force * way;
+    ledger.external += outerForce(n, axis) * way;
     ledger.damping += settings.damping * mass * way * way / length.velocity;
   }
 };
@@ -328,13 +337,34 @@ void ExplicitDynamics::finish(const Model& model, const StepLength& length,
   }
 }
 
+void ExplicitDynamics::measureReactions(const Model& model, const StepLength& length,
+                                        const StepSettings& settings,
+                                        std::span<const Vec2> outerForces,
+                                        std::span<const Vec2> contactForces,
+                                        std::vector<Vec2>& reactions) const {
+  const Nodes& nodes = model.nodes;
+  const Works works{*this, nodes, length, settings, outerForces, contactForces};
+  reactions.resize(nodes.size());
+  for (const NodeId node : heldNodes_) {
+    const std::uint32_t n = node.value;
+    reactions[n] = {};
+    if (nodes.mass[n] == 0) continue;  // of a dropped triangle
+    for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}}) {
+      if ((nodes.held[n] & flag) == 0) continue;
+      const double gained = nodes.velocity[n].*axis - previousVelocity_[n].*axis;
+      reactions[n].*axis = nodes.mass[n] * gained / length.velocity - works.innerForce(n, axis) -
+                           works.outerForce(n, axis);
+    }
+  }
+}
+
 void ExplicitDynamics::addTo(Footprint& footprint) const {
   elements_.addTo(footprint);
   smoothing_.addTo(footprint);
   footprint.add(Use::kDynamics, force_, partialForce_, previousPosition_, previousVelocity_,
                 scratch_);
   footprint.add(Use::kViscosity, viscousForce_, partialViscous_);
-  footprint.add(Use::kHeld, heldVelocity_);
+  footprint.add(Use::kHeld, heldVelocity_, heldNodes_);
   footprint.add(Use::kFracture, leastStrength_, stressed_);
   for (const Scratch& scratch : scratch_) {
     footprint.add(Use::kDynamics, scratch.values, scratch.flat);

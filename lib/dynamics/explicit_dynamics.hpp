@@ -82,6 +82,15 @@ class ExplicitDynamics {
               std::span<const Vec2> outerForces, std::span<const Vec2> contactForces,
               EnergyLedger& ledger, int threads = 1) const;
 
+  /// Was no node held in the last step, nor since the last `rebuild`?
+  [[nodiscard]] bool holdsNone() const { return heldNodes_.empty(); }
+  /// (N) By node, 0 in directions that are not held: what is needed, over all forces that act on
+  /// the node, to move it as it is prescribed. Arguments as those of `finish`, after it. Values of
+  /// nodes that are not held are left as they are, or 0 if they are new.
+  void measureReactions(const Model& model, const StepLength& length, const StepSettings& settings,
+                        std::span<const Vec2> outerForces, std::span<const Vec2> contactForces,
+                        std::vector<Vec2>& reactions) const;
+
   /// (m) xⁿ and (m/s) vⁿ⁻½ by node, between `predict` and the next change of the model:
   /// v̄ = ½(previous + present) is what contact books with.
   [[nodiscard]] std::span<const Vec2> previousPosition() const { return previousPosition_; }
@@ -124,6 +133,7 @@ class ExplicitDynamics {
   // Each step writes into these, and then exchanges them for the model's: the state before it stays
   // at hand without a copy.
   std::vector<Vec2> previousPosition_, previousVelocity_;
+  std::vector<NodeId> heldNodes_;
   std::vector<Vec2> heldVelocity_;     // of held nodes in the last step; empty if none was held
   std::vector<Scratch> scratch_;       // one per thread
   std::vector<double> leastStrength_;  // Pa, by component

@@ -32,6 +32,10 @@ void Fracture::removeBody(const Model& model, ElementId first, ElementId last,
   if (edges.ofNode.empty()) return;
   const std::vector<EdgeId> renumbered = edges.removeBody(model, first, last, renumberedNodes);
   cohesion.renumberEdges(renumbered);
+  started.resize(std::min(started.size(), renumbered.size()));
+  for (std::size_t i = 0; i < started.size(); ++i)
+    if (renumbered[i] != EdgeId::none()) started[renumbered[i].value] = started[i];
+  started.resize(std::min(started.size(), edges.size()));
 }
 
 void Fracture::prepare(Model& model) {
@@ -51,6 +55,12 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
   numCracks_ += cracks_.size();
   splitNodes(model, edges, surfaces, cracks_, result);
   return !result.sides.empty();
+}
+
+void Fracture::noteStart(double time) {
+  if (cracks_.empty()) return;
+  started.resize(edges.size(), -1);
+  for (const EdgeId edge : cracks_) started[edge.value] = time;
 }
 
 double Fracture::splitEnergy(const Model& model, std::span<const NodeId> originals,
@@ -87,7 +97,7 @@ double Fracture::splitEnergy(const Model& model, std::span<const NodeId> origina
 
 void Fracture::addTo(Footprint& footprint) const {
   footprint.add(Use::kFracture, edges.element, edges.corner, edges.strength, edges.fractureEnergy,
-                edges.cracked, edges.ofElement, edges.ofNode, leastStrength, cracks_);
+                edges.cracked, edges.ofElement, edges.ofNode, started, leastStrength, cracks_);
   cohesion.addTo(footprint);
   check_.addTo(footprint);
 }

@@ -37,6 +37,8 @@ class Fracture {
   /// `result` has anything in it that others must follow.
   bool crack(Model& model, const ContactSurfaces& surfaces, std::span<const ElementRange> where,
              SplitResult& result);
+  /// Notes that the cracks of the last call began at `time` (s).
+  void noteStart(double time);
   /// (J) What bodies with smoothed strains gain when nodes split, at the half step: the parts of a
   /// node no longer share a mean strain. `originals` as in SplitResult.
   [[nodiscard]] double splitEnergy(const Model& model, std::span<const NodeId> originals,
@@ -56,6 +58,9 @@ class Fracture {
   double minFragmentArea = 0;
 
   CrackEdges edges;
+  /// (s) By edge, when its crack began; -1: it did not, or was there from the start. Later edges
+  /// than the last one noted have no value.
+  std::vector<double> started;
   std::vector<double> leastStrength;  ///< Pa, by component; follows from the edges
   Cohesion cohesion;
 

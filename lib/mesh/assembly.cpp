@@ -100,6 +100,7 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
   nodes.held.resize(count, kFree);
   nodes.component.resize(count, id);
   if (!nodes.load.empty()) nodes.load.resize(count);
+  if (!nodes.motion.empty()) nodes.motion.resize(count), nodes.arm.resize(count);
 
   Component added = component;
   added.firstTriangle = static_cast<std::uint32_t>(triangles.size());
@@ -119,6 +120,7 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
 std::vector<NodeId> removeBody(Model& model, ComponentId component) {
   removeTriangles(model, model.components[component.value]);
   removeMaterials(model, model.components[component.value]);
+  model.components[component.value].name.clear();
   Nodes& nodes = model.nodes;
   const auto stays = [&](std::size_t n) { return nodes.component[n] != component; };
   std::vector<NodeId> renumbered(nodes.size(), NodeId::none());
@@ -132,6 +134,7 @@ std::vector<NodeId> removeBody(Model& model, ComponentId component) {
   compact(nodes.mass, stays);
   compact(nodes.held, stays);
   if (!nodes.load.empty()) compact(nodes.load, stays);
+  if (!nodes.motion.empty()) compact(nodes.motion, stays), compact(nodes.arm, stays);
   // Last: the others ask it who stays.
   compact(nodes.component, [&](std::size_t n) { return renumbered[n] != NodeId::none(); });
   return renumbered;

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/ids.hpp"
 #include "core/vec2.hpp"
 #include "mesh/body_material.hpp"
+#include "mesh/motion.hpp"
 
 namespace yadefrag {
 
@@ -22,12 +24,17 @@ struct Nodes {
   std::vector<std::uint8_t> held;  ///< Held
   std::vector<ComponentId> component;
   std::vector<Vec2> load;  ///< N, constant outer force; empty if there is none in the scene
+  /// 1 + the number in Model::motions of what moves a held node; 0: its velocity is constant. Empty
+  /// if there are no motions in the scene.
+  std::vector<std::uint32_t> motion;
+  std::vector<Vec2> arm;  ///< m, from the motion's centre when it began; as long as `motion`
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
   void reserve(std::size_t count) {
     position.reserve(count), velocity.reserve(count), mass.reserve(count);
     held.reserve(count), component.reserve(count);
     if (!load.empty()) load.reserve(count);
+    if (!motion.empty()) motion.reserve(count), arm.reserve(count);
   }
   /// A further node where `node` is, that moves as it does; its mass is still to be set.
   NodeId duplicate(NodeId node) {
@@ -38,6 +45,10 @@ struct Nodes {
     held.push_back(std::uint8_t{held[i]});
     component.push_back(ComponentId(component[i]));
     if (!load.empty()) load.push_back(Vec2(load[i]));
+    if (!motion.empty()) {
+      motion.push_back(std::uint32_t{motion[i]});
+      arm.push_back(Vec2(arm[i]));
+    }
     return NodeId(size() - 1);
   }
 };
@@ -73,6 +84,7 @@ struct Component : BodyMaterial {
   std::uint32_t lastTriangle = 0;   ///< one past; triangles of a component are consecutive
   std::uint32_t firstMaterial = 0;  ///< in Model::materials, if it has several
   std::uint32_t lastMaterial = 0;   ///< one past
+  std::string name = {};            ///< that a script gave it, or empty
 
   [[nodiscard]] bool isMixed() const { return firstMaterial != lastMaterial; }
 };
@@ -82,6 +94,7 @@ struct Model {
   Triangles triangles;
   std::vector<Component> components;
   std::vector<BodyMaterial> materials;  ///< of bodies that have several, body by body
+  std::vector<Motion> motions;          ///< of held nodes
 
   [[nodiscard]] const Component& bodyOf(ElementId element) const {
     return components[triangles.component[element.value].value];

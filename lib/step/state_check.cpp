@@ -56,6 +56,13 @@ bool componentsAreRight(const Model& model) {
          std::ranges::all_of(model.materials, materialIsRight);
 }
 
+bool motionsAreRight(const Model& model) {
+  const Nodes& n = model.nodes;
+  return (n.motion.empty() || n.motion.size() == n.size()) && n.arm.size() == n.motion.size() &&
+         allFinite(n.arm) &&
+         std::ranges::all_of(n.motion, [&](std::uint32_t m) { return m <= model.motions.size(); });
+}
+
 bool nodesAreRight(const World& world) {
   const Nodes& n = world.model.nodes;
   const std::size_t count = n.size();
@@ -65,7 +72,7 @@ bool nodesAreRight(const World& world) {
          allFinite(n.load) && allFinite(world.reference) &&
          std::ranges::all_of(n.mass, [](double m) { return m >= 0 && std::isfinite(m); }) &&
          std::ranges::all_of(n.held, [](std::uint8_t h) { return h <= kHeldXY; }) &&
-         allBelow(n.component, world.model.components.size());
+         allBelow(n.component, world.model.components.size()) && motionsAreRight(world.model);
 }
 
 /// Nodes of triangles that count have a mass.
@@ -117,6 +124,13 @@ bool entriesAreRight(const World& world) {
          std::ranges::all_of(s.loop, [&](std::uint32_t l) { return l <= count; });
 }
 
+bool loadsAreRight(const World& world) {
+  const std::size_t count = world.surfaces.segments();
+  return allBelow(world.absorbing.segments, count) &&
+         std::ranges::all_of(world.pressures,
+                             [&](const Pressure& p) { return allBelow(p.segments, count); });
+}
+
 bool contactIsRight(const World& world) {
   const Candidates& c = world.contact.candidates;
   const std::size_t entries = world.surfaces.entries();
@@ -163,9 +177,10 @@ bool edgesAreRight(const World& world) {
 
 bool fractureIsRight(const World& world) {
   const Cohesion& c = world.fracture.cohesion;
-  return edgesAreRight(world) && c.largest.size() == c.edge.size() &&
-         c.traction.size() == c.edge.size() && c.area.size() == c.edge.size() &&
-         allBelow(c.edge, world.fracture.edges.size());
+  return edgesAreRight(world) && world.fracture.started.size() <= world.fracture.edges.size() &&
+         std::ranges::none_of(world.fracture.started, [](double t) { return std::isnan(t); }) &&
+         c.largest.size() == c.edge.size() && c.traction.size() == c.edge.size() &&
+         c.area.size() == c.edge.size() && allBelow(c.edge, world.fracture.edges.size());
 }
 
 }  // namespace
@@ -175,6 +190,7 @@ std::string whatIsWrong(const World& world) {
   if (!nodesAreRight(world)) return "its nodes";
   if (!trianglesAreRight(world.model)) return "its triangles";
   if (!segmentsAreRight(world) || !entriesAreRight(world)) return "its boundaries";
+  if (!loadsAreRight(world)) return "its loads";
   if (!contactIsRight(world)) return "its contacts";
   if (!searchIsRight(world)) return "its search";
   if (!fractureIsRight(world)) return "its cracks";

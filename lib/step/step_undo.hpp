@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "contact/candidates.hpp"
 #include "dynamics/element_kernel.hpp"
@@ -36,8 +37,9 @@ struct StepUndo {
   MotionBounds motion;
   double stableStep = 0;  ///< s
   BulkViscosity stableViscosity;
-  double speedLimit = 0;  ///< m/s
-  double spare = 0;       ///< m, of bodies that are apart
+  double speedLimit = 0;     ///< m/s
+  double spare = 0;          ///< m, of bodies that are apart
+  std::vector<Vec2> driven;  ///< m/s, of nodes that have a motion; empty until the step sets them
 
   // --- of a step that searches
   SearchState search;

@@ -38,10 +38,13 @@ void World::advance(double dt) {
   const StepLength length(dt, lastDt);
   // The leapfrog's energy is that of a step: before the first one there is none.
   if (steps == 0) watch.begin(kineticEnergy() + yadefrag::strainEnergy(model, dt), ledger);
+  drive(dt);
+  sumOuterForces();
   foreseeMotion(dt);
 
   // Internal forces, then v* and x*, as if there were no contact.
   predict(length);
+  absorb(length);
 
   // What still holds cracks together.
   cohere(length);
@@ -67,10 +70,13 @@ void World::advance(double dt) {
 
 /// What follows from the new state, which stands.
 void World::conclude(double dt) {
+  measureReactions(StepLength(dt, lastDt));
   ++steps;
   time += dt;
   lastDt = dt;
   outerForces.clear();
+  givenVelocities.clear();
+  givenPressures.clear();
   watchEnergy();
 
   // Cracks at xⁿ⁺¹: nodes split, surfaces are linked anew, and the new faces are candidates. What
@@ -83,7 +89,7 @@ void World::conclude(double dt) {
 
 void World::predict(const StepLength& length) {
   const StageTimer timer(timesIfAsked(), &StageTimes::forces);
-  dynamics_.predict(model, length, dynamicsSettings, outerForces, threads);
+  dynamics_.predict(model, length, dynamicsSettings, allOuterForces(), threads);
   undo_.hasMoved = true;
 }
 
@@ -95,14 +101,22 @@ void World::requireUpright(double dt) {
 void World::finish(const StepLength& length) {
   const StageTimer timer(timesIfAsked(), &StageTimes::forces);
   // Held nodes push back against contact and against cracks that still hold.
-  std::span<const Vec2> forces = contact.forces().known;
+  pushes_ = contact.forces().known;
   if (!fracture.cohesion.edge.empty()) {
-    surfaceForces_.assign(forces.begin(), forces.end());
+    surfaceForces_.assign(pushes_.begin(), pushes_.end());
     surfaceForces_.resize(model.nodes.size());
     fracture.cohesion.addForces(surfaceForces_);
-    forces = surfaceForces_;
+    pushes_ = surfaceForces_;
   }
-  dynamics_.finish(model, length, dynamicsSettings, outerForces, forces, ledger, threads);
+  dynamics_.finish(model, length, dynamicsSettings, allOuterForces(), pushes_, ledger, threads);
+  if (!absorbing.segments.empty())
+    absorbing.book(ledger, model, dynamics_.previousVelocity(), length);
+}
+
+void World::measureReactions(const StepLength& length) {
+  if (dynamics_.holdsNone()) return reactions.clear();
+  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
+  dynamics_.measureReactions(model, length, dynamicsSettings, allOuterForces(), pushes_, reactions);
 }
 
 }  // namespace yadefrag

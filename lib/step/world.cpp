@@ -22,6 +22,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   Component component;
   static_cast<BodyMaterial&>(component) = wholeOf(spec);
   component.brittleByPlace = !spec.places.empty() || !spec.materials.empty();
+  component.name = spec.name;
   component.thickness = spec.thickness;
   // What comes off a body touches what is left of it.
   component.selfContact = spec.selfContact || component.brittle.cracks();
@@ -72,8 +73,11 @@ void World::removeBody(ComponentId component) {
   for (std::size_t i = 0; i < renumbered.size(); ++i)
     if (renumbered[i] != NodeId::none()) reference[renumbered[i].value] = reference[i];
   reference.resize(model.nodes.size());
+  takeLoadsOff(component);
+  reactions.clear();
   surfaces.removeComponent(component);
   surfaces.renumberNodes(renumbered, model.nodes.size());
+  forgetUnusedMotions();
   contact.reset();
   watch.begin(kineticEnergy() + strainEnergy(), ledger);
   stableStep = 0;
@@ -91,30 +95,6 @@ void World::setLoads(std::vector<Vec2> loads) {
   model.nodes.load = std::move(loads);
 }
 
-void World::prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 velocity) {
-  for (const NodeId node : nodes)
-    if (node.value >= model.nodes.size())
-      throw InputError("There is no node " + std::to_string(node.value) + ": there are " +
-                       std::to_string(model.nodes.size()) + " nodes.");
-  if (!(std::max(std::abs(velocity.x), std::abs(velocity.y)) <= tolerance::kAnySpeed))
-    throw InputError("The prescribed velocity must be finite and at most 1e100 m/s.");
-  const auto isNew = [&](NodeId node) { return model.nodes.held[node.value] != held; };
-  const bool changed = std::any_of(nodes.begin(), nodes.end(), isNew);
-  for (const NodeId node : nodes) {
-    if (model.nodes.mass[node.value] == 0) continue;  // of a dropped triangle
-    Vec2& present = model.nodes.velocity[node.value];
-    const Vec2 former = present;
-    model.nodes.held[node.value] = held;
-    if ((held & kHeldX) != 0) present.x = velocity.x;
-    if ((held & kHeldY) != 0) present.y = velocity.y;
-    // The dynamics book a jump of nodes that were held before; after a rebuild they know of none.
-    if (changed)
-      ledger.external +=
-          model.nodes.mass[node.value] / 2 * (dot(present, present) - dot(former, former));
-  }
-  if (changed) isBuilt_ = false;
-}
-
 void World::rebuild() {
   broken_.clear();
   contact.resize(model.nodes.size());
@@ -125,6 +105,7 @@ void World::buildIfChanged() {
   if (isBuilt_) return;
   places_.forget();
   dynamics_.rebuild(model);
+  reactions.clear();
   const auto& owners = surfaces.component;
   severalBodies_ =
       std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();

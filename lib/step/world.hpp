@@ -13,6 +13,7 @@
 #include "core/stage_times.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "dynamics/explicit_dynamics.hpp"
+#include "dynamics/surface_loads.hpp"
 #include "fracture/fracture.hpp"
 #include "fracture/loose_pieces.hpp"
 #include "mesh/model.hpp"
@@ -38,6 +39,7 @@ struct BodySpec : BodyMaterial {
   std::vector<Vec2> displacement;         ///< m, from the stress-free shape
   std::vector<std::uint8_t> held;         ///< Held
   std::vector<std::uint8_t> smoothNodes;  ///< is a boundary node on a C¹-smooth part
+  std::string name = {};  ///< one that no other body has, without line breaks; may be empty
 };
 
 /// Its material, or the bound of several.
@@ -65,9 +67,20 @@ class World {
 
   /// (N) Constant outer forces by node; empty: none. InputError unless one per node, all finite.
   void setLoads(std::vector<Vec2> loads);
+  /// From now on a pressure (Pa, over the simulated time) acts on the sides of the boundary that
+  /// have both ends among the nodes, in place of an earlier one; 0: none. It follows them as they
+  /// turn, and as nodes split; faces of cracks have none. InputError before anything is changed.
+  void setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function = 0);
+  /// From now on waves leave by these sides.
+  void setAbsorbing(std::span<const NodeId> nodes);
   /// From now on the nodes move at `velocity` (m/s) in the directions `held`, and freely in the
-  /// others.
+  /// others. InputError before anything is changed.
   void prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 velocity);
+  /// The same with a velocity for each of the nodes.
+  void prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
+                     std::span<const Vec2> velocity);
+  /// The same as a motion, which begins now, has it; one that turns holds both directions.
+  void prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Motion motion);
 
   /// One step of Δt (s), which may differ from the last one's. Throws TimeStepError for a step
   /// above the critical one, InputError where it does not resolve a crack's opening, RunError where
@@ -107,10 +120,20 @@ class World {
   bool timing = false;  ///< fill `times`
   /// (N) By node, for the next step only; empty: none.
   std::vector<Vec2> outerForces;
+  /// (m/s) By node, for the next step only: of nodes whose motion has a function.
+  std::vector<Vec2> givenVelocities;
+  /// Of pressures that have a function, for the next step only.
+  struct GivenPressure {
+    std::uint32_t function;
+    double value;  ///< Pa
+  };
+  std::vector<GivenPressure> givenPressures;
 
   // --- state
   Model model;
   ContactSurfaces surfaces;
+  std::vector<Pressure> pressures;
+  AbsorbingBoundary absorbing;
   Contact contact;
   SearchState search;
   Fracture fracture;
@@ -119,6 +142,9 @@ class World {
   std::vector<std::string> complaints;  ///< of the watch, all so far
   Dropped dropped;
   std::vector<Vec2> reference;  ///< m, stress-free positions by node
+  /// (N) Of the last step, by node, in held directions: what the node needs to move as it does,
+  /// over its weight, loads and all forces of bodies. Not saved; empty before the first step.
+  std::vector<Vec2> reactions;
   std::uint64_t steps = 0;
   double time = 0;    ///< s
   double lastDt = 0;  ///< s
@@ -133,6 +159,18 @@ class World {
   [[nodiscard]] std::span<const NodeId> surfaceNodes() const { return search.nodes; }
 
  private:
+  [[nodiscard]] std::vector<SegmentId> segmentsAmong(std::span<const NodeId> nodes) const;
+  void forgetUnusedPressures();
+  void takeLoadsOff(ComponentId gone);
+  void sumOuterForces();
+  [[nodiscard]] const std::vector<Vec2>& allOuterForces() const {
+    return pressures.empty() ? outerForces : allOuterForces_;
+  }
+  void absorb(const StepLength& length);
+  void requireNodes(std::span<const NodeId> nodes) const;
+  void forgetUnusedMotions();
+  void drive(double dt);
+  void letDrivenGo();
   void buildIfChanged();
   void requireStableStep(double dt);
   void watchStrengths();
@@ -177,6 +215,7 @@ class World {
   void predict(const StepLength& length);
   void requireUpright(double dt);
   void finish(const StepLength& length);
+  void measureReactions(const StepLength& length);
   [[nodiscard]] StageTimes* timesIfAsked() { return timing ? &times : nullptr; }
 
   ExplicitDynamics dynamics_;
@@ -185,7 +224,9 @@ class World {
   SplitResult split_;
   LoosePieces loose_;
   BodyPlaces places_;
-  std::vector<Vec2> surfaceForces_;  // N, by node, of contact and cohesion
+  std::vector<Vec2> allOuterForces_;  // N, by node, with pressures; empty without any
+  std::vector<Vec2> surfaceForces_;   // N, by node, of contact and cohesion
+  std::span<const Vec2> pushes_;      // N, the same or those of contact alone, of the present step
   std::vector<BoxPair> overlapping_;
   std::vector<SlaveMaster> pairs_;
   std::vector<Box> boxes_;

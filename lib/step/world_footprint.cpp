@@ -12,7 +12,9 @@ Footprint World::footprint() const {
           triangles.nodes, triangles.inverseEdges, triangles.area, triangles.component,
           model.components, reference);
   sum.add(Use::kMaterials, triangles.material, model.materials);
-  sum.add(Use::kLoads, nodes.load, outerForces);
+  sum.add(Use::kLoads, nodes.load, outerForces, allOuterForces_, pressures, absorbing.segments);
+  sum.add(Use::kHeld, nodes.motion, nodes.arm, model.motions, givenVelocities, undo_.driven,
+          reactions);
   const ContactSurfaces& s = surfaces;
   sum.add(Use::kSurfaces, s.segmentNode, s.segmentNext, s.segmentPrev, s.segmentEntry,
           s.nodeSegment, s.entrySegment, s.piece, s.next, s.prev, s.loop, s.component);

@@ -27,6 +27,7 @@ bool World::crack() {
   const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
   fracture.cohesion.settle(model, fracture.edges);
   const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), split_);
+  fracture.noteStart(time);
   if (opened) {
     ledger.fracture -= fracture.splitEnergy(model, split_.originals, lastDt);
     followSplit();

@@ -9,6 +9,7 @@ namespace yadefrag {
 void World::beginUndo() {
   undo_.hasMoved = undo_.hasSearched = undo_.hasCandidates = undo_.hasCorrected = false;
   undo_.candidates.clear();
+  undo_.driven.clear();
   undo_.ledger = ledger;
   undo_.motion = motion_;
   undo_.watch = watch;
@@ -37,6 +38,7 @@ void World::takeBack() {
     numSearches = undo_.numSearches;
   }
   if (undo_.hasMoved) dynamics_.takeBack(model);
+  letDrivenGo();
   ledger = undo_.ledger;
   motion_ = undo_.motion;
   watch = undo_.watch;

@@ -37,8 +37,8 @@ bool EngineOrder::isKnown(const yade::Scene& scene, const yade::Engine& solver) 
                     });
 }
 
-void EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) {
-  if (isKnown(scene, solver)) return;
+bool EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) {
+  if (isKnown(scene, solver)) return false;
   known_.clear();
   std::vector<Place> places;
   Engines alive;
@@ -64,6 +64,7 @@ void EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) 
       if (user == &solver || isA(user, "NewtonIntegrator")) requireForces(alive, i, user);
   }
   known_.swap(places);
+  return true;
 }
 
 }  // namespace yadefrag

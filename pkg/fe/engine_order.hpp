@@ -12,8 +12,8 @@ class EngineOrder {
  public:
   /// Throws std::invalid_argument if `solver` is there twice, or if contact forces are reset before
   /// `solver` or NewtonIntegrator has used them: momentum would be lost. Looks only where engines
-  /// have changed since the last call.
-  void require(const yade::Scene& scene, const yade::Engine& solver);
+  /// have changed since the last call; true if they have.
+  bool require(const yade::Scene& scene, const yade::Engine& solver);
 
  private:
   struct Place {

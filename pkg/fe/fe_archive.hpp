@@ -49,7 +49,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 6;
+  static constexpr std::uint64_t kFormat = 7;
   /// (count) A damaged length must not take all memory: values are read in parts as large as this,
   /// and the archive ends before the memory does.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -78,10 +78,12 @@ class WorldArchive {
 
   void state(World& world) {
     nodes(world.model.nodes);
+    motions(world.model.motions);
     triangles(world.model.triangles);
     components(world.model.components);
     materials(world.model.materials);
     surfaces(world.surfaces);
+    loads(world);
     contact(world.contact);
     search(world.search);
     fracture(world.fracture);
@@ -111,16 +113,20 @@ class WorldArchive {
     value("toldDepth", watch.toldDepth), value("lastStep", watch.lastStep);
     value("leastStep", watch.leastStep), value("mostStep", watch.mostStep);
     value("stepChanges", watch.changes);
+    lines("complaints", world.complaints);
+  }
+
+  void lines(const char* name, std::vector<std::string>& all) {
     std::vector<char> text;
-    for (const std::string& sentence : world.complaints) {
-      text.insert(text.end(), sentence.begin(), sentence.end());
+    for (const std::string& line : all) {
+      text.insert(text.end(), line.begin(), line.end());
       text.push_back('\n');
     }
-    value("complaints", text);
+    value(name, text);
     if constexpr (Archive::is_loading::value) {
-      world.complaints.clear();
+      all.clear();
       std::istringstream lines(std::string(text.begin(), text.end()));
-      for (std::string line; std::getline(lines, line);) world.complaints.push_back(line);
+      for (std::string line; std::getline(lines, line);) all.push_back(line);
     }
   }
 
@@ -184,6 +190,14 @@ class WorldArchive {
     column<double>("mass", nodes.mass), column<double>("load", nodes.load);
     column<std::uint8_t>("held", nodes.held);
     column<std::uint32_t>("nodeComponent", nodes.component);
+    value("motion", nodes.motion), column<double>("arm", nodes.arm);
+  }
+
+  void motions(std::vector<Motion>& motions) {
+    FlatMotions flat = flatten(motions);
+    value("motionCounts", flat.counts), value("motionNumbers", flat.numbers);
+    if constexpr (Archive::is_loading::value)
+      if (!unflatten(flat, motions)) refuse("its motions cannot be");
   }
 
   void triangles(Triangles& triangles) {
@@ -206,6 +220,12 @@ class WorldArchive {
     member("element", rows, [](C& c) -> std::uint8_t& {
       return reinterpret_cast<std::uint8_t&>(c.element);  // NOLINT: an unsigned char may name it
     });
+    std::vector<std::string> names;
+    names.reserve(rows.size());
+    for (const C& c : rows) names.push_back(c.name);
+    lines("names", names);
+    if (names.size() != rows.size()) refuse("names has a wrong length");
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].name = names[i];
   }
 
   /// Of bodies, or of a list.
@@ -247,6 +267,29 @@ class WorldArchive {
     column<Index>("loop", s.loop), column<Index>("entryComponent", s.component);
   }
 
+  void loads(World& world) {
+    std::uint64_t count = world.pressures.size();
+    value("pressures", count);
+    if (count > world.surfaces.segments()) refuse("its pressures cannot be");
+    world.pressures.resize(count);
+    for (Pressure& one : world.pressures) {
+      column<std::uint32_t>("pressureSegments", one.segments);
+      value("pressureFunction", one.function);
+      table("pressure", one.value);
+    }
+    column<std::uint32_t>("absorbing", world.absorbing.segments);
+  }
+
+  void table(const char* name, TimeTable& table) {
+    std::vector<double> times = table.times(), values = table.values();
+    value(name, times), value(name, values);
+    if constexpr (Archive::is_loading::value) {
+      if (!times.empty() || !values.empty())
+        if (!TimeTable::isRight(times, values)) refuse(std::string(name) + " cannot be");
+      table = TimeTable(std::move(times), std::move(values));
+    }
+  }
+
   void contact(Contact& contact) {
     using Index = std::uint32_t;
     Candidates& candidates = contact.candidates;
@@ -274,6 +317,7 @@ class WorldArchive {
     column<Index>("crackElement", edges.element);
     column<std::uint8_t>("crackCorner", edges.corner);
     column<double>("crackStrength", edges.strength);
+    value("crackStart", fracture.started);
     column<double>("crackEnergy", edges.fractureEnergy),
         column<std::uint8_t>("cracked", edges.cracked);
     column<Index>("elementEdges", edges.ofElement), column<Index>("nodeElement", edges.ofNode);

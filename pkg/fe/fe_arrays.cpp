@@ -64,6 +64,7 @@ int addMesh(FESolver& solver, const py::dict& input) {
   const bool smoothed = py::extract<bool>(input["smoothed"]);
   spec.element = smoothed ? ElementKind::kSmoothed : ElementKind::kLinear;
   spec.materials.ofTriangle = fromBytes<std::uint32_t>(input["materialOf"]);
+  spec.name = py::extract<std::string>(input["name"]);
   const py::list given(input["materials"]);
   std::vector<yade::shared_ptr<FEMat>> materials;
   const auto count = py::len(given);
@@ -92,10 +93,49 @@ void setLoads(FESolver& solver, const py::object& loads) {
   change(solver, [&] { solver.changeWorld().setLoads(fromBytes<Vec2>(loads)); });
 }
 
-void prescribe(FESolver& solver, const py::object& nodes, int held, double vx, double vy) {
+void prescribe(FESolver& solver, const py::object& nodes, int held, const py::object& velocities) {
   change(solver, [&] {
-    solver.changeWorld().prescribe(fromBytes<NodeId>(nodes), static_cast<std::uint8_t>(held),
-                                   {vx, vy});
+    solver.changeWorld().prescribeEach(fromBytes<NodeId>(nodes), static_cast<std::uint8_t>(held),
+                                       fromBytes<Vec2>(velocities));
+  });
+}
+
+namespace {
+
+std::uint32_t numberOf(FESolver& solver, const py::object& function) {
+  ScriptFunctions& functions = solver.scriptFunctions();
+  functions.keep(solver.world());
+  return function.is_none() ? 0 : functions.add(function);
+}
+
+}  // namespace
+
+void setPressure(FESolver& solver, const py::object& nodes, const py::object& times,
+                 const py::object& values, const py::object& function) {
+  change(solver, [&] {
+    solver.changeWorld().setPressure(fromBytes<NodeId>(nodes),
+                                     {fromBytes<double>(times), fromBytes<double>(values)},
+                                     numberOf(solver, function));
+  });
+}
+
+void setAbsorbing(FESolver& solver, const py::object& nodes) {
+  change(solver, [&] { solver.changeWorld().setAbsorbing(fromBytes<NodeId>(nodes)); });
+}
+
+void prescribeMotion(FESolver& solver, const py::object& nodes, int held, const py::dict& input) {
+  const auto table = [&](const char* name) {
+    const py::object pair = input[name];
+    return TimeTable(fromBytes<double>(pair[0]), fromBytes<double>(pair[1]));
+  };
+  Motion motion;
+  motion.centre = {py::extract<double>(input["centre"][0]),
+                   py::extract<double>(input["centre"][1])};
+  motion.speedX = table("speedX"), motion.speedY = table("speedY"), motion.turn = table("turn");
+  change(solver, [&] {
+    motion.function = numberOf(solver, input["function"]);
+    solver.changeWorld().prescribeMotion(fromBytes<NodeId>(nodes), static_cast<std::uint8_t>(held),
+                                         std::move(motion));
   });
 }
 
@@ -110,6 +150,23 @@ py::object nodesOf(const FESolver& solver) {
 }
 py::object velocitiesOf(const FESolver& solver) {
   return toArray(solver.world().model.nodes.velocity, kReal, 2);
+}
+py::object nodesOfBody(const FESolver& solver, int component) {
+  const Nodes& nodes = solver.world().model.nodes;
+  std::vector<std::uint32_t> own;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (nodes.component[n] == ComponentId(static_cast<std::size_t>(component)) && nodes.mass[n] > 0)
+      own.push_back(static_cast<std::uint32_t>(n));
+  return toArray(own, kIndex, 0);
+}
+py::list namesOf(const FESolver& solver) {
+  py::list names;
+  for (const Component& body : solver.world().model.components) names.append(body.name);
+  return names;
+}
+bool isGone(const FESolver& solver, int component) {
+  const Component& body = solver.world().model.components[static_cast<std::size_t>(component)];
+  return body.firstTriangle == body.lastTriangle;
 }
 py::object massesOf(const FESolver& solver) {
   return toArray(solver.world().model.nodes.mass, kReal, 0);
@@ -140,6 +197,12 @@ py::object contactForcesOf(const FESolver& solver) {
   const std::span<const Vec2> known = solver.world().contact.forces().known;
   std::vector<Vec2> forces(known.begin(), known.end());
   forces.resize(solver.world().model.nodes.size());  // before the first contact there are none
+  return toArray(forces, kReal, 2);
+}
+
+py::object reactionsOf(const FESolver& solver) {
+  std::vector<Vec2> forces = solver.world().reactions;
+  forces.resize(solver.world().model.nodes.size());  // before the first step there are none
   return toArray(forces, kReal, 2);
 }
 
@@ -184,6 +247,7 @@ py::dict energyOf(const FESolver& solver) {
   if (solver.world().dropped.count > 0 || solver.world().fracture.minFragmentArea > 0)
     result["dropped"] = ledger.dropped;
   result["external"] = ledger.external;
+  result["outside"] = -ledger.external;
   result["total"] = ledger.total(kinetic, strain);
   return result;
 }

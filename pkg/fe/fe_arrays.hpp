@@ -41,12 +41,28 @@ void takeBody(FESolver& solver, int component);
 /// `FESolver._bond`, likewise: how many sides, and a sentence about the mesh, or an empty one.
 yade::py::tuple bond(FESolver& solver, int a, int b, double strength, double energy);
 
-/// `FESolver._setLoads` and `_prescribe`, likewise.
+/// `FESolver._setLoads` and `_prescribe`, likewise; a velocity for each of the nodes.
 void setLoads(FESolver& solver, const yade::py::object& loads);
-void prescribe(FESolver& solver, const yade::py::object& nodes, int held, double vx, double vy);
+void prescribe(FESolver& solver, const yade::py::object& nodes, int held,
+               const yade::py::object& velocities);
+/// `FESolver._move`: `motion` is a dict of centre (a pair, m), speedX, speedY, turn (pairs of bytes
+/// of times and values, empty for none) and function (None where the tables are all).
+void prescribeMotion(FESolver& solver, const yade::py::object& nodes, int held,
+                     const yade::py::dict& motion);
 
+/// `FESolver._pressure`: times and values of a table as bytes, or a function (s) → Pa.
+void setPressure(FESolver& solver, const yade::py::object& nodes, const yade::py::object& times,
+                 const yade::py::object& values, const yade::py::object& function);
+void setAbsorbing(FESolver& solver, const yade::py::object& nodes);
+
+yade::py::object reactionsOf(const FESolver& solver);
 yade::py::object loadsOf(const FESolver& solver);
 yade::py::object nodesOf(const FESolver& solver);
+/// `component`: one that there is.
+yade::py::object nodesOfBody(const FESolver& solver, int component);
+bool isGone(const FESolver& solver, int component);
+/// By component, '' for those without a name.
+yade::py::list namesOf(const FESolver& solver);
 yade::py::object velocitiesOf(const FESolver& solver);
 yade::py::object displacementsOf(const FESolver& solver);
 yade::py::object massesOf(const FESolver& solver);

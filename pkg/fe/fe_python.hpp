@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "fe/fe_arrays.hpp"
+#include "fe/fe_results.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/mesh_python.hpp"
 #include "fracture/checks.hpp"
@@ -28,6 +29,7 @@ inline std::string zoneWarningOf(const FESolver& solver, int component) {
   const World& world = solver.world();
   return cohesiveZoneWarning(world.model, world.fracture.edges, ComponentId(component));
 }
+inline double timeOf(const FESolver& solver) { return solver.world().time; }
 inline std::uint64_t searchesOf(const FESolver& solver) { return solver.world().numSearches; }
 inline std::size_t activesOf(const FESolver& solver) {
   return solver.world().contact.rows().size();
@@ -38,7 +40,7 @@ inline double penetrationOf(const FESolver& solver) {
 inline double deepestOverlapOf(const FESolver& solver) {
   return deepestOverlap(solver.world().model, solver.world().threads);
 }
-inline std::uint64_t cracksOf(const FESolver& solver) {
+inline std::uint64_t numCracksOf(const FESolver& solver) {
   return solver.world().fracture.numCracks();
 }
 
@@ -70,8 +72,15 @@ void FESolver::pyExtra(PyClass& pyClass) {
       .def("_meshQuality", &Locked<meshQualityOf>::call)
       .def("_costlyStepWarning", &Locked<costlyStepWarningOf>::call)
       .def("_bond", &bond)
+      .def("_nodesOf", &Locked<nodesOfBody>::call)
+      .def("_isGone", &Locked<isGone>::call)
       .def("_setLoads", &setLoads)
-      .def("_prescribe", &prescribe);
+      .def("_prescribe", &prescribe)
+      .def("_move", &prescribeMotion)
+      .def("_pressure", &setPressure)
+      .def("_absorb", &setAbsorbing)
+      .def("_pairForce", &Locked<pairForceOf>::call)
+      .def("_cracks", &Locked<cracksOf>::call);
   valuesOf(pyClass);
   countersOf(pyClass);
 }
@@ -79,6 +88,7 @@ void FESolver::pyExtra(PyClass& pyClass) {
 template <class PyClass>
 void FESolver::valuesOf(PyClass& pyClass) {
   pyClass.add_property("_loads", &Locked<loadsOf>::call)
+      .add_property("_names", &Locked<namesOf>::call)
       .add_property("nodes", &Locked<nodesOf>::call,
                     "Positions (m), array (n, 2); a copy, as all arrays.")
       .add_property("velocities", &Locked<velocitiesOf>::call, "Of the nodes (m/s), array (n, 2).")
@@ -89,6 +99,11 @@ void FESolver::valuesOf(PyClass& pyClass) {
                     "Node numbers, counter-clockwise, array (m, 3).")
       .add_property("stress", &Locked<stressArrayOf>::call,
                     "Cauchy stress xx, yy, xy (Pa) of the triangles, array (m, 3).")
+      .add_property(
+          "strain", &Locked<strainArrayOf>::call,
+          "Green and Lagrange's strain xx, yy, xy (half the shear angle) of the triangles, "
+          "array (m, 3): (FᵀF - 1)/2, of each triangle alone where `element` is 'smoothed', "
+          "too.")
       .add_property("components", &Locked<componentsOf>::call,
                     "Number of each triangle's body, array (m).")
       .add_property("materialNumbers", &Locked<materialNumbersOf>::call,
@@ -101,6 +116,14 @@ void FESolver::valuesOf(PyClass& pyClass) {
       .add_property("contactForces", &Locked<contactForcesOf>::call,
                     "Of contact between bodies of this engine, on the nodes, in the last step (N), "
                     "array (n, 2).")
+      .add_property(
+          "reactions", &Locked<reactionsOf>::call,
+          "At held nodes, in the last step (N), array (n, 2): what the support gives, over "
+          "the node's own weight, its loads and all forces of bodies; 0 in free "
+          "directions, and before the first step and after O.load.")
+      .add_property("time", &Locked<timeOf>::call,
+                    "Time that the bodies have been stepped for (s); motions and loads that change "
+                    "in time go by it.")
       .add_property("surfaces", &Locked<surfacesOf>::call,
                     "List of closed loops, each an array of node numbers, material on the left.")
       .add_property(
@@ -112,9 +135,11 @@ void FESolver::valuesOf(PyClass& pyClass) {
                     "(kg), momentum (kg m/s, a pair), energy (J) they had when they went, count.")
       .add_property(
           "energy", &Locked<energyOf>::call,
-          "Dict of J: kinetic, strain, contact, friction, fracture, damping, external (what came "
-          "in from outside), total (constant); with minFragmentArea, dropped (went with "
-          "fragments).")
+          "Dict of J: kinetic, strain, contact, friction, fracture, damping, outside (what went "
+          "outside: negative where work was done on the bodies); with minFragmentArea, dropped "
+          "(went with fragments); total, their sum, is constant. O.energy has the same, with the "
+          "same signs, as feKinetic, feStrain ... feOutside, if O.trackEnergy. Besides, external "
+          "is -outside.")
       .add_property("_energyBalance", &Locked<energyBalanceOf>::call)
       .add_property("warnings", &Locked<warningsOf>::call,
                     "Sentences that warn of numerical errors: energy that contact, cracks or the "
@@ -130,7 +155,7 @@ void FESolver::countersOf(PyClass& pyClass) {
       .add_property("maxPenetration", &Locked<penetrationOf>::call,
                     "Deepest penetration (m) that was left at points in contact in the last step; "
                     "deepestOverlap() looks at everything.")
-      .add_property("numCracks", &Locked<cracksOf>::call, "Cracked edges so far.");
+      .add_property("numCracks", &Locked<numCracksOf>::call, "Cracked edges so far.");
 }
 
 }  // namespace yadefrag

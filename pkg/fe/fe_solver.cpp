@@ -28,9 +28,10 @@ void FESolver::action() {
   surveyed_ = 0;
   if (scene->isPeriodic)
     throw std::invalid_argument("FESolver: the scene is periodic, which its bodies cannot be.");
-  order_.require(*scene, *this);
+  const bool enginesAreNew = order_.require(*scene, *this);
   bodies_.requireAll(*scene);
   giveSettings();
+  lookAround(enginesAreNew);
   if (world_.search.isDue || world_.search.isVoid) {
     bodies_.requireWhole();
     // After a step that was refused the halo is that of its own search, not that of the bounds.
@@ -42,6 +43,7 @@ void FESolver::action() {
   bodies_.collectForces(*scene, world_, world_.outerForces);
   const bool mayBeBorn = world_.fracture.numCracks() > 0 && !world_.outerForces.empty();
   const double born = mayBeBorn ? energyBornInside(*scene, bodies_) : 0;
+  functions_.giveValues(world_, scene->dt);
   try {
     world_.step(scene->dt);
   } catch (const TimeStepError& error) {
@@ -83,6 +85,21 @@ void FESolver::warn(std::size_t known) const {
     std::cerr << "WARN  FESolver: " << world_.complaints[i] << std::endl;
 }
 
+/// Takes over the gravity of the scene, and says what the bodies will not touch or feel.
+void FESolver::lookAround(bool enginesAreNew) {
+  const yade::NewtonIntegrator* newton = integrator(false);
+  const yade::Vector3r theirs = newton ? newton->gravity : yade::Vector3r::Zero();
+  if (takesOver()) world_.dynamicsSettings.gravity = {theirs[0], theirs[1]};
+  const bool bodiesAreNew = around_.look(*scene);
+  if (!bodiesAreNew && !enginesAreNew) return;
+  const std::size_t known = world_.complaints.size();
+  std::vector<std::string>& told = world_.complaints;
+  for (std::string& sentence : around_.sentences(theirs))
+    if (std::find(told.begin(), told.end(), sentence) == told.end())
+      told.push_back(std::move(sentence));
+  warn(known);
+}
+
 /// New faces get bodies, those of dropped fragments lose theirs. Among themselves and with the rest
 /// of the boundary they are in contact already; only where there is something else in the scene
 /// must the collider find it now.
@@ -113,17 +130,20 @@ void FESolver::prepareNewcomer(std::size_t first) {
 
 /// What an integrator behind this engine moves the bodies by: it moves those that obey no forces
 /// too, by velocity times step.
-double FESolver::timeToIntegrate() const {
+double FESolver::timeToIntegrate() const { return integrator(true) ? scene->dt : 0; }
+
+/// The first one that moves the bodies, null for none; `behind`: this engine.
+const yade::NewtonIntegrator* FESolver::integrator(bool behind) const {
   const yade::Body* any = bodies_.anyBody();
-  if (!any) return 0;
-  bool passed = false;
+  if (!any) return nullptr;
+  bool passed = !behind;
   for (const auto& engine : scene->engines) {
     if (engine.get() == this) passed = true;
     const auto* newton = dynamic_cast<const yade::NewtonIntegrator*>(engine.get());
     if (!newton || newton->dead || !passed) continue;
-    if (newton->mask <= 0 || (newton->mask & any->groupMask) != 0) return scene->dt;
+    if (newton->mask <= 0 || (newton->mask & any->groupMask) != 0) return newton;
   }
-  return 0;
+  return nullptr;
 }
 
 void FESolver::trackEnergy() const {
@@ -138,7 +158,7 @@ void FESolver::trackEnergy() const {
   set("feFracture", ledger.fracture);
   set("feDamping", ledger.damping);
   if (minFragmentArea > 0) set("feDropped", ledger.dropped);
-  set("feExternal", -ledger.external);  // so that the sum of all is constant
+  set("feOutside", -ledger.external);  // what went outside: the sum of all is constant
 }
 
 /// Bodies of two solvers would not see each other.
@@ -266,7 +286,7 @@ void FESolver::postLoad(FESolver& /*self*/) {
     penaltyFactor = world_.contactSettings.penaltyFactor;
     halo = world_.contactSettings.halo;
     damping = step.damping;
-    gravity = yade::Vector3r(step.gravity.x, step.gravity.y, 0);
+    gravity = formerGravity_;
     const std::uint64_t most = world_.fracture.maxCracks;
     maxCracks = most > std::numeric_limits<int>::max() ? -1 : static_cast<int>(most);
     minFragmentArea = world_.fracture.minFragmentArea;
@@ -284,7 +304,9 @@ void FESolver::giveSettings() {
   world_.contactSettings.penaltyFactor = penaltyFactor;
   world_.contactSettings.halo = halo;
   world_.dynamicsSettings.damping = damping;
-  world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
+  formerGravity_ = gravity;
+  // What is taken over stays until the next step takes it over anew.
+  if (!takesOver()) world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
   world_.dynamicsSettings.viscosity = {linearViscosity, quadraticViscosity};
   world_.fracture.maxCracks =
       maxCracks < 0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(maxCracks);

@@ -10,6 +10,8 @@
 #include "fe/entry_bodies.hpp"
 #include "fe/fe_archive.hpp"
 #include "fe/materials.hpp"
+#include "fe/scene_watch.hpp"
+#include "fe/script_functions.hpp"
 #include "fe/step_lock.hpp"
 #include "publish/published.hpp"
 #include "step/world.hpp"
@@ -42,6 +44,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
     return world_;
   }
   [[nodiscard]] const EntryBodies& entryBodies() const { return bodies_; }
+  [[nodiscard]] ScriptFunctions& scriptFunctions() { return functions_; }
   /// Held by each step, and by each read and change from Python.
   [[nodiscard]] StepLock& betweenSteps() const { return betweenSteps_; }
 
@@ -52,6 +55,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   double halo = ContactSettings().halo;
   double damping = 0;
   yade::Vector3r gravity = yade::Vector3r::Zero();
+  bool takesGravity = true;
   double linearViscosity = 0;
   double quadraticViscosity = 0;
   int maxCracks = -1;
@@ -74,6 +78,9 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void giveSettings();
   void bookSpheres(double born);
   void warn(std::size_t known) const;
+  void lookAround(bool enginesAreNew);
+  [[nodiscard]] const yade::NewtonIntegrator* integrator(bool behind) const;
+  [[nodiscard]] bool takesOver() const { return takesGravity && gravity.isZero(0); }
   void followCracks(std::uint64_t dropped);
   void prepareSearch(double dt);
   void prepareNewcomer(std::size_t first);
@@ -84,9 +91,12 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   World world_;
   EntryBodies bodies_;
   EngineOrder order_;
+  SceneWatch around_;
+  ScriptFunctions functions_;
   std::vector<BoxPair> pairs_;
   std::size_t surveyed_ =
       0;  // segments that the halo was chosen for, and that have not moved since
+  yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // what `gravity` was before it was set
   mutable StepLock betweenSteps_;
 };
 
@@ -121,8 +131,12 @@ constexpr auto FESolver::attributes() {
                 triggerPostLoad),
       attribute("damping", &C::damping, "Mass-proportional damping (1/s).", triggerPostLoad),
       attribute("gravity", &C::gravity,
-                "Acceleration of all bodies of this engine (m/s²), along x and y.",
+                "Acceleration of all bodies of this engine (m/s²), a pair, or three numbers with "
+                "z = 0. Until it is set, that of a NewtonIntegrator in O.engines is taken over.",
                 triggerPostLoad),
+      attribute("takesGravity", &C::takesGravity,
+                "As long as `gravity` is zero, are the x and y of NewtonIntegrator's gravity taken "
+                "over? Setting `gravity` sets this to False; to True again, it undoes that."),
       attribute("linearViscosity", &C::linearViscosity,
                 "Coefficient of the linear bulk viscosity; 0: none, .06 is usual.",
                 triggerPostLoad),

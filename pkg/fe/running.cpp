@@ -2,6 +2,8 @@
 
 #include <unwind.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
 #include <thread>
@@ -11,6 +13,9 @@
 
 namespace yadefrag {
 namespace {
+
+/// A look costs a few microseconds, and comes late by a sixteenth of the run at most.
+constexpr int kRestsPerRun = 16;
 
 /// The address of a member function that is not virtual.
 template <class Member>
@@ -63,6 +68,18 @@ void waitForStart(long iter, int subStep) {
     while (!hasBegun()) std::this_thread::yield();
   }
   while (!hasBegun()) std::this_thread::yield();
+}
+
+void waitForEnd() {
+  if (isInStep()) return;
+  const WithoutGil free;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  while (yade::Omega::instance().isRunning()) {
+    const auto rest = (Clock::now() - start) / kRestsPerRun;
+    std::this_thread::sleep_for(std::clamp<Clock::duration>(rest, std::chrono::microseconds(20),
+                                                            std::chrono::milliseconds(2)));
+  }
 }
 
 void stopRun() {

@@ -18,4 +18,8 @@ void waitForStart(long iter, int subStep);
 /// Stops a run of another thread; returns after its last step. Python's lock is given up meanwhile.
 void stopRun();
 
+/// Waits for the end of a run, if there is one, with Python's lock given up; does nothing in a
+/// step.
+void waitForEnd();
+
 }  // namespace yadefrag

@@ -49,6 +49,9 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("requirePaused", &yadefrag::requirePaused,
           "Raises RuntimeError if another thread runs the scene.");
   py::def("waitForStart", &yadefrag::waitForStart);
+  py::def("waitForEnd", &yadefrag::waitForEnd,
+          "Waits until a run is over, looking as often as the run's own length asks for: O.wait() "
+          "looks every 40 ms.");
   py::def("stopRun", &yadefrag::stopRun);
   py::def("watchListItems", &yadefrag::watchListItems);
   py::def("freeListItems", &yadefrag::freeListItems,

@@ -18,7 +18,7 @@ std::size_t headerSize() {
 
 class ExtremeSave : public ::testing::Test {
  protected:
-  ExtremeSave() : world_(eventfulWorld()), bytes_(saved(world_)) {}
+  ExtremeSave() : world_(eventfulWorld(true)), bytes_(saved(world_)) {}
   /// Loading these gives a sentence that says whose state it is.
   static bool isRefused(const std::string& bytes) {
     World world;
@@ -61,7 +61,7 @@ TEST(ExtremeSaveOf, ARunGoesOnWithTheStepItHas) {
 
 /// The nodes of an elastic body take the numbers of those of a brittle one.
 TEST(ExtremeSaveOf, AWorldThatABrittleBodyHasLeft) {
-  World world = eventfulWorld();
+  World world = eventfulWorld(true);
   const TriangleMesh mesh = structuredRectangle({.04, 0}, {.05, .01}, 2, 2);
   world.addBody(mesh, moving(mesh, {1e9, .2, 1000, false}, {}));
   world.removeBody(ComponentId(1));

@@ -13,8 +13,19 @@
 
 namespace yadefrag::test {
 
+/// A node that moves and turns, a pressure that grows, a side that lets waves out.
+inline void drive(World& world) {
+  const std::vector<NodeId> driven{NodeId(world.model.nodes.size() - 1)};
+  world.prescribeMotion(
+      driven, kHeldXY,
+      {.centre = {.02, 0}, .speedX = TimeTable({0, 1e-5}, {0, -30}), .turn = TimeTable(3)});
+  const std::vector<NodeId>& rim = world.surfaces.segmentNode;
+  world.setPressure(std::span(rim).first(3), TimeTable({0, 1}, {10, 20}));
+  world.setAbsorbing(std::span(rim).last(3));
+}
+
 /// Cracked, cohesive, smooth and loaded bodies in contact.
-inline World eventfulWorld() {
+inline World eventfulWorld(bool isDriven = false) {
   World world;
   world.contactSettings.passes = 2;
   for (int k = 0; k < 3; ++k) {
@@ -28,6 +39,7 @@ inline World eventfulWorld() {
     if (k == 2) smoothAll(spec, mesh);
     world.addBody(mesh, spec);
   }
+  if (isDriven) drive(world);
   world.setLoads(std::vector<Vec2>(world.model.nodes.size(), {1, 2}));
   const double dt = .3 * world.criticalTimeStep();
   while (world.steps < 30) world.step(dt);

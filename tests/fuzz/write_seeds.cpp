@@ -19,7 +19,7 @@ int main(int count, char** arguments) {
   const std::filesystem::path folder = arguments[1];
   write(folder / "polygon" / "plate",
         "# a plate\n\n0 0  # corner\n4 0\n4 3\r\n\n\n1 1\n1 2\n2e0 +1\n");
-  yadefrag::World world = yadefrag::test::eventfulWorld();
+  yadefrag::World world = yadefrag::test::eventfulWorld(true);
   write(folder / "state" / "world", yadefrag::test::saved(world, boost::archive::no_header));
   return 0;
 }

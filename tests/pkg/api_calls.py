@@ -101,20 +101,25 @@ def right(fe, folder):
         plotMesh=dict(fe=fe, field='mises', file=folder + '/a.png', ax=None, limits=(0, 1)),
         animate=dict(fe=fe, file=folder + '/a.gif', steps=1, every=1, field=None, limits=None, window=None,
                      rate=20),
-        exportVTK=dict(fe=fe, file=folder + '/a.vtu'), runSteps=dict(steps=2, every=1, call=lambda: None),
+        exportVTK=dict(fe=fe, file=folder + '/a.vtu', fields=['stress', 'velocity']), runSteps=dict(steps=2, every=1, call=lambda: None),
         fragmentTable=dict(fe=fe, file=folder + '/b.csv'),
         plotFragmentSizes=dict(fe=fe, file=folder + '/c.png', ax=None, components=[0, 1]),
         recordFracture=dict(fe=fe, file=csv, append=True), plotFracture=dict(file=csv, picture=None),
         tradeoff=dict(job, reference=0., watch=None, every=0., limit=60., files=folder + '/t', title=''),
         addPolygon=dict(outline=square, holes=(), size=.5, material='b', smooth=False, velocity=(0, 0), spin=0,
                         displacement=None, fixed=None, thickness=1, selfContact=True, simplify=.1,
-                        strength=lambda x, y: 1e4, fractureEnergy=lambda x, y: 0.,
+                        strength=lambda x, y: 1e4, fractureEnergy=lambda x, y: 0., name='new',
                         joints=[((5.2, 5.2), (5.8, 5.7))], jointStrength=[0.], jointEnergy=1.),
         addTriangles=dict(nodes=[(5, 5), (6, 5), (6, 6)], triangles=[(0, 1, 2)], material='b', smooth=False,
                           velocity=(0, 0), spin=0, displacement=None, fixed=None, thickness=1,
                           selfContact=True, strength=[1e4], fractureEnergy=[0.]),
         bond=dict(a=0, b=1, strength=1e6, energy=1e3),
-        prescribe=dict(nodes=[0], vx=0., vy=None), removeBody=dict(component=0), fragments=dict(held=False),
+        prescribe=dict(nodes=[0], vx=[(0, 0.), (1, 1.)], vy=None), removeBody=dict(component=0), fragments=dict(held=False),
+        crackTable=dict(fe=fe, file=folder + '/d.csv'), engines=dict(fe=fe, gravity=(0, -1), spheres=True),
+        FERecorder=dict(iterPeriod=5, file=folder + '/e', fields=['stress']),
+        rotate=dict(nodes=0, omega=[(0, 0), (1, 2.)], centre=(0, 0)), nodesOf=dict(component=0),
+        pressure=dict(nodes=lambda x, y: x < .1, p=[(0, 1.), (1, 2.)]), absorb=dict(nodes=lambda x, y: x < .1),
+        relax=dict(tolerance=1e9, most=30), reaction=dict(nodes=[0]), contactForce=dict(a=0, b=1),
         updateAttrs=dict(attributes={'label': 'x'}))
 
 
@@ -189,15 +194,15 @@ class Call:
 
     def withKeywords(self, name, function, known):
         args = self.spoilt(known)
-        for many in ('steps', 'every', 'repeats'):  # right, but for ever
+        for many in ('steps', 'every', 'repeats', 'most'):  # right, but for ever
             if (real(args.get(many)) or 0) > 100:
                 args[many] = 10**400
-        self.mayStep = callable(args.get('call'))
+        self.mayStep = callable(args.get('call')) or name.endswith('relax')
         return '%s(%s)' % (name, ', '.join('%s=%s' % (n, shown(v)) for n, v in args.items())), \
             lambda: function(**args)
 
     def ofFunction(self):
-        name = self.draw.choice(ownFunctions() + ['addPolygon', 'addTriangles', 'bond', 'prescribe'])
+        name = self.draw.choice(ownFunctions() + ['addPolygon', 'addTriangles', 'bond', 'prescribe', 'rotate', 'pressure', 'absorb'])
         function = getattr(yadefrag, name, None) or getattr(self.fe, name)
         return self.withKeywords(name, function, right(self.fe, self.folder)[name])
 

@@ -229,7 +229,7 @@ def test_bondedGrainsBearStressAsOneBodyDoes():
 @pytest.mark.parametrize('given, sentence', [
     (dict(a=0, b=1, strength=0, energy=1), 'strength is 0, it must be a positive number'),
     (dict(a=0, b=1, strength=1, energy=-1), 'energy is -1, it must be a positive number'),
-    (dict(a=0, b='x', strength=1, energy=1), "b is 'x', it must be the number of a body"),
+    (dict(a=0, b='x', strength=1, energy=1), "b is 'x', it must be the number or the name of a body"),
     (dict(a=0, b=2, strength=1, energy=1), 'There is no body 2 to bond'),
     (dict(a=1, b=1, strength=1, energy=1), 'cannot be bonded to itself'),
 ])

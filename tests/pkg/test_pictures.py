@@ -23,7 +23,8 @@ def makeSolver():
         displacements=numpy.array([[0, 0], [.1, 0], [.1, .2], [0, .2]]),
         velocities=numpy.array([[3., 4], [0, 0], [1, 0], [0, 2]]),
         contactForces=numpy.array([[0., 0], [0, 5], [0, 0], [-1, 0]]),
-        triangles=numpy.array([[0, 1, 2], [0, 2, 3]]),
+        reactions=numpy.array([[0., 1], [0, 0], [2, 0], [0, 0]]),
+        triangles=numpy.array([[0, 1, 2], [0, 2, 3]]), strain=numpy.array([[1e-3, 0, 2e-3], [0, 0, 0]]),
         stress=numpy.array([[1e6, 2e6, 3e6], [-1e6, 0, 0]]),
         components=numpy.array([0, 1]), fragmentOf=numpy.array([0, 1]),
         dropped=dict(count=0))
@@ -33,6 +34,7 @@ def makeEmpty():
     return standIn(
         nodes=numpy.empty((0, 2)), displacements=numpy.empty((0, 2)),
         velocities=numpy.empty((0, 2)), contactForces=numpy.empty((0, 2)),
+        reactions=numpy.empty((0, 2)), strain=numpy.empty((0, 3)),
         triangles=numpy.empty((0, 3), dtype=int), stress=numpy.empty((0, 3)),
         components=numpy.empty(0, dtype=int), fragmentOf=numpy.empty(0, dtype=int),
         dropped=dict(count=0))
@@ -46,10 +48,11 @@ def test_vtkFileHoldsEverything(folder):
     assert numpy.array_equal(mesh.points[:, :2], fe.nodes) and not mesh.points[:, 2].any()
     assert numpy.array_equal(mesh.cells_dict['triangle'], fe.triangles)
     for name, values in (('displacement', fe.displacements), ('velocity', fe.velocities),
-                         ('contact force', fe.contactForces)):
+                         ('contact force', fe.contactForces), ('reaction', fe.reactions)):
         assert numpy.array_equal(mesh.point_data[name][:, :2], values), name
         assert not mesh.point_data[name][:, 2].any()
     assert numpy.array_equal(mesh.cell_data['stress'][0], fe.stress)
+    assert numpy.array_equal(mesh.cell_data['strain'][0], fe.strain)
     assert numpy.array_equal(mesh.cell_data['component'][0], fe.components)
     assert numpy.array_equal(mesh.cell_data['fragment'][0], fe.fragmentOf)
 

@@ -34,4 +34,8 @@ inline constexpr double kLeastInterval = 3, kMostInterval = 200;
 /// whole shell of further neighbours comes near at once. Small steps overshoot little.
 inline constexpr double kIntervalGrowth = 1.25;
 
+/// (of its radius) A sphere that is farther from the plane of the bodies is meant to be beside it:
+/// rounding of a place gives a billionth.
+inline constexpr double kInPlane = 1e-6;
+
 }  // namespace yadefrag::tolerance

@@ -19,6 +19,7 @@ __all__ = list(_yadefrag.publish())
 
 # Only now: FESolver is there.
 from yadefrag import attributes, lifecycle, solver  # noqa: E402
+from yadefrag.engines import engines  # noqa: E402
 from yadefrag.export import exportVTK  # noqa: E402
 from yadefrag.fragments import (fragmentTable, plotFracture, plotFragmentSizes,  # noqa: E402
                                  recordFracture)
@@ -26,6 +27,8 @@ from yadefrag.geometry import (circle, grainJoints, readPolygon, rectangle, ring
                                 voronoi)
 from yadefrag.pictures import animate, plotMesh  # noqa: E402
 from yadefrag.progress import runSteps  # noqa: E402
+from yadefrag.recorder import FERecorder  # noqa: E402
+from yadefrag.results import crackTable  # noqa: E402
 from yadefrag.solver import rectangleMesh  # noqa: E402
 from yadefrag.tradeoff import tradeoff  # noqa: E402
 from yadefrag.tradeoff_table import TradeoffTable  # noqa: E402
@@ -50,4 +53,4 @@ for _name in __all__:
 
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'voronoi', 'grainJoints',
             'rectangleMesh', 'plotMesh', 'animate', 'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
-            'plotFracture', 'tradeoff', 'TradeoffTable']
+            'plotFracture', 'crackTable', 'engines', 'FERecorder', 'tradeoff', 'TradeoffTable']

@@ -8,7 +8,7 @@ import numpy
 
 from yade import wrapper
 from yade.minieigenHP import Vector3
-from yadefrag.values import isWhole, plain, refuse
+from yadefrag.values import isWhole, numbersOf, plain, refuse
 
 _OF_NUMPY = (numpy.generic, numpy.ndarray)
 _WRONG_KIND = (TypeError, OverflowError, UnicodeError)  # as Boost.Python refuses
@@ -22,12 +22,27 @@ def install(cls):
 
 
 def __setattr__(self, name, value):
+    value = _inSpace(self, name, value)
     present = None if isinstance(value, (list, tuple, numpy.ndarray)) else getattr(self, name, None)
     try:
         object.__setattr__(self, name, _fitting(present, value))
+        if _isGravity(self, name):
+            object.__setattr__(self, 'takesGravity', False)
     except _WRONG_KIND:
         refuse('%s.%s' % (type(self).__name__, name), value, _right(getattr(self, name), value),
                TypeError)  # as YADE's own classes
+
+
+def _isGravity(self, name):
+    return name == 'gravity' and isinstance(self, wrapper.FESolver)
+
+
+def _inSpace(self, name, value):
+    """FESolver's gravity of two numbers as three."""
+    if not _isGravity(self, name):
+        return value
+    pair = numbersOf(value, 2)
+    return value if pair is None else (*pair, 0.)
 
 
 def _guardConstructor(make):
@@ -46,6 +61,9 @@ def updateAttrs(self, attributes):
     """Sets all attributes of a dict, or none of them where one is refused."""
     if not isinstance(attributes, dict):
         refuse('attributes', attributes, 'a dict {name: value}')
+    attributes = {name: _inSpace(self, name, value) for name, value in attributes.items()}
+    if any(_isGravity(self, name) for name in attributes):
+        attributes.setdefault('takesGravity', False)
     change, known = wrapper.Serializable.updateAttrs, self.dict()
     before = {name: value for name, value in known.items() if name in attributes}
     try:

@@ -3,14 +3,15 @@
 import warnings
 
 from yadefrag._yadefrag import requirePaused
-from yadefrag.values import positive, whole
+from yadefrag.names import bodyNumber
+from yadefrag.values import positive
 
 
 def bond(self, a, b, strength, energy):
     """From the next step on bodies a and b hang together along all sides that they have in common
     now; returns how many these are (int).
 
-    a, b      numbers of two bodies that touch, with nodes at the same places along what they have
+    a, b      numbers or names of two bodies that touch, with nodes at the same places along what they have
               in common, to 1e-9 of a side: give both outlines the same points there, and the same
               size
     strength  Pa, tensile; the shear strength is shearFactor times that, shearFactor and
@@ -23,8 +24,8 @@ def bond(self, a, b, strength, energy):
     warning where sides are too long for the energy.
     """
     requirePaused()
-    first = whole('a', a, least=0, right='the number of a body')
-    second = whole('b', b, least=0, right='the number of a body')
+    first, second = (bodyNumber(self, one, name, least=0)
+                     for name, one in (('a', a), ('b', b)))
     sides, problem = self._bond(first, second, positive('strength', strength, 'Pa'),
                                 positive('energy', energy, 'J/m²'))
     if problem:

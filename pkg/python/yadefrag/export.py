@@ -4,10 +4,13 @@ import numpy
 
 from yadefrag.files import replacing
 from yadefrag.shown import betweenSteps, requireSolver, shownMesh
-from yadefrag.values import path
+from yadefrag.values import path, refuse
 
-_OF_NODES = (('displacement', 'displacements'), ('velocity', 'velocities'),
-             ('contact force', 'contactForces'))
+_OF_NODES = {'displacement': 'displacements', 'velocity': 'velocities',
+             'contact force': 'contactForces', 'reaction': 'reactions'}
+_OF_TRIANGLES = {'stress': ('stress', float), 'strain': ('strain', float),
+                 'component': ('components', numpy.int32), 'fragment': ('fragmentOf', numpy.int32)}
+FIELDS = (*_OF_NODES, *_OF_TRIANGLES)
 
 
 def _spatial(values):
@@ -16,19 +19,21 @@ def _spatial(values):
     return numpy.column_stack([values, numpy.zeros(len(values))])
 
 
-def exportVTK(fe, file):
+def exportVTK(fe, file, fields=None):
     """Writes the bodies of an FESolver to `file` for ParaView, as an unstructured grid (.vtu).
 
     Points are the nodes where they are now (m); at points: displacement from the stress-free shape
-    (m), velocity (m/s), contact force (N); in triangles: stress (xx, yy, xy in Pa), component and
-    fragment (int). Dropped fragments are left out. ValueError for another ending than .vtu and for
-    a solver without bodies.
+    (m), velocity (m/s), contact force and reaction (N); in triangles: stress (xx, yy, xy in Pa),
+    strain (xx, yy, xy), component and fragment (int). Dropped fragments are left out.
+    fields  list of the names of those to write, None: all
+    ValueError for another ending than .vtu, for a solver without bodies and for other fields.
     """
     import meshio
 
     name = path('file', file, '.vtu')
     requireSolver(fe)
-    places, corners, points, cells = _state(fe)
+    chosen = fieldNames(fields)
+    places, corners, points, cells = _state(fe, chosen)
     if len(corners) == 0:
         raise ValueError('fe has no bodies to write, add one with fe.addPolygon first.')
     mesh = meshio.Mesh(_spatial(places), [('triangle', corners.astype(numpy.int64))],
@@ -37,12 +42,26 @@ def exportVTK(fe, file):
         mesh.write(part, file_format='vtu')
 
 
-def _state(fe):
+def fieldNames(fields):
+    """A tuple of names from a list of some of FIELDS, or None for all; ValueError for others."""
+    if fields is None:
+        return FIELDS
+    chosen = (fields,) if isinstance(fields, str) else fields
+    try:
+        chosen = tuple(chosen)
+    except TypeError:
+        chosen = (None,)
+    if not all(isinstance(one, str) and one in FIELDS for one in chosen):
+        refuse('fields', fields, 'some of %s' % ', '.join(FIELDS))
+    return chosen
+
+
+def _state(fe, fields):
     """(nodes' positions, triangles' corners, values at nodes, values in triangles) of one step."""
     with betweenSteps(fe):
         nodes, triangles, corners = shownMesh(fe)
-        points = {name: _spatial(getattr(fe, attribute)[nodes]) for name, attribute in _OF_NODES}
-        cells = {'stress': [numpy.asarray(fe.stress, dtype=float)[triangles]],
-                 'component': [numpy.asarray(fe.components, dtype=numpy.int32)[triangles]],
-                 'fragment': [numpy.asarray(fe.fragmentOf, dtype=numpy.int32)[triangles]]}
+        points = {name: _spatial(getattr(fe, attribute)[nodes])
+                  for name, attribute in _OF_NODES.items() if name in fields}
+        cells = {name: [numpy.asarray(getattr(fe, attribute), dtype=kind)[triangles]]
+                 for name, (attribute, kind) in _OF_TRIANGLES.items() if name in fields}
         return fe.nodes[nodes], corners, points, cells

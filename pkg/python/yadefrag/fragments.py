@@ -5,6 +5,7 @@ import os
 import numpy
 
 from yadefrag.files import appendText, savePicture, writeText
+from yadefrag.names import existingBody
 from yadefrag.shown import betweenSteps, requireSolver
 from yadefrag.values import flag, isWhole, path, plain, refuse, shownPath
 
@@ -50,14 +51,14 @@ def plotFragmentSizes(fe, file=None, ax=None, components=None):
 
     file        where to write the picture; its ending says as what (.png, .pdf, .svg ...)
     ax          axes to draw in, default new ones
-    components  numbers of the bodies whose fragments count, default those that are in pieces
+    components  numbers or names of the bodies whose fragments count, default those that are in pieces
     ValueError where there is no such body.
     """
     from yadefrag.pictures import newAxes, requireAxes
 
     table = fragmentTable(fe)
     if components is not None:
-        components = _componentNumbers(components)
+        components = _componentNumbers(fe, components)
     else:
         numbers, pieces = numpy.unique(table['component'], return_counts=True)
         components = numbers[pieces > 1]
@@ -77,14 +78,15 @@ def plotFragmentSizes(fe, file=None, ax=None, components=None):
     return ax
 
 
-def _componentNumbers(components):
-    """A list of int from a list of body numbers."""
+def _componentNumbers(fe, components):
+    """A list of int from a list of body numbers and names."""
     try:
-        found = [plain(component) for component in components]
+        listed = [components] if isinstance(components, str) else components
+        found = [existingBody(fe, one) if isinstance(one, str) else plain(one) for one in listed]
     except TypeError:
         found = [None]
     if not all(map(isWhole, found)):
-        refuse('components', components, 'a list of numbers of bodies')
+        refuse('components', components, 'a list of numbers or names of bodies')
     return found
 
 

@@ -5,7 +5,7 @@ import numbers
 
 from yade import wrapper
 from yadefrag import _yadefrag
-from yadefrag.values import whole
+from yadefrag.names import bodyNumber
 
 
 def requireNoStep(what):
@@ -104,7 +104,7 @@ def _guardRemove(remove):
     """FESolver.removeBody that says what is wrong with a number."""
     @functools.wraps(remove)
     def guarded(self, component):
-        return remove(self, whole('component', component, -2**31, 'the number of a body'))
+        return remove(self, bodyNumber(self, component))
     return guarded
 
 

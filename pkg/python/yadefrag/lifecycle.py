@@ -87,6 +87,15 @@ def _waitForAll(wait):
     return waited
 
 
+def waitForEnd():
+    """O.wait() that is not late by up to 40 ms; what a step raised is not raised again."""
+    while True:
+        _yadefrag.waitForEnd()
+        with _saving:
+            if not _Omega().running:
+                return
+
+
 def _runBegun(run):
     """O.run() that returns once the run has begun: YADE's may crash if it is stopped before."""
     @functools.wraps(run)
@@ -112,7 +121,16 @@ def _resetStopped(reset):
     return stopped
 
 
+def _underOldName(get):
+    """O.energy['feExternal'], which is 'feOutside' now."""
+    @functools.wraps(get)
+    def item(self, name):
+        return get(self, 'feOutside' if name == 'feExternal' else name)
+    return item
+
+
 def install():
+    wrapper.EnergyTracker.__getitem__ = _underOldName(wrapper.EnergyTracker.__getitem__)
     for name in ('save', 'saveTmp', 'sceneToString'):
         setattr(_Omega, name, _savedWhole(getattr(_Omega, name)))
     _Omega.pause = _countPauses(_Omega.pause)

@@ -61,7 +61,8 @@ def runPart(steps):
     """
     omega = wrapper.Omega()
     begin, pauses = lifecycle.stepsDone(), lifecycle.pauses()
-    omega.run(steps, True)
+    omega.run(steps)
+    lifecycle.waitForEnd()
     if lifecycle.stepsDone() - begin == steps and pauses == lifecycle.pauses():
         return steps, False
     _yadefrag.stopRun()  # O.wait() does not wait for the end of the step that was paused

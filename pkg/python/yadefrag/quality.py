@@ -5,6 +5,7 @@ import math
 import numpy
 
 from yadefrag.files import savePicture
+from yadefrag.names import existingBody
 from yadefrag.shown import betweenSteps, requireSolver
 from yadefrag.values import isWhole, plain, refuse
 
@@ -12,6 +13,8 @@ from yadefrag.values import isWhole, plain, refuse
 def _component(fe, component):
     """The number of the body that `component` means; None: the only one."""
     there = sorted(set(int(c) for c in fe.components))
+    if isinstance(component, str):
+        return existingBody(fe, component)
     if component is None:
         if len(there) != 1:
             raise ValueError('component is None, but there are %d bodies; it must be one of %s.' %
@@ -25,7 +28,7 @@ def _component(fe, component):
 def meshQuality(self, component=None, plot=None):
     """How much the stress-free mesh of a body prefers directions, and how good its triangles are.
 
-    component  the body's number; None where there is only one
+    component  the body's number or name; None where there is only one
     plot       file for a picture of edges and paths by direction; its ending says as what
     A dict:
     pathRatio             mean length of the shortest path along edges, over the straight line

@@ -15,10 +15,14 @@ from yadefrag import _yadefrag
 from yadefrag import guards
 from yadefrag._yadefrag import requirePaused
 from yadefrag.bonds import bond
+from yadefrag.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.materials import Materials, interfaces, isField, oneMaterial
 from yadefrag.meshing import isIrregular, jointLines, meshOfPolygon, simplified
+from yadefrag.motions import keepTurning, prescribe, rotate
+from yadefrag.names import componentOf, newName, nodesOf
 from yadefrag.places import brittlePlaces
 from yadefrag.quality import meshQuality
+from yadefrag.results import contactForce, principalStress, reaction
 from yadefrag.shown import betweenSteps, shownTriangles
 from yadefrag.values import (array, flag, number, pair, plain, pointsOf, positive, refuse, shown,
                              whole)
@@ -109,8 +113,9 @@ def _centroid(nodes, triangles):
 
 
 def _add(fe, mesh, smooth, materials, velocity, spin, displacement, fixed, thickness, selfContact,
-         element, places):
+         element, places, name):
     requirePaused()
+    name = newName(fe, name)
     if not isinstance(element, str) or element not in _ELEMENTS:
         refuse('element', element, "'linear' or 'smoothed'")
     nodes, triangles = mesh['nodes'], mesh['triangles']
@@ -118,11 +123,12 @@ def _add(fe, mesh, smooth, materials, velocity, spin, displacement, fixed, thick
     selfContact = flag('selfContact', selfContact)
     thickness = positive('thickness', thickness, 'm')
     moved = _field('displacement', displacement, nodes)
-    speed = _field('velocity', velocity, nodes, isOptional=False)
-    if spin:
-        present = nodes + moved if len(moved) else nodes
-        arm = present - _centroid(present, triangles)
-        speed = speed + spin * numpy.stack([-arm[:, 1], arm[:, 0]], axis=1)
+    given = _field('velocity', velocity, nodes, isOptional=False)
+    present = nodes + moved if len(moved) else nodes
+    centroid = _centroid(present, triangles) if spin else numpy.zeros(2)
+    arm = present - centroid
+    speed = given + spin * numpy.stack([-arm[:, 1], arm[:, 0]], axis=1) if spin else given
+    held = _heldNodes(fixed, nodes)
 
     def raw(values, dtype):
         return numpy.ascontiguousarray(values, dtype=dtype).tobytes()
@@ -131,10 +137,11 @@ def _add(fe, mesh, smooth, materials, velocity, spin, displacement, fixed, thick
         dict(nodes=raw(nodes, 'float64'), triangles=raw(triangles, 'uint32'),
              loops=[raw(loop, 'uint32') for loop in mesh['loops']],
              velocity=raw(speed, 'float64'), displacement=raw(moved, 'float64'),
-             held=raw(_heldNodes(fixed, nodes), 'uint8'), smooth=raw(smooth, 'uint8'),
+             held=raw(held, 'uint8'), smooth=raw(smooth, 'uint8'),
              thickness=thickness, selfContact=selfContact, smoothed=element == 'smoothed',
-             materials=materials.of, materialOf=raw(materials.numbers, 'uint32'),
+             name=name, materials=materials.of, materialOf=raw(materials.numbers, 'uint32'),
              **{name: raw(values, kind) for name, (values, kind) in places.items()}))
+    keepTurning(fe, component, held, given, spin, present, centroid)
     problem = fe._zoneWarning(component)
     if problem:
         warnings.warn(problem, stacklevel=3)
@@ -145,7 +152,7 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                displacement=None, fixed=None, thickness=1, selfContact=True, element='linear',
                mesh=None, meshSeed=0, simplify=None, strength=None, fractureEnergy=None,
                joints=(), jointStrength=0, jointEnergy=None, interfaceStrength=None,
-               interfaceEnergy=None):
+               interfaceEnergy=None, name=None):
     """Adds a plane body, meshed with triangles; returns its number (int).
 
     outline, holes  list of points (x, y) in m, and a list of such lists
@@ -168,7 +175,10 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     displacement    None, or a function (x, y) → pair: the start's displacement from the stress-free
                     shape, which is the outline (m)
     fixed           None, or a function (x, y) that returns False, True, 'x' or 'y': the directions
-                    in which a node there keeps its velocity whatever forces act
+                    in which a node there keeps its velocity whatever forces act. Where the nodes
+                    held in both directions start with the velocities of a rigid body that turns, by
+                    `spin` or a function, they turn on, exactly as with `rotate`: about the centroid,
+                    which moves at `velocity`, or about the place where the function is 0
     thickness       m
     selfContact     may the body's surfaces touch each other; those of a BrittleFEMat, whose
                     fragments have to, always do: False is refused
@@ -208,6 +218,7 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     both. Materials that do not crack by themselves crack there. A joint's own
                     strength goes before
     interfaceEnergy J/m², likewise
+    name            None, or a text by which the body is known wherever its number is
     Other functions are called at the nodes of the stress-free shape. ValueError before anything
     changes, also where the body would overlap another one; RuntimeError while O.run goes on in the
     background; a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks,
@@ -235,7 +246,7 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     places = brittlePlaces(made, materials, between, strength, fractureEnergy, lines, jointStrength,
                            jointEnergy)
     body = _add(self, made, smoothed, materials, velocity, spin, displacement, fixed, thickness,
-                selfContact, element, places)
+                selfContact, element, places, name)
     costly = self._costlyStepWarning(body, made['smallestSize'])
     if costly:
         warnings.warn('addPolygon: ' + costly, stacklevel=2)
@@ -245,7 +256,7 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
 def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0, 0), spin=0,
                  displacement=None, fixed=None, thickness=1, selfContact=True, element='linear',
                  strength=None, fractureEnergy=None, interfaceStrength=None,
-                 interfaceEnergy=None):
+                 interfaceEnergy=None, name=None):
     """Adds a body of triangles of one's own; returns its number (int).
 
     nodes (n, 2) in m, all of them used; triangles (m, 3) node numbers, counter-clockwise. `smooth`
@@ -266,7 +277,7 @@ def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0,
     between = interfaces(mesh, materials, interfaceStrength, interfaceEnergy)
     places = brittlePlaces(mesh, materials, between, strength, fractureEnergy)
     return _add(self, mesh, _smoothNodes(smooth, mesh), materials, velocity, spin, displacement,
-                fixed, thickness, selfContact, element, places)
+                fixed, thickness, selfContact, element, places, name)
 
 
 def _boundaryLoops(count, triangles):
@@ -296,57 +307,6 @@ def _boundaryLoops(count, triangles):
             node = after.pop(node)
         loops.append(numpy.array(loop))
     return loops
-
-
-def _getLoads(self):
-    """Constant outer forces on the nodes (N), array (n, 2); to be set as a whole, or None for none.
-
-    A copy: `loads = fe.loads; loads[top] = (0, -1); fe.loads = loads`. ValueError unless there is
-    one finite pair for each node.
-    """
-    return self._loads
-
-
-def _setLoads(self, loads):
-    requirePaused()
-    forces = numpy.zeros((0, 2)) if loads is None else array(loads, float)
-    if forces is None:
-        refuse('loads', loads, 'an array (n, 2) of N, or None')
-    if forces.ndim != 2 or forces.shape[1] != 2:
-        raise ValueError('loads has the shape %s, it must be (n, 2).' % shown(forces.shape))
-    self._setLoads(numpy.ascontiguousarray(forces).tobytes())
-
-
-def prescribe(self, nodes, vx=None, vy=None):
-    """From now on the nodes move at vx, vy (m/s); None: free in that direction.
-
-    nodes  node numbers, a flag for each node, or a function (x, y) → bool of the present positions.
-    Call it again to change the motion, from a PyRunner for one that varies in time; the forces that
-    it takes are in `energy['external']`. ValueError before anything changes.
-    """
-    requirePaused()
-    places = self.nodes
-    if callable(nodes):
-        chosen = numpy.array([flag('nodes(%g, %g)' % (x, y), nodes(x, y)) for x, y in places],
-                             dtype=bool)
-    else:
-        chosen = array(nodes)
-    if chosen is None:
-        refuse('nodes', nodes, 'node numbers, a flag for each node, or a function (x, y)')
-    if chosen.dtype == bool:
-        if chosen.shape != (len(places),):
-            raise ValueError('nodes has %d flags, it must have one for each of the %d nodes.' %
-                             (chosen.size, len(places)))
-        chosen = numpy.nonzero(chosen)[0]
-    if chosen.ndim != 1 or (chosen.size and not numpy.issubdtype(chosen.dtype, numpy.integer)):
-        raise ValueError('nodes must be node numbers, a flag for each node, or a function (x, y).')
-    if chosen.size and (chosen.min() < 0 or chosen.max() >= len(places)):
-        raise ValueError('nodes has numbers from %d to %d, but there are %d nodes.' %
-                         (chosen.min(), chosen.max(), len(places)))
-    speeds = [0. if v is None else number(name, v, math.isfinite, 'a finite number (m/s) or None')
-              for name, v in (('vx', vx), ('vy', vy))]
-    held = (0 if vx is None else 1) | (0 if vy is None else 2)
-    self._prescribe(chosen.astype(numpy.uint32).tobytes(), held, *speeds)
 
 
 def _guardFragments(fragments):
@@ -393,8 +353,17 @@ def install():
     wrapper.FESolver.addTriangles = addTriangles
     wrapper.FESolver.bond = bond
     wrapper.FESolver.prescribe = prescribe
+    wrapper.FESolver.rotate = rotate
+    wrapper.FESolver.nodesOf = nodesOf
+    wrapper.FESolver.componentOf = componentOf
+    wrapper.FESolver.pressure = pressure
+    wrapper.FESolver.absorb = absorb
+    wrapper.FESolver.relax = relax
+    wrapper.FESolver.reaction = reaction
+    wrapper.FESolver.contactForce = contactForce
+    wrapper.FESolver.principalStress = property(principalStress, doc=principalStress.__doc__)
     wrapper.FESolver.meshQuality = meshQuality
     wrapper.FESolver.minAngle = property(_minAngle, doc=_minAngle.__doc__)
-    wrapper.FESolver.loads = property(_getLoads, _setLoads, doc=_getLoads.__doc__)
+    wrapper.FESolver.loads = property(getLoads, setLoads, doc=getLoads.__doc__)
     wrapper.FESolver.fragments = _guardFragments(wrapper.FESolver.fragments)
     guards.install()

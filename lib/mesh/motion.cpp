@@ -1,0 +1,81 @@
+#include "mesh/motion.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace yadefrag {
+namespace {
+
+constexpr std::size_t kCounts = 4;  // of a motion: its function, the lengths of its tables
+
+void append(FlatMotions& flat, const TimeTable& table) {
+  flat.counts.push_back(static_cast<std::uint32_t>(table.times().size()));
+  flat.numbers.insert(flat.numbers.end(), table.times().begin(), table.times().end());
+  flat.numbers.insert(flat.numbers.end(), table.values().begin(), table.values().end());
+}
+
+/// Takes numbers off the front; false where there are too few.
+class Reader {
+ public:
+  explicit Reader(const std::vector<double>& numbers) : numbers_(numbers) {}
+
+  bool take(std::size_t count, std::vector<double>& part) {
+    if (count > numbers_.size() - next_) return false;
+    const auto begin = numbers_.begin() + static_cast<std::ptrdiff_t>(next_);
+    part.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    next_ += count;
+    return true;
+  }
+  bool take(std::size_t count, TimeTable& table) {
+    std::vector<double> times, values;
+    if (!take(count, times) || !take(count, values)) return false;
+    if (count > 0 && !TimeTable::isRight(times, values)) return false;
+    table = TimeTable(std::move(times), std::move(values));
+    return true;
+  }
+  [[nodiscard]] bool isAtEnd() const { return next_ == numbers_.size(); }
+
+ private:
+  const std::vector<double>& numbers_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+MovedFrame::MovedFrame(const Motion& motion, double time) {
+  const double angle = motion.turn.integral(motion.begin, time);
+  cosine = std::cos(angle), sine = std::sin(angle);
+  centre = motion.centre + Vec2{motion.speedX.integral(motion.begin, time),
+                                motion.speedY.integral(motion.begin, time)};
+}
+
+FlatMotions flatten(const std::vector<Motion>& motions) {
+  FlatMotions flat;
+  for (const Motion& motion : motions) {
+    flat.counts.push_back(motion.function);
+    flat.numbers.insert(flat.numbers.end(), {motion.centre.x, motion.centre.y, motion.begin});
+    for (const TimeTable* table : {&motion.speedX, &motion.speedY, &motion.turn})
+      append(flat, *table);
+  }
+  return flat;
+}
+
+bool unflatten(const FlatMotions& flat, std::vector<Motion>& motions) {
+  if (flat.counts.size() % kCounts != 0) return false;
+  motions.assign(flat.counts.size() / kCounts, {});
+  Reader reader(flat.numbers);
+  const std::uint32_t* count = flat.counts.data();
+  for (Motion& motion : motions) {
+    motion.function = *count++;
+    std::vector<double> start;
+    if (!reader.take(3, start)) return false;
+    motion.centre = {start[0], start[1]};
+    motion.begin = start[2];
+    if (!isFinite(motion.centre) || !std::isfinite(motion.begin)) return false;
+    for (TimeTable* table : {&motion.speedX, &motion.speedY, &motion.turn})
+      if (!reader.take(*count++, *table)) return false;
+  }
+  return reader.isAtEnd();
+}
+
+}  // namespace yadefrag

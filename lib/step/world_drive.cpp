@@ -1,0 +1,122 @@
+// The world's part in prescribed motion.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/tolerances/dynamics.hpp"
+#include "step/world.hpp"
+
+namespace yadefrag {
+
+void World::requireNodes(std::span<const NodeId> nodes) const {
+  for (const NodeId node : nodes)
+    if (node.value >= model.nodes.size())
+      throw InputError("There is no node " + std::to_string(node.value) + ": there are " +
+                       std::to_string(model.nodes.size()) + " nodes.");
+}
+
+void World::prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 velocity) {
+  prescribeEach(nodes, held, std::vector<Vec2>(nodes.size(), velocity));
+}
+
+void World::prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
+                          std::span<const Vec2> velocity) {
+  requireNodes(nodes);
+  for (const Vec2 v : velocity)
+    if (!(std::max(std::abs(v.x), std::abs(v.y)) <= tolerance::kAnySpeed))
+      throw InputError("The prescribed velocity must be finite and at most 1e100 m/s.");
+  const auto isNew = [&](NodeId node) { return model.nodes.held[node.value] != held; };
+  const bool changed = std::any_of(nodes.begin(), nodes.end(), isNew);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::uint32_t node = nodes[i].value;
+    if (model.nodes.mass[node] == 0) continue;  // of a dropped triangle
+    Vec2& present = model.nodes.velocity[node];
+    const Vec2 former = present;
+    model.nodes.held[node] = held;
+    if (!model.nodes.motion.empty()) model.nodes.motion[node] = 0;
+    if ((held & kHeldX) != 0) present.x = velocity[i].x;
+    if ((held & kHeldY) != 0) present.y = velocity[i].y;
+    // The dynamics book a jump of nodes that were held before; after a rebuild they know of none.
+    if (changed)
+      ledger.external += model.nodes.mass[node] / 2 * (dot(present, present) - dot(former, former));
+  }
+  forgetUnusedMotions();
+  if (changed) isBuilt_ = false;
+}
+
+void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Motion motion) {
+  requireNodes(nodes);
+  if (!isFinite(motion.centre)) throw InputError("The centre of a motion must be finite.");
+  for (const TimeTable* table : {&motion.speedX, &motion.speedY, &motion.turn})
+    if (!table->times().empty() && !TimeTable::isRight(table->times(), table->values()))
+      throw InputError("The times of a motion must ascend, and its values be finite.");
+  if (!motion.turn.times().empty() && held != kHeldXY)
+    throw InputError("A motion that turns must hold both directions.");
+  motion.begin = time;
+  Nodes& all = model.nodes;
+  all.motion.resize(all.size()), all.arm.resize(all.size());
+  model.motions.push_back(std::move(motion));
+  const Motion& added = model.motions.back();
+  for (const NodeId node : nodes) {
+    if (all.mass[node.value] == 0) continue;  // of a dropped triangle
+    if (all.held[node.value] != held) isBuilt_ = false;
+    all.held[node.value] = held;
+    all.motion[node.value] = static_cast<std::uint32_t>(model.motions.size());
+    all.arm[node.value] = all.position[node.value] - added.centre;
+  }
+  forgetUnusedMotions();
+}
+
+/// Those that no node has any more, as a script that changes its motion in every step leaves them.
+void World::forgetUnusedMotions() {
+  if (model.motions.empty()) return;
+  std::vector<std::uint32_t> numbers(model.motions.size() + 1);
+  for (const std::uint32_t motion : model.nodes.motion) numbers[motion] = 1;
+  std::uint32_t kept = 0;
+  numbers[0] = 0;
+  for (std::size_t m = 1; m < numbers.size(); ++m) {
+    if (numbers[m] == 0) continue;
+    if (kept != m - 1) model.motions[kept] = std::move(model.motions[m - 1]);
+    numbers[m] = ++kept;
+  }
+  model.motions.resize(kept);
+  for (std::uint32_t& motion : model.nodes.motion) motion = numbers[motion];
+  if (kept == 0) model.nodes.motion = {}, model.nodes.arm = {};
+}
+
+/// Nodes that have a motion get the velocity that takes them to their place at the end of the step.
+void World::drive(double dt) {
+  Nodes& nodes = model.nodes;
+  if (nodes.motion.empty()) return;
+  std::vector<MovedFrame> frames;
+  for (const Motion& motion : model.motions) {
+    if (motion.function != 0 && givenVelocities.size() != nodes.size())
+      throw RunError(
+          "nodes are moved by a function of the script, which a saved file does not have; call "
+          "FESolver.prescribe for them again.");
+    frames.emplace_back(motion, time + dt);
+  }
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (nodes.motion[n] == 0) continue;
+    Vec2& velocity = nodes.velocity[n];
+    undo_.driven.push_back(velocity);
+    const std::uint32_t m = nodes.motion[n] - 1;
+    const Vec2 wanted = model.motions[m].function != 0
+                            ? givenVelocities[n]
+                            : (1 / dt) * (frames[m].place(nodes.arm[n]) - nodes.position[n]);
+    if ((nodes.held[n] & kHeldX) != 0) velocity.x = wanted.x;
+    if ((nodes.held[n] & kHeldY) != 0) velocity.y = wanted.y;
+  }
+}
+
+/// Undoes `drive`.
+void World::letDrivenGo() {
+  std::size_t next = 0;
+  for (std::size_t n = 0; next < undo_.driven.size() && n < model.nodes.size(); ++n)
+    if (model.nodes.motion[n] != 0) model.nodes.velocity[n] = undo_.driven[next++];
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,97 @@
+// The world's part in loads on pieces of the boundary.
+
+#include <algorithm>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "step/world.hpp"
+
+namespace yadefrag {
+
+/// All segments whose two ends are among the nodes, ascending; InputError where there are none.
+std::vector<SegmentId> World::segmentsAmong(std::span<const NodeId> nodes) const {
+  requireNodes(nodes);
+  std::vector<bool> chosen(model.nodes.size());
+  for (const NodeId node : nodes) chosen[node.value] = true;
+  std::vector<SegmentId> segments;
+  for (std::size_t s = 0; s < surfaces.segments(); ++s)
+    if (!surfaces.isGone(SegmentId(s)) && chosen[surfaces.segmentNode[s].value] &&
+        chosen[surfaces.segmentNode[surfaces.segmentNext[s].value].value])
+      segments.emplace_back(s);
+  if (segments.empty())
+    throw InputError("No side of the boundary has both its ends among the nodes.");
+  return segments;
+}
+
+void World::setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function) {
+  std::vector<SegmentId> segments = segmentsAmong(nodes);
+  if (!value.times().empty() && !TimeTable::isRight(value.times(), value.values()))
+    throw InputError("The times of a pressure must ascend, and its values be finite.");
+  // In place of what was there.
+  for (Pressure& other : pressures)
+    std::erase_if(other.segments, [&](SegmentId s) { return std::ranges::count(segments, s) > 0; });
+  pressures.push_back({std::move(segments), std::move(value), function});
+  forgetUnusedPressures();
+}
+
+void World::setAbsorbing(std::span<const NodeId> nodes) {
+  std::vector<SegmentId> segments = segmentsAmong(nodes);
+  for (const SegmentId s : segments)
+    if (model.components[surfaces.component[surfaces.segmentEntry[s.value].value].value].isMixed())
+      throw InputError("A body of several materials cannot let waves out.");
+  segments.insert(segments.end(), absorbing.segments.begin(), absorbing.segments.end());
+  std::ranges::sort(segments);
+  segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+  absorbing.segments = std::move(segments);
+}
+
+/// Those on nothing, or of 0 for ever.
+void World::forgetUnusedPressures() {
+  std::erase_if(pressures, [](const Pressure& p) {
+    return p.segments.empty() || (p.function == 0 && p.value.values() == std::vector<double>{0});
+  });
+}
+
+/// Before the component leaves the surfaces: segments behind its own get lower numbers.
+void World::takeLoadsOff(ComponentId gone) {
+  std::vector<SegmentId> numbers(surfaces.segments(), SegmentId::none());
+  std::size_t kept = 0;
+  for (std::size_t s = 0; s < numbers.size(); ++s)
+    if (surfaces.component[surfaces.segmentEntry[s].value] != gone) numbers[s] = SegmentId(kept++);
+  const auto renumber = [&](std::vector<SegmentId>& segments) {
+    for (SegmentId& segment : segments) segment = numbers[segment.value];
+    std::erase(segments, SegmentId::none());
+  };
+  for (Pressure& pressure : pressures) renumber(pressure.segments);
+  renumber(absorbing.segments);
+  forgetUnusedPressures();
+}
+
+/// Outer forces and pressures together.
+void World::sumOuterForces() {
+  allOuterForces_.clear();
+  if (pressures.empty()) return;
+  allOuterForces_ = outerForces;
+  allOuterForces_.resize(model.nodes.size());
+  for (const Pressure& pressure : pressures) {
+    double value = pressure.value.at(time);
+    if (pressure.function != 0) {
+      const auto given =
+          std::ranges::find(givenPressures, pressure.function, &GivenPressure::function);
+      if (given == givenPressures.end())
+        throw RunError(
+            "a pressure is a function of the script, which a saved file does not have; call "
+            "FESolver.pressure for it again.");
+      value = given->value;
+    }
+    addPressure(model, surfaces, pressure.segments, value, allOuterForces_);
+  }
+}
+
+void World::absorb(const StepLength& length) {
+  if (absorbing.segments.empty()) return;
+  absorbing.correct(model, surfaces, dynamics_.previousPosition(), dynamics_.previousVelocity(),
+                    length, dynamicsSettings.drag(length));
+}
+
+}  // namespace yadefrag

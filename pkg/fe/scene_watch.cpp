@@ -1,0 +1,69 @@
+#include "fe/scene_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/tolerances/collider.hpp"
+#include "fe/surface_segment.hpp"
+#include "fe/with_gil.hpp"
+
+namespace yadefrag {
+
+bool SceneWatch::look(const yade::Scene& scene) {
+  const auto& bodies = scene.bodies->body;
+  bool isNew = false;
+  looked_ = std::min(looked_, bodies.size());
+  for (; looked_ < bodies.size(); ++looked_) {
+    const yade::Body* body = bodies[looked_].get();
+    if (!body || !body->shape || body->isClump()) continue;
+    if (dynamic_cast<const SurfaceSegment*>(body->shape.get())) continue;
+    isNew = noteShape(*body) || isNew;
+    if (const auto* sphere = dynamic_cast<const yade::Sphere*>(body->shape.get()))
+      isNew = noteSphere(*body, sphere->radius) || isNew;
+  }
+  return isNew;
+}
+
+bool SceneWatch::noteShape(const yade::Body& body) {
+  const yade::Shape& shape = *body.shape;
+  const auto isKnown = [&](const Kind& kind) { return *kind.type == typeid(shape); };
+  if (std::any_of(kinds_.begin(), kinds_.end(), isKnown)) return false;
+  const bool isSphere = dynamic_cast<const yade::Sphere*>(&shape) != nullptr;
+  kinds_.push_back({&typeid(shape), isSphere ? "Sphere" : shape.getClassName(), body.id});
+  return true;
+}
+
+bool SceneWatch::noteSphere(const yade::Body& body, double radius) {
+  bool isNew = false;
+  const auto note = [&](bool is, yade::Body::id_t& first) {
+    if (!is || first >= 0) return;
+    first = body.id;
+    isNew = true;
+  };
+  const double height = std::abs(body.state->se3.position[2]);
+  note(height >= radius, beside_);
+  if (body.isClumpMember() || (body.state->blockedDOFs & yade::State::DOF_Z) != 0) return isNew;
+  note(height > tolerance::kInPlane * radius || body.state->vel[2] != 0, leaving_);
+  note(true, loose_);
+  return isNew;
+}
+
+std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity) const {
+  namespace py = yade::py;
+  const WithGil gil;
+  std::vector<std::string> result;
+  try {
+    py::dict kinds;
+    for (const Kind& kind : kinds_)
+      if (!kinds.has_key(kind.name)) kinds[kind.name] = kind.first;
+    const py::object found = py::import("yadefrag.scene_check")
+                                 .attr("sentences")(kinds, beside_, leaving_, loose_, gravity[2]);
+    for (py::ssize_t i = 0; i < py::len(found); ++i)
+      result.push_back(py::extract<std::string>(found[i]));
+  } catch (const py::error_already_set&) {
+    PyErr_Clear();  // a warning is not worth a run
+  }
+  return result;
+}
+
+}  // namespace yadefrag

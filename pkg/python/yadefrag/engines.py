@@ -1,0 +1,50 @@
+"""A set of engines that is ready to run."""
+
+import math
+
+from yade import wrapper
+from yadefrag.values import flag, number, numbersOf, refuse
+
+
+def engines(fe, gravity=None, spheres=False, damping=0., collider=None):
+    """List of engines for O.engines, in the order in which they must stand.
+
+    fe        an FESolver
+    gravity   m/s², of its bodies and of spheres: a pair, or three numbers with z = 0; None: that of
+              fe.gravity
+    spheres   are there YADE's spheres? False: [ForceResetter, fe], for FESolver searches by itself.
+              True: a collider, InteractionLoop with Cundall and Strack's law among spheres and between
+              spheres and bodies, and NewtonIntegrator, too
+    damping   of NewtonIntegrator: that of spheres only
+    collider  a class of colliders for spheres=True, None: LebesgueCollider
+    Engines of one's own go behind: O.engines = engines(fe) + [PyRunner(...)]. ValueError before
+    anything changes.
+    """
+    if not isinstance(fe, wrapper.FESolver):
+        refuse('fe', fe, 'an FESolver')
+    spheres = flag('spheres', spheres)
+    finder = wrapper.LebesgueCollider if collider is None else collider
+    if not isinstance(finder, type) or not issubclass(finder, wrapper.Collider):
+        refuse('collider', collider, 'a class of colliders, or None')
+    damping = number('damping', damping, lambda v: math.isfinite(v) and v >= 0, '0 or positive')
+    integrator = wrapper.NewtonIntegrator(damping=damping)
+    if gravity is not None:
+        fe.gravity = _inPlane(gravity)
+    integrator.gravity = fe.gravity
+    if not spheres:
+        return [wrapper.ForceResetter(), fe]
+    return [
+        wrapper.ForceResetter(),
+        finder([wrapper.Bo1_Sphere_Aabb(), wrapper.Bo1_SurfaceSegment_Aabb()]),
+        wrapper.InteractionLoop(
+            [wrapper.Ig2_Sphere_Sphere_ScGeom(), wrapper.Ig2_Sphere_SurfaceSegment_ScGeom()],
+            [wrapper.Ip2_FrictMat_FrictMat_FrictPhys()],
+            [wrapper.Law2_ScGeom_FrictPhys_CundallStrack()]),
+        fe, integrator]
+
+
+def _inPlane(gravity):
+    found = numbersOf(gravity, 2) or numbersOf(gravity, 3)
+    if found is None:
+        refuse('gravity', gravity, 'a pair of numbers (m/s²), or None')
+    return found

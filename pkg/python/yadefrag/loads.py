@@ -1,0 +1,129 @@
+"""Loads on the boundary that change with it, and the way to rest."""
+
+import math
+import warnings
+
+import numpy
+
+from yade import wrapper
+from yadefrag._yadefrag import requirePaused
+from yadefrag.motions import chosenNodes, packed, tableOrNumber
+from yadefrag.progress import runSteps
+from yadefrag.shown import betweenSteps
+from yadefrag.values import array, number, positive, refuse, shown, whole
+
+_LOOK = 25  # steps from one look at the motion to the next
+
+
+def getLoads(self):
+    """Constant outer forces on the nodes (N), array (n, 2); to be set as a whole, or None for none.
+
+    A copy: `loads = fe.loads; loads[top] = (0, -1); fe.loads = loads`. ValueError unless there is
+    one finite pair for each node.
+    """
+    return self._loads
+
+
+def setLoads(self, loads):
+    requirePaused()
+    forces = numpy.zeros((0, 2)) if loads is None else array(loads, float)
+    if forces is None:
+        refuse('loads', loads, 'an array (n, 2) of N, or None')
+    if forces.ndim != 2 or forces.shape[1] != 2:
+        raise ValueError('loads has the shape %s, it must be (n, 2).' % shown(forces.shape))
+    self._setLoads(numpy.ascontiguousarray(forces).tobytes())
+
+
+def pressure(self, nodes, p):
+    """From now on a pressure acts on the sides of the boundary that have both ends among `nodes`.
+
+    nodes  as in `prescribe`: node numbers, flags, a function (x, y) of the present positions, or a
+           body's name for all of its boundary
+    p      Pa, towards the body: a number, a table [(s, Pa), …] linear between its times and constant
+           outside, or a function (t) → Pa; the times are fe.time. 0 ends it
+    It is along the present normal, on the present length, half at both ends of a side: it turns with
+    the surface, and follows it where nodes split. New faces of cracks have none. A later pressure on
+    the same side takes the place of an earlier one. Its work is in `energy['external']`. A saved scene
+    keeps numbers and tables; with a function the first step after O.load raises RuntimeError until
+    pressure has been called for these nodes again. ValueError before anything changes, also where no
+    side has both ends among the nodes.
+    """
+    requirePaused()
+    chosen = chosenNodes(self, nodes)
+    if callable(p):
+        def value(time):
+            return number('p(%g)' % time, p(time), math.isfinite, 'a finite number (Pa)')
+        self._pressure(chosen.tobytes(), b'', b'', value)
+        return
+    times, values = packed(tableOrNumber('p', p, 'Pa'))
+    self._pressure(chosen.tobytes(), times, values, None)
+
+
+def absorb(self, nodes):
+    """From now on waves leave by the sides of the boundary that have both ends among `nodes`.
+
+    nodes  as in `prescribe`
+    Dashpots ρc at the nodes (Lysmer and Kuhlemeyer 1969, J. Eng. Mech. Div. 95, 859), with the speed
+    of compression waves across the boundary and that of shear waves along it: waves that come
+    straight at it leave wholly, of others a part comes back. They hold no static load: a body that
+    is pushed drifts through them. What they take is in `energy['damping']`. ValueError before
+    anything changes, also for a body of several materials.
+    """
+    requirePaused()
+    self._absorb(chosenNodes(self, nodes).tobytes())
+
+
+def relax(self, tolerance=1e-6, most=10**6):
+    """Runs the scene until its bodies are at rest; returns the number of steps (int).
+
+    tolerance  at rest is: the kinetic energy is below this part of the strain energy, at two looks
+               one after the other, 25 steps apart
+    most       steps; after so many a warning says how far it got
+    Damping is chosen anew at each look, so that the slowest vibration that moves the bodies is
+    critically damped, by its Rayleigh quotient (Underwood 1983, Computational Methods for Transient
+    Analysis, p. 245). `damping` is what it was afterwards. To be called between runs, with O.dt set.
+    RuntimeError as from runSteps.
+    """
+    tolerance = positive('tolerance', tolerance, 'a ratio of energies')
+    most = whole('most', most)
+    before, done, calm, ratio = self.damping, 0, 0, math.inf
+    try:
+        while done < most and calm < 2:
+            wanted = min(_LOOK, most - done)
+            part = runSteps(wanted)
+            done += part
+            if part < wanted:
+                break  # O.pause()
+            energy = self.energy
+            ratio = energy['kinetic'] / energy['strain'] if energy['strain'] > 0 else math.inf
+            calm = calm + 1 if ratio <= tolerance or energy['kinetic'] == 0 else 0
+            self.damping, part = _critical(self)
+            done += part
+    finally:
+        self.damping = before
+    if calm < 2:
+        warnings.warn('relax: after %d steps the kinetic energy still is %.3g of the strain energy.' %
+                      (done, ratio), stacklevel=2)
+    return done
+
+
+def _critical(fe):
+    """(damping (1/s), number of steps): critical for what moves now, found from three steps: twice
+    the angular frequency of the motion's Rayleigh quotient. What it was where that is none."""
+    present, speeds = fe.damping, []
+    for step in range(3):
+        if runSteps(1) == 0:
+            return present, step
+        with betweenSteps(fe):
+            speeds.append(fe.velocities)
+            free, masses = ~fe.reactions.any(axis=1), fe.masses
+    if len(speeds[0]) != len(speeds[2]):
+        return present, 3  # cracks opened
+    dt = wrapper.Omega().dt
+    first, middle, last = (numpy.where(free[:, None], v, 0) for v in speeds)
+    moving = (masses * (middle**2).sum(axis=1)).sum()
+    # M j = -K v - αM a: what is left of the jerk without damping is the stiffness's.
+    pull = (last - 2 * middle + first) / dt**2 + present * (last - first) / (2 * dt)
+    squared = -(masses * (middle * pull).sum(axis=1)).sum()
+    # Above 1/Δt there is nothing that one step could not stop.
+    return (min(2 * math.sqrt(squared / moving), 1 / dt) if moving > 0 < squared else present), 3

@@ -1,0 +1,153 @@
+"""A record of a run: pictures for ParaView and a table, which go on after a restart."""
+
+import math
+import os
+import sys
+
+from yade import wrapper
+from yadefrag.export import exportVTK, fieldNames
+from yadefrag.files import appendText, requireWritable, writeText
+from yadefrag.progress import MOST_STEPS
+from yadefrag.shown import betweenSteps
+from yadefrag.values import path, shown, shownPath, whole
+
+_ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped', 'outside',
+             'total')
+_FIRST = ('step', 'time (s)', 'cracks', 'fragments') + tuple('%s (J)' % e for e in _ENERGIES) + \
+    ('reaction x (N)', 'reaction y (N)')
+_NAMED = 'reaction %s of %s (N)'
+_complained = set()  # files that a sentence has been said of
+
+
+def FERecorder(iterPeriod=0, file='run', fields=None, **settings):
+    """An engine, a PyRunner for the end of O.engines, that records the scene's FESolver.
+
+    iterPeriod  steps from one record to the next; or virtPeriod (s), realPeriod (s) and all else that
+                a PyRunner has, as further arguments
+    file        path without an ending: file.csv has a line for each record, with the step, fe.time (s),
+                the numbers of cracks and fragments, the energies (J), and the reactions (N) of all held
+                nodes and of each body that has a name; file.pvd, for ParaView, is the series of the
+                pictures file_000000.vtu, …, which are as exportVTK writes them
+    fields      which of exportVTK's fields the pictures have, None: all; (): there are no pictures
+    O.save keeps it. It goes on with the files that are there: records of the present fe.time and later,
+    which a run made that was taken up again from an earlier save, are taken out. Where a file cannot
+    be written, as on a full disk, a sentence on stderr says so, once for each file, and the run goes on;
+    what was written before stays whole. OSError if file.csv cannot be written now, ValueError for
+    fields that there are not.
+    """
+    name = path('file', file)
+    chosen = fieldNames(fields)
+    every = whole('iterPeriod', iterPeriod, 0, 'a whole number of steps', MOST_STEPS)
+    requireWritable(name + '.csv')
+    command = '__import__("yadefrag.recorder").recorder.record(%r, %r)' % (os.path.abspath(name), chosen)
+    try:
+        return wrapper.PyRunner(command=command, **{'initRun': True, 'iterPeriod': every, **settings})
+    except OverflowError:
+        raise ValueError('A setting of FERecorder is too large: %s.' % shown(settings)) from None
+
+
+def record(name, fields):
+    """What the engine does."""
+    solvers = [one for one in wrapper.Omega().engines if isinstance(one, wrapper.FESolver)]
+    if not solvers:
+        return
+    with betweenSteps(solvers[0]):
+        for file, write in ((name + '.csv', _appendLine), (name + '.pvd', _appendPicture)):
+            try:
+                write(solvers[0], name, fields)
+                _complained.discard(file)
+            except OSError as error:
+                if file not in _complained:
+                    _complained.add(file)
+                    print('WARN  FERecorder: %s cannot be written (%s); the run goes on without it.' %
+                          (shownPath(file), error.strerror or error), file=sys.stderr)
+
+
+def _before(time, now):
+    """Times of one step may be off by the rounding of a sum."""
+    return time < now * (1 - 1e-12)
+
+
+# --- the table
+
+def _appendLine(fe, name, _):
+    file = name + '.csv'
+    lines = _lines(file)
+    names = [one for one in fe._names if one]
+    wanted = ','.join(_FIRST + tuple(_NAMED % (axis, one.replace(',', ' ')) for one in names
+                                     for axis in 'xy'))
+    kept = [line for line in lines[1:] if _isEarlier(line, fe.time)] if lines[:1] == [wanted] else []
+    row = _row(fe, names)
+    if lines and len(kept) == len(lines) - 1 and lines[0] == wanted:
+        appendText(file, row + '\n')
+    else:
+        writeText(file, '\n'.join([wanted, *kept, row, '']))
+
+
+def _lines(file):
+    try:
+        with open(file, encoding='utf-8', errors='replace') as old:
+            return old.read().splitlines()
+    except FileNotFoundError:
+        return []
+
+
+def _isEarlier(line, now):
+    try:
+        return _before(float(line.split(',')[1]), now)
+    except (IndexError, ValueError):
+        return False
+
+
+def _row(fe, names):
+    energy = fe.energy
+    numbers = [wrapper.Omega().iter, fe.time, fe.numCracks, len(fe.fragments())]
+    numbers += [energy.get(one, 0.) for one in _ENERGIES]
+    forces = fe.reactions
+    sums = [forces.sum(axis=0)] + [forces[fe.nodesOf(one)].sum(axis=0) if not fe._isGone(
+        fe._names.index(one)) else (math.nan, math.nan) for one in names]
+    numbers += [float(value) for force in sums for value in force]
+    return ','.join(map(repr, numbers))
+
+
+# --- the pictures
+
+_HEAD = ('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n'
+         '<Collection>\n')
+_ENTRY = '<DataSet timestep="%r" part="0" file="%s"/>'
+_END = '</Collection>\n</VTKFile>\n'
+
+
+def _appendPicture(fe, name, fields):
+    if not fields:
+        return
+    kept = [entry for entry in _entries(name + '.pvd') if _before(entry[0], fe.time)]
+    last = max([_number(picture) for _, picture in kept], default=-1)
+    picture = '%s_%06d.vtu' % (name, last + 1)
+    exportVTK(fe, picture, fields)
+    kept.append((fe.time, os.path.basename(picture)))
+    lines = '\n'.join(_ENTRY % (time, _quoted(one)) for time, one in kept)
+    writeText(name + '.pvd', _HEAD + lines + '\n' + _END)
+
+
+def _quoted(text):
+    for sign, code in (('&', '&amp;'), ('"', '&quot;'), ('<', '&lt;'), ('>', '&gt;')):
+        text = text.replace(sign, code)
+    return text
+
+
+def _number(picture):
+    try:
+        return int(picture.rsplit('_', 1)[1].split('.')[0])
+    except (IndexError, ValueError):
+        return -1
+
+
+def _entries(file):
+    """List of (time, name of a picture) of a file of this recorder; none if it is no such file."""
+    import xml.etree.ElementTree as tree
+    try:
+        root = tree.parse(file).getroot()
+        return [(float(one.get('timestep')), one.get('file')) for one in root.iter('DataSet')]
+    except (FileNotFoundError, tree.ParseError, TypeError, ValueError):
+        return []

@@ -1,0 +1,66 @@
+"""What FE bodies of a scene will not touch or feel, in a sentence each."""
+
+from yade import wrapper
+
+# They put no forces on bodies, or put them on afresh in each step by themselves.
+_WITHOUT_FORCES = (wrapper.FESolver, wrapper.Collider, wrapper.PeriodicEngine, wrapper.NewtonIntegrator)
+
+
+def _functors(engines, kind, holder):
+    """All functors of the live engines of a kind."""
+    return [functor for engine in engines if isinstance(engine, kind)
+            for functor in getattr(engine, holder).functors]
+
+
+def _takes(functor, *shapes):
+    return all(shape in functor.bases for shape in shapes)
+
+
+def sentences(kinds, beside, leaving, loose, gravityZ):
+    """List of sentences about the scene; FESolver calls it when something new is there.
+
+    kinds                   {name of a shape: a body that has it}, without surface segments; spheres
+                            of all kinds are 'Sphere'
+    beside, leaving, loose  a sphere that is beside the plane z = 0, leaves it, may leave it; -1: none
+    gravityZ                m/s², that NewtonIntegrator has
+    """
+    engines = [engine for engine in wrapper.Omega().engines if not engine.dead]
+    geometry = _functors(engines, wrapper.InteractionLoop, 'geomDispatcher')
+    found = []
+    for shape, body in kinds.items():
+        if not any(_takes(one, shape, 'SurfaceSegment') for one in geometry):
+            found.append(_untouched(shape, body))
+    if 'Sphere' in kinds:
+        bounds = _functors(engines, wrapper.Collider, 'boundDispatcher')
+        if not any(_takes(one, 'SurfaceSegment') for one in bounds):
+            found.append('Spheres go through FE bodies: the collider has no Bo1_SurfaceSegment_Aabb.')
+        found += _outOfPlane(beside, leaving, loose, gravityZ)
+    if gravityZ and loose < 0:
+        found.append('FE bodies do not feel the gravity along z of NewtonIntegrator: they move in '
+                     'the plane z = 0 only.')
+    if not any(isinstance(one, wrapper.ForceResetter) for one in engines):
+        other = [one for one in engines if not isinstance(one, _WITHOUT_FORCES)]
+        if other:
+            found.append('O.engines has no ForceResetter: the forces of %s on bodies add up from step '
+                         'to step.' % type(other[0]).__name__)
+    return found
+
+
+def _untouched(shape, body):
+    if shape == 'Sphere':
+        return ('Spheres go through FE bodies: no InteractionLoop has an '
+                'Ig2_Sphere_SurfaceSegment_ScGeom.')
+    return ('FE bodies go through bodies of the shape %s, such as #%d: they touch each other and '
+            'spheres only; a body of FESolver with fixed nodes can take its place.' % (shape, body))
+
+
+def _outOfPlane(beside, leaving, loose, gravityZ):
+    if beside >= 0:
+        return ['Sphere #%d is beside the plane z = 0 of the FE bodies, and does not touch them.' % beside]
+    if leaving >= 0:
+        return ['Sphere #%d leaves the plane z = 0, and passes FE bodies then: its center must be in it, '
+                "and 'z' among its blockedDOFs." % leaving]
+    if loose >= 0 and gravityZ:
+        return ['Gravity along z takes sphere #%d out of the plane z = 0 of the FE bodies; block its z, '
+                'or let gravity be along y.' % loose]
+    return []

@@ -1,0 +1,215 @@
+"""FERecorder, the ready set of engines, and runs that call something every few steps."""
+import builtins
+import csv
+import os
+import subprocess
+import xml.etree.ElementTree as tree
+
+import meshio
+import numpy as np
+import pytest
+
+import yadefrag
+from fe_scene import fe, steps
+from yade import utils
+from yade import wrapper as w
+
+O = builtins.O
+
+
+def scene(file, **settings):
+    """A block that falls onto a floor, with a recorder."""
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((-1, -1), (2, 0)), size=.5, material='m', name='floor, low',
+                      fixed=lambda x, y: True)
+    solver.addPolygon(yadefrag.rectangle((0, .001), (1, 1)), size=.5, material='m', velocity=(0, -1))
+    O.engines = yadefrag.engines(solver, gravity=(0, -9.81)) + [
+        yadefrag.FERecorder(iterPeriod=10, file=file, **settings)]
+    O.dt = .8 * solver.criticalTimeStep()
+    return solver
+
+
+def solverOfScene():
+    return next(e for e in O.engines if isinstance(e, w.FESolver))
+
+
+def table(file):
+    with open(file + '.csv') as lines:
+        return list(csv.DictReader(lines))
+
+
+def series(file):
+    return [(float(one.get('timestep')), one.get('file')) for one in
+            tree.parse(file + '.pvd').getroot().iter('DataSet')]
+
+
+def test_recordsAreWhatTheSolverSays(folder):
+    file = folder + '/a run & more'
+    solver = scene(file)
+    wanted = []
+    for _ in range(45):
+        O.step()
+        if (O.iter - 1) % 10 == 0:
+            wanted.append((O.iter - 1, solver.time, solver.energy, solver.nodes, solver.reaction('floor, low')))
+    rows, pictures = table(file), series(file)
+    assert [int(row['step']) for row in rows] == [one[0] for one in wanted] == [0, 10, 20, 30, 40]
+    for row, (time, picture), (_, when, energy, nodes, force) in zip(rows, pictures, wanted):
+        assert float(row['time (s)']) == time == when
+        assert all(float(row['%s (J)' % name]) == energy[name] for name in
+                   ('kinetic', 'strain', 'contact', 'outside', 'total'))
+        assert float(row['reaction y of floor  low (N)']) == force[1] == float(row['reaction y (N)'])
+        mesh = meshio.read(os.path.join(folder, picture))
+        assert (mesh.points[:, :2] == nodes).all()
+        assert set(mesh.point_data) == {'displacement', 'velocity', 'contact force', 'reaction'}
+        assert set(mesh.cell_data) == {'stress', 'strain', 'component', 'fragment'}
+
+
+def test_fieldsAreChosen(folder):
+    scene(folder + '/few', fields=['stress'])
+    steps(1)
+    mesh = meshio.read(folder + '/few_000000.vtu')
+    assert not mesh.point_data and list(mesh.cell_data) == ['stress']
+    O.reset()
+    scene(folder + '/none', fields=())
+    steps(1)
+    assert len(table(folder + '/none')) == 1 and not os.path.exists(folder + '/none.pvd')
+
+
+@pytest.mark.parametrize('ending', ['.yade', '.xml'])
+def test_takenUpAgainWithoutDoubles(folder, ending):
+    file = folder + '/run'
+    scene(file)
+    O.run(25, True)
+    O.save(folder + '/scene' + ending)
+    O.run(30, True)
+    rows, pictures, nodes = table(file), series(file), solverOfScene().nodes
+    assert len(rows) == len(pictures) == 6
+    O.load(folder + '/scene' + ending)
+    O.run(30, True)
+    assert (solverOfScene().nodes == nodes).all()
+    assert table(file) == rows and series(file) == pictures
+    # A new run under the same name begins anew.
+    O.reset()
+    scene(file)
+    O.run(15, True)
+    assert len(table(file)) == len(series(file)) == 2
+
+
+def test_otherFilesOfThisNameAreReplaced(folder):
+    file = folder + '/run'
+    for ending in ('.csv', '.pvd'):
+        with open(file + ending, 'w') as old:
+            old.write('something else\n1,2\n')
+    scene(file)
+    steps(1)
+    assert len(table(file)) == len(series(file)) == 1
+
+
+@pytest.fixture
+def small(folder):
+    """A disk of 32 KB."""
+    disk = folder + '/disk'
+    os.mkdir(disk)
+    if subprocess.run(['mount', '-t', 'tmpfs', '-o', 'size=32k', 'none', disk],
+                      capture_output=True).returncode:
+        pytest.skip('no disk can be mounted here')
+    yield disk
+    subprocess.run(['umount', disk], check=True)
+
+
+def test_aFullDiskIsASentenceAndTheRunGoesOn(small, capfd):
+    file = small + '/run'
+    scene(file)
+    assert yadefrag.runSteps(400) == 400
+    said = [line for line in capfd.readouterr().err.splitlines() if line.startswith('WARN  FERecorder')]
+    assert 1 <= len(said) <= 2 and all('No space left on device' in one for one in said)
+    # What is there is whole.
+    rows, pictures = table(file), series(file)
+    assert 0 < len(pictures) <= len(rows) < 40
+    assert all(None not in row and None not in row.values() for row in rows)
+    for _, picture in pictures:
+        assert len(meshio.read(os.path.join(small, picture)).points)
+    assert not [name for name in os.listdir(small) if 'part' in name]
+
+
+def test_aFolderThatGoesIsASentence(folder, capfd):
+    os.mkdir(folder + '/deep')
+    scene(folder + '/deep/run')
+    steps(1)
+    for name in os.listdir(folder + '/deep'):
+        os.remove(folder + '/deep/' + name)
+    os.rmdir(folder + '/deep')
+    steps(30)
+    said = [line for line in capfd.readouterr().err.splitlines() if line.startswith('WARN  FERecorder')]
+    assert len(said) == 2 and all('No such file or directory' in one for one in said)
+
+
+@pytest.mark.parametrize('settings, error', [
+    (dict(file='/nowhere/run'), OSError), (dict(file=3), ValueError), (dict(file=''), ValueError),
+    (dict(fields=['heat']), ValueError), (dict(fields=3), ValueError), (dict(iterPeriod='often'), ValueError),
+    (dict(iterPeriod=10**400), ValueError), (dict(virtPeriod=10**400), ValueError)])
+def test_wrongRecordersAreRefused(settings, error, folder):
+    with pytest.raises(error):
+        yadefrag.FERecorder(**{'file': folder + '/run', 'iterPeriod': 5, **settings})
+    assert os.listdir(folder) == []
+
+
+# --- engines
+
+def test_enginesWithSpheres():
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', fixed=lambda x, y: y < 1e-9)
+    O.engines = yadefrag.engines(solver, gravity=(0, -9.81), spheres=True)
+    O.bodies.append(utils.sphere((.5, 1.2, 0), .1, material='m'))
+    O.bodies[-1].state.blockedDOFs = 'zXY'
+    O.dt = .2 * min(solver.criticalTimeStep(), utils.PWaveTimeStep())
+    assert tuple(solver.gravity) == tuple(O.engines[-1].gravity) == (0, -9.81, 0)
+    touched = False
+    while solver.time < .2:
+        steps(10)
+        touched = touched or any(i.isReal for i in O.interactions)
+    assert touched and O.bodies[-1].state.pos[1] > 1.05 and solver.warnings == []
+
+
+def test_enginesTakeTheSolversGravity():
+    solver = fe(gravity=(1, -2))
+    first, last = yadefrag.engines(solver), yadefrag.engines(solver, spheres=True, damping=.3)
+    assert [type(one).__name__ for one in first] == ['ForceResetter', 'FESolver']
+    assert tuple(last[-1].gravity) == (1, -2, 0) and last[-1].damping == .3
+    assert tuple(solver.gravity) == (1, -2, 0)
+
+
+@pytest.mark.parametrize('settings', [dict(fe=3), dict(gravity='down'), dict(gravity=(0, 0, -9.81)),
+                                      dict(gravity=(1,)), dict(spheres='many'), dict(damping=10**400),
+                                      dict(collider=3)])
+def test_wrongEnginesAreRefused(settings):
+    solver = fe(gravity=(0, -1))
+    with pytest.raises(ValueError):
+        yadefrag.engines(**{'fe': solver, **settings})
+    assert tuple(solver.gravity) == (0, -1, 0)
+
+
+# --- calls between steps
+
+def test_callsDoNotWaitForYadesLook(monkeypatch):
+    """YADE's O.wait() looks every 40 ms whether a run is over: it is not asked."""
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    O.engines = yadefrag.engines(solver)
+    O.dt = .5 * solver.criticalTimeStep()
+    waited, called = [], []
+    monkeypatch.setattr(w.Omega, 'wait', lambda self: waited.append(O.iter))
+    assert yadefrag.runSteps(200, every=1, call=lambda: called.append(O.iter)) == 200
+    assert called == list(range(1, 201)) and waited == []
+
+
+def test_runsThatStopAreTold():
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    O.engines = yadefrag.engines(solver)
+    O.dt = 2 * solver.criticalTimeStep()
+    for _ in range(2):
+        with pytest.raises(RuntimeError, match='The run stopped in step 0'):
+            yadefrag.runSteps(10)
+    O.dt /= 4
+    assert yadefrag.runSteps(10) == 10

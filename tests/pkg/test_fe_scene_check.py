@@ -1,0 +1,171 @@
+"""What FE bodies will not touch or feel is said once; gravity is that of the scene."""
+import builtins
+import os
+
+import numpy as np
+import pytest
+
+import yadefrag
+from fe_scene import fe, finder, run, steps
+from yade import utils
+from yade import wrapper as w
+
+O = builtins.O
+SPHERE = 'Ig2_Sphere_SurfaceSegment_ScGeom'
+
+
+def scene(spheres=True, **settings):
+    solver = fe(**settings)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    run(solver, finder('LebesgueCollider'), spheres=spheres)
+    return solver
+
+
+def ball(place=(.5, 3, 0), blocked='zXY', **settings):
+    body = utils.sphere(place, .1, material='m', **settings)
+    body.state.blockedDOFs = blocked
+    O.bodies.append(body)
+    return body
+
+
+def told(solver, capfd):
+    """What has been said; each sentence once on stderr."""
+    lines = [line for line in capfd.readouterr().err.splitlines() if line.startswith('WARN  FESolver: ')]
+    assert lines == ['WARN  FESolver: ' + sentence for sentence in solver.warnings]
+    return solver.warnings
+
+
+def test_wholeSceneIsQuiet(capfd):
+    solver = scene()
+    ball()
+    steps(5)
+    assert told(solver, capfd) == []
+
+
+@pytest.mark.parametrize('make, shape', [
+    (lambda: utils.wall(-1, axis=1), 'Wall'), (lambda: utils.box((0, -1, 0), (1, .1, 1)), 'Box'),
+    (lambda: utils.facet([(0, -1, 0), (1, -1, 0), (0, -1, 1)]), 'Facet')])
+def test_shapesThatBodiesGoThroughAreTold(make, shape, capfd, folder):
+    solver = scene()
+    ball()
+    steps(2)
+    O.bodies.append(make())
+    number = O.bodies[-1].id
+    steps(2)
+    O.bodies.append(make())  # the same kind again
+    steps(2)
+    [sentence] = told(solver, capfd)
+    assert sentence.startswith('FE bodies go through bodies of the shape %s, such as #%d: ' % (shape, number))
+    # It is part of the scene, and not said again.
+    path = os.path.join(folder, 'scene.yade')
+    O.save(path)
+    O.load(path)
+    steps(2)
+    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
+    assert solver.warnings == [sentence] and 'WARN  FESolver' not in capfd.readouterr().err
+
+
+def without(solver, name):
+    """The engines without a functor."""
+    loop = O.engines[2]
+    loop.geomDispatcher.functors = [f for f in loop.geomDispatcher.functors if type(f).__name__ != name]
+
+
+@pytest.mark.parametrize('spoil, sentence', [
+    (lambda solver: without(solver, SPHERE), 'no InteractionLoop has an ' + SPHERE),
+    (lambda solver: setattr(O, 'engines', [w.ForceResetter(), w.LebesgueCollider([w.Bo1_Sphere_Aabb()]),
+                                           *O.engines[2:]]), 'the collider has no Bo1_SurfaceSegment_Aabb'),
+    (lambda solver: setattr(O, 'engines', [w.ForceEngine(ids=[0]), solver]), 'no ForceResetter: the forces of'
+                                                                            ' ForceEngine'),
+])
+def test_missingPartsAreTold(spoil, sentence, capfd):
+    solver = scene()
+    if 'ForceEngine' not in sentence:
+        ball()
+    spoil(solver)
+    steps(3)
+    [one] = told(solver, capfd)
+    assert sentence in one
+
+
+@pytest.mark.parametrize('place, blocked, speed, gravity, sentence', [
+    ((.5, 3, .2), 'zXY', 0, 0, 'is beside the plane'), ((.5, 3, .01), 'XY', 0, 0, 'leaves the plane'),
+    ((.5, 3, 0), '', .1, 0, 'leaves the plane'), ((.5, 3, 0), '', 0, -9.81, 'Gravity along z takes sphere #'),
+    ((.5, 3, 0), 'zXY', 0, -9.81, 'do not feel the gravity along z'), ((.5, 3, 0), '', 0, 0, None)])
+def test_spheresBesideThePlaneAreTold(place, blocked, speed, gravity, sentence, capfd):
+    solver = scene()
+    ball(place, blocked).state.vel = (0, 0, speed)
+    O.engines[-1].gravity = (0, 0, gravity)
+    steps(3)
+    found = told(solver, capfd)
+    assert len(found) == (sentence is not None) and all(sentence in one for one in found)
+
+
+def fall(solver, duration=.02):
+    while solver.time < duration:
+        O.step()
+    return solver.velocities.mean(axis=0) / solver.time
+
+
+def test_gravityOfTheSceneIsTakenOver():
+    solver = scene(spheres=False)
+    O.engines[-1].gravity = (1, -9.81, 0)
+    assert fall(solver) == pytest.approx([1, -9.81], rel=1e-9)
+    assert solver.energy['external'] > 0 and abs(solver.energy['total']) < 1e-9 * solver.energy['external']
+    assert tuple(solver.gravity) == (0, 0, 0) and solver.takesGravity
+    O.engines[-1].dead = True
+    before = solver.velocities.mean(axis=0)
+    steps(5)
+    assert solver.velocities.mean(axis=0) == pytest.approx(before, rel=1e-12)
+
+
+@pytest.mark.parametrize('how', ['constructor', 'attribute', 'updateAttrs', 'none'])
+def test_gravityThatIsSetCounts(how, folder):
+    pull = (0, -2.)
+    solver = scene(spheres=False, **(dict(gravity=pull) if how == 'constructor' else {}))
+    if how == 'attribute':
+        solver.gravity = pull
+    if how == 'updateAttrs':
+        solver.updateAttrs(dict(gravity=pull))
+    if how == 'none':
+        pull = solver.gravity = (0, 0)
+    assert not solver.takesGravity and tuple(solver.gravity) == (*pull, 0)
+    O.engines[-1].gravity = (0, -9.81, 0)
+    path = os.path.join(folder, 'scene.xml')
+    O.save(path)
+    O.load(path)
+    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
+    assert fall(solver) == pytest.approx(pull, rel=1e-9, abs=1e-12)
+    solver.updateAttrs(dict(takesGravity=True, gravity=(0, 0, 0)))
+    before, begin = solver.velocities.mean(axis=0), solver.time
+    steps(10)
+    gained = (solver.velocities.mean(axis=0) - before) / (solver.time - begin)
+    assert gained == pytest.approx([0, -9.81], rel=1e-9)
+
+
+@pytest.mark.parametrize('wrong', [(0,), (0, 1, 2), 'down', (0, float('inf')), 3])
+def test_wrongGravityIsRefused(wrong):
+    solver = scene(spheres=False, gravity=(0, -1))
+    for change in (lambda: setattr(solver, 'gravity', wrong), lambda: solver.updateAttrs(dict(gravity=wrong)),
+                   lambda: w.FESolver(gravity=wrong)):
+        with pytest.raises((ValueError, TypeError), match='gravity'):
+            change()
+    assert tuple(solver.gravity) == (0, -1, 0) and not solver.takesGravity
+    other = w.FESolver()
+    with pytest.raises((ValueError, TypeError)):
+        other.gravity = wrong
+    assert other.takesGravity and tuple(other.gravity) == (0, 0, 0)
+
+
+def test_energiesOfTheSceneHaveTheSolversSigns():
+    solver = scene(spheres=False, gravity=(0, -9.81), damping=3)
+    O.trackEnergy = True
+    steps(40)
+    own, scenes = solver.energy, O.energy
+    assert own['outside'] == -own['external'] < 0
+    for name in ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'outside'):
+        assert scenes['fe' + name.capitalize()] == own[name]
+    assert scenes['feExternal'] == own['outside']  # its name before
+    parts = sum(value for name, value in own.items() if name not in ('total', 'external'))
+    assert parts == pytest.approx(own['total'], abs=1e-12 * own['external'])
+    assert sum(value for name, value in scenes.items()) == pytest.approx(own['total'], abs=1e-12 * own['external'])

@@ -1,0 +1,280 @@
+"""Motions that change: turns that keep their circle, values by node, tables and functions of time."""
+import builtins
+import math
+import os
+
+import numpy as np
+import pytest
+
+import yadefrag
+from fe_scene import fe, run, steps
+from yade import wrapper as w
+
+O = builtins.O
+CENTRE = np.array([.3, .2])
+
+
+def everywhere(x, y):
+    return True
+
+
+def drum(**settings):
+    """A ring of radius 1 about CENTRE."""
+    solver = fe()
+    solver.addPolygon(*yadefrag.ring(CENTRE, .7, 1, 32), size=.3, material='m', **settings)
+    run(solver)
+    return solver
+
+
+def block(**settings):
+    solver = fe(**settings)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    run(solver)
+    return solver
+
+
+def bottom(solver):
+    return np.nonzero(solver.nodes[:, 1] < 1e-9)[0]
+
+
+def radii(solver, centre=CENTRE):
+    return np.linalg.norm(solver.nodes - centre, axis=1)
+
+
+def turned(places, centre, angle):
+    x, y = (places - centre).T
+    return centre + np.stack([math.cos(angle) * x - math.sin(angle) * y,
+                              math.sin(angle) * x + math.cos(angle) * y], axis=1)
+
+
+@pytest.mark.parametrize('how', ['spin', 'field', 'rotate', 'name', 'nodes'])
+def test_drumKeepsItsRadiusOverTenTurns(how):
+    omega = 40.
+    settings = dict(spin=dict(fixed=everywhere, spin=omega),
+                    field=dict(fixed=everywhere, velocity=lambda x, y: (-omega * (y - CENTRE[1]),
+                                                                        omega * (x - CENTRE[0]))),
+                    name=dict(name='drum')).get(how, {})
+    solver = drum(**settings)
+    if how in ('rotate', 'name'):
+        solver.rotate(dict(rotate=0, name='drum')[how], omega, CENTRE)
+    if how == 'nodes':
+        solver.rotate(everywhere, omega, CENTRE)
+    before, start = radii(solver), solver.nodes
+    count = math.ceil(10 * 2 * math.pi / omega / O.dt)
+    assert count > 400  # a tangent would gain (ωΔt)²/2 a step: 10 % of the radius at least
+    O.run(count, True)
+    assert abs(radii(solver) / before - 1).max() < 1e-9
+    # The angle is that of the time, which adds up roundings of the step.
+    assert abs(solver.nodes - turned(start, CENTRE, omega * solver.time)).max() < 1e-9
+    # Stress-free, and no energy comes of it: what a rigid body has, to the order of (ωΔt)².
+    kinetic = .5 * (solver.masses * before**2).sum() * omega**2
+    energy = solver.energy
+    assert energy['kinetic'] == pytest.approx(kinetic, rel=(omega * O.dt)**2)
+    assert energy['strain'] < 1e-9 * kinetic
+    assert abs(energy['total'] - (0 if how in ('rotate', 'name', 'nodes') else kinetic)) < 1e-3 * kinetic
+
+
+def test_heldNodesOfABodyThatIsThrownTurnAboutItsCentroid():
+    solver = drum(fixed=everywhere, spin=30., velocity=(2., -1.))
+    before, start = radii(solver), solver.nodes
+    steps(200)
+    centre = CENTRE + np.array([2, -1]) * solver.time
+    # The outline's 32 points are even about the centre, the mesh's triangles nearly so.
+    middle = start.mean(axis=0)
+    assert abs(solver.nodes - turned(start, middle, 30 * solver.time) - (centre - CENTRE)).max() < \
+        2 * abs(middle - CENTRE).max() + 1e-9
+    assert abs(radii(solver, centre) / before - 1).max() < 1e-6
+
+
+def test_doubledNodesOfOpenJointsTurn():
+    O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e9, label='b'))
+    solver = w.FESolver()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='b', fixed=everywhere,
+                      velocity=lambda x, y: (-20 * y, 20 * x), joints=[((0, .5), (1, .5))])
+    run(solver)
+    before = np.linalg.norm(solver.nodes, axis=1)
+    assert len(np.unique(solver.nodes, axis=0)) < len(solver.nodes)
+    steps(100)
+    assert np.linalg.norm(solver.nodes, axis=1) == pytest.approx(before, abs=1e-12)
+
+
+def test_oneHeldNodeTurnsAboutTheCentroid():
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', spin=20.,
+                      fixed=lambda x, y: x + y < 1e-9)
+    run(solver)
+    steps(300)
+    assert np.linalg.norm(solver.nodes[solver.reactions.any(axis=1)][0] - .5) == \
+        pytest.approx(math.sqrt(.5), abs=1e-12)
+
+
+def test_heldNodesWithOtherVelocitiesGoOnStraight():
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', fixed=everywhere,
+                      velocity=lambda x, y: (.1 * x, 0))
+    run(solver)
+    before = solver.nodes
+    steps(50)
+    assert solver.nodes == pytest.approx(before * [1 + .1 * solver.time, 1], abs=1e-12)
+
+
+def test_ratesOfTurnByATable():
+    solver = drum()
+    solver.rotate(0, [(0, 0), (.01, 30), (.02, 0)], CENTRE)
+    start = solver.nodes
+    while solver.time < .03:
+        O.step()
+    assert solver.nodes == pytest.approx(turned(start, CENTRE, .3), abs=1e-12)  # the triangle's area
+    assert abs(solver.velocities).max() < 1e-9
+
+
+def test_velocitiesByNodeTablesAndFunctions():
+    solver = block()
+    low, start = bottom(solver), solver.nodes
+    speeds = np.linspace(1, 2, len(low))
+    solver.prescribe(low, vx=speeds, vy=0)
+    steps(10)
+    assert solver.nodes[low] - start[low] == pytest.approx(
+        np.stack([speeds * solver.time, 0 * speeds], axis=1), abs=1e-12)
+    # A ramp that begins now and ends between two steps: its exact integral.
+    begin, from_ = solver.time, solver.nodes
+    end = begin + 7.3 * O.dt
+    solver.prescribe(low, vx=[(begin, 0), (end, 3), (end + 1, 3)], vy=-1)
+    steps(20)
+    way = 1.5 * (end - begin) + 3 * (solver.time - end)
+    assert solver.nodes[low] - from_[low] == pytest.approx(
+        np.tile([way, begin - solver.time], (len(low), 1)), abs=1e-12)
+    # A function sees places and the middle of the step.
+    seen = []
+    from_, begin = solver.nodes, solver.time
+    solver.prescribe(low, vx=lambda x, y, t: seen.append((x, y, t)) or 100 * t, vy=[(0, 0), (1, 0)])
+    steps(5)
+    assert [t for x, y, t in seen[::len(low)]] == pytest.approx([begin + (k + .5) * O.dt for k in range(5)])
+    assert seen[0][:2] == tuple(from_[low[0]])
+    way = 50 * (solver.time**2 - begin**2)  # the middle of steps sums a line exactly
+    assert solver.nodes[low] - from_[low] == pytest.approx(np.tile([way, 0], (len(low), 1)), abs=1e-12)
+    energy = solver.energy
+    assert abs(energy['total']) < 1e-3 * energy['external']
+
+
+def test_crackedNodesMoveOn():
+    """Both halves of a plate that is pulled apart by its turning ends; new nodes turn, too."""
+    O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e3, label='b'))
+    solver = w.FESolver()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='b')
+    run(solver)
+    chosen = np.nonzero(solver.nodes[:, 1] > .7)[0]
+    solver.rotate(chosen, 5., (0, 0))
+    distance = np.linalg.norm(solver.nodes, axis=1)
+    count = len(distance)
+    steps(300)
+    assert solver.numCracks > 0 and len(solver.nodes) > count
+    reference = np.linalg.norm(solver._reference, axis=1)
+    moved = np.nonzero(solver.reactions.any(axis=1))[0]
+    assert set(chosen) <= set(moved) and moved.max() >= count
+    assert np.linalg.norm(solver.nodes[moved], axis=1) == pytest.approx(reference[moved], rel=1e-9)
+
+
+@pytest.mark.parametrize('ending', ['.yade', '.xml'])
+def test_savedMotionsGoOnWithTheSameBits(folder, ending):
+    solver = drum(name='drum')
+    solver.rotate('drum', [(0, 0), (.01, 30)], CENTRE)
+    solver.addPolygon(yadefrag.rectangle((3, 0), (4, 1)), size=.5, material='m', name='gone')
+    last = solver.addPolygon(yadefrag.rectangle((5, 0), (6, 1)), size=.5, material='m', name='anvil')
+    solver.prescribe('anvil', vy=[(0, 0), (.02, 1)])
+    solver.removeBody('gone')
+    assert solver.componentOf('anvil') == last
+    steps(30)
+    path = os.path.join(folder, 'scene' + ending)
+    O.save(path)
+    steps(30)
+    wanted, energy = solver.nodes, solver.energy
+    O.load(path)
+    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
+    assert solver.componentOf('anvil') == last and (solver.nodesOf('drum') == solver.nodesOf(0)).all()
+    steps(30)
+    assert (solver.nodes == wanted).all() and solver.energy == energy
+
+
+def test_functionsAreAskedForAfterALoad(folder):
+    solver = block()
+    path = os.path.join(folder, 'scene.yade')
+    solver.prescribe(bottom(solver), vy=lambda x, y, t: 1)
+    steps(3)
+    O.save(path)
+    O.load(path)
+    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
+    before, speed = solver.nodes, solver.velocities
+    with pytest.raises(RuntimeError, match='call FESolver.prescribe for them again'):
+        O.step()
+    assert (solver.nodes == before).all() and (solver.velocities == speed).all()
+    solver.prescribe(bottom(solver), vy=lambda x, y, t: 1)
+    before = solver.nodes[0, 1]
+    O.run(4, True)  # in YADE's own thread
+    assert solver.time == pytest.approx(7 * O.dt)
+
+
+@pytest.mark.parametrize('value, sentence', [
+    (lambda x, y, t: 1 / 0, 'raised ZeroDivisionError: '),
+    (lambda x, y, t: 'fast', r"raised ValueError: vy\(.*\) is 'fast', it must be a finite number"),
+])
+def test_functionsThatFailStopTheStepUnharmed(value, sentence):
+    solver = block()
+    low = bottom(solver)
+    steps(2)
+    solver.prescribe(low, vy=value)
+    before, speed, energy = solver.nodes, solver.velocities, solver.energy
+    with pytest.raises(RuntimeError, match=sentence):
+        O.step()
+    assert (solver.nodes == before).all() and (solver.velocities == speed).all()
+    assert solver.energy == energy
+    solver.prescribe(low)
+    O.step()
+
+
+def test_aRefusedStepPutsDrivenNodesBack():
+    solver = block()
+    solver.prescribe(bottom(solver), vx=[(0, 1e9), (1, 1e9)], vy=0)
+    before, speed = solver.nodes, solver.velocities
+    for _ in range(2):
+        with pytest.raises(RuntimeError):
+            O.step()
+        assert (solver.nodes == before).all() and (solver.velocities == speed).all()
+
+
+@pytest.mark.parametrize('wrong, sentence', [
+    (lambda fe: fe.prescribe([0, 1], vx=[1., 2., 3.]), 'vx has 3 values, it must have one for each of the 2'),
+    (lambda fe: fe.prescribe([0], vx=[(0, 1), (0, 2)]), 'vx has times that do not ascend'),
+    (lambda fe: fe.prescribe([0], vx=[(0, math.nan)]), 'not finite'),
+    (lambda fe: fe.prescribe([0, 1], vx=[1., 2.], vy=[(0, 1)]), 'vx is an array, but the other'),
+    (lambda fe: fe.prescribe('anvil', vx=1), "component is 'anvil', it must be the number or the name"),
+    (lambda fe: fe.rotate(7, 1, (0, 0)), 'component is 7, which is no body'),
+    (lambda fe: fe.rotate([0], 'fast', (0, 0)), "omega is 'fast'"),
+    (lambda fe: fe.rotate([0], 1, 'here'), "centre is 'here'"),
+    (lambda fe: fe.rotate([99], 1, (0, 0)), 'there are'),
+    (lambda fe: fe.nodesOf('anvil'), "component is 'anvil'"),
+    (lambda fe: fe.nodesOf(1.5), 'component is 1.5'),
+    (lambda fe: fe.removeBody('anvil'), "component is 'anvil'"),
+])
+def test_wrongMotionsAreRefused(wrong, sentence):
+    solver = block()
+    before, energy = solver.velocities, solver.energy
+    with pytest.raises(ValueError) as error:
+        wrong(solver)
+    assert sentence in str(error.value)
+    assert (solver.velocities == before).all() and solver.energy == energy
+    steps(2)
+    assert not solver.reactions.any()
+
+
+def test_namesAreTakenOnce():
+    solver = fe()
+    place = [yadefrag.rectangle((2 * k, 0), (2 * k + 1, 1)) for k in range(2)]
+    assert solver.addPolygon(place[0], size=.5, material='m', name='anvil') == 0
+    for name in ('anvil', '', 'a\nb', 3):
+        with pytest.raises(ValueError):
+            solver.addPolygon(place[1], size=.5, material='m', name=name)
+    assert len(set(solver.components)) == 1
+    solver.removeBody('anvil')
+    assert solver.addPolygon(place[1], size=.5, material='m', name='anvil') == 1
+    assert repr(solver.meshQuality('anvil')) == repr(solver.meshQuality(1))

@@ -1,0 +1,134 @@
+// Loads on pieces of the boundary.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "core/errors.hpp"
+#include "mesh/structured.hpp"
+#include "step/bodies.hpp"
+#include "step/world.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+const ElasticMaterial kRubber{1e7, .2, 1000, false};
+
+World oneBlock(Vec2 low = {0, 0}, Vec2 velocity = {0, 0}) {
+  World world;
+  const TriangleMesh mesh = structuredRectangle(low, low + Vec2{1, 1}, 4, 4, QuadPattern::kCrossed);
+  world.addBody(mesh, moving(mesh, kRubber, velocity));
+  return world;
+}
+
+std::vector<NodeId> nodesWhere(const World& world, auto isChosen) {
+  std::vector<NodeId> nodes;
+  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
+    if (isChosen(world.model.nodes.position[n])) nodes.emplace_back(n);
+  return nodes;
+}
+
+Vec2 momentum(const World& world) {
+  Vec2 sum;
+  const Nodes& nodes = world.model.nodes;
+  for (std::size_t n = 0; n < nodes.size(); ++n) sum += nodes.mass[n] * nodes.velocity[n];
+  return sum;
+}
+
+TEST(Pressure, PushesAlongTheNormalAndChangesInTime) {
+  World world = oneBlock();
+  const double dt = .5 * world.criticalTimeStep();
+  world.setPressure(nodesWhere(world, [](Vec2 x) { return x.x == 0; }),
+                    TimeTable({0, 2 * dt}, {100, 300}));
+  double sum = 0;
+  for (const double pressure : {100, 200, 300, 300}) {
+    world.step(dt);
+    sum += pressure * dt;  // on 1 m²
+    EXPECT_NEAR(momentum(world).x, sum, 1e-5 * sum);
+  }
+}
+
+TEST(Pressure, TheLastOneCounts) {
+  World world = oneBlock();
+  const auto left = nodesWhere(world, [](Vec2 x) { return x.x == 0; });
+  for (const double pressure : {1., 2., 3.}) world.setPressure(left, TimeTable(pressure));
+  EXPECT_EQ(world.pressures.size(), 1U);
+  world.setPressure(left, TimeTable(0));
+  EXPECT_TRUE(world.pressures.empty());
+}
+
+TEST(Pressure, StaysWithItsBodyWhenAnotherLeaves) {
+  World world = oneBlock({5, 0});
+  const TriangleMesh mesh = structuredRectangle({0, 0}, {1, 1}, 3, 3, QuadPattern::kCrossed);
+  world.addBody(mesh, moving(mesh, kRubber, {0, 0}));
+  world.setPressure(nodesWhere(world, [](Vec2 x) { return x.x == 0; }), TimeTable(10));
+  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1; }));
+  world.removeBody(ComponentId(0));
+  const double dt = .1 * world.criticalTimeStep();
+  world.step(dt);
+  EXPECT_NEAR(momentum(world).x, 10 * dt, 1e-9 * dt);
+  EXPECT_EQ(world.absorbing.segments.size(), 3U);
+  world.removeBody(ComponentId(1));
+  EXPECT_TRUE(world.pressures.empty());
+  EXPECT_TRUE(world.absorbing.segments.empty());
+}
+
+// Of a body that moves as one, the dashpots take ρcv on each square metre at once.
+TEST(Absorbing, TakesImpedanceTimesVelocity) {
+  World world = oneBlock({0, 0}, {.1, .2});
+  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1; }));
+  const Vec2 before = momentum(world);
+  const double dt = 1e-6 * world.criticalTimeStep();
+  world.step(dt);
+  const Vec2 force = (1 / dt) * (momentum(world) - before);
+  EXPECT_NEAR(force.x, -.1 * std::sqrt(1000 * kRubber.waveModulus()), 1e-2);
+  EXPECT_NEAR(force.y, -.2 * std::sqrt(1000 * kRubber.shearModulus()), 1e-2);
+  EXPECT_NEAR(world.ledger.damping, -dot(force, {.1, .2}) * dt, 1e-5 * world.ledger.damping);
+}
+
+TEST(Absorbing, EnergyIsKeptInTheBooks) {
+  World world = oneBlock({0, 0}, {.1, .2});
+  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1 || x.y == 0; }));
+  const double before = world.kineticEnergy();
+  const double dt = .8 * world.criticalTimeStep();
+  for (int k = 0; k < 400; ++k) world.step(dt);
+  const double now = world.kineticEnergy() + world.strainEnergy();
+  EXPECT_LT(now, .1 * before);
+  EXPECT_NEAR(world.ledger.total(world.kineticEnergy(), world.strainEnergy()), before,
+              1e-6 * before);
+}
+
+TEST(Loads, ARefusedStepLeavesThemAsTheyWere) {
+  World world = oneBlock();
+  const auto left = nodesWhere(world, [](Vec2 x) { return x.x == 0; });
+  world.setPressure(left, TimeTable(10));
+  world.setAbsorbing(left);
+  const double dt = .5 * world.criticalTimeStep();
+  world.step(dt);
+  const std::vector<Vec2> place = world.model.nodes.position, speed = world.model.nodes.velocity;
+  const double taken = world.ledger.damping, given = world.ledger.external;
+  world.setPressure(left, TimeTable(1e300));
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_THROW(world.step(dt), RunError);
+    EXPECT_EQ(world.model.nodes.position, place);
+    EXPECT_EQ(world.model.nodes.velocity, speed);
+    EXPECT_EQ(world.ledger.damping, taken);
+    EXPECT_EQ(world.ledger.external, given);
+  }
+}
+
+TEST(Loads, WrongOnesAreRefused) {
+  World world = oneBlock();
+  const NodeId one[] = {NodeId(0)}, none[] = {NodeId(999)};
+  const auto left = nodesWhere(world, [](Vec2 x) { return x.x == 0; });
+  EXPECT_THROW(world.setPressure(one, TimeTable(1)), InputError);
+  EXPECT_THROW(world.setPressure(none, TimeTable(1)), InputError);
+  EXPECT_THROW(world.setPressure(left, TimeTable({1, 0}, {1, 1})), InputError);
+  EXPECT_THROW(world.setAbsorbing(one), InputError);
+  EXPECT_TRUE(world.pressures.empty());
+  EXPECT_TRUE(world.absorbing.segments.empty());
+}
+
+}  // namespace
+}  // namespace yadefrag::test
