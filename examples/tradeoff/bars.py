@@ -66,6 +66,7 @@ VARY = [{},
         {'plane': ['stress']},
         {'threads': [2]},
         {'mesh': ['regular', 'irregular']},
-        {'element': ['smoothed']}]
+        {'element': ['smoothed']},
+        {'entry': ['flags']}]
 ARGUMENTS = dict(duration=DURATION, reference=right(), watch=watch,
                  title='Two bars: contact stress over time, rms error')

@@ -97,5 +97,6 @@ VARY = [{},
         {'collider': ['none', 'InsertionSortCollider']},
         {'threads': [2]},
         {'mesh': ['irregular']},
-        {'element': ['smoothed']}]
+        {'element': ['smoothed']},
+        {'entry': ['flags']}]
 ARGUMENTS = dict(duration=.7e-3, title='Hertz: pressure off the ellipse, rms')

@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6573701343200615);
-  expectNear(places.y, 1.4585922900888253);
-  expectNear(speeds, 4523.8440318537323);
-  expectNear(totalEnergy(world), 89.999327000080015);
-  expectNear(world.ledger.contact, 4.4391342847171691);
+  expectNear(places.x, 3.657371534205573);
+  expectNear(places.y, 1.4585928671290864);
+  expectNear(speeds, 4525.1158589127917);
+  expectNear(totalEnergy(world), 89.999331856785545);
+  expectNear(world.ledger.contact, 4.4376729000611457);
 }
 
 }  // namespace
