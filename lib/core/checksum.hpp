@@ -7,7 +7,7 @@
 
 namespace yadefrag {
 
-/// 64 bits that hang on every bit of what is added, and on the order. Each word is mixed by the
+/// 64 bits that depend on every bit of what is added, and on the order. Each word is mixed by the
 /// finaliser of Steele, Lea and Flood 2014 (OOPSLA, "Fast splittable pseudorandom number
 /// generators"), which is one-to-one: a single changed word is always seen.
 class Checksum {

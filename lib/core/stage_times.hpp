@@ -1,5 +1,5 @@
 #pragma once
-// Where the time of a step goes. Nothing is measured unless somebody asks.
+// Where the time of a step goes. Nothing is measured unless it is asked for.
 
 #include <chrono>
 

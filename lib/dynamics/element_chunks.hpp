@@ -70,8 +70,8 @@ struct ElementChunks {
   void build(const Model& model);
   /// Builds anew the chunks that hold `changed` elements, some of whose corners became nodes from
   /// `firstNew` on, and returns how many these are. Sums have the same bits as after `build`: old
-  /// nodes stay shared though only one chunk may be left to them. Partial sums nobody writes any
-  /// more are appended to `abandoned` and must be set to zero.
+  /// nodes stay shared though only one chunk may be left to them. Partial sums that are not written
+  /// any more are appended to `abandoned` and must be set to zero.
   std::size_t follow(const Model& model, std::span<const ElementId> changed, NodeId firstNew,
                      std::vector<std::uint32_t>& abandoned);
 

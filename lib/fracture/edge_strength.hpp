@@ -8,8 +8,8 @@
 
 namespace yadefrag {
 
-/// (Pa) Strength of one edge. It hangs on the material, its seed and the edge's number alone, so it
-/// is the same in any order of asking and on any thread. With a Weibull modulus m, the
+/// (Pa) Strength of one edge. It depends on the material, its seed and the edge's number only, so
+/// it is the same in any order of asking and on any thread. With a Weibull modulus m, the
 /// two-parameter distribution of W. Weibull 1951 (J. Appl. Mech. 18, 293, with no lower limit):
 /// P(strength < s) = 1 − exp(−(s/σc)ᵐ). So σc is the scale, below which 63 % of the edges are; the
 /// mean is σc·Γ(1 + 1/m). With a scatter s: even in σc(1 ± s). With both, their product over σc.

@@ -74,7 +74,7 @@ class Splitting {
         begin = i + 1;
       }
     if (parts.size() < 2) return;
-    // Whoever has the lowest triangle keeps the node.
+    // The part with the lowest triangle keeps the node.
     const auto keeper =
         std::min_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
           return *std::min_element(a.begin(), a.end()) < *std::min_element(b.begin(), b.end());

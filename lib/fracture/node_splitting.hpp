@@ -10,7 +10,7 @@
 
 namespace yadefrag {
 
-/// Everything that changed, so that whoever keeps something by node or triangle can follow.
+/// Everything that changed, so that all arrays by node or triangle can follow.
 struct SplitResult {
   std::vector<ElementId> changed;  ///< triangles with a new node, ascending
   std::vector<NodeId> originals;   ///< of each new node, in order: the one it was part of

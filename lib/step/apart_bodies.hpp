@@ -16,7 +16,7 @@ class ApartBodies {
   /// Those with none of the `watched` nodes are apart; how far is not known.
   void takeFrom(const Model& model, std::span<const NodeId> watched);
 
-  /// Chooses anew: apart is who cannot touch itself and has nobody within a few times `reach` (m).
+  /// Chooses anew: apart is a body that cannot touch itself and has none within a few `reach` (m).
   /// True if the choice is another one; `wasApart` then tells of the former one.
   bool choose(const Model& model, const ContactSurfaces& surfaces, double reach);
 
@@ -27,7 +27,7 @@ class ApartBodies {
   [[nodiscard]] bool isApart(ComponentId body) const { return apart_[body.value] != 0; }
   [[nodiscard]] bool wasApart(ComponentId body) const { return former_[body.value] != 0; }
 
-  /// (m) So much nearer may anybody come to one that is apart, who then is farther than `reach`.
+  /// (m) A body may come so much nearer to one that is apart and is still farther than `reach`.
   [[nodiscard]] double spare() const { return spare_; }
   void comeNearer(double way) { spare_ -= way; }
   void restoreSpare(double spare) { spare_ = spare; }

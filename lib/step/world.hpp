@@ -91,7 +91,7 @@ class World {
   /// (s) From the present mesh; infinite without elements.
   [[nodiscard]] double criticalTimeStep() const;
 
-  /// Half the halo around an entry's piece, for a search by somebody else (a collider). To be asked
+  /// Half the halo around an entry's piece, for a search from outside (a collider). To be asked
   /// before that search, if one is due: the halo's width follows the velocities.
   [[nodiscard]] Box boxOf(EntryId entry) const;
   /// `first`: the segments before it are where, and as fast as, they were at the last call.
@@ -236,7 +236,7 @@ class World {
   MotionBounds motion_;
   ApartBodies apart_;
   StepUndo undo_;
-  double finest_ = 0;        // m, shortest stress-free segment: does not hang on when was searched
+  double finest_ = 0;  // m, shortest stress-free segment: does not depend on the time of the search
   double droppedBelow_ = 0;  // m², no loose fragment is smaller; 0: unknown
   std::string broken_;       // why there is no state to go on with; empty: there is
 };

@@ -69,7 +69,7 @@ void World::chooseHalo(double dt, SegmentId first) {
   search.shortest = first.value == 0 ? shortest : std::min(search.shortest, shortest);
   motion_.fastest = first.value == 0 ? fastest(first) : std::max(motion_.fastest, fastest(first));
   const double fast = wideHalo(2 * tolerance::kHaloSpare * motion_.fastest * dt);
-  // A step that needs more is refused; until then nobody shall make candidates of everything.
+  // A step that needs more is refused; until then not all pairs shall become candidates.
   const double most = 4 * tolerance::kHaloSpare * tolerance::kFarthestMove * search.shortest;
   search.halo = std::min(fast, most);
 }
@@ -99,7 +99,7 @@ void World::considerPairs(std::span<const BoxPair> overlapping, std::span<const 
   motion_.farthest = 0;
   search.isDue = search.isVoid = false;
   ++numSearches;
-  // Where all are watched in every step anyway, nobody asks for more.
+  // Where all nodes are watched in every step, no bound on their speed is needed.
   if (!apart_.any() && contact.candidates.size() > 0) dynamics_.watchSpeed(tolerance::kAnySpeed);
 }
 

@@ -45,7 +45,7 @@ void World::openJoints(std::span<const EdgeId> joints) {
   (void)relink(surfaces, split_.sides);
 }
 
-/// Everybody who keeps something by node, triangle or entry.
+/// All arrays by node, triangle or entry.
 void World::followSplit() {
   for (const NodeId original : split_.originals)
     reference.push_back(Vec2(reference[original.value]));

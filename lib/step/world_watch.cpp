@@ -28,7 +28,7 @@ void World::foreseeMotion(double dt) {
                     !(apart_.any() && apart_.spare() < 2 * most);
 }
 
-/// From x*. Where nobody is faster than foreseen, there is nothing to look at in a quiet step.
+/// From x*. Where no node is faster than foreseen, a quiet step needs no look at the nodes.
 void World::measureMove(double dt) {
   const StageTimer timer(timesIfAsked(), &StageTimes::search);
   if (dynamics_.anyFaster()) {
@@ -61,8 +61,8 @@ void World::watchSpeed(double dt) {
   dynamics_.watchSpeed(std::min(tolerance::kSpeedSpare * most, tolerance::kAnySpeed));
 }
 
-/// (m) Nobody comes so near to a body that is apart. Two bodies that meet in a step are not farther
-/// than twice its largest move at the end.
+/// (m) No other body comes so near to one that is apart. Two bodies that meet in a step are not
+/// farther than twice its largest move at the end.
 double World::apartReach() const {
   return std::max(search.halo, tolerance::kApartMoves * motion_.most);
 }
@@ -88,7 +88,7 @@ void World::chooseWatched() {
   search.isVoid = true;
 }
 
-/// May the next step leave the halo, or somebody come near a body that was apart?
+/// May the next step leave the halo, or bring a body near one that was apart?
 void World::foreseeSearch(double dt) {
   if (search.isDue) return;
   const StageTimer timer(timesIfAsked(), &StageTimes::search);

@@ -37,7 +37,7 @@ struct SurfaceSide {
 ///
 /// Returns the arcs that became second halves, in no order. At a convex node the corner stands out
 /// of the arc that was there, by 5/32 of |a − 2b + c|: what touched the arc is inside the body
-/// now, so whoever remembers which slaves were outside has to find out anew.
+/// now, so what is known of slaves outside has to be found anew.
 ///
 /// Cost ~ sides.size(); a closed list that is all new looks for its component's first entry.
 std::vector<EntryId> relink(ContactSurfaces& surfaces, std::span<const SurfaceSide> sides);

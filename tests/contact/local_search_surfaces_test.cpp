@@ -108,7 +108,7 @@ TEST(LocalSearch, JointsAtHalfpointsAreTight) {
 }
 
 /// Two searches of one course of events. One looks at every slave and every master in each step;
-/// the other as World does: candidates in the halo, renewed when somebody may have left it.
+/// the other as World does: candidates in the halo, renewed when a node may have left it.
 class TwoSearches {
  public:
   TwoSearches(SurfaceScene& scene, bool selfContact, double halo) : scene_(scene), halo_(halo) {

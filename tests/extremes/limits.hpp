@@ -14,7 +14,7 @@ inline constexpr double kNone = NAN;
 
 /// One row. The README's row of this name has to have the same sentence, and numbers that are equal
 /// but for a factor: the default is that of rounding to two digits, larger ones are for measured
-/// figures that hang on rounding. `name` is a literal at the call, and holds the unit. With
+/// figures that depend on rounding. `name` is a literal at the call, and holds the unit. With
 /// YADEFRAG_LIMITS=folder the row is written there instead, for scripts/bench limits.
 void limit(const std::string& name, double smallest, double largest, const std::string& beyond,
            double factor = 1.06);

@@ -39,7 +39,7 @@ std::vector<double> velocities(const World& world) {
 }
 
 // Newton's cradle of squares: as many leave at the far end as came in, one after the other, the
-// rest is left at rest, nobody passes anybody.
+// rest is left at rest, none passes another.
 TEST(ExtremeChain, TwoHundredBodiesAtOnce) {
   constexpr int kSquares = 200, kStruck = 3;
   constexpr double kSpeed = 1;  // m/s
@@ -54,7 +54,7 @@ TEST(ExtremeChain, TwoHundredBodiesAtOnce) {
     drift = std::max(drift, std::abs(totalEnergy(world) / energy - 1));
   }
   const std::vector<double> v = velocities(world);
-  double disorder = 0;  // of the speed: how much faster somebody is than the one ahead
+  double disorder = 0;  // of the speed: how much faster a body is than the one ahead
   for (std::size_t k = 0; k < v.size(); ++k) {
     lost += mass(world, ComponentId(k)) * v[k];
     if (k > 0) disorder = std::max(disorder, (v[k - 1] - v[k]) / kSpeed);

@@ -177,7 +177,7 @@ void expectSamePartition(const Model& a, const Model& b) {
 }
 
 // A batch gives the same bits every time, and the same pieces as its edges one by one: only the
-// numbers of nodes and segments hang on the order.
+// numbers of nodes and segments depend on the order.
 TEST(NodeSplitting, ABatchIsItsEdgesOneByOne) {
   Random random(9);
   for (int scene = 0; scene < 60 && !HasFailure(); ++scene) {

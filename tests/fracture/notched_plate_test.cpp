@@ -22,8 +22,8 @@ double tipOf(const std::vector<OpenEdge>& open) {
 /// One crack along the middle until two thirds of the way, then two that mirror each other, and a
 /// tip that is slower than Rayleigh's waves. Measured: branches from x = 84 mm on (74 mm with half
 /// the size), at the far side y = 13 and 29 mm, 5 µs means up to 1.4 km/s. Which of the branches
-/// wins hangs on the least of changes: of seven steps from 0.3 to 1 critical, both arrive at four,
-/// with half the size at two of four; elsewhere one is left behind.
+/// wins depends on the least of changes: of seven steps from 0.3 to 1 critical, both arrive at
+/// four, with half the size at two of four; elsewhere one is left behind.
 TEST(NotchedPlate, CrackBranchesSymmetrically) {
   World world;
   PulledPlate::add(world, triangulate(PulledPlate::outline(kSize), kSize), PulledPlate::spec());

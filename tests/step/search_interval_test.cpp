@@ -134,8 +134,8 @@ TEST(SearchInterval, HaloOfNewcomersIsThatOfAll) {
   }
 }
 
-/// During a run: half the shortest segment at most, nobody leaves it by more than the correction of
-/// the step at hand, and it is renewed no more often than the motion asks for.
+/// During a run: half the shortest segment at most, no node leaves it by more than the correction
+/// of the step at hand, and it is renewed no more often than the motion asks for.
 TEST(SearchInterval, HaloHoldsUntilTheNextSearch) {
   for (const double speed : {1., 10.}) {
     World world = row(speed, 2);

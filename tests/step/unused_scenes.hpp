@@ -26,7 +26,7 @@ struct Uses {
   }
 };
 
-/// Blocks of 5 mm and cells × cells × 2 triangles, 0.1 m apart: nobody is ever near another.
+/// Blocks of 5 mm and cells × cells × 2 triangles, 0.1 m apart: none is ever near another.
 inline void addFarBlocks(World& world, int count, int cells) {
   for (int i = 0; i < count; ++i) {
     const Vec2 low{.1 * i, 0};

@@ -141,7 +141,7 @@ def _key(setting):
 
 
 def _job(scene, measure, watch):
-    """What every run is told: which functions of which file."""
+    """What every run gets: which functions of which file."""
     functions = [scene, measure] + [watch] * (watch is not None)
     for name, function in zip(('scene', 'measure', 'watch'), functions):
         module = sys.modules.get(getattr(function, '__module__', None))

@@ -56,7 +56,7 @@ class Clock:
 
 
 class Sanity:
-    """Is this still a run: all finite, no energy out of nothing, no sphere at an absurd speed."""
+    """Is this still a run: all finite, no energy created, no sphere at an absurd speed."""
 
     def __init__(self, omega):
         self.omega = omega
