@@ -39,7 +39,7 @@ inline constexpr double kLeansIn = .5;
 inline constexpr double kLeftInside = .02;
 
 /// (of the shortest segment) By the path, a slave behind a piece by no more than this at the start
-/// of a step counts as before it. In twelve impacts pieces overlap by up to 1.7e-4 of a segment
+/// of a step counts as before it. In twelve impacts pieces overlap by up to 1.9e-4 of a segment
 /// with this, 1.7e-4 with half and 4.2e-4 with twice of it; with a quarter, less than what a step's
 /// corrections leave in rubble, one of the twelve loses a contact.
 inline constexpr double kEntryDepth = 4e-4;
