@@ -161,17 +161,6 @@ void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const Co
   lookedAt_ = false;
 }
 
-/// (m) How deep the deepest is, at xⁿ, of those that touched in the last step.
-double Contact::deepestTouch(const ContactSurfaces& surfaces, std::span<const Vec2> before) const {
-  double most = 0;
-  withGeometry(surfaces, before, [&](const auto& geometry) {
-    for (const Touch& touch : touches)
-      most =
-          std::max(most, -geometry.foot(touch.pair.master, geometry.slave(touch.pair.slave)).gap);
-  });
-  return most;
-}
-
 void Contact::solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
                     bool anyNew) {
   const StageTimer timer(step.times, &StageTimes::correction);
@@ -372,13 +361,6 @@ void Contact::finish(Model& model, const ContactSurfaces& surfaces, const Contac
     search_.settle(candidates, surfaces, model.nodes.position, known_, left);
 }
 
-void Contact::removeGone(const ContactSurfaces& surfaces) {
-  yadefrag::removeGone(candidates, surfaces);
-  std::erase_if(touches, [&](const Touch& t) {
-    return surfaces.isGone(t.pair.slave) || surfaces.isGone(t.pair.master);
-  });
-}
-
 void Contact::addTo(Footprint& footprint) const {
   footprint.add(Use::kContact, touches, formerTouches_, actives_, rows_, formerRows_, known_,
                 forces_, displacement_, touched_, isTouched_);
@@ -386,34 +368,6 @@ void Contact::addTo(Footprint& footprint) const {
   candidates.addTo(footprint);
   search_.addTo(footprint);
   lagrange_.addTo(footprint);
-}
-
-void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
-                            std::span<const EntryId> masters, std::span<const SlaveMaster> pairs) {
-  if (masters.empty() && pairs.empty()) return;
-  const PieceGeometry geometry(surfaces, positions);
-  for (std::size_t r = 0; r < candidates.slaves.size(); ++r)
-    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
-      const SlaveMaster pair{candidates.slaves[r], candidates.masters[c]};
-      if (!candidates.outside.empty() && candidates.outside[c] == 0) continue;
-      if (std::ranges::find(masters, pair.master) == masters.end() &&
-          !std::ranges::binary_search(pairs, pair))
-        continue;
-      const Foot foot = geometry.foot(pair.master, geometry.slave(pair.slave));
-      const double gap = foot.gap;
-      if (gap >= 0) continue;
-      // Without flags: a form changes by a part of a piece's length only.
-      if (candidates.outside.empty() &&
-          (!isOver(geometry, pair.master, foot) || gap < -.25 * geometry.length(pair.master)))
-        continue;
-      const auto at =
-          std::lower_bound(touches.begin(), touches.end(), pair,
-                           [](const Touch& t, const SlaveMaster& p) { return t.pair < p; });
-      if (at != touches.end() && at->pair == pair)
-        at->allowed = std::min(at->allowed, gap);
-      else
-        touches.insert(at, {pair, 0, 0, gap});
-    }
 }
 
 }  // namespace yadefrag
