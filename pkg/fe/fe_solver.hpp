@@ -112,7 +112,7 @@ constexpr auto FESolver::attributes() {
                 "How a point becomes active on a surface. 'path': its path through the step "
                 "crosses the moving surface; 'flags': a flag says that it was outside the line of "
                 "the surface's segment (Diekmann et al. 2000, section 5), to compare with; where "
-                "bodies crack, fragments then overlap by up to 0.004 of a segment.",
+                "bodies crack, fragments then overlap by up to 0.004 of a segment, seldom 0.1.",
                 triggerPostLoad),
       attribute(
           "passes", &C::passes,
