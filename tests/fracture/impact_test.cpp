@@ -22,6 +22,7 @@ struct Setting {
   int steps = 500, every = 5;  // steps between two looks at all overlaps
   int threads = 1;
   Entry entry = Entry::kPath;
+  NodeLayout nodes = NodeLayout::kRows;
 };
 
 struct Course {
@@ -45,7 +46,7 @@ World impact(const Setting& setting) {
   world.contactSettings.entry = setting.entry;
   const TriangleMesh block = triangulate(
       {{{-kWidth / 2, -kHeight}, {kWidth / 2, -kHeight}, {kWidth / 2, 0}, {-kWidth / 2, 0}}, {}},
-      setting.size);
+      setting.size, {setting.nodes});
   BodySpec ceramic = moving(block, {370e9, .22, 3900, false}, {0, 0});
   ceramic.brittle.tensileStrength = 300e6;
   ceramic.brittle.fractureEnergy = setting.fractureEnergy;
@@ -125,6 +126,13 @@ TEST(Impact, ABlockFallsToPieces) {
   expectSound(course);
   EXPECT_GT(course.growth, 7);
   EXPECT_EQ(course.fracture, 0);
+}
+
+/// As `addPolygon` meshes what can crack; the fastest, which flags let overlap by a tenth.
+TEST(Impact, OnAnIrregularMesh) {
+  const Course course = run({.speed = 200, .nodes = NodeLayout::kScattered});
+  expectSound(course);
+  EXPECT_GT(course.growth, 7);
 }
 
 /// The paper's way to tell what comes in, to compare with.
