@@ -86,9 +86,15 @@ def test_qualityPlot(folder):
     assert os.path.getsize(file) > 10000
 
 
-@pytest.mark.parametrize('wrong', [3, -1, 'block', True, 1.5])
-def test_qualityOfNoBody(wrong):
-    with pytest.raises(ValueError, match=r'component is .*one of \[0\]'):
+@pytest.mark.parametrize('wrong, sentence', [
+    (3, r'component is 3.*one of \[0\]'),
+    (-1, r'component is -1.*one of \[0\]'),
+    (True, r'component is True.*one of \[0\]'),
+    (1.5, r'component is 1\.5.*one of \[0\]'),
+    ('block', "component is 'block'.*no body has a name"),
+])
+def test_qualityOfNoBody(wrong, sentence):
+    with pytest.raises(ValueError, match=sentence):
         added().meshQuality(wrong)
 
 
