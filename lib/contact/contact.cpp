@@ -155,10 +155,10 @@ void Contact::releaseUnsolved() {
 void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
                    double reach, double moved) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
+  const PathStart start{step.before, touches, tolerance::kEntryDepth * step.shortest, deepest_};
   search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads, moved + sinceScan_,
-               entry_ == Entry::kPath ? deepest_ : INFINITY);
+               entry_ == Entry::kPath ? &start : nullptr);
   sinceScan_ = 0;
-  lookedAt_ = false;
 }
 
 void Contact::solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
@@ -182,12 +182,8 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
   if (!search_.anyNear()) return false;
   const StageTimer timer(step.times, &StageTimes::localSearch);
   actives_.clear();
-  const PathStart start{step.before, touches, tolerance::kEntryDepth * step.shortest};
-  search_.findActives(
-      candidates, surfaces, model.nodes.position, step.deepest, actives_, known_,
-      lookedAt_ ? std::span<const std::uint8_t>(isTouched_) : std::span<const std::uint8_t>(),
-      entry_ == Entry::kPath ? &start : nullptr);
-  lookedAt_ = true;
+  search_.findActives(candidates, surfaces, model.nodes.position, step.deepest, actives_, known_,
+                      sinceScan_);
   if (!actives_.empty()) makeRoom(model.nodes.size());
   const PieceGeometry before(surfaces, step.before);
   bool anyNew = false;

@@ -130,7 +130,6 @@ class Contact {
   std::vector<Vec2> displacement_;       // m, by node: the correction u so far
   std::vector<NodeId> touched_;          // nodes of a row
   std::vector<std::uint8_t> isTouched_;  // by node
-  bool lookedAt_ = false;                // what the last scan found near, where it then was
   double inexact_ = 0;                   // m, by how much sweeps may be wrong
   double sinceScan_ = 0;                 // m, by no more have corrections moved a node since then
   // Of the step before, for `takeBack`; touches once the step has some of its own.

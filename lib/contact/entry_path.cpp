@@ -19,13 +19,13 @@ std::optional<Crossing> crossing(const PointAndPiece& before, const PointAndPiec
   const Vec2 from0 = before.point - before.piece.begin, from1 = now.point - now.piece.begin;
   const Vec2 along0 = before.piece.end - before.piece.begin,
              along1 = now.piece.end - now.piece.begin;
-  const double behind = depth * std::max(norm(along0), norm(along1));
   const Vec2 from = from1 - from0, along = along1 - along0;
+  if (!(cross(from1, along1) < 0)) return std::nullopt;
+  const double behind = depth * std::sqrt(std::max(dot(along0, along0), dot(along1, along1)));
   // Gap × length + depth × length = a t² + b t + c.
   const double c = cross(from0, along0) + behind;
   const double b = cross(from0, along) + cross(from, along0);
   const double a = cross(from, along);
-  if (!(cross(from1, along1) < 0)) return std::nullopt;
   if (a + b + c >= 0) {
     if (c < 0) return std::nullopt;  // It came from behind.
     return at(1, from1, along1);

@@ -39,6 +39,21 @@ Beside besideChord(const Chord& chord, Vec2 point) {
   return {cross(from, along) * chord.inverse, std::max(-at, past), chord.inverse};
 }
 
+/// Is a pair among those that begin with the ones of its slave.
+bool isAmong(std::span<const SlaveMaster> pairs, SlaveMaster pair) {
+  for (const SlaveMaster& other : pairs) {
+    if (other.slave != pair.slave) return false;
+    if (other == pair) return true;
+  }
+  return false;
+}
+
+/// How many come before those of a slave.
+std::size_t firstOf(std::span<const SlaveMaster> pairs, EntryId slave) {
+  const auto at = std::ranges::lower_bound(pairs, slave, {}, &SlaveMaster::slave);
+  return static_cast<std::size_t>(at - pairs.begin());
+}
+
 template <class Geometry>
 Chord chordOf(const Geometry& geometry, EntryId entry) {
   const PieceEnds ends = geometry.ends(entry);
@@ -50,80 +65,116 @@ Chord chordOf(const Geometry& geometry, EntryId entry) {
 
 void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
                        std::span<const Vec2> positions, double reach, int threads, double moved,
-                       double deepest) {
+                       const PathStart* start) {
   reach_ = reach;
-  deepest_ = deepest;
+  threads_ = threads;
+  byPath_ = start != nullptr;
+  if (start) start_ = *start;
   const std::size_t rows = candidates.slaves.size();
   way_ += moved;
   if (candidates.asleep.size() != rows || !std::isfinite(way_))
     candidates.asleep.assign(rows, 0), way_ = 0;
   near_.clear();
-  nearByPart_.resize(static_cast<std::size_t>(std::max(threads, 1)));
+  parts_.resize(static_cast<std::size_t>(std::max(threads, 1)));
   const int parts = withGeometry(surfaces, positions, [&](const auto& geometry) {
-    findChords(candidates, surfaces, geometry, threads);
-    return scanRows(candidates, geometry, reach, threads);
+    findChords(candidates, surfaces, geometry);
+    return forEachPart(rows, threads, [&](std::size_t begin, std::size_t end, int part) {
+      scanRows(candidates, surfaces, geometry, begin, end, parts_[static_cast<std::size_t>(part)]);
+    });
   });
   for (int part = 0; part < parts; ++part) {
-    const auto& found = nearByPart_[static_cast<std::size_t>(part)];
+    const auto& found = parts_[static_cast<std::size_t>(part)].near;
     near_.insert(near_.end(), found.begin(), found.end());
   }
 }
 
-/// Returns in how many parts.
 template <class Geometry>
-int LocalSearch::scanRows(Candidates& candidates, const Geometry& geometry, double reach,
-                          int threads) {
+void LocalSearch::scanRows(Candidates& candidates, const ContactSurfaces& surfaces,
+                           const Geometry& geometry, std::size_t begin, std::size_t end,
+                           Part& part) const {
   const auto chord = [&](EntryId entry) {
     return chords_.empty() ? chordOf(geometry, entry) : chords_[entry.value];
   };
-  return forEachPart(
-      candidates.slaves.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
-        std::vector<Near>& found = nearByPart_[static_cast<std::size_t>(part)];
-        found.clear();
-        for (std::size_t r = begin; r < end; ++r) {
-          if (candidates.asleep[r] > way_ + reach) continue;
-          candidates.asleep[r] = way_ + scanRow(candidates, geometry, reach, deepest_,
-                                                static_cast<std::uint32_t>(r), chord, found);
-        }
-      });
+  const Geometry before(surfaces, start_.positions, pointsBefore_);
+  part.near.clear();
+  for (std::size_t r = begin; r < end; ++r) {
+    if (candidates.asleep[r] > way_ + reach_) continue;
+    const std::size_t first = part.near.size();
+    const auto row = static_cast<std::uint32_t>(r);
+    candidates.asleep[r] = way_ + scanRow(candidates, geometry, row, chord, part.near);
+    if (byPath_ && part.near.size() > first)
+      findEnterable(candidates, before, std::span(part.near).subspan(first));
+  }
+}
+
+/// By the path, what was behind a straight piece at xⁿ does not come in, unless it touched.
+template <class Geometry>
+void LocalSearch::findEnterable(const Candidates& candidates, const Geometry& before,
+                                std::span<Near> row) const {
+  const EntryId slave = candidates.slaves[row.front().row];
+  const Vec2 point = before.slave(slave);
+  for (Near& near : row) {
+    const EntryId master = candidates.masters[near.candidate];
+    if (before.isArc(master)) continue;
+    const PieceEnds ends = before.ends(master);
+    const Vec2 along = ends.end - ends.begin;
+    // Twice the depth, since the piece may be longer at the end of the step; where it turns in the
+    // step, a slave may come out and in again by less than the product of two motions.
+    const double inside = cross(along, point - ends.begin) - reach_ * reach_;
+    near.canEnter =
+        inside <= 2 * start_.depth * norm(along) ||
+        std::ranges::binary_search(start_.touches, SlaveMaster{slave, master}, {}, &Touch::pair);
+  }
 }
 
 /// In rubble nearly every slave is awake, and every piece the master of several.
 template <class Geometry>
 void LocalSearch::findChords(const Candidates& candidates, const ContactSurfaces& surfaces,
-                             const Geometry& geometry, int threads) {
+                             const Geometry& geometry) {
   const auto isAwake = [&](double asleep) { return asleep <= way_ + reach_; };
   const auto awake = static_cast<std::size_t>(std::ranges::count_if(candidates.asleep, isAwake));
-  chords_.resize(awake > surfaces.entries() / 4 ? surfaces.entries() : 0);
-  forEachPart(chords_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
+  const std::size_t count = awake > surfaces.entries() / 4 ? surfaces.entries() : 0;
+  chords_.resize(count);
+  forEachPart(count, threads_, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t e = begin; e < end; ++e) chords_[e] = chordOf(geometry, EntryId(e));
+  });
+  if (byPath_) findPoints(Geometry(surfaces, start_.positions), count, pointsBefore_);
+}
+
+template <class Geometry>
+void LocalSearch::findPoints(const Geometry& geometry, std::size_t count,
+                             std::vector<Vec2>& points) const {
+  points.resize(count);
+  forEachPart(count, threads_, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t e = begin; e < end; ++e) points[e] = geometry.slave(EntryId(e));
   });
 }
 
 template <class Geometry, class ChordOf>
-double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, double reach,
-                            double deepest, std::uint32_t row, ChordOf chordOfEntry,
-                            std::vector<Near>& found) {
+double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, std::uint32_t row,
+                            ChordOf chordOfEntry, std::vector<Near>& found) const {
   const Vec2 point = geometry.slave(candidates.slaves[row]);
-  const bool flags = !candidates.outside.empty();
+  const double deepest = byPath_ ? start_.deepest : INFINITY;
   double clear = INFINITY;
   for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c) {
     const EntryId master = candidates.masters[c];
     const Chord chord = chordOfEntry(master);
     const Beside beside = besideChord(chord, point);
-    const double wide = reach + chord.bulge;
-    const double aside = flags ? 4 * wide : 6 * (wide + deepest);
-    if (beside.gap < wide && beside.gap > -wide - deepest && beside.beyond < aside)
-      found.push_back({row, c});
-    else if (flags)
-      candidates.outside[c] = beside.gap >= 0 ? 1 : 0;
+    const double wide = reach_ + chord.bulge;
+    const double aside = byPath_ ? 6 * (wide + deepest) : 4 * wide;
     const bool arc = geometry.isArc(master);
+    const double leverage = beside.leverage(arc);
+    const double before = beside.gap - chord.bulge;
+    if (beside.gap < wide && beside.gap > -wide - deepest && beside.beyond < aside)
+      found.push_back({row, c, true, (before - tolerance::kTouching / chord.inverse) / leverage});
+    else if (!byPath_)
+      candidates.outside[c] = beside.gap >= 0 ? 1 : 0;
     // By flags, nothing comes of a straight master that the slave is behind of, until it has come
     // out; by the path, of any master that it is deeper in.
-    const bool behind = flags ? !arc && candidates.outside[c] == 0 : beside.gap < -deepest;
+    const bool behind = byPath_ ? beside.gap < -deepest : !arc && candidates.outside[c] == 0;
     const double open =
-        (behind ? std::abs(beside.gap) - (flags ? 0 : deepest) : beside.gap) - chord.bulge;
-    clear = std::min(clear, open / beside.leverage(arc));
+        behind ? std::abs(beside.gap) - (byPath_ ? deepest : 0) - chord.bulge : before;
+    clear = std::min(clear, open / leverage);
   }
   return clear;
 }
@@ -131,97 +182,124 @@ double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, do
 void LocalSearch::findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
                               std::span<const Vec2> positions, double deepest,
                               std::vector<Active>& actives, std::span<const SlaveMaster> known,
-                              std::span<const std::uint8_t> moved, const PathStart* start) {
-  withGeometry(surfaces, positions, [&](const auto& geometry) {
-    tryAll(candidates, surfaces, geometry, deepest, actives, known, moved, start);
+                              double moved) {
+  const Asked asked{candidates, surfaces, deepest, known, moved};
+  const int parts = withGeometry(surfaces, positions, [&]<class Geometry>(const Geometry& plain) {
+    findPoints(plain, chords_.size(), points_);
+    const Geometry geometry(surfaces, positions, points_);
+    return forEachPart(near_.size(), threads_, [&](std::size_t begin, std::size_t end, int part) {
+      tryRows(asked, geometry, beginOfRow(begin), beginOfRow(end),
+              parts_[static_cast<std::size_t>(part)]);
+    });
   });
-}
-
-template <class Geometry>
-void LocalSearch::tryAll(const Candidates& candidates, const ContactSurfaces& surfaces,
-                         const Geometry& geometry, double deepest, std::vector<Active>& actives,
-                         std::span<const SlaveMaster> known, std::span<const std::uint8_t> moved,
-                         const PathStart* start) {
-  const std::span<const Near> near(near_);
-  auto next = known.begin();
-  for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
-    const EntryId slave = candidates.slaves[near[begin].row];
-    bool allKnown = true;
-    for (; end < near.size() && near[end].row == near[begin].row; ++end) {
-      const SlaveMaster pair{slave, candidates.masters[near[end].candidate]};
-      while (next != known.end() && *next < pair) ++next;
-      allKnown = allKnown && next != known.end() && *next == pair;
-    }
-    if (allKnown) continue;
-    if (!moved.empty() && !hasMoved(candidates, surfaces, near.subspan(begin, end - begin), moved))
-      continue;
-    tryRow(candidates, surfaces, geometry, near.subspan(begin, end - begin), deepest, start);
-    for (const Trial& trial : trials_)
-      if (trial.active) actives.push_back({{slave, trial.master}, trial.foot});
+  for (int part = 0; part < parts; ++part) {
+    const auto& found = parts_[static_cast<std::size_t>(part)].actives;
+    actives.insert(actives.end(), found.begin(), found.end());
   }
 }
 
-/// Has any node on which `tryRow` depends.
-bool LocalSearch::hasMoved(const Candidates& candidates, const ContactSurfaces& surfaces,
-                           std::span<const Near> row, std::span<const std::uint8_t> moved) {
-  const auto of = [&](EntryId entry) {
-    NodeId nodes[3];
-    const int count = surfaces.pieceNodes(entry, nodes);
-    return std::any_of(nodes, nodes + count, [&](NodeId n) { return moved[n.value] != 0; });
+/// The first near pair at or after this one that begins a slave's.
+std::size_t LocalSearch::beginOfRow(std::size_t at) const {
+  while (at > 0 && at < near_.size() && near_[at].row == near_[at - 1].row) ++at;
+  return at;
+}
+
+template <class Geometry>
+void LocalSearch::tryRows(const Asked& asked, const Geometry& geometry, std::size_t from,
+                          std::size_t to, Part& part) const {
+  part.actives.clear();
+  const std::span<const Near> near(near_);
+  std::span<const SlaveMaster> known = asked.known;
+  if (from < to) known = known.subspan(firstOf(known, asked.slaveOf(near[from])));
+  for (std::size_t begin = from, end = from; begin < to; begin = end) {
+    const EntryId slave = asked.slaveOf(near[begin]);
+    while (end < to && near[end].row == near[begin].row) ++end;
+    while (!known.empty() && known.front().slave < slave) known = known.subspan(1);
+    part.trials.clear();
+    const std::span<const Near> row = near.subspan(begin, end - begin);
+    if (byPath_)
+      tryByPath(asked, geometry, row, known, part);
+    else
+      tryByFlags(asked, geometry, row, known, part);
+    for (const Trial& trial : part.trials)
+      if (trial.active) part.actives.push_back({{slave, trial.master}, trial.foot});
+  }
+}
+
+/// Most slaves are behind none of the masters' lines that they can cross.
+template <class Geometry>
+void LocalSearch::tryByPath(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
+                            std::span<const SlaveMaster> known, Part& part) const {
+  const EntryId slave = asked.slaveOf(row.front());
+  const Vec2 point = geometry.slave(slave);
+  bool allKnown = true;
+  const auto addTrials = [&](bool canEnter) {
+    for (const Near& near : row) {
+      if (near.canEnter != canEnter || near.clear > asked.moved) continue;
+      const EntryId master = asked.candidates.masters[near.candidate];
+      // The quick test of an arc says nothing of what is past an end that is a straight piece's.
+      const bool quick =
+          !geometry.isArc(master) || isArcAmongArcs(asked.surfaces, geometry, master);
+      if (quick && !geometry.mayPenetrate(master, point)) continue;
+      part.trials.push_back({master, {}, canEnter, false, false, false});
+      allKnown = allKnown && isAmong(known, {slave, master});
+    }
   };
-  const EntryId slave = candidates.slaves[row.front().row];
-  return of(slave) || of(surfaces.prev[slave.value]) ||
-         std::ranges::any_of(
-             row, [&](const Near& near) { return of(candidates.masters[near.candidate]); });
+  addTrials(true);
+  if (allKnown) return part.trials.clear();
+  const Geometry before(asked.surfaces, start_.positions, pointsBefore_);
+  const SlaveStep<Geometry> step{before, geometry, slave, touchesOf(slave), start_.depth};
+  if (!findEntered(asked.surfaces, step, part.trials, asked.deepest)) return part.trials.clear();
+  addTrials(false);
+  std::ranges::sort(part.trials, {}, &Trial::master);
+  decideByPath(asked.surfaces, step, part.trials);
 }
 
-/// One slave and all masters that it is near to. Most slaves are outside all of them.
-template <class Geometry>
-void LocalSearch::tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
-                         const Geometry& geometry, std::span<const Near> row, double deepest,
-                         const PathStart* start) {
-  trials_.clear();
-  const EntryId slave = candidates.slaves[row.front().row];
-  const Vec2 point = geometry.slave(slave);
-  // Whatever the flags' rules do, they wake no master without a flag or an arc in the row.
-  if (!start && std::ranges::none_of(row, [&](const Near& near) {
-        return candidates.outside[near.candidate] != 0 ||
-               geometry.isArc(candidates.masters[near.candidate]);
-      }))
-    return;
-  if (std::ranges::none_of(row, [&](const Near& near) {
-        const EntryId master = candidates.masters[near.candidate];
-        return geometry.isArc(master) || geometry.mayPenetrate(master, point);
-      }))
-    return;
-  takeTrials(candidates, surfaces, geometry, row);
-  if (start)
-    decideByPath(surfaces, geometry, *start, slave, trials_, deepest);
-  else
-    rules_.decide(surfaces, geometry, trials_, deepest, reach_);
+std::span<const Touch> LocalSearch::touchesOf(EntryId slave) const {
+  const auto begin = std::ranges::lower_bound(start_.touches, slave, {},
+                                              [](const Touch& touch) { return touch.pair.slave; });
+  auto end = begin;
+  while (end != start_.touches.end() && end->pair.slave == slave) ++end;
+  return {begin, end};
 }
 
-/// None if the slave is inside no master that opposes it.
+/// Whatever the rules do, they wake no master without a flag or an arc in the row.
 template <class Geometry>
-void LocalSearch::takeTrials(const Candidates& candidates, const ContactSurfaces& surfaces,
-                             const Geometry& geometry, std::span<const Near> row) {
-  const EntryId slave = candidates.slaves[row.front().row];
+void LocalSearch::tryByFlags(const Asked& asked, const Geometry& geometry,
+                             std::span<const Near> row, std::span<const SlaveMaster> known,
+                             Part& part) const {
+  const Candidates& candidates = asked.candidates;
+  const EntryId slave = asked.slaveOf(row.front());
   const Vec2 point = geometry.slave(slave);
-  const bool flags = !candidates.outside.empty();
-  const SlaveNormals normals = slaveNormals(surfaces, geometry, slave);
+  const auto isKnown = [&](const Near& near) {
+    return isAmong(known, {slave, candidates.masters[near.candidate]});
+  };
+  if (std::ranges::all_of(row, isKnown)) return;
+  bool anyOutside = false, anyNear = false;
+  for (const Near& near : row) {
+    const EntryId master = candidates.masters[near.candidate];
+    const bool arc = geometry.isArc(master);
+    anyOutside = anyOutside || arc || candidates.outside[near.candidate] != 0;
+    anyNear = anyNear || arc || geometry.mayPenetrate(master, point);
+  }
+  if (!anyOutside || !anyNear) return;
+  const SlaveNormals normals = slaveNormals(asked.surfaces, geometry, slave);
   bool anyInside = false;
   for (const Near& near : row) {
     const EntryId master = candidates.masters[near.candidate];
-    Trial trial{master, {}, flags && candidates.outside[near.candidate] != 0, false, false};
     // The quick test spares the iteration.
-    if (isArcAmongArcs(surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
+    if (isArcAmongArcs(asked.surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
       continue;
-    trial.foot = geometry.foot(master, point);
-    trial.opposed = normals.oppose(trial.foot.normal);
-    anyInside = anyInside || (trial.opposed && trial.foot.gap < 0);
-    trials_.push_back(trial);
+    const Foot foot = geometry.foot(master, point);
+    const bool opposed = normals.oppose(foot.normal);
+    anyInside = anyInside || (opposed && foot.gap < 0);
+    part.trials.push_back(
+        {master, foot, candidates.outside[near.candidate] != 0, opposed, false, true});
   }
-  if (!anyInside) trials_.clear();
+  if (anyInside)
+    part.rules.decide(asked.surfaces, geometry, part.trials, asked.deepest, reach_);
+  else
+    part.trials.clear();
 }
 
 void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces,

@@ -30,25 +30,24 @@ struct Chord {
 class LocalSearch {
  public:
   /// First phase (§5.1) at `positions` (m, by node). A candidate is near if its slave is within
-  /// `reach` (m) of the master's line, or inside it by no more than `deepest` (m) and `reach`, and
-  /// beside the piece by no more than a few `reach`. With flags, depth is no bound, and those of
-  /// all that are not near are brought up to date. No surface node has moved by more than `moved`
-  /// (m) since the last scan: rows too far away to become near by all the ways since they were
-  /// looked at are left alone. Infinite: nothing is known.
+  /// `reach` (m) of the master's line, or inside it by no more than that and what was deepest at
+  /// the start, and beside the piece by no more than a few `reach`. With flags, depth is no bound,
+  /// and those of all that are not near are brought up to date. No surface node has moved by more
+  /// than `moved` (m) since the last scan: rows too far away to become near by all the ways since
+  /// they were looked at are left alone. Infinite: nothing is known. Entry is by the path from
+  /// `start`, or by the candidates' flags without one.
   void scan(Candidates& candidates, const ContactSurfaces& surfaces,
             std::span<const Vec2> positions, double reach, int threads, double moved = INFINITY,
-            double deepest = INFINITY);
+            const PathStart* start = nullptr);
 
   /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master. None is deeper
   /// in a smooth master than `deepest` (m), whatever the halo is; but what is deeper than the halo
   /// at a search, as a penalty may leave it, is no candidate at all. Slaves `known`
-  /// (ascending) to be active on all masters that they are near to are left out, and, if there is
-  /// one, so are those of whom no node is in `moved` (flags by node), which were looked at before.
-  /// Entry is by the path from `start`, or by the candidates' flags without one.
+  /// (ascending) to be active on all masters that they are near to are left out, and so is what a
+  /// motion of no more than `moved` (m) since the scan cannot have brought behind a master.
   void findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
                    std::span<const Vec2> positions, double deepest, std::vector<Active>& actives,
-                   std::span<const SlaveMaster> known = {},
-                   std::span<const std::uint8_t> moved = {}, const PathStart* start = nullptr);
+                   std::span<const SlaveMaster> known = {}, double moved = INFINITY);
 
   /// Outside flags of the near ones after the step, in which `touched` (ascending) were active:
   /// those stay outside, however rounding has placed them, and so do those that were outside and
@@ -59,49 +58,75 @@ class LocalSearch {
 
   [[nodiscard]] bool anyNear() const { return !near_.empty(); }
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kSearch, near_, nearByPart_, chords_, trials_);
-    rules_.addTo(footprint);
+    footprint.add(Use::kSearch, near_, parts_, chords_, pointsBefore_, points_);
+    for (const Part& part : parts_) {
+      footprint.add(Use::kSearch, part.near, part.actives, part.trials);
+      part.rules.addTo(footprint);
+    }
   }
 
  private:
   struct Near {
     std::uint32_t row;
     std::uint32_t candidate;
+    bool canEnter;  ///< by the path
+    double clear;   ///< m, motion of all nodes up to which the slave is before the piece
   };
-  /// What `scan` does with one slave; returns how far everything may move before it is near.
-  template <class Geometry, class ChordOf>
-  static double scanRow(Candidates& candidates, const Geometry& geometry, double reach,
-                        double deepest, std::uint32_t row, ChordOf chordOfEntry,
-                        std::vector<Near>& found);
-  template <class Geometry>
-  int scanRows(Candidates& candidates, const Geometry& geometry, double reach, int threads);
+  /// What `findActives` was called with.
+  struct Asked {
+    const Candidates& candidates;
+    const ContactSurfaces& surfaces;
+    double deepest;
+    std::span<const SlaveMaster> known;
+    double moved;
+    [[nodiscard]] EntryId slaveOf(const Near& near) const { return candidates.slaves[near.row]; }
+  };
+  /// What one thread finds, and what it works with.
+  struct Part {
+    std::vector<Near> near;
+    std::vector<Active> actives;
+    std::vector<Trial> trials;
+    JointRules rules;
+  };
+
   template <class Geometry>
   void findChords(const Candidates& candidates, const ContactSurfaces& surfaces,
-                  const Geometry& geometry, int threads);
-  static bool hasMoved(const Candidates& candidates, const ContactSurfaces& surfaces,
-                       std::span<const Near> row, std::span<const std::uint8_t> moved);
+                  const Geometry& geometry);
+  template <class Geometry>
+  void findPoints(const Geometry& geometry, std::size_t count, std::vector<Vec2>& points) const;
+  template <class Geometry>
+  void scanRows(Candidates& candidates, const ContactSurfaces& surfaces, const Geometry& geometry,
+                std::size_t begin, std::size_t end, Part& part) const;
+  /// What `scan` does with one slave; returns how far everything may move before it is near.
+  template <class Geometry, class ChordOf>
+  double scanRow(Candidates& candidates, const Geometry& geometry, std::uint32_t row,
+                 ChordOf chordOfEntry, std::vector<Near>& found) const;
+  template <class Geometry>
+  void findEnterable(const Candidates& candidates, const Geometry& before,
+                     std::span<Near> row) const;
+  [[nodiscard]] std::size_t beginOfRow(std::size_t at) const;
+  template <class Geometry>
+  void tryRows(const Asked& asked, const Geometry& geometry, std::size_t from, std::size_t to,
+               Part& part) const;
+  /// `known`: its first ones are those of the slave.
+  template <class Geometry>
+  void tryByPath(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
+                 std::span<const SlaveMaster> known, Part& part) const;
+  template <class Geometry>
+  void tryByFlags(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
+                  std::span<const SlaveMaster> known, Part& part) const;
+  [[nodiscard]] std::span<const Touch> touchesOf(EntryId slave) const;
 
-  template <class Geometry>
-  void tryAll(const Candidates& candidates, const ContactSurfaces& surfaces,
-              const Geometry& geometry, double deepest, std::vector<Active>& actives,
-              std::span<const SlaveMaster> known, std::span<const std::uint8_t> moved,
-              const PathStart* start);
-  template <class Geometry>
-  void tryRow(const Candidates& candidates, const ContactSurfaces& surfaces,
-              const Geometry& geometry, std::span<const Near> row, double deepest,
-              const PathStart* start);
-  template <class Geometry>
-  void takeTrials(const Candidates& candidates, const ContactSurfaces& surfaces,
-                  const Geometry& geometry, std::span<const Near> row);
-
-  double way_ = 0;      // m, of the fastest node since the candidates were found
-  double reach_ = 0;    // m, of the last scan
-  double deepest_ = 0;  // m, of the last scan
+  double way_ = 0;    // m, of the fastest node since the candidates were found
+  double reach_ = 0;  // m, of the last scan
+  bool byPath_ = false;
+  PathStart start_;  // of the last scan
   std::vector<Near> near_;
-  std::vector<std::vector<Near>> nearByPart_;
-  std::vector<Chord> chords_;  // by entry; empty where few are needed
-  std::vector<Trial> trials_;
-  JointRules rules_;
+  std::vector<Part> parts_;  // by thread
+  int threads_ = 1;
+  // By entry; empty where few are needed. Points (m) are the slaves', at xⁿ and now.
+  std::vector<Chord> chords_;
+  std::vector<Vec2> pointsBefore_, points_;
 };
 
 }  // namespace yadefrag

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/entry_path.hpp"
+#include "contact/slave_normals.hpp"
 #include "core/tolerances/contact.hpp"
 
 namespace yadefrag {
@@ -13,28 +14,34 @@ namespace {
 template <class Geometry>
 class Path {
  public:
-  Path(const ContactSurfaces& surfaces, const Geometry& now, const PathStart& start, EntryId slave)
+  Path(const ContactSurfaces& surfaces, const SlaveStep<Geometry>& step)
       : surfaces_(surfaces),
-        now_(now),
-        before_(surfaces, start.positions),
-        start_(start),
-        slave_(slave),
-        from_(before_.slave(slave)),
-        to_(now.slave(slave)) {}
+        step_(step),
+        now_(step.now),
+        from_(step.before.slave(step.slave)),
+        to_(step.now.slave(step.slave)) {}
 
-  /// Has it come into a piece that it is behind now.
-  [[nodiscard]] bool enters(const Trial& trial, double deepest) const {
+  /// Has it come into a piece that it is behind now. Sets the trial's foot where it needs it.
+  [[nodiscard]] bool enters(Trial& trial, double deepest) const {
     const EntryId master = trial.master;
-    if (isTouched(master) && staysOver(trial)) return true;
-    if (!now_.isArc(master)) return crosses(master);
-    return isOver(now_, master, trial.foot) && trial.foot.gap >= -deepest &&
-           before_.foot(master, from_).gap >= -start_.depth;
+    const bool arc = now_.isArc(master), touched = isTouched(master);
+    if (arc || touched) findFoot(trial);
+    if (touched && trial.foot.gap < 0 && staysOver(trial)) return true;
+    if (!arc) return crosses(master);
+    return isOver(now_, master, trial.foot) && trial.foot.gap < 0 && trial.foot.gap >= -deepest &&
+           step_.before.foot(master, from_).gap >= -step_.depth;
+  }
+
+  void findFoot(Trial& trial) const {
+    if (trial.hasFoot) return;
+    trial.foot = now_.foot(trial.master, to_);
+    trial.hasFoot = true;
   }
 
  private:
   [[nodiscard]] bool isTouched(EntryId master) const {
-    return std::ranges::binary_search(start_.touches, SlaveMaster{slave_, master}, {},
-                                      &Touch::pair);
+    return std::ranges::any_of(step_.touches,
+                               [&](const Touch& touch) { return touch.pair.master == master; });
   }
 
   /// Is ξ (0 at the begin of a piece, 1 at its end) over it, or, at a concave joint, not farther
@@ -56,8 +63,8 @@ class Path {
 
   [[nodiscard]] bool crosses(EntryId master) const {
     const PieceEnds ends = now_.ends(master);
-    const auto at = crossing({from_, before_.ends(master)}, {to_, ends}, start_.depth);
-    return at && isWithin(master, at->xi, norm(ends.end - ends.begin), start_.depth);
+    const auto at = crossing({from_, step_.before.ends(master)}, {to_, ends}, step_.depth);
+    return at && isWithin(master, at->xi, norm(ends.end - ends.begin), step_.depth);
   }
 
   [[nodiscard]] bool isConcave(EntryId first, EntryId second) const {
@@ -65,28 +72,46 @@ class Path {
   }
 
   const ContactSurfaces& surfaces_;
+  const SlaveStep<Geometry>& step_;
   const Geometry& now_;
-  Geometry before_;
-  const PathStart& start_;
-  EntryId slave_;
   Vec2 from_, to_;
 };
 
 }  // namespace
 
 template <class Geometry>
-void decideByPath(const ContactSurfaces& surfaces, const Geometry& geometry, const PathStart& start,
-                  EntryId slave, std::span<Trial> trials, double deepest) {
-  const Path<Geometry> path(surfaces, geometry, start, slave);
-  for (Trial& trial : trials)
-    trial.outside = trial.active =
-        trial.opposed && trial.foot.gap < 0 && path.enters(trial, deepest);
-  decideJoints(surfaces, geometry, trials);
+bool findEntered(const ContactSurfaces& surfaces, const SlaveStep<Geometry>& step,
+                 std::span<Trial> trials, double deepest) {
+  const Path<Geometry> path(surfaces, step);
+  bool any = false;
+  for (Trial& trial : trials) {
+    trial.active = path.enters(trial, deepest);
+    any = any || trial.active;
+  }
+  return any;
 }
 
-template void decideByPath(const ContactSurfaces&, const PieceGeometryOf<true>&, const PathStart&,
-                           EntryId, std::span<Trial>, double);
-template void decideByPath(const ContactSurfaces&, const PieceGeometryOf<false>&, const PathStart&,
-                           EntryId, std::span<Trial>, double);
+template <class Geometry>
+void decideByPath(const ContactSurfaces& surfaces, const SlaveStep<Geometry>& step,
+                  std::span<Trial> trials) {
+  const Path<Geometry> path(surfaces, step);
+  const SlaveNormals normals = slaveNormals(surfaces, step.now, step.slave);
+  for (Trial& trial : trials) {
+    path.findFoot(trial);
+    trial.opposed = normals.oppose(trial.foot.normal);
+    trial.active = trial.active && trial.opposed && trial.foot.gap < 0;
+    trial.outside = trial.active;
+  }
+  decideJoints(surfaces, step.now, trials);
+}
+
+template bool findEntered(const ContactSurfaces&, const SlaveStep<PieceGeometryOf<true>>&,
+                          std::span<Trial>, double);
+template bool findEntered(const ContactSurfaces&, const SlaveStep<PieceGeometryOf<false>>&,
+                          std::span<Trial>, double);
+template void decideByPath(const ContactSurfaces&, const SlaveStep<PieceGeometryOf<true>>&,
+                           std::span<Trial>);
+template void decideByPath(const ContactSurfaces&, const SlaveStep<PieceGeometryOf<false>>&,
+                           std::span<Trial>);
 
 }  // namespace yadefrag

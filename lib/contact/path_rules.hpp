@@ -24,13 +24,28 @@ namespace yadefrag {
 struct PathStart {
   std::span<const Vec2> positions;  ///< m, xⁿ, by node; of surface nodes only
   std::span<const Touch> touches;   ///< by pair
-  double depth;                     ///< m, at which a slave is behind a line
+  double depth = 0;                 ///< m, at which a slave is behind a line
+  double deepest = 0;               ///< m, of the touches
 };
 
-/// Sets `active` of all masters of one slave, which is at `point` (m) now. Nothing is deeper in a
+/// One slave's step.
+template <class Geometry>
+struct SlaveStep {
+  const Geometry &before, &now;
+  EntryId slave;
+  std::span<const Touch> touches;  ///< of the slave
+  double depth;                    ///< m, as in PathStart
+};
+
+/// Sets `active` of the masters that a slave has come into; is there any. Nothing is deeper in a
 /// smooth master than `deepest` (m).
 template <class Geometry>
-void decideByPath(const ContactSurfaces& surfaces, const Geometry& geometry, const PathStart& start,
-                  EntryId slave, std::span<Trial> trials, double deepest);
+bool findEntered(const ContactSurfaces& surfaces, const SlaveStep<Geometry>& step,
+                 std::span<Trial> trials, double deepest);
+
+/// Then, among all masters that it is behind: on which of them it is active.
+template <class Geometry>
+void decideByPath(const ContactSurfaces& surfaces, const SlaveStep<Geometry>& step,
+                  std::span<Trial> trials);
 
 }  // namespace yadefrag

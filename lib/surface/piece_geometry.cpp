@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/tolerances/surface.hpp"
-
 namespace yadefrag {
 namespace {
 
@@ -12,11 +10,6 @@ constexpr double kGaussPoint[5] = {.046910077030668, .230765344947158, .5, .7692
                                    .953089922969332};
 constexpr double kGaussWeight[5] = {.118463442528095, .239314335249683, .284444444444444,
                                     .239314335249683, .118463442528095};
-
-Vec2 unitOrZero(Vec2 a) {
-  const double length = norm(a);
-  return length > 0 ? (1 / length) * a : Vec2{};
-}
 
 }  // namespace
 
@@ -51,37 +44,21 @@ double PieceGeometryOf<kSmooth>::length(EntryId entry) const {
 }
 
 template <bool kSmooth>
-Vec2 PieceGeometryOf<kSmooth>::tangent(EntryId entry, double xi) const {
+Vec2 PieceGeometryOf<kSmooth>::tangentOfOther(EntryId entry, double xi) const {
   const Corners n = corners(entry);
   return n.arc ? combine(arcShapeDerivative(xi), n.a, n.b, n.c) : n.b - n.a;
 }
 
 template <bool kSmooth>
-Vec2 PieceGeometryOf<kSmooth>::normal(EntryId entry, double xi) const {
-  return unitOrZero(rightOf(tangent(entry, xi)));
+Foot PieceGeometryOf<kSmooth>::footOnOther(EntryId entry, Vec2 point) const {
+  const Corners n = corners(entry);
+  return n.arc ? nearestOnArc(n.a, n.b, n.c, point) : footOnSegment(n.a, n.b, point, range(entry));
 }
 
 template <bool kSmooth>
-Foot PieceGeometryOf<kSmooth>::foot(EntryId entry, Vec2 point) const {
+bool PieceGeometryOf<kSmooth>::mayPenetrateOther(EntryId entry, Vec2 point) const {
   const Corners n = corners(entry);
-  if (n.arc) return nearestOnArc(n.a, n.b, n.c, point);
-  const Vec2 along = n.b - n.a;
-  const double square = dot(along, along);
-  const PieceRange within = range(entry);
-  Foot foot;
-  foot.xi = square > 0 ? dot(point - n.a, along) / square : within.begin;
-  foot.normal = unitOrZero(rightOf(along));
-  foot.gap = dot(point - n.a, foot.normal);
-  foot.inside = foot.xi >= within.begin && foot.xi <= within.end;
-  return foot;
-}
-
-template <bool kSmooth>
-bool PieceGeometryOf<kSmooth>::mayPenetrate(EntryId entry, Vec2 point) const {
-  const Corners n = corners(entry);
-  if (n.arc) return mayPenetrateArc(n.a, n.b, n.c, point);
-  const Vec2 along = n.b - n.a;
-  return cross(along, point - n.a) >= -tolerance::kQuickLine * dot(along, along);
+  return n.arc ? mayPenetrateArc(n.a, n.b, n.c, point) : isBehindLine(n.a, n.b, point);
 }
 
 template class PieceGeometryOf<true>;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/box.hpp"
+#include "core/tolerances/surface.hpp"
 #include "surface/bezier_arc.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -35,9 +36,11 @@ struct PieceEnds {
 template <bool kSmooth>
 class PieceGeometryOf {
  public:
-  /// Both must outlive this object, which keeps no copy.
-  PieceGeometryOf(const ContactSurfaces& surfaces, std::span<const Vec2> positions)
-      : surfaces_(surfaces), positions_(positions) {}
+  /// All must outlive this object, which keeps no copy. `points`: m, by entry, what `slave` gives
+  /// at these positions, if it is known already; two indirections less for each.
+  PieceGeometryOf(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
+                  std::span<const Vec2> points = {})
+      : surfaces_(surfaces), positions_(positions), points_(points) {}
 
   [[nodiscard]] bool isArc(EntryId entry) const {
     return kSmooth && surfaces_.piece[entry.value] == Piece::kArc;
@@ -59,12 +62,19 @@ class PieceGeometryOf {
   [[nodiscard]] double length(EntryId entry) const;
   [[nodiscard]] Vec2 point(EntryId entry, double xi) const;
   /// dx/dξ (m); of a straight piece the whole segment's.
-  [[nodiscard]] Vec2 tangent(EntryId entry, double xi) const;
+  [[nodiscard]] Vec2 tangent(EntryId entry, double xi) const {
+    if (!isWhole(entry)) return tangentOfOther(entry, xi);
+    const PieceEnds e = ends(entry);
+    return e.end - e.begin;
+  }
   /// Unit outward normal at ξ; zero if the tangent vanishes.
-  [[nodiscard]] Vec2 normal(EntryId entry, double xi) const;
+  [[nodiscard]] Vec2 normal(EntryId entry, double xi) const {
+    return unitOrZero(rightOf(tangent(entry, xi)));
+  }
 
   /// The entry's sampling point: what `ContactSurfaces::slave` stands for, without the stencil.
   [[nodiscard]] Vec2 slave(EntryId entry) const {
+    if (!points_.empty()) return points_[entry.value];
     const SegmentId segment = surfaces_.entrySegment[entry.value];
     const Vec2 a = positions_[surfaces_.segmentNode[segment.value].value];
     if constexpr (!kSmooth) return a;
@@ -75,11 +85,45 @@ class PieceGeometryOf {
   }
 
   /// The foot of a point: on a straight piece with ξ of the whole segment, unclamped.
-  [[nodiscard]] Foot foot(EntryId entry, Vec2 point) const;
+  [[nodiscard]] Foot foot(EntryId entry, Vec2 point) const {
+    if (!isWhole(entry)) return footOnOther(entry, point);
+    const PieceEnds e = ends(entry);
+    return footOnSegment(e.begin, e.end, point, {});
+  }
   /// The quick test: false only if the point has no orthogonal foot with gap < 0 on the piece.
-  [[nodiscard]] bool mayPenetrate(EntryId entry, Vec2 point) const;
+  [[nodiscard]] bool mayPenetrate(EntryId entry, Vec2 point) const {
+    if (!isWhole(entry)) return mayPenetrateOther(entry, point);
+    const PieceEnds e = ends(entry);
+    return isBehindLine(e.begin, e.end, point);
+  }
 
  private:
+  /// A segment between two corners, as most are: then the ends say all.
+  [[nodiscard]] bool isWhole(EntryId entry) const {
+    return !kSmooth || surfaces_.piece[entry.value] == Piece::kSegment;
+  }
+  static Vec2 unitOrZero(Vec2 a) {
+    const double length = norm(a);
+    return length > 0 ? (1 / length) * a : Vec2{};
+  }
+  static Foot footOnSegment(Vec2 a, Vec2 b, Vec2 point, PieceRange within) {
+    const Vec2 along = b - a;
+    const double square = dot(along, along);
+    Foot foot;
+    foot.xi = square > 0 ? dot(point - a, along) / square : within.begin;
+    foot.normal = unitOrZero(rightOf(along));
+    foot.gap = dot(point - a, foot.normal);
+    foot.inside = foot.xi >= within.begin && foot.xi <= within.end;
+    return foot;
+  }
+  static bool isBehindLine(Vec2 a, Vec2 b, Vec2 point) {
+    const Vec2 along = b - a;
+    return cross(along, point - a) >= -tolerance::kQuickLine * dot(along, along);
+  }
+  [[nodiscard]] Vec2 tangentOfOther(EntryId entry, double xi) const;
+  [[nodiscard]] Foot footOnOther(EntryId entry, Vec2 point) const;
+  [[nodiscard]] bool mayPenetrateOther(EntryId entry, Vec2 point) const;
+
   struct Corners {
     Vec2 a, b, c;
     bool arc;
@@ -96,6 +140,7 @@ class PieceGeometryOf {
 
   const ContactSurfaces& surfaces_;
   std::span<const Vec2> positions_;
+  std::span<const Vec2> points_;
 };
 
 extern template class PieceGeometryOf<true>;
@@ -105,9 +150,10 @@ using PieceGeometry = PieceGeometryOf<true>;
 
 /// Calls `work` with the geometry that these surfaces need.
 template <class Work>
-auto withGeometry(const ContactSurfaces& surfaces, std::span<const Vec2> positions, Work work) {
-  if (surfaces.anySmooth()) return work(PieceGeometryOf<true>(surfaces, positions));
-  return work(PieceGeometryOf<false>(surfaces, positions));
+auto withGeometry(const ContactSurfaces& surfaces, std::span<const Vec2> positions, Work work,
+                  std::span<const Vec2> points = {}) {
+  if (surfaces.anySmooth()) return work(PieceGeometryOf<true>(surfaces, positions, points));
+  return work(PieceGeometryOf<false>(surfaces, positions, points));
 }
 
 }  // namespace yadefrag

@@ -80,11 +80,11 @@ class Chase {
   std::vector<Touch> touches_;
   std::vector<Active> find(Candidates& candidates, double reach) {
     std::vector<Active> actives;
-    const PathStart start{before_, touches_, kDepth};
+    const PathStart start{before_, touches_, kDepth, .1};
     const bool path = entry_ == Entry::kPath;
-    search_.scan(candidates, scene_.surfaces, scene_.at, reach, 1, INFINITY, path ? .1 : INFINITY);
-    search_.findActives(candidates, scene_.surfaces, scene_.at, halo, actives, {}, {},
-                        path ? &start : nullptr);
+    search_.scan(candidates, scene_.surfaces, scene_.at, reach, 1, INFINITY,
+                 path ? &start : nullptr);
+    search_.findActives(candidates, scene_.surfaces, scene_.at, halo, actives);
     return actives;
   }
 
