@@ -84,6 +84,10 @@ def exampleFiles(folder):
     table.csv(folder + '/table.csv')
     with open(folder + '/plate', 'w') as plate:
         plate.write('0 0\n1 0\n1 1\n')
+    with open(folder + '/plate.csv', 'w') as plate:
+        plate.write('0, 0\n1, 0\n1, 1\n')
+    with open(folder + '/mesh.inp', 'w') as mesh:
+        mesh.write('*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n')
     return table
 
 
@@ -96,6 +100,9 @@ def right(fe, folder):
     return dict(
         rectangle=dict(low=(0, 0), high=(1, 1)), circle=dict(centre=(0, 0), radius=1, n=8),
         ring=dict(centre=(0, 0), inner=1, outer=2, n=8), readPolygon=dict(file=folder + '/plate'),
+        readOutline=dict(file=folder + '/plate.csv', tolerance=None, scale=1., gap=1e-6, simplify=1e-3, leastArea=0.),
+        readMesh=dict(file=folder + '/mesh.inp', scale=1.),
+        outlineReport=dict(outline=square, holes=(), size=.5, material='b', simplify=.01),
         voronoi=dict(outline=square, n=3, seed=1, rounds=1, shortest=.01), grainJoints=dict(grains=[square, square[::-1]]),
         rectangleMesh=dict(low=(0, 0), high=(1, 1), nx=2, ny=2, crossed=False),
         plotMesh=dict(fe=fe, field='mises', file=folder + '/a.png', ax=None, limits=(0, 1)),
