@@ -105,7 +105,7 @@ def right(fe, folder):
         outlineReport=dict(outline=square, holes=(), size=.5, material='b', simplify=.01),
         voronoi=dict(outline=square, n=3, seed=1, rounds=1, shortest=.01), grainJoints=dict(grains=[square, square[::-1]]),
         rectangleMesh=dict(low=(0, 0), high=(1, 1), nx=2, ny=2, crossed=False),
-        plotMesh=dict(fe=fe, field='mises', file=folder + '/a.png', ax=None, limits=(0, 1)),
+        plotMesh=dict(fe=fe, field='mises', file=folder + '/a.png', ax=None, limits=(0, 1), xlim=(0, 3), ylim=(0, 2.), spheres=True),
         animate=dict(fe=fe, file=folder + '/a.gif', steps=1, every=1, field=None, limits=None, window=None,
                      rate=20),
         exportVTK=dict(fe=fe, file=folder + '/a.vtu', fields=['stress', 'velocity']), runSteps=dict(steps=2, every=1, call=lambda: None),
