@@ -112,7 +112,9 @@ def right(fe, folder):
         fragmentTable=dict(fe=fe, file=folder + '/b.csv'),
         plotFragmentSizes=dict(fe=fe, file=folder + '/c.png', ax=None, components=[0, 1]),
         recordFracture=dict(fe=fe, file=csv, append=True), plotFracture=dict(file=csv, picture=None),
-        tradeoff=dict(job, reference=0., watch=None, every=0., limit=60., files=folder + '/t', title=''),
+        tradeoff=dict(job, reference=0., watch=None, every=0., limit=60., files=folder + '/t', title='', executor=None, resume=None),
+        ensemble=dict(scene=trialScene, runs=[1, 2], measure=trialMeasure, duration=1., watch=None, every=0., limit=60.,
+                      executor=None, workers=1, resume=folder + '/done.jsonl', files=None, title=''),
         addPolygon=dict(outline=square, holes=(), size=.5, material='b', smooth=False, velocity=(0, 0), spin=0,
                         displacement=None, fixed=None, thickness=1, selfContact=True, simplify=.1,
                         strength=lambda x, y: 1e4, fractureEnergy=lambda x, y: 0., name='new',
@@ -314,7 +316,7 @@ def answer(error):
 def main(seed, calls, logName):
     draw = random.Random(int(seed))
     yadefrag_tradeoff = sys.modules['yadefrag.tradeoff']
-    yadefrag_tradeoff._runAll = lambda *_: None
+    yadefrag_tradeoff._runAll = sys.modules['yadefrag.ensemble']._run = lambda *_: None
     moments = os.environ.get('YADEFRAG_API_MOMENTS', ','.join(kMoments)).split(',')
     counts = types.SimpleNamespace(done=0, refused=0)
     with open(logName, 'w', errors='backslashreplace') as log, tempfile.TemporaryDirectory() as folder:

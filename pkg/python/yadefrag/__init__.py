@@ -20,6 +20,8 @@ __all__ = list(_yadefrag.publish())
 # Only now: FESolver is there.
 from yadefrag import attributes, lifecycle, solver  # noqa: E402
 from yadefrag.engines import engines  # noqa: E402
+from yadefrag.ensemble import ensemble  # noqa: E402
+from yadefrag.ensemble_table import EnsembleTable  # noqa: E402
 from yadefrag.export import exportVTK  # noqa: E402
 from yadefrag.fragments import (fragmentTable, plotFracture, plotFragmentSizes,  # noqa: E402
                                  recordFracture)
@@ -57,4 +59,5 @@ for _name in __all__:
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMesh',
             'outlineReport', 'voronoi', 'grainJoints', 'rectangleMesh', 'plotMesh', 'animate',
             'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
-            'plotFracture', 'crackTable', 'engines', 'FERecorder', 'tradeoff', 'TradeoffTable']
+            'plotFracture', 'crackTable', 'engines', 'FERecorder', 'tradeoff', 'TradeoffTable',
+            'ensemble', 'EnsembleTable']
