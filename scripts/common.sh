@@ -18,4 +18,14 @@ use_only_debian_python() {
   unset PYTHONPATH PYTHONSTARTUP
 }
 
+# Processes started from here find `import yadefrag`; it is built first where it is not there.
+use_plugin() {
+  local package_dir=$root/build/release/python
+  if [ ! -e "$package_dir/yadefrag/__init__.py" ] || [ ! -e "$package_dir/yadefrag/_yadefrag.so" ]; then
+    "$root/scripts/setup" >&2
+    "$root/scripts/build" >&2
+  fi
+  export PYTHONPATH="$package_dir${PYTHONPATH:+:$PYTHONPATH}"
+}
+
 jobs_at_once() { echo "${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"; }

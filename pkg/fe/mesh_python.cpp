@@ -110,4 +110,11 @@ std::string costlyStepWarningOf(const FESolver& solver, int component, double si
                            world.model.components[component], size);
 }
 
+double latticeTimeStepOf(double young, double poisson, double density, bool planeStress,
+                         double side) {
+  Component component;
+  component.material = {young, poisson, density, planeStress};
+  return latticeTimeStep(component, side);
+}
+
 }  // namespace yadefrag

@@ -29,5 +29,8 @@ yade::py::dict meshOfRectangle(double left, double bottom, double right, double 
 yade::py::dict meshQualityOf(const FESolver& solver, int component);
 /// A sentence where the component's mesh makes steps far shorter than triangles of `size` (m).
 std::string costlyStepWarningOf(const FESolver& solver, int component, double size);
+/// (s) Critical step of equilateral triangles of edges `side` (m), with a material's constants.
+double latticeTimeStepOf(double young, double poisson, double density, bool planeStress,
+                         double side);
 
 }  // namespace yadefrag

@@ -42,6 +42,7 @@ BOOST_PYTHON_MODULE(_yadefrag) {
           "Raises ImportError unless YADE's classes are laid out as this extension declares them.");
   py::def("meshOfPolygon", &yadefrag::meshOfPolygon);
   py::def("keptVertices", &yadefrag::keptVertices);
+  py::def("latticeTimeStep", &yadefrag::latticeTimeStepOf);
   py::def("meshOfRectangle", &yadefrag::meshOfRectangle);
   py::def("polygonOfText", &yadefrag::polygonOfText);
   py::def("voronoiOf", &yadefrag::voronoiOf);

@@ -84,6 +84,10 @@ def exampleFiles(folder):
     table.csv(folder + '/table.csv')
     with open(folder + '/plate', 'w') as plate:
         plate.write('0 0\n1 0\n1 1\n')
+    with open(folder + '/plate.csv', 'w') as plate:
+        plate.write('0, 0\n1, 0\n1, 1\n')
+    with open(folder + '/mesh.inp', 'w') as mesh:
+        mesh.write('*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n')
     return table
 
 
@@ -96,16 +100,21 @@ def right(fe, folder):
     return dict(
         rectangle=dict(low=(0, 0), high=(1, 1)), circle=dict(centre=(0, 0), radius=1, n=8),
         ring=dict(centre=(0, 0), inner=1, outer=2, n=8), readPolygon=dict(file=folder + '/plate'),
+        readOutline=dict(file=folder + '/plate.csv', tolerance=None, scale=1., gap=1e-6, simplify=1e-3, leastArea=0.),
+        readMesh=dict(file=folder + '/mesh.inp', scale=1.),
+        outlineReport=dict(outline=square, holes=(), size=.5, material='b', simplify=.01),
         voronoi=dict(outline=square, n=3, seed=1, rounds=1, shortest=.01), grainJoints=dict(grains=[square, square[::-1]]),
         rectangleMesh=dict(low=(0, 0), high=(1, 1), nx=2, ny=2, crossed=False),
-        plotMesh=dict(fe=fe, field='mises', file=folder + '/a.png', ax=None, limits=(0, 1)),
+        plotMesh=dict(fe=fe, field='mises', file=folder + '/a.png', ax=None, limits=(0, 1), xlim=(0, 3), ylim=(0, 2.), spheres=True),
         animate=dict(fe=fe, file=folder + '/a.gif', steps=1, every=1, field=None, limits=None, window=None,
                      rate=20),
         exportVTK=dict(fe=fe, file=folder + '/a.vtu', fields=['stress', 'velocity']), runSteps=dict(steps=2, every=1, call=lambda: None),
         fragmentTable=dict(fe=fe, file=folder + '/b.csv'),
         plotFragmentSizes=dict(fe=fe, file=folder + '/c.png', ax=None, components=[0, 1]),
         recordFracture=dict(fe=fe, file=csv, append=True), plotFracture=dict(file=csv, picture=None),
-        tradeoff=dict(job, reference=0., watch=None, every=0., limit=60., files=folder + '/t', title=''),
+        tradeoff=dict(job, reference=0., watch=None, every=0., limit=60., files=folder + '/t', title='', executor=None, resume=None),
+        ensemble=dict(scene=trialScene, runs=[1, 2], measure=trialMeasure, duration=1., watch=None, every=0., limit=60.,
+                      executor=None, workers=1, resume=folder + '/done.jsonl', files=None, title=''),
         addPolygon=dict(outline=square, holes=(), size=.5, material='b', smooth=False, velocity=(0, 0), spin=0,
                         displacement=None, fixed=None, thickness=1, selfContact=True, simplify=.1,
                         strength=lambda x, y: 1e4, fractureEnergy=lambda x, y: 0., name='new',
@@ -307,7 +316,7 @@ def answer(error):
 def main(seed, calls, logName):
     draw = random.Random(int(seed))
     yadefrag_tradeoff = sys.modules['yadefrag.tradeoff']
-    yadefrag_tradeoff._runAll = lambda *_: None
+    yadefrag_tradeoff._runAll = sys.modules['yadefrag.ensemble']._run = lambda *_: None
     moments = os.environ.get('YADEFRAG_API_MOMENTS', ','.join(kMoments)).split(',')
     counts = types.SimpleNamespace(done=0, refused=0)
     with open(logName, 'w', errors='backslashreplace') as log, tempfile.TemporaryDirectory() as folder:

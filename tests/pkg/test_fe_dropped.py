@@ -7,7 +7,7 @@ import pytest
 
 import yadefrag
 from fe_impact import areSame, heapSpheres, impact, requireBodiesAreEntries, state, steps
-from yadefrag import fragments
+from yadefrag.colours import fragmentColours
 from yade import wrapper as w
 
 O = builtins.O
@@ -179,7 +179,7 @@ def test_picturesLeaveThemOut(folder):
         ax = yadefrag.plotMesh(solver, field)
         drawn = len(np.unique(solver.triangles[kept])) if str(field) == 'speed' else kept.sum()
         assert field is None or len(ax.collections[0].get_array()) == drawn
-    colours = fragments.fragmentColours(solver)
+    colours = fragmentColours(solver)
     assert len(colours) == len(kept) and len(set(colours[kept])) > 1
     assert len(yadefrag.fragmentTable(solver)) == len(solver.fragments())
     assert yadefrag.animate(solver, folder + '/film.gif', 6, 3, field='fragment') == 3

@@ -9,7 +9,8 @@ import fe_chain as chain
 import yadefrag
 from fe_impact import (areSame, brittle, engines, heapSpheres, impact, requireBodiesAreEntries,
                        state, steps)
-from yadefrag import fragments, pictures
+from yadefrag import pictures
+from yadefrag.colours import fragmentColours
 from yade import wrapper as w
 
 O = builtins.O
@@ -331,7 +332,7 @@ def test_recordByPyRunner(folder):
 def test_neighboursHaveDifferentColours(folder):
     solver = impact()
     steps(250)
-    of, colours = solver.fragmentOf, fragments.fragmentColours(solver)
+    of, colours = solver.fragmentOf, fragmentColours(solver)
     assert colours.max() < 20 and of.max() > 3
     for number in range(of.max() + 1):
         assert len(set(colours[of == number])) == 1
@@ -343,7 +344,7 @@ def test_neighboursHaveDifferentColours(folder):
     for here in at.values():
         assert len({c for _, c in here}) == len(here)
     steps(3)
-    later = fragments.fragmentColours(solver, colours)
+    later = fragmentColours(solver, colours)
     assert (later == colours).mean() > .9
     pictures.plotMesh(solver, 'fragment', folder + '/fragments.png')
     assert os.path.getsize(folder + '/fragments.png') > 1000

@@ -97,6 +97,117 @@ def test_badFieldIsRefused():
         pictures.plotMesh(makeEmpty())
 
 
+def scenePicture(**settings):
+    """Axes of a square body, two spheres, and a clump of two, in a scene of YADE."""
+    from yade import utils, wrapper
+    O.materials.append(wrapper.FEMat(young=1e7, poisson=.3, density=1000, label='m'))
+    fe = wrapper.FESolver()
+    fe.addPolygon([(0, 0), (1, 0), (1, 1), (0, 1)], size=.5, material='m')
+    O.bodies.append([utils.sphere((2, 0, 0), .5, color=(1, 0, 0)),
+                     utils.sphere((0, -3, 7), .25, color=(0, 0, 1))])
+    O.bodies.appendClumped([utils.sphere((4, 1, 0), .3), utils.sphere((4.2, 1, 0), .2)])
+    return pictures.plotMesh(fe, **settings)
+
+
+def drawnSpheres(ax):
+    """[(x, y, radius)] of what is drawn."""
+    from matplotlib.collections import EllipseCollection
+    return [(*place, width) for c in ax.collections if isinstance(c, EllipseCollection)
+            for place, width in zip(c.get_offsets().tolist(), c._widths)]
+
+
+def test_spheresAndMembersOfClumpsAreDrawn(folder):
+    image = pytest.importorskip('PIL.Image')
+    ax = scenePicture(file=folder + '/a.png')
+    # Matplotlib keeps half the widths.
+    assert sorted(drawnSpheres(ax)) == [(0, -3, .25), (2, 0, .5), (4, 1, .3), (4.2, 1, .2)]
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    assert left < -.25 and right > 4.4 and bottom < -3.25 and top > 1.3
+    with image.open(folder + '/a.png') as picture:
+        pixels = numpy.asarray(picture.convert('RGB')).reshape(-1, 3)
+    for colour, radius in (((255, 0, 0), .5), ((0, 0, 255), .25)):
+        count = (pixels == colour).all(axis=1).sum()
+        scale = ax.get_window_extent().width * 150 / ax.figure.dpi / (right - left)  # pixels per m
+        assert count == pytest.approx(numpy.pi * (radius * scale)**2, rel=.1)
+
+
+def test_spheresAreLeftOutWhereAskedFor():
+    ax = scenePicture(spheres=False)
+    assert drawnSpheres(ax) == [] and ax.get_xlim()[1] < 1.2
+
+
+def test_windowIsWhatIsDrawn():
+    ax = scenePicture(xlim=(-1, 3), ylim=(.2, .6))
+    assert ax.get_xlim() == (-1, 3) and ax.get_ylim() == (.2, .6)
+    scenes.clear()
+    ax = scenePicture(ylim=(0, 2))
+    assert ax.get_ylim() == (0, 2) and ax.get_xlim()[1] > 4.4
+
+
+def test_severalFieldsSideBySide(folder):
+    axes = pictures.plotMesh(makeSolver(), fields=['xx', 'speed', None, [7, 8]], ylim=(0, 1),
+                             limits=[None, (0, 9), None, (1, 2)], file=folder + '/a.png')
+    assert [shown(ax).tolist() for ax in axes[:2] + axes[3:]] == [[1e6, -1e6], [5, 0, 1, 2], [7, 8]]
+    scales = [ax.collections[-1].get_clim() for ax in axes[:2] + axes[3:]]
+    assert scales == [(-1e6, 1e6), (0, 9), (1, 2)]
+    assert all(ax.get_ylim() == (0, 1) and ax.figure is axes[0].figure for ax in axes)
+    axes[0].figure.canvas.draw()
+    places = [ax.get_position() for ax in axes]
+    assert all(a.x1 < b.x0 for a, b in zip(places, places[1:]))
+    wide = pictures.plotMesh(makeSolver(), fields=['xx', 'yy'], xlim=(0, 5), ylim=(0, 1), limits=(0, 1))
+    wide[0].figure.canvas.draw()
+    assert wide[0].get_position().y0 > wide[1].get_position().y1
+    assert [ax.collections[-1].get_clim() for ax in wide] == [(0, 1)] * 2
+
+
+@pytest.mark.parametrize('change, sentence', [
+    (dict(xlim=3), 'xlim is 3, it must be a pair of numbers'),
+    (dict(ylim=(1, 0)), r'ylim is \(1, 0\), it must be a pair of numbers \(m\), the lower one first'),
+    (dict(xlim=(0, float('inf'))), 'xlim is'), (dict(spheres=1), 'spheres is 1, it must be True'),
+    (dict(fields=[]), r'fields is \[\], it must be a list of 1 to 12'),
+    (dict(fields='xx'), "fields is 'xx', it must be a list"),
+    (dict(fields=['xx', 'zz']), "field is 'zz', it must be one of"),
+    (dict(fields=['xx'], field='yy'), 'fields comes with field or ax'),
+    (dict(fields=['xx', 'yy'], limits=[(0, 1)]), 'a list with a pair or None for each of the 2 fields'),
+])
+def test_wrongWindowsAndFields(change, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        pictures.plotMesh(makeSolver(), **change)
+
+
+def test_curvesOfFractureAreToldApart(folder):
+    """Colours of both axes: red, green and blue of any two differ by 0.25 and more together."""
+    from matplotlib import colors
+    from yadefrag import fragments
+    file = folder + '/run.csv'
+    with open(file, 'w') as out:
+        out.write(fragments._RECORDED + '\n')
+        for step in range(2):
+            out.write(','.join(map(str, range(step, step + 14))) + '\n')
+    lines = [line for ax in fragments.plotFracture(file, folder + '/a.png') for line in ax.lines]
+    shades = numpy.array([colors.to_rgb(line.get_color()) for line in lines])
+    assert len(shades) == 12
+    distances = numpy.linalg.norm(shades[:, None] - shades, axis=2) + numpy.eye(12)
+    assert distances.min() >= .25
+    assert len({line.get_label() for line in lines}) == 12
+
+
+def imports(module):
+    """Names of the package's modules that a module imports, at its top or in a function."""
+    import ast
+    with open(module.__file__) as source:
+        tree = ast.parse(source.read())
+    return {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+
+
+def test_picturesAndFragmentsDoNotImportEachOther():
+    from yadefrag import axes, colours, fragments
+    assert 'yadefrag.fragments' not in imports(pictures)
+    assert 'yadefrag.pictures' not in imports(fragments)
+    for below in (axes, colours):
+        assert not {'yadefrag.pictures', 'yadefrag.fragments'} & imports(below)
+
+
 class Mover:
     """A solver whose body goes right by 0.1 m a step, by YADE's loop."""
 

@@ -20,11 +20,16 @@ __all__ = list(_yadefrag.publish())
 # Only now: FESolver is there.
 from yadefrag import attributes, lifecycle, solver  # noqa: E402
 from yadefrag.engines import engines  # noqa: E402
+from yadefrag.ensemble import ensemble  # noqa: E402
+from yadefrag.ensemble_table import EnsembleTable  # noqa: E402
 from yadefrag.export import exportVTK  # noqa: E402
 from yadefrag.fragments import (fragmentTable, plotFracture, plotFragmentSizes,  # noqa: E402
                                  recordFracture)
 from yadefrag.geometry import (circle, grainJoints, readPolygon, rectangle, ring,  # noqa: E402
                                 voronoi)
+from yadefrag.mesh_files import readMesh  # noqa: E402
+from yadefrag.outline_report import outlineReport  # noqa: E402
+from yadefrag.outlines import readOutline  # noqa: E402
 from yadefrag.pictures import animate, plotMesh  # noqa: E402
 from yadefrag.progress import runSteps  # noqa: E402
 from yadefrag.recorder import FERecorder  # noqa: E402
@@ -51,6 +56,8 @@ for _name in __all__:
     setattr(builtins, _name, globals()[_name])
     attributes.install(globals()[_name])
 
-__all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'voronoi', 'grainJoints',
-            'rectangleMesh', 'plotMesh', 'animate', 'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
-            'plotFracture', 'crackTable', 'engines', 'FERecorder', 'tradeoff', 'TradeoffTable']
+__all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMesh',
+            'outlineReport', 'voronoi', 'grainJoints', 'rectangleMesh', 'plotMesh', 'animate',
+            'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
+            'plotFracture', 'crackTable', 'engines', 'FERecorder', 'tradeoff', 'TradeoffTable',
+            'ensemble', 'EnsembleTable']

@@ -4,6 +4,8 @@ import os
 
 import numpy
 
+from yadefrag.axes import newAxes, requireAxes
+from yadefrag.colours import DISTINCT
 from yadefrag.files import appendText, savePicture, writeText
 from yadefrag.names import existingBody
 from yadefrag.shown import betweenSteps, requireSolver
@@ -54,8 +56,6 @@ def plotFragmentSizes(fe, file=None, ax=None, components=None):
     components  numbers or names of the bodies whose fragments count, default those that are in pieces
     ValueError where there is no such body.
     """
-    from yadefrag.pictures import newAxes, requireAxes
-
     table = fragmentTable(fe)
     if components is not None:
         components = _componentNumbers(fe, components)
@@ -149,19 +149,17 @@ def plotFracture(file, picture=None):
     picture  where to write it; its ending says as what (.png, .pdf, .svg ...)
     ValueError for a file with other columns or without a line.
     """
-    from yadefrag.pictures import newAxes
-
     data = _recorded(file)
     time = 1e6 * data[1]
     upper = newAxes()
     figure = upper.figure
     upper.remove()
     upper, lower = figure.subplots(2, 1, sharex=True)
-    for name, values in zip(_COUNTS[2:], data[2:5]):
-        upper.plot(time, values, label=name)
+    for name, colour, values in zip(_COUNTS[2:], DISTINCT[len(_ENERGIES):], data[2:5]):
+        upper.plot(time, values, label=name, color=colour)
     upper.set(ylabel='number', ylim=(0, None))
-    for name, values in zip(_ENERGIES, data[5:]):
-        lower.plot(time, values, label=name, color='k' if name == 'total' else None)
+    for name, colour, values in zip(_ENERGIES, DISTINCT, data[5:]):
+        lower.plot(time, values, label=name, color=colour)
     lower.set(xlabel='time (µs)', ylabel='energy (J)')
     for ax in (upper, lower):
         ax.legend(loc='center left', bbox_to_anchor=(1, .5))
@@ -169,52 +167,3 @@ def plotFracture(file, picture=None):
     if picture is not None:
         savePicture(figure, picture, dpi=150)
     return upper, lower
-
-
-def fragmentColours(fe, former=None):
-    """(m) a small number for each triangle: the same within a fragment, different beside it; 0 for
-    dropped ones. To be called between two steps.
-
-    former  those of an earlier call: a fragment keeps its colour where it can
-    """
-    ofAll = numpy.asarray(fe.fragmentOf, dtype=int)
-    shown = numpy.nonzero(ofAll >= 0)[0]
-    of = ofAll[shown]
-    count = int(of.max()) + 1 if len(of) else 0
-    beside = _neighbours(fe, shown, of, count)
-    sizes = numpy.bincount(of, minlength=count)
-    firsts = numpy.full(count, len(ofAll))
-    numpy.minimum.at(firsts, of, shown)
-    colours = numpy.full(count, -1)
-    for fragment in numpy.argsort(-sizes, kind='stable'):
-        taken = {colours[other] for other in beside[fragment]}
-        wanted = -1 if former is None else int(former[firsts[fragment]])
-        if wanted < 0 or wanted in taken:
-            wanted = next(c for c in range(count + 1) if c not in taken)
-        colours[fragment] = wanted
-    result = numpy.zeros(len(ofAll), dtype=int)
-    result[shown] = colours[of]
-    return result
-
-
-def _neighbours(fe, shown, of, count):
-    """For each fragment a set of those that share a place of the stress-free shape with it, or that
-    have come as near to it as an edge is long."""
-    triangles = numpy.asarray(fe.triangles, dtype=int)[shown]
-    used, places = numpy.unique(triangles, return_inverse=True)
-    triangles = places.reshape(-1, 3)
-    nodes, reference = numpy.asarray(fe.nodes)[used], numpy.asarray(fe._reference)[used]
-    ofNode = numpy.zeros(len(nodes), dtype=int)
-    ofNode[triangles] = of[:, None]
-    edge = numpy.linalg.norm(reference[triangles[:, 0]] - reference[triangles[:, 1]], axis=1).mean()
-    beside = [set() for _ in range(count)]
-    for places in (reference, numpy.floor(nodes / edge)):
-        _, place = numpy.unique(places, axis=0, return_inverse=True)
-        pairs = numpy.unique(numpy.stack([place.ravel(), ofNode], axis=1), axis=0)
-        ends = numpy.nonzero(numpy.diff(pairs[:, 0]))[0] + 1
-        for group in numpy.split(pairs[:, 1], ends):
-            for fragment in group if len(group) > 1 else ():
-                beside[fragment].update(group)
-    for fragment, others in enumerate(beside):
-        others.discard(fragment)
-    return beside

@@ -4,9 +4,13 @@ import math
 
 import numpy
 
+from yade import wrapper
+from yadefrag.axes import MOST_PANELS, newAxes, newPanels, requireAxes
+from yadefrag.colours import fragmentColours, palette
 from yadefrag.files import replacing, requireWritable, savePicture
 from yadefrag.guards import requireNoStep
-from yadefrag.values import number, numbersOf, path, refuse, shown, whole
+from yadefrag.shown import betweenSteps, requireSolver, shownMesh
+from yadefrag.values import flag, number, numbersOf, path, refuse, shown, whole
 
 _UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
           'mises': 'von Mises stress (Pa)', 'speed': 'speed (m/s)', 'component': 'component',
@@ -46,9 +50,10 @@ def _values(fe, field):
                      'or of the %d nodes.' % (shown(values.shape), triangles, nodes))
 
 
-def plotMesh(fe, field=None, file=None, ax=None, limits=None):
-    """Draws the triangles of an FESolver where they are now, but not those of dropped fragments;
-    returns Matplotlib's axes.
+def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xlim=None, ylim=None,
+             spheres=True):
+    """Draws the triangles of an FESolver where they are now, but not those of dropped fragments, and
+    YADE's spheres; returns Matplotlib's axes.
 
     field   None (no colours), 'xx', 'yy', 'xy' (Pa), 'mises' (Pa, of these three: with the stress
             zz left out), 'speed' (m/s), 'component', 'fragment' (colours without a meaning, of
@@ -57,16 +62,101 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None):
     file    where to write the picture; its ending says as what (.png, .pdf, .svg ...)
     ax      axes to draw in, default new ones
     limits  (lowest, highest) value of the colour scale, default those of the field
+    fields  in place of `field`, a list of several: drawn side by side, or below each other where
+            what is drawn is more than twice as wide as high, of the same moment; `limits` is then
+            one pair for all, or a list with a pair or None for each. Returns a list of axes
+    xlim    (left, right) in m of what is drawn, default all
+    ylim    (bottom, top) in m, likewise
+    spheres are YADE's spheres drawn, the members of clumps among them: in their colours, with their
+            whole radius, wherever they are beside the plane
     ValueError for any other field or limits, and for a solver without bodies.
     """
     _requireBodies(fe)
-    picture = _Picture(fe, field)
-    limits = _limits(limits)
-    ax = newAxes() if ax is None else requireAxes(ax)
-    _draw(ax, picture, limits)
+    spheres = flag('spheres', spheres)
+    chosen = [field] if fields is None else _severalFields(field, fields, ax)
+    limits = _limitsOfAll(limits, len(chosen)) if fields is not None else [_limits(limits)]
+    window = _range('xlim', xlim), _range('ylim', ylim)
+    with betweenSteps(fe):
+        pictures = [_Picture(fe, one) for one in chosen]
+        balls = Spheres() if spheres else None
+    if ax is not None:
+        panels = [requireAxes(ax)]
+    elif fields is None:
+        panels = [newAxes()]
+    else:
+        panels = newPanels(len(chosen), *_extent(pictures[0], balls, window))
+    for one, picture, scale in zip(panels, pictures, limits):
+        _draw(one, picture, scale, balls)
+        if len(panels) > 1 and isinstance(picture.field, str):
+            one.set_title(_UNITS[picture.field])
+        one.set(**{name: ends for name, ends in zip(('xlim', 'ylim'), window) if ends})
     if file is not None:
-        savePicture(ax.figure, file, dpi=150)
-    return ax
+        savePicture(panels[0].figure, file, dpi=150)
+    return panels[0] if fields is None else panels
+
+
+def _severalFields(field, fields, ax):
+    """A list of fields, checked as far as this goes without the solver."""
+    if field is not None or ax is not None:
+        raise ValueError('fields comes with field or ax, it must be given without them.')
+    if not isinstance(fields, (list, tuple)) or not 0 < len(fields) <= MOST_PANELS:
+        refuse('fields', fields, 'a list of 1 to %d fields' % MOST_PANELS)
+    return list(fields)
+
+
+def _limitsOfAll(limits, count):
+    """A list of `count` pairs."""
+    if limits is None or numbersOf(limits, 2) is not None:
+        return [_limits(limits)] * count
+    if not isinstance(limits, (list, tuple)) or len(limits) != count:
+        refuse('limits', limits, 'a pair of numbers, or a list with a pair or None for each of the '
+               '%d fields' % count)
+    return [_limits(one) for one in limits]
+
+
+def _range(name, value):
+    """A pair of floats; None for none."""
+    if value is None:
+        return None
+    ends = numbersOf(value, 2) if _isFinitePair(value) else None
+    if ends is None or not ends[0] < ends[1]:
+        refuse(name, value, 'a pair of numbers (m), the lower one first')
+    return ends
+
+
+def _extent(picture, balls, window):
+    """(width, height) in m of what is drawn."""
+    places = numpy.stack([picture.x, picture.y], axis=1)
+    low, high = places.min(axis=0), places.max(axis=0)
+    if balls is not None and len(balls.radii):
+        low = numpy.minimum(low, (balls.places - balls.radii[:, None]).min(axis=0))
+        high = numpy.maximum(high, (balls.places + balls.radii[:, None]).max(axis=0))
+    return [ends[1] - ends[0] if ends else side for ends, side in zip(window, high - low)]
+
+
+class Spheres:
+    """Those of YADE's scene now: places (n, 2) and radii (n) in m, colours (n, 3)."""
+
+    def __init__(self):
+        found = [(body.state.pos[0], body.state.pos[1], body.shape.radius, *body.shape.color)
+                 for body in wrapper.Omega().bodies if isinstance(body.shape, wrapper.Sphere)]
+        table = numpy.array(found, dtype=float).reshape(-1, 6)
+        table = table[numpy.isfinite(table).all(axis=1)]
+        self.places, self.radii, self.colours = table[:, :2], table[:, 2], table[:, 3:].clip(0, 1)
+
+    def draw(self, ax):
+        """Adds them to the axes, whose limits follow."""
+        from matplotlib.collections import EllipseCollection
+        if not len(self.radii):
+            return
+        sides = 2 * self.radii
+        ax.add_collection(EllipseCollection(
+            sides, sides, numpy.zeros(len(sides)), units='xy', offsets=self.places,
+            offset_transform=ax.transData, facecolors=self.colours, edgecolors='k', linewidths=.3,
+            zorder=2), autolim=False)
+        arms = self.radii[:, None]
+        ax.update_datalim(numpy.concatenate([self.places - arms, self.places + arms]))
+        ax.autoscale_view()
 
 
 class _Picture:
@@ -76,25 +166,23 @@ class _Picture:
     """
 
     def __init__(self, fe, field, former=None):
-        from yadefrag.shown import betweenSteps
         self.field = field
         with betweenSteps(fe):
             if isinstance(field, str) and field == 'fragment':
-                self.colours = _fragmentColours(fe, former)
+                self.colours = fragmentColours(fe, former)
                 values, perNode = self.colours % 20, False
             else:
                 values, perNode = _values(fe, field)
-            nodes, shown, self.triangles = _shown(fe)
+            nodes, shown, self.triangles = shownMesh(fe)
             self.x, self.y = numpy.asarray(fe.nodes, dtype=float)[nodes].T
         self.perNode = perNode
         self.values = None if values is None else values[nodes if perNode else shown]
 
 
 def _requireBodies(fe):
-    from yadefrag.shown import betweenSteps, requireSolver
     requireSolver(fe)
     with betweenSteps(fe):
-        isEmpty = len(_shown(fe)[1]) == 0
+        isEmpty = len(shownMesh(fe)[1]) == 0
     if isEmpty:
         raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
 
@@ -124,41 +212,13 @@ def _corners(window):
     return numbersOf(low, 2), numbersOf(high, 2)
 
 
-def _shown(fe):
-    from yadefrag.shown import shownMesh
-    return shownMesh(fe)
+def _draw(ax, picture, limits, balls=None):
+    _drawTriangles(ax, picture, limits)
+    if balls is not None:
+        balls.draw(ax)
 
 
-def _fragmentColours(fe, former=None):
-    from yadefrag.fragments import fragmentColours
-    return fragmentColours(fe, former)
-
-
-def _palette():
-    """Twenty colours, the ten strong ones first."""
-    from matplotlib import colormaps
-    pairs = colormaps['tab20'].colors
-    return [*pairs[::2], *pairs[1::2]]
-
-
-def requireAxes(ax):
-    """`ax`; ValueError unless it is Matplotlib's axes."""
-    from matplotlib.axes import Axes
-    if not isinstance(ax, Axes):
-        refuse('ax', ax, "Matplotlib's axes")
-    return ax
-
-
-def newAxes():
-    """Axes of a new figure. Without pyplot: a file's picture must not need, or open, a window."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-    figure = Figure(figsize=(8, 6), layout='constrained')
-    FigureCanvasAgg(figure)
-    return figure.add_subplot()
-
-
-def _draw(ax, picture, limits):
+def _drawTriangles(ax, picture, limits):
     x, y, triangles = picture.x, picture.y, picture.triangles
     field, values = picture.field, picture.values
     lines = .5 if len(triangles) < 2000 else .1
@@ -171,7 +231,7 @@ def _draw(ax, picture, limits):
     if isinstance(field, str) and field == 'fragment':
         from matplotlib.colors import ListedColormap, NoNorm
         ax.tripcolor(x, y, triangles=triangles, facecolors=values, norm=NoNorm(),
-                     cmap=ListedColormap(_palette()), edgecolors='k', linewidth=lines / 3)
+                     cmap=ListedColormap(palette()), edgecolors='k', linewidth=lines / 3)
         return
     low, high = limits
     if picture.perNode:
@@ -184,7 +244,8 @@ def _draw(ax, picture, limits):
     ax.figure.colorbar(drawn, ax=ax, label=label)
 
 
-def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=20):
+def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=20,
+            spheres=True):
     """Runs the scene for `steps` steps and writes a GIF with a frame at the start and after each
     `every` steps; returns the number of frames.
 
@@ -193,6 +254,7 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
     window         ((left, bottom), (right, top)) in m, default all nodes of the first frame and a
                    quarter more on each side
     rate           frames per second of the film
+    spheres        as in plotMesh
     When the run is interrupted, paused or fails, the frames until then are written. ValueError,
     before any step, for counts that are not positive, a field or limits as in plotMesh, a file that is no
     .gif, a window that is none; OSError for a file that cannot be written.
@@ -206,7 +268,7 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
     steps, every = whole('steps', steps), whole('every', every)
     rate = number('rate', rate, lambda r: .01 <= r <= 1000,
                   'a number of frames per second from 0.01 to 1000')
-    limits = _limits(limits)
+    limits, spheres = _limits(limits), flag('spheres', spheres)
     low, high = _windowOf(fe) if window is None else _corners(window)
     name = path('file', file, '.gif')
     requireNoStep('animate')
@@ -220,10 +282,12 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
         for done in _runInParts(steps, every):
             figure.clear()
             ax = figure.add_subplot()
-            picture = _Picture(fe, field, colours)
+            with betweenSteps(fe):
+                picture = _Picture(fe, field, colours)
+                balls = Spheres() if spheres else None
             if field == 'fragment':  # a fragment keeps its colour from frame to frame
                 colours = picture.colours
-            _draw(ax, picture, limits)
+            _draw(ax, picture, limits, balls)
             ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), title='step %d' % done)
             writer.grab_frame()
             frames += 1
@@ -242,9 +306,8 @@ def _checkFilm(fe, field):
 
 
 def _windowOf(fe):
-    from yadefrag.shown import betweenSteps
     with betweenSteps(fe):
-        nodes = numpy.asarray(fe.nodes, dtype=float)[_shown(fe)[0]]
+        nodes = numpy.asarray(fe.nodes, dtype=float)[shownMesh(fe)[0]]
     low, high = nodes.min(axis=0), nodes.max(axis=0)
     margin = (high - low).max() / 4
     return low - margin, high + margin

@@ -55,7 +55,7 @@ def meshQuality(self, component=None, plot=None):
 
 
 def _plot(quality, number, file):
-    from yadefrag.pictures import newAxes
+    from yadefrag.axes import newAxes
     figure = newAxes().figure
     figure.clear()
     figure.set_size_inches(9, 4.8)

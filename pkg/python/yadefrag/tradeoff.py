@@ -1,6 +1,6 @@
 """What speed costs in accuracy: one scene, run over a grid of choices (tradeoff).
 
-choices.py has the choices known by name, tradeoff_run.py the run in a process of its own,
+choices.py has the choices known by name, runs.py the runs, tradeoff_run.py one of them in its yade,
 tradeoff_table.py the table.
 """
 
@@ -8,28 +8,25 @@ import itertools
 import json
 import math
 import os
-import signal
 import statistics
-import subprocess
 import sys
-import tempfile
 import warnings
 
 import numpy
 
 from yadefrag import choices as known
+from yadefrag import run_process
 from yadefrag.files import requireWritable
+from yadefrag.runs import Finished, jobOf, requireExecutor, requireOutside, runAll
 from yadefrag.tradeoff_table import COLUMNS, TradeoffRow, TradeoffTable, describe
 from yadefrag.values import (number, path, plain, positive, refuse, shown, shownPath, text, whole)
 
-_RUN = os.path.join(os.path.dirname(os.path.realpath(known.__file__)), 'tradeoff_run.py')
-_INSIDE = 'YADEFRAG_TRADEOFF'  # set in the environment of a run
 MOST_SECONDS = 1e9  # that a process can be waited for
 _REPEATABLE = ('not run', 'ok')
 
 
 def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=0., repeats=3,
-             limit=60., files=None, title=''):
+             limit=60., files=None, title='', executor=None, resume=None):
     """Runs `scene` over a grid of choices; returns a TradeoffTable of times and errors.
 
     scene      function (choices) that builds the scene in O and sets O.engines and O.dt, by the
@@ -51,8 +48,14 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
     limit      s, wall-clock time of a run with all its set-up
     files      path without ending: writes .csv, .md and .png there
     title      of the plot
+    executor   None: one run after the other, here; or an executor as of concurrent.futures, mpi4py
+               or Dask, whose workers start yade on their machines and see the same files. Times are
+               of use only where each run has a core of its own
+    resume     None, or a file .jsonl of the runs that have been done: a call that was interrupted
+               goes on where it stopped, if it is called with the same again. Remove it where the
+               scene has changed
 
-    Each run is a `yade -n -x` of its own, one after the other. Clocks count steps alone: wall-clock
+    Each run is a `yade -n -x` of its own. Clocks count steps alone: wall-clock
     and processor time over simulated time. A setting that the scene or an engine refuses, that
     blows up, fails or takes too long is a row that says so. Ctrl-C ends the runs; the table has
     what was done. Functions must be at the top level of a file, and the call of tradeoff in a
@@ -61,16 +64,15 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
     RuntimeError where the file cannot be
     loaded again.
     """
-    if os.environ.get(_INSIDE):
-        raise RuntimeError('tradeoff is called while a run of it loads the script; put the call '
-                           "behind `if __name__ == '__main__':`.")
+    requireOutside('tradeoff')
     settings = _grid(vary)
-    job = _job(scene, measure, watch)
+    job = jobOf(scene, measure, watch)
     job.update(duration=positive('duration', duration, 's'),
                every=number('every', every, lambda v: 0 <= v < math.inf,
                             'a positive number (s), or 0'))
     repeats = whole('repeats', repeats)
-    limit = min(positive('limit', limit, 's'), MOST_SECONDS)
+    job['limit'] = min(positive('limit', limit, 's'), MOST_SECONDS)
+    executor = requireExecutor(executor)
     title = text('title', title)
     right = _reference(reference)
     if isinstance(right, dict) and right not in settings:
@@ -79,15 +81,16 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
         for name in TradeoffTable.namesOfFiles(files):
             requireWritable(name)
     rows = [TradeoffRow(settings=dict(setting)) for setting in settings]
-    _runAll(rows, settings, job, repeats, limit)
+    finished = Finished(resume, {key: job[key] for key in ('file', 'functions', 'duration', 'every')})
+    _runAll(rows, settings, job, repeats, executor, finished)
     table = TradeoffTable(rows, title)
     _setErrors(table, right, settings)
     if files is not None:
-        _write(table, files)
+        writeTable(table, files)
     return table
 
 
-def _write(table, files):
+def writeTable(table, files):
     """A disk that is full by now must not cost the runs: the table is returned all the same."""
     try:
         table.write(files)
@@ -95,15 +98,15 @@ def _write(table, files):
         warnings.warn('the table could not be written: %s.' % error, stacklevel=3)
 
 
-def _checkChoice(name, value):
-    """`value`, as a plain number or text."""
-    if not isinstance(name, str) or name in COLUMNS:
-        raise ValueError('vary has the choice %s, a name must be a text that is no other column of '
-                         'the table.' % shown(name))
+def checkChoice(name, value, argument='vary', columns=COLUMNS):
+    """`value`, as a plain number or text; ValueError with the argument where it is none."""
+    if not isinstance(name, str) or name in columns:
+        raise ValueError('%s has the choice %s, a name must be a text that is no other column of '
+                         'the table.' % (argument, shown(name)))
     name, value = text('the name of a choice', name), plain(value)
     if not isinstance(value, (str, bool, int, float)):
-        raise ValueError('vary has the choice %s=%s, it must be a number, a text, True or False.' %
-                         (shownPath(name), shown(value)))
+        raise ValueError('%s has the choice %s=%s, it must be a number, a text, True or False.' %
+                         (argument, shownPath(name), shown(value)))
     if isinstance(value, str):
         text(shownPath(name), value)
     known.check(name, value)
@@ -133,38 +136,17 @@ def _values(name, values):
     if not isinstance(values, (list, tuple)) or not values:
         raise ValueError('vary has %s for the choice %s, it must be a list of values.' %
                          (shown(values), shown(name)))
-    return [_checkChoice(name, value) for value in values]
+    return [checkChoice(name, value) for value in values]
 
 
 def _key(setting):
     return json.dumps(setting, sort_keys=True)
 
 
-def _job(scene, measure, watch):
-    """What every run gets: which functions of which file."""
-    functions = [scene, measure] + [watch] * (watch is not None)
-    for name, function in zip(('scene', 'measure', 'watch'), functions):
-        module = sys.modules.get(getattr(function, '__module__', None))
-        if not callable(function) or not hasattr(function, '__code__') \
-                or vars(module or os).get(function.__name__) is not function:
-            refuse(name, function, 'a function at the top level of a file, which each run loads')
-    modules = {function.__module__ for function in functions}
-    if len(modules) > 1:
-        raise ValueError('scene, measure and watch are in the modules %s, they must be in one '
-                         'file.' % ', '.join(sorted(modules)))
-    file = os.path.abspath(scene.__code__.co_filename)
-    if not os.path.isfile(file):
-        raise ValueError('scene is of %s, which is no file that a run could load.' %
-                         shown(scene.__code__.co_filename))
-    names = [function.__name__ for function in functions]
-    return dict(file=file, module=modules.pop(), functions=names + [None] * (3 - len(names)),
-                path=[os.path.abspath(p) for p in sys.path])
-
-
 def _reference(reference):
     """'finest', a checked setting, or an array of numbers."""
     if isinstance(reference, dict):
-        return {name: _checkChoice(name, value) for name, value in reference.items()}
+        return {name: checkChoice(name, value) for name, value in reference.items()}
     if isinstance(reference, str) and reference == 'finest':
         return reference
     if isinstance(reference, (str, os.PathLike)):
@@ -186,61 +168,52 @@ def _reference(reference):
     return numbersRead
 
 
-def _runAll(rows, settings, job, repeats, limit):
+def _runAll(rows, settings, job, repeats, executor, finished):
     """Fills the rows; settings take turns, so that a slow minute of the machine falls on all."""
     import tqdm  # only where something runs
     bar = tqdm.tqdm(total=repeats * len(rows), unit='run', disable=None)
     try:
-        with bar, tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
-            for _ in range(repeats):
-                for row, setting in zip(rows, settings):
-                    bar.set_postfix_str(describe(setting), refresh=False)
-                    if row.result in _REPEATABLE:
-                        _take(row, _runOne(dict(job, settings=setting), limit, folder))
-                    bar.update()
+        with bar:
+            for turn in range(repeats):
+                _runTurn(turn, rows, settings, job, executor, finished, bar)
     except KeyboardInterrupt:
         done = sum(len(row.walls) for row in rows)
         print('Stopped after %d of %d runs.' % (done, repeats * len(rows)), file=sys.stderr)
 
 
-def _runOne(job, limit, folder):
+def _runTurn(turn, rows, settings, job, executor, finished, bar):
+    """One run of each setting that has not failed."""
+    due = []
+    for row, setting in zip(rows, settings):
+        known = finished.get(dict(setting=setting, turn=turn))
+        if row.result in _REPEATABLE and known is None:
+            due.append((row, setting))
+            continue
+        if row.result in _REPEATABLE:
+            _take(row, known)
+        bar.update()
+
+    def take(number, found):
+        row, setting = due[number]
+        _take(row, found)
+        finished.add(dict(setting=setting, turn=turn), found)
+        bar.update()
+
+    bar.set_postfix_str(describe(due[0][1]) if len(due) == 1 else '', refresh=False)
+    runAll([dict(job, settings=setting) for _, setting in due], take, executor, _runOne)
+
+
+def _runOne(job):
     """The result of one run in a fresh yade, a dict as tradeoff_run.perform returns it."""
-    jobFile, resultFile, log = (os.path.join(folder, n) for n in ('job', 'result', 'log'))
-    with open(jobFile, 'w', encoding='utf-8') as f:
-        json.dump(job, f)
-    if os.path.exists(resultFile):
-        os.remove(resultFile)
-    threads = job['settings'].get('threads', 1)
-    yade = getattr(sys, 'yade_argv', ['/usr/bin/yade'])[0]
-    package = os.path.dirname(os.path.dirname(os.path.abspath(known.__file__)))
-    path = os.pathsep.join([package] + os.environ.get('PYTHONPATH', '').split(os.pathsep))
-    environment = dict(os.environ, PYTHONPATH=path.rstrip(os.pathsep), **{_INSIDE: '1'})
-    with open(log, 'w', encoding='utf-8') as output:
-        process = subprocess.Popen(
-            [yade, '-n', '-x', '-j%d' % threads, _RUN, jobFile, resultFile], env=environment,
-            stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True)
-        try:
-            process.wait(timeout=limit)
-        except subprocess.TimeoutExpired:
-            return dict(result='too long', message='no result within %g s.' % limit)
-        finally:
-            if process.poll() is None:
-                os.killpg(process.pid, signal.SIGKILL)
-                process.wait()
-    if not os.path.exists(resultFile):
-        with open(log, encoding='utf-8', errors='replace') as f:
-            last = [line.strip() for line in f if line.strip()][-1:]
-        return dict(result='failed', message='yade ended with status %d: %s' %
-                    (process.returncode, ''.join(last)[:200]))
-    with open(resultFile, encoding='utf-8') as f:
-        return json.load(f)
+    return run_process.perform(job)
 
 
 def _take(row, found):
     """Puts what one run gave into its row."""
     if found['result'] == 'unloadable':
         raise RuntimeError('a run cannot load the scene: %s' % found['message'])
-    row.result, row.message = found['result'], found['message']
+    lost = found['result'] == 'lost'  # by the executor: no fault of the scene
+    row.result, row.message = 'failed' if lost else found['result'], found['message']
     for name, value in found.get('used', {}).items():  # the scene's own, where nothing else is said
         if value is not None:
             row.settings.setdefault(name, value)

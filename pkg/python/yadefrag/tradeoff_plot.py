@@ -6,7 +6,7 @@ from matplotlib.ticker import FuncFormatter, NullFormatter
 from matplotlib.transforms import Bbox
 
 from yadefrag.files import savePicture
-from yadefrag.pictures import newAxes, requireAxes
+from yadefrag.axes import newAxes, requireAxes
 
 _FRONT, _OTHER = '#d1495b', '#3d8fb5'
 # Of a point, where its text may stand: offset in points, alignment.

@@ -107,13 +107,9 @@ class TradeoffTable:
     def csv(self, file):
         """Writes all rows: the choices, then COLUMNS; values as JSON, an empty cell for None."""
         names = self.names()
-        out = io.StringIO(newline='')
-        writer = csv.writer(out)
-        writer.writerow(names + list(COLUMNS))
-        for row in self.rows:
-            writer.writerow([_encode(row.settings.get(name)) for name in names]
-                            + [_encode(getattr(row, name)) for name in COLUMNS])
-        writeText(path('file', file), out.getvalue())
+        lines = [[row.settings.get(name) for name in names] + [getattr(row, c) for c in COLUMNS]
+                 for row in self.rows]
+        writeText(path('file', file), tableText(names + list(COLUMNS), lines))
 
     @classmethod
     def read(cls, file, title=''):
@@ -189,6 +185,16 @@ class TradeoffTable:
     def namesOfFiles(files):
         """Those that `write` writes."""
         return [path('files', files) + ending for ending in ('.csv', '.md', '.png')]
+
+
+def tableText(heading, lines):
+    """A CSV file as text: a heading, then lines of values."""
+    out = io.StringIO(newline='')
+    writer = csv.writer(out)
+    writer.writerow(heading)
+    for line in lines:
+        writer.writerow([_encode(value) for value in line])
+    return out.getvalue()
 
 
 def _requireRow(row, name='row'):

@@ -1,0 +1,38 @@
+"""Matplotlib's axes for the pictures of this package."""
+
+from yadefrag.values import refuse
+
+MOST_PANELS = 12  # of one picture
+
+
+def requireAxes(ax):
+    """`ax`; ValueError unless it is Matplotlib's axes."""
+    from matplotlib.axes import Axes
+    if not isinstance(ax, Axes):
+        refuse('ax', ax, "Matplotlib's axes")
+    return ax
+
+
+def newAxes():
+    """Axes of a new figure. Without pyplot: a file's picture must not need, or open, a window."""
+    return _figure(8, 6).add_subplot()
+
+
+def newPanels(count, width, height):
+    """A list of `count` axes in a new figure, of what is `width` by `height`: side by side, or below
+    each other where that is more than twice as wide as high."""
+    shape = min(max(height / width if width > 0 else 1, .12), 2)
+    isWide = shape < .5
+    across = 9 if isWide else 4.5  # inches of one of the axes, with the bar of colours
+    size = across + 1.5, across * shape + .9
+    figure = _figure(size[0] * (1 if isWide else count), size[1] * (count if isWide else 1))
+    rows, columns = (count, 1) if isWide else (1, count)
+    return list(figure.subplots(rows, columns, squeeze=False).flat)
+
+
+def _figure(width, height):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    figure = Figure(figsize=(width, height), layout='constrained')
+    FigureCanvasAgg(figure)
+    return figure

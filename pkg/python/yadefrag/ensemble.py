@@ -1,0 +1,133 @@
+"""Many runs of one scene, by seeds or by a table: what is measured, with confidence bands."""
+
+import math
+import os
+import sys
+
+import numpy
+
+from yadefrag.ensemble_table import COLUMNS, EnsembleRow, EnsembleTable
+from yadefrag.files import requireWritable
+from yadefrag.runs import Finished, Processes, jobOf, requireExecutor, requireOutside, runAll
+from yadefrag.tradeoff import MOST_SECONDS, checkChoice, writeTable
+from yadefrag.values import isWhole, number, plain, positive, refuse, shown, text, whole
+
+_MOST_RUNS = 10**6
+
+
+def ensemble(scene, runs, measure, *, duration, watch=None, every=0., limit=600., executor=None,
+             workers=None, resume=None, files=None, title=''):
+    """Runs `scene` once for each row of a table; returns an EnsembleTable of what was measured.
+
+    scene     function (choices) that builds the scene in O and sets O.engines and O.dt, as of
+              tradeoff: choices['seed'] is the run's seed, choices['strength'] what the table has
+    runs      how many, with the seeds 0, 1, ...; a list of seeds; or a table, as a list of dicts
+              {name: value} or a dict {name: list of values}, all of one length. The names that
+              tradeoff knows are checked as there, others are handed on
+    measure   function (built) of what scene returned → a number or numbers (n), after the run: n may
+              differ from run to run, as of the sizes of fragments
+    duration, watch, every, limit  as in tradeoff
+    executor  None: processes on this machine, `workers` at once (None: as many as it has cores); or
+              an executor as of concurrent.futures. Of mpi4py: MPIPoolExecutor(main=False); of Dask:
+              Client(...).get_executor(pure=False). Its workers need Python alone; they start yade
+              on their machines, and see the same files. It is not shut down
+    resume    None, or a file .jsonl of the runs that have been done: a call that was interrupted
+              goes on where it stopped, if it is called with the same again, or with more runs.
+              Remove it where the scene has changed
+    files     path without ending: writes .csv and, where a run has a value, .png there
+    title     of the plot
+
+    Each run is a `yade -n -x` of its own. One that the scene or an engine refuses, that blows up,
+    fails or takes too long is a row that says so. Ctrl-C ends the runs; the table has what was done.
+    Functions must be at the top level of a file, and the call in a script behind
+    `if __name__ == '__main__':`, since each run loads the file again.
+    ValueError, before anything runs, for bad arguments, OSError for files that cannot be written;
+    RuntimeError where the file cannot be loaded again.
+    """
+    requireOutside('ensemble')
+    settings = _settings(runs)
+    job = jobOf(scene, measure, watch)
+    job.update(duration=positive('duration', duration, 's'),
+               every=number('every', every, lambda v: 0 <= v < math.inf,
+                            'a positive number (s), or 0'),
+               limit=min(positive('limit', limit, 's'), MOST_SECONDS))
+    executor = requireExecutor(executor)
+    workers = whole('workers', os.cpu_count() if workers is None else workers)
+    table = EnsembleTable([EnsembleRow(dict(setting)) for setting in settings], text('title', title))
+    if files is not None:
+        for name in EnsembleTable.namesOfFiles(files):
+            requireWritable(name)
+    finished = Finished(resume, {key: job[key] for key in ('file', 'functions', 'duration', 'every')})
+    _run(table.rows, job, finished, executor, workers)
+    if files is not None:
+        writeTable(table, files)
+    return table
+
+
+def _settings(runs):
+    """List of checked dicts."""
+    runs = plain(runs)
+    if isWhole(runs):
+        runs = range(whole('runs', runs, most=_MOST_RUNS))
+    if isinstance(runs, dict):
+        columns = {name: _listOf(values) for name, values in runs.items()}
+        lengths = {None if values is None else len(values) for values in columns.values()}
+        if len(lengths) != 1 or None in lengths:
+            refuse('runs', runs, 'a dict of lists of one length')
+        runs = [dict(zip(columns, row)) for row in zip(*columns.values())]
+    rows = _listOf(runs)
+    if not rows or len(rows) > _MOST_RUNS:
+        refuse('runs', runs, 'a number of runs, a list of seeds, a list of dicts or a dict of lists')
+    return [_setting(row) for row in rows]
+
+
+def _setting(row):
+    if not isinstance(row, dict):
+        if not isWhole(row):
+            raise ValueError('runs has the seed %s, it must be a whole number, or a dict.' % shown(row))
+        row = dict(seed=row)
+    return {name: checkChoice(name, value, 'runs', COLUMNS) for name, value in row.items()}
+
+
+def _listOf(values):
+    if isinstance(values, (list, tuple, range)):
+        return list(values)
+    return list(values) if isinstance(values, numpy.ndarray) and values.ndim == 1 else None
+
+
+def _run(rows, job, finished, executor, workers):
+    """Fills the rows."""
+    import tqdm  # only where something runs
+    due = []
+    for place, row in enumerate(rows):
+        key = _keyOf(rows, place)
+        known = finished.get(key)
+        if known is None:
+            due.append((row, key))
+        else:
+            row.take(known)
+    bar = tqdm.tqdm(total=len(rows), initial=len(rows) - len(due), unit='run', disable=None)
+
+    def take(place, found):
+        row, key = due[place]
+        row.take(found)
+        finished.add(key, found)
+        bar.update()
+
+    jobs = [dict(job, settings=row.settings) for row, _ in due]
+    try:
+        with bar:
+            if executor is not None:
+                runAll(jobs, take, executor)
+            else:
+                with Processes(workers) as own:
+                    runAll(jobs, take, own)
+    except KeyboardInterrupt:
+        done = sum(row.result != 'not run' for row in rows)
+        print('Stopped after %d of %d runs.' % (done, len(rows)), file=sys.stderr)
+
+
+def _keyOf(rows, place):
+    """Of a run in the file of finished ones; the same row may be there several times."""
+    settings = rows[place].settings
+    return dict(setting=settings, turn=sum(row.settings == settings for row in rows[:place]))

@@ -1,0 +1,193 @@
+"""The table that ensemble() returns: rows, means with confidence bands, CSV, plot."""
+
+import dataclasses
+import math
+
+import numpy
+
+from yadefrag import student
+from yadefrag.files import savePicture, writeText
+from yadefrag.tradeoff_table import tableText
+from yadefrag.values import array, number, path, refuse, text
+
+COLUMNS = ('result', 'value', 'steps', 'wall', 'message')
+_PLACES = 200  # of a curve
+
+
+@dataclasses.dataclass
+class EnsembleRow:
+    """One run and what came of it.
+
+    settings  dict of what the scene was given
+    result    'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or 'not run'
+    value     what was measured, a number or a list; None without
+    steps     of the run; wall: wall-clock time over simulated time (s/s)
+    """
+
+    settings: dict
+    result: str = 'not run'
+    value: object = None
+    steps: int = None
+    wall: float = None
+    message: str = ''
+
+    def take(self, found):
+        """Puts in what a run gave."""
+        if found['result'] == 'unloadable':
+            raise RuntimeError('a run cannot load the scene: %s' % found['message'])
+        self.result = 'failed' if found['result'] == 'lost' else found['result']
+        self.message = found['message']
+        self.value, self.steps, self.wall = map(found.get, ('value', 'steps', 'wall'))
+
+
+class EnsembleTable:
+    """rows (list of EnsembleRow), title; those without a value count for no mean.
+
+    A band is that of the mean at each place by itself: with as many runs as there were, whose values
+    are about normal, the mean of all possible runs is within it with the stated confidence (Student's
+    t distribution). Numbers measured in one run may depend on each other; runs do not.
+    """
+
+    def __init__(self, rows, title=''):
+        isRight = isinstance(rows, (list, tuple)) and all(isinstance(r, EnsembleRow) for r in rows)
+        if not isRight:
+            refuse('rows', rows, 'a list of EnsembleRow')
+        self.rows, self.title = list(rows), text('title', title)
+
+    def good(self):
+        """Rows with a value."""
+        return [row for row in self.rows if row.result == 'ok']
+
+    def statistics(self, by=None, reduce=numpy.mean, confidence=.95):
+        """Mean of what was measured, with its confidence, as a NumPy array with named columns (k).
+
+        by      None, or the name of a setting: a line for each of its values, in their order
+        reduce  function of a run's numbers (n) → its number, default their mean; numpy.median, len, ...
+        Columns: by (nan without), runs, failed (how many), mean, deviation (of single runs), low,
+        high (band of the mean; nan of less than two runs). ValueError for a name that is none.
+        """
+        confidence = _share(confidence)
+        if not callable(reduce):
+            refuse('reduce', reduce, 'a function')
+        groups = {math.nan: self.rows} if by is None else self._groups(by)
+        lines = []
+        for value, rows in groups.items():
+            good = [float(reduce(numpy.atleast_1d(row.value))) for row in rows if row.result == 'ok']
+            mean, deviation, half = _meanOf(numpy.array(good)[:, None], confidence)
+            lines.append((value, len(good), len(rows) - len(good), mean[0], deviation[0],
+                          mean[0] - half[0], mean[0] + half[0]))
+        names = ('by', 'runs', 'failed', 'mean', 'deviation', 'low', 'high')
+        kinds = (float, int, int, float, float, float, float)
+        return numpy.array(lines, dtype=list(zip(names, kinds)))
+
+    def _groups(self, by):
+        """{value: rows} in the order of the values."""
+        numbers = [row.settings.get(by) if isinstance(by, str) else None for row in self.rows]
+        if not numbers or not all(isinstance(n, (int, float)) for n in numbers):
+            refuse('by', by, 'the name of a setting that is a number in all rows')
+        return {value: [row for row, n in zip(self.rows, numbers) if n == value]
+                for value in sorted(set(numbers))}
+
+    def shares(self, places=None, confidence=.95):
+        """How many of a run's numbers are at least as large as a place, over all runs.
+
+        places  numbers (k), or None: 200 from the least that was measured to the largest, by even
+                factors where all are positive
+        Returns a NumPy array with named columns (k): place, mean (share of a run's numbers, averaged over the runs),
+        low, high (band of that mean, within 0 and 1). ValueError without a run that has numbers.
+        """
+        confidence = _share(confidence)
+        runs = [numpy.sort(numpy.atleast_1d(row.value)) for row in self.good()]
+        if not runs:
+            raise ValueError('no run has a value: there is nothing to draw or to average.')
+        places = _places(runs) if places is None else array(places, float)
+        if places is None or places.ndim != 1 or not numpy.isfinite(places).all():
+            refuse('places', places, 'a list of finite numbers')
+        table = numpy.array([1 - numpy.searchsorted(run, places, 'left') / len(run) for run in runs])
+        mean, _, half = _meanOf(table, confidence)
+        half = numpy.nan_to_num(half, nan=1)  # of a single run nothing is known
+        columns = places, mean, numpy.clip(mean - half, 0, 1), numpy.clip(mean + half, 0, 1)
+        names = ('place', 'mean', 'low', 'high')
+        return numpy.array(list(zip(*columns)), dtype=[(name, float) for name in names])
+
+    def csv(self, file):
+        """Writes all rows: the settings, then COLUMNS; values as JSON, an empty cell for None."""
+        names = list(dict.fromkeys(name for row in self.rows for name in row.settings))
+        lines = [[row.settings.get(name) for name in names] + [getattr(row, c) for c in COLUMNS]
+                 for row in self.rows]
+        writeText(path('file', file), tableText(names + list(COLUMNS), lines))
+
+    def plot(self, file=None, ax=None, by=None, confidence=.95, label='what was measured'):
+        """Draws the table; returns Matplotlib's axes.
+
+        by     None: the share of numbers at least as large as a place, each run in grey, and the mean with
+               its band; or the name of a setting: each run's mean over it, and their mean with its band
+        label  of the axis of what was measured
+        """
+        from yadefrag.axes import newAxes, requireAxes
+        label = text('label', label)
+        ax = newAxes() if ax is None else requireAxes(ax)
+        (self._plotShares if by is None else self._plotBy)(ax, by, confidence, label)
+        ax.set_title(self.title)
+        ax.grid(True, linewidth=.3)
+        ax.legend()
+        if file is not None:
+            savePicture(ax.figure, file, dpi=150)
+        return ax
+
+    def _plotShares(self, ax, _, confidence, label):
+        band = self.shares(confidence=confidence)
+        for row in self.good():
+            values = numpy.sort(numpy.atleast_1d(row.value))
+            ax.step(values, 1 - numpy.arange(len(values)) / len(values), where='pre', color='.75',
+                    linewidth=.6, zorder=1)
+        _drawBand(ax, band['place'], band, len(self.good()), confidence)
+        if band['place'][0] > 0:
+            ax.set_xscale('log')
+        ax.set(xlabel=label, ylabel='share at least as large', ylim=(0, 1.02))
+
+    def _plotBy(self, ax, by, confidence, label):
+        table = self.statistics(by, confidence=confidence)
+        for row in self.good():
+            ax.plot(row.settings[by], numpy.mean(row.value), '.', color='.6', zorder=1)
+        _drawBand(ax, table['by'], table, len(self.good()), confidence, 'o-')
+        ax.set(xlabel=by, ylabel=label)
+
+    def write(self, files):
+        """files.csv and, where a run has a value, files.png."""
+        table, picture = self.namesOfFiles(files)
+        self.csv(table)
+        if self.good():
+            self.plot(picture)
+
+    @staticmethod
+    def namesOfFiles(files):
+        """Those that `write` writes."""
+        return [path('files', files) + ending for ending in ('.csv', '.png')]
+
+
+def _drawBand(ax, x, table, count, confidence, style='-'):
+    ax.fill_between(x, table['low'], table['high'], color='#1f77b4', alpha=.3, linewidth=0,
+                    label='%g %% band of the mean' % (100 * confidence))
+    ax.plot(x, table['mean'], style, color='#1f77b4', label='mean of %d runs' % count)
+
+
+def _share(confidence):
+    return number('confidence', confidence, lambda v: 0 < v < 1, 'above 0 and below 1')
+
+
+def _meanOf(table, confidence):
+    """(mean, deviation, half of the band) of each column of an array (runs, k); nan for too few."""
+    count = len(table)
+    if count == 0:
+        return (numpy.full(1, numpy.nan),) * 3
+    mean = table.mean(axis=0)
+    if count == 1:
+        return mean, numpy.full_like(mean, numpy.nan), numpy.full_like(mean, numpy.nan)
+    deviation = table.std(axis=0, ddof=1)
+    return mean, deviation, student.quantile(confidence, count - 1) * deviation / math.sqrt(count)
+
+
+def _places(runs):
+    low, high = min(run[0] for run in runs), max(run[-1] for run in runs)
+    return numpy.geomspace(low, high, _PLACES) if low > 0 else numpy.linspace(low, high, _PLACES)

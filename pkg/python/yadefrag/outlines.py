@@ -1,0 +1,100 @@
+"""Outlines from files of other programs, for FESolver.addPolygon."""
+
+import math
+import os
+
+import numpy
+
+from yadefrag.meshing import simplified
+from yadefrag.readers import dxf, loops, picture, plain, svg
+from yadefrag.values import number, path, positive, shownPath
+
+_GAP = 1e-6  # of the longer side of all: drawings have six digits
+_LINES = {'.svg': svg.lines, '.dxf': dxf.lines, '.png': picture.lines, '.csv': plain.csvLines,
+          '.wkt': plain.wktLines, '.json': plain.geoJsonLines, '.geojson': plain.geoJsonLines}
+
+
+def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None,
+                leastArea=0.):
+    """Outlines from a drawing, a map or a picture: list of (outline, holes), as addPolygon has them.
+
+    `for shape in readOutline('plate.svg', 1e-5, scale=1e-3): fe.addPolygon(*shape, size=...)`.
+    file       by its ending
+               .svg      paths and basic shapes with their transforms, those that are not hidden, in
+                         units of the viewBox; y upwards, so that the page is below the origin
+               .dxf      lines, polylines with bulges, arcs, circles, ellipses, splines, also in
+                         blocks, seen from above
+               .geojson, .json, .wkt  polygons, and lines that close
+               .csv      `x, y` on each line, an empty one between two loops, # before comments
+               .png      what is darker than middle grey, transparent places being white; in pixels
+                         from the lower left corner of the picture
+    tolerance  m, by which outlines may be off: points on curves are so many that chords are within
+               it (those of splines in .dxf at their middles), and those of a picture's contour are
+               left out as by `simplify`. Files without curves need none
+    scale      m for one unit of the file
+    gap        m, below which two points count as one, and two ends of lines as joined; None: 10⁻⁶ of
+               the longer side of what is drawn
+    simplify   None, or m: as in addPolygon, on what has been read
+    leastArea  m²: loops around less, as specks in a picture are, are left out
+    What an odd number of loops is around is inside: a loop within an outline is a hole, one within
+    a hole an outline of its own. All are counter-clockwise lists of (x, y) in m.
+    ValueError with the file for one that is none of these, for lines that do not close and for a
+    missing tolerance; ImportError with Debian's package where a library is missing (svgelements,
+    ezdxf, shapely, scikit-image); OSError for a file that cannot be read.
+    """
+    name = path('file', file)
+    ending = os.path.splitext(name)[1].lower()
+    if ending not in _LINES:
+        raise ValueError('file ends with %r, an outline can be read from one of %s.' %
+                         (ending[:20], ', '.join(_LINES)))
+    scale = positive('scale', scale, 'm per unit of the file')
+    tolerance = None if tolerance is None else positive('tolerance', tolerance, 'm')
+    gap = None if gap is None else positive('gap', gap, 'm')
+    simplify = None if simplify is None else positive('simplify', simplify, 'm')
+    leastArea = number('leastArea', leastArea, lambda v: 0 <= v < math.inf,
+                       '0 or a positive number (m²)')
+    with open(name, 'rb'):  # OSError before a library finds its own words
+        pass
+    lines = _LINES[ending](name, None if tolerance is None else tolerance / scale)
+    lines = [scale * line for line in lines if len(line)]
+    shapes = _shapes(name, lines, gap, leastArea)
+    if ending == '.png':
+        shapes = [_simplified(name, 'tolerance', tolerance, *shape) for shape in shapes]
+    if simplify is not None:
+        shapes = [_simplified(name, 'simplify', simplify, *shape) for shape in shapes]
+    return [(_pairs(outline), [_pairs(hole) for hole in holes]) for outline, holes in shapes]
+
+
+def _shapes(name, lines, gap, leastArea):
+    """[(outline, holes)] of arrays (n, 2)."""
+    if not lines:
+        raise ValueError('%s has no lines that could be an outline.' % shownPath(name))
+    points = numpy.concatenate(lines)
+    if not numpy.isfinite(points).all():
+        raise ValueError('%s has points that are not finite.' % shownPath(name))
+    side = float((points.max(axis=0) - points.min(axis=0)).max())
+    try:
+        closed = loops.joined(lines, gap or _GAP * side or 1)
+    except ValueError as error:
+        raise ValueError('%s: %s' % (shownPath(name), error)) from None
+    closed = [loop for loop in closed if abs(loops.area(loop)) >= leastArea]
+    flat = [loop for loop in closed if abs(loops.area(loop)) <= 1e-12 * side**2]
+    if flat:
+        raise ValueError('%s has a loop without area at (%g, %g).' %
+                         (shownPath(name), *flat[0][0]))
+    if not closed:
+        raise ValueError('%s has no closed line%s.' %
+                         (shownPath(name), ' around leastArea' if leastArea else ''))
+    return loops.nested(closed)
+
+
+def _simplified(name, argument, distance, outline, holes):
+    try:
+        outline, holes, _ = simplified(outline, holes, distance, None)
+    except ValueError as error:
+        raise ValueError('%s, %s: %s' % (shownPath(name), argument, error)) from None
+    return outline, holes
+
+
+def _pairs(loop):
+    return list(map(tuple, loop.tolist()))

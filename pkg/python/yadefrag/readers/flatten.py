@@ -1,0 +1,56 @@
+"""Points on curves, so many that the polyline is nowhere farther off than a tolerance.
+
+A polyline through n even parameters of a curve r(t), 0 ≤ t ≤ 1, is off by at most max|r''|/(8n²).
+"""
+
+import math
+
+import numpy
+
+MOST_POINTS = 10**6  # of one curve: a tolerance that asks for more is a slip
+
+
+def count(bend, tolerance, least=1):
+    """Pieces (int) for a curve whose second derivative is at most `bend`; ValueError for too many."""
+    wanted = math.sqrt(bend / (8 * tolerance))
+    if not wanted < MOST_POINTS:
+        raise ValueError('tolerance asks for more than %d points on one curve.' % MOST_POINTS)
+    return max(least, math.ceil(wanted))
+
+
+def bezier(points, tolerance):
+    """(n, 2) of a Bézier curve of 3 or 4 control points, its first point left out."""
+    points = numpy.asarray(points, dtype=float)
+    degree = len(points) - 1
+    bends = degree * (degree - 1) * numpy.linalg.norm(numpy.diff(points, n=2, axis=0), axis=1)
+    pieces = count(bends.max(), tolerance)
+    t = numpy.arange(1, pieces + 1)[:, None] / pieces
+    while len(points) > 1:  # de Casteljau's scheme
+        points = [(1 - t) * a + t * b for a, b in zip(points, points[1:])]
+    return points[0]
+
+
+def ellipticArc(centre, axes, start, sweep, tolerance):
+    """(n + 1, 2) from the angle `start` over `sweep` (rad) on centre + a·cos + b·sin; `axes` are
+    the vectors (a, b). At least eight pieces a turn."""
+    a, b = numpy.asarray(axes, dtype=float)
+    reach = math.hypot(numpy.linalg.norm(a), numpy.linalg.norm(b))
+    if abs(a @ b) <= 1e-12 * (a @ a + b @ b):  # perpendicular, as of circles: exact
+        reach = max(numpy.linalg.norm(a), numpy.linalg.norm(b))
+    pieces = count(reach * sweep**2, tolerance, math.ceil(abs(sweep) / (math.pi / 4)))
+    angles = start + sweep * numpy.arange(pieces + 1)[:, None] / max(pieces, 1)
+    return numpy.asarray(centre, dtype=float) + a * numpy.cos(angles) + b * numpy.sin(angles)
+
+
+def bulge(start, end, value, tolerance):
+    """(n, 2) of the arc of a DXF bulge, tan(angle / 4), from `start` to `end`; the first left out."""
+    start, end = numpy.asarray(start, dtype=float), numpy.asarray(end, dtype=float)
+    chord = end - start
+    if value == 0 or not chord.any():
+        return end[None]
+    left = numpy.array([-chord[1], chord[0]])
+    centre = (start + end) / 2 + left * (1 - value**2) / (4 * value)
+    arm = start - centre
+    points = ellipticArc(centre, (arm, (-arm[1], arm[0])), 0, 4 * math.atan(value), tolerance)[1:]
+    points[-1] = end
+    return points

@@ -1,0 +1,26 @@
+"""Contours of a silhouette, by scikit-image: in pixels from the lower left corner, y upwards."""
+
+import numpy
+
+from yadefrag.readers import needed, refuseFile, requireTolerance
+
+_PACKAGE = 'python3-skimage'
+_LEVEL = .5  # between white (0) and black (1)
+
+
+def lines(name, tolerance):
+    """Around all that is darker than middle grey, on white where the picture is transparent."""
+    requireTolerance(tolerance, name, 'is a picture')
+    image = needed('PIL.Image', 'python3-pil', name)
+    measure = needed('skimage.measure', _PACKAGE, name)
+    try:
+        with image.open(name) as picture:
+            colours = picture.convert('RGBA')
+        paper = image.new('RGBA', colours.size, 'white')
+        dark = 1 - numpy.asarray(image.alpha_composite(paper, colours).convert('L')) / 255
+    except Exception as error:  # of the library
+        refuseFile(name, 'picture', error)
+    height = len(dark)
+    contours = measure.find_contours(numpy.pad(dark, 1), _LEVEL)
+    # The middle of pixel (row 0, column 0) is at (1, 1) in the padded array.
+    return [numpy.stack([c[:, 1] - .5, height + .5 - c[:, 0]], axis=1) for c in contours]

@@ -1,0 +1,92 @@
+"""What the finest feature of an outline costs, before a mesh is made, beside the mesh's own step."""
+import builtins
+import warnings
+
+import numpy as np
+import pytest
+
+import yadefrag
+from fe_scene import fe
+from yadefrag import outlineReport
+
+O = builtins.O
+kSquare = yadefrag.rectangle((0, 0), (1, 1))
+kShort = [(0, 0), (.5, 0), (.505, 0), (1, 0), (1, 1), (0, 1)]
+kNotch = [(0, 0), (1, 0), (1, 1), (.504, 1), (.504, .5), (.5, .5), (.5, 1), (0, 1)]
+kNeck = [(0, 0), (1, 0), (1, 1), (.51, .5), (1, 2), (0, 2), (.5, .5), (0, 1)]
+
+
+def stepOf(outline, holes=(), **more):
+    solver = fe()
+    with warnings.catch_warnings():
+        warnings.simplefilter('ignore')  # of short edges
+        solver.addPolygon(outline, holes, size=.05, material='m', **more)
+    return solver.criticalTimeStep()
+
+
+def report(outline, holes=(), **more):
+    return outlineReport(outline, holes, **{**dict(size=.05, material='m'), **more})
+
+
+@pytest.mark.parametrize('outline, finest, place, word', [
+    (kShort, .005, (.5025, 0), 'an edge of 0.005 m'),
+    (kNotch, .004, (.502, .5), 'an edge of 0.004 m'),
+    (kNeck, .01, (.51, .5), 'a width of 0.01 m'),
+])
+def test_finestFeatureAndItsCost(outline, finest, place, word):
+    step = stepOf(outline)
+    found = report(outline)
+    assert found['finest'] == pytest.approx(finest) and found['points'] == len(outline)
+    at = 'shortestEdgeAt' if 'edge' in word else 'narrowestAt'
+    assert found[at] == pytest.approx(place)
+    assert found['ratio'] == pytest.approx(.05 / finest)
+    assert word in found['words'] and found['words'].endswith('.')
+    # As the docstring says; the shapes of triangles differ.
+    assert .5 < step / found['timeStep'] < 3
+
+
+def test_noFeatureFinerThanTheSize():
+    step = stepOf(kSquare)
+    found = report(kSquare)
+    assert found['ratio'] == 1 and found['finest'] == .05 and found['shortestEdge'] == 1
+    assert found['timeStep'] == pytest.approx(step, rel=.4)
+    assert 'no edge and no gap finer than the size' in found['words']
+
+
+def test_holesAndWallsBetweenThem():
+    hole = yadefrag.rectangle((.2, .01), (.4, .2))
+    other = yadefrag.rectangle((.403, .05), (.6, .2))
+    assert stepOf(kSquare, [hole, other]) > 0
+    found = report(kSquare, [hole, other])
+    assert found['narrowest'] == pytest.approx(.003) and found['narrowestAt'][0] in (.4, .403)
+    assert report(kSquare, [hole])['narrowest'] == pytest.approx(.01)
+
+
+def test_simplifyTakesTheCostAway():
+    fe()
+    bumps = np.linspace(0, 1, 401)
+    outline = [(x, 1e-4 * (i % 2)) for i, x in enumerate(bumps)] + [(1, 1), (0, 1)]
+    assert report(outline)['ratio'] == pytest.approx(20, rel=.01)
+    assert report(outline, simplify=1e-3)['ratio'] == 1
+
+
+def test_nothingIsAdded():
+    fe()
+    report(kShort)
+    assert len(O.bodies) == 0
+
+
+@pytest.mark.parametrize('call, sentence', [
+    (lambda: report(kSquare[:2]), 'outline has 2 points, it must have at least 3'),
+    (lambda: report(kSquare, 3), 'holes is 3, it must be a list of loops'),
+    (lambda: report(kSquare, [[1]]), r'holes\[0\] must be a list of points'),
+    (lambda: report(kSquare, size=0), 'size is 0, it must be a positive number'),
+    (lambda: report(kSquare, material='wood'), "material is 'wood', which is not in O.materials"),
+    (lambda: report(kSquare, simplify=1), 'could vanish'),
+    (lambda: report([(0, 0), (0, 0), (1, 0), (0, 1)]), r'touches itself at \(0, 0\)'),
+    (lambda: report([(0, 0), (1, 0), (1, 1), (.5, 0)]), r'touches itself at \(0.5, 0\)'),
+])
+def test_wrongArguments(call, sentence):
+    fe()
+    with pytest.raises(ValueError, match=sentence):
+        call()
