@@ -17,15 +17,17 @@ bool isSharp(const ContactSurfaces& surfaces, const PieceGeometry& geometry, Ent
     return false;
   const Vec2 in = geometry.tangent(former, 1);
   const Vec2 out = geometry.tangent(entry, 0);
+  if (dot(in, out) < tolerance::kFolded * norm(in) * norm(out)) return true;
   return std::atan2(cross(in, out), dot(in, out)) > tolerance::kSharpCorner;
 }
 
 }  // namespace
 
-void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> reference,
-                      int passes) {
+void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> reference, int passes,
+                      bool anyRigid) {
   passes_ = passes;
-  if (passes == 2) return;
+  anyRigid_ = anyRigid;
+  if (passes == 2 && !anyRigid) return;
   const PieceGeometry geometry(surfaces, reference);
   const std::size_t count = surfaces.entries();
   std::uint32_t loops = 0;

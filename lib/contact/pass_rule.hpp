@@ -16,13 +16,18 @@ namespace yadefrag {
 /// one surface, with bodies that crack, and in a double pass, every point is a slave: a crack makes
 /// corners and surfaces. Roles chosen anew at cracks were tried: candidates that were there kept
 /// the old ones until the next search, so that results depended on when that was.
+/// All points are slaves of rigid boundaries, of which the sharp corners are slaves only.
 class PassRule {
  public:
   /// `reference`: m, stress-free, by node, so that no motion changes a role.
-  void update(const ContactSurfaces& surfaces, std::span<const Vec2> reference, int passes);
+  /// `anyRigid`: are there rigid boundaries.
+  void update(const ContactSurfaces& surfaces, std::span<const Vec2> reference, int passes,
+              bool anyRigid = false);
 
   [[nodiscard]] bool mayBeSlave(const Model& model, const ContactSurfaces& surfaces, EntryId slave,
                                 EntryId master) const {
+    if (anyRigid_ && isRigid(model, surfaces, slave)) return sharp_[slave.value] != 0;
+    if (anyRigid_ && isRigid(model, surfaces, master)) return true;
     if (passes_ == 2 || mayCrack(model, surfaces, slave) || mayCrack(model, surfaces, master))
       return true;
     const std::uint32_t own = surfaces.loop[slave.value], other = surfaces.loop[master.value];
@@ -32,6 +37,10 @@ class PassRule {
   void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, fineness_, sharp_); }
 
  private:
+  [[nodiscard]] static bool isRigid(const Model& model, const ContactSurfaces& surfaces,
+                                    EntryId entry) {
+    return model.components[surfaces.component[entry.value].value].rigid;
+  }
   [[nodiscard]] static bool mayCrack(const Model& model, const ContactSurfaces& surfaces,
                                      EntryId entry) {
     return model.components[surfaces.component[entry.value].value].brittle.cracks();
@@ -41,6 +50,7 @@ class PassRule {
   }
 
   int passes_ = 1;
+  bool anyRigid_ = false;
   std::vector<double> fineness_;     ///< m, mean length of a loop's pieces
   std::vector<std::uint8_t> sharp_;  ///< by entry: is its sampling point a sharp convex corner
 };

@@ -14,7 +14,7 @@ namespace yadefrag {
 struct SlaveNormals {
   Vec2 before, after;
   [[nodiscard]] bool oppose(Vec2 normal) const {
-    const bool convex = cross(before, after) > 0;
+    const bool convex = cross(before, after) > 0 || dot(before, after) < tolerance::kFolded;
     const double leaning = std::min(cross(normal, before), cross(after, normal));
     if (convex && leaning >= 0) return true;
     const bool sharp = convex && dot(before, after) < tolerance::kSameFace;

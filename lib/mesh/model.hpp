@@ -79,6 +79,7 @@ struct Component : BodyMaterial {
   double thickness = 1;         ///< m
   bool brittleByPlace = false;  ///< do its edges have strengths or energies of their own
   bool selfContact = true;      ///< may its surfaces touch each other
+  bool rigid = false;           ///< a boundary without triangles, whose nodes are held
   ElementKind element = ElementKind::kLinear;
   std::uint32_t firstTriangle = 0;
   std::uint32_t lastTriangle = 0;   ///< one past; triangles of a component are consecutive

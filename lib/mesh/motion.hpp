@@ -19,6 +19,10 @@ struct Motion {
   TimeTable turn = {};                 ///< rad/s
   /// A script's own function gives the nodes' velocities, by this number; 0: the tables do.
   std::uint32_t function = 0;
+
+  /// In place of a function's number: a rigid boundary's nodes, which World::rigidVelocities moves.
+  static constexpr std::uint32_t kRigid = 0xffffffff;
+  [[nodiscard]] bool isScripted() const { return function != 0 && function != kRigid; }
 };
 
 /// Where a motion has its frame at one time.

@@ -21,7 +21,8 @@ Box entryBox(const ContactSurfaces& surfaces, std::span<const Vec2> positions, E
 
 /// Can a slave of one of the two components touch the other at all.
 inline bool mayTouch(const Model& model, ComponentId a, ComponentId b) {
-  return a != b || model.components[a.value].selfContact;
+  if (a == b) return model.components[a.value].selfContact;
+  return !model.components[a.value].rigid || !model.components[b.value].rigid;
 }
 
 /// Of pairs of entries with overlapping boxes, each way round: slaves in their masters' halo at

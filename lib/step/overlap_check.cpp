@@ -15,11 +15,13 @@ namespace {
 
 using Corners = std::array<Vec2, 3>;
 
-/// A boundary segment, or a triangle, of any body; `held`: all its nodes are, in both directions.
+/// A boundary segment, or a triangle, of any body; `held`: all its nodes are, in both directions;
+/// `isLine`: of a rigid boundary that may have nothing on either side.
 struct Side {
   Vec2 from, to;
   bool held;
   ComponentId body;
+  bool isLine;
 };
 struct Facet {
   Corners corners;
@@ -81,6 +83,35 @@ std::optional<Vec2> meet(const Side& side, const Facet& facet) {
   return beside;
 }
 
+/// Where a triangle lies along the left side of a line.
+struct Along {
+  Side side;
+  Part part;
+  ComponentId body;
+};
+
+/// The same for lines, which may touch triangles with either side: a place where those of one body
+/// lie along both. `known`: all so far.
+std::optional<Vec2> meetLine(const Side& side, const Facet& facet, std::vector<Along>& known) {
+  if (side.held && facet.held) return std::nullopt;
+  const Vec2 along = side.to - side.from;
+  const double touching = margin(facet.corners, side.from, side.to);
+  Part part = partInside(side.from, side.to, facet.corners, touching);
+  if (!part.isEmpty()) return side.from + (part.begin + part.end) / 2 * along;
+  const Vec2 left = -(2 * touching / norm(along)) * rightOf(along);
+  part = partInside(side.from + left, side.to + left, facet.corners, .5 * touching);
+  if (part.isEmpty()) return std::nullopt;
+  known.push_back({side, part, facet.body});
+  for (const Along& other : known) {
+    if (other.body != facet.body || other.side.from != side.to || other.side.to != side.from)
+      continue;
+    const Part both{std::max(part.begin, 1 - other.part.end),
+                    std::min(part.end, 1 - other.part.begin)};
+    if (both.end - both.begin > tolerance::kTouching) return side.from + both.begin * along;
+  }
+  return std::nullopt;
+}
+
 /// Sides and triangles of the bodies that may meet, as far as they are in a common box.
 class OverlapSearch {
  public:
@@ -90,6 +121,7 @@ class OverlapSearch {
   void lookIn(const Box& box) { within_ = box; }
 
   [[nodiscard]] std::optional<Overlap> find(ComponentId newBody) const {
+    std::vector<Along> known;
     std::vector<Box> boxes;
     for (const Side& side : sides_) boxes.push_back(boxOf(side));
     for (const Facet& facet : facets_) boxes.push_back(boxOf(facet));
@@ -100,7 +132,7 @@ class OverlapSearch {
       const Side& side = sides_[a];
       const Facet& facet = facets_[b - sides_.size()];
       if ((side.body == newBody) == (facet.body == newBody)) continue;
-      if (const auto place = meet(side, facet))
+      if (const auto place = side.isLine ? meetLine(side, facet, known) : meet(side, facet))
         return Overlap{std::min(side.body, facet.body), *place};
     }
     return std::nullopt;
@@ -126,7 +158,8 @@ void addBody(OverlapSearch& search, const Model& model, const ContactSurfaces& s
   for (const SegmentId segment : segments) {
     const NodeId a = surfaces.segmentNode[segment.value];
     const NodeId b = surfaces.segmentNode[surfaces.segmentNext[segment.value].value];
-    search.add(Side{at(a), at(b), isHeld(a) && isHeld(b), body});
+    search.add(
+        Side{at(a), at(b), isHeld(a) && isHeld(b), body, model.components[body.value].rigid});
   }
   const Component& component = model.components[body.value];
   for (std::uint32_t e = component.firstTriangle; e < component.lastTriangle; ++e) {
@@ -137,12 +170,12 @@ void addBody(OverlapSearch& search, const Model& model, const ContactSurfaces& s
 }
 
 void addNew(OverlapSearch& search, const TriangleMesh& mesh, const std::vector<Vec2>& positions,
-            const std::vector<std::uint8_t>& held, ComponentId body) {
+            const std::vector<std::uint8_t>& held, ComponentId body, bool isLine) {
   const auto isHeld = [&](std::uint32_t node) { return !held.empty() && held[node] == kHeldXY; };
   for (const auto& loop : mesh.loops)
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
-      search.add(Side{positions[a], positions[b], isHeld(a) && isHeld(b), body});
+      search.add(Side{positions[a], positions[b], isHeld(a) && isHeld(b), body, isLine});
     }
   for (const auto& [a, b, c] : mesh.triangles)
     search.add(Facet{
@@ -171,7 +204,7 @@ std::optional<Overlap> findOverlap(const Model& model, const ContactSurfaces& su
   }
   if (near.isAbsent()) return std::nullopt;
   search.lookIn(near);
-  addNew(search, mesh, positions, spec.held, newBody);
+  addNew(search, mesh, positions, spec.held, newBody, spec.rigid && mesh.triangles.empty());
   return search.find(newBody);
 }
 

@@ -45,8 +45,9 @@ bool materialIsRight(const BodyMaterial& one) {
 bool isRight(const Component& c, const Model& model) {
   return materialIsRight(c) && isPositive(c.thickness) && c.element <= ElementKind::kSmoothed &&
          !(c.isMixed() && c.element == ElementKind::kSmoothed) &&
-         c.firstTriangle <= c.lastTriangle && c.lastTriangle <= model.triangles.size() &&
-         c.firstMaterial <= c.lastMaterial && c.lastMaterial <= model.materials.size() &&
+         !(c.rigid && c.firstTriangle != c.lastTriangle) && c.firstTriangle <= c.lastTriangle &&
+         c.lastTriangle <= model.triangles.size() && c.firstMaterial <= c.lastMaterial &&
+         c.lastMaterial <= model.materials.size() &&
          !(c.isMixed() && model.triangles.material.empty());
 }
 

@@ -76,6 +76,7 @@ void World::conclude(double dt) {
   lastDt = dt;
   outerForces.clear();
   givenVelocities.clear();
+  rigidVelocities.clear();
   givenPressures.clear();
   watchEnergy();
 

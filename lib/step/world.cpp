@@ -18,7 +18,7 @@ namespace yadefrag {
 
 ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   checkBody(mesh, spec);
-  requireApart(mesh, spec);
+  requireApart(mesh, spec, "The new body");
   Component component;
   static_cast<BodyMaterial&>(component) = wholeOf(spec);
   component.brittleByPlace = !spec.places.empty() || !spec.materials.empty();
@@ -68,6 +68,13 @@ void World::removeBody(ComponentId component) {
   const ElementId last(model.components[component.value].lastTriangle);
   const std::vector<NodeId> renumbered = yadefrag::removeBody(model, component);
   fracture.removeBody(model, first, last, renumbered);
+  takeOff(component, renumbered);
+  watch.begin(kineticEnergy() + strainEnergy(), ledger);
+  stableStep = 0;
+}
+
+/// What a component that has left the model leaves behind.
+void World::takeOff(ComponentId component, std::span<const NodeId> renumbered) {
   search.nodes.clear();
   places_.forget();
   for (std::size_t i = 0; i < renumbered.size(); ++i)
@@ -79,8 +86,6 @@ void World::removeBody(ComponentId component) {
   surfaces.renumberNodes(renumbered, model.nodes.size());
   forgetUnusedMotions();
   contact.reset();
-  watch.begin(kineticEnergy() + strainEnergy(), ledger);
-  stableStep = 0;
   rebuild();
   search.isVoid = true;
 }
@@ -97,6 +102,9 @@ void World::setLoads(std::vector<Vec2> loads) {
 
 void World::rebuild() {
   broken_.clear();
+  rigidNodes_.clear();
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    if (model.components[model.nodes.component[n].value].rigid) rigidNodes_.emplace_back(n);
   contact.resize(model.nodes.size());
   isBuilt_ = false;
 }

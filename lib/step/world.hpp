@@ -34,6 +34,7 @@ struct BodySpec : BodyMaterial {
   BrittlePlaces places;
   double thickness = 1;  ///< m
   bool selfContact = true;
+  bool rigid = false;  ///< only to see what it overlaps
   ElementKind element = ElementKind::kLinear;
   std::vector<Vec2> velocity;             ///< m/s
   std::vector<Vec2> displacement;         ///< m, from the stress-free shape
@@ -55,11 +56,29 @@ struct Dropped {
   std::uint64_t count = 0;  ///< fragments
 };
 
+/// A boundary without mass that touches bodies, and moves as World::rigidVelocities says: the
+/// outline of something that is not made of elements.
+struct RigidSpec {
+  TriangleMesh shape;   ///< nodes and loops; triangles where it is solid, to see what overlaps it
+  double friction = 0;  ///< coefficient
+  std::string name;     ///< for sentences
+  bool isNew = true;    ///< false: it touches bodies already, and may be in them by what is left
+};
+
 class World {
  public:
   /// Both throw InputError before anything is changed.
   ComponentId addBody(const TriangleMesh& mesh, const BodySpec& spec);
   void removeBody(ComponentId component);
+  /// InputError before anything is changed where it overlaps a body.
+  ComponentId addRigid(const RigidSpec& spec);
+  void removeRigid(ComponentId component);
+  /// Of all rigid boundaries, ascending.
+  [[nodiscard]] const std::vector<NodeId>& rigidNodes() const { return rigidNodes_; }
+  [[nodiscard]] bool hasRigid() const { return !rigidNodes_.empty(); }
+  /// Shifts nodes of rigid boundaries along their own lines, which changes nothing but where these
+  /// end: `places` (m) by place in `rigidNodes`.
+  void slideRigid(std::span<const Vec2> places);
   /// From the next step on the bodies hang together along all sides that they have in common now,
   /// as a crack that holds does, of this strength (Pa) and energy (J/m²). Returns how many sides
   /// these are. InputError before anything is changed.
@@ -122,6 +141,8 @@ class World {
   std::vector<Vec2> outerForces;
   /// (m/s) By node, for the next step only: of nodes whose motion has a function.
   std::vector<Vec2> givenVelocities;
+  /// (m/s) By place in `rigidNodes`, for the next step only; empty: they stand still.
+  std::vector<Vec2> rigidVelocities;
   /// Of pressures that have a function, for the next step only.
   struct GivenPressure {
     std::uint32_t function;
@@ -189,7 +210,10 @@ class World {
   void searchNow(double dt);
   void considerPairs(std::span<const BoxPair> overlapping, std::span<const Vec2> before);
   void requireBody(ComponentId component, const char* purpose) const;
-  void requireApart(const TriangleMesh& mesh, const BodySpec& spec);
+  void requireApart(const TriangleMesh& mesh, const BodySpec& spec, const std::string& subject);
+  [[nodiscard]] Vec2 rigidVelocity(NodeId node) const;
+  std::uint32_t rigidMotion();
+  void takeOff(ComponentId component, std::span<const NodeId> renumbered);
   void requireBoundedMotion(double dt);
   void requireResolvedMotion(double dt);
   void requireFiniteEnergy() const;
@@ -224,6 +248,7 @@ class World {
   SplitResult split_;
   LoosePieces loose_;
   BodyPlaces places_;
+  std::vector<NodeId> rigidNodes_;
   std::vector<Vec2> allOuterForces_;  // N, by node, with pressures; empty without any
   std::vector<Vec2> surfaceForces_;   // N, by node, of contact and cohesion
   std::span<const Vec2> pushes_;      // N, the same or those of contact alone, of the present step

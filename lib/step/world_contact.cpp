@@ -14,12 +14,14 @@ namespace yadefrag {
 
 namespace {
 
-/// (m) Of those from `first` on; 0 without any.
-double shortestSegment(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
-                       SegmentId first = SegmentId(0)) {
+/// (m) Of those from `first` on that are no rigid boundary's; 0 without any.
+double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
+                       std::span<const Vec2> positions, SegmentId first = SegmentId(0)) {
   double least = INFINITY;
   for (std::size_t s = first.value; s < surfaces.segments(); ++s) {
     if (surfaces.isGone(SegmentId(s))) continue;
+    const EntryId entry = surfaces.segmentEntry[s];
+    if (model.components[surfaces.component[entry.value].value].rigid) continue;
     const NodeId a = surfaces.segmentNode[s];
     const NodeId b = surfaces.segmentNode[surfaces.segmentNext[s].value];
     const Vec2 along = positions[b.value] - positions[a.value];
@@ -30,7 +32,7 @@ double shortestSegment(const ContactSurfaces& surfaces, std::span<const Vec2> po
 
 }  // namespace
 
-double World::finestSegment() const { return shortestSegment(surfaces, reference); }
+double World::finestSegment() const { return shortestSegment(model, surfaces, reference); }
 
 /// One body that cannot touch itself needs neither search nor candidates.
 bool World::canTouch() const {
@@ -65,7 +67,7 @@ double World::wideHalo(double move) const {
 }
 
 void World::chooseHalo(double dt, SegmentId first) {
-  const double shortest = shortestSegment(surfaces, model.nodes.position, first);
+  const double shortest = shortestSegment(model, surfaces, model.nodes.position, first);
   search.shortest = first.value == 0 ? shortest : std::min(search.shortest, shortest);
   motion_.fastest = first.value == 0 ? fastest(first) : std::max(motion_.fastest, fastest(first));
   const double fast = wideHalo(2 * tolerance::kHaloSpare * motion_.fastest * dt);
@@ -87,7 +89,7 @@ void World::takePairs(std::span<const BoxPair> overlapping) {
 
 /// `before`: m, by node, at the end of the last step.
 void World::considerPairs(std::span<const BoxPair> overlapping, std::span<const Vec2> before) {
-  passRule_.update(surfaces, reference, contactSettings.passes);
+  passRule_.update(surfaces, reference, contactSettings.passes, hasRigid());
   pairs_.clear();
   selectPairs(model, surfaces, passRule_, model.nodes.position, search.halo, overlapping, pairs_);
   undo_.candidates = replaceCandidates(contact.candidates, pairs_, surfaces, before,
@@ -125,7 +127,7 @@ void World::searchNow(double dt) {
   if (apart_.any()) {
     chooseHalo(dt);
   } else {
-    search.shortest = shortestSegment(surfaces, model.nodes.position);
+    search.shortest = shortestSegment(model, surfaces, model.nodes.position);
     search.halo = wideHalo(2 * tolerance::kHaloSpare * motion_.largest);
   }
   watchSpeed(dt);

@@ -93,7 +93,7 @@ void World::drive(double dt) {
   if (nodes.motion.empty()) return;
   std::vector<MovedFrame> frames;
   for (const Motion& motion : model.motions) {
-    if (motion.function != 0 && givenVelocities.size() != nodes.size())
+    if (motion.isScripted() && givenVelocities.size() != nodes.size())
       throw RunError(
           "nodes are moved by a function of the script, which a saved file does not have; call "
           "FESolver.prescribe for them again.");
@@ -104,7 +104,9 @@ void World::drive(double dt) {
     Vec2& velocity = nodes.velocity[n];
     undo_.driven.push_back(velocity);
     const std::uint32_t m = nodes.motion[n] - 1;
-    const Vec2 wanted = model.motions[m].function != 0
+    const std::uint32_t function = model.motions[m].function;
+    const Vec2 wanted = function == Motion::kRigid ? rigidVelocity(NodeId(n))
+                        : function != 0
                             ? givenVelocities[n]
                             : (1 / dt) * (frames[m].place(nodes.arm[n]) - nodes.position[n]);
     if ((nodes.held[n] & kHeldX) != 0) velocity.x = wanted.x;

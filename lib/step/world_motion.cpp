@@ -47,14 +47,20 @@ double chord(const PieceEnds& ends) { return norm(ends.end - ends.begin); }
 }  // namespace
 
 /// Contact keeps apart what was apart, and would let bodies through each other that overlap.
-void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec) {
+void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec,
+                         const std::string& subject) {
   places_.update(model, surfaces);
   const auto overlap = findOverlap(model, surfaces, places_, mesh, spec);
   if (!overlap) return;
   std::ostringstream text;
   text.precision(9);
-  text << "The new body overlaps body " << overlap->body.value << " at (" << overlap->place.x
-       << ", " << overlap->place.y
+  const Component& other = model.components[overlap->body.value];
+  text << subject << " overlaps ";
+  if (other.rigid)
+    text << other.name;
+  else
+    text << "body " << overlap->body.value;
+  text << " at (" << overlap->place.x << ", " << overlap->place.y
        << ") m; it may touch others at the start, but not overlap them.";
   throw InputError(text.str());
 }

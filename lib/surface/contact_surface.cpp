@@ -58,7 +58,7 @@ void appendSegments(ContactSurfaces& s, std::span<const NodeId> nodes,
 
 std::uint32_t ContactSurfaces::addLoop(std::span<const NodeId> nodes,
                                        std::span<const std::uint8_t> smooth, ComponentId owner) {
-  assert(nodes.size() >= 3 && smooth.size() == nodes.size());
+  assert(nodes.size() >= 2 && smooth.size() == nodes.size());
   const std::uint32_t number = loop.empty() ? 0 : *std::max_element(loop.begin(), loop.end()) + 1;
   const std::size_t firstSegment = segments();
   const std::size_t firstEntry = entries();

@@ -39,7 +39,8 @@ struct Stencil {
 
 class ContactSurfaces {
  public:
-  /// Adds a closed loop, material on the left; one flag per node. Returns its number.
+  /// Adds a closed loop, material on the left; one flag per node. Returns its number. Two nodes are
+  /// a line with both sides.
   std::uint32_t addLoop(std::span<const NodeId> nodes, std::span<const std::uint8_t> smooth,
                         ComponentId component);
   /// Takes away all loops of a component; entries after them move up, in order.

@@ -13,6 +13,8 @@ class ForceContainer {
   ForceContainer(const ForceContainer&) = delete;
   ~ForceContainer();
   void addMaxId(int id);
+  void addForce(int id, const Vector3r& force);
+  void addTorque(int id, const Vector3r& torque);
   // Sums up what the threads have added; to be called before reading.
   void sync();
   const Vector3r& getForce(int id);

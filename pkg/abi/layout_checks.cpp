@@ -120,6 +120,15 @@ CHECK_MEMBER(Sphere, radius);
 CHECK_SIZE(Box);
 CHECK_MEMBER(Box, extents);
 
+CHECK_SIZE(Facet);
+CHECK_MEMBER(Facet, ne);
+CHECK_MEMBER(Facet, icr);
+CHECK_MEMBER(Facet, vl);
+CHECK_MEMBER(Facet, vu);
+CHECK_MEMBER(Facet, vertices);
+CHECK_MEMBER(Facet, normal);
+CHECK_MEMBER(Facet, area);
+
 CHECK_SIZE(Wall);
 CHECK_MEMBER(Wall, sense);
 CHECK_MEMBER(Wall, axis);

@@ -53,6 +53,19 @@ class Box : public Shape {
   ~Box() override;
 };
 
+class Facet : public Shape {
+ public:
+  Vector3r ne[3];
+  Real icr;
+  Real vl[3];
+  Vector3r vu[3];
+  vector<Vector3r> vertices;
+  Vector3r normal;
+  Real area;
+  Facet() = delete;
+  ~Facet() override;
+};
+
 class Wall : public Shape {
  public:
   int sense;

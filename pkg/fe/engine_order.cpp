@@ -14,20 +14,31 @@ using Engines = std::vector<const yade::Engine*>;
 
 bool isA(const yade::Engine* engine, const char* name) { return engine->getClassName() == name; }
 
-/// Engines follow one another in a circle: from the loop on, `user` must come before a reset.
-void requireForces(const Engines& engines, std::size_t loop, const yade::Engine* user) {
+/// Engines follow one another in a circle: from the one at `from` on, which puts forces on bodies,
+/// `user` must come before a reset.
+void requireForces(const Engines& engines, std::size_t from, const yade::Engine* user) {
   for (std::size_t i = 1; i < engines.size(); ++i) {
-    const yade::Engine* const next = engines[(loop + i) % engines.size()];
+    const yade::Engine* const next = engines[(from + i) % engines.size()];
     if (next == user) return;
     if (isA(next, "ForceResetter"))
-      throw std::invalid_argument(
-          "O.engines: ForceResetter takes the forces of InteractionLoop "
-          "away before " +
-          user->getClassName() + " can use them" + kOrder);
+      throw std::invalid_argument("O.engines: ForceResetter takes the forces of " +
+                                  engines[from]->getClassName() + " away before " +
+                                  user->getClassName() + " can use them" + kOrder);
   }
 }
 
 }  // namespace
+
+void EngineOrder::requireReturn(const yade::Scene& scene, const yade::Engine& solver) {
+  Engines alive;
+  for (const auto& engine : scene.engines)
+    if (!engine->dead) alive.push_back(engine.get());
+  const auto own = std::ranges::find(alive, &solver);
+  if (own == alive.end()) return;
+  for (const yade::Engine* user : alive)
+    if (isA(user, "NewtonIntegrator"))
+      requireForces(alive, static_cast<std::size_t>(own - alive.begin()), user);
+}
 
 bool EngineOrder::isKnown(const yade::Scene& scene, const yade::Engine& solver) const {
   return std::equal(scene.engines.begin(), scene.engines.end(), known_.begin(), known_.end(),

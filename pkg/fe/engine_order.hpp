@@ -15,6 +15,10 @@ class EngineOrder {
   /// have changed since the last call; true if they have.
   bool require(const yade::Scene& scene, const yade::Engine& solver);
 
+  /// Throws std::invalid_argument if the forces that `solver` puts on bodies are reset before
+  /// NewtonIntegrator has used them.
+  static void requireReturn(const yade::Scene& scene, const yade::Engine& solver);
+
  private:
   struct Place {
     const std::type_info* type;

@@ -144,6 +144,11 @@ void EntryBodies::add(yade::Scene& scene, const World& world,
   update(world, 0, 1, first);
 }
 
+void EntryBodies::addNone(const World& world) {
+  while (bodies_.size() < world.surfaces.entries()) appendNone();
+  firstOf_.clear();
+}
+
 void EntryBodies::follow(yade::Scene& scene, const World& world) {
   const std::size_t first = bodies_.size();
   if (first == world.surfaces.entries()) return;

@@ -23,6 +23,8 @@ class EntryBodies {
   /// their component has already (material, mask, colour). Does nothing, at no cost, if there are
   /// none.
   void follow(yade::Scene& scene, const World& world);
+  /// Entries of rigid boundaries have come, at the end: they have no bodies of their own.
+  void addNone(const World& world);
   /// Takes the bodies of entries that are gone out of the scene; the entries keep their numbers.
   void drop(yade::Scene& scene, const World& world);
   /// Takes the bodies of a component out of the scene. To be called before the world forgets it.

@@ -49,7 +49,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 7;
+  static constexpr std::uint64_t kFormat = 8;
   /// (count) A damaged length must not take all memory: values are read in parts as large as this,
   /// and the archive ends before the memory does.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -217,6 +217,7 @@ class WorldArchive {
     member("lastMaterial", rows, [](C& c) -> std::uint32_t& { return c.lastMaterial; });
     flags("brittleByPlace", rows, [](C& c) -> bool& { return c.brittleByPlace; });
     flags("selfContact", rows, [](C& c) -> bool& { return c.selfContact; });
+    flags("rigid", rows, [](C& c) -> bool& { return c.rigid; });
     member("element", rows, [](C& c) -> std::uint8_t& {
       return reinterpret_cast<std::uint8_t&>(c.element);  // NOLINT: an unsigned char may name it
     });

@@ -6,6 +6,7 @@
 #include "fe/fe_solver.hpp"
 #include "fe/fragments.hpp"
 #include "fe/running.hpp"
+#include "fe/shown_nodes.hpp"
 #include "fracture/checks.hpp"
 
 namespace yadefrag {
@@ -37,6 +38,15 @@ auto change(const FESolver& solver, const Work& work) {
   requirePaused();
   const std::lock_guard guard(solver.betweenSteps());
   return asValueError(work);
+}
+
+template <class Value>
+std::vector<Value> shown(const FESolver& solver, const std::vector<Value>& column) {
+  return ShownNodes(solver.world()).rows(column);
+}
+
+std::vector<NodeId> nodesFrom(const FESolver& solver, const py::object& numbers) {
+  return ShownNodes(solver.world()).nodes(fromBytes<NodeId>(numbers));
 }
 
 }  // namespace
@@ -90,12 +100,15 @@ void takeBody(FESolver& solver, int component) {
 }
 
 void setLoads(FESolver& solver, const py::object& loads) {
-  change(solver, [&] { solver.changeWorld().setLoads(fromBytes<Vec2>(loads)); });
+  change(solver, [&] {
+    World& world = solver.changeWorld();
+    world.setLoads(ShownNodes(world).column(fromBytes<Vec2>(loads)));
+  });
 }
 
 void prescribe(FESolver& solver, const py::object& nodes, int held, const py::object& velocities) {
   change(solver, [&] {
-    solver.changeWorld().prescribeEach(fromBytes<NodeId>(nodes), static_cast<std::uint8_t>(held),
+    solver.changeWorld().prescribeEach(nodesFrom(solver, nodes), static_cast<std::uint8_t>(held),
                                        fromBytes<Vec2>(velocities));
   });
 }
@@ -113,14 +126,14 @@ std::uint32_t numberOf(FESolver& solver, const py::object& function) {
 void setPressure(FESolver& solver, const py::object& nodes, const py::object& times,
                  const py::object& values, const py::object& function) {
   change(solver, [&] {
-    solver.changeWorld().setPressure(fromBytes<NodeId>(nodes),
+    solver.changeWorld().setPressure(nodesFrom(solver, nodes),
                                      {fromBytes<double>(times), fromBytes<double>(values)},
                                      numberOf(solver, function));
   });
 }
 
 void setAbsorbing(FESolver& solver, const py::object& nodes) {
-  change(solver, [&] { solver.changeWorld().setAbsorbing(fromBytes<NodeId>(nodes)); });
+  change(solver, [&] { solver.changeWorld().setAbsorbing(nodesFrom(solver, nodes)); });
 }
 
 void prescribeMotion(FESolver& solver, const py::object& nodes, int held, const py::dict& input) {
@@ -134,34 +147,36 @@ void prescribeMotion(FESolver& solver, const py::object& nodes, int held, const 
   motion.speedX = table("speedX"), motion.speedY = table("speedY"), motion.turn = table("turn");
   change(solver, [&] {
     motion.function = numberOf(solver, input["function"]);
-    solver.changeWorld().prescribeMotion(fromBytes<NodeId>(nodes), static_cast<std::uint8_t>(held),
+    solver.changeWorld().prescribeMotion(nodesFrom(solver, nodes), static_cast<std::uint8_t>(held),
                                          std::move(motion));
   });
 }
 
 py::object loadsOf(const FESolver& solver) {
   const Nodes& nodes = solver.world().model.nodes;
-  if (!nodes.load.empty()) return toArray(nodes.load, kReal, 2);
-  return toArray(std::vector<Vec2>(nodes.size()), kReal, 2);
+  if (!nodes.load.empty()) return toArray(shown(solver, nodes.load), kReal, 2);
+  return toArray(std::vector<Vec2>(ShownNodes(solver.world()).size()), kReal, 2);
 }
 
 py::object nodesOf(const FESolver& solver) {
-  return toArray(solver.world().model.nodes.position, kReal, 2);
+  return toArray(shown(solver, solver.world().model.nodes.position), kReal, 2);
 }
 py::object velocitiesOf(const FESolver& solver) {
-  return toArray(solver.world().model.nodes.velocity, kReal, 2);
+  return toArray(shown(solver, solver.world().model.nodes.velocity), kReal, 2);
 }
 py::object nodesOfBody(const FESolver& solver, int component) {
   const Nodes& nodes = solver.world().model.nodes;
-  std::vector<std::uint32_t> own;
+  const ShownNodes all(solver.world());
+  std::vector<NodeId> own;
   for (std::size_t n = 0; n < nodes.size(); ++n)
     if (nodes.component[n] == ComponentId(static_cast<std::size_t>(component)) && nodes.mass[n] > 0)
-      own.push_back(static_cast<std::uint32_t>(n));
+      own.push_back(all.number(NodeId(n)));
   return toArray(own, kIndex, 0);
 }
 py::list namesOf(const FESolver& solver) {
   py::list names;
-  for (const Component& body : solver.world().model.components) names.append(body.name);
+  for (const Component& body : solver.world().model.components)
+    names.append(body.rigid ? "" : body.name);
   return names;
 }
 bool isGone(const FESolver& solver, int component) {
@@ -169,10 +184,15 @@ bool isGone(const FESolver& solver, int component) {
   return body.firstTriangle == body.lastTriangle;
 }
 py::object massesOf(const FESolver& solver) {
-  return toArray(solver.world().model.nodes.mass, kReal, 0);
+  return toArray(shown(solver, solver.world().model.nodes.mass), kReal, 0);
 }
 py::object trianglesOf(const FESolver& solver) {
-  return toArray(solver.world().model.triangles.nodes, kIndex, 3);
+  const ShownNodes all(solver.world());
+  auto triangles = solver.world().model.triangles.nodes;
+  if (solver.world().hasRigid())
+    for (auto& corners : triangles)
+      for (NodeId& node : corners) node = all.number(node);
+  return toArray(triangles, kIndex, 3);
 }
 py::object stressArrayOf(const FESolver& solver) {
   return toArray(stresses(solver.world().model), kReal, 3);
@@ -190,20 +210,20 @@ py::object materialNumbersOf(const FESolver& solver) {
 py::object displacementsOf(const FESolver& solver) {
   std::vector<Vec2> moved = solver.world().model.nodes.position;
   for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= solver.world().reference[i];
-  return toArray(moved, kReal, 2);
+  return toArray(shown(solver, moved), kReal, 2);
 }
 
 py::object contactForcesOf(const FESolver& solver) {
   const std::span<const Vec2> known = solver.world().contact.forces().known;
   std::vector<Vec2> forces(known.begin(), known.end());
   forces.resize(solver.world().model.nodes.size());  // before the first contact there are none
-  return toArray(forces, kReal, 2);
+  return toArray(shown(solver, forces), kReal, 2);
 }
 
 py::object reactionsOf(const FESolver& solver) {
   std::vector<Vec2> forces = solver.world().reactions;
   forces.resize(solver.world().model.nodes.size());  // before the first step there are none
-  return toArray(forces, kReal, 2);
+  return toArray(shown(solver, forces), kReal, 2);
 }
 
 py::object fragmentOf(const FESolver& solver) {
@@ -213,19 +233,32 @@ py::object fragmentOf(const FESolver& solver) {
 }
 
 py::object referenceOf(const FESolver& solver) {
-  return toArray(solver.world().reference, kReal, 2);
+  return toArray(shown(solver, solver.world().reference), kReal, 2);
 }
 
+namespace {
+
+/// Of a rigid boundary, or of a dropped fragment.
+bool isHidden(const World& world, SegmentId segment) {
+  const ContactSurfaces& surfaces = world.surfaces;
+  const EntryId entry = surfaces.segmentEntry[segment.value];
+  return surfaces.isGone(segment) ||
+         world.model.components[surfaces.component[entry.value].value].rigid;
+}
+
+}  // namespace
+
 py::list surfacesOf(const FESolver& solver) {
+  const ShownNodes all(solver.world());
   const ContactSurfaces& surfaces = solver.world().surfaces;
   std::vector<bool> seen(surfaces.segments());
   py::list loops;
   for (std::size_t first = 0; first < seen.size(); ++first) {
-    if (seen[first] || surfaces.isGone(SegmentId(first))) continue;
+    if (seen[first] || isHidden(solver.world(), SegmentId(first))) continue;
     std::vector<NodeId> loop;
     for (std::size_t s = first; !seen[s]; s = surfaces.segmentNext[s].value) {
       seen[s] = true;
-      loop.push_back(surfaces.segmentNode[s]);
+      loop.push_back(all.number(surfaces.segmentNode[s]));
     }
     loops.append(toArray(loop, kIndex, 0));
   }
@@ -279,9 +312,9 @@ py::dict droppedOf(const FESolver& solver) {
 std::size_t segmentsOf(const FESolver& solver) {
   const ContactSurfaces& surfaces = solver.world().surfaces;
   std::size_t count = surfaces.segments();
-  if (solver.world().dropped.count == 0) return count;
+  if (solver.world().dropped.count == 0 && !solver.world().hasRigid()) return count;
   for (std::size_t s = 0; s < surfaces.segments(); ++s)
-    if (surfaces.isGone(SegmentId(s))) --count;
+    if (isHidden(solver.world(), SegmentId(s))) --count;
   return count;
 }
 

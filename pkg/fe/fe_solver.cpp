@@ -9,6 +9,7 @@
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "collider/motion_watch.hpp"
 #include "core/errors.hpp"
@@ -32,11 +33,14 @@ void FESolver::action() {
   bodies_.requireAll(*scene);
   giveSettings();
   lookAround(enginesAreNew);
+  followRigid(enginesAreNew);
   if (world_.search.isDue || world_.search.isVoid) {
     bodies_.requireWhole();
     // After a step that was refused the halo is that of its own search, not that of the bounds.
     const bool isSearched = bodies_.halo() == .5 * world_.search.halo;
-    if (isSearched && pairsOfCollider(*scene, *this, bodies_, pairs_)) world_.takePairs(pairs_);
+    // Rigid boundaries have no bodies of their own that a collider could find.
+    if (isSearched && !rigid_.any() && pairsOfCollider(*scene, *this, bodies_, pairs_))
+      world_.takePairs(pairs_);
   }
   const std::uint64_t dropped = world_.dropped.count;
   const std::size_t complaints = world_.complaints.size();
@@ -44,6 +48,8 @@ void FESolver::action() {
   const bool mayBeBorn = world_.fracture.numCracks() > 0 && !world_.outerForces.empty();
   const double born = mayBeBorn ? energyBornInside(*scene, bodies_) : 0;
   functions_.giveValues(world_, scene->dt);
+  rigid_.giveVelocities(world_, scene->dt, timeToIntegrate());
+  const StepLength length(scene->dt, world_.lastDt);
   try {
     world_.step(scene->dt);
   } catch (const TimeStepError& error) {
@@ -53,6 +59,10 @@ void FESolver::action() {
   }
   bookSpheres(born);
   warn(complaints);
+  if (rigid_.any()) {
+    rigid_.giveForces(*scene, world_, length);
+    tell(rigid_.takeSentences());
+  }
   followCracks(dropped);
   bodies_.update(world_, timeToIntegrate(), world_.threads);
   prepareSearch(scene->dt);
@@ -91,13 +101,31 @@ void FESolver::lookAround(bool enginesAreNew) {
   const yade::Vector3r theirs = newton ? newton->gravity : yade::Vector3r::Zero();
   if (takesOver()) world_.dynamicsSettings.gravity = {theirs[0], theirs[1]};
   const bool bodiesAreNew = around_.look(*scene);
-  if (!bodiesAreNew && !enginesAreNew) return;
+  const bool rigidChanged = std::exchange(toldRigid_, rigidBodies) != rigidBodies;
+  if (!bodiesAreNew && !enginesAreNew && !rigidChanged) return;
+  tell(around_.sentences(theirs, rigidBodies));
+}
+
+/// Those that have not been told yet.
+void FESolver::tell(std::vector<std::string> sentences) {
   const std::size_t known = world_.complaints.size();
   std::vector<std::string>& told = world_.complaints;
-  for (std::string& sentence : around_.sentences(theirs))
+  for (std::string& sentence : sentences)
     if (std::find(told.begin(), told.end(), sentence) == told.end())
       told.push_back(std::move(sentence));
   warn(known);
+}
+
+/// YADE's walls, boxes and facets that the bodies touch.
+void FESolver::followRigid(bool enginesAreNew) {
+  try {
+    rigid_.follow(*scene, world_, bodies_, rigidBodies);
+  } catch (const InputError& error) {
+    throw std::invalid_argument(std::string(error.what()) +
+                                " FESolver(rigidBodies=False) lets bodies go through it.");
+  }
+  tell(rigid_.takeSentences());
+  if (enginesAreNew && rigid_.anyMovable(*scene)) EngineOrder::requireReturn(*scene, *this);
 }
 
 /// New faces get bodies, those of dropped fragments lose theirs. Among themselves and with the rest
@@ -107,7 +135,7 @@ void FESolver::followCracks(std::uint64_t dropped) {
   const bool wasDue = scene->doSort;
   bodies_.follow(*scene, world_);
   if (world_.dropped.count != dropped) bodies_.drop(*scene, world_);
-  if (scene->bodies->body.size() == bodies_.ids().size()) scene->doSort = wasDue;
+  if (!rigid_.any() && scene->bodies->body.size() == bodies_.ids().size()) scene->doSort = wasDue;
 }
 
 /// Where the collider is to search in the next step, it must find bounds that hold for long enough.

@@ -10,6 +10,7 @@
 #include "fe/entry_bodies.hpp"
 #include "fe/fe_archive.hpp"
 #include "fe/materials.hpp"
+#include "fe/rigid_bodies.hpp"
 #include "fe/scene_watch.hpp"
 #include "fe/script_functions.hpp"
 #include "fe/step_lock.hpp"
@@ -61,6 +62,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   int maxCracks = -1;
   double minFragmentArea = 0;
   double energyFromSpheres = 0;
+  bool rigidBodies = true;
 
   static constexpr auto attributes();
   template <class PyClass>
@@ -79,6 +81,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void bookSpheres(double born);
   void warn(std::size_t known) const;
   void lookAround(bool enginesAreNew);
+  void followRigid(bool enginesAreNew);
+  void tell(std::vector<std::string> sentences);
   [[nodiscard]] const yade::NewtonIntegrator* integrator(bool behind) const;
   [[nodiscard]] bool takesOver() const { return takesGravity && gravity.isZero(0); }
   void followCracks(std::uint64_t dropped);
@@ -92,6 +96,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   EntryBodies bodies_;
   EngineOrder order_;
   SceneWatch around_;
+  RigidBodies rigid_;
+  bool toldRigid_ = true;  // `rigidBodies` when the scene was last looked at
   ScriptFunctions functions_;
   std::vector<BoxPair> pairs_;
   std::size_t surveyed_ =
@@ -155,7 +161,11 @@ constexpr auto FESolver::attributes() {
           "Energy (J) that contacts with spheres have created so far. Where a crack opens "
           "under a sphere, the sphere overlaps the new corner at once, and the contact starts "
           "with a compressed spring.",
-          yade::Attr::readonly));
+          yade::Attr::readonly),
+      attribute("rigidBodies", &C::rigidBodies,
+                "Do the bodies touch YADE's Wall, Box and Facet, also in clumps: their sections "
+                "with the plane z = 0, rigid, with the friction of their FrictMat? They move as "
+                "YADE moves them, and get the forces of contact (O.forces.f, O.forces.t)."));
 }
 
 template <class Archive>
@@ -163,6 +173,7 @@ void FESolver::archiveMore(Archive& archive) {
   std::vector<yade::Body::id_t> ids = bodies_.ids();
   if constexpr (Archive::is_loading::value) surveyed_ = 0;
   WorldArchive<Archive>(archive).run(world_, ids);
+  rigid_.archive(archive, world_);
   if constexpr (Archive::is_loading::value) bodies_.restore(std::move(ids));
 }
 

@@ -48,7 +48,8 @@ bool SceneWatch::noteSphere(const yade::Body& body, double radius) {
   return isNew;
 }
 
-std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity) const {
+std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity,
+                                               bool rigidBodies) const {
   namespace py = yade::py;
   const WithGil gil;
   std::vector<std::string> result;
@@ -56,8 +57,9 @@ std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity) co
     py::dict kinds;
     for (const Kind& kind : kinds_)
       if (!kinds.has_key(kind.name)) kinds[kind.name] = kind.first;
-    const py::object found = py::import("yadefrag.scene_check")
-                                 .attr("sentences")(kinds, beside_, leaving_, loose_, gravity[2]);
+    const py::object found =
+        py::import("yadefrag.scene_check")
+            .attr("sentences")(kinds, beside_, leaving_, loose_, gravity[2], rigidBodies);
     for (py::ssize_t i = 0; i < py::len(found); ++i)
       result.push_back(py::extract<std::string>(found[i]));
   } catch (const py::error_already_set&) {

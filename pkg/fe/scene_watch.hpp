@@ -16,8 +16,10 @@ class SceneWatch {
   /// Looks at the bodies that came since the last call. True where there is something to say.
   bool look(const yade::Scene& scene);
   /// Sentences about what has been seen so far, of yadefrag/scene_check.py; none where that fails.
-  /// `gravity`: m/s², of NewtonIntegrator. Takes Python's lock.
-  [[nodiscard]] std::vector<std::string> sentences(const yade::Vector3r& gravity) const;
+  /// `gravity`: m/s², of NewtonIntegrator; `rigidBodies`: do bodies touch YADE's walls, boxes and
+  /// facets. Takes Python's lock.
+  [[nodiscard]] std::vector<std::string> sentences(const yade::Vector3r& gravity,
+                                                   bool rigidBodies) const;
 
  private:
   struct Kind {

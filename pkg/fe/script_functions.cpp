@@ -76,9 +76,8 @@ void ScriptFunctions::keep(const World& world) {
 void ScriptFunctions::giveValues(World& world, double dt) const {
   world.givenVelocities.clear();
   world.givenPressures.clear();
-  const auto isScripted = [](const auto& user) { return user.function != 0; };
-  if (std::ranges::none_of(world.model.motions, isScripted) &&
-      std::ranges::none_of(world.pressures, isScripted))
+  if (std::ranges::none_of(world.model.motions, [](const Motion& m) { return m.isScripted(); }) &&
+      std::ranges::none_of(world.pressures, [](const Pressure& p) { return p.function != 0; }))
     return;
   const WithGil gil;
   try {
@@ -95,7 +94,7 @@ void ScriptFunctions::giveVelocities(World& world, double dt) const {
   if (motions.empty()) return;
   std::vector<Vec2> velocities(world.model.nodes.size());
   for (std::uint32_t m = 0; m < motions.size(); ++m) {
-    if (motions[m].function == 0) continue;
+    if (!motions[m].isScripted()) continue;
     const auto known = functions_.find(motions[m].function);
     if (known == functions_.end()) return;
     callOne(known->second, world, m, world.time + dt / 2, velocities);

@@ -46,7 +46,7 @@ def test_wholeSceneIsQuiet(capfd):
     (lambda: utils.wall(-1, axis=1), 'Wall'), (lambda: utils.box((0, -1, 0), (1, .1, 1)), 'Box'),
     (lambda: utils.facet([(0, -1, 0), (1, -1, 0), (0, -1, 1)]), 'Facet')])
 def test_shapesThatBodiesGoThroughAreTold(make, shape, capfd, folder):
-    solver = scene()
+    solver = scene(rigidBodies=False)
     ball()
     steps(2)
     O.bodies.append(make())
@@ -63,6 +63,25 @@ def test_shapesThatBodiesGoThroughAreTold(make, shape, capfd, folder):
     steps(2)
     [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
     assert solver.warnings == [sentence] and 'WARN  FESolver' not in capfd.readouterr().err
+
+
+def test_otherShapesAreTold(capfd):
+    solver = scene()
+    O.bodies.append(utils.tetra([(0, -1, 0), (0, -2, 0), (1, -1, 0), (0, -1, 1)], material='m'))
+    steps(2)
+    [sentence] = told(solver, capfd)
+    assert sentence.startswith('FE bodies go through bodies of the shape Tetra, such as #%d: they touch '
+                               'each other, spheres, walls, boxes and facets only' % O.bodies[-1].id)
+
+
+def test_forcesThatAddUpAreTold(capfd):
+    """FESolver puts forces on walls."""
+    solver = scene(spheres=False)
+    O.bodies.append(utils.wall(-1, axis=1))
+    O.engines = [solver]
+    steps(2)
+    [sentence] = told(solver, capfd)
+    assert 'no ForceResetter: the forces of FESolver on bodies add up' in sentence
 
 
 def without(solver, name):

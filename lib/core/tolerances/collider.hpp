@@ -38,4 +38,12 @@ inline constexpr double kIntervalGrowth = 1.25;
 /// rounding of a place gives a billionth.
 inline constexpr double kInPlane = 1e-6;
 
+/// (of the shorter one) Ends of two facets this near to each other are one place: vertices that a
+/// file gives with six digits.
+inline constexpr double kMeet = 1e-6;
+
+/// (of the bodies' extent) Half the length of a wall, which has no ends, and how much of it must be
+/// left past any body: it then need not be shifted for long.
+inline constexpr double kWallReach = 20, kWallLeft = 2;
+
 }  // namespace yadefrag::tolerance

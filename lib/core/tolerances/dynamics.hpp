@@ -35,4 +35,8 @@ inline constexpr std::size_t kElementsPerThread = 4 * kMinItemsPerThread;
 /// (count) Nodes whose works are summed in one go: sums do not depend on the number of threads.
 inline constexpr std::size_t kNodesPerSum = 2048;
 
+/// (kg) Of a node of a rigid boundary, which moves as it is given: above 0, for nodes of dropped
+/// triangles have 0, and so little that no sum over masses changes by it.
+inline constexpr double kRigidMass = 1e-300;
+
 }  // namespace yadefrag::tolerance

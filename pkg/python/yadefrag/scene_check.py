@@ -6,6 +6,9 @@ from yade import wrapper
 _WITHOUT_FORCES = (wrapper.FESolver, wrapper.Collider, wrapper.PeriodicEngine, wrapper.NewtonIntegrator)
 
 
+_RIGID = ('Wall', 'Box', 'Facet')  # what FE bodies touch as rigid bodies
+
+
 def _functors(engines, kind, holder):
     """All functors of the live engines of a kind."""
     return [functor for engine in engines if isinstance(engine, kind)
@@ -16,18 +19,22 @@ def _takes(functor, *shapes):
     return all(shape in functor.bases for shape in shapes)
 
 
-def sentences(kinds, beside, leaving, loose, gravityZ):
+def sentences(kinds, beside, leaving, loose, gravityZ, rigidBodies):
     """List of sentences about the scene; FESolver calls it when something new is there.
 
     kinds                   {name of a shape: a body that has it}, without surface segments; spheres
                             of all kinds are 'Sphere'
     beside, leaving, loose  a sphere that is beside the plane z = 0, leaves it, may leave it; -1: none
     gravityZ                m/s², that NewtonIntegrator has
+    rigidBodies             does FESolver let its bodies touch those of _RIGID
     """
     engines = [engine for engine in wrapper.Omega().engines if not engine.dead]
     geometry = _functors(engines, wrapper.InteractionLoop, 'geomDispatcher')
     found = []
+    rigid = [shape for shape in kinds if rigidBodies and shape in _RIGID]
     for shape, body in kinds.items():
+        if shape in rigid:
+            continue
         if not any(_takes(one, shape, 'SurfaceSegment') for one in geometry):
             found.append(_untouched(shape, body))
     if 'Sphere' in kinds:
@@ -39,7 +46,8 @@ def sentences(kinds, beside, leaving, loose, gravityZ):
         found.append('FE bodies do not feel the gravity along z of NewtonIntegrator: they move in '
                      'the plane z = 0 only.')
     if not any(isinstance(one, wrapper.ForceResetter) for one in engines):
-        other = [one for one in engines if not isinstance(one, _WITHOUT_FORCES)]
+        other = [one for one in engines if not isinstance(one, _WITHOUT_FORCES)
+                 or rigid and isinstance(one, wrapper.FESolver)]
         if other:
             found.append('O.engines has no ForceResetter: the forces of %s on bodies add up from step '
                          'to step.' % type(other[0]).__name__)
@@ -50,8 +58,12 @@ def _untouched(shape, body):
     if shape == 'Sphere':
         return ('Spheres go through FE bodies: no InteractionLoop has an '
                 'Ig2_Sphere_SurfaceSegment_ScGeom.')
-    return ('FE bodies go through bodies of the shape %s, such as #%d: they touch each other and '
-            'spheres only; a body of FESolver with fixed nodes can take its place.' % (shape, body))
+    if shape in _RIGID:
+        return ('FE bodies go through bodies of the shape %s, such as #%d: FESolver.rigidBodies is '
+                'False.' % (shape, body))
+    return ('FE bodies go through bodies of the shape %s, such as #%d: they touch each other, spheres, '
+            'walls, boxes and facets only; a body of FESolver with fixed nodes can take its place.' %
+            (shape, body))
 
 
 def _outOfPlane(beside, leaving, loose, gravityZ):

@@ -1,0 +1,334 @@
+#include "fe/rigid_bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "core/tolerances/collider.hpp"
+#include "core/tolerances/step.hpp"
+#include "step/body_places.hpp"
+
+namespace yadefrag {
+namespace {
+
+using yade::Quaternionr;
+using yade::Vector3r;
+
+Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
+Vector3r inSpace(Vec2 v) { return {v.x, v.y, 0}; }
+
+bool isWall(const yade::Body& body) {
+  return dynamic_cast<const yade::Wall*>(body.shape.get()) != nullptr;
+}
+
+/// Where a body is, now or after `dt` (s) at its velocity. Walls do not turn.
+struct Pose {
+  Vector3r position;
+  Quaternionr orientation = Quaternionr::Identity();
+
+  explicit Pose(const yade::Body& body, double dt = 0)
+      : position(body.state->se3.position + dt * body.state->vel) {
+    if (isWall(body)) return;
+    orientation = body.state->se3.orientation;
+    const double angle = dt * body.state->angVel.norm();
+    if (angle > 0)
+      orientation = Quaternionr(Eigen::AngleAxis<double>(angle, body.state->angVel.normalized())) *
+                    orientation;
+  }
+  [[nodiscard]] Vector3r place(const Vector3r& local) const {
+    return position + orientation * local;
+  }
+  [[nodiscard]] Vector3r local(const Vector3r& place) const {
+    return orientation.conjugate() * (place - position);
+  }
+};
+
+/// Of all finite-element bodies.
+struct Extent {
+  Vec2 middle;
+  double size = 0;  // m
+
+  explicit Extent(const World& world) {
+    Box box = Box::absent();
+    for (const NodeId node : world.surfaces.segmentNode)
+      if (!world.model.components[world.model.nodes.component[node.value].value].rigid)
+        include(box, world.model.nodes.position[node.value]);
+    if (box.isAbsent()) return;
+    middle = {(box.min[0] + box.max[0]) / 2, (box.min[1] + box.max[1]) / 2};
+    size = std::hypot(box.max[0] - box.min[0], box.max[1] - box.min[1]);
+  }
+};
+
+double frictionOf(const yade::Body& body) {
+  const auto* material = dynamic_cast<const yade::FrictMat*>(body.material.get());
+  return material ? std::tan(material->frictionAngle) : 0;
+}
+
+const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
+  const auto place = static_cast<std::size_t>(id);
+  return place < scene.bodies->body.size() ? scene.bodies->body[place].get() : nullptr;
+}
+
+/// Of what moves it: a clump for its members.
+const yade::State& mover(const yade::Scene& scene, const yade::Body& body) {
+  const yade::Body* clump = body.isClumpMember() ? bodyAt(scene, body.clumpId) : nullptr;
+  return clump ? *clump->state : *body.state;
+}
+
+}  // namespace
+
+void RigidBodies::follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted) {
+  if (!wanted) {
+    if (any()) takeOut(scene, world, entries);
+    members_.clear();
+    seen_ = 0;
+    return;
+  }
+  findBodies(scene);
+  const yade::Body* element = entries.anyBody();
+  const bool anyNew = takeNew(scene, element ? element->groupMask : 0);
+  if (anyNew || (any() && !holds(scene, world))) build(scene, world, entries);
+  const bool mayBeShort = any() && (world.search.isDue || world.search.isVoid);
+  if (mayBeShort && !slideWalls(world)) build(scene, world, entries);
+}
+
+/// After loading.
+void RigidBodies::findBodies(const yade::Scene& scene) {
+  for (Member& member : members_) {
+    if (member.body || !bodyAt(scene, member.id)) continue;
+    member.body = scene.bodies->body[static_cast<std::size_t>(member.id)];
+    if (member.body->shape) member.form = formOf(*member.body->shape);
+  }
+}
+
+/// True if there is one that has a section. `mask`: of the finite-element bodies.
+bool RigidBodies::takeNew(const yade::Scene& scene, int mask) {
+  const auto& bodies = scene.bodies->body;
+  bool anyNew = false;
+  seen_ = std::min(seen_, bodies.size());
+  for (; seen_ < bodies.size(); ++seen_) {
+    const auto& body = bodies[seen_];
+    if (!body || !body->shape || !mayHaveSection(*body) || (body->groupMask & mask) == 0) continue;
+    const auto isKnown = [&](const Member& member) { return member.id == body->id; };
+    if (std::ranges::any_of(members_, isKnown)) continue;
+    if (isFlat(*body) && !std::exchange(toldFlat_, true))
+      sentences_.push_back("FE bodies go through facets that lie in their plane z = 0, such as #" +
+                           std::to_string(body->id) + ": a facet must cut the plane.");
+    if (!sectionOf(*body)) continue;
+    members_.push_back({body->id, body, formOf(*body->shape)});
+    anyNew = true;
+  }
+  return anyNew;
+}
+
+/// Are all still there, in the plane, of the same shape and where they would have moved to, and do
+/// facets that met end to end still meet? Those that are elsewhere are as new.
+bool RigidBodies::holds(const yade::Scene& scene, const World& world) {
+  bool all = true;
+  for (Member& member : members_) {
+    const yade::Body* body = bodyAt(scene, member.id);
+    if (!body || body != member.body.get() || !body->shape) return false;
+    if (formOf(*body->shape) == member.form && !(member.isOut && sectionOf(*body))) continue;
+    member.isNew = true;
+    all = false;
+  }
+  const double farthest = .5 * tolerance::kFarthestMove * world.search.shortest;
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const Corner& corner = corners_[i];
+    const Corner& next = corners_[corner.following];
+    const yade::Body& body = *members_[corner.member].body;
+    const Vector3r place = Pose(body).place(corner.place), end = Pose(body).place(corner.end);
+    const Vector3r follower = Pose(*members_[next.member].body).place(next.place);
+    const Vec2 former = world.model.nodes.position[world.rigidNodes()[i].value];
+    const bool isOff = !isWall(body) && std::abs(place[2]) > tolerance::kInPlane *
+                                                                 (corner.end - corner.place).norm();
+    if (isOff || !(norm(inPlane(place) - former) <= farthest)) {
+      members_[corner.member].isNew = true;
+      all = false;
+    }
+    const bool isTorn = next.member != corner.member &&
+                        (follower - end).norm() > 2 * tolerance::kMeet * (end - place).norm();
+    all = all && !isTorn;
+  }
+  return all;
+}
+
+void RigidBodies::takeOut(yade::Scene& scene, World& world, EntryBodies& entries) {
+  std::set<std::uint32_t> components;
+  for (const NodeId node : world.rigidNodes())
+    components.insert(world.model.nodes.component[node.value].value);
+  for (auto c = components.rbegin(); c != components.rend(); ++c) {
+    entries.remove(scene, world, ComponentId(*c));
+    world.removeRigid(ComponentId(*c));
+  }
+  corners_.clear();
+}
+
+void RigidBodies::build(yade::Scene& scene, World& world, EntryBodies& entries) {
+  takeOut(scene, world, entries);
+  std::vector<RigidPart> parts;
+  std::vector<std::uint32_t> memberOf;
+  std::erase_if(members_, [&](const Member& member) {
+    const yade::Body* body = bodyAt(scene, member.id);
+    return !body || body != member.body.get() || !body->shape;
+  });
+  for (Member& member : members_) {
+    member.form = formOf(*member.body->shape);
+    std::optional<Section> section = sectionOf(*member.body);
+    member.isOut = !section;
+    if (!section) continue;
+    parts.push_back({std::move(*section), frictionOf(*member.body),
+                     member.body->shape->getClassName() + " #" + std::to_string(member.id)});
+    memberOf.push_back(static_cast<std::uint32_t>(&member - members_.data()));
+  }
+  const Extent extent(world);
+  try {
+    for (RigidOutline& outline :
+         outlinesOf(parts, extent.middle, tolerance::kWallReach * extent.size)) {
+      outline.spec.isNew = std::ranges::any_of(
+          outline.part, [&](std::uint32_t part) { return members_[memberOf[part]].isNew; });
+      addOutline(outline, memberOf, world);
+      entries.addNone(world);
+    }
+  } catch (...) {
+    takeOut(scene, world, entries);
+    members_.clear();
+    seen_ = 0;
+    throw;
+  }
+  for (const std::uint32_t member : memberOf) members_[member].isNew = false;
+}
+
+void RigidBodies::addOutline(const RigidOutline& outline,
+                             const std::vector<std::uint32_t>& memberOf, World& world) {
+  const auto first = static_cast<std::uint32_t>(corners_.size());
+  world.addRigid(outline.spec);
+  const TriangleMesh& shape = outline.spec.shape;
+  for (const auto& loop : shape.loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t node = loop[i], next = loop[(i + 1) % loop.size()];
+      const std::uint32_t member = memberOf[outline.part[node]];
+      const Pose pose(*members_[member].body);
+      const Vector3r height(0, 0, isWall(*members_[member].body) ? pose.position[2] : 0);
+      corners_.push_back({member, first + next, pose.local(inSpace(shape.nodes[node]) + height),
+                          pose.local(inSpace(shape.nodes[next]) + height)});
+    }
+}
+
+/// Walls have no ends: bodies must not come near those of the line that stands for one. It is
+/// shifted along itself; false where it is too short for that, since bodies have spread.
+bool RigidBodies::slideWalls(World& world) {
+  const auto isOfWall = [&](const Corner& corner) { return isWall(*members_[corner.member].body); };
+  if (std::ranges::none_of(corners_, isOfWall)) return true;
+  std::vector<Vec2> places;
+  for (const NodeId node : world.rigidNodes())
+    places.push_back(world.model.nodes.position[node.value]);
+  const Extent extent(world);
+  const double left = tolerance::kWallLeft * extent.size;
+  bool anyShort = false;
+  for (std::size_t i = 0, end = 0; i < corners_.size(); i = end) {
+    while (end < corners_.size() && corners_[end].member == corners_[i].member) ++end;
+    if (!isOfWall(corners_[i])) continue;
+    const double length = norm(places[i + 1] - places[i]);
+    const Vec2 along = (1 / length) * (places[i + 1] - places[i]);
+    const double off = dot(extent.middle - .5 * (places[i] + places[i + 1]), along);
+    if (length / 2 - std::abs(off) >= left) continue;
+    if (length < 4 * left) return false;
+    anyShort = true;
+    const Vec2 by = off * along;
+    for (std::size_t k = i; k < end; ++k) {
+      places[k] += by;
+      corners_[k].place += inSpace(by), corners_[k].end += inSpace(by);
+    }
+  }
+  if (anyShort) world.slideRigid(places);
+  return true;
+}
+
+void RigidBodies::giveVelocities(World& world, double stepDt, double dt) const {
+  world.rigidVelocities.clear();
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const Vec2 from = world.model.nodes.position[world.rigidNodes()[i].value];
+    const Pose pose(*members_[corners_[i].member].body, dt);
+    world.rigidVelocities.push_back(1 / stepDt * (inPlane(pose.place(corners_[i].place)) - from));
+  }
+}
+
+void RigidBodies::giveForces(yade::Scene& scene, const World& world,
+                             const StepLength& length) const {
+  const ContactSurfaces& surfaces = world.surfaces;
+  const Nodes& nodes = world.model.nodes;
+  const auto isRigid = [&](EntryId entry) {
+    return world.model.components[surfaces.component[entry.value].value].rigid;
+  };
+  for (const ContactRow& row : world.contact.rows()) {
+    const bool ofSlave = isRigid(row.slave);
+    if (!ofSlave && !isRigid(row.master)) continue;
+    const EntryId entry = ofSlave ? row.slave : row.master;
+    const NodeId corner = surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
+    const auto at = std::ranges::lower_bound(world.rigidNodes(), corner);
+    const Corner& own = corners_[static_cast<std::size_t>(at - world.rigidNodes().begin())];
+    const yade::Body& body = *members_[own.member].body;
+    const double sign = ofSlave ? 1 : -1;
+    // Forces act where the step began.
+    Vec2 point;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
+      const std::uint32_t node = row.node[k].value;
+      if (!world.model.components[nodes.component[node].value].rigid) continue;
+      const Vec2 before = nodes.position[node] - length.position * nodes.velocity[node];
+      point += sign * row.weight[k] * before;
+    }
+    const Vec2 force = sign * length.velocity / length.position * row.force();
+    const Vec2 arm = point - inPlane(body.state->se3.position);
+    scene.forces.addForce(body.id, inSpace(force));
+    scene.forces.addTorque(body.id, Vector3r(0, 0, cross(arm, force)));
+  }
+  if (!toldLight_) warnOfLight(scene, world);
+}
+
+/// A boundary goes on at its velocity through the step, as if nothing could stop it: a body lighter
+/// than the nodes that it stops would be thrown back faster than it came.
+void RigidBodies::warnOfLight(const yade::Scene& scene, const World& world) const {
+  const Nodes& nodes = world.model.nodes;
+  const auto isRigid = [&](NodeId node) {
+    return world.model.components[nodes.component[node.value].value].rigid;
+  };
+  std::vector<double> touched(members_.size());
+  std::set<std::pair<std::uint32_t, NodeId>> known;
+  for (const ContactRow& row : world.contact.rows()) {
+    const auto begin = row.node.begin(), end = begin + row.count;
+    const auto rigid = std::find_if(begin, end, isRigid);
+    if (rigid == end || row.normalForce == 0) continue;
+    const auto at = std::ranges::lower_bound(world.rigidNodes(), *rigid);
+    const std::uint32_t member =
+        corners_[static_cast<std::size_t>(at - world.rigidNodes().begin())].member;
+    for (auto node = begin; node != end; ++node)
+      if (!isRigid(*node) && known.emplace(member, *node).second)
+        touched[member] += nodes.mass[node->value];
+  }
+  for (std::size_t m = 0; m < touched.size(); ++m) {
+    const yade::Body& body = *members_[m].body;
+    const yade::State& state = mover(scene, body);
+    if (state.blockedDOFs == yade::State::DOF_ALL || touched[m] <= state.mass) continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << body.shape->getClassName() << " #" << body.id << " has a mass of " << state.mass
+         << " kg, less than the nodes of FE bodies that it touches, " << touched[m]
+         << " kg: it bounces back faster than it came; make it heavier, or the elements smaller.";
+    sentences_.push_back(text.str());
+    toldLight_ = true;
+    return;
+  }
+}
+
+bool RigidBodies::anyMovable(const yade::Scene& scene) const {
+  return std::ranges::any_of(members_, [&](const Member& member) {
+    return member.body && mover(scene, *member.body).blockedDOFs != yade::State::DOF_ALL;
+  });
+}
+
+std::vector<std::string> RigidBodies::takeSentences() { return std::exchange(sentences_, {}); }
+
+}  // namespace yadefrag

@@ -1,0 +1,113 @@
+#pragma once
+// YADE's Wall, Box and Facet as rigid boundaries that finite-element bodies touch. They move as
+// YADE's bodies do, and the forces of contact go back to these.
+//
+// In a step the boundary goes from where it was to where YADE's body will be if it keeps its
+// velocity. What the forces of this step change about that, NewtonIntegrator does afterwards, and
+// the boundary makes up for it in the next step: momentum is kept exactly.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <boost/serialization/vector.hpp>
+
+#include "abi/yade.hpp"
+#include "core/errors.hpp"
+#include "core/step_length.hpp"
+#include "fe/entry_bodies.hpp"
+#include "fe/rigid_outlines.hpp"
+#include "step/world.hpp"
+
+namespace yadefrag {
+
+class RigidBodies {
+ public:
+  /// Takes bodies in that are new, and leaves out those that are gone; makes all boundaries anew
+  /// where one has another shape, or is elsewhere than it would have moved to. `wanted`: false
+  /// takes all out. Throws InputError where one overlaps a finite-element body: there is none then.
+  void follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted);
+  /// For the next step. `dt`: what an integrator will move the bodies by (s).
+  void giveVelocities(World& world, double stepDt, double dt) const;
+  /// Forces of the last step on YADE's bodies, with their moments.
+  void giveForces(yade::Scene& scene, const World& world, const StepLength& length) const;
+
+  [[nodiscard]] bool any() const { return !corners_.empty(); }
+  /// Does any obey forces.
+  [[nodiscard]] bool anyMovable(const yade::Scene& scene) const;
+  /// What is to be said about them once, since the last call.
+  [[nodiscard]] std::vector<std::string> takeSentences();
+
+  template <class Archive>
+  void archive(Archive& archive, const World& world);
+
+ private:
+  using Vector3r = yade::Vector3r;
+  struct Member {
+    yade::Body::id_t id;
+    yade::shared_ptr<yade::Body> body = {};  // null after loading, until it has been found
+    std::vector<double> form = {};
+    bool isOut = false;  // of the plane: it may come back
+    bool isNew = true;   // where it is: it must not overlap a body
+  };
+  /// In the order of the world's rigid nodes. Places are the member's own, in its frame.
+  struct Corner {
+    std::uint32_t member;
+    std::uint32_t following;  // corner to which its side leads
+    Vector3r place, end;      // m, of the corner, and of the end of its side
+  };
+
+  void findBodies(const yade::Scene& scene);
+  bool takeNew(const yade::Scene& scene, int mask);
+  [[nodiscard]] bool holds(const yade::Scene& scene, const World& world);
+  void build(yade::Scene& scene, World& world, EntryBodies& entries);
+  void addOutline(const RigidOutline& outline, const std::vector<std::uint32_t>& memberOf,
+                  World& world);
+  void takeOut(yade::Scene& scene, World& world, EntryBodies& entries);
+  [[nodiscard]] bool slideWalls(World& world);
+  void warnOfLight(const yade::Scene& scene, const World& world) const;
+
+  std::vector<Member> members_;
+  std::vector<Corner> corners_;
+  std::size_t seen_ = 0;  // bodies of the scene
+  mutable std::vector<std::string> sentences_;
+  mutable bool toldLight_ = false;
+  bool toldFlat_ = false;
+};
+
+template <class Archive>
+void RigidBodies::archive(Archive& archive, const World& world) {
+  std::vector<int> ids;
+  std::vector<std::uint32_t> numbers;
+  std::vector<double> places;
+  for (const Member& member : members_) ids.push_back(member.id);
+  for (const Corner& corner : corners_) {
+    numbers.push_back(corner.member), numbers.push_back(corner.following);
+    for (const Vector3r* v : {&corner.place, &corner.end})
+      for (int i = 0; i < 3; ++i) places.push_back((*v)[i]);
+  }
+  archive& boost::serialization::make_nvp("rigidBodies", ids);
+  archive& boost::serialization::make_nvp("rigidCorners", numbers);
+  archive& boost::serialization::make_nvp("rigidPlaces", places);
+  if constexpr (Archive::is_loading::value) {
+    *this = {};
+    const std::size_t count = world.rigidNodes().size();
+    bool isRight = numbers.size() == 2 * count && places.size() == 6 * count;
+    for (std::size_t i = 0; isRight && i < count; ++i) {
+      const double* at = places.data() + 6 * i;
+      corners_.push_back(
+          {numbers[2 * i], numbers[2 * i + 1], {at[0], at[1], at[2]}, {at[3], at[4], at[5]}});
+      isRight = numbers[2 * i] < ids.size() && numbers[2 * i + 1] < count;
+    }
+    if (!isRight)
+      throw InputError(
+          "The saved state of FESolver is damaged (its rigid boundaries cannot be); "
+          "load another save.");
+    for (const int id : ids) {
+      members_.push_back({id});
+      members_.back().isNew = false;
+    }
+  }
+}
+
+}  // namespace yadefrag
