@@ -14,7 +14,7 @@ from yadefrag.values import path, refuse, shown, shownPath
 INSIDE = 'YADEFRAG_TRADEOFF'  # set in the environment of a run
 _HERE = os.path.dirname(os.path.realpath(run_process.__file__))
 _POLL = .02  # s between two looks at an executor's runs
-# Workers need not be able to import this package, which wants a yade around it.
+# Workers are plain Python, which cannot import this package: it needs a yade around it.
 _BY_PATH = "__import__('runpy').run_path(program)['perform'](job)"
 
 
@@ -95,7 +95,7 @@ class Processes(concurrent.futures.ThreadPoolExecutor):
     """So many runs at once on this machine, each a process; they end where the block is left."""
 
     def submit(self, function, *args):
-        program = args[1]  # eval's names: here the module is at hand, and knows its processes
+        program = args[1]  # of eval: run_process of this process ends its runs
         return super().submit(run_process.perform, program['job'])
 
     def __exit__(self, *problem):
