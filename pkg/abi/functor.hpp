@@ -41,6 +41,26 @@ class BoundFunctor : public Functor, public BoundCalls {
   BoundFunctor() = default;
 };
 
+// Draws a shape in the 3D view.
+class GlShapeFunctor : public Functor, public GlShapeCalls {
+ public:
+  ~GlShapeFunctor() override;
+  string getBaseClassName(unsigned int i = 0) const override;
+  int getBaseClassNumber() const override;
+  string getClassName() const override;
+  void pySetAttr(const string& key, const py::object& value) override;
+  py::dict pyDict() const override;
+  void callPostLoad() override;
+  void pyRegisterClass(py::object scope) override;
+  vector<string> getFunctorTypes() const override { return {get1DFunctorType1()}; }
+  virtual string get1DFunctorType1() const { throw std::logic_error("takes no shape"); }
+  virtual string renders() const;
+  virtual void initgl();
+
+ protected:
+  GlShapeFunctor() = default;
+};
+
 class Bo1_Sphere_Aabb : public BoundFunctor {
  public:
   Real aabbEnlargeFactor;

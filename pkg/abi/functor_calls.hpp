@@ -39,6 +39,37 @@ class BoundCalls {
   [[noreturn]] static void unused() { throw std::logic_error("a functor's unused slot is called"); }
 };
 
+struct GLViewInfo;
+
+class GlShapeCalls {
+ public:
+  virtual ~GlShapeCalls() = default;
+  virtual string checkOrder() const { return {}; }
+
+ private:
+  virtual void go1() { unused(); }
+  virtual void go2() { unused(); }
+  virtual void go3() { unused(); }
+
+ public:
+  virtual void go(const shared_ptr<Shape>&, const shared_ptr<State>&, bool, const GLViewInfo&) {
+    unused();
+  }
+
+ private:
+  virtual void go5() { unused(); }
+  virtual void go6() { unused(); }
+  virtual void go7() { unused(); }
+  virtual void goReverse1() { unused(); }
+  virtual void goReverse2() { unused(); }
+  virtual void goReverse3() { unused(); }
+  virtual void goReverse4() { unused(); }
+  virtual void goReverse5() { unused(); }
+  virtual void goReverse6() { unused(); }
+  virtual void goReverse7() { unused(); }
+  [[noreturn]] static void unused() { throw std::logic_error("a functor's unused slot is called"); }
+};
+
 class GeomCalls {
  public:
   virtual ~GeomCalls() = default;

@@ -83,6 +83,7 @@ inline constexpr LayoutEntry kLayout[] = {
     {"Functor", "scene", 40},
     {"Functor", "label", 48},
     {"BoundFunctor", "", 88},
+    {"GlShapeFunctor", "", 88},
     {"IGeomFunctor", "", 88},
     {"Bo1_Sphere_Aabb", "", 96},
     {"Bo1_Sphere_Aabb", "aabbEnlargeFactor", 88},

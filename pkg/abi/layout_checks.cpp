@@ -80,6 +80,8 @@ CHECK_MEMBER(Functor, label);
 
 CHECK_SIZE(BoundFunctor);
 
+CHECK_SIZE(GlShapeFunctor);
+
 CHECK_SIZE(IGeomFunctor);
 
 CHECK_SIZE(IGeom);

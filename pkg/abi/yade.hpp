@@ -17,6 +17,7 @@
 #include "abi/interaction.hpp"
 #include "abi/material.hpp"
 #include "abi/newton.hpp"
+#include "abi/renderer.hpp"
 #include "abi/scene.hpp"
 #include "abi/shape.hpp"
 #include "abi/state.hpp"

@@ -282,6 +282,8 @@ void FESolver::checkSettings() const {
   if (correction != "lagrange" && correction != "penalty")
     refuse("correction", shown(correction), "'lagrange' or 'penalty'");
   if (entry != "path" && entry != "flags") refuse("entry", shown(entry), "'path' or 'flags'");
+  if (view != "component" && view != "fragment" && view != "mises")
+    refuse("view", shown(view), "'component', 'fragment' or 'mises'");
   if (passes != 1 && passes != 2) refuse("passes", passes, "1 or 2");
   if (!(penaltyFactor > 0 && penaltyFactor <= 1))
     refuse("penaltyFactor", penaltyFactor, "above 0 and at most 1");
@@ -310,6 +312,7 @@ void FESolver::postLoad(FESolver& /*self*/) {
     const StepSettings& step = world_.dynamicsSettings;
     correction = world_.contactSettings.correction == Correction::kPenalty ? "penalty" : "lagrange";
     entry = world_.contactSettings.entry == Entry::kFlags ? "flags" : "path";
+    view = formerView_;
     passes = world_.contactSettings.passes;
     penaltyFactor = world_.contactSettings.penaltyFactor;
     halo = world_.contactSettings.halo;
@@ -333,6 +336,7 @@ void FESolver::giveSettings() {
   world_.contactSettings.halo = halo;
   world_.dynamicsSettings.damping = damping;
   formerGravity_ = gravity;
+  formerView_ = view;
   // What is taken over stays until the next step takes it over anew.
   if (!takesOver()) world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
   world_.dynamicsSettings.viscosity = {linearViscosity, quadraticViscosity};

@@ -63,6 +63,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   double minFragmentArea = 0;
   double energyFromSpheres = 0;
   bool rigidBodies = true;
+  std::string view = "component";
 
   static constexpr auto attributes();
   template <class PyClass>
@@ -103,6 +104,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   std::size_t surveyed_ =
       0;  // segments that the halo was chosen for, and that have not moved since
   yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // what `gravity` was before it was set
+  std::string formerView_ = view;
   mutable StepLock betweenSteps_;
 };
 
@@ -165,7 +167,12 @@ constexpr auto FESolver::attributes() {
       attribute("rigidBodies", &C::rigidBodies,
                 "Do the bodies touch YADE's Wall, Box and Facet, also in clumps: their sections "
                 "with the plane z = 0, rigid, with the friction of their FrictMat? They move as "
-                "YADE moves them, and get the forces of contact (O.forces.f, O.forces.t)."));
+                "YADE moves them, and get the forces of contact (O.forces.f, O.forces.t)."),
+      attribute(
+          "view", &C::view,
+          "What the colours of the bodies in YADE's 3D view tell: 'component', 'fragment', or "
+          "'mises', from blue at 0 to red at the largest.",
+          triggerPostLoad));
 }
 
 template <class Archive>

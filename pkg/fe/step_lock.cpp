@@ -23,6 +23,19 @@ void StepLock::lock() {
   wait(ticket);
 }
 
+bool StepLock::try_lock() {
+  const std::thread::id self = std::this_thread::get_id();
+  const std::lock_guard guard(mutex_);
+  if (owner_ == self) {
+    ++depth_;
+    return true;
+  }
+  if (given_ != served_) return false;
+  ++given_;
+  owner_ = self, depth_ = 1;
+  return true;
+}
+
 void StepLock::wait(std::uint64_t ticket) {
   std::unique_lock guard(mutex_);
   turn_.wait(guard, [&] { return ticket == served_; });

@@ -15,6 +15,8 @@ class StepLock {
  public:
   void lock();
   void unlock();
+  /// False where another thread has it: for those who must not wait.
+  bool try_lock();
 
  private:
   void wait(std::uint64_t ticket);

@@ -20,6 +20,7 @@ namespace boost::archive::detail {
 YADEFRAG_YADE_ARCHIVES(yade::BoundFunctor)
 YADEFRAG_YADE_ARCHIVES(yade::Collider)
 YADEFRAG_YADE_ARCHIVES(yade::FrictMat)
+YADEFRAG_YADE_ARCHIVES(yade::GlShapeFunctor)
 YADEFRAG_YADE_ARCHIVES(yade::GlobalEngine)
 YADEFRAG_YADE_ARCHIVES(yade::IGeomFunctor)
 YADEFRAG_YADE_ARCHIVES(yade::Shape)

@@ -5,6 +5,7 @@
 #include "abi/support_check.hpp"
 #include "collider/colliders.hpp"
 #include "fe/fe_solver.hpp"
+#include "fe/gl_surface_segment.hpp"
 #include "fe/materials.hpp"
 #include "fe/mesh_python.hpp"
 #include "fe/polygon_python.hpp"
@@ -25,12 +26,19 @@ struct ClassList {
 };
 
 // Every class that this project adds to YADE.
-using NewClasses =
-    ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider, FEMat, BrittleFEMat,
-              SurfaceSegment, Bo1_SurfaceSegment_Aabb, Ig2_Sphere_SurfaceSegment_ScGeom, FESolver>;
+using NewClasses = ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider, FEMat,
+                             BrittleFEMat, SurfaceSegment, Bo1_SurfaceSegment_Aabb,
+                             Ig2_Sphere_SurfaceSegment_ScGeom, Gl1_SurfaceSegment, FESolver>;
 
 void toImportError(const UnsupportedYade& error) {
   PyErr_SetString(PyExc_ImportError, error.what());
+}
+
+/// One that was there before the classes of this module does not know those that draw, and has no
+/// room for the new shapes: YADE would end the process.
+void renewRenderer(const py::object& renderer) {
+  yade::Serializable& object = py::extract<yade::Serializable&>(renderer);
+  if (object.getClassName() == "OpenGLRenderer") static_cast<yade::OpenGLRenderer&>(object).init();
 }
 
 }  // namespace yadefrag
@@ -57,6 +65,7 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("watchListItems", &yadefrag::watchListItems);
   py::def("freeListItems", &yadefrag::freeListItems,
           "Frees engines, functors and bodies that only YADE's lost references keep.");
+  py::def("renewRenderer", &yadefrag::renewRenderer);
   py::def("publish", &yadefrag::NewClasses::publishAll,
           "Adds the new classes to YADE, once; returns their names.");
 }

@@ -5,6 +5,7 @@ own, and to the names that every script sees. ImportError, in one sentence, in a
 """
 
 import builtins
+import sys
 
 from yadefrag import support
 
@@ -46,6 +47,9 @@ def _renewDispatchers():
             dispatcher = getattr(engine, holder, None)
             if dispatcher is not None:
                 dispatcher.functors = dispatcher.functors
+    viewer = sys.modules.get('yade.qt._GLViewer')
+    if viewer:
+        _yadefrag.renewRenderer(viewer.Renderer())
 
 
 solver.install()

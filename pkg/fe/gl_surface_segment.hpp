@@ -1,0 +1,33 @@
+#pragma once
+// Finite-element bodies in YADE's 3D view.
+
+#include <tuple>
+
+#include "abi/yade.hpp"
+#include "fe/body_picture.hpp"
+#include "publish/published.hpp"
+
+namespace yadefrag {
+
+class Gl1_SurfaceSegment final : public Published<Gl1_SurfaceSegment, yade::GlShapeFunctor> {
+ public:
+  static constexpr const char* kName = "Gl1_SurfaceSegment";
+  static constexpr const char* kDoc =
+      "Draws the bodies of FESolver in the 3D view: their triangles, filled as FESolver.view says, "
+      "or, where the SurfaceSegment or the view is drawn in wire, their edges; in black their "
+      "boundaries and open cracks, in red cracks that cohesion still holds.";
+  static constexpr auto attributes() { return std::tuple(); }
+
+  void go(const yade::shared_ptr<yade::Shape>& shape, const yade::shared_ptr<yade::State>& state,
+          bool wire, const yade::GLViewInfo& view) override;
+  yade::string get1DFunctorType1() const override { return "SurfaceSegment"; }
+  yade::string renders() const override { return "SurfaceSegment"; }
+  void initgl() override {}
+
+ private:
+  void look();
+
+  std::vector<BodyPicture> pictures_;  // as of the last look that did not have to wait
+};
+
+}  // namespace yadefrag
