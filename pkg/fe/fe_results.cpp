@@ -65,7 +65,8 @@ double damageOf(const Fracture& fracture, EdgeId edge, std::uint32_t hold) {
 }
 
 struct CrackColumns {
-  std::vector<std::uint32_t> component, other;
+  std::vector<std::uint32_t> component, other, triangle;
+  std::vector<std::array<std::uint32_t, 4>> nodes;  // of both sides, opposite each other
   std::vector<double> x, y, nx, ny, opening, slip, damage, start;
   std::vector<std::uint8_t> held;
 
@@ -73,10 +74,12 @@ struct CrackColumns {
     const Model& model = world.model;
     const CrackEdges& edges = world.fracture.edges;
     Vec2 middle[2], along[2];
+    NodeId first[2], last[2];
     for (int k = 0; k < 2; ++k) {
       const Side side = edges.side(edge, k);
-      const Vec2 begin = model.nodes.position[firstNode(model, side).value];
-      const Vec2 end = model.nodes.position[lastNode(model, side).value];
+      first[k] = firstNode(model, side), last[k] = lastNode(model, side);
+      const Vec2 begin = model.nodes.position[first[k].value];
+      const Vec2 end = model.nodes.position[last[k].value];
       middle[k] = .5 * (begin + end), along[k] = end - begin;
     }
     // The second side runs the other way.
@@ -84,6 +87,8 @@ struct CrackColumns {
     const Vec2 tangent = (1 / norm(face)) * face, normal = rightOf(tangent);
     const Vec2 apart = middle[1] - middle[0], place = .5 * (middle[0] + middle[1]);
     const auto& both = edges.element[edge.value];
+    nodes.push_back({first[0].value, last[0].value, last[1].value, first[1].value});
+    triangle.push_back(both[0].value);
     component.push_back(model.triangles.component[both[0].value].value);
     other.push_back(model.triangles.component[both[1].value].value);
     x.push_back(place.x), y.push_back(place.y), nx.push_back(normal.x), ny.push_back(normal.y);
@@ -111,6 +116,8 @@ py::dict cracksOf(const FESolver& solver) {
   py::dict table;
   table["component"] = toArray(columns.component, "uint32", 0);
   table["other"] = toArray(columns.other, "uint32", 0);
+  table["triangle"] = toArray(columns.triangle, "uint32", 0);
+  table["nodes"] = toArray(columns.nodes, "uint32", 4);
   table["x"] = toArray(columns.x, "float64", 0), table["y"] = toArray(columns.y, "float64", 0);
   table["nx"] = toArray(columns.nx, "float64", 0), table["ny"] = toArray(columns.ny, "float64", 0);
   table["opening"] = toArray(columns.opening, "float64", 0);

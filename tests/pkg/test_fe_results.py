@@ -135,6 +135,33 @@ def test_cracksAreATable(folder):
         yadefrag.crackTable(solver, folder + '/cracks.txt')
 
 
+def test_heldCracksAreDrawnAndExported(folder):
+    solver = strip(20.)
+    while not solver.numCracks:
+        O.step()
+    steps(5)
+    table = yadefrag.crackTable(solver)
+    assert table['held'].all() and len(table) == 2
+    lines = [c for c in yadefrag.plotMesh(solver).collections if type(c).__name__ == 'LineCollection']
+    drawn = np.array([path.vertices for line in lines for path in line.get_paths()])
+    middles = drawn.mean(axis=1)
+    assert middles == pytest.approx(np.stack([table['x'], table['y']], axis=1), abs=1e-12)
+    assert np.hypot(*(drawn[:, 1] - drawn[:, 0]).T) == pytest.approx([.1, .1], rel=.05)
+    meshio = pytest.importorskip('meshio')
+    yadefrag.exportVTK(solver, folder + '/out.vtu')
+    mesh = meshio.read(folder + '/out.vtu')
+    places = mesh.points[mesh.cells_dict['line']][:, :, :2]
+    # The first side of a crack is beside its middle by half the opening.
+    assert places.mean(axis=1)[:, 1] == pytest.approx(table['y'], abs=1e-4)
+    assert mesh.cell_data['damage'][1] == pytest.approx(table['damage'], abs=1e-12)
+    assert not mesh.cell_data['damage'][0].any() and len(mesh.cell_data['stress'][1]) == 2
+    while yadefrag.crackTable(solver)['held'].any():
+        steps(20)
+    yadefrag.exportVTK(solver, folder + '/out.vtu')
+    assert list(meshio.read(folder + '/out.vtu').cells_dict) == ['triangle']
+    assert not [c for c in yadefrag.plotMesh(solver).collections if type(c).__name__ == 'LineCollection']
+
+
 def test_startOfCracksIsSaved(folder):
     solver = strip(0.)
     while not solver.numCracks:

@@ -13,8 +13,13 @@ from yadefrag import export, pictures
 O = scenes.O
 
 
+def noCracks():
+    return dict(held=numpy.empty(0, dtype=bool), nodes=numpy.empty((0, 4), dtype=int),
+                triangle=numpy.empty(0, dtype=int), damage=numpy.empty(0))
+
+
 def standIn(**values):
-    return types.SimpleNamespace(_lock=lambda: None, _unlock=lambda: None, **values)
+    return types.SimpleNamespace(_lock=lambda: None, _unlock=lambda: None, _cracks=noCracks, **values)
 
 
 def makeSolver():

@@ -3,7 +3,7 @@
 import numpy
 
 from yadefrag.files import replacing
-from yadefrag.shown import betweenSteps, requireSolver, shownMesh
+from yadefrag.shown import betweenSteps, heldCracks, requireSolver, shownMesh
 from yadefrag.values import path, refuse
 
 _OF_NODES = {'displacement': 'displacements', 'velocity': 'velocities',
@@ -25,6 +25,8 @@ def exportVTK(fe, file, fields=None):
     Points are the nodes where they are now (m); at points: displacement from the stress-free shape
     (m), velocity (m/s), contact force and reaction (N); in triangles: stress (xx, yy, xy in Pa),
     strain (xx, yy, xy), component and fragment (int). Dropped fragments are left out.
+    Cracks that cohesion still holds are lines along their first side, with the values of the triangle
+    beside it, and 'damage' (spent part of the fracture energy; 0 in triangles).
     fields  list of the names of those to write, None: all
     ValueError for another ending than .vtu, for a solver without bodies and for other fields.
     """
@@ -33,11 +35,10 @@ def exportVTK(fe, file, fields=None):
     name = path('file', file, '.vtu')
     requireSolver(fe)
     chosen = fieldNames(fields)
-    places, corners, points, cells = _state(fe, chosen)
-    if len(corners) == 0:
+    places, blocks, points, cells = _state(fe, chosen)
+    if len(blocks[0][1]) == 0:
         raise ValueError('fe has no bodies to write, add one with fe.addPolygon first.')
-    mesh = meshio.Mesh(_spatial(places), [('triangle', corners.astype(numpy.int64))],
-                       point_data=points, cell_data=cells)
+    mesh = meshio.Mesh(_spatial(places), blocks, point_data=points, cell_data=cells)
     with replacing(name) as part:
         mesh.write(part, file_format='vtu')
 
@@ -57,11 +58,21 @@ def fieldNames(fields):
 
 
 def _state(fe, fields):
-    """(nodes' positions, triangles' corners, values at nodes, values in triangles) of one step."""
+    """(nodes' positions, blocks of cells, values at nodes, values in cells) of one step."""
     with betweenSteps(fe):
         nodes, triangles, corners = shownMesh(fe)
+        sides, beside, damage = heldCracks(fe)
+        blocks, of = [('triangle', corners.astype(numpy.int64))], [triangles]
         points = {name: _spatial(getattr(fe, attribute)[nodes])
                   for name, attribute in _OF_NODES.items() if name in fields}
-        cells = {name: [numpy.asarray(getattr(fe, attribute), dtype=kind)[triangles]]
-                 for name, (attribute, kind) in _OF_TRIANGLES.items() if name in fields}
-        return fe.nodes[nodes], corners, points, cells
+        if len(beside):
+            blocks.append(('line', numpy.searchsorted(nodes, sides[:, :2]).astype(numpy.int64)))
+            of.append(beside)
+        cells = {}
+        for name, (attribute, kind) in _OF_TRIANGLES.items():
+            if name in fields:
+                values = numpy.asarray(getattr(fe, attribute), dtype=kind)
+                cells[name] = [values[numbers] for numbers in of]
+        if len(beside):
+            cells['damage'] = [numpy.zeros(len(triangles)), damage]
+        return fe.nodes[nodes], blocks, points, cells

@@ -9,12 +9,15 @@ from yadefrag.axes import MOST_PANELS, newAxes, newPanels, requireAxes
 from yadefrag.colours import fragmentColours, palette
 from yadefrag.files import replacing, requireWritable, savePicture
 from yadefrag.guards import requireNoStep
-from yadefrag.shown import betweenSteps, requireSolver, shownMesh
+from yadefrag.shown import betweenSteps, heldCracks, requireSolver, shownMesh
 from yadefrag.values import flag, number, numbersOf, path, refuse, shown, whole
 
 _UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
           'mises': 'von Mises stress (Pa)', 'speed': 'speed (m/s)', 'component': 'component',
           'fragment': 'fragment'}
+
+
+HELD = 'red'  # of cracks that cohesion still holds
 
 
 def _stress(fe, field):
@@ -52,8 +55,8 @@ def _values(fe, field):
 
 def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xlim=None, ylim=None,
              spheres=True):
-    """Draws the triangles of an FESolver where they are now, but not those of dropped fragments, and
-    YADE's spheres; returns Matplotlib's axes.
+    """Draws the triangles of an FESolver where they are now, but not those of dropped fragments, in
+    red the cracks that cohesion still holds, and YADE's spheres; returns Matplotlib's axes.
 
     field   None (no colours), 'xx', 'yy', 'xy' (Pa), 'mises' (Pa, of these three: with the stress
             zz left out), 'speed' (m/s), 'component', 'fragment' (colours without a meaning, of
@@ -174,7 +177,11 @@ class _Picture:
             else:
                 values, perNode = _values(fe, field)
             nodes, shown, self.triangles = shownMesh(fe)
-            self.x, self.y = numpy.asarray(fe.nodes, dtype=float)[nodes].T
+            places = numpy.asarray(fe.nodes, dtype=float)
+            sides = heldCracks(fe)[0]
+            # A held crack has hardly a width: one line between its two sides.
+            self.held = (places[sides[:, :2]] + places[sides[:, 2:]]) / 2
+            self.x, self.y = places[nodes].T
         self.perNode = perNode
         self.values = None if values is None else values[nodes if perNode else shown]
 
@@ -214,6 +221,10 @@ def _corners(window):
 
 def _draw(ax, picture, limits, balls=None):
     _drawTriangles(ax, picture, limits)
+    if len(picture.held):
+        from matplotlib.collections import LineCollection
+        ax.add_collection(LineCollection(picture.held, colors=HELD, linewidths=1, zorder=3),
+                          autolim=False)
     if balls is not None:
         balls.draw(ax)
 

@@ -33,6 +33,14 @@ def shownTriangles(fe):
     return numpy.nonzero(fe.fragmentOf >= 0)[0]
 
 
+def heldCracks(fe):
+    """(nodes (k, 4), triangles (k), damage (k)) of the cracks that cohesion holds: the two nodes of
+    the first side, then those opposite; the triangle beside it. To be called between two steps."""
+    cracks = fe._cracks()
+    held = cracks['held']
+    return cracks['nodes'][held], cracks['triangle'][held], cracks['damage'][held]
+
+
 def shownMesh(fe):
     """(nodes (n), triangles (k), corners (k, 3)): which nodes and triangles there are, and the
     triangles' corners as places among these nodes. To be called between two steps."""
