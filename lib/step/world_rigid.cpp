@@ -45,6 +45,7 @@ ComponentId World::addRigid(const RigidSpec& spec) {
   }
   for (const auto& loop : spec.shape.loops) {
     std::vector<NodeId> nodes;
+    nodes.reserve(loop.size());
     for (const std::uint32_t node : loop) nodes.emplace_back(first + node);
     surfaces.addLoop(nodes, std::vector<std::uint8_t>(nodes.size()), id);
   }

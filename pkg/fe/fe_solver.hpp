@@ -65,6 +65,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   bool rigidBodies = true;
   std::string view = "component";
 
+  static constexpr auto contactAttributes();
   static constexpr auto attributes();
   template <class PyClass>
   static void pyExtra(PyClass& pyClass);
@@ -101,14 +102,14 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   bool toldRigid_ = true;  // `rigidBodies` when the scene was last looked at
   ScriptFunctions functions_;
   std::vector<BoxPair> pairs_;
-  std::size_t surveyed_ =
-      0;  // segments that the halo was chosen for, and that have not moved since
+  /// Segments that the halo was chosen for, and that have not moved since.
+  std::size_t surveyed_ = 0;
   yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // what `gravity` was before it was set
   std::string formerView_ = view;
   mutable StepLock betweenSteps_;
 };
 
-constexpr auto FESolver::attributes() {
+constexpr auto FESolver::contactAttributes() {
   using C = FESolver;
   using yade::Attr::triggerPostLoad;
   return std::tuple(
@@ -136,7 +137,13 @@ constexpr auto FESolver::attributes() {
                 "shortest segment, at most 0.5; 0: as wide as the bodies' speed asks for. Results "
                 "do not depend on it, the number of searches does; but with "
                 "correction='penalty' nothing is held that is deeper than the halo.",
-                triggerPostLoad),
+                triggerPostLoad));
+}
+
+constexpr auto FESolver::attributes() {
+  using C = FESolver;
+  using yade::Attr::triggerPostLoad;
+  constexpr auto others = std::tuple(
       attribute("damping", &C::damping, "Mass-proportional damping (1/s).", triggerPostLoad),
       attribute("gravity", &C::gravity,
                 "Acceleration of all bodies of this engine (m/s²), a pair, or three numbers with "
@@ -173,6 +180,7 @@ constexpr auto FESolver::attributes() {
           "What the colours of the bodies in YADE's 3D view tell: 'component', 'fragment', or "
           "'mises', from blue at 0 to red at the largest.",
           triggerPostLoad));
+  return std::tuple_cat(contactAttributes(), others);
 }
 
 template <class Archive>

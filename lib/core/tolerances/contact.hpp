@@ -44,8 +44,8 @@ inline constexpr double kLeftInside = .02;
 /// corrections leave in rubble, one of the twelve loses a contact.
 inline constexpr double kEntryDepth = 4e-4;
 
-/// (cosine) Two sides whose normals are opposed by more than this are those of a line that has both:
-/// its ends are corners with all normals in between.
+/// (cosine) Two sides whose normals are opposed by more than this are those of a line that has
+/// both: its ends are corners with all normals in between.
 inline constexpr double kFolded = -.999999;
 
 /// (of a slave's depth behind a piece) Farthest past an end of the piece, at a concave joint, that
