@@ -25,7 +25,7 @@ struct Trial {
   bool outside;  ///< flag
   bool opposed;  ///< do the outward normals of slave and master oppose each other
   bool active;
-  bool hasFoot = true;
+  bool hasFoot = true;  ///< is `foot` known already
 };
 
 /// Is a foot over its piece; at a joint of two, rounding leaves none between them.

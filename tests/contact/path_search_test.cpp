@@ -1,0 +1,96 @@
+// Entry by the path: what the scan and its bounds leave out within a step, compared with a search
+// that leaves out nothing.
+
+#include <gtest/gtest.h>
+
+#include "contact/chase.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+constexpr double kMove = .02, kCorrection = .01, kLeft = 2e-3;  // m
+
+/// Four blocks around one point, whose corners and sides lie on one another, as after cracks; or
+/// two stars that are about to meet, with straight, smooth and mixed boundaries.
+SurfaceScene randomScene(Random& random, int kind) {
+  SurfaceScene scene;
+  if (kind == 0) {
+    const Vec2 middle{even(random, -.3, .3), even(random, -.3, .3)};
+    const Vec2 corner[4] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    const Vec2 side[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    for (int k = 0; k < 4; ++k) scene.addBody({middle, side[k], corner[k], side[(k + 1) % 4]});
+    return scene;
+  }
+  scene.addBody(star(random, {}, 1, 9, .3), smoothFlags(random, 9, kind - 1));
+  scene.addBody(star(random, {2, 0}, 1, 9, .3), smoothFlags(random, 9, kind - 1));
+  while (nearPairs(scene, false, kMove / 2).empty())
+    for (std::size_t n = 9; n < 18; ++n) scene.at[n].x -= kMove / 2;
+  return scene;
+}
+
+void moveAll(SurfaceScene& scene, Random& random, double most) {
+  for (Vec2& place : scene.at) {
+    const double angle = even(random, 0, 2 * std::numbers::pi);
+    place += even(random, 0, most) * Vec2{std::cos(angle), std::sin(angle)};
+  }
+}
+
+std::vector<Touch> someTouches(const std::vector<SlaveMaster>& pairs, Random& random) {
+  std::vector<Touch> touches;
+  for (const SlaveMaster& pair : pairs)
+    if (random() % 4 == 0) touches.push_back({pair, 0, 0, 0});
+  return touches;
+}
+
+struct Counts {
+  std::size_t actives = 0, later = 0;
+};
+
+/// One step: the scan at x*, the actives there, then those after corrections.
+void compareOneStep(Random& random, int kind, Counts& counts) {
+  SurfaceScene scene = randomScene(random, kind);
+  Candidates candidates;
+  std::vector<SlaveMaster> pairs = allPairs(scene.surfaces, false);
+  replaceCandidates(candidates, pairs, scene.surfaces, scene.at, false);
+  moveAll(scene, random, kLeft);
+  const std::vector<Vec2> before = scene.at;
+  const std::vector<Touch> touches = someTouches(nearPairs(scene, false, kLeft), random);
+  double deepest = 0;
+  for (const Touch& touch : touches)
+    deepest = std::max(
+        deepest,
+        -scene.geometry().foot(touch.pair.master, scene.geometry().slave(touch.pair.slave)).gap);
+  const PathStart start{before, touches, Chase::kDepth, deepest};
+  moveAll(scene, random, kMove);
+
+  LocalSearch search, all;
+  search.scan(candidates, scene.surfaces, scene.at, 2 * kMove, 1, INFINITY, &start);
+  double moved = 0;
+  for (int detection = 0; detection < 3; ++detection) {
+    std::vector<Active> found, wanted;
+    search.findActives(candidates, scene.surfaces, scene.at, kUnlimited, found, {}, moved);
+    Candidates fresh = candidates;
+    all.scan(fresh, scene.surfaces, scene.at, kUnlimited, 1, INFINITY, &start);
+    all.findActives(fresh, scene.surfaces, scene.at, kUnlimited, wanted);
+    ASSERT_EQ(pairsOf(found), pairsOf(wanted)) << "kind " << kind << ", detection " << detection;
+    (detection == 0 ? counts.actives : counts.later) += found.size();
+    moveAll(scene, random, kCorrection);
+    moved += kCorrection;
+  }
+}
+
+TEST(PathSearch, LeavesOutNothingThatEnters) {
+  Random random(77);
+  for (int kind = 0; kind < 4; ++kind) {
+    Counts counts;
+    for (int scene = 0; scene < 1000; ++scene) {
+      compareOneStep(random, kind, counts);
+      if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(counts.actives, 200U) << kind;
+    EXPECT_GT(counts.later, 400U) << kind;
+  }
+}
+
+}  // namespace
+}  // namespace yadefrag::test
