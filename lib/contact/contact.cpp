@@ -236,9 +236,7 @@ bool Contact::isThroughItself(const ContactSurfaces& surfaces, const PieceGeomet
   if (surfaces.component[pair.slave.value] != surfaces.component[pair.master.value] ||
       surfaces.piece[pair.master.value] != Piece::kArc)
     return false;
-  const auto touch = std::ranges::lower_bound(touches, pair.slave, {},
-                                              [](const Touch& t) { return t.pair.slave; });
-  if (touch != touches.end() && touch->pair.slave == pair.slave) return false;
+  if (!touchesOf(touches, pair.slave).empty()) return false;
   return before.foot(pair.master, before.slave(pair.slave)).gap <
          -tolerance::kTouching * step.shortest;
 }

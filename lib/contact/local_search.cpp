@@ -39,21 +39,6 @@ Beside besideChord(const Chord& chord, Vec2 point) {
   return {cross(from, along) * chord.inverse, std::max(-at, past), chord.inverse};
 }
 
-/// Is a pair among those that begin with the ones of its slave.
-bool isAmong(std::span<const SlaveMaster> pairs, SlaveMaster pair) {
-  for (const SlaveMaster& other : pairs) {
-    if (other.slave != pair.slave) return false;
-    if (other == pair) return true;
-  }
-  return false;
-}
-
-/// How many come before those of a slave.
-std::size_t firstOf(std::span<const SlaveMaster> pairs, EntryId slave) {
-  const auto at = std::ranges::lower_bound(pairs, slave, {}, &SlaveMaster::slave);
-  return static_cast<std::size_t>(at - pairs.begin());
-}
-
 template <class Geometry>
 Chord chordOf(const Geometry& geometry, EntryId entry) {
   const PieceEnds ends = geometry.ends(entry);
@@ -209,18 +194,15 @@ void LocalSearch::tryRows(const Asked& asked, const Geometry& geometry, std::siz
                           std::size_t to, Part& part) const {
   part.actives.clear();
   const std::span<const Near> near(near_);
-  std::span<const SlaveMaster> known = asked.known;
-  if (from < to) known = known.subspan(firstOf(known, asked.slaveOf(near[from])));
   for (std::size_t begin = from, end = from; begin < to; begin = end) {
     const EntryId slave = asked.slaveOf(near[begin]);
     while (end < to && near[end].row == near[begin].row) ++end;
-    while (!known.empty() && known.front().slave < slave) known = known.subspan(1);
     part.trials.clear();
     const std::span<const Near> row = near.subspan(begin, end - begin);
     if (byPath_)
-      tryByPath(asked, geometry, row, known, part);
+      tryByPath(asked, geometry, row, part);
     else
-      tryByFlags(asked, geometry, row, known, part);
+      tryByFlags(asked, geometry, row, part);
     for (const Trial& trial : part.trials)
       if (trial.active) part.actives.push_back({{slave, trial.master}, trial.foot});
   }
@@ -229,7 +211,7 @@ void LocalSearch::tryRows(const Asked& asked, const Geometry& geometry, std::siz
 /// Most slaves are behind none of the masters' lines that they can cross.
 template <class Geometry>
 void LocalSearch::tryByPath(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
-                            std::span<const SlaveMaster> known, Part& part) const {
+                            Part& part) const {
   const EntryId slave = asked.slaveOf(row.front());
   const Vec2 point = geometry.slave(slave);
   bool allKnown = true;
@@ -242,37 +224,29 @@ void LocalSearch::tryByPath(const Asked& asked, const Geometry& geometry, std::s
           !geometry.isArc(master) || isArcAmongArcs(asked.surfaces, geometry, master);
       if (quick && !geometry.mayPenetrate(master, point)) continue;
       part.trials.push_back({master, {}, canEnter, false, false, false});
-      allKnown = allKnown && isAmong(known, {slave, master});
+      allKnown = allKnown && asked.isKnown({slave, master});
     }
   };
   addTrials(true);
   if (allKnown) return part.trials.clear();
   const Geometry before(asked.surfaces, start_.positions, pointsBefore_);
-  const SlaveStep<Geometry> step{before, geometry, slave, touchesOf(slave), start_.depth};
+  const SlaveStep<Geometry> step{before, geometry, slave, touchesOf(start_.touches, slave),
+                                 start_.depth};
   if (!findEntered(asked.surfaces, step, part.trials, asked.deepest)) return part.trials.clear();
   addTrials(false);
   std::ranges::sort(part.trials, {}, &Trial::master);
   decideByPath(asked.surfaces, step, part.trials);
 }
 
-std::span<const Touch> LocalSearch::touchesOf(EntryId slave) const {
-  const auto begin = std::ranges::lower_bound(start_.touches, slave, {},
-                                              [](const Touch& touch) { return touch.pair.slave; });
-  auto end = begin;
-  while (end != start_.touches.end() && end->pair.slave == slave) ++end;
-  return {begin, end};
-}
-
 /// Whatever the rules do, they wake no master without a flag or an arc in the row.
 template <class Geometry>
 void LocalSearch::tryByFlags(const Asked& asked, const Geometry& geometry,
-                             std::span<const Near> row, std::span<const SlaveMaster> known,
-                             Part& part) const {
+                             std::span<const Near> row, Part& part) const {
   const Candidates& candidates = asked.candidates;
   const EntryId slave = asked.slaveOf(row.front());
   const Vec2 point = geometry.slave(slave);
   const auto isKnown = [&](const Near& near) {
-    return isAmong(known, {slave, candidates.masters[near.candidate]});
+    return asked.isKnown({slave, candidates.masters[near.candidate]});
   };
   if (std::ranges::all_of(row, isKnown)) return;
   bool anyOutside = false, anyNear = false;

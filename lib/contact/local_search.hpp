@@ -2,6 +2,7 @@
 // From candidates to actives (paper §5): a scan of all candidates that leaves the few which are
 // near, then, for each slave, the masters it is active on (joint_rules.hpp).
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -80,6 +81,9 @@ class LocalSearch {
     std::span<const SlaveMaster> known;
     double moved;
     [[nodiscard]] EntryId slaveOf(const Near& near) const { return candidates.slaves[near.row]; }
+    [[nodiscard]] bool isKnown(SlaveMaster pair) const {
+      return std::ranges::binary_search(known, pair);
+    }
   };
   /// What one thread finds, and what it works with.
   struct Part {
@@ -108,14 +112,12 @@ class LocalSearch {
   template <class Geometry>
   void tryRows(const Asked& asked, const Geometry& geometry, std::size_t from, std::size_t to,
                Part& part) const;
-  /// `known`: its first ones are those of the slave.
   template <class Geometry>
   void tryByPath(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
-                 std::span<const SlaveMaster> known, Part& part) const;
+                 Part& part) const;
   template <class Geometry>
   void tryByFlags(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
-                  std::span<const SlaveMaster> known, Part& part) const;
-  [[nodiscard]] std::span<const Touch> touchesOf(EntryId slave) const;
+                  Part& part) const;
 
   double way_ = 0;    // m, of the fastest node since the candidates were found
   double reach_ = 0;  // m, of the last scan

@@ -122,13 +122,11 @@ void inheritTouches(std::vector<Touch>& touches, const ContactSurfaces& surfaces
     while (end < twins.size() && twins[end].original == twins[begin].original) ++end;
     for (std::size_t i = begin; i < end; ++i) {
       const EntryId from = slaveAt(twins[i].node);
-      for (auto t = std::ranges::lower_bound(touches, from, {},
-                                             [](const Touch& a) { return a.pair.slave; });
-           t != touches.end() && t->pair.slave == from; ++t)
+      for (const Touch& touch : touchesOf(touches, from))
         for (std::size_t k = begin; k < end; ++k) {
           const EntryId to = slaveAt(twins[k].node);
-          if (k != i && to != t->pair.master && surfaces.prev[to.value] != t->pair.master)
-            more.push_back({{to, t->pair.master}, 0, 0, t->allowed});
+          if (k != i && to != touch.pair.master && surfaces.prev[to.value] != touch.pair.master)
+            more.push_back({{to, touch.pair.master}, 0, 0, touch.allowed});
         }
     }
   }

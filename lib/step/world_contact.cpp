@@ -17,11 +17,12 @@ namespace {
 /// (m) Of those from `first` on that are no rigid boundary's; 0 without any.
 double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
                        std::span<const Vec2> positions, SegmentId first = SegmentId(0)) {
+  const bool anyRigid = std::ranges::any_of(model.components, &Component::rigid);
   double least = INFINITY;
   for (std::size_t s = first.value; s < surfaces.segments(); ++s) {
     if (surfaces.isGone(SegmentId(s))) continue;
-    const EntryId entry = surfaces.segmentEntry[s];
-    if (model.components[surfaces.component[entry.value].value].rigid) continue;
+    const ComponentId owner = surfaces.component[surfaces.segmentEntry[s].value];
+    if (anyRigid && model.components[owner.value].rigid) continue;
     const NodeId a = surfaces.segmentNode[s];
     const NodeId b = surfaces.segmentNode[surfaces.segmentNext[s].value];
     const Vec2 along = positions[b.value] - positions[a.value];

@@ -10,9 +10,11 @@ namespace yade {
 
 class Interaction;
 
-class BoundCalls {
+// Of functors that take one shape, whose call has four arguments.
+template <class... Arguments>
+class OneShapeCalls {
  public:
-  virtual ~BoundCalls() = default;
+  virtual ~OneShapeCalls() = default;
   virtual string checkOrder() const { return {}; }
 
  private:
@@ -21,9 +23,7 @@ class BoundCalls {
   virtual void go3() { unused(); }
 
  public:
-  virtual void go(const shared_ptr<Shape>&, shared_ptr<Bound>&, const Se3r&, const Body*) {
-    unused();
-  }
+  virtual void go(Arguments...) { unused(); }
 
  private:
   virtual void go5() { unused(); }
@@ -41,34 +41,10 @@ class BoundCalls {
 
 struct GLViewInfo;
 
-class GlShapeCalls {
- public:
-  virtual ~GlShapeCalls() = default;
-  virtual string checkOrder() const { return {}; }
-
- private:
-  virtual void go1() { unused(); }
-  virtual void go2() { unused(); }
-  virtual void go3() { unused(); }
-
- public:
-  virtual void go(const shared_ptr<Shape>&, const shared_ptr<State>&, bool, const GLViewInfo&) {
-    unused();
-  }
-
- private:
-  virtual void go5() { unused(); }
-  virtual void go6() { unused(); }
-  virtual void go7() { unused(); }
-  virtual void goReverse1() { unused(); }
-  virtual void goReverse2() { unused(); }
-  virtual void goReverse3() { unused(); }
-  virtual void goReverse4() { unused(); }
-  virtual void goReverse5() { unused(); }
-  virtual void goReverse6() { unused(); }
-  virtual void goReverse7() { unused(); }
-  [[noreturn]] static void unused() { throw std::logic_error("a functor's unused slot is called"); }
-};
+using BoundCalls =
+    OneShapeCalls<const shared_ptr<Shape>&, shared_ptr<Bound>&, const Se3r&, const Body*>;
+using GlShapeCalls =
+    OneShapeCalls<const shared_ptr<Shape>&, const shared_ptr<State>&, bool, const GLViewInfo&>;
 
 class GeomCalls {
  public:

@@ -40,9 +40,11 @@ auto change(const FESolver& solver, const Work& work) {
   return asValueError(work);
 }
 
+/// A column by node, as a script has it.
 template <class Value>
-std::vector<Value> shown(const FESolver& solver, const std::vector<Value>& column) {
-  return ShownNodes(solver.world()).rows(column);
+py::object nodeArray(const FESolver& solver, const std::vector<Value>& column, int columns) {
+  if (!solver.world().hasRigid()) return toArray(column, kReal, columns);
+  return toArray(ShownNodes(solver.world()).rows(column), kReal, columns);
 }
 
 std::vector<NodeId> nodesFrom(const FESolver& solver, const py::object& numbers) {
@@ -154,15 +156,15 @@ void prescribeMotion(FESolver& solver, const py::object& nodes, int held, const 
 
 py::object loadsOf(const FESolver& solver) {
   const Nodes& nodes = solver.world().model.nodes;
-  if (!nodes.load.empty()) return toArray(shown(solver, nodes.load), kReal, 2);
+  if (!nodes.load.empty()) return nodeArray(solver, nodes.load, 2);
   return toArray(std::vector<Vec2>(ShownNodes(solver.world()).size()), kReal, 2);
 }
 
 py::object nodesOf(const FESolver& solver) {
-  return toArray(shown(solver, solver.world().model.nodes.position), kReal, 2);
+  return nodeArray(solver, solver.world().model.nodes.position, 2);
 }
 py::object velocitiesOf(const FESolver& solver) {
-  return toArray(shown(solver, solver.world().model.nodes.velocity), kReal, 2);
+  return nodeArray(solver, solver.world().model.nodes.velocity, 2);
 }
 py::object nodesOfBody(const FESolver& solver, int component) {
   const Nodes& nodes = solver.world().model.nodes;
@@ -184,7 +186,7 @@ bool isGone(const FESolver& solver, int component) {
   return body.firstTriangle == body.lastTriangle;
 }
 py::object massesOf(const FESolver& solver) {
-  return toArray(shown(solver, solver.world().model.nodes.mass), kReal, 0);
+  return nodeArray(solver, solver.world().model.nodes.mass, 0);
 }
 py::object trianglesOf(const FESolver& solver) {
   const ShownNodes all(solver.world());
@@ -210,20 +212,20 @@ py::object materialNumbersOf(const FESolver& solver) {
 py::object displacementsOf(const FESolver& solver) {
   std::vector<Vec2> moved = solver.world().model.nodes.position;
   for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= solver.world().reference[i];
-  return toArray(shown(solver, moved), kReal, 2);
+  return nodeArray(solver, moved, 2);
 }
 
 py::object contactForcesOf(const FESolver& solver) {
   const std::span<const Vec2> known = solver.world().contact.forces().known;
   std::vector<Vec2> forces(known.begin(), known.end());
   forces.resize(solver.world().model.nodes.size());  // before the first contact there are none
-  return toArray(shown(solver, forces), kReal, 2);
+  return nodeArray(solver, forces, 2);
 }
 
 py::object reactionsOf(const FESolver& solver) {
   std::vector<Vec2> forces = solver.world().reactions;
   forces.resize(solver.world().model.nodes.size());  // before the first step there are none
-  return toArray(shown(solver, forces), kReal, 2);
+  return nodeArray(solver, forces, 2);
 }
 
 py::object fragmentOf(const FESolver& solver) {
@@ -233,7 +235,7 @@ py::object fragmentOf(const FESolver& solver) {
 }
 
 py::object referenceOf(const FESolver& solver) {
-  return toArray(shown(solver, solver.world().reference), kReal, 2);
+  return nodeArray(solver, solver.world().reference, 2);
 }
 
 namespace {

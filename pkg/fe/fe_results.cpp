@@ -9,6 +9,7 @@
 #include "dynamics/element_state.hpp"
 #include "fe/fe_arrays.hpp"
 #include "fe/fe_solver.hpp"
+#include "fe/shown_nodes.hpp"
 #include "fracture/cohesive_law.hpp"
 
 namespace yadefrag {
@@ -66,7 +67,7 @@ double damageOf(const Fracture& fracture, EdgeId edge, std::uint32_t hold) {
 
 struct CrackColumns {
   std::vector<std::uint32_t> component, other, triangle;
-  std::vector<std::array<std::uint32_t, 4>> nodes;  // of both sides, opposite each other
+  std::vector<std::array<NodeId, 4>> nodes;  // of both sides, opposite each other
   std::vector<double> x, y, nx, ny, opening, slip, damage, start;
   std::vector<std::uint8_t> held;
 
@@ -87,7 +88,7 @@ struct CrackColumns {
     const Vec2 tangent = (1 / norm(face)) * face, normal = rightOf(tangent);
     const Vec2 apart = middle[1] - middle[0], place = .5 * (middle[0] + middle[1]);
     const auto& both = edges.element[edge.value];
-    nodes.push_back({first[0].value, last[0].value, last[1].value, first[1].value});
+    nodes.push_back({first[0], last[0], last[1], first[1]});
     triangle.push_back(both[0].value);
     component.push_back(model.triangles.component[both[0].value].value);
     other.push_back(model.triangles.component[both[1].value].value);
@@ -113,6 +114,9 @@ py::dict cracksOf(const FESolver& solver) {
     if (edges.cracked[i] == 0 || std::ranges::any_of(edges.element[i], isDropped)) continue;
     columns.add(world, EdgeId(i), holds[i]);
   }
+  const ShownNodes shown(world);
+  for (auto& ends : columns.nodes)
+    for (NodeId& node : ends) node = shown.number(node);
   py::dict table;
   table["component"] = toArray(columns.component, "uint32", 0);
   table["other"] = toArray(columns.other, "uint32", 0);

@@ -8,6 +8,7 @@ import pytest
 
 import yadefrag
 from fe_scene import fe, impact, run, steps
+from yade import utils
 from yade import wrapper as w
 
 O = builtins.O
@@ -135,8 +136,12 @@ def test_cracksAreATable(folder):
         yadefrag.crackTable(solver, folder + '/cracks.txt')
 
 
-def test_heldCracksAreDrawnAndExported(folder):
+@pytest.mark.parametrize('wall', [False, True])
+def test_heldCracksAreDrawnAndExported(folder, wall):
+    """A wall has nodes of its own between those of the body and those that cracks add."""
     solver = strip(20.)
+    if wall:
+        O.bodies.append(utils.wall(-3, axis=1))
     while not solver.numCracks:
         O.step()
     steps(5)

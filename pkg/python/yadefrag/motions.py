@@ -6,7 +6,7 @@ import numpy
 
 from yadefrag._yadefrag import requirePaused
 from yadefrag.names import isBody
-from yadefrag.values import array, flag, number, numbersOf, pair, real, refuse, shown
+from yadefrag.values import array, flag, number, pair, real, refuse
 
 _RIGHT = ('a finite number (m/s), an array of one for each of the nodes, a table of pairs (s, m/s), '
           'a function (x, y, t) or None')
