@@ -73,7 +73,8 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
   keepFlags(candidates, surfaces, step.before, entry_ == Entry::kFlags);
   deepest_ = deepestTouch(surfaces, step.before);
   bool gapsAreKnown = false;
-  double reach = step.reach;
+  // Corrections are mostly as large as those of the step before.
+  double reach = std::max(step.reach, tolerance::kReachSpare * former_.largestCorrection);
   scan(model, surfaces, step, reach, step.move);
   const int most = step.rubble ? tolerance::kRubbleDetections : tolerance::kDetections;
   for (int detection = 0; detection < most; ++detection) {
@@ -186,7 +187,7 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
                       sinceScan_);
   if (!actives_.empty()) makeRoom(model.nodes.size());
   const PieceGeometry before(surfaces, step.before);
-  bool anyNew = false;
+  const std::size_t former = formerCount_ = rows_.size();
   for (const Active& active : actives_) {
     if (hasRow(surfaces, before, active.pair)) continue;
     if (isThroughItself(surfaces, before, active.pair, step)) continue;
@@ -194,15 +195,15 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
     startRow(row, model, surfaces, before, active, step);
     if (contradicts(surfaces, row)) row.friction = row.tangentForce = 0;
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
-    // Actives come in order: only the rows of a later detection go between others.
-    rows_.insert(std::upper_bound(rows_.begin(), rows_.end(), row, byPair), row);
-    anyNew = true;
+    rows_.push_back(row);  // Actives come in order.
   }
-  if (anyNew) {
-    known_.clear();
-    for (const ContactRow& row : rows_) known_.push_back(pairOf(row));
-  }
-  return anyNew;
+  if (rows_.size() == former) return false;
+  std::inplace_merge(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(former),
+                     rows_.end(), byPair);
+  formerCount_ = rows_.size();
+  known_.clear();
+  for (const ContactRow& row : rows_) known_.push_back(pairOf(row));
+  return true;
 }
 
 void Contact::touch(NodeId node) {
@@ -210,20 +211,22 @@ void Contact::touch(NodeId node) {
   isTouched_[node.value] = 1;
 }
 
-std::span<const ContactRow> Contact::rowsOf(EntryId slave) const {
-  const auto begin =
-      std::lower_bound(rows_.begin(), rows_.end(), slave,
-                       [](const ContactRow& row, EntryId entry) { return row.slave < entry; });
-  auto end = begin;
-  while (end != rows_.end() && end->slave == slave) ++end;
-  return {begin, end};
+template <class Test>
+bool Contact::anyRowOf(EntryId slave, Test test) const {
+  const auto slaveOf = [](const ContactRow& row) { return row.slave; };
+  const std::span<const ContactRow> rows(rows_);
+  for (const auto& part : {rows.first(formerCount_), rows.subspan(formerCount_)})
+    for (auto row = std::ranges::lower_bound(part, slave, {}, slaveOf);
+         row != part.end() && row->slave == slave; ++row)
+      if (test(*row)) return true;
+  return false;
 }
 
 /// A slave that the correction pushed on to the next master keeps its row: the two differ by the
 /// second-order remainder, and both together would hold it before a convex corner's both faces.
 bool Contact::hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
                      SlaveMaster pair) const {
-  return std::ranges::any_of(rowsOf(pair.slave), [&](const ContactRow& row) {
+  return anyRowOf(pair.slave, [&](const ContactRow& row) {
     return row.master == pair.master ||
            meetInConvexJoint(surfaces, before, row.master, pair.master);
   });
@@ -244,13 +247,13 @@ bool Contact::isThroughItself(const ContactSurfaces& surfaces, const PieceGeomet
 /// Two corners that met past each other: each is behind a face of the other, and the two rows push
 /// the same way. With friction on both, their forces would hold each other up without bound.
 bool Contact::contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const {
-  for (const EntryId end : {row.master, surfaces.next[row.master.value]})
-    for (const ContactRow& other : rowsOf(end)) {
-      const bool exchanged =
-          other.master == row.slave || surfaces.next[other.master.value] == row.slave;
-      if (exchanged && dot(other.normal, row.normal) > 0) return true;
-    }
-  return false;
+  const auto pushesAlike = [&](const ContactRow& other) {
+    const bool exchanged =
+        other.master == row.slave || surfaces.next[other.master.value] == row.slave;
+    return exchanged && dot(other.normal, row.normal) > 0;
+  };
+  return anyRowOf(row.master, pushesAlike) ||
+         anyRowOf(surfaces.next[row.master.value], pushesAlike);
 }
 
 /// Friction, slip, and what the last step knows of the contact.

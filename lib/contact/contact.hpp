@@ -102,7 +102,8 @@ class Contact {
              bool anyNew);
   [[nodiscard]] double deepestTouch(const ContactSurfaces& surfaces,
                                     std::span<const Vec2> before) const;
-  [[nodiscard]] std::span<const ContactRow> rowsOf(EntryId slave) const;
+  template <class Test>
+  [[nodiscard]] bool anyRowOf(EntryId slave, Test test) const;
   bool hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair) const;
   bool isThroughItself(const ContactSurfaces& surfaces, const PieceGeometry& before,
                        SlaveMaster pair, const ContactStep& step) const;
@@ -123,7 +124,8 @@ class Contact {
   LocalSearch search_;
   Lagrange lagrange_;
   std::vector<Active> actives_;
-  std::vector<ContactRow> rows_;
+  std::vector<ContactRow> rows_;  // by pair; within a detection its own come after the others
+  std::size_t formerCount_ = 0;   // of the others
   Figures now_;
   std::vector<SlaveMaster> known_;       // of the rows
   std::vector<Vec2> forces_;             // N, by node

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "mesh/mobility.hpp"
 
@@ -39,28 +40,31 @@ void RowSweeps::begin(std::span<const ContactRow> rows, std::span<const std::uin
   displacement_.clear();
   pushedAt_.clear();
   rows_.resize(members.size());
+  ends_.resize(members.size());
   now_ = 1;  // All are stale.
   for (std::size_t r = 0; r < members.size(); ++r) {
     const ContactRow& row = rows[members[r]];
     Lean& lean = rows_[r];
+    Ends& ends = ends_[r];
     lean = {};
+    ends = {};
     lean.place = members[r];
-    lean.count = static_cast<std::uint32_t>(row.count);
+    ends.count = static_cast<std::uint32_t>(row.count);
     lean.normal = row.normal;
     lean.gap = row.gap - row.allowed, lean.slip = row.slip, lean.friction = row.friction;
     lean.normalForce = row.normalForce, lean.tangentForce = row.tangentForce;
     const Vec2 along = row.tangent();
-    for (std::uint32_t k = 0; k < lean.count; ++k) {
+    for (std::uint32_t k = 0; k < ends.count; ++k) {
       const Vec2 mobile = step.squared() * row.weight[k] * mobility(nodes, row.node[k], drag);
       const Vec2 perNormal{mobile.x * row.normal.x, mobile.y * row.normal.y};
       const Vec2 perTangent{mobile.x * along.x, mobile.y * along.y};
       lean.normalResponse += row.weight[k] * dot(perNormal, row.normal);
       lean.tangentResponse += row.weight[k] * dot(perTangent, along);
       lean.slipPerNormal += row.weight[k] * dot(perNormal, along);
-      lean.node[k] = numberOf(row.node[k]);
+      ends.node[k] = numberOf(row.node[k]);
       lean.weight[k] = row.weight[k], lean.perForce[k] = mobile;
     }
-    push(lean, row.force());
+    push(lean, ends, row.force());
   }
 }
 
@@ -74,44 +78,44 @@ std::uint32_t RowSweeps::numberOf(NodeId node) {
   return number;
 }
 
-Vec2 RowSweeps::relative(const Lean& row) const {
-  Vec2 sum;
-  for (std::uint32_t k = 0; k < row.count; ++k) sum += row.weight[k] * displacement_[row.node[k]];
-  return sum;
-}
-
-void RowSweeps::push(const Lean& row, Vec2 force) {
-  for (std::uint32_t k = 0; k < row.count; ++k)
-    displacement_[row.node[k]] += Vec2{row.perForce[k].x * force.x, row.perForce[k].y * force.y};
+void RowSweeps::push(const Lean& row, const Ends& ends, Vec2 force) {
+  for (std::uint32_t k = 0; k < ends.count; ++k)
+    displacement_[ends.node[k]] += Vec2{row.perForce[k].x * force.x, row.perForce[k].y * force.y};
 }
 
 /// Has another row moved one of its nodes since it was relaxed.
-bool RowSweeps::isStale(const Lean& row) const {
-  for (std::uint32_t k = 0; k < row.count; ++k)
-    if (pushedAt_[row.node[k]] > row.looked) return true;
+bool RowSweeps::isStale(const Ends& ends) const {
+  for (std::uint32_t k = 0; k < ends.count; ++k)
+    if (pushedAt_[ends.node[k]] > ends.looked) return true;
   return false;
 }
 
 double RowSweeps::sweep(bool forwards, double tolerance) {
   double most = 0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    Lean& row = rows_[forwards ? i : rows_.size() - 1 - i];
-    if (!isStale(row)) continue;
-    const double moved = relax(row);
-    row.looked = ++now_;
+    const std::size_t r = forwards ? i : rows_.size() - 1 - i;
+    Ends& ends = ends_[r];
+    if (!isStale(ends)) continue;
+    // A corner against a straight piece, as most: loops of a known length.
+    const double moved = ends.count == 3
+                             ? relax(rows_[r], ends, std::integral_constant<std::uint32_t, 3>{})
+                             : relax(rows_[r], ends, ends.count);
+    ends.looked = ++now_;
     most = std::max(most, moved);
     if (!(moved > tolerance)) continue;
-    for (std::uint32_t k = 0; k < row.count; ++k) pushedAt_[row.node[k]] = now_;
+    for (std::uint32_t k = 0; k < ends.count; ++k) pushedAt_[ends.node[k]] = now_;
   }
   return most;
 }
 
 /// Sets one row's forces so that its own gap and slip vanish, as far as the bounds allow; returns
 /// by how much it moved (m). A row whose nodes are all held has nothing to say.
-double RowSweeps::relax(Lean& row) {
+template <class Count>
+double RowSweeps::relax(Lean& row, const Ends& ends, Count count) {
   if (!(row.normalResponse > 0)) return 0;
   const Vec2 along{-row.normal.y, row.normal.x};
-  const Vec2 moved = relative(row);
+  Vec2 moved;
+  for (std::uint32_t k = 0; k < count; ++k) moved += row.weight[k] * displacement_[ends.node[k]];
   const double gap = row.gap + dot(moved, row.normal);
   const double normal = std::max(0., row.normalForce - gap / row.normalResponse);
   const double pushed = normal - row.normalForce;
@@ -125,7 +129,9 @@ double RowSweeps::relax(Lean& row) {
     row.tangentForce = tangent;
   }
   if (pushed == 0 && pulled == 0) return 0;
-  push(row, pushed * row.normal + pulled * along);
+  const Vec2 force = pushed * row.normal + pulled * along;
+  for (std::uint32_t k = 0; k < count; ++k)
+    displacement_[ends.node[k]] += Vec2{row.perForce[k].x * force.x, row.perForce[k].y * force.y};
   return std::max(std::abs(pushed) * row.normalResponse, std::abs(pulled) * row.tangentResponse);
 }
 

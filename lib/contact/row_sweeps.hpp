@@ -41,14 +41,12 @@ class RowSweeps {
   /// Room for so many nodes of the model.
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, rows_, all_, nodes_, numbers_, displacement_, pushedAt_);
+    footprint.add(use, rows_, ends_, all_, nodes_, numbers_, displacement_, pushedAt_);
   }
 
  private:
   /// A row as the sweeps want it: all that they touch, and nothing else.
   struct Lean {
-    std::array<std::uint32_t, 5> node;  // among those of all rows
-    std::uint32_t count;
     std::array<double, 5> weight;
     std::array<Vec2, 5> perForce;  // m/N, by axis: what a force does to the node
     Vec2 normal;
@@ -56,20 +54,26 @@ class RowSweeps {
     double normalResponse, tangentResponse;  // m/N: what 1 N undoes of gap and slip
     double slipPerNormal;                    // m/N: where a node is held in one direction
     double normalForce, tangentForce;        // N
-    std::uint64_t looked;                    // when it was relaxed last
     std::uint32_t place;                     // among all rows
+  };
+  /// Its nodes: most rows that a sweep comes to are left alone, and read no more than this.
+  struct Ends {
+    std::array<std::uint32_t, 5> node;  // among those of all rows
+    std::uint32_t count;
+    std::uint64_t looked;  // when the row was relaxed last
   };
 
   void begin(std::span<const ContactRow> rows, std::span<const std::uint32_t> members,
              const Nodes& nodes, const StepLength& step, double drag);
   std::uint32_t numberOf(NodeId node);
-  [[nodiscard]] Vec2 relative(const Lean& row) const;
-  void push(const Lean& row, Vec2 force);
-  double relax(Lean& row);
+  void push(const Lean& row, const Ends& ends, Vec2 force);
+  template <class Count>
+  double relax(Lean& row, const Ends& ends, Count count);
   double sweep(bool forwards, double tolerance);
-  [[nodiscard]] bool isStale(const Lean& row) const;
+  [[nodiscard]] bool isStale(const Ends& ends) const;
 
   std::vector<Lean> rows_;
+  std::vector<Ends> ends_;               // of the rows
   std::vector<std::uint32_t> all_;       // 0, 1, 2, …
   std::vector<NodeId> nodes_;            // of rows
   std::vector<std::uint32_t> numbers_;   // by node: among nodes_; of those only

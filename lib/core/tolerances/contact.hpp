@@ -68,6 +68,10 @@ inline constexpr double kRemainder = 1e-5, kPenetrationLeft = 1e-10;
 /// (count) Most detections in one step.
 inline constexpr int kDetections = 10;
 
+/// (of the last step's largest correction) How far the first scan of a step looks at least: the few
+/// pairs more take less time than a second scan.
+inline constexpr double kReachSpare = 2.5;
+
 /// (ratio) An overlap older than its contact is let out by this part in every step, and by no more
 /// than this part of the largest displacement. Pushed out in one step it would become a velocity,
 /// and contact would create energy.
