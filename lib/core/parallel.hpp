@@ -41,12 +41,17 @@ class PartErrors {
   int part_ = std::numeric_limits<int>::max();
 };
 
+/// (count) Least items of a thread's part. Tests lower it: small scenes then run on threads, too.
+inline std::size_t& leastItemsPerThread() {
+  static std::size_t items = tolerance::kMinItemsPerThread;
+  return items;
+}
+
 /// Calls `work(begin, end, part)` for contiguous parts of [0, count) and returns how many there
 /// were. What `work` throws reaches the caller, after all parts have ended.
 template <class Work>
 int forEachPart(std::size_t count, int threads, Work work) {
-  const int parts =
-      std::max(1, std::min(threads, static_cast<int>(count / tolerance::kMinItemsPerThread)));
+  const int parts = std::max(1, std::min(threads, static_cast<int>(count / leastItemsPerThread())));
   if (parts == 1) {
     work(std::size_t{0}, count, 0);
     return 1;

@@ -14,6 +14,8 @@
 namespace yadefrag {
 namespace {
 
+std::size_t elementsPerThread() { return tolerance::kElementsPerItem * leastItemsPerThread(); }
+
 /// (m) Of all triangles, stress-free: 1/|∇Nᵢ| is the height on corner i.
 double leastHeight(const Triangles& triangles) {
   double steepest = 0;  // 1/m²
@@ -214,7 +216,7 @@ void ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begi
 
 void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscosity& viscosity) {
   const std::size_t count = model.nodes.size();
-  const int most = static_cast<int>(model.triangles.size() / tolerance::kElementsPerThread);
+  const int most = static_cast<int>(model.triangles.size() / elementsPerThread());
   const int threads = std::max(1, std::min(update.threads, most));
   if (scratch_.size() < static_cast<std::size_t>(threads)) scratch_.resize(threads);
   for (Scratch& scratch : scratch_) {
@@ -320,7 +322,7 @@ void ExplicitDynamics::finish(const Model& model, const StepLength& length,
   // Summed by blocks of a fixed length, which do not depend on the number of threads.
   const std::size_t blocks = (nodes.size() + tolerance::kNodesPerSum - 1) / tolerance::kNodesPerSum;
   std::vector<EnergyLedger> sums(blocks);
-  const bool many = model.triangles.size() >= 2 * tolerance::kElementsPerThread;
+  const bool many = model.triangles.size() >= 2 * elementsPerThread();
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1 && many)
   for (std::size_t block = 0; block < blocks; ++block) {
     const std::size_t begin = block * tolerance::kNodesPerSum;

@@ -40,7 +40,7 @@ void World::advance(double dt) {
   if (steps == 0) watch.begin(kineticEnergy() + yadefrag::strainEnergy(model, dt), ledger);
   drive(dt);
   sumOuterForces();
-  foreseeMotion(dt);
+  search.foreseeMotion(searchScene(), dt);
 
   // Internal forces, then v* and x*, as if there were no contact.
   predict(length);
@@ -53,8 +53,8 @@ void World::advance(double dt) {
   // Global search, only if a node left the halo of the last one: mostly a collider has searched, or
   // the last candidates still hold.
   if (canTouch()) {
-    measureMove(dt);
-    searchIfLeft(dt);
+    search.measureMove(searchScene(), dt);
+    search.searchIfLeft(searchScene(), dt);
     requireResolvedMotion(dt);
     // Local search and correction, from x*, v* to xⁿ⁺¹, vⁿ⁺½. Contact forces act at xⁿ.
     correctContact(length);
@@ -85,7 +85,7 @@ void World::conclude(double dt) {
   const bool split = crack();
   dropFragments(split);
 
-  if (canTouch()) foreseeSearch(dt);
+  if (canTouch()) search.foreseeSearch(searchScene(), dt);
 }
 
 void World::predict(const StepLength& length) {

@@ -47,9 +47,8 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   openJoints(fracture.addBody(model, id, spec.places));
   watch.join(energyOf(id, NodeId(first), lastDt));
   stableStep = 0;
-  search.nodes.clear();
+  search.forget();
   rebuild();
-  search.isVoid = true;
   return id;
 }
 
@@ -75,7 +74,7 @@ void World::removeBody(ComponentId component) {
 
 /// What a component that has left the model leaves behind.
 void World::takeOff(ComponentId component, std::span<const NodeId> renumbered) {
-  search.nodes.clear();
+  search.forget();
   places_.forget();
   for (std::size_t i = 0; i < renumbered.size(); ++i)
     if (renumbered[i] != NodeId::none()) reference[renumbered[i].value] = reference[i];
@@ -87,7 +86,6 @@ void World::takeOff(ComponentId component, std::span<const NodeId> renumbered) {
   forgetUnusedMotions();
   contact.reset();
   rebuild();
-  search.isVoid = true;
 }
 
 void World::setLoads(std::vector<Vec2> loads) {
@@ -125,14 +123,10 @@ void World::buildIfChanged() {
     dynamics_.reserve(room);
     contact.reserve(room);
   }
-  if (search.isVoid && canTouch()) watchAll();
-  if (canTouch()) apart_.takeFrom(model, search.nodes);
-  dynamics_.watchSpeed(canTouch() ? 0 : tolerance::kAnySpeed);
+  search.rebuild(searchScene());
   watchStrengths();
-  search_.reset();
   finest_ = finestSegment();
   droppedBelow_ = 0;
-  motion_.farthest = INFINITY;
   isBuilt_ = true;
 }
 

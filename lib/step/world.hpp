@@ -22,7 +22,7 @@
 #include "step/apart_bodies.hpp"
 #include "step/body_places.hpp"
 #include "step/energy_watch.hpp"
-#include "step/search_state.hpp"
+#include "step/halo_watch.hpp"
 #include "step/step_undo.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -156,7 +156,7 @@ class World {
   std::vector<Pressure> pressures;
   AbsorbingBoundary absorbing;
   Contact contact;
-  SearchState search;
+  HaloWatch search;
   Fracture fracture;
   EnergyLedger ledger;
   EnergyWatch watch;
@@ -195,20 +195,10 @@ class World {
   void buildIfChanged();
   void requireStableStep(double dt);
   void watchStrengths();
-  void foreseeMotion(double dt);
-  void watchAll();
-  void watchSpeed(double dt);
-  void watchApart();
-  void chooseWatched();
-  [[nodiscard]] double apartReach() const;
   void advance(double dt);
   void beginUndo();
-  void keepSearch();
   void takeBack();
   void conclude(double dt);
-  void searchIfLeft(double dt);
-  void searchNow(double dt);
-  void considerPairs(std::span<const BoxPair> overlapping, std::span<const Vec2> before);
   void requireBody(ComponentId component, const char* purpose) const;
   void requireApart(const TriangleMesh& mesh, const BodySpec& spec, const std::string& subject);
   [[nodiscard]] Vec2 rigidVelocity(NodeId node) const;
@@ -219,7 +209,6 @@ class World {
   void requireFiniteEnergy() const;
   void correctContact(const StepLength& length);
   void bookContact(const StepLength& length);
-  void foreseeSearch(double dt);
   void cohere(const StepLength& length);
   void bookFracture(const StepLength& length);
   void watchEnergy();
@@ -227,15 +216,11 @@ class World {
   bool crack();
   void dropFragments(bool split);
   void takeOut(std::span<const ElementId> triangles);
-  void forgetSurface();
   void openJoints(std::span<const EdgeId> joints);
   void followSplit();
-  void addCrackCandidates();
   [[nodiscard]] double finestSegment() const;
   [[nodiscard]] bool canTouch() const;
-  void measureMove(double dt);
-  [[nodiscard]] double wideHalo(double move) const;
-  [[nodiscard]] double fastest(SegmentId first) const;
+  [[nodiscard]] HaloWatch::Scene searchScene();
   void predict(const StepLength& length);
   void requireUpright(double dt);
   void finish(const StepLength& length);
@@ -243,8 +228,6 @@ class World {
   [[nodiscard]] StageTimes* timesIfAsked() { return timing ? &times : nullptr; }
 
   ExplicitDynamics dynamics_;
-  std::unique_ptr<ContactSearch> search_;
-  PassRule passRule_;
   SplitResult split_;
   LoosePieces loose_;
   BodyPlaces places_;
@@ -252,14 +235,9 @@ class World {
   std::vector<Vec2> allOuterForces_;  // N, by node, with pressures; empty without any
   std::vector<Vec2> surfaceForces_;   // N, by node, of contact and cohesion
   std::span<const Vec2> pushes_;      // N, the same or those of contact alone, of the present step
-  std::vector<BoxPair> overlapping_;
-  std::vector<SlaveMaster> pairs_;
-  std::vector<Box> boxes_;
   bool isBuilt_ =
       false;  // do the arrays below fit the model: many bodies join, then one step comes
   bool severalBodies_ = false;
-  MotionBounds motion_;
-  ApartBodies apart_;
   StepUndo undo_;
   double finest_ = 0;  // m, shortest stress-free segment: does not depend on the time of the search
   double droppedBelow_ = 0;  // m², no loose fragment is smaller; 0: unknown

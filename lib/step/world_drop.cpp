@@ -66,20 +66,8 @@ void World::takeOut(std::span<const ElementId> triangles) {
   fracture.cohesion.removeDropped(model.triangles, fracture.edges);
   surfaces.drop(nodes);
   contact.removeGone(surfaces);
-  forgetSurface();
+  search.forgetDropped(model);
   finest_ = finestSegment();
-}
-
-/// Nodes of dropped triangles are not looked after by searches any more.
-void World::forgetSurface() {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < search.nodes.size(); ++i) {
-    if (model.nodes.mass[search.nodes[i].value] == 0) continue;
-    search.nodes[kept] = search.nodes[i];
-    search.positions[kept++] = search.positions[i];
-  }
-  search.nodes.resize(kept);
-  search.positions.resize(kept);
 }
 
 }  // namespace yadefrag

@@ -19,19 +19,13 @@ Footprint World::footprint() const {
   sum.add(Use::kSurfaces, s.segmentNode, s.segmentNext, s.segmentPrev, s.segmentEntry,
           s.nodeSegment, s.entrySegment, s.piece, s.next, s.prev, s.loop, s.component);
   sum.add(Use::kSmooth, s.segmentSmooth);
-  sum.add(Use::kSearch, search.nodes, search.positions, undo_.search.nodes, undo_.search.positions,
-          overlapping_, pairs_, boxes_);
-  undo_.candidates.addTo(sum);
-  undo_.apart.addTo(sum);
+  search.addTo(sum);
   sum.add(Use::kFracture, split_.changed, split_.originals, split_.sides, split_.onSurface);
   sum.add(Use::kCohesion, surfaceForces_);
   dynamics_.addTo(sum);
   contact.addTo(sum);
   fracture.addTo(sum);
   loose_.addTo(sum);
-  apart_.addTo(sum);
-  passRule_.addTo(sum);
-  if (search_) search_->addTo(sum);
   return sum;
 }
 

@@ -53,33 +53,22 @@ void World::followSplit() {
   contact.resize(count);
   dynamics_.follow(model, split_.changed, split_.originals);
   const std::vector<EntryId> changed = relink(surfaces, split_.sides);
-  const auto appear = [&](NodeId node) {
-    search.nodes.push_back(node);
-    search.positions.push_back(model.nodes.position[node.value]);
-  };
+  const auto appear = [&](NodeId node) { search.appear(node, model.nodes.position[node.value]); };
   for (const NodeId node : split_.onSurface) appear(node);
   for (std::size_t n = count - split_.originals.size(); n < count; ++n) appear(NodeId(n));
   for (const SurfaceSide& side : split_.sides)
     if (side.segment == SegmentId::none())
       finest_ = std::min(finest_, norm(reference[side.last.value] - reference[side.first.value]));
-  addCrackCandidates();
+  // New faces, and all that came near them: what is within the halo of an old piece beside the
+  // crack now may be in that of a new one.
+  search.addCandidatesAround(searchScene(),
+                             entriesAround(surfaces, contact.candidates, split_.sides));
   std::vector<SlaveMaster> inherited;
   if (contactSettings.entry == Entry::kFlags)
     inherited = inheritFlags(contact.candidates, surfaces, split_.originals, count);
   else
     inheritTouches(contact.touches, surfaces, split_.originals, count);
   contact.allowOverlaps(surfaces, model.nodes.position, changed, inherited);
-}
-
-/// New faces, and all that came near them: what is within the halo of an old piece beside the crack
-/// now may be in that of a new one.
-void World::addCrackCandidates() {
-  pairs_.clear();
-  const std::vector<EntryId> around = entriesAround(surfaces, contact.candidates, split_.sides);
-  selectPairs(model, surfaces, passRule_, model.nodes.position, search.halo,
-              overlapsAmong(surfaces, model.nodes.position, around, search.halo), pairs_);
-  addCandidates(contact.candidates, pairs_, surfaces, model.nodes.position,
-                contactSettings.entry == Entry::kFlags);
 }
 
 }  // namespace yadefrag

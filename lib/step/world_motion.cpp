@@ -86,7 +86,7 @@ void World::requireBoundedMotion(double dt) {
 
 void World::requireResolvedMotion(double dt) {
   // Two nodes come nearer by twice the largest move at most.
-  if (2 * motion_.largest <= tolerance::kMostMotion * finest_) return;
+  if (2 * search.largestMove() <= tolerance::kMostMotion * finest_) return;
   const PieceGeometry before(surfaces, dynamics_.previousPosition()),
       now(surfaces, model.nodes.position), free(surfaces, reference);
   const Candidates& candidates = contact.candidates;

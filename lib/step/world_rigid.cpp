@@ -49,9 +49,8 @@ ComponentId World::addRigid(const RigidSpec& spec) {
     for (const std::uint32_t node : loop) nodes.emplace_back(first + node);
     surfaces.addLoop(nodes, std::vector<std::uint8_t>(nodes.size()), id);
   }
-  search.nodes.clear();
+  search.forget();
   rebuild();
-  search.isVoid = true;
   return id;
 }
 

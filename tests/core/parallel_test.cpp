@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/parallel.hpp"
+#include "core/threads_for_few.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -21,6 +22,15 @@ TEST(Parallel, PartsCoverTheRange) {
     EXPECT_EQ(parts, threads);
     EXPECT_EQ(seen, std::vector<int>(kCount, 1));
   }
+}
+
+TEST(Parallel, FewItemsRunOnThreadsIfTestsWantIt) {
+  const auto partsOfTen = [] { return forEachPart(10, 3, [](std::size_t, std::size_t, int) {}); };
+  {
+    const ThreadsForFew few(3);
+    EXPECT_EQ(partsOfTen(), 3);
+  }
+  EXPECT_EQ(partsOfTen(), 1);
 }
 
 // Memory may run out in any thread.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/same_bits.hpp"
+#include "core/threads_for_few.hpp"
 #include "fracture/overlaps.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
@@ -160,6 +161,7 @@ TEST(Impact, AFreeBlockKeepsTheMomentum) {
 }
 
 TEST(Impact, ThreadsDoNotChangeTheResult) {
+  const ThreadsForFew few;
   for (const double energy : {0., 500.}) {
     const Setting setting{.fractureEnergy = energy, .steps = 300, .every = 1000};
     Setting two = setting;

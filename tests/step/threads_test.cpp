@@ -8,6 +8,7 @@
 #include <random>
 
 #include "core/same_bits.hpp"
+#include "core/threads_for_few.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
 
@@ -107,6 +108,7 @@ TEST_P(Threads, DoNotChangeTheResult) {
   record("nodes", static_cast<double>(one.position.size()));
   record("most_actives", mostActives(one));
   ASSERT_GT(one.contact, 0);
+  const ThreadsForFew few;
   for (const int threads : {2, 3}) {
     SCOPED_TRACE(threads);
     expectSame(one, runWithThreads(threads, GetParam()));

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <random>
 
-#include "core/parallel.hpp"
 #include "core/same_bits.hpp"
+#include "core/threads_for_few.hpp"
 #include "search/contact_search.hpp"
 #include "step/bodies.hpp"
 
@@ -44,6 +44,7 @@ World impact(int threads) {
 }
 
 TEST(Races, NoneInABodyThatCracks) {
+  const ThreadsForFew few;
   World one = impact(1), many = impact(kThreads);
   const double dt = .3 * one.criticalTimeStep();
   for (int i = 0; i < 500; ++i) one.step(dt), many.step(dt);
@@ -52,6 +53,7 @@ TEST(Races, NoneInABodyThatCracks) {
 }
 
 TEST(Races, NoneInSearches) {
+  const ThreadsForFew few;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(0, 1);
   std::vector<Box> boxes(2000);
@@ -73,6 +75,7 @@ TEST(Races, NoneInSearches) {
 }
 
 TEST(Races, NoneWhereAThreadFails) {
+  const ThreadsForFew few;
   for (int round = 0; round < 20; ++round)
     EXPECT_THROW(
         forEachPart(1000, kThreads, [](std::size_t, std::size_t, int) { throw std::bad_alloc(); }),

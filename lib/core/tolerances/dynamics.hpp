@@ -29,8 +29,8 @@ inline constexpr std::size_t kChunkElements = 512;
 /// closely: the stress is that of the step before.
 inline constexpr double kStrengthLook = .9;
 
-/// (count) Fewer elements than this per thread are not worth two meetings of the threads a step.
-inline constexpr std::size_t kElementsPerThread = 4 * kMinItemsPerThread;
+/// (ratio) Elements of a thread's part, at least, to other items: the threads meet twice a step.
+inline constexpr std::size_t kElementsPerItem = 4;
 
 /// (count) Nodes whose works are summed in one go: sums do not depend on the number of threads.
 inline constexpr std::size_t kNodesPerSum = 2048;

@@ -1,0 +1,330 @@
+#include "step/halo_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/tolerances/contact.hpp"
+#include "core/tolerances/dynamics.hpp"
+#include "core/tolerances/step.hpp"
+#include "step/crack_candidates.hpp"
+#include "step/entry_pairs.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+double fastest(const Model& model, const ContactSurfaces& surfaces, SegmentId first) {
+  double most = 0;
+  for (const NodeId node : std::span(surfaces.segmentNode).subspan(first.value)) {
+    const Vec2 velocity = model.nodes.velocity[node.value];
+    most = std::max(most, dot(velocity, velocity));
+  }
+  return std::sqrt(most);
+}
+
+}  // namespace
+
+double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
+                       std::span<const Vec2> positions, SegmentId first) {
+  const bool anyRigid = std::ranges::any_of(model.components, &Component::rigid);
+  double least = INFINITY;
+  for (std::size_t s = first.value; s < surfaces.segments(); ++s) {
+    if (surfaces.isGone(SegmentId(s))) continue;
+    const ComponentId owner = surfaces.component[surfaces.segmentEntry[s].value];
+    if (anyRigid && model.components[owner.value].rigid) continue;
+    const NodeId a = surfaces.segmentNode[s];
+    const NodeId b = surfaces.segmentNode[surfaces.segmentNext[s].value];
+    const Vec2 along = positions[b.value] - positions[a.value];
+    least = std::min(least, dot(along, along));
+  }
+  return std::isfinite(least) ? std::sqrt(least) : 0;
+}
+
+void HaloWatch::rebuild(const Scene& scene) {
+  if (isVoid && scene.canTouch) watchAll(scene);
+  if (scene.canTouch) apart_.takeFrom(scene.model, nodes);
+  scene.dynamics.watchSpeed(scene.canTouch ? 0 : tolerance::kAnySpeed);
+  search_.reset();
+  motion_.farthest = INFINITY;
+}
+
+void HaloWatch::forget() {
+  nodes.clear();
+  positions.clear();
+  isVoid = true;
+}
+
+void HaloWatch::begin() {
+  former_.motion = motion_;
+  former_.spare = apart_.spare();
+  former_.hasSearched = former_.hasCandidates = false;
+  former_.candidates.clear();
+}
+
+/// Before the step chooses other nodes to watch, or other candidates.
+void HaloWatch::keep(const Scene& scene) {
+  if (former_.hasSearched) return;
+  former_.search = *this;
+  former_.apart = apart_;
+  former_.numSearches = scene.numSearches;
+  former_.hasSearched = true;
+}
+
+void HaloWatch::takeBack(const Scene& scene) {
+  if (former_.hasSearched && !former_.hasCandidates) search_.reset();  // it may have broken off
+  if (former_.hasCandidates) scene.contact.candidates = std::move(former_.candidates);
+  if (former_.hasSearched) {
+    std::swap(static_cast<SearchState&>(*this), former_.search);
+    std::swap(apart_, former_.apart);
+    scene.numSearches = former_.numSearches;
+  }
+  motion_ = former_.motion;
+  apart_.restoreSpare(former_.spare);
+}
+
+void HaloWatch::watchAll(const Scene& scene) {
+  nodes.clear();
+  for (const NodeId node : scene.surfaces.segmentNode)
+    if (scene.model.nodes.mass[node.value] > 0) nodes.push_back(node);
+  std::sort(nodes.begin(), nodes.end());
+}
+
+/// Before the step moves anything.
+void HaloWatch::foreseeMotion(const Scene& scene, double dt) {
+  if (!scene.canTouch) return;
+  const StageTimer timer(scene.times, &StageTimes::search);
+  const double most = scene.dynamics.speedLimit() * dt;
+  motion_.isQuiet = scene.contact.candidates.size() == 0 && !isDue && !isVoid &&
+                    !scene.holdsCracks && motion_.farthest + most <= halo / 2 &&
+                    most <= tolerance::kFarthestMove * scene.finest &&
+                    !(apart_.any() && apart_.spare() < 2 * most);
+}
+
+/// From x*. Where no node is faster than foreseen, a quiet step needs no look at the nodes.
+void HaloWatch::measureMove(const Scene& scene, double dt) {
+  const StageTimer timer(scene.times, &StageTimes::search);
+  if (scene.dynamics.anyFaster()) {
+    watchSpeed(scene, dt);
+    motion_.isQuiet = false;
+  } else {
+    motion_.most = scene.dynamics.speedLimit() * dt;
+  }
+  watchApart(scene);
+  if (motion_.isQuiet) {
+    motion_.largest = motion_.most;
+  } else {
+    double most = 0;
+    const std::span<const Vec2> before = scene.dynamics.previousPosition();
+    for (const NodeId node : nodes) {
+      const Vec2 moved = scene.model.nodes.position[node.value] - before[node.value];
+      most = std::max(most, dot(moved, moved));
+    }
+    motion_.largest = std::sqrt(most);
+  }
+  motion_.farthest += motion_.largest;
+}
+
+/// How fast all nodes are now, and what the next steps are to tell.
+void HaloWatch::watchSpeed(const Scene& scene, double dt) {
+  double most = 0;
+  for (const Vec2 velocity : scene.model.nodes.velocity)
+    most = std::max(most, dot(velocity, velocity));
+  most = std::sqrt(most);
+  motion_.most = most * dt;
+  scene.dynamics.watchSpeed(std::min(tolerance::kSpeedSpare * most, tolerance::kAnySpeed));
+}
+
+/// (m) No other body comes so near to one that is apart. Two bodies that meet in a step are not
+/// farther than twice its largest move at the end.
+double HaloWatch::apartReach() const {
+  return std::max(halo, tolerance::kApartMoves * motion_.most);
+}
+
+/// Bodies that are not apart any more are watched from this very step on.
+void HaloWatch::watchApart(const Scene& scene) {
+  if (!apart_.any()) return;
+  apart_.comeNearer(2 * motion_.most);
+  if (apart_.spare() >= 0) return;
+  apart_.look(scene.model, scene.surfaces, apartReach());
+  if (apart_.spare() >= 0) return;
+  keep(scene);
+  isDue = true;
+  chooseWatched(scene);
+}
+
+void HaloWatch::chooseWatched(const Scene& scene) {
+  if (!apart_.choose(scene.model, scene.surfaces, apartReach())) return;
+  watchAll(scene);
+  const std::vector<ComponentId>& bodies = scene.model.nodes.component;
+  std::erase_if(nodes, [&](NodeId node) { return apart_.isApart(bodies[node.value]); });
+  positions.clear();
+  isVoid = true;
+}
+
+/// May the next step leave the halo, or bring a body near one that was apart?
+void HaloWatch::foreseeSearch(const Scene& scene, double dt) {
+  if (isDue) return;
+  const StageTimer timer(scene.times, &StageTimes::search);
+  if (apart_.any() && apart_.spare() < 2 * scene.dynamics.speedLimit() * dt) {
+    watchSpeed(scene, dt);
+    apart_.look(scene.model, scene.surfaces, apartReach());
+    isDue = apart_.spare() < 2 * scene.dynamics.speedLimit() * dt;
+    if (isDue) return;
+  }
+  const double most = motion_.largest + scene.contact.largestCorrection();
+  if (motion_.farthest + tolerance::kHaloSpare * most <= halo / 2) return;
+  double farthest = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::uint32_t node = nodes[i].value;
+    const double moved = norm(scene.model.nodes.position[node] - positions[i]);
+    farthest = std::max(farthest, moved);
+    const double next = tolerance::kHaloSpare * norm(scene.model.nodes.velocity[node]) * dt;
+    if (moved + next > halo / 2) {
+      isDue = true;
+      return;
+    }
+  }
+  motion_.farthest = farthest;
+}
+
+Box HaloWatch::boxOf(const Model& model, const ContactSurfaces& surfaces, EntryId entry) const {
+  if (surfaces.isGone(entry)) return Box::absent();
+  return entryBox(surfaces, model.nodes.position, entry, halo);
+}
+
+/// (m) δ for the next kHaloSteps steps of `move` (m), at most half the shortest segment (§4.1), or
+/// as set; only bodies so fast that they would leave it at once get a wider one.
+double HaloWatch::wideHalo(const ContactSettings& settings, double move) const {
+  const double wanted = settings.halo > 0 ? settings.halo * shortest
+                                          : std::clamp(tolerance::kHaloSteps * move,
+                                                       tolerance::kNarrowestHalo * shortest,
+                                                       tolerance::kWidestHalo * shortest);
+  return std::max(wanted, 2 * move);
+}
+
+void HaloWatch::chooseHalo(const Scene& scene, double dt, SegmentId first) {
+  const double least =
+      shortestSegment(scene.model, scene.surfaces, scene.model.nodes.position, first);
+  shortest = first.value == 0 ? least : std::min(shortest, least);
+  motion_.fastest = first.value == 0
+                        ? fastest(scene.model, scene.surfaces, first)
+                        : std::max(motion_.fastest, fastest(scene.model, scene.surfaces, first));
+  const double fast = wideHalo(scene.settings, 2 * tolerance::kHaloSpare * motion_.fastest * dt);
+  // A step that needs more is refused; until then not all pairs shall become candidates.
+  const double most = 4 * tolerance::kHaloSpare * tolerance::kFarthestMove * shortest;
+  halo = std::min(fast, most);
+}
+
+void HaloWatch::takePairs(const Scene& scene, std::span<const BoxPair> overlapping, double lastDt) {
+  if (!scene.canTouch) {
+    isDue = isVoid = false;
+    return;
+  }
+  watchSpeed(scene, lastDt);
+  chooseWatched(scene);
+  considerPairs(scene, overlapping, scene.model.nodes.position);
+}
+
+/// `before`: m, by node, at the end of the last step.
+void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overlapping,
+                              std::span<const Vec2> before) {
+  passRule_.update(scene.surfaces, scene.reference, scene.settings.passes, scene.hasRigid);
+  pairs_.clear();
+  selectPairs(scene.model, scene.surfaces, passRule_, scene.model.nodes.position, halo, overlapping,
+              pairs_);
+  former_.candidates = replaceCandidates(scene.contact.candidates, pairs_, scene.surfaces, before,
+                                         scene.settings.entry == Entry::kFlags);
+  former_.hasCandidates = true;
+  positions.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    positions[i] = scene.model.nodes.position[nodes[i].value];
+  motion_.farthest = 0;
+  isDue = isVoid = false;
+  ++scene.numSearches;
+  // Where all nodes are watched in every step, no bound on their speed is needed.
+  if (!apart_.any() && scene.contact.candidates.size() > 0)
+    scene.dynamics.watchSpeed(tolerance::kAnySpeed);
+}
+
+/// Nothing is missed: whatever was foreseen, x* itself decides.
+void HaloWatch::searchIfLeft(const Scene& scene, double dt) {
+  const StageTimer timer(scene.times, &StageTimes::search);
+  if (isDue || isVoid) return searchNow(scene, dt);
+  if (motion_.farthest <= halo / 2) return;
+  double most = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec2 moved = scene.model.nodes.position[nodes[i].value] - positions[i];
+    most = std::max(most, dot(moved, moved));
+  }
+  motion_.farthest = std::sqrt(most);
+  if (!(motion_.farthest <= halo / 2)) searchNow(scene, dt);
+}
+
+/// The world's own search, at x*: all boxes but of bodies that are apart, position codes moved,
+/// pairs.
+void HaloWatch::searchNow(const Scene& scene, double dt) {
+  keep(scene);
+  // As wide as the collider's would be, and at least as wide as this step's own motion.
+  if (apart_.any()) {
+    chooseHalo(scene, dt);
+  } else {
+    shortest = shortestSegment(scene.model, scene.surfaces, scene.model.nodes.position);
+    halo = wideHalo(scene.settings, 2 * tolerance::kHaloSpare * motion_.largest);
+  }
+  watchSpeed(scene, dt);
+  chooseWatched(scene);
+  if (!search_) search_ = makeSearch(SearchMethod::kLebesgue);
+  boxes_.resize(scene.surfaces.entries());
+  for (std::size_t e = 0; e < boxes_.size(); ++e)
+    boxes_[e] = apart_.isApart(scene.surfaces.component[e])
+                    ? Box::absent()
+                    : boxOf(scene.model, scene.surfaces, EntryId(e));
+  search_->setThreads(scene.threads);
+  search_->update(boxes_);
+  overlapping_.clear();
+  search_->findPairs(overlapping_);
+  considerPairs(scene, overlapping_, scene.dynamics.previousPosition());
+}
+
+void HaloWatch::addCorrection(double most) {
+  motion_.farthest += most;
+  apart_.comeNearer(2 * most);
+}
+
+void HaloWatch::appear(NodeId node, Vec2 place) {
+  nodes.push_back(node);
+  positions.push_back(place);
+}
+
+void HaloWatch::forgetDropped(const Model& model) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (model.nodes.mass[nodes[i].value] == 0) continue;
+    nodes[kept] = nodes[i];
+    positions[kept++] = positions[i];
+  }
+  nodes.resize(kept);
+  positions.resize(kept);
+}
+
+void HaloWatch::addCandidatesAround(const Scene& scene, std::span<const EntryId> around) {
+  const std::vector<Vec2>& places = scene.model.nodes.position;
+  pairs_.clear();
+  selectPairs(scene.model, scene.surfaces, passRule_, places, halo,
+              overlapsAmong(scene.surfaces, places, around, halo), pairs_);
+  addCandidates(scene.contact.candidates, pairs_, scene.surfaces, places,
+                scene.settings.entry == Entry::kFlags);
+}
+
+void HaloWatch::addTo(Footprint& footprint) const {
+  footprint.add(Use::kSearch, nodes, positions, former_.search.nodes, former_.search.positions,
+                overlapping_, pairs_, boxes_);
+  former_.candidates.addTo(footprint);
+  former_.apart.addTo(footprint);
+  apart_.addTo(footprint);
+  passRule_.addTo(footprint);
+  if (search_) search_->addTo(footprint);
+}
+
+}  // namespace yadefrag
