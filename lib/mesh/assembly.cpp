@@ -121,8 +121,14 @@ std::vector<NodeId> removeBody(Model& model, ComponentId component) {
   removeTriangles(model, model.components[component.value]);
   removeMaterials(model, model.components[component.value]);
   model.components[component.value].name.clear();
+  std::vector<std::uint8_t> gone(model.components.size());
+  gone[component.value] = 1;
+  return removeNodes(model, gone);
+}
+
+std::vector<NodeId> removeNodes(Model& model, const std::vector<std::uint8_t>& gone) {
   Nodes& nodes = model.nodes;
-  const auto stays = [&](std::size_t n) { return nodes.component[n] != component; };
+  const auto stays = [&](std::size_t n) { return gone[nodes.component[n].value] == 0; };
   std::vector<NodeId> renumbered(nodes.size(), NodeId::none());
   std::size_t kept = 0;
   for (std::size_t n = 0; n < nodes.size(); ++n)

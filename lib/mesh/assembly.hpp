@@ -20,6 +20,9 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
 /// components their ids. Returns the new number of each old node, none() for those that are gone.
 std::vector<NodeId> removeBody(Model& model, ComponentId component);
 
+/// The nodes alone, of all components that are `gone` (by component).
+std::vector<NodeId> removeNodes(Model& model, const std::vector<std::uint8_t>& gone);
+
 /// Sets the mass of every node: a third of ρ·area·thickness of each of its triangles.
 void lumpMasses(Model& model);
 

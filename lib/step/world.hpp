@@ -72,7 +72,11 @@ class World {
   void removeBody(ComponentId component);
   /// InputError before anything is changed where it overlaps a body.
   ComponentId addRigid(const RigidSpec& spec);
-  void removeRigid(ComponentId component);
+  /// Takes all rigid boundaries out and these in. `former`: by place in `rigidNodes` after that,
+  /// the place before of the corner that it stands for, `kNoCorner` for a new one; what touched the
+  /// side that begins there still does. InputError as above: there is no boundary then.
+  void replaceRigid(std::span<const RigidSpec> specs, std::span<const std::uint32_t> former);
+  static constexpr std::uint32_t kNoCorner = ~std::uint32_t{0};
   /// Of all rigid boundaries, ascending.
   [[nodiscard]] const std::vector<NodeId>& rigidNodes() const { return rigidNodes_; }
   [[nodiscard]] bool hasRigid() const { return !rigidNodes_.empty(); }
@@ -182,7 +186,7 @@ class World {
  private:
   [[nodiscard]] std::vector<SegmentId> segmentsAmong(std::span<const NodeId> nodes) const;
   void forgetUnusedPressures();
-  void takeLoadsOff(ComponentId gone);
+  void takeLoadsOff(const std::vector<std::uint8_t>& gone);
   void sumOuterForces();
   [[nodiscard]] const std::vector<Vec2>& allOuterForces() const {
     return pressures.empty() ? outerForces : allOuterForces_;
@@ -213,7 +217,11 @@ class World {
   void requireApart(const TriangleMesh& mesh, const BodySpec& spec, const std::string& subject);
   [[nodiscard]] Vec2 rigidVelocity(NodeId node) const;
   std::uint32_t rigidMotion();
-  void takeOff(ComponentId component, std::span<const NodeId> renumbered);
+  std::vector<EntryId> takeOff(const std::vector<std::uint8_t>& gone,
+                               std::span<const NodeId> renumbered);
+  ComponentId appendRigid(const RigidSpec& spec);
+  std::vector<EntryId> removeAllRigid();
+  [[nodiscard]] std::vector<std::uint32_t> rigidEntries() const;
   void requireBoundedMotion(double dt);
   void requireResolvedMotion(double dt);
   void requireFiniteEnergy() const;

@@ -53,11 +53,12 @@ void World::forgetUnusedPressures() {
 }
 
 /// Before the component leaves the surfaces: segments behind its own get lower numbers.
-void World::takeLoadsOff(ComponentId gone) {
+void World::takeLoadsOff(const std::vector<std::uint8_t>& gone) {
   std::vector<SegmentId> numbers(surfaces.segments(), SegmentId::none());
   std::size_t kept = 0;
   for (std::size_t s = 0; s < numbers.size(); ++s)
-    if (surfaces.component[surfaces.segmentEntry[s].value] != gone) numbers[s] = SegmentId(kept++);
+    if (gone[surfaces.component[surfaces.segmentEntry[s].value].value] == 0)
+      numbers[s] = SegmentId(kept++);
   const auto renumber = [&](std::vector<SegmentId>& segments) {
     for (SegmentId& segment : segments) segment = numbers[segment.value];
     std::erase(segments, SegmentId::none());

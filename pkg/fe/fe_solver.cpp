@@ -118,14 +118,16 @@ void FESolver::tell(std::vector<std::string> sentences) {
 
 /// YADE's walls, boxes and facets that the bodies touch.
 void FESolver::followRigid(bool enginesAreNew) {
+  bool areNew = false;
   try {
-    rigid_.follow(*scene, world_, bodies_, rigidBodies);
+    areNew = rigid_.follow(*scene, world_, bodies_, rigidBodies, timeToIntegrate());
   } catch (const InputError& error) {
     throw std::invalid_argument(std::string(error.what()) +
                                 " FESolver(rigidBodies=False) lets bodies go through it.");
   }
   tell(rigid_.takeSentences());
-  if (enginesAreNew && rigid_.anyMovable(*scene)) EngineOrder::requireReturn(*scene, *this);
+  if ((enginesAreNew || areNew) && rigid_.anyMovable(*scene))
+    EngineOrder::requireReturn(*scene, *this);
 }
 
 /// New faces get bodies, those of dropped fragments lose theirs. Among themselves and with the rest

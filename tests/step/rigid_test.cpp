@@ -140,9 +140,9 @@ TEST(Rigid, OverlapIsRefusedAndNothingChanges) {
   EXPECT_THROW(world.addBody(below, block(below, {})), InputError);
   const TriangleMesh beside = square({0, -.1});
   EXPECT_EQ(world.addBody(beside, block(beside, {})).value, 3);
-  world.removeRigid(ComponentId(2));
+  world.replaceRigid(std::vector{line({-1, 0}, {1, 0})}, std::vector{0U, 1U});
   EXPECT_EQ(world.rigidNodes().size(), 2);
-  world.removeRigid(ComponentId(1));
+  world.replaceRigid({}, {});
   EXPECT_FALSE(world.hasRigid());
   world.step(.5 * world.criticalTimeStep());
 }
