@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/errors.hpp"
+#include "mesh/initial_stress.hpp"
 
 namespace yadefrag {
 namespace {
@@ -86,7 +87,8 @@ void checkTriangles(const TriangleMesh& mesh) {
 }
 
 ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component,
-                       const MaterialPlaces& materials) {
+                       const MaterialPlaces& materials,
+                       std::span<const std::array<double, 3>> stress) {
   checkTriangles(mesh);
   const ComponentId id(model.components.size());
   Nodes& nodes = model.nodes;
@@ -113,6 +115,10 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
   triangles.component.resize(triangles.size(), id);
   appendMaterials(model, materials, added);
   model.components.push_back(added);
+  for (std::size_t t = 0; t < stress.size(); ++t) {
+    const ElementId element(added.firstTriangle + t);
+    stretch(triangles, element, stretchOf(model.materialOf(element).material, stress[t]).value());
+  }
   addMasses(model, added);
   return id;
 }

@@ -28,7 +28,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   component.selfContact = spec.selfContact || component.brittle.cracks();
   component.element = spec.element;
   const std::size_t first = model.nodes.size();
-  const ComponentId id = appendBody(model, mesh, component, spec.materials);
+  const ComponentId id = appendBody(model, mesh, component, spec.materials, spec.stress);
   reference.insert(reference.end(), mesh.nodes.begin(), mesh.nodes.end());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (!spec.displacement.empty()) model.nodes.position[first + i] += spec.displacement[i];
@@ -117,6 +117,7 @@ void World::buildIfChanged() {
   if (isBuilt_) return;
   places_.forget();
   dynamics_.rebuild(model);
+  absorbing.findTriangles(model, surfaces);
   reactions.clear();
   const auto& owners = surfaces.component;
   severalBodies_ =

@@ -23,26 +23,27 @@ std::vector<SegmentId> World::segmentsAmong(std::span<const NodeId> nodes) const
   return segments;
 }
 
-void World::setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function) {
+void World::setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function,
+                        bool intoCracks) {
   std::vector<SegmentId> segments = segmentsAmong(nodes);
   if (!value.times().empty() && !TimeTable::isRight(value.times(), value.values()))
     throw InputError("The times of a pressure must ascend, and its values be finite.");
   // In place of what was there.
   for (Pressure& other : pressures)
     std::erase_if(other.segments, [&](SegmentId s) { return std::ranges::count(segments, s) > 0; });
-  pressures.push_back({std::move(segments), std::move(value), function});
+  const auto firstNew = static_cast<std::uint32_t>(surfaces.segments());
+  pressures.push_back(
+      {std::move(segments), std::move(value), function, intoCracks ? firstNew : Pressure::kNever});
   forgetUnusedPressures();
 }
 
 void World::setAbsorbing(std::span<const NodeId> nodes) {
   std::vector<SegmentId> segments = segmentsAmong(nodes);
-  for (const SegmentId s : segments)
-    if (model.components[surfaces.component[surfaces.segmentEntry[s.value].value].value].isMixed())
-      throw InputError("A body of several materials cannot let waves out.");
   segments.insert(segments.end(), absorbing.segments.begin(), absorbing.segments.end());
   std::ranges::sort(segments);
   segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
   absorbing.segments = std::move(segments);
+  absorbing.findTriangles(model, surfaces);
 }
 
 /// Those on nothing, or of 0 for ever.
@@ -63,9 +64,20 @@ void World::takeLoadsOff(const std::vector<std::uint8_t>& gone) {
     for (SegmentId& segment : segments) segment = numbers[segment.value];
     std::erase(segments, SegmentId::none());
   };
-  for (Pressure& pressure : pressures) renumber(pressure.segments);
+  for (Pressure& pressure : pressures) {
+    renumber(pressure.segments);
+    if (pressure.firstNew != Pressure::kNever)
+      pressure.firstNew -= static_cast<std::uint32_t>(
+          std::count(numbers.begin(), numbers.begin() + pressure.firstNew, SegmentId::none()));
+  }
   renumber(absorbing.segments);
   forgetUnusedPressures();
+}
+
+/// After cracks have opened.
+void World::spreadPressures() {
+  for (Pressure& pressure : pressures)
+    if (pressure.firstNew != Pressure::kNever) spread(pressure, surfaces);
 }
 
 /// Outer forces and pressures together.

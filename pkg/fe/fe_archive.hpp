@@ -276,6 +276,7 @@ class WorldArchive {
     for (Pressure& one : world.pressures) {
       column<std::uint32_t>("pressureSegments", one.segments);
       value("pressureFunction", one.function);
+      value("pressureFirstNew", one.firstNew);
       table("pressure", one.value);
     }
     column<std::uint32_t>("absorbing", world.absorbing.segments);
