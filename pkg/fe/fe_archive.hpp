@@ -108,6 +108,7 @@ class WorldArchive {
     value("expectedEnergy", watch.expected), value("goneEnergy", watch.gone);
     value("mostEnergy", watch.most);
     value("watchedContact", watch.contact), value("watchedFriction", watch.friction);
+    value("watchedSplit", watch.split);
     value("lookedCreated", watch.lookedCreated), value("lookedGrown", watch.lookedGrown);
     value("toldCreated", watch.toldCreated), value("toldGrown", watch.toldGrown);
     value("toldDepth", watch.toldDepth), value("lastStep", watch.lastStep);

@@ -36,9 +36,7 @@ struct Extent {
 };
 
 /// (m) What is elsewhere by more is new there.
-double farthestOf(const World& world) {
-  return tolerance::kMostMotion * world.search.shortest;
-}
+double farthestOf(const World& world) { return tolerance::kMostMotion * world.search.shortest; }
 
 double frictionOf(const yade::Body& body) {
   const auto* material = dynamic_cast<const yade::FrictMat*>(body.material.get());
@@ -294,6 +292,19 @@ void RigidBodies::giveVelocities(World& world, double stepDt, double dt) const {
     const Vec2 from = world.model.nodes.position[world.rigidNodes()[i].value];
     const RigidPose pose(*members_[corners_[i].member].body, dt);
     world.rigidVelocities.push_back(1 / stepDt * (inPlane(pose.place(corners_[i].place)) - from));
+  }
+  if (dt == 0) warnOfUnmoved();
+}
+
+/// A script that sets velocities means bodies to move.
+void RigidBodies::warnOfUnmoved() const {
+  for (const RigidCorner& corner : corners_) {
+    const yade::Body& body = *members_[corner.member].body;
+    if (body.state->vel.isZero(0) && body.state->angVel.isZero(0)) continue;
+    sentences_.push_back(body.shape->getClassName() + " #" + std::to_string(body.id) +
+                         " has a velocity, but no NewtonIntegrator behind FESolver moves it: "
+                         "engines(fe, moving=True) has one.");
+    return;
   }
 }
 

@@ -68,6 +68,7 @@ class RigidBodies {
   void addCorners(const RigidOutline& outline, const std::vector<std::uint32_t>& memberOf);
   void takeOut(yade::Scene& scene, World& world, EntryBodies& entries);
   [[nodiscard]] bool slideWalls(World& world);
+  void warnOfUnmoved() const;
   void warnOfLight(const yade::Scene& scene, const World& world) const;
 
   std::vector<Member> members_;

@@ -243,3 +243,22 @@ def test_whatComesAndGoesElsewhereDisturbsNoContact(way):
             O.step()
         ends.append(solver.nodes)
     assert np.abs(ends[0] - ends[1]).max() < 1e-11
+
+
+def test_velocityThatNothingIntegratesIsTold():
+    solver = fe()
+    block(solver, (.001, 0))
+    box = O.bodies[O.bodies.append(utils.box((-.1, .05, 0), (.1, .03, 1), fixed=True))]
+    O.engines = yadefrag.engines(solver)
+    O.dt = .8 * solver.criticalTimeStep()
+    steps(3)
+    assert solver.warnings == []
+    box.state.vel = (.5, 0, 0)
+    steps(3)
+    assert solver.warnings == ['Box #%d has a velocity, but no NewtonIntegrator behind FESolver moves it: '
+                               'engines(fe, moving=True) has one.' % box.id]
+    O.engines = yadefrag.engines(solver, moving=True)
+    O.step()
+    place = box.state.pos[0]
+    O.step()
+    assert box.state.pos[0] - place == pytest.approx(.5 * O.dt) and len(solver.warnings) == 1
