@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 from yade import utils
-from yade.minieigenHP import Quaternion
+from yade.minieigenHP import Quaternion, Vector3
 from yadefrag import *
 
 R, LEAN, SPEED, STRENGTH = .02, -.2, 1., 5e6  # m, rad, m/s, Pa
@@ -16,8 +16,7 @@ folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(s
 O.materials.append(FrictMat(young=50e9, poisson=.3, density=7800, frictionAngle=.3, label='steel'))
 # With shearEnergyFactor = shearFactor² the zones of cracks that slide and that open are equally long: 8 mm.
 O.materials.append(BrittleFEMat(young=10e9, poisson=.2, density=2500, tensileStrength=STRENGTH, fractureEnergy=20,
-                                shearFactor=3, shearEnergyFactor=9, frictionAngle=.6, strengthScatter=.1,
-                                label='stone'))
+                                shearFactor=3, shearEnergyFactor=9, frictionAngle=.6, strengthScatter=.1, label='stone'))
 fe = FESolver()
 fe.addPolygon(circle((0, 0), R, 48), size=1.6e-3, material='stone', name='pebble')
 
@@ -50,6 +49,9 @@ import matplotlib.figure  # noqa: E402
 figure = matplotlib.figure.Figure(figsize=(11, 5), layout='constrained')
 body, curve = figure.subplots(1, 2)
 plotMesh(fe, 'fragment', ax=body)
+for state in (O.bodies[number].state for number in (still, moving)):
+    ends = [state.pos + state.ori * Vector3(x, y, 0) for x, y in rectangle((-.005, -.045), (.005, .045))]
+    body.fill(*zip(*[(x, y) for x, y, _ in ends]), color='.8')
 curve.plot(1e6 * times, 1e-3 * left, label='still jaw')
 curve.plot(1e6 * times, 1e-3 * right, label='moving jaw')
 curve.set(xlabel='time (µs)', ylabel='force (kN per m of thickness)')

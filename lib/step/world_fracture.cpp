@@ -35,6 +35,7 @@ bool World::crack() {
     followSplit();
   }
   fracture.cohere(model, reference);
+  spreadPressures();
   return opened;
 }
 
@@ -71,7 +72,6 @@ void World::followSplit() {
   else
     inheritTouches(contact.touches, surfaces, split_.originals, count);
   contact.allowOverlaps(surfaces, model.nodes.position, changed, inherited);
-  spreadPressures();
 }
 
 /// New faces, and all that came near them: what is within the halo of an old piece beside the crack

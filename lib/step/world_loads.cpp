@@ -74,10 +74,28 @@ void World::takeLoadsOff(const std::vector<std::uint8_t>& gone) {
   forgetUnusedPressures();
 }
 
-/// After cracks have opened.
+/// After cracks have opened or let go. Faces that cohesion still holds have no pressure.
 void World::spreadPressures() {
-  for (Pressure& pressure : pressures)
-    if (pressure.firstNew != Pressure::kNever) spread(pressure, surfaces);
+  const auto spreads = [](const Pressure& p) { return p.firstNew != Pressure::kNever; };
+  if (std::ranges::none_of(pressures, spreads)) return;
+  std::vector<bool> isHeld(surfaces.segments());
+  for (const EdgeId edge : fracture.cohesion.edge)
+    for (const int which : {0, 1}) {
+      const Side side = fracture.edges.side(edge, which);
+      const std::uint32_t first = firstNode(model, side).value;
+      if (first >= surfaces.nodeSegment.size()) continue;
+      const SegmentId segment = surfaces.nodeSegment[first];
+      if (segment == SegmentId::none()) continue;
+      const SegmentId next = surfaces.segmentNext[segment.value];
+      isHeld[segment.value] = surfaces.segmentNode[next.value] == lastNode(model, side);
+    }
+  for (Pressure& pressure : pressures) {
+    if (!spreads(pressure)) continue;
+    spread(pressure, surfaces);
+    std::erase_if(pressure.segments, [&](SegmentId segment) {
+      return segment.value >= pressure.firstNew && isHeld[segment.value];
+    });
+  }
 }
 
 /// Outer forces and pressures together.

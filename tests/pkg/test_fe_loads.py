@@ -253,6 +253,29 @@ def test_pressureComesIntoCracksWhereAskedFor(intoCracks, folder):
     assert solver.nodes.tobytes() == places
 
 
+def test_pressureWaitsUntilCracksLetGo():
+    """As long as a fractureEnergy holds the halves together, there is none between them."""
+    ends = []
+    for intoCracks in (False, True):
+        O.reset()
+        O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e4, fractureEnergy=50, label='b'))
+        solver = w.FESolver()
+        solver.addPolygon(yadefrag.rectangle((0, 0), (1, .4)), size=.05, material='b', joints=[((.5, 0), (.5, .4))],
+                          jointStrength=1e3, jointEnergy=5, velocity=lambda x, y: (.2 if x > .5 else -.2 if x < .5 else 0, 0))
+        run(solver, factor=.5)
+        solver.pressure(lambda x, y: y < 1e-9, 50., intoCracks=intoCracks)
+        while solver.numCracks < 8:
+            O.step()
+        held = [solver.nodes]
+        assert len(solver.fragments(held=True)) == 1
+        while len(solver.fragments(held=True)) == 1:
+            O.step()
+        steps(100)
+        ends.append((held[0], solver.nodes))
+    assert (ends[0][0] == ends[1][0]).all()
+    assert np.ptp(ends[1][1][:, 0]) > np.ptp(ends[0][1][:, 0]) + 1e-6
+
+
 def test_pressureStaysOutOfCracksThatDoNotReachIt():
     """Of a crack within a body, and on the far side of one that pressure has not come to."""
     O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e5, label='b'))

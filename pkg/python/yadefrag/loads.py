@@ -43,7 +43,7 @@ def pressure(self, nodes, p, intoCracks=False):
            outside, or a function (t) → Pa; the times are fe.time. 0 ends it
     intoCracks  False: new faces of cracks have none; True: it acts, in full, on faces of cracks that
            open after this call, too, from the moment on in which they hang together with a side that
-           has it: the gas of a blast. Of cracks that a fractureEnergy still holds both faces have it
+           has it and no fractureEnergy holds them any more: the gas of a blast
     It is along the present normal, on the present length, half at both ends of a side: it turns with
     the surface, and follows it where nodes split. A later pressure on
     the same side takes the place of an earlier one. Its work is in `energy['external']`. A saved scene
