@@ -61,7 +61,7 @@ TEST(InitialStress, WhatNoStretchGivesIsRefused) {
   EXPECT_TRUE(stretchOf(material, {4e8, 0, 0}));
   for (const std::array<double, 3> stress :
        {std::array{2e9, 0., 0.}, std::array{-1e10, -1e10, 0.}, std::array{0., 0., 1e9},
-        std::array{NAN, 0., 0.}, std::array{0., INFINITY, 0.}})
+        std::array<double, 3>{NAN, 0., 0.}, std::array<double, 3>{0., INFINITY, 0.}})
     EXPECT_FALSE(stretchOf(material, stress)) << stress[0] << " " << stress[1];
 }
 
