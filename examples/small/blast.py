@@ -11,7 +11,8 @@ from yadefrag import *
 A, B, E, NU, LITTLE = .02, .2, 30e9, .2, 1e5  # m, m, Pa, -, Pa
 
 O.materials.append(BrittleFEMat(young=E, poisson=NU, density=2500, tensileStrength=8e6, fractureEnergy=60,
-                                shearFactor=3, frictionAngle=.6, strengthScatter=.1, planeStress=True, label='rock'))
+                                shearFactor=3, shearEnergyFactor=9, frictionAngle=.6, strengthScatter=.1,
+                                planeStress=True, label='rock'))
 fe = FESolver()
 size = lambda x, y: max(2e-3, .06 * np.hypot(x, y))
 fe.addPolygon(*ring((0, 0), A, B, 64), size=size, material='rock', name='rock')

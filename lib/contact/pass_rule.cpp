@@ -10,15 +10,16 @@ namespace yadefrag {
 
 namespace {
 
-/// Does the boundary turn left by more than the tolerated angle where the entry begins.
-bool isSharp(const ContactSurfaces& surfaces, const PieceGeometry& geometry, EntryId entry) {
+/// Does the boundary turn left by more than an angle (rad) where the entry begins.
+bool isSharp(const ContactSurfaces& surfaces, const PieceGeometry& geometry, EntryId entry,
+             double angle) {
   const EntryId former = surfaces.prev[entry.value];
   if (surfaces.piece[entry.value] == Piece::kArc || surfaces.piece[former.value] == Piece::kArc)
     return false;
   const Vec2 in = geometry.tangent(former, 1);
   const Vec2 out = geometry.tangent(entry, 0);
   if (dot(in, out) < tolerance::kFolded * norm(in) * norm(out)) return true;
-  return std::atan2(cross(in, out), dot(in, out)) > tolerance::kSharpCorner;
+  return std::atan2(cross(in, out), dot(in, out)) > angle;
 }
 
 }  // namespace
@@ -28,6 +29,8 @@ void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> ref
   passes_ = passes;
   anyRigid_ = anyRigid;
   if (passes == 2 && !anyRigid) return;
+  // With two passes only corners of rigid boundaries are looked up.
+  const double angle = passes == 2 ? tolerance::kLineCorner : tolerance::kSharpCorner;
   const PieceGeometry geometry(surfaces, reference);
   const std::size_t count = surfaces.entries();
   std::uint32_t loops = 0;
@@ -39,7 +42,7 @@ void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> ref
     const EntryId entry(e);
     fineness_[surfaces.loop[e]] += geometry.length(entry);
     pieces[surfaces.loop[e]] += 1;
-    sharp_[e] = isSharp(surfaces, geometry, entry) ? 1 : 0;
+    sharp_[e] = isSharp(surfaces, geometry, entry, angle) ? 1 : 0;
   }
   // Compared with a tolerance by rounding: equal meshes at different places are equally fine.
   for (std::uint32_t l = 0; l < loops; ++l)

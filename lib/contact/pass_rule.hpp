@@ -16,7 +16,8 @@ namespace yadefrag {
 /// one surface, with bodies that crack, and in a double pass, every point is a slave: a crack makes
 /// corners and surfaces. Roles chosen anew at cracks were tried: candidates that were there kept
 /// the old ones until the next search, so that results depended on when that was.
-/// All points are slaves of rigid boundaries, of which the sharp corners are slaves only.
+/// All points are slaves of rigid boundaries. Of these the sharp corners are slaves only, in a
+/// double pass all convex ones.
 class PassRule {
  public:
   /// `reference`: m, stress-free, by node, so that no motion changes a role.
@@ -52,7 +53,7 @@ class PassRule {
   int passes_ = 1;
   bool anyRigid_ = false;
   std::vector<double> fineness_;     ///< m, mean length of a loop's pieces
-  std::vector<std::uint8_t> sharp_;  ///< by entry: is its sampling point a sharp convex corner
+  std::vector<std::uint8_t> sharp_;  ///< by entry: is its sampling point such a corner
 };
 
 }  // namespace yadefrag

@@ -33,17 +33,49 @@ void addPressure(const Model& model, const ContactSurfaces& surfaces,
   }
 }
 
+void spread(Pressure& pressure, const ContactSurfaces& surfaces) {
+  std::vector<bool> has(surfaces.segments());
+  for (const SegmentId s : pressure.segments) has[s.value] = true;
+  // What joins is looked at in its turn.
+  for (std::size_t i = 0; i < pressure.segments.size(); ++i)
+    for (const auto* links : {&surfaces.segmentNext, &surfaces.segmentPrev}) {
+      const SegmentId other = (*links)[pressure.segments[i].value];
+      if (other.value < pressure.firstNew || has[other.value] || surfaces.isGone(other)) continue;
+      has[other.value] = true;
+      pressure.segments.push_back(other);
+    }
+}
+
+/// A segment's triangle stays the same when nodes split.
+void AbsorbingBoundary::findTriangles(const Model& model, const ContactSurfaces& surfaces) {
+  behind_.clear();
+  const auto isMixed = [&](SegmentId s) { return bodyOf(model, surfaces, s).isMixed(); };
+  if (std::ranges::none_of(segments, isMixed)) return;
+  std::vector<ElementId> of(surfaces.segments(), ElementId::none());
+  for (std::size_t e = 0; e < model.triangles.size(); ++e)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& nodes = model.triangles.nodes[e];
+      if (nodes[i].value >= surfaces.nodeSegment.size()) continue;
+      const SegmentId segment = surfaces.nodeSegment[nodes[i].value];
+      if (segment != SegmentId::none() && Ends(surfaces, segment).last == nodes[(i + 1) % 3])
+        of[segment.value] = ElementId(e);
+    }
+  for (const SegmentId s : segments) behind_.push_back(of[s.value]);
+}
+
 void AbsorbingBoundary::collect(const Model& model, const ContactSurfaces& surfaces,
                                 std::span<const Vec2> place) {
   dashpots_.clear();
-  for (const SegmentId segment : segments) {
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const SegmentId segment = segments[i];
     if (surfaces.isGone(segment)) continue;
     const Ends ends(surfaces, segment);
     const Vec2 along = place[ends.last.value] - place[ends.first.value];
     const double length = norm(along);
     if (!(length > 0)) continue;
     const Component& body = bodyOf(model, surfaces, segment);
-    const ElasticMaterial& m = body.material;
+    const ElasticMaterial& m =
+        behind_.empty() ? body.material : model.materialOf(behind_[i]).material;
     const double half = .5 * length * body.thickness;
     const double normal = half * std::sqrt(m.density * m.waveModulus());
     const double shear = half * std::sqrt(m.density * m.shearModulus());

@@ -19,7 +19,13 @@ struct Pressure {
   TimeTable value;  ///< Pa, towards the body, over the simulated time
   /// A script's own function gives the value, by this number; 0: the table does.
   std::uint32_t function = 0;
+  /// Segments from this number on that hang together with its own take part, too; kNever: none.
+  std::uint32_t firstNew = kNever;
+  static constexpr std::uint32_t kNever = ~std::uint32_t{0};
 };
+
+/// Adds the segments from `firstNew` on that follow, or are followed by, one of the pressure's.
+void spread(Pressure& pressure, const ContactSurfaces& surfaces);
 
 /// Adds what `pressure` (Pa) does on the segments to `forces` (N, by node): half of each at both
 /// ends, along the present normal.
@@ -34,6 +40,9 @@ class AbsorbingBoundary {
  public:
   std::vector<SegmentId> segments;
 
+  /// After bodies or segments have changed: which triangles are behind those of bodies with several
+  /// materials.
+  void findTriangles(const Model& model, const ContactSurfaces& surfaces);
   /// From the velocities without dashpots to those with, implicit: −C(vⁿ⁻½ + vⁿ⁺½)/2, which is
   /// stable for any step; `before` (m/s): vⁿ⁻½, `place` (m): xⁿ, by node.
   void correct(Model& model, const ContactSurfaces& surfaces, std::span<const Vec2> place,
@@ -52,6 +61,7 @@ class AbsorbingBoundary {
   void collect(const Model& model, const ContactSurfaces& surfaces, std::span<const Vec2> place);
 
   std::vector<Dashpot> dashpots_;
+  std::vector<ElementId> behind_;  // by place in `segments`; empty: all bodies have one material
 };
 
 }  // namespace yadefrag

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/errors.hpp"
+#include "mesh/initial_stress.hpp"
 
 namespace yadefrag {
 namespace {
@@ -86,7 +87,8 @@ void checkTriangles(const TriangleMesh& mesh) {
 }
 
 ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component,
-                       const MaterialPlaces& materials) {
+                       const MaterialPlaces& materials,
+                       std::span<const std::array<double, 3>> stress) {
   checkTriangles(mesh);
   const ComponentId id(model.components.size());
   Nodes& nodes = model.nodes;
@@ -113,6 +115,10 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
   triangles.component.resize(triangles.size(), id);
   appendMaterials(model, materials, added);
   model.components.push_back(added);
+  for (std::size_t t = 0; t < stress.size(); ++t) {
+    const ElementId element(added.firstTriangle + t);
+    stretch(triangles, element, stretchOf(model.materialOf(element).material, stress[t]).value());
+  }
   addMasses(model, added);
   return id;
 }
@@ -121,8 +127,14 @@ std::vector<NodeId> removeBody(Model& model, ComponentId component) {
   removeTriangles(model, model.components[component.value]);
   removeMaterials(model, model.components[component.value]);
   model.components[component.value].name.clear();
+  std::vector<std::uint8_t> gone(model.components.size());
+  gone[component.value] = 1;
+  return removeNodes(model, gone);
+}
+
+std::vector<NodeId> removeNodes(Model& model, const std::vector<std::uint8_t>& gone) {
   Nodes& nodes = model.nodes;
-  const auto stays = [&](std::size_t n) { return nodes.component[n] != component; };
+  const auto stays = [&](std::size_t n) { return gone[nodes.component[n].value] == 0; };
   std::vector<NodeId> renumbered(nodes.size(), NodeId::none());
   std::size_t kept = 0;
   for (std::size_t n = 0; n < nodes.size(); ++n)

@@ -11,6 +11,7 @@
 #include "core/tolerances/mesh.hpp"
 #include "fracture/checks.hpp"
 #include "mesh/assembly.hpp"
+#include "mesh/initial_stress.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -200,6 +201,24 @@ void checkRounding(const TriangleMesh& mesh, const BodySpec& spec) {
   throw InputError(text.str());
 }
 
+void checkStress(const TriangleMesh& mesh, const BodySpec& spec) {
+  if (spec.stress.empty()) return;
+  requireOfTriangles("stress", spec.stress, mesh);
+  if (!spec.displacement.empty())
+    throw InputError("displacement and stress are given, of which only one can be.");
+  for (std::size_t t = 0; t < spec.stress.size(); ++t) {
+    const auto& stress = spec.stress[t];
+    const ElasticMaterial& material = materialOf(spec, t).material;
+    if (stretchOf(material, stress)) continue;
+    const Vec2 at = mesh.nodes[mesh.triangles[t][0]];
+    std::ostringstream text;
+    text << "stress at (" << at.x << ", " << at.y << ") m is (" << stress[0] << ", " << stress[1]
+         << ", " << stress[2] << ") Pa, by which the material with young " << material.young
+         << " Pa would be strained by more than half; it must be less, and finite.";
+    throw InputError(text.str());
+  }
+}
+
 }  // namespace
 
 void checkBody(const TriangleMesh& mesh, const BodySpec& spec) {
@@ -216,6 +235,7 @@ void checkBody(const TriangleMesh& mesh, const BodySpec& spec) {
   checkPlaces(mesh, spec);
   checkTriangles(mesh);
   checkDisplacement(mesh, spec.displacement);
+  checkStress(mesh, spec);
   checkMasses(mesh, spec);
   checkRounding(mesh, spec);
 }

@@ -74,9 +74,15 @@ std::string EnergyWatch::complainOfContact(const WatchedStep& step, double noise
   toldCreated = amount;
   const bool byCracks = -step.ledger.fracture > amount / 2;
   std::ostringstream text = yadefrag::begin(step);
-  text << (byCracks ? "cracks that still hold have" : "contact has") << " created "
-       << amountText(amount, most) << "; ";
-  if (byCracks)
+  const bool bySplits = byCracks && split > amount / 2;
+  const char* const cause = bySplits   ? "cracks in bodies with element='smoothed' have"
+                            : byCracks ? "cracks that still hold have"
+                                       : "contact has";
+  text << cause << " created " << amountText(amount, most) << "; ";
+  if (bySplits)
+    text << "the strains of elements that a crack parts are no longer averaged; element='linear' "
+            "has none of this.";
+  else if (byCracks)
     text << "take a shorter step, or smaller elements.";
   else if (step.isPenalty)
     text << "take the Lagrangian correction, or a shorter step.";

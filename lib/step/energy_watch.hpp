@@ -54,6 +54,7 @@ class EnergyWatch {
   double gone = 0;                   ///< J, of what came in: what bodies that left took along
   double most = 0;                   ///< J, the largest energy that the bodies could have
   double contact = 0, friction = 0;  ///< J, of the ledger: what they gave is what it is below these
+  double split = 0;                  ///< J, of the ledger's fracture: strains no longer averaged
   double lookedCreated = 0, lookedGrown = 0;             ///< J, when last looked at
   double toldCreated = 0, toldGrown = 0, toldDepth = 0;  ///< J, J, m; 0: never
   double lastStep = 0, leastStep = 0, mostStep = 0;      ///< s; 0: none so far

@@ -128,8 +128,10 @@ bool entriesAreRight(const World& world) {
 bool loadsAreRight(const World& world) {
   const std::size_t count = world.surfaces.segments();
   return allBelow(world.absorbing.segments, count) &&
-         std::ranges::all_of(world.pressures,
-                             [&](const Pressure& p) { return allBelow(p.segments, count); });
+         std::ranges::all_of(world.pressures, [&](const Pressure& p) {
+           const bool staysOut = p.firstNew == Pressure::kNever;
+           return allBelow(p.segments, count) && (staysOut || p.firstNew <= count);
+         });
 }
 
 bool contactIsRight(const World& world) {

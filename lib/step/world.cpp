@@ -28,7 +28,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   component.selfContact = spec.selfContact || component.brittle.cracks();
   component.element = spec.element;
   const std::size_t first = model.nodes.size();
-  const ComponentId id = appendBody(model, mesh, component, spec.materials);
+  const ComponentId id = appendBody(model, mesh, component, spec.materials, spec.stress);
   reference.insert(reference.end(), mesh.nodes.begin(), mesh.nodes.end());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (!spec.displacement.empty()) model.nodes.position[first + i] += spec.displacement[i];
@@ -67,25 +67,29 @@ void World::removeBody(ComponentId component) {
   const ElementId last(model.components[component.value].lastTriangle);
   const std::vector<NodeId> renumbered = yadefrag::removeBody(model, component);
   fracture.removeBody(model, first, last, renumbered);
-  takeOff(component, renumbered);
+  std::vector<std::uint8_t> gone(model.components.size());
+  gone[component.value] = 1;
+  takeOff(gone, renumbered);
   watch.begin(kineticEnergy() + strainEnergy(), ledger);
   stableStep = 0;
 }
 
-/// What a component that has left the model leaves behind.
-void World::takeOff(ComponentId component, std::span<const NodeId> renumbered) {
+/// What components that have left the model leave behind. Returns the new numbers of entries.
+std::vector<EntryId> World::takeOff(const std::vector<std::uint8_t>& gone,
+                                    std::span<const NodeId> renumbered) {
   search.forget();
   places_.forget();
   for (std::size_t i = 0; i < renumbered.size(); ++i)
     if (renumbered[i] != NodeId::none()) reference[renumbered[i].value] = reference[i];
   reference.resize(model.nodes.size());
-  takeLoadsOff(component);
+  takeLoadsOff(gone);
   reactions.clear();
-  surfaces.removeComponent(component);
+  std::vector<EntryId> entries = surfaces.removeComponents(gone);
   surfaces.renumberNodes(renumbered, model.nodes.size());
   forgetUnusedMotions();
   contact.reset();
   rebuild();
+  return entries;
 }
 
 void World::setLoads(std::vector<Vec2> loads) {
@@ -111,6 +115,7 @@ void World::buildIfChanged() {
   if (isBuilt_) return;
   places_.forget();
   dynamics_.rebuild(model);
+  absorbing.findTriangles(model, surfaces);
   reactions.clear();
   const auto& owners = surfaces.component;
   severalBodies_ =

@@ -1,6 +1,7 @@
 #pragma once
 // All state of the finite-element bodies of a scene, and the step that moves them (time_step.cpp).
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -36,8 +37,10 @@ struct BodySpec : BodyMaterial {
   bool selfContact = true;
   bool rigid = false;  ///< only to see what it overlaps
   ElementKind element = ElementKind::kLinear;
-  std::vector<Vec2> velocity;             ///< m/s
-  std::vector<Vec2> displacement;         ///< m, from the stress-free shape
+  std::vector<Vec2> velocity;      ///< m/s
+  std::vector<Vec2> displacement;  ///< m, from the stress-free shape
+  /// Pa (Cauchy; xx, yy, xy), by triangle, in the shape of the mesh; empty: none.
+  std::vector<std::array<double, 3>> stress;
   std::vector<std::uint8_t> held;         ///< Held
   std::vector<std::uint8_t> smoothNodes;  ///< is a boundary node on a C¹-smooth part
   std::string name = {};  ///< one that no other body has, without line breaks; may be empty
@@ -72,7 +75,11 @@ class World {
   void removeBody(ComponentId component);
   /// InputError before anything is changed where it overlaps a body.
   ComponentId addRigid(const RigidSpec& spec);
-  void removeRigid(ComponentId component);
+  /// Takes all rigid boundaries out and these in. `former`: by place in `rigidNodes` after that,
+  /// the place before of the corner that it stands for, `kNoCorner` for a new one; what touched the
+  /// side that begins there still does. InputError as above: there is no boundary then.
+  void replaceRigid(std::span<const RigidSpec> specs, std::span<const std::uint32_t> former);
+  static constexpr std::uint32_t kNoCorner = ~std::uint32_t{0};
   /// Of all rigid boundaries, ascending.
   [[nodiscard]] const std::vector<NodeId>& rigidNodes() const { return rigidNodes_; }
   [[nodiscard]] bool hasRigid() const { return !rigidNodes_.empty(); }
@@ -88,8 +95,11 @@ class World {
   void setLoads(std::vector<Vec2> loads);
   /// From now on a pressure (Pa, over the simulated time) acts on the sides of the boundary that
   /// have both ends among the nodes, in place of an earlier one; 0: none. It follows them as they
-  /// turn, and as nodes split; faces of cracks have none. InputError before anything is changed.
-  void setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function = 0);
+  /// turn, and as nodes split. `intoCracks`: it comes to faces of cracks that open after this call,
+  /// as soon as they hang together with sides that have it; else these have none. InputError before
+  /// anything is changed.
+  void setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function = 0,
+                   bool intoCracks = false);
   /// From now on waves leave by these sides.
   void setAbsorbing(std::span<const NodeId> nodes);
   /// From now on the nodes move at `velocity` (m/s) in the directions `held`, and freely in the
@@ -182,7 +192,8 @@ class World {
  private:
   [[nodiscard]] std::vector<SegmentId> segmentsAmong(std::span<const NodeId> nodes) const;
   void forgetUnusedPressures();
-  void takeLoadsOff(ComponentId gone);
+  void spreadPressures();
+  void takeLoadsOff(const std::vector<std::uint8_t>& gone);
   void sumOuterForces();
   [[nodiscard]] const std::vector<Vec2>& allOuterForces() const {
     return pressures.empty() ? outerForces : allOuterForces_;
@@ -203,7 +214,11 @@ class World {
   void requireApart(const TriangleMesh& mesh, const BodySpec& spec, const std::string& subject);
   [[nodiscard]] Vec2 rigidVelocity(NodeId node) const;
   std::uint32_t rigidMotion();
-  void takeOff(ComponentId component, std::span<const NodeId> renumbered);
+  std::vector<EntryId> takeOff(const std::vector<std::uint8_t>& gone,
+                               std::span<const NodeId> renumbered);
+  ComponentId appendRigid(const RigidSpec& spec);
+  std::vector<EntryId> removeAllRigid();
+  [[nodiscard]] std::vector<std::uint32_t> rigidEntries() const;
   void requireBoundedMotion(double dt);
   void requireResolvedMotion(double dt);
   void requireFiniteEnergy() const;

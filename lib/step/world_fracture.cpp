@@ -29,10 +29,13 @@ bool World::crack() {
   const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), split_);
   fracture.noteStart(time);
   if (opened) {
-    ledger.fracture -= fracture.splitEnergy(model, split_.originals, lastDt);
+    const double gained = fracture.splitEnergy(model, split_.originals, lastDt);
+    ledger.fracture -= gained;
+    watch.split += gained;
     followSplit();
   }
   fracture.cohere(model, reference);
+  spreadPressures();
   return opened;
 }
 

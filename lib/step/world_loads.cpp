@@ -23,26 +23,27 @@ std::vector<SegmentId> World::segmentsAmong(std::span<const NodeId> nodes) const
   return segments;
 }
 
-void World::setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function) {
+void World::setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function,
+                        bool intoCracks) {
   std::vector<SegmentId> segments = segmentsAmong(nodes);
   if (!value.times().empty() && !TimeTable::isRight(value.times(), value.values()))
     throw InputError("The times of a pressure must ascend, and its values be finite.");
   // In place of what was there.
   for (Pressure& other : pressures)
     std::erase_if(other.segments, [&](SegmentId s) { return std::ranges::count(segments, s) > 0; });
-  pressures.push_back({std::move(segments), std::move(value), function});
+  const auto firstNew = static_cast<std::uint32_t>(surfaces.segments());
+  pressures.push_back(
+      {std::move(segments), std::move(value), function, intoCracks ? firstNew : Pressure::kNever});
   forgetUnusedPressures();
 }
 
 void World::setAbsorbing(std::span<const NodeId> nodes) {
   std::vector<SegmentId> segments = segmentsAmong(nodes);
-  for (const SegmentId s : segments)
-    if (model.components[surfaces.component[surfaces.segmentEntry[s.value].value].value].isMixed())
-      throw InputError("A body of several materials cannot let waves out.");
   segments.insert(segments.end(), absorbing.segments.begin(), absorbing.segments.end());
   std::ranges::sort(segments);
   segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
   absorbing.segments = std::move(segments);
+  absorbing.findTriangles(model, surfaces);
 }
 
 /// Those on nothing, or of 0 for ever.
@@ -53,18 +54,48 @@ void World::forgetUnusedPressures() {
 }
 
 /// Before the component leaves the surfaces: segments behind its own get lower numbers.
-void World::takeLoadsOff(ComponentId gone) {
+void World::takeLoadsOff(const std::vector<std::uint8_t>& gone) {
   std::vector<SegmentId> numbers(surfaces.segments(), SegmentId::none());
   std::size_t kept = 0;
   for (std::size_t s = 0; s < numbers.size(); ++s)
-    if (surfaces.component[surfaces.segmentEntry[s].value] != gone) numbers[s] = SegmentId(kept++);
+    if (gone[surfaces.component[surfaces.segmentEntry[s].value].value] == 0)
+      numbers[s] = SegmentId(kept++);
   const auto renumber = [&](std::vector<SegmentId>& segments) {
     for (SegmentId& segment : segments) segment = numbers[segment.value];
     std::erase(segments, SegmentId::none());
   };
-  for (Pressure& pressure : pressures) renumber(pressure.segments);
+  for (Pressure& pressure : pressures) {
+    renumber(pressure.segments);
+    if (pressure.firstNew != Pressure::kNever)
+      pressure.firstNew -= static_cast<std::uint32_t>(
+          std::count(numbers.begin(), numbers.begin() + pressure.firstNew, SegmentId::none()));
+  }
   renumber(absorbing.segments);
   forgetUnusedPressures();
+}
+
+/// After cracks have opened or let go. Faces that cohesion still holds have no pressure.
+void World::spreadPressures() {
+  const auto spreads = [](const Pressure& p) { return p.firstNew != Pressure::kNever; };
+  if (std::ranges::none_of(pressures, spreads)) return;
+  std::vector<bool> isHeld(surfaces.segments());
+  for (const EdgeId edge : fracture.cohesion.edge)
+    for (const int which : {0, 1}) {
+      const Side side = fracture.edges.side(edge, which);
+      const std::uint32_t first = firstNode(model, side).value;
+      if (first >= surfaces.nodeSegment.size()) continue;
+      const SegmentId segment = surfaces.nodeSegment[first];
+      if (segment == SegmentId::none()) continue;
+      const SegmentId next = surfaces.segmentNext[segment.value];
+      isHeld[segment.value] = surfaces.segmentNode[next.value] == lastNode(model, side);
+    }
+  for (Pressure& pressure : pressures) {
+    if (!spreads(pressure)) continue;
+    spread(pressure, surfaces);
+    std::erase_if(pressure.segments, [&](SegmentId segment) {
+      return segment.value >= pressure.firstNew && isHeld[segment.value];
+    });
+  }
 }
 
 /// Outer forces and pressures together.

@@ -8,6 +8,45 @@
 
 namespace yadefrag {
 
+namespace {
+
+/// Without those of entries that are gone.
+std::vector<Touch> renumbered(std::vector<Touch> touches, std::span<const EntryId> numbers) {
+  for (Touch& touch : touches)
+    touch.pair = {numbers[touch.pair.slave.value], numbers[touch.pair.master.value]};
+  std::erase_if(touches, [](const Touch& touch) {
+    return touch.pair.slave == EntryId::none() || touch.pair.master == EntryId::none();
+  });
+  std::ranges::sort(touches, {}, &Touch::pair);
+  return touches;
+}
+
+/// Only their flags are needed until the next search.
+Candidates renumbered(const Candidates& candidates, std::span<const EntryId> numbers) {
+  std::vector<std::pair<SlaveMaster, std::uint8_t>> flags;
+  for (std::size_t r = 0; r < candidates.slaves.size() && !candidates.outside.empty(); ++r)
+    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
+      const SlaveMaster pair{numbers[candidates.slaves[r].value],
+                             numbers[candidates.masters[c].value]};
+      if (pair.slave != EntryId::none() && pair.master != EntryId::none())
+        flags.emplace_back(pair, candidates.outside[c]);
+    }
+  Candidates left;
+  if (flags.empty()) return left;
+  std::ranges::sort(flags);
+  for (const auto& [pair, outside] : flags) {
+    if (left.slaves.empty() || left.slaves.back() != pair.slave) {
+      left.slaves.push_back(pair.slave);
+      left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
+    }
+    left.masters.push_back(pair.master), left.outside.push_back(outside);
+  }
+  left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
+  return left;
+}
+
+}  // namespace
+
 /// The motion of all their nodes.
 std::uint32_t World::rigidMotion() {
   std::vector<Motion>& motions = model.motions;
@@ -22,6 +61,13 @@ std::uint32_t World::rigidMotion() {
 }
 
 ComponentId World::addRigid(const RigidSpec& spec) {
+  const ComponentId id = appendRigid(spec);
+  rebuild();
+  return id;
+}
+
+/// All but what follows from the state.
+ComponentId World::appendRigid(const RigidSpec& spec) {
   BodySpec held;
   held.held.assign(spec.shape.nodes.size(), kHeldXY);
   held.rigid = true;
@@ -50,17 +96,52 @@ ComponentId World::addRigid(const RigidSpec& spec) {
     surfaces.addLoop(nodes, std::vector<std::uint8_t>(nodes.size()), id);
   }
   search.forget();
-  rebuild();
   return id;
 }
 
-void World::removeRigid(ComponentId component) {
-  const ElementId none(model.components[component.value].firstTriangle);
-  const std::vector<NodeId> renumbered = yadefrag::removeBody(model, component);
+/// Returns the new numbers of entries.
+std::vector<EntryId> World::removeAllRigid() {
+  const ElementId none(model.triangles.size());
+  std::vector<std::uint8_t> gone;
+  for (const Component& component : model.components) gone.push_back(component.rigid ? 1 : 0);
+  const std::vector<NodeId> renumbered = removeNodes(model, gone);
   fracture.removeBody(model, none, none, renumbered);
-  takeOff(component, renumbered);
-  // Boundaries that are made anew again and again leave no numbers behind.
-  if (component.value + 1 == model.components.size()) model.components.pop_back();
+  std::vector<EntryId> entries = takeOff(gone, renumbered);
+  while (!model.components.empty() && model.components.back().rigid) model.components.pop_back();
+  return entries;
+}
+
+/// By entry: the place in `rigidNodes` of the corner at which it begins; kNoCorner: it is of a
+/// body.
+std::vector<std::uint32_t> World::rigidEntries() const {
+  std::vector<std::uint32_t> corners(surfaces.entries(), kNoCorner);
+  for (std::uint32_t i = 0; i < rigidNodes_.size(); ++i) {
+    const SegmentId segment = surfaces.nodeSegment[rigidNodes_[i].value];
+    corners[surfaces.segmentEntry[segment.value].value] = i;
+  }
+  return corners;
+}
+
+void World::replaceRigid(std::span<const RigidSpec> specs, std::span<const std::uint32_t> former) {
+  const std::vector<std::uint32_t> corners = rigidEntries();
+  const std::vector<Touch> touches = contact.touches;
+  const Candidates candidates = contact.candidates;
+  std::vector<EntryId> numbers = removeAllRigid();
+  try {
+    for (const RigidSpec& spec : specs) appendRigid(spec);
+  } catch (...) {
+    removeAllRigid();
+    throw;
+  }
+  rebuild();
+  std::vector<EntryId> entryOf(corners.size(), EntryId::none());  // by former corner
+  const std::vector<std::uint32_t> now = rigidEntries();
+  for (std::size_t e = 0; e < now.size(); ++e)
+    if (now[e] != kNoCorner && former[now[e]] != kNoCorner) entryOf[former[now[e]]] = EntryId(e);
+  for (std::size_t e = 0; e < numbers.size(); ++e)
+    if (corners[e] != kNoCorner) numbers[e] = entryOf[corners[e]];
+  contact.touches = renumbered(touches, numbers);
+  contact.candidates = renumbered(candidates, numbers);
 }
 
 void World::slideRigid(std::span<const Vec2> places) {

@@ -90,10 +90,18 @@ std::uint32_t ContactSurfaces::addLoop(std::span<const NodeId> nodes,
 }
 
 void ContactSurfaces::removeComponent(ComponentId gone) {
-  const auto segmentNumbers = compactNumbers<SegmentId>(
-      segments(), [&](std::size_t s) { return component[segmentEntry[s].value] != gone; });
-  const auto entryNumbers =
-      compactNumbers<EntryId>(entries(), [&](std::size_t e) { return component[e] != gone; });
+  std::vector<std::uint8_t> all(std::max_element(component.begin(), component.end())->value + 1U);
+  if (gone.value >= all.size()) return;
+  all[gone.value] = 1;
+  removeComponents(all);
+}
+
+std::vector<EntryId> ContactSurfaces::removeComponents(const std::vector<std::uint8_t>& gone) {
+  const auto stays = [&](EntryId entry) { return gone[component[entry.value].value] == 0; };
+  const auto segmentNumbers =
+      compactNumbers<SegmentId>(segments(), [&](std::size_t s) { return stays(segmentEntry[s]); });
+  auto entryNumbers =
+      compactNumbers<EntryId>(entries(), [&](std::size_t e) { return stays(EntryId(e)); });
 
   for (SegmentId& segment : nodeSegment)
     if (segment != SegmentId::none()) segment = segmentNumbers[segment.value];
@@ -123,6 +131,7 @@ void ContactSurfaces::removeComponent(ComponentId gone) {
   for (std::uint32_t& number : loop)
     number = static_cast<std::uint32_t>(std::lower_bound(left.begin(), left.end(), number) -
                                         left.begin());
+  return entryNumbers;
 }
 
 void ContactSurfaces::drop(std::span<const NodeId> nodes) {

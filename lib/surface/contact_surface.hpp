@@ -45,6 +45,9 @@ class ContactSurfaces {
                         ComponentId component);
   /// Takes away all loops of a component; entries after them move up, in order.
   void removeComponent(ComponentId component);
+  /// The same for all that are `gone` (by component). Returns the new number of each entry, none()
+  /// for those that are gone.
+  std::vector<EntryId> removeComponents(const std::vector<std::uint8_t>& gone);
   /// All pieces that begin at or behind these nodes, which are whole loops, are gone.
   void drop(std::span<const NodeId> nodes);
   /// A node is known by a new number (`renumbered[old]`), none() if it is gone.

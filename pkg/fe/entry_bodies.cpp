@@ -207,9 +207,20 @@ void EntryBodies::drop(yade::Scene& scene, const World& world) {
 }
 
 void EntryBodies::remove(yade::Scene& scene, const World& world, ComponentId component) {
+  removeWhere(scene, [&](std::size_t e) { return world.surfaces.component[e] == component; });
+}
+
+void EntryBodies::removeRigid(yade::Scene& scene, const World& world) {
+  removeWhere(scene, [&](std::size_t e) {
+    return world.model.components[world.surfaces.component[e].value].rigid;
+  });
+}
+
+template <class Goes>
+void EntryBodies::removeWhere(yade::Scene& scene, Goes goes) {
   std::size_t kept = 0;
   for (std::size_t e = 0; e < ids_.size(); ++e) {
-    if (world.surfaces.component[e] == component) {
+    if (goes(e)) {
       if (hasBody(EntryId(e))) scene.bodies->erase(ids_[e], false);
       continue;
     }

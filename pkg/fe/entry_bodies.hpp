@@ -29,6 +29,8 @@ class EntryBodies {
   void drop(yade::Scene& scene, const World& world);
   /// Takes the bodies of a component out of the scene. To be called before the world forgets it.
   void remove(yade::Scene& scene, const World& world, ComponentId component);
+  /// Forgets all entries of rigid boundaries, likewise.
+  void removeRigid(yade::Scene& scene, const World& world);
 
   /// Throws RunError if a body is not in this scene any more.
   void requireAll(const yade::Scene& scene);
@@ -62,6 +64,8 @@ class EntryBodies {
 
  private:
   void requireWhole(std::size_t entry) const;
+  template <class Goes>
+  void removeWhere(yade::Scene& scene, Goes goes);
   void append(yade::Scene& scene, const World& world, EntryId entry,
               const yade::shared_ptr<yade::Material>& material);
   void appendNone();

@@ -108,6 +108,7 @@ class WorldArchive {
     value("expectedEnergy", watch.expected), value("goneEnergy", watch.gone);
     value("mostEnergy", watch.most);
     value("watchedContact", watch.contact), value("watchedFriction", watch.friction);
+    value("watchedSplit", watch.split);
     value("lookedCreated", watch.lookedCreated), value("lookedGrown", watch.lookedGrown);
     value("toldCreated", watch.toldCreated), value("toldGrown", watch.toldGrown);
     value("toldDepth", watch.toldDepth), value("lastStep", watch.lastStep);
@@ -276,6 +277,7 @@ class WorldArchive {
     for (Pressure& one : world.pressures) {
       column<std::uint32_t>("pressureSegments", one.segments);
       value("pressureFunction", one.function);
+      value("pressureFirstNew", one.firstNew);
       table("pressure", one.value);
     }
     column<std::uint32_t>("absorbing", world.absorbing.segments);

@@ -62,6 +62,7 @@ int addMesh(FESolver& solver, const py::dict& input) {
   BodySpec spec;
   spec.velocity = fromBytes<Vec2>(input["velocity"]);
   spec.displacement = fromBytes<Vec2>(input["displacement"]);
+  spec.stress = fromBytes<std::array<double, 3>>(input["stress"]);
   spec.held = fromBytes<std::uint8_t>(input["held"]);
   spec.smoothNodes = fromBytes<std::uint8_t>(input["smooth"]);
   spec.thickness = py::extract<double>(input["thickness"]);
@@ -126,11 +127,11 @@ std::uint32_t numberOf(FESolver& solver, const py::object& function) {
 }  // namespace
 
 void setPressure(FESolver& solver, const py::object& nodes, const py::object& times,
-                 const py::object& values, const py::object& function) {
+                 const py::object& values, const py::object& function, bool intoCracks) {
   change(solver, [&] {
     solver.changeWorld().setPressure(nodesFrom(solver, nodes),
                                      {fromBytes<double>(times), fromBytes<double>(values)},
-                                     numberOf(solver, function));
+                                     numberOf(solver, function), intoCracks);
   });
 }
 

@@ -52,7 +52,7 @@ void prescribeMotion(FESolver& solver, const yade::py::object& nodes, int held,
 
 /// `FESolver._pressure`: times and values of a table as bytes, or a function (s) → Pa.
 void setPressure(FESolver& solver, const yade::py::object& nodes, const yade::py::object& times,
-                 const yade::py::object& values, const yade::py::object& function);
+                 const yade::py::object& values, const yade::py::object& function, bool intoCracks);
 void setAbsorbing(FESolver& solver, const yade::py::object& nodes);
 
 yade::py::object reactionsOf(const FESolver& solver);

@@ -17,13 +17,14 @@
 #include "core/tolerances/step.hpp"
 #include "fe/born_inside.hpp"
 #include "fe/pair_source.hpp"
+#include "fe/running.hpp"
 #include "fracture/checks.hpp"
 
 namespace yadefrag {
 
 /// One step: from the forces that spheres and others have put on the boundary in this step to the
 /// boundary's new place.
-void FESolver::action() {
+void FESolver::action() try {
   const std::lock_guard guard(betweenSteps_);
   if (bodies_.ids().empty()) return;
   surveyed_ = 0;
@@ -67,6 +68,9 @@ void FESolver::action() {
   bodies_.update(world_, timeToIntegrate(), world_.threads);
   prepareSearch(scene->dt);
   if (scene->trackEnergy) trackEnergy();
+} catch (const std::exception& error) {
+  noteStop(error.what());
+  throw;
 }
 
 /// `born`: J, what contacts with spheres have begun with. Told above 1 % of the bodies' energy and
@@ -118,14 +122,16 @@ void FESolver::tell(std::vector<std::string> sentences) {
 
 /// YADE's walls, boxes and facets that the bodies touch.
 void FESolver::followRigid(bool enginesAreNew) {
+  bool areNew = false;
   try {
-    rigid_.follow(*scene, world_, bodies_, rigidBodies);
+    areNew = rigid_.follow(*scene, world_, bodies_, rigidBodies, timeToIntegrate());
   } catch (const InputError& error) {
     throw std::invalid_argument(std::string(error.what()) +
                                 " FESolver(rigidBodies=False) lets bodies go through it.");
   }
   tell(rigid_.takeSentences());
-  if (enginesAreNew && rigid_.anyMovable(*scene)) EngineOrder::requireReturn(*scene, *this);
+  if ((enginesAreNew || areNew) && rigid_.anyMovable(*scene))
+    EngineOrder::requireReturn(*scene, *this);
 }
 
 /// New faces get bodies, those of dropped fragments lose theirs. Among themselves and with the rest

@@ -19,32 +19,6 @@ using yade::Vector3r;
 Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
 Vector3r inSpace(Vec2 v) { return {v.x, v.y, 0}; }
 
-bool isWall(const yade::Body& body) {
-  return dynamic_cast<const yade::Wall*>(body.shape.get()) != nullptr;
-}
-
-/// Where a body is, now or after `dt` (s) at its velocity. Walls do not turn.
-struct Pose {
-  Vector3r position;
-  Quaternionr orientation = Quaternionr::Identity();
-
-  explicit Pose(const yade::Body& body, double dt = 0)
-      : position(body.state->se3.position + dt * body.state->vel) {
-    if (isWall(body)) return;
-    orientation = body.state->se3.orientation;
-    const double angle = dt * body.state->angVel.norm();
-    if (angle > 0)
-      orientation = Quaternionr(Eigen::AngleAxis<double>(angle, body.state->angVel.normalized())) *
-                    orientation;
-  }
-  [[nodiscard]] Vector3r place(const Vector3r& local) const {
-    return position + orientation * local;
-  }
-  [[nodiscard]] Vector3r local(const Vector3r& place) const {
-    return orientation.conjugate() * (place - position);
-  }
-};
-
 /// Of all finite-element bodies.
 struct Extent {
   Vec2 middle;
@@ -60,6 +34,9 @@ struct Extent {
     size = std::hypot(box.max[0] - box.min[0], box.max[1] - box.min[1]);
   }
 };
+
+/// (m) What is elsewhere by more is new there.
+double farthestOf(const World& world) { return tolerance::kMostMotion * world.search.shortest; }
 
 double frictionOf(const yade::Body& body) {
   const auto* material = dynamic_cast<const yade::FrictMat*>(body.material.get());
@@ -79,27 +56,35 @@ const yade::State& mover(const yade::Scene& scene, const yade::Body& body) {
 
 }  // namespace
 
-void RigidBodies::follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted) {
+bool RigidBodies::follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted,
+                         double dt) {
   if (!wanted) {
     if (any()) takeOut(scene, world, entries);
     members_.clear();
     seen_ = 0;
-    return;
+    return false;
   }
   findBodies(scene);
   const yade::Body* element = entries.anyBody();
   const bool anyNew = takeNew(scene, element ? element->groupMask : 0);
-  if (anyNew || (any() && !holds(scene, world))) build(scene, world, entries);
+  bool isBuilt = anyNew || !holds(scene, world, dt);
+  if (isBuilt) build(scene, world, entries, dt);
   const bool mayBeShort = any() && (world.search.isDue || world.search.isVoid);
-  if (mayBeShort && !slideWalls(world)) build(scene, world, entries);
+  if (mayBeShort && !slideWalls(world)) {
+    build(scene, world, entries, dt);
+    isBuilt = true;
+  }
+  return isBuilt;
 }
 
 /// After loading.
 void RigidBodies::findBodies(const yade::Scene& scene) {
-  for (Member& member : members_) {
+  for (std::uint32_t m = 0; m < members_.size(); ++m) {
+    Member& member = members_[m];
     if (member.body || !bodyAt(scene, member.id)) continue;
     member.body = scene.bodies->body[static_cast<std::size_t>(member.id)];
     if (member.body->shape) member.form = formOf(*member.body->shape);
+    member.isOut = std::ranges::find(corners_, m, &RigidCorner::member) == corners_.end();
   }
 }
 
@@ -116,101 +101,153 @@ bool RigidBodies::takeNew(const yade::Scene& scene, int mask) {
     if (isFlat(*body) && !std::exchange(toldFlat_, true))
       sentences_.push_back("FE bodies go through facets that lie in their plane z = 0, such as #" +
                            std::to_string(body->id) + ": a facet must cut the plane.");
-    if (!sectionOf(*body)) continue;
     members_.push_back({body->id, body, formOf(*body->shape)});
-    anyNew = true;
+    members_.back().isOut = true;
+    anyNew = comesBack(members_.back()) || anyNew;
   }
   return anyNew;
 }
 
+/// Has it come into the plane, since it was looked at last.
+bool RigidBodies::comesBack(Member& member) {
+  const auto& place = member.body->state->se3;
+  const bool isThere = place.position == member.position &&
+                       place.orientation.coeffs() == member.orientation.coeffs();
+  if (isThere && !member.isNew) return false;
+  member.position = place.position, member.orientation = place.orientation;
+  return sectionOf(*member.body).has_value();
+}
+
 /// Are all still there, in the plane, of the same shape and where they would have moved to, and do
-/// facets that met end to end still meet? Those that are elsewhere are as new.
-bool RigidBodies::holds(const yade::Scene& scene, const World& world) {
-  bool all = true;
+/// facets that meet end to end still meet?
+bool RigidBodies::holds(const yade::Scene& scene, const World& world, double dt) {
   for (Member& member : members_) {
     const yade::Body* body = bodyAt(scene, member.id);
     if (!body || body != member.body.get() || !body->shape) return false;
-    if (formOf(*body->shape) == member.form && !(member.isOut && sectionOf(*body))) continue;
-    member.isNew = true;
-    all = false;
+    if (formOf(*body->shape) != member.form) return false;
+    if (member.isOut && comesBack(member)) return false;
   }
-  const double farthest = .5 * tolerance::kFarthestMove * world.search.shortest;
+  return areInPlace(world, dt);
+}
+
+/// A part of `holds`.
+bool RigidBodies::areInPlace(const World& world, double dt) const {
+  const double farthest = farthestOf(world);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const Corner& corner = corners_[i];
-    const Corner& next = corners_[corner.following];
+    const RigidCorner& corner = corners_[i];
+    const RigidCorner& next = corners_[corner.following];
     const yade::Body& body = *members_[corner.member].body;
-    const Vector3r place = Pose(body).place(corner.place), end = Pose(body).place(corner.end);
-    const Vector3r follower = Pose(*members_[next.member].body).place(next.place);
+    const RigidPose pose(body);
+    const Vector3r place = pose.place(corner.place);
     const Vec2 former = world.model.nodes.position[world.rigidNodes()[i].value];
-    const bool isOff = !isWall(body) && std::abs(place[2]) > tolerance::kInPlane *
-                                                                 (corner.end - corner.place).norm();
-    if (isOff || !(norm(inPlane(place) - former) <= farthest)) {
-      members_[corner.member].isNew = true;
-      all = false;
+    const double length = (corner.end - corner.place).norm();
+    if (!isWall(body) && std::abs(place[2]) > tolerance::kInPlane * length) return false;
+    if (!(norm(inPlane(place) - former) <= farthest)) return false;
+    if (next.member == corner.member) continue;
+    const yade::Body& other = *members_[next.member].body;
+    for (const double time : {0., dt}) {
+      const Vector3r apart =
+          RigidPose(other, time).place(next.place) - RigidPose(body, time).place(corner.end);
+      if (apart.norm() > 2 * tolerance::kMeet * length) return false;
     }
-    const bool isTorn = next.member != corner.member &&
-                        (follower - end).norm() > 2 * tolerance::kMeet * (end - place).norm();
-    all = all && !isTorn;
+  }
+  return true;
+}
+
+void RigidBodies::takeOut(yade::Scene& scene, World& world, EntryBodies& entries) {
+  entries.removeRigid(scene, world);
+  world.replaceRigid({}, {});
+  corners_.clear();
+}
+
+FormerCorners RigidBodies::formerCorners(const yade::Scene& scene, const World& world) const {
+  std::vector<const yade::Body*> bodies;
+  for (const Member& member : members_) {
+    const yade::Body* body = bodyAt(scene, member.id);
+    const bool isSame = body && body == member.body.get() && body->shape && !member.isNew &&
+                        formOf(*body->shape) == member.form;
+    bodies.push_back(isSame ? body : nullptr);
+  }
+  std::vector<Vec2> places;
+  for (const NodeId node : world.rigidNodes())
+    places.push_back(world.model.nodes.position[node.value]);
+  return {corners_, bodies, places};
+}
+
+/// Of members in the plane, without those that are gone.
+std::vector<RigidPart> RigidBodies::parts(std::vector<std::uint32_t>& memberOf, double dt) {
+  std::vector<RigidPart> all;
+  for (Member& member : members_) {
+    const yade::Body& body = *member.body;
+    member.form = formOf(*body.shape);
+    std::optional<Section> section = sectionOf(body);
+    member.isOut = !section;
+    member.isNew = false;
+    member.position = body.state->se3.position, member.orientation = body.state->se3.orientation;
+    if (!section) continue;
+    const RigidPose now(body), then(body, dt);
+    std::vector<Vec2> after;
+    for (const Vec2 point : section->points)
+      after.push_back(inPlane(then.place(now.local(inSpace(point)))));
+    all.push_back({std::move(*section), std::move(after), frictionOf(body),
+                   body.shape->getClassName() + " #" + std::to_string(member.id)});
+    memberOf.push_back(static_cast<std::uint32_t>(&member - members_.data()));
   }
   return all;
 }
 
-void RigidBodies::takeOut(yade::Scene& scene, World& world, EntryBodies& entries) {
-  std::set<std::uint32_t> components;
-  for (const NodeId node : world.rigidNodes())
-    components.insert(world.model.nodes.component[node.value].value);
-  for (auto c = components.rbegin(); c != components.rend(); ++c) {
-    entries.remove(scene, world, ComponentId(*c));
-    world.removeRigid(ComponentId(*c));
-  }
-  corners_.clear();
-}
-
-void RigidBodies::build(yade::Scene& scene, World& world, EntryBodies& entries) {
-  takeOut(scene, world, entries);
-  std::vector<RigidPart> parts;
-  std::vector<std::uint32_t> memberOf;
+/// What was there before begins its motion where it was.
+void RigidBodies::build(yade::Scene& scene, World& world, EntryBodies& entries, double dt) {
+  FormerCorners former = formerCorners(scene, world);
   std::erase_if(members_, [&](const Member& member) {
     const yade::Body* body = bodyAt(scene, member.id);
     return !body || body != member.body.get() || !body->shape;
   });
-  for (Member& member : members_) {
-    member.form = formOf(*member.body->shape);
-    std::optional<Section> section = sectionOf(*member.body);
-    member.isOut = !section;
-    if (!section) continue;
-    parts.push_back({std::move(*section), frictionOf(*member.body),
-                     member.body->shape->getClassName() + " #" + std::to_string(member.id)});
-    memberOf.push_back(static_cast<std::uint32_t>(&member - members_.data()));
-  }
+  std::vector<std::uint32_t> memberOf;
+  const std::vector<RigidPart> sections = parts(memberOf, dt);
   const Extent extent(world);
-  try {
-    for (RigidOutline& outline :
-         outlinesOf(parts, extent.middle, tolerance::kWallReach * extent.size)) {
-      outline.spec.isNew = std::ranges::any_of(
-          outline.part, [&](std::uint32_t part) { return members_[memberOf[part]].isNew; });
-      addOutline(outline, memberOf, world);
-      entries.addNone(world);
+  const double farthest = farthestOf(world);
+  corners_.clear();
+  std::vector<RigidSpec> specs;
+  std::vector<std::uint32_t> numbers;
+  std::vector<Vec2> starts;
+  for (RigidOutline& outline :
+       outlinesOf(sections, extent.middle, tolerance::kWallReach * extent.size)) {
+    const std::size_t first = corners_.size();
+    addCorners(outline, memberOf);
+    outline.spec.isNew = false;
+    for (std::size_t i = first; i < corners_.size(); ++i) {
+      const auto& places = outline.spec.shape.nodes;
+      const FormerCorners::Found found =
+          former.take(*members_[corners_[i].member].body, places[i - first],
+                      places[corners_[i].following - first], farthest);
+      numbers.push_back(found.number), starts.push_back(found.place);
+      outline.spec.isNew = outline.spec.isNew || found.number == World::kNoCorner;
     }
+    specs.push_back(std::move(outline.spec));
+  }
+  entries.removeRigid(scene, world);
+  try {
+    world.replaceRigid(specs, numbers);
   } catch (...) {
-    takeOut(scene, world, entries);
+    corners_.clear();
     members_.clear();
     seen_ = 0;
     throw;
   }
-  for (const std::uint32_t member : memberOf) members_[member].isNew = false;
+  world.slideRigid(starts);
+  entries.addNone(world);
 }
 
-void RigidBodies::addOutline(const RigidOutline& outline,
-                             const std::vector<std::uint32_t>& memberOf, World& world) {
+void RigidBodies::addCorners(const RigidOutline& outline,
+                             const std::vector<std::uint32_t>& memberOf) {
   const auto first = static_cast<std::uint32_t>(corners_.size());
-  world.addRigid(outline.spec);
   const TriangleMesh& shape = outline.spec.shape;
   for (const auto& loop : shape.loops)
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t node = loop[i], next = loop[(i + 1) % loop.size()];
       const std::uint32_t member = memberOf[outline.part[node]];
-      const Pose pose(*members_[member].body);
+      const RigidPose pose(*members_[member].body);
       const Vector3r height(0, 0, isWall(*members_[member].body) ? pose.position[2] : 0);
       corners_.push_back({member, first + next, pose.local(inSpace(shape.nodes[node]) + height),
                           pose.local(inSpace(shape.nodes[next]) + height)});
@@ -220,7 +257,9 @@ void RigidBodies::addOutline(const RigidOutline& outline,
 /// Walls have no ends: bodies must not come near those of the line that stands for one. It is
 /// shifted along itself; false where it is too short for that, since bodies have spread.
 bool RigidBodies::slideWalls(World& world) {
-  const auto isOfWall = [&](const Corner& corner) { return isWall(*members_[corner.member].body); };
+  const auto isOfWall = [&](const RigidCorner& corner) {
+    return isWall(*members_[corner.member].body);
+  };
   if (std::ranges::none_of(corners_, isOfWall)) return true;
   std::vector<Vec2> places;
   for (const NodeId node : world.rigidNodes())
@@ -251,8 +290,21 @@ void RigidBodies::giveVelocities(World& world, double stepDt, double dt) const {
   world.rigidVelocities.clear();
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const Vec2 from = world.model.nodes.position[world.rigidNodes()[i].value];
-    const Pose pose(*members_[corners_[i].member].body, dt);
+    const RigidPose pose(*members_[corners_[i].member].body, dt);
     world.rigidVelocities.push_back(1 / stepDt * (inPlane(pose.place(corners_[i].place)) - from));
+  }
+  if (dt == 0) warnOfUnmoved();
+}
+
+/// A script that sets velocities means bodies to move.
+void RigidBodies::warnOfUnmoved() const {
+  for (const RigidCorner& corner : corners_) {
+    const yade::Body& body = *members_[corner.member].body;
+    if (body.state->vel.isZero(0) && body.state->angVel.isZero(0)) continue;
+    sentences_.push_back(body.shape->getClassName() + " #" + std::to_string(body.id) +
+                         " has a velocity, but no NewtonIntegrator behind FESolver moves it: "
+                         "engines(fe, moving=True) has one.");
+    return;
   }
 }
 
@@ -269,7 +321,7 @@ void RigidBodies::giveForces(yade::Scene& scene, const World& world,
     const EntryId entry = ofSlave ? row.slave : row.master;
     const NodeId corner = surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
     const auto at = std::ranges::lower_bound(world.rigidNodes(), corner);
-    const Corner& own = corners_[static_cast<std::size_t>(at - world.rigidNodes().begin())];
+    const RigidCorner& own = corners_[static_cast<std::size_t>(at - world.rigidNodes().begin())];
     const yade::Body& body = *members_[own.member].body;
     const double sign = ofSlave ? 1 : -1;
     // Forces act where the step began.
@@ -325,7 +377,8 @@ void RigidBodies::warnOfLight(const yade::Scene& scene, const World& world) cons
 
 bool RigidBodies::anyMovable(const yade::Scene& scene) const {
   return std::ranges::any_of(members_, [&](const Member& member) {
-    return member.body && mover(scene, *member.body).blockedDOFs != yade::State::DOF_ALL;
+    return member.body && !member.isOut &&
+           mover(scene, *member.body).blockedDOFs != yade::State::DOF_ALL;
   });
 }
 

@@ -16,6 +16,7 @@
 #include "core/errors.hpp"
 #include "core/step_length.hpp"
 #include "fe/entry_bodies.hpp"
+#include "fe/rigid_corners.hpp"
 #include "fe/rigid_outlines.hpp"
 #include "step/world.hpp"
 
@@ -24,9 +25,11 @@ namespace yadefrag {
 class RigidBodies {
  public:
   /// Takes bodies in that are new, and leaves out those that are gone; makes all boundaries anew
-  /// where one has another shape, or is elsewhere than it would have moved to. `wanted`: false
-  /// takes all out. Throws InputError where one overlaps a finite-element body: there is none then.
-  void follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted);
+  /// where one has another shape, comes into the plane or leaves it, is elsewhere than it would
+  /// have moved to, or parts from the next. `wanted`: false takes all out. `dt`: what an integrator
+  /// will move the bodies by (s). Returns whether any were made anew. Throws InputError where one
+  /// that was not there overlaps a finite-element body: there is none then.
+  bool follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted, double dt);
   /// For the next step. `dt`: what an integrator will move the bodies by (s).
   void giveVelocities(World& world, double stepDt, double dt) const;
   /// Forces of the last step on YADE's bodies, with their moments.
@@ -47,28 +50,29 @@ class RigidBodies {
     yade::Body::id_t id;
     yade::shared_ptr<yade::Body> body = {};  // null after loading, until it has been found
     std::vector<double> form = {};
-    bool isOut = false;  // of the plane: it may come back
-    bool isNew = true;   // where it is: it must not overlap a body
-  };
-  /// In the order of the world's rigid nodes. Places are the member's own, in its frame.
-  struct Corner {
-    std::uint32_t member;
-    std::uint32_t following;  // corner to which its side leads
-    Vector3r place, end;      // m, of the corner, and of the end of its side
+    bool isNew = true;  // or has another shape than it had: it must not overlap a body
+    /// Out of the plane when it was here: it may come back.
+    bool isOut = false;
+    Vector3r position = Vector3r::Zero();  // m
+    yade::Quaternionr orientation = yade::Quaternionr::Identity();
   };
 
   void findBodies(const yade::Scene& scene);
   bool takeNew(const yade::Scene& scene, int mask);
-  [[nodiscard]] bool holds(const yade::Scene& scene, const World& world);
-  void build(yade::Scene& scene, World& world, EntryBodies& entries);
-  void addOutline(const RigidOutline& outline, const std::vector<std::uint32_t>& memberOf,
-                  World& world);
+  [[nodiscard]] bool holds(const yade::Scene& scene, const World& world, double dt);
+  [[nodiscard]] bool areInPlace(const World& world, double dt) const;
+  [[nodiscard]] static bool comesBack(Member& member);
+  void build(yade::Scene& scene, World& world, EntryBodies& entries, double dt);
+  [[nodiscard]] std::vector<RigidPart> parts(std::vector<std::uint32_t>& memberOf, double dt);
+  [[nodiscard]] FormerCorners formerCorners(const yade::Scene& scene, const World& world) const;
+  void addCorners(const RigidOutline& outline, const std::vector<std::uint32_t>& memberOf);
   void takeOut(yade::Scene& scene, World& world, EntryBodies& entries);
   [[nodiscard]] bool slideWalls(World& world);
+  void warnOfUnmoved() const;
   void warnOfLight(const yade::Scene& scene, const World& world) const;
 
   std::vector<Member> members_;
-  std::vector<Corner> corners_;
+  std::vector<RigidCorner> corners_;
   std::size_t seen_ = 0;  // bodies of the scene
   mutable std::vector<std::string> sentences_;
   mutable bool toldLight_ = false;
@@ -81,7 +85,7 @@ void RigidBodies::archive(Archive& archive, const World& world) {
   std::vector<std::uint32_t> numbers;
   std::vector<double> places;
   for (const Member& member : members_) ids.push_back(member.id);
-  for (const Corner& corner : corners_) {
+  for (const RigidCorner& corner : corners_) {
     numbers.push_back(corner.member), numbers.push_back(corner.following);
     for (const Vector3r* v : {&corner.place, &corner.end})
       for (int i = 0; i < 3; ++i) places.push_back((*v)[i]);

@@ -16,9 +16,12 @@ struct Ends {
   const std::vector<RigidPart>& parts;
 
   [[nodiscard]] Vec2 at(Number end) const { return parts[end / 2].section.points[end % 2]; }
+  [[nodiscard]] Vec2 after(Number end) const { return parts[end / 2].after[end % 2]; }
+  /// Now and after the step.
   [[nodiscard]] bool meet(Number a, Number b) const {
     const double shorter = std::min(norm(at(a) - at(a ^ 1)), norm(at(b) - at(b ^ 1)));
-    return norm(at(a) - at(b)) <= tolerance::kMeet * shorter;
+    const double apart = std::max(norm(at(a) - at(b)), norm(after(a) - after(b)));
+    return apart <= tolerance::kMeet * shorter;
   }
 };
 

@@ -9,8 +9,10 @@
 
 namespace yadefrag {
 
+/// `after`: m, of a line, its ends after the step.
 struct RigidPart {
   Section section;
+  std::vector<Vec2> after;
   double friction;
   std::string name;
 };

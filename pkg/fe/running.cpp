@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "abi/yade.hpp"
 #include "fe/without_gil.hpp"
@@ -85,6 +87,23 @@ void waitForEnd() {
 void stopRun() {
   yade::Omega::instance().pause();
   if (!isInStep()) replaceLoop();
+}
+
+namespace {
+
+std::mutex stopLock;
+std::string stopReason;  // the scene's own thread writes it
+
+}  // namespace
+
+void noteStop(const char* why) {
+  const std::lock_guard guard(stopLock);
+  stopReason = why;
+}
+
+std::string whyStopped() {
+  const std::lock_guard guard(stopLock);
+  return std::exchange(stopReason, {});
 }
 
 }  // namespace yadefrag

@@ -1,6 +1,8 @@
 #pragma once
 // Does the scene run, in which thread, and when is its last step over.
 
+#include <string>
+
 namespace yadefrag {
 
 /// Is this thread within a step of the scene, as a PyRunner's command is.
@@ -17,6 +19,11 @@ void waitForStart(long iter, int subStep);
 
 /// Stops a run of another thread; returns after its last step. Python's lock is given up meanwhile.
 void stopRun();
+/// Why an engine has stopped the run: kept for the sentence that a script gets, for YADE writes it
+/// to stderr only.
+void noteStop(const char* why);
+/// What has been noted since the last call; empty: nothing.
+[[nodiscard]] std::string whyStopped();
 
 /// Waits for the end of a run, if there is one, with Python's lock given up; does nothing in a
 /// step.

@@ -62,6 +62,8 @@ BOOST_PYTHON_MODULE(_yadefrag) {
           "Waits until a run is over, looking as often as the run's own length asks for: O.wait() "
           "looks every 40 ms.");
   py::def("stopRun", &yadefrag::stopRun);
+  py::def("whyStopped", &yadefrag::whyStopped,
+          "What FESolver has refused a step for since the last call; '' for nothing.");
   py::def("watchListItems", &yadefrag::watchListItems);
   py::def("freeListItems", &yadefrag::freeListItems,
           "Frees engines, functors and bodies that only YADE's lost references keep.");

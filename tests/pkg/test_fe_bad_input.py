@@ -1,6 +1,7 @@
 """What a newcomer types wrongly at an FESolver: one sentence, and the scene as it was."""
 import builtins
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -298,3 +299,32 @@ def test_filesThatCannotBeOpenedAreNamed():
                  lambda: yadefrag.exportVTK(solver, '/nowhere/x.vtu')):
         with pytest.raises(FileNotFoundError, match='/nowhere/x'):
             call()
+
+
+def test_namesThatDoNotExistAreTold():
+    solver = fe()
+    with pytest.warns(UserWarning, match="^FESolver has no attribute 'dampng', but damping: it is kept, but has no"):
+        solver.dampng = 3
+    with pytest.warns(UserWarning, match="^FESolver has no attribute 'x': it is kept"):
+        solver.x = 3
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')
+        solver.damping, solver.label, solver.dead = 3, 'fe', False
+
+
+def test_prescribeForNoNodeIsTold():
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    with pytest.warns(UserWarning, match='^prescribe: nodes chooses none of the %d nodes.$' % len(solver.nodes)):
+        solver.prescribe(lambda x, y: x > 2, vx=0)
+
+
+def test_runStepsSaysWhatFESolverSaid():
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    run(solver)
+    critical, O.dt = O.dt, 1
+    with pytest.raises(RuntimeError, match=r'^The run stopped in step 0: O.dt: The time step is 1 s, but must be'):
+        yadefrag.runSteps(3)
+    O.dt = critical
+    assert yadefrag.runSteps(3) == 3

@@ -170,6 +170,131 @@ def test_wavesLeaveByTheEnds(kind, isAbsorbed):
     assert abs(energy['total'] - started) < 1e-3 * started
 
 
+@pytest.mark.parametrize('kind', ['compression', 'shear'])
+def test_wavesLeaveABodyOfSeveralMaterialsByEachSide(kind):
+    """Two pulses, in materials whose impedances are as 1 to 6, run apart from the joint of both: 2 % of their
+    height is left. With the softer one's dashpots at the stiff end five sevenths came back."""
+    O.materials.append(w.FEMat(young=9 * YOUNG, poisson=.2, density=4 * DENSITY, label='stiff'))
+    solver = fe()
+    nodes, triangles = yadefrag.rectangleMesh((0, 0), (8, .1), 320, 4)
+    along = kind == 'compression'
+
+    def modulus(young, poisson):
+        return young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson)) if along else young / (2 * (1 + poisson))
+
+    moduli = modulus(YOUNG, POISSON), modulus(9 * YOUNG, .2)
+    speeds = math.sqrt(moduli[0] / DENSITY), math.sqrt(moduli[1] / 4 / DENSITY)
+
+    def velocity(x, y):
+        v = .01 * math.exp(-((x - 2) / .2)**2) - .01 * math.exp(-((x - 6) / .2)**2)
+        return (v, 0) if along else (0, v)
+
+    def stress(x, y):
+        # That of a wave to the left in the left half, to the right in the right one: ± modulus × v/c.
+        v = velocity(x, y)[0 if along else 1]
+        wave = moduli[0] / speeds[0] * v if x < 4 else -moduli[1] / speeds[1] * v
+        poisson = POISSON if x < 4 else .2
+        return (wave, wave * poisson / (1 - poisson), 0) if along else (0, 0, wave)
+
+    solver.addTriangles(nodes, triangles, material=lambda x, y: 'm' if x < 4 else 'stiff', velocity=velocity,
+                        stress=stress, selfContact=False)
+    run(solver, factor=.9)
+    solver.prescribe(lambda x, y: True, **({'vy': 0} if along else {'vx': 0}))
+    solver.absorb(lambda x, y: x < 1e-9)
+    solver.absorb(lambda x, y: x > 8 - 1e-9)
+    started = solver.energy['kinetic'] + solver.energy['strain']
+    while solver.time < 3.2 / min(speeds):
+        O.step()
+    energy = solver.energy
+    assert math.sqrt((energy['kinetic'] + energy['strain']) / started) < .02
+    assert energy['damping'] == pytest.approx(started, rel=1e-3)
+
+
+# --- pressure in cracks
+
+def splitting(intoCracks, **settings):
+    """A bar with a weak joint in its middle, that is drawn apart; pressure on its lower side."""
+    O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e4, label='b', **settings))
+    solver = w.FESolver()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .4)), size=.1, material='b', joints=[((.5, 0), (.5, .4))],
+                      jointStrength=1e3, jointEnergy=0, velocity=lambda x, y: (.5 if x > .5 else -.5 if x < .5 else 0, 0))
+    run(solver, factor=.5)
+    solver.pressure(lambda x, y: y < 1e-9, 50., intoCracks=intoCracks)
+    return solver
+
+
+@pytest.mark.parametrize('intoCracks', [False, True])
+def test_pressureComesIntoCracksWhereAskedFor(intoCracks, folder):
+    """The halves of a bar that has parted: each gets pressure × height × time along it, to 0.5 %: its sides
+    tilt, and its height vibrates, by 10⁻³. The energies add up, and a saved scene goes on with the same bits."""
+    solver = splitting(intoCracks)
+    while len(solver.fragments()) < 2:
+        O.step()
+    steps(20)
+
+    def along():
+        # Nodes on the joint belong to the half whose triangles they are corners of.
+        right = np.unique(solver.triangles[solver.nodes[solver.triangles][:, :, 0].mean(axis=1) > .5])
+        return (solver.masses * solver.velocities[:, 0])[right].sum()
+
+    started, begin, total = along(), solver.time, solver.energy['total']
+    steps(10)
+    path = os.path.join(folder, 'scene.yade')
+    O.save(path)
+    steps(40)
+    whole = 50 * .4 * (solver.time - begin)
+    assert along() - started == pytest.approx(whole if intoCracks else 0, abs=5e-3 * whole)
+    # Both halves go apart at 0.5 m/s: the pressure on their faces works by `whole` joules.
+    assert solver.energy['total'] == pytest.approx(total, abs=1e-3 * whole)
+    places = solver.nodes.tobytes()
+    O.load(path)
+    solver = loadedSolver()
+    steps(40)
+    assert solver.nodes.tobytes() == places
+
+
+def test_pressureWaitsUntilCracksLetGo():
+    """As long as a fractureEnergy holds the halves together, there is none between them."""
+    ends = []
+    for intoCracks in (False, True):
+        O.reset()
+        O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e4, fractureEnergy=50, label='b'))
+        solver = w.FESolver()
+        solver.addPolygon(yadefrag.rectangle((0, 0), (1, .4)), size=.05, material='b', joints=[((.5, 0), (.5, .4))],
+                          jointStrength=1e3, jointEnergy=5, velocity=lambda x, y: (.2 if x > .5 else -.2 if x < .5 else 0, 0))
+        run(solver, factor=.5)
+        solver.pressure(lambda x, y: y < 1e-9, 50., intoCracks=intoCracks)
+        while solver.numCracks < 8:
+            O.step()
+        held = [solver.nodes]
+        assert len(solver.fragments(held=True)) == 1
+        while len(solver.fragments(held=True)) == 1:
+            O.step()
+        steps(100)
+        ends.append((held[0], solver.nodes))
+    assert (ends[0][0] == ends[1][0]).all()
+    assert np.ptp(ends[1][1][:, 0]) > np.ptp(ends[0][1][:, 0]) + 1e-6
+
+
+def test_pressureStaysOutOfCracksThatDoNotReachIt():
+    """Of a crack within a body, and on the far side of one that pressure has not come to."""
+    O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e5, label='b'))
+    solver = w.FESolver()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .4)), size=.05, material='b', jointStrength=1e3, jointEnergy=0,
+                      joints=[((.5, .1), (.5, .3))], velocity=lambda x, y: (.2 * (x - .5), 0))
+    run(solver, factor=.5)
+    solver.pressure(lambda x, y: y < 1e-9, 50., intoCracks=True)
+    while solver.numCracks < 4:
+        O.step()
+    started = (solver.masses[:, None] * solver.velocities).sum(axis=0)
+    begin = solver.time
+    steps(20)
+    given = (solver.masses[:, None] * solver.velocities).sum(axis=0) - started
+    length = np.ptp(solver.nodes[:, 0])
+    assert given == pytest.approx([0, 50 * length * (solver.time - begin)], rel=1e-3, abs=1e-3)
+    assert len(solver.fragments()) == 1
+
+
 # --- rest
 
 def test_relaxedBlockBearsItsWeight():

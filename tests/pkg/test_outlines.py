@@ -215,6 +215,49 @@ def test_dxfSpline(folder, tolerance):
     assert holes == []
 
 
+def layered(document):
+    """A plate, its bore and the pins, each on its layer; one pin in a block, whose lines are on layer 0."""
+    space = document.modelspace()
+    for name in ('Plate', 'bore', 'pins'):
+        document.layers.add(name)
+    square = [(0, 0), (10, 0), (10, 10), (0, 10)]
+    space.add_lwpolyline(square, close=True, dxfattribs={'layer': 'Plate'})
+    space.add_circle((5, 5), 2, dxfattribs={'layer': 'bore'})
+    space.add_circle((5, 5), 1, dxfattribs={'layer': 'pins'})
+    block = document.blocks.new('pin')
+    block.add_circle((0, 0), .5)
+    space.add_blockref('pin', (2, 2), dxfattribs={'layer': 'pins'})
+
+
+def test_dxfLayersAreChosenByName(folder):
+    file = dxf(folder, layered)
+    assert [len(holes) for _, holes in readOutline(file, .01)] == [2, 0]  # the plate, the pin in its bore
+    [(plate, holes)] = readOutline(file, .01, layers='plate')  # capitals do not count
+    assert area(plate) == pytest.approx(100) and holes == []
+    [(plate, [bore])] = readOutline(file, .01, layers=['bore', 'Plate'])
+    assert abs(area(bore)) == pytest.approx(math.pi * 4, rel=.01)
+    pins = readOutline(file, .01, layers='pins')
+    assert sorted(area(pin) for pin, _ in pins) == [pytest.approx(math.pi * r**2, rel=.03) for r in (.5, 1)]
+    with pytest.raises(ValueError, match="^layers has 'bores', but the layers with lines of .* are "
+                                         "'Plate', 'bore', 'pins'.$"):
+        readOutline(file, .01, layers=['bores'])
+    for wrong in (3, [], [1], b'Plate'):
+        with pytest.raises(ValueError, match='^layers is .*the name of a layer, or a list of names'):
+            readOutline(file, .01, layers=wrong)
+    with pytest.raises(ValueError, match='^layers or byLayer is given, but .*a.csv.* has no layers'):
+        readOutline(written(folder, 'a.csv', '0,0\n1,0\n0,1\n'), byLayer=True)
+
+
+def test_dxfByLayer(folder):
+    """A circle on a layer of its own is no hole of what is around it on another one."""
+    found = readOutline(dxf(folder, layered), .01, byLayer=True)
+    assert list(found) == ['Plate', 'bore', 'pins']
+    assert [len(shapes) for shapes in found.values()] == [1, 1, 2]
+    assert all(holes == [] for shapes in found.values() for _, holes in shapes)
+    few = readOutline(dxf(folder, layered), .01, layers='bore', byLayer=True)
+    assert few == {'bore': found['bore']}
+
+
 def test_geoJson(folder):
     ring = kSquare + kSquare[:1]
     hole = [(1, 1), (1, 2), (2, 2), (2, 1), (1, 1)]
@@ -274,6 +317,30 @@ def test_silhouetteWithAHole(folder, mode):
         assert max(offEllipse(loop, centre, radius, radius)) < 1.75e-3
         assert area(loop) == pytest.approx(math.pi * radius**2, rel=.03 if radius > .02 else .1)
     assert len(outline) < 40 < len(readOutline(silhouette(folder, inside), 1e-4, scale=1e-3)[0][0])
+
+
+@pytest.mark.parametrize('ending', ['jpg', 'jpeg', 'bmp', 'tif', 'tiff', 'png'])
+@pytest.mark.parametrize('bits', [8, 16])
+def test_silhouetteInOtherFormats(folder, ending, bits):
+    """A disc of 40 pixels on paper that is not quite white; 0.5 %: JPEG blurs the edge."""
+    from PIL import Image
+    if bits == 16 and ending in ('jpg', 'jpeg', 'bmp'):
+        pytest.skip('the format has 8 bits')
+    y, x = np.mgrid[99.5:-.5:-1, .5:120]
+    grey = np.where(np.hypot(x - 60, y - 50) < 40, .1, .9)
+    file = os.path.join(folder, 'disc.' + ending)
+    Image.fromarray((grey * (2**bits - 1)).astype(np.uint8 if bits == 8 else np.uint16)).save(file)
+    [(outline, holes)] = readOutline(file, .25)
+    assert area(outline) == pytest.approx(math.pi * 40**2, rel=.005) and holes == []
+    assert np.mean(outline, axis=0) == pytest.approx((60, 50), abs=1)
+
+
+def test_greysWithoutARangeAreRefused(folder):
+    from PIL import Image
+    file = os.path.join(folder, 'float.tif')
+    Image.fromarray(np.ones((9, 9), dtype=np.float32)).save(file)
+    with pytest.raises(ValueError, match='float.tif is no picture that can be read: its greys are not of 8 or 16'):
+        readOutline(file, 1)
 
 
 def test_specksAreLeftOutWhereAskedFor(folder):

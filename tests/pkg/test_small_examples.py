@@ -92,7 +92,7 @@ def test_spheresBendABeam(folder):
 
 
 def test_crusherKeepsMomentum(folder):
-    """The sums of reactions × step and of masses × velocities: five of the six digits printed."""
+    """The sums of YADE's forces × step and of masses × velocities: five of the six digits printed."""
     found = figures('crusher', folder)
     x, y, changeX, changeY = found['momentum']
     assert abs(x) > .1 and x == pytest.approx(changeX, rel=1e-5) and y == pytest.approx(changeY, rel=1e-5)

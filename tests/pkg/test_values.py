@@ -106,7 +106,7 @@ def test_aBrokenReprIsNoReasonToFail():
     ('dead', 7, 'FESolver.dead is 7, it must be True or False.'),
     ('label', b'x', "FESolver.label is b'x', it must be a text."),
     ('correction', 3, 'FESolver.correction is 3, it must be a text.'),
-    ('gravity', (0,), 'FESolver.gravity is (0,), it must be three numbers.'),
+    ('gravity', (0,), 'FESolver.gravity is (0,), it must be two or three numbers.'),
     ('label', None, 'FESolver.label is None, it must be a text.')])
 def test_attributesOfAWrongKind(name, value, sentence):
     solver = w.FESolver(passes=2)

@@ -87,6 +87,12 @@ TEST(EnergyWatch, CracksAreToldApart) {
   ledger.fracture = -3;
   EXPECT_TRUE(said(watch, stepOf(ledger)).find("cracks that still hold have created 3 J") !=
               std::string::npos);
+  watch.split = 7;
+  ledger.fracture = -7;
+  EXPECT_TRUE(
+      said(watch, stepOf(ledger))
+          .find("element='smoothed' have created 7 J, 7 % of the bodies' energy; the strains "
+                "of elements that a crack parts") != std::string::npos);
 }
 
 TEST(EnergyWatch, SparesWhatRoundingMakes) {

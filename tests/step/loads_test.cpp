@@ -74,6 +74,23 @@ TEST(Pressure, StaysWithItsBodyWhenAnotherLeaves) {
   EXPECT_TRUE(world.absorbing.segments.empty());
 }
 
+// Sides that come after the call, and hang together with one that has it, from either end.
+TEST(Pressure, SpreadsAlongNewSides) {
+  World world = oneBlock();
+  ContactSurfaces& surfaces = world.surfaces;
+  Pressure pressure;
+  pressure.segments = {SegmentId(5)};
+  pressure.firstNew = 7;
+  spread(pressure, surfaces);  // 6, and behind it what is not new
+  EXPECT_EQ(pressure.segments, std::vector{SegmentId(5)});
+  pressure.segments = {SegmentId(7)};
+  spread(pressure, surfaces);
+  std::ranges::sort(pressure.segments);
+  std::vector<SegmentId> wanted;
+  for (std::size_t s = 7; s < surfaces.segments(); ++s) wanted.emplace_back(s);
+  EXPECT_EQ(pressure.segments, wanted);
+}
+
 // Of a body that moves as one, the dashpots take ρcv on each square metre at once.
 TEST(Absorbing, TakesImpedanceTimesVelocity) {
   World world = oneBlock({0, 0}, {.1, .2});
@@ -85,6 +102,34 @@ TEST(Absorbing, TakesImpedanceTimesVelocity) {
   EXPECT_NEAR(force.x, -.1 * std::sqrt(1000 * kRubber.waveModulus()), 1e-2);
   EXPECT_NEAR(force.y, -.2 * std::sqrt(1000 * kRubber.shearModulus()), 1e-2);
   EXPECT_NEAR(world.ledger.damping, -dot(force, {.1, .2}) * dt, 1e-5 * world.ledger.damping);
+}
+
+// The same with two materials, each behind half of the side.
+TEST(Absorbing, TakesTheImpedanceOfTheTriangleBehind) {
+  const ElasticMaterial stiff{9e7, .2, 4000, false};
+  const TriangleMesh mesh = structuredRectangle({0, 0}, {1, 1}, 2, 2, QuadPattern::kCrossed);
+  BodySpec spec = moving(mesh, kRubber, {.1, .2});
+  BodyMaterial one, other;
+  one.material = kRubber, other.material = stiff;
+  spec.materials.materials = {one, other};
+  for (const auto& corners : mesh.triangles) {
+    const double y = mesh.nodes[corners[0]].y + mesh.nodes[corners[1]].y + mesh.nodes[corners[2]].y;
+    spec.materials.ofTriangle.push_back(y < 1.5 ? 0 : 1);
+  }
+  World world;
+  world.addBody(mesh, spec);
+  world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1; }));
+  const Vec2 before = momentum(world);
+  const double dt = 1e-6 * world.criticalTimeStep();
+  world.step(dt);
+  const Vec2 force = (1 / dt) * (momentum(world) - before);
+  const auto mean = [&](double a, double b) {
+    return (std::sqrt(1000 * a) + std::sqrt(4000 * b)) / 2;
+  };
+  const double along = mean(kRubber.waveModulus(), stiff.waveModulus());
+  const double across = mean(kRubber.shearModulus(), stiff.shearModulus());
+  EXPECT_NEAR(force.x, -.1 * along, 1e-5 * along);
+  EXPECT_NEAR(force.y, -.2 * across, 1e-5 * across);
 }
 
 TEST(Absorbing, EnergyIsKeptInTheBooks) {

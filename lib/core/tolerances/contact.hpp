@@ -14,6 +14,10 @@ inline constexpr double kTouchRounding = 0x1p-50;
 /// (rad) A corner that turns by more is a slave in a single pass too: 30°.
 inline constexpr double kSharpCorner = .52;
 
+/// (rad) A corner of a rigid boundary that turns by less is on a line: facets whose ends are given
+/// with six digits.
+inline constexpr double kLineCorner = 1e-5;
+
 /// (1/octave) Surfaces whose mean piece lengths are equal when rounded to this part of an octave
 /// count as equally fine, so that deformation does not make slaves and masters take turns.
 inline constexpr double kFinenessSteps = 8;

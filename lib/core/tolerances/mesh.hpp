@@ -74,4 +74,8 @@ inline constexpr double kOnEdge = 1e-9;
 /// more than rounding, so that two equal choices do not take turns.
 inline constexpr double kFlip = 1e-9;
 
+/// (strain) A body that is stressed from the start may be stretched by this much: beyond, the law
+/// is none of a solid, and compression has no unique answer near 1.
+inline constexpr double kMostStretch = .5;
+
 }  // namespace yadefrag::tolerance

@@ -2,7 +2,9 @@
 wrong kind is refused in a sentence; both for the attributes that come from YADE, too.
 """
 
+import difflib
 import functools
+import warnings
 
 import numpy
 
@@ -22,6 +24,8 @@ def install(cls):
 
 
 def __setattr__(self, name, value):
+    if not hasattr(type(self), name) and not name.startswith('_'):
+        _warnOfUnknown(self, name)
     value = _inSpace(self, name, value)
     present = None if isinstance(value, (list, tuple, numpy.ndarray)) else getattr(self, name, None)
     try:
@@ -29,8 +33,18 @@ def __setattr__(self, name, value):
         if _isGravity(self, name):
             object.__setattr__(self, 'takesGravity', False)
     except _WRONG_KIND:
-        refuse('%s.%s' % (type(self).__name__, name), value, _right(getattr(self, name), value),
+        right = 'two or three numbers' if _isGravity(self, name) else _right(getattr(self, name), value)
+        refuse('%s.%s' % (type(self).__name__, name), value, right,
                TypeError)  # as YADE's own classes
+
+
+def _warnOfUnknown(self, name):
+    """Objects take any name: one that is misspelt would be set and do nothing."""
+    kind = type(self)
+    known = [one for one in dir(kind) if not one.startswith('_') and not callable(getattr(kind, one))]
+    near = difflib.get_close_matches(name, known, 1)
+    warnings.warn("%s has no attribute '%s'%s: it is kept, but has no effect." %
+                  (kind.__name__, name[:40], ', but %s' % near[0] if near else ''), stacklevel=3)
 
 
 def _isGravity(self, name):

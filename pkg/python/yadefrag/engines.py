@@ -6,7 +6,7 @@ from yade import wrapper
 from yadefrag.values import flag, number, numbersOf, refuse
 
 
-def engines(fe, gravity=None, spheres=False, damping=0., collider=None):
+def engines(fe, gravity=None, spheres=False, damping=0., collider=None, moving=False):
     """List of engines for O.engines, in the order in which they must stand.
 
     fe        an FESolver
@@ -15,6 +15,8 @@ def engines(fe, gravity=None, spheres=False, damping=0., collider=None):
     spheres   are there YADE's spheres? False: [ForceResetter, fe], for FESolver searches by itself.
               True: a collider, InteractionLoop with Cundall and Strack's law among spheres and between
               spheres and bodies, and NewtonIntegrator, too
+    moving    without spheres: do YADE's walls, boxes or facets move? True: NewtonIntegrator behind fe,
+              which moves them
     damping   of NewtonIntegrator: that of spheres only
     collider  a class of colliders for spheres=True, None: LebesgueCollider
     Engines of one's own go behind: O.engines = engines(fe) + [PyRunner(...)]. ValueError before
@@ -22,7 +24,7 @@ def engines(fe, gravity=None, spheres=False, damping=0., collider=None):
     """
     if not isinstance(fe, wrapper.FESolver):
         refuse('fe', fe, 'an FESolver')
-    spheres = flag('spheres', spheres)
+    spheres, moving = flag('spheres', spheres), flag('moving', moving)
     finder = wrapper.LebesgueCollider if collider is None else collider
     if not isinstance(finder, type) or not issubclass(finder, wrapper.Collider):
         refuse('collider', collider, 'a class of colliders, or None')
@@ -32,7 +34,7 @@ def engines(fe, gravity=None, spheres=False, damping=0., collider=None):
         fe.gravity = _inPlane(gravity)
     integrator.gravity = fe.gravity
     if not spheres:
-        return [wrapper.ForceResetter(), fe]
+        return [wrapper.ForceResetter(), fe] + [integrator] * moving
     return [
         wrapper.ForceResetter(),
         finder([wrapper.Bo1_Sphere_Aabb(), wrapper.Bo1_SurfaceSegment_Aabb()]),

@@ -10,7 +10,7 @@ from yadefrag._yadefrag import requirePaused
 from yadefrag.motions import chosenNodes, packed, tableOrNumber
 from yadefrag.progress import runSteps
 from yadefrag.shown import betweenSteps
-from yadefrag.values import array, number, positive, refuse, shown, whole
+from yadefrag.values import array, flag, number, positive, refuse, shown, whole
 
 _LOOK = 25  # steps from one look at the motion to the next
 
@@ -34,29 +34,33 @@ def setLoads(self, loads):
     self._setLoads(numpy.ascontiguousarray(forces).tobytes())
 
 
-def pressure(self, nodes, p):
+def pressure(self, nodes, p, intoCracks=False):
     """From now on a pressure acts on the sides of the boundary that have both ends among `nodes`.
 
     nodes  as in `prescribe`: node numbers, flags, a function (x, y) of the present positions, or a
            body's name for all of its boundary
     p      Pa, towards the body: a number, a table [(s, Pa), …] linear between its times and constant
            outside, or a function (t) → Pa; the times are fe.time. 0 ends it
+    intoCracks  False: new faces of cracks have none; True: it acts, in full, on faces of cracks that
+           open after this call, too, from the moment on in which they hang together with a side that
+           has it and no fractureEnergy holds them any more: the gas of a blast
     It is along the present normal, on the present length, half at both ends of a side: it turns with
-    the surface, and follows it where nodes split. New faces of cracks have none. A later pressure on
+    the surface, and follows it where nodes split. A later pressure on
     the same side takes the place of an earlier one. Its work is in `energy['external']`. A saved scene
     keeps numbers and tables; with a function the first step after O.load raises RuntimeError until
     pressure has been called for these nodes again. ValueError before anything changes, also where no
     side has both ends among the nodes.
     """
     requirePaused()
+    intoCracks = flag('intoCracks', intoCracks)
     chosen = chosenNodes(self, nodes)
     if callable(p):
         def value(time):
             return number('p(%g)' % time, p(time), math.isfinite, 'a finite number (Pa)')
-        self._pressure(chosen.tobytes(), b'', b'', value)
+        self._pressure(chosen.tobytes(), b'', b'', value, intoCracks)
         return
     times, values = packed(tableOrNumber('p', p, 'Pa'))
-    self._pressure(chosen.tobytes(), times, values, None)
+    self._pressure(chosen.tobytes(), times, values, None, intoCracks)
 
 
 def absorb(self, nodes):
@@ -66,8 +70,8 @@ def absorb(self, nodes):
     Dashpots ρc at the nodes (Lysmer and Kuhlemeyer 1969, J. Eng. Mech. Div. 95, 859), with the speed
     of compression waves across the boundary and that of shear waves along it: waves that come
     straight at it leave wholly, of others a part comes back. They hold no static load: a body that
-    is pushed drifts through them. What they take is in `energy['damping']`. ValueError before
-    anything changes, also for a body of several materials.
+    is pushed drifts through them. What they take is in `energy['damping']`. Each side
+    has the density and speeds of the triangle behind it. ValueError before anything changes.
     """
     requirePaused()
     self._absorb(chosenNodes(self, nodes).tobytes())

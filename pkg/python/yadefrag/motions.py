@@ -1,6 +1,7 @@
 """Prescribed motions of nodes: constant, by node, by tables in time, by functions, and turns."""
 
 import math
+import warnings
 
 import numpy
 
@@ -109,10 +110,12 @@ def prescribe(self, nodes, vx=None, vy=None):
     the motion; the forces that it takes are in `reactions`, their work in `energy['external']`. A
     saved scene keeps all but functions: the first step after O.load raises RuntimeError until
     prescribe has been called for their nodes again. ValueError before anything changes, also for an
-    array with a table or a function in the other direction.
+    array with a table or a function in the other direction; a warning where no node is chosen.
     """
     requirePaused()
     chosen = chosenNodes(self, nodes)
+    if not len(chosen):
+        warnings.warn('prescribe: nodes chooses none of the %d nodes.' % len(self.nodes), stacklevel=2)
     kinds, values = zip(*[_kind(name, value, len(chosen))
                           for name, value in (('vx', vx), ('vy', vy))])
     held = sum(axis for axis, kind in ((1, kinds[0]), (2, kinds[1])) if kind != 'none')

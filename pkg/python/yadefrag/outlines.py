@@ -7,15 +7,16 @@ import numpy
 
 from yadefrag.meshing import simplified
 from yadefrag.readers import dxf, loops, picture, plain, svg
-from yadefrag.values import number, path, positive, shownPath
+from yadefrag.values import flag, number, path, positive, refuse, shown, shownPath
 
 _GAP = 1e-6  # of the longer side of all: drawings have six digits
-_LINES = {'.svg': svg.lines, '.dxf': dxf.lines, '.png': picture.lines, '.csv': plain.csvLines,
-          '.wkt': plain.wktLines, '.json': plain.geoJsonLines, '.geojson': plain.geoJsonLines}
+_LINES = {'.svg': svg.lines, '.dxf': dxf.lines, '.csv': plain.csvLines, '.wkt': plain.wktLines,
+          '.json': plain.geoJsonLines, '.geojson': plain.geoJsonLines,
+          **{ending: picture.lines for ending in picture.ENDINGS}}
 
 
-def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None,
-                leastArea=0.):
+def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None, leastArea=0., layers=None,
+                byLayer=False):
     """Outlines from a drawing, a map or a picture: list of (outline, holes), as addPolygon has them.
 
     `for shape in readOutline('plate.svg', 1e-5, scale=1e-3): fe.addPolygon(*shape, size=...)`.
@@ -23,11 +24,11 @@ def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None,
                .svg      paths and basic shapes with their transforms, those that are not hidden, in
                          units of the viewBox; y upwards, so that the page is below the origin
                .dxf      lines, polylines with bulges, arcs, circles, ellipses, splines, also in
-                         blocks, seen from above
+                         blocks, seen from above; layers may be chosen
                .geojson, .json, .wkt  polygons, and lines that close
                .csv      `x, y` on each line, an empty one between two loops, # before comments
-               .png      what is darker than middle grey, transparent places being white; in pixels
-                         from the lower left corner of the picture
+               .png, .jpg, .jpeg, .bmp, .tif, .tiff  what is darker than middle grey, transparent
+                         places being white; in pixels from the lower left corner of the picture
     tolerance  m, by which outlines may be off: points on curves are so many that chords are within
                it (those of splines in .dxf at their middles), and those of a picture's contour are
                left out as by `simplify`. Files without curves need none
@@ -36,6 +37,9 @@ def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None,
                the longer side of what is drawn
     simplify   None, or m: as in addPolygon, on what has been read
     leastArea  m²: loops around less, as specks in a picture are, are left out
+    layers     of a .dxf: None, all of them; or the name of one or a list of names: those only
+    byLayer    of a .dxf: True returns a dict {layer: list of (outline, holes)} in place of the list;
+               lines close, and loops are holes, within their own layer only
     What an odd number of loops is around is inside: a loop within an outline is a hole, one within
     a hole an outline of its own. All are counter-clockwise lists of (x, y) in m.
     ValueError with the file for one that is none of these, for lines that do not close and for a
@@ -53,16 +57,52 @@ def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None,
     simplify = None if simplify is None else positive('simplify', simplify, 'm')
     leastArea = number('leastArea', leastArea, lambda v: 0 <= v < math.inf,
                        '0 or a positive number (m²)')
+    byLayer = flag('byLayer', byLayer)
+    if ending != '.dxf' and (byLayer or layers is not None):
+        raise ValueError('layers or byLayer is given, but %s has no layers: only a .dxf file has.' %
+                         shownPath(name))
+    wanted = None if layers is None else _names(layers)
     with open(name, 'rb'):  # OSError before a library finds its own words
         pass
-    lines = _LINES[ending](name, None if tolerance is None else tolerance / scale)
-    lines = [scale * line for line in lines if len(line)]
-    shapes = _shapes(name, lines, gap, leastArea)
-    if ending == '.png':
-        shapes = [_simplified(name, 'tolerance', tolerance, *shape) for shape in shapes]
-    if simplify is not None:
-        shapes = [_simplified(name, 'simplify', simplify, *shape) for shape in shapes]
-    return [(_pairs(outline), [_pairs(hole) for hole in holes]) for outline, holes in shapes]
+    units = None if tolerance is None else tolerance / scale
+    parts = _chosen(name, dxf.linesByLayer(name, units), wanted) if ending == '.dxf' else \
+        {'': _LINES[ending](name, units)}
+    if not byLayer:
+        parts = {'': [line for part in parts.values() for line in part]}
+    found = {}
+    for layer, part in parts.items():
+        shapes = _shapes(name, [scale * line for line in part if len(line)], gap, leastArea)
+        if ending in picture.ENDINGS:
+            shapes = [_simplified(name, 'tolerance', tolerance, *shape) for shape in shapes]
+        if simplify is not None:
+            shapes = [_simplified(name, 'simplify', simplify, *shape) for shape in shapes]
+        found[layer] = [(_pairs(outline), [_pairs(hole) for hole in holes])
+                        for outline, holes in shapes]
+    return found if byLayer else found['']
+
+
+def _names(layers):
+    names = [layers] if isinstance(layers, str) else layers
+    try:
+        names = list(names)
+    except TypeError:
+        names = []
+    if not names or not all(isinstance(one, str) for one in names):
+        refuse('layers', layers, 'the name of a layer, or a list of names')
+    return names
+
+
+def _chosen(file, parts, wanted):
+    """Of {layer: lines} those wanted; names are the same in capitals, as in the format."""
+    if wanted is None:
+        return parts
+    known = {layer.casefold(): layer for layer in parts}
+    for one in wanted:
+        if one.casefold() not in known:
+            raise ValueError('layers has %s, but the layers with lines of %s are %s.' %
+                             (shown(one), shownPath(file),
+                              ', '.join(map(repr, list(parts)[:10])) or 'none'))
+    return {known[one.casefold()]: parts[known[one.casefold()]] for one in wanted}
 
 
 def _shapes(name, lines, gap, leastArea):

@@ -82,3 +82,32 @@ def brittlePlaces(mesh, materials, interfaces, strength, fractureEnergy, joints=
     places.update(jointEdges=(edges, 'uint32'), jointStrength=(strengths, 'float64'),
                   jointEnergy=(energies, 'float64'))
     return places
+
+
+def stressOfTriangles(stress, mesh):
+    """(m, 3) Pa of the mesh's triangles, from a triple, a function (x, y) or an array; empty for
+    None."""
+    nodes, triangles = mesh['nodes'], mesh['triangles']
+    if stress is None:
+        return numpy.empty((0, 3))
+    if callable(stress):
+        return numpy.array([_triple('stress(%g, %g)' % (x, y), stress(x, y))
+                            for x, y in nodes[triangles].mean(axis=1)])
+    values = array(stress)
+    if values is None or values.ndim != 2 or values.dtype.kind not in 'iuf':
+        return numpy.tile(_triple('stress', stress), (len(triangles), 1))
+    if values.shape != (len(triangles), 3):
+        raise ValueError('stress has the shape %s, it must be (%d, 3): one triple for each '
+                         'triangle.' % (shown(values.shape), len(triangles)))
+    for i, one in enumerate(values):
+        _triple('stress[%d]' % i, one)
+    return values.astype(float)
+
+
+def _triple(name, value):
+    """Three finite floats."""
+    values = array(value)
+    if values is None or values.shape != (3,) or values.dtype.kind not in 'iuf' \
+            or not numpy.isfinite(values).all():
+        refuse(name, value, 'three finite numbers (Pa): xx, yy, xy')
+    return values.astype(float)

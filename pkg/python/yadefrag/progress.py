@@ -17,7 +17,8 @@ def runSteps(steps, every=None, call=None):
     every, call  if given, call() is called after each `every` steps
     On a terminal a bar shows steps, simulated time and time left. Ctrl-C stops after a whole step,
     with the scene as it is then, and so does O.pause() from a PyRunner; the run can be taken up
-    again. RuntimeError where an engine stopped the run, with what it said in YADE's own message.
+    again. RuntimeError where an engine stopped the run, with what FESolver said; what other engines say
+    is in YADE's own message.
     """
     steps = whole('steps', steps, most=MOST_STEPS)
     every = None if every is None else whole('every', every, most=MOST_STEPS)
@@ -61,6 +62,7 @@ def runPart(steps):
     """
     omega = wrapper.Omega()
     begin, pauses = lifecycle.stepsDone(), lifecycle.pauses()
+    _yadefrag.whyStopped()
     omega.run(steps)
     lifecycle.waitForEnd()
     if lifecycle.stepsDone() - begin == steps and pauses == lifecycle.pauses():
@@ -70,7 +72,8 @@ def runPart(steps):
     if done < steps:
         omega.stopAtIter = -1  # or the next O.run() would stop there
     if omega.subStep != -1:
-        raise RuntimeError('The run stopped in step %d.' % omega.iter)
+        why = _yadefrag.whyStopped()
+        raise RuntimeError('The run stopped in step %d%s' % (omega.iter, ': ' + why if why else '.'))
     return done, True
 
 

@@ -3,6 +3,7 @@
 import math
 import os
 import sys
+import warnings
 
 from yade import wrapper
 from yadefrag.export import exportVTK, fieldNames
@@ -39,6 +40,9 @@ def FERecorder(iterPeriod=0, file='run', fields=None, **settings):
     chosen = fieldNames(fields)
     every = whole('iterPeriod', iterPeriod, 0, 'a whole number of steps', MOST_STEPS)
     requireWritable(name + '.csv')
+    if not every and not any(settings.get(one) for one in ('virtPeriod', 'realPeriod')):
+        warnings.warn('FERecorder: of iterPeriod, virtPeriod and realPeriod none is given; there will '
+                      'be one record, of the first step.', stacklevel=2)
     command = '__import__("yadefrag.recorder").recorder.record(%r, %r)' % (os.path.abspath(name), chosen)
     try:
         return wrapper.PyRunner(command=command, **{'initRun': True, 'iterPeriod': every, **settings})

@@ -15,25 +15,34 @@ _DEEPEST = 20  # blocks within blocks
 
 
 def lines(name, tolerance):
+    return [line for layer in linesByLayer(name, tolerance).values() for line in layer]
+
+
+def linesByLayer(name, tolerance):
+    """{layer: lines}, those of layers that have some, in the order of the file."""
     ezdxf = needed('ezdxf', _PACKAGE, name)
     try:
         entities = list(_entities(ezdxf.readfile(name).modelspace()))
     except Exception as error:  # of the library
         refuseFile(name, 'DXF file', error)
-    found = []
-    for entity in entities:
+    found = {}
+    for layer, entity in entities:
         reader = _READERS.get(entity.dxftype())
         if reader is not None:
-            found += [_plane(line) for line in reader(entity, tolerance, name)]
-    return found
+            lines = [_plane(line) for line in reader(entity, tolerance, name)]
+            found.setdefault(layer, []).extend(lines)
+    return {layer: lines for layer, lines in found.items() if lines}
 
 
-def _entities(layout, depth=0):
+def _entities(layout, depth=0, around='0'):
+    """(layer, entity): on layer 0 of a block is what is on the layer of the block's insert."""
     for entity in layout:
+        layer = entity.dxf.get('layer', '0')
+        layer = around if layer == '0' else layer
         if entity.dxftype() == 'INSERT' and depth < _DEEPEST:
-            yield from _entities(entity.virtual_entities(), depth + 1)
+            yield from _entities(entity.virtual_entities(), depth + 1, layer)
         else:
-            yield entity
+            yield layer, entity
 
 
 def _plane(points):

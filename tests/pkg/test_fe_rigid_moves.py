@@ -1,0 +1,264 @@
+"""Rigid boundaries that meet at an angle, part, leave the plane of the bodies and come back, or run along themselves."""
+import builtins
+import math
+
+import numpy as np
+import pytest
+
+import yadefrag
+from fe_scene import fe, run, steps
+from test_fe_rigid import G, block, facet, smooth, wall
+from yade import utils
+from yade import wrapper as w
+from yade.minieigenHP import Vector3
+
+O = builtins.O
+
+WAYS = [{'passes': passes, 'entry': entry} for passes in (1, 2) for entry in ('path', 'flags')]
+
+
+def force(number):
+    return np.array(O.forces.f(number))[:2]
+
+
+def ridge(steep, half=1.):
+    """Two facets that meet at the origin, at an angle `steep` (rad) below the horizontal."""
+    fall = half * math.tan(steep)
+    return O.bodies.append([facet((-half, -fall), (0, 0), fixed=True), facet((0, 0), (half, -fall), fixed=True)])
+
+
+@pytest.mark.parametrize('way', WAYS)
+@pytest.mark.parametrize('steep', [.1, .6])
+def test_saddleOnARidgePressesOnBothSides(way, steep):
+    """A body with a notch that fits, but for the edge, which it does not touch, and without friction: each
+    facet bears half its weight W, and W/2 tan(steep) along the ground outwards; 1e-4 as on a floor."""
+    solver = fe(gravity=(0, -G), damping=300, **way)
+    O.materials['m'].frictionAngle = 0
+    half = [(.01, .005), (.01, -.01 * math.tan(steep)), (.05, -.05 * math.tan(steep)), (.05, .1)]
+    solver.addPolygon(half + [(-x, y) for x, y in reversed(half)], size=.02, material='m')
+    left, right = ridge(steep)
+    run(solver)
+    steps(5000)
+    weight = G * solver.masses.sum()
+    wanted = np.array([weight / 2 * math.tan(steep), -weight / 2])
+    assert force(left) == pytest.approx(wanted, rel=1e-4)
+    assert force(right) == pytest.approx(wanted * (-1, 1), rel=1e-4)
+    assert solver.warnings == []
+
+
+def onRidge(rigid, steep, smooth, friction, **way):
+    solver = fe(gravity=(0, -G), **way)
+    O.materials['m'].frictionAngle = friction
+    block(solver, (-.047, .001), mesh=.01, velocity=(.2, -1), smooth=smooth)
+    critical = solver.criticalTimeStep()
+    if rigid:
+        O.materials.append(w.FrictMat(density=1000, frictionAngle=friction, young=1e7, poisson=.3, label='r'))
+        for number in ridge(steep):
+            O.bodies[number].material = O.materials['r']
+    else:
+        depth = -math.tan(steep)
+        solver.addPolygon([(-1, depth), (1, depth), (0, 0)], size=3, material='m', fixed=lambda x, y: True)
+    run(solver)
+    O.dt = .8 * critical
+    path = []
+    for _ in range(400):
+        O.step()
+        path.append(solver.nodes[:len(solver.nodesOf(0))])
+    return solver, np.array(path)
+
+
+@pytest.mark.filterwarnings('ignore:addPolygon')  # the fixed body is as coarse as can be
+@pytest.mark.parametrize('entry', ['path', 'flags'])
+@pytest.mark.parametrize('soft', [False, True])
+@pytest.mark.parametrize('steep, friction', [(.15, 0), (.7, .3)])
+def test_bodyThatDropsOnARidgeIsThatOnAFixedBody(entry, soft, steep, friction):
+    """To the last bits, for the same rows are solved: 1e-12 m."""
+    _, found = onRidge(True, steep, soft, friction, entry=entry)
+    O.reset()
+    _, wanted = onRidge(False, steep, soft, friction, entry=entry)
+    assert np.abs(found - wanted).max() < 1e-12
+    assert np.diff(found.mean(axis=1)[:, 1])[-1] > 0  # it came back
+
+
+@pytest.mark.parametrize('entry', ['path', 'flags'])
+def test_edgeOfARidgeStaysOutInTwoPasses(entry):
+    """Its kink of 0.3 rad is no sharp corner: a single pass leaves it to the block's points, which sag over
+    it by up to half a side times the slope; two passes keep it out, to 1e-4 of a side."""
+    deepest = {}
+    for passes in (1, 2):
+        O.reset()
+        solver, path = onRidge(True, .15, False, 0, entry=entry, passes=passes)
+        low = np.argsort(path[0, :, 1])[:11]
+        low = low[np.argsort(path[0, low, 0])]
+        deepest[passes] = max(-np.interp(0, nodes[low, 0], nodes[low, 1]) for nodes in path)
+    assert 1e-4 < deepest[1] < .005 * math.tan(.15)
+    assert deepest[2] < 1e-6
+
+
+@pytest.mark.parametrize('way', WAYS)
+def test_facetThatRisesBesideAnotherLiftsItsHalf(way):
+    """Facets that met end to end part: nothing falls through the one that moves."""
+    solver = fe(gravity=(0, -G), **way)
+    block(solver, (-.05, 0))
+    O.bodies.append([facet((-1, 0), (0, 0), fixed=True), facet((0, 0), (1, 0), fixed=True)])
+    riser = O.bodies[len(O.bodies) - 1]
+    run(solver)
+    steps(100)
+    before = momentumY(solver)
+    riser.state.vel = (0, .5, 0)
+    given = 0
+    for _ in range(300):
+        O.step()
+        given -= (force(riser.id - 1)[1] + force(riser.id)[1] + G * solver.masses.sum()) * O.dt
+        right = solver.nodes[solver.nodes[:, 0] > 0]
+        assert right[:, 1].min() > riser.state.pos[1] - 1e-8
+    assert riser.state.pos[1] > .01 and solver.nodes[:, 1].min() > -1e-8
+    assert momentumY(solver) - before == pytest.approx(given, rel=1e-9)
+
+
+def momentumY(solver):
+    return (solver.masses * solver.velocities[:, 1]).sum()
+
+
+@pytest.mark.parametrize('way', WAYS)
+def test_facetsThatDrawApartLetABlockFallBetween(way):
+    """Each bears half the weight as long as the gap is less than the block; then it falls freely."""
+    solver = fe(gravity=(0, -G), damping=300, **way)
+    O.materials['m'].frictionAngle = 0
+    block(solver, (-.05, 0))
+    left, right = O.bodies.append([facet((-1, 0), (0, 0), fixed=True), facet((0, 0), (1, 0), fixed=True)])
+    run(solver)
+    steps(int(.03 / O.dt))
+    weight = G * solver.masses.sum()
+    for number, sign in ((left, -1), (right, 1)):
+        O.bodies[number].state.vel = (sign * .5, 0, 0)
+    started = solver.time
+    while solver.time < started + .08:
+        O.step()
+    assert force(left)[1] == pytest.approx(-weight / 2, rel=.02)  # of vibrations
+    assert force(right)[1] == pytest.approx(-weight / 2, rel=.02)
+    while solver.time < started + .101:
+        O.step()
+    solver.damping = 0
+    start, begin = momentumY(solver), solver.time
+    steps(100)
+    assert momentumY(solver) - start == pytest.approx(-weight * (solver.time - begin), rel=1e-9)
+
+
+def shelf(kind):
+    """Something with its upper side at y = 0 and |z| < 0.1, and what moves it."""
+    if kind == 'facet':
+        number = O.bodies.append(facet((-1, 0), (1, 0), height=.1, fixed=True))
+    elif kind == 'box':
+        number = O.bodies.append(utils.box((0, -.1, 0), (1, .1, .1), fixed=True))
+    else:
+        number, _ = O.bodies.appendClumped([utils.box((0, -.1, 0), (1, .1, .1)),
+                                            utils.box((0, -.3, .4), (1, .1, .3))])
+    body = O.bodies[number]
+    body.state.blockedDOFs = 'xyzXYZ'
+    return body
+
+
+@pytest.mark.parametrize('entry', ['path', 'flags'])
+@pytest.mark.parametrize('kind', ['box', 'facet', 'clump'])
+def test_boundaryThatLeavesThePlaneLetsABlockFallAndCatchesItWhenItIsBack(kind, entry):
+    solver = fe(gravity=(0, -G), entry=entry)
+    block(solver, (-.05, 0))
+    body = shelf(kind)
+    run(solver)
+    steps(100)
+    assert solver.nodes[:, 1].min() > -1e-6
+    speed = .11 / .05 if kind != 'clump' else .61 / .05
+    body.state.vel = (0, 0, speed)
+    steps(math.ceil(.05 / O.dt))
+    body.state.vel = (0, 0, 0)
+    momentum, begin = momentumY(solver), solver.time
+    steps(100)
+    fall = -G * solver.masses.sum() * (solver.time - begin)
+    assert momentumY(solver) - momentum == pytest.approx(fall, rel=1e-9)
+    # Back in 0.05 s, 0.1 m below.
+    floor = solver.nodes[:, 1].min() - .1
+    body.state.pos += Vector3(0, floor, 0)
+    body.state.vel = (0, 0, -speed)
+    steps(math.ceil(.05 / O.dt))
+    body.state.vel = (0, 0, 0)
+    lows = []
+    while solver.time < begin + .3:
+        O.step()
+        lows.append(solver.nodes[:, 1].min())
+    # It was there, and is not below; free fall would be twice as deep.
+    assert floor - 1e-6 < min(lows) < floor + 1e-6
+    assert -.5 * G * .3**2 < 2 * floor
+
+
+@pytest.mark.parametrize('wayToMove', ['velocity', 'place'])
+@pytest.mark.parametrize('way', WAYS)
+def test_wallThatRunsAlongItselfIsABelt(way, wayToMove):
+    """It drags a block with friction times weight, until that is as fast; 2 % for the block's vibrations."""
+    solver = fe(gravity=(0, -G), damping=200, **way)
+    O.materials['m'].frictionAngle = .3
+    block(solver)
+    belt = O.bodies[O.bodies.append(wall(0, material=smooth(.3, 'belt')))]
+    run(solver)
+    steps(int(.03 / O.dt))
+    solver.damping = 0
+    if wayToMove == 'velocity':
+        belt.state.vel = (.5, 0, 0)
+
+    def go(time):
+        begin, start = solver.time, solver.velocities[:, 0].mean()
+        dragged = 0
+        while solver.time < begin + time:
+            if wayToMove == 'place':
+                belt.state.pos += Vector3(.5 * O.dt, 0, 0)
+            O.step()
+            dragged -= force(belt.id)[0] * O.dt
+        return dragged, (solver.masses * solver.velocities[:, 0]).sum()
+
+    dragged, momentum = go(.08)
+    weight = G * solver.masses.sum()
+    assert dragged == pytest.approx(math.tan(.3) * weight * .08, rel=.02)
+    assert momentum == pytest.approx(dragged, rel=1e-6)
+    go(.2)
+    assert solver.velocities[:, 0].mean() == pytest.approx(.5, rel=.02)
+    assert solver.warnings == []
+
+
+@pytest.mark.parametrize('way', WAYS)
+def test_whatComesAndGoesElsewhereDisturbsNoContact(way):
+    """Boundaries are made anew, those that stay keep what touches them: the same forces to rounding."""
+    ends = []
+    for disturbed in (False, True):
+        O.reset()
+        solver = fe(gravity=(0, -G), **way)
+        block(solver, (-.05, 0), velocity=(.1, -.2), mesh=.02)
+        block(solver, (-.04, .1))
+        O.bodies.append([facet((-1, 0), (-.01, 0), fixed=True), facet((-.01, 0), (1, 0), fixed=True)])
+        run(solver)
+        for i in range(600):
+            if disturbed and i % 20 == 7:
+                O.bodies.append(facet((-1, -1 - .001 * i), (1, -1), fixed=True))
+            if disturbed and i % 20 == 17:
+                O.bodies.erase(len(O.bodies) - 1)
+            O.step()
+        ends.append(solver.nodes)
+    assert np.abs(ends[0] - ends[1]).max() < 1e-11
+
+
+def test_velocityThatNothingIntegratesIsTold():
+    solver = fe()
+    block(solver, (.001, 0))
+    box = O.bodies[O.bodies.append(utils.box((-.1, .05, 0), (.1, .03, 1), fixed=True))]
+    O.engines = yadefrag.engines(solver)
+    O.dt = .8 * solver.criticalTimeStep()
+    steps(3)
+    assert solver.warnings == []
+    box.state.vel = (.5, 0, 0)
+    steps(3)
+    assert solver.warnings == ['Box #%d has a velocity, but no NewtonIntegrator behind FESolver moves it: '
+                               'engines(fe, moving=True) has one.' % box.id]
+    O.engines = yadefrag.engines(solver, moving=True)
+    O.step()
+    place = box.state.pos[0]
+    O.step()
+    assert box.state.pos[0] - place == pytest.approx(.5 * O.dt) and len(solver.warnings) == 1
