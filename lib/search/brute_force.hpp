@@ -9,6 +9,7 @@ template <class Count>
 class BruteForce final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override { boxes_ = boxes; }
+  void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
   void clear() override { boxes_ = {}; }
   [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
   void addTo(Footprint& /*footprint*/) const override {}

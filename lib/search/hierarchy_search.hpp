@@ -56,7 +56,11 @@ class HierarchySearch final : public ContactSearch {
     wide_.overlapsWith(boxes_, box, found, uncounted);
   }
 
-  void clear() override { slots_.clear(); }
+  void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
+  void clear() override {
+    slots_.clear();
+    tree_ = {};
+  }
   [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
   void addTo(Footprint& footprint) const override {
     footprint.add(Use::kSearch, slots_);

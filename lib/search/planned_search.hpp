@@ -24,6 +24,9 @@ class PlannedSearch final : public ContactSearch {
   void findOverlaps(const Box& box, std::vector<BoxId>& found) const override {
     if (search_) search_->findOverlaps(box, found);
   }
+  void relocate(std::span<const Box> boxes) override {
+    if (search_) search_->relocate(boxes);
+  }
   void clear() override { search_ ? retire() : void(); }
 
   [[nodiscard]] Comparisons comparisons() const override {
