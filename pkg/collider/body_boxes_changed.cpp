@@ -89,12 +89,10 @@ BodyBoxes::Seen BodyBoxes::look(const Body* body, std::size_t id) {
 
 bool BodyBoxes::keepsBall(const Body& body, const Ball& ball) const {
   const std::optional<double> radius = boundRadius(body);
-  if (!radius) return false;
+  if (!radius || *radius != ball.radius) return false;
   const yade::State& state = *body.state;
   const double moved = (state.se3.position - ball.centre).cwiseAbs().maxCoeff();
-  // A ball that grows needs as much of its room as it grows by.
-  const double grown = std::max(*radius - ball.radius, 0.);
-  return rule_.lasts(ball.sweep, moved + grown, SweepRule::speedOf(state.vel));
+  return rule_.lasts(ball.sweep, moved, SweepRule::speedOf(state.vel));
 }
 
 /// Bodies that are no spheres are all asked for their bare box: nothing else tells whether a shape
