@@ -48,7 +48,7 @@ def build(seed):
     O.materials.append(sand)
     O.materials.append(steel)
     centres = bed(seed)
-    for centre in centres.tolist():
+    for centre in inCurveOrder(centres.tolist()):  # neighbours in space and in memory
         O.bodies.append(utils.sphere(centre, RADIUS, material='sand', color=(.8, .7, .5)))
     radius = 6 * RADIUS
     top = centres[:, 2].max() + RADIUS

@@ -49,7 +49,7 @@ class Interval {
   /// fetched from memory (2-core machine, November 2026). The caches end between 3·10³ and 10⁵
   /// bodies.
   static double searchOverPair(double bodies) {
-    return std::clamp(4 * std::pow(3000 / bodies, .4), 1., 4.);
+    return std::clamp(4 * std::pow(3000 / bodies, .4), 1.5, 4.);
   }
 
   double work_ = 0, searched_ = 0, halves_ = 0, steps_ = 0;
