@@ -79,6 +79,7 @@ enum class SearchMethod {
   kLebesgue,    ///< position codes on the Lebesgue curve (SPC), paper §4
   kLinearCode,  ///< position codes row by row (LPC), the paper's [5]
   kHierarchy,   ///< a tree of boxes (HO), the paper's [12]
+  kLinearBvh,   ///< a tree of boxes over position codes, built anew every time (Karras 2012)
 };
 
 std::unique_ptr<ContactSearch> makeSearch(SearchMethod method, bool countComparisons = false);

@@ -17,7 +17,8 @@ namespace yadefrag {
 namespace {
 
 constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue, SearchMethod::kLinearCode,
-                                     SearchMethod::kHierarchy, SearchMethod::kBruteForce};
+                                     SearchMethod::kHierarchy, SearchMethod::kLinearBvh,
+                                     SearchMethod::kBruteForce};
 
 std::uint64_t sceneCount() {
   const char* text = std::getenv("YADEFRAG_SCENES");
