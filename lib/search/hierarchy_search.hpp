@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "search/box_count.hpp"
 #include "search/contact_search.hpp"
 #include "search/hierarchy.hpp"
 #include "search/search_plan.hpp"
@@ -15,6 +16,7 @@ template <class Count>
 class HierarchySearch final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
+    checkBoxCount(boxes.size());
     boxes_ = boxes;
     std::vector<std::uint32_t> slots;
     wide_.clear();

@@ -2,6 +2,7 @@
 
 #include "core/parallel.hpp"
 #include "core/tolerances/search.hpp"
+#include "search/box_count.hpp"
 
 namespace yadefrag {
 
@@ -28,6 +29,7 @@ void IncrementalSearch::settle() {
 void IncrementalSearch::findPairs(std::vector<BoxPair>& pairs) { settled_->findPairs(pairs); }
 
 void IncrementalSearch::change(std::span<const Box> boxes, std::span<const BoxId> changed) {
+  checkBoxCount(boxes.size());
   boxes_ = boxes;
   for (const BoxId slot : changed_) isChanged_[slot.value] = false;
   workAside_ += asideSlots_.size() + changed.size();

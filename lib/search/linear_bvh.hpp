@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "search/box_count.hpp"
 #include "search/code_tree.hpp"
 #include "search/contact_search.hpp"
 #include "search/wide_boxes.hpp"
@@ -15,6 +16,7 @@ template <class Count>
 class LinearBvh final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
+    checkBoxCount(boxes.size());
     boxes_ = boxes;
     finite_.clear();
     wide_.clear();
