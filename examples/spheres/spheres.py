@@ -48,7 +48,9 @@ def build(seed):
     O.materials.append(sand)
     O.materials.append(steel)
     centres = bed(seed)
-    for centre in centres.tolist():
+    # Neighbours in space are neighbours in memory, where there is yadefrag to order them.
+    order = getattr(sys.modules.get('yadefrag'), 'inCurveOrder', list)
+    for centre in order(centres.tolist()):
         O.bodies.append(utils.sphere(centre, RADIUS, material='sand', color=(.8, .7, .5)))
     radius = 6 * RADIUS
     top = centres[:, 2].max() + RADIUS

@@ -1,6 +1,7 @@
 #pragma once
 // Every box with every other: what all searches are compared with.
 
+#include "search/box_count.hpp"
 #include "search/contact_search.hpp"
 
 namespace yadefrag {
@@ -8,7 +9,11 @@ namespace yadefrag {
 template <class Count>
 class BruteForce final : public ContactSearch {
  public:
-  void update(std::span<const Box> boxes) override { boxes_ = boxes; }
+  void update(std::span<const Box> boxes) override {
+    checkBoxCount(boxes.size());
+    boxes_ = boxes;
+  }
+  void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
   void clear() override { boxes_ = {}; }
   [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
   void addTo(Footprint& /*footprint*/) const override {}

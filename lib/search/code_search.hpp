@@ -27,6 +27,7 @@ class CodeSearch final : public ContactSearch {
   void update(std::span<const Box> boxes) override;
   void findPairs(std::vector<BoxPair>& pairs) override;
   void findOverlaps(const Box& box, std::vector<BoxId>& found) const override;
+  void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
   void clear() override;
   [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
   void addTo(Footprint& footprint) const override {

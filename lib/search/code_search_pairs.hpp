@@ -183,11 +183,13 @@ template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::findOverlaps(const Box& box,
                                                      std::vector<BoxId>& found) const {
   Count uncounted;
+  const FilterBox filter(box, grid_.filterScale());
   for (const int at : occupied_) {
     const CodeLevel& level = levels_[at];
     visitRectangle(box, at, uncounted, [&](std::uint32_t begin, std::uint64_t stop) {
       for (std::uint32_t j = begin; level.codes()[j] <= stop; ++j)
-        if (overlaps(box, level[j].box)) found.push_back(BoxId(level[j].slot));
+        if (mayOverlap(filter, level.filter(j)) && overlaps(box, level[j].box))
+          found.push_back(BoxId(level[j].slot));
     });
   }
   wide_.overlapsWith(boxes_, box, found, uncounted);

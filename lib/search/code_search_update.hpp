@@ -157,30 +157,28 @@ void CodeSearch<Numbering, Dim, Count>::sendSparseLevelsWide() {
 template <class Numbering, int Dim, class Count>
 bool CodeSearch<Numbering, Dim, Count>::joinThinLevels() {
   std::array<std::vector<CodedSlot>, kLevels> parents;
+  std::array<bool, kLevels + 1> occupied{};
+  for (const Place& place : places_)
+    if (place.level >= 0) occupied[place.level] = true;
   for (const Place& place : places_) {
-    if (place.level < 0) continue;
+    // Without a next level there is nothing to join.
+    if (place.level < 0 || !occupied[place.level + 1]) continue;
     Cell cell;
     for (int d = 0; d < Dim; ++d)
       cell[d] = static_cast<std::uint32_t>(place.number[d] >> 1) & Code::kMask;
     parents[place.level].push_back({Code::encode(cell), 0});
   }
-  int coarser = -1;
   bool any = false;
-  for (int level = kLevels - 1; level >= 0; --level) {
+  for (int level = kLevels - 2; level >= 0; --level) {
     std::vector<CodedSlot>& codes = parents[level];
     if (codes.empty()) continue;
-    if (coarser >= 0) {
-      sortByCode(codes);
-      const auto same = [](const CodedSlot& a, const CodedSlot& b) { return a.code == b.code; };
-      const auto occupied = std::unique(codes.begin(), codes.end(), same) - codes.begin();
-      const auto all = static_cast<double>(codes.size());
-      // Only one level up each: the parents that were looked at are those of the next level.
-      if (coarser == level + 1 && all <= tolerance::kThinLevel * static_cast<double>(occupied)) {
-        joined_[level] = joined_[coarser];
-        any = true;
-      }
-    }
-    coarser = level;
+    sortByCode(codes);
+    const auto same = [](const CodedSlot& a, const CodedSlot& b) { return a.code == b.code; };
+    const auto all = static_cast<double>(codes.size());
+    const auto boxes = std::unique(codes.begin(), codes.end(), same) - codes.begin();
+    if (all > tolerance::kThinLevel * static_cast<double>(boxes)) continue;
+    joined_[level] = joined_[level + 1];
+    any = true;
   }
   return any;
 }

@@ -39,6 +39,10 @@ class ContactSearch {
   /// Appends the slots whose boxes overlap `box`.
   virtual void findOverlaps(const Box& box, std::vector<BoxId>& found) const = 0;
 
+  /// The boxes of the last update are now in another array, which may have further slots. Only
+  /// boxes that the caller leaves out of what `findOverlaps` finds may differ.
+  virtual void relocate(std::span<const Box> boxes) = 0;
+
   /// Forgets what it knows: the next update starts from nothing.
   virtual void clear() = 0;
 
@@ -75,6 +79,7 @@ enum class SearchMethod {
   kLebesgue,    ///< position codes on the Lebesgue curve (SPC), paper §4
   kLinearCode,  ///< position codes row by row (LPC), the paper's [5]
   kHierarchy,   ///< a tree of boxes (HO), the paper's [12]
+  kLinearBvh,   ///< a tree of boxes over position codes, built anew every time (Karras 2012)
 };
 
 std::unique_ptr<ContactSearch> makeSearch(SearchMethod method, bool countComparisons = false);

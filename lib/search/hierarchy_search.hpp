@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "search/box_count.hpp"
 #include "search/contact_search.hpp"
 #include "search/hierarchy.hpp"
 #include "search/search_plan.hpp"
@@ -15,6 +16,7 @@ template <class Count>
 class HierarchySearch final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
+    checkBoxCount(boxes.size());
     boxes_ = boxes;
     std::vector<std::uint32_t> slots;
     wide_.clear();
@@ -56,7 +58,11 @@ class HierarchySearch final : public ContactSearch {
     wide_.overlapsWith(boxes_, box, found, uncounted);
   }
 
-  void clear() override { slots_.clear(); }
+  void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
+  void clear() override {
+    slots_.clear();
+    tree_ = {};
+  }
   [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
   void addTo(Footprint& footprint) const override {
     footprint.add(Use::kSearch, slots_);

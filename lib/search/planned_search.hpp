@@ -2,6 +2,7 @@
 // A code search that plans anew when the boxes have outgrown its plan: a scene that leaves its
 // plane goes from 2D to 3D codes, one whose boxes grow gets longer position-code boxes.
 
+#include "search/box_count.hpp"
 #include "search/code_search.hpp"
 
 namespace yadefrag {
@@ -10,6 +11,7 @@ template <template <int> class Numbering, class Count>
 class PlannedSearch final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
+    checkBoxCount(boxes.size());
     const SearchPlan now = planSearch(boxes);
     if (!search_ || !plan_.stillServes(now)) start(now);
     search_->setThreads(threads_);
@@ -23,6 +25,9 @@ class PlannedSearch final : public ContactSearch {
   }
   void findOverlaps(const Box& box, std::vector<BoxId>& found) const override {
     if (search_) search_->findOverlaps(box, found);
+  }
+  void relocate(std::span<const Box> boxes) override {
+    if (search_) search_->relocate(boxes);
   }
   void clear() override { search_ ? retire() : void(); }
 

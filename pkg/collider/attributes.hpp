@@ -43,6 +43,11 @@ constexpr auto SearchCollider::attributes() {
                 "Count comparisons as the paper does (section 6); costs nothing when off."),
       attribute("comparisons", &C::comparisons, "Comparisons of the last search.", readonly),
       attribute("comparisonsTotal", &C::comparisonsTotal, "Comparisons of all searches.", readonly),
+      attribute("searched", &C::searched,
+                "Bodies that the last search gave new bounds and looked up neighbours for; all "
+                "others kept theirs.",
+                readonly),
+      attribute("searchedTotal", &C::searchedTotal, "The same, of all searches.", readonly),
       attribute("sortAxis", &C::sortAxis, "Accepted for InsertionSortCollider; no effect."),
       attribute("sortThenCollide", &C::sortThenCollide,
                 "Accepted for InsertionSortCollider; no effect."),

@@ -60,6 +60,15 @@ void BodyBoxes::OldBound::restore() const {
 
 void BodyBoxes::prepare(yade::Scene& scene, yade::BoundDispatcher& dispatcher,
                         const SweepRule& rule, double cellSlack, int threads) {
+  onlyChanged_ = false;
+  takeRule(scene, dispatcher, rule, cellSlack);
+  gatherSpheres(scene, threads);
+  for (std::size_t id = 0; id < kinds_.size(); ++id) checkPosition(scene, id);
+  updateOthers(scene, dispatcher);
+}
+
+void BodyBoxes::takeRule(yade::Scene& scene, const yade::BoundDispatcher& dispatcher,
+                         const SweepRule& rule, double cellSlack) {
   rule_ = rule;
   cell_ = scene.isPeriodic ? scene.cell.get() : nullptr;
   cellSlack_ = cellSlack;
@@ -71,9 +80,6 @@ void BodyBoxes::prepare(yade::Scene& scene, yade::BoundDispatcher& dispatcher,
     sweepFactor_ = cell_->getUnshearTrsf().cwiseAbs().rowwise().sum();
   }
   sphereFunctor_ = findSphereFunctor(dispatcher);
-  gatherSpheres(scene, threads);
-  checkPositions(scene);
-  updateOthers(scene, dispatcher);
 }
 
 void BodyBoxes::rollBack() {
@@ -86,11 +92,11 @@ void BodyBoxes::gatherSpheres(yade::Scene& scene, int threads) {
   boxes_.resize(bodies.size());
   balls_.resize(bodies.size());
   kinds_.resize(bodies.size());
+  known_.resize(bodies.size());
   forEachPart(bodies.size(), threads, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t id = begin; id < end; ++id) {
-      boxes_[id] = Box::absent();
-      balls_[id].radius = -1;
-      kinds_[id] = bodies[id] ? takeSphere(*bodies[id], id) : Kind::kNone;
+      prefetch(bodies, id);
+      kinds_[id] = take(bodies[id].get(), id);
     }
   });
 }
@@ -111,7 +117,17 @@ std::optional<Real> BodyBoxes::boundRadius(const yade::Body& body) const {
   return (enlarge > 0 ? enlarge : 1) * static_cast<const yade::Sphere&>(shape).radius;
 }
 
-/// Spheres get their box here, without a call to their functor.
+/// Spheres get their box here, all others later.
+auto BodyBoxes::take(const yade::Body* body, std::size_t id) -> Kind {
+  boxes_[id] = Box::absent();
+  balls_[id].radius = -1;
+  known_[id] = {};
+  if (!body) return Kind::kNone;
+  known_[id] = {body, body->groupMask, body->clumpId};
+  return takeSphere(*body, id);
+}
+
+/// Without a call to their functor.
 auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
   if (!body.bound && !(body.shape && body.isBounded())) return Kind::kNone;
   const std::optional<Real> radius = boundRadius(body);
@@ -126,25 +142,27 @@ auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
   return Kind::kSphere;
 }
 
-void BodyBoxes::checkPositions(const yade::Scene& scene) const {
-  const auto& bodies = scene.bodies->body;
-  for (std::size_t id = 0; id < bodies.size(); ++id) {
-    if (kinds_[id] == Kind::kSphere) {
-      if (!balls_[id].centre.allFinite()) complainOfPosition(id, balls_[id].centre);
-      if (!(balls_[id].radius >= 0)) complainOfRadius(id, balls_[id].radius);
-    } else if (kinds_[id] == Kind::kOther && bodies[id]->shape && bodies[id]->isBounded()) {
-      if (!bodies[id]->state->se3.position.allFinite())
-        complainOfPosition(id, bodies[id]->state->se3.position);
-    }
+void BodyBoxes::checkPosition(const yade::Scene& scene, std::size_t id) const {
+  if (kinds_[id] == Kind::kSphere) {
+    if (!balls_[id].centre.allFinite()) complainOfPosition(id, balls_[id].centre);
+    if (!(balls_[id].radius >= 0)) complainOfRadius(id, balls_[id].radius);
+  } else if (kinds_[id] == Kind::kOther) {
+    const yade::Body& body = *scene.bodies->body[id];
+    if (body.shape && body.isBounded() && !body.state->se3.position.allFinite())
+      complainOfPosition(id, body.state->se3.position);
   }
 }
 
-void BodyBoxes::updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher) {
-  // The functors make bare boxes: each is enlarged here by a sweep of its own.
+/// The functors make bare boxes: each is enlarged here by a sweep of its own.
+void BodyBoxes::startDispatcher(yade::Scene& scene, yade::BoundDispatcher& dispatcher) {
   dispatcher.scene = &scene;
   for (const auto& functor : dispatcher.functors) functor->scene = &scene;
   dispatcher.sweepDist = 0;
   dispatcher.targetInterv = -1;
+}
+
+void BodyBoxes::updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher) {
+  startDispatcher(scene, dispatcher);
   turning_.clear();
   undo_.clear();
   segments_.clear();
@@ -217,20 +235,24 @@ double BodyBoxes::sweepOfOther(const yade::Body& body, bool hadBound) {
 
 void BodyBoxes::commit(yade::Scene& scene, int threads) {
   undo_.clear();
-  const auto& bodies = scene.bodies->body;
-  forEachPart(bodies.size(), threads, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t id = begin; id < end; ++id) {
-      if (kinds_[id] != Kind::kSphere) continue;
-      if (!bodies[id]->bound) bodies[id]->bound.reset(new yade::Aabb);
-      Bound& bound = *bodies[id]->bound;
-      const Box& box = boxes_[id];
-      bound.min = Vector3r(box.min[0], box.min[1], box.min[2]);
-      bound.max = Vector3r(box.max[0], box.max[1], box.max[2]);
-      bound.refPos = balls_[id].centre;
-      bound.sweepLength = balls_[id].sweep;
-      bound.lastUpdateIter = static_cast<int>(scene.iter);
-    }
+  const std::size_t count = onlyChanged_ ? changed_.size() : kinds_.size();
+  forEachPart(count, threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i)
+      commitOne(scene, onlyChanged_ ? changed_[i].value : i);
   });
+}
+
+void BodyBoxes::commitOne(yade::Scene& scene, std::size_t id) {
+  if (kinds_[id] != Kind::kSphere) return;
+  yade::Body& body = *scene.bodies->body[id];
+  if (!body.bound) body.bound.reset(new yade::Aabb);
+  Bound& bound = *body.bound;
+  const Box& box = boxes_[id];
+  bound.min = Vector3r(box.min[0], box.min[1], box.min[2]);
+  bound.max = Vector3r(box.max[0], box.max[1], box.max[2]);
+  bound.refPos = balls_[id].centre;
+  bound.sweepLength = balls_[id].sweep;
+  bound.lastUpdateIter = static_cast<int>(scene.iter);
 }
 
 }  // namespace yadefrag

@@ -9,6 +9,7 @@
 #include "collider/shape_kinds.hpp"
 #include "collider/sweep_rule.hpp"
 #include "core/box.hpp"
+#include "core/ids.hpp"
 
 namespace yadefrag {
 
@@ -26,6 +27,15 @@ struct Turning {
   yade::Body::id_t id;
   yade::Quaternionr orientation;
   double reach;  ///< m, farthest point from the centre
+
+  /// How far (m) any of its points may have moved at most by the change of orientation: a point at
+  /// distance R moves by up to 2R‖q − q₀‖.
+  [[nodiscard]] double turnedBy(const yade::Quaternionr& now) const {
+    const auto& q = now.coeffs();
+    const auto& before = orientation.coeffs();
+    if (q == before) return 0;
+    return 2 * reach * std::min((q - before).norm(), (q + before).norm());
+  }
 };
 
 class BodyBoxes {
@@ -34,9 +44,20 @@ class BodyBoxes {
   /// that is not finite or a bound that is turned inside out; `rollBack` then restores every bound.
   void prepare(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
                double cellSlack, int threads);
+  /// The same, but only for bodies that came, went or changed since the last `commit`, and for
+  /// those that have left their box, will have left it `rule.lookAhead` from now at their present
+  /// speed, or have become so slow that it is far too large. All others keep their boxes and
+  /// bounds. `quick`: only for those that came or went. Returns false if it is not worth while or
+  /// not possible: more than `most` have changed, or boxes follow other bodies. `rollBack` and
+  /// `prepare` have to be called then.
+  bool prepareChanged(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
+                      std::size_t most, bool quick, int threads);
   void commit(yade::Scene& scene, int threads);
   /// Instead of `commit`: all bounds as before `prepare`.
   void rollBack();
+
+  /// Bodies whose boxes are new since the last `commit`, ascending; after `prepareChanged` only.
+  [[nodiscard]] const std::vector<BoxId>& changed() const { return changed_; }
 
   /// By body id; absent where a body takes no part.
   [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
@@ -64,18 +85,43 @@ class BodyBoxes {
     void restore() const;
   };
 
+  /// What a box depends on beside place and size, to see whether it is still the same body.
+  struct Known {
+    const yade::Body* body = nullptr;
+    yade::mask_t mask = 0;
+    yade::Body::id_t clump = yade::Body::ID_NONE;
+  };
+  enum class Seen : unsigned char { kSame, kChanged, kOther };
+
+  void takeRule(yade::Scene& scene, const yade::BoundDispatcher& dispatcher, const SweepRule& rule,
+                double cellSlack);
   void gatherSpheres(yade::Scene& scene, int threads);
+  bool gatherChanged(yade::Scene& scene, std::size_t most, bool quick, int threads);
+  Seen look(const yade::Body* body, std::size_t id);
+  [[nodiscard]] bool keepsBall(const yade::Body& body, const Ball& ball) const;
+  bool updateChangedOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
+  bool keepsBox(const yade::Body& body, const Turning* was);
+  void keepTurning(const yade::Scene& scene, const Turning& turning);
+  static void startDispatcher(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
+  void commitOne(yade::Scene& scene, std::size_t id);
+  Kind take(const yade::Body* body, std::size_t id);
   Kind takeSphere(const yade::Body& body, std::size_t id);
   void updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   void takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene);
   [[nodiscard]] std::optional<double> boundRadius(const yade::Body& body) const;
+  static void prefetch(const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::size_t id);
   void takeSegment(const yade::Body& body);
   double sweepOfOther(const yade::Body& body, bool hadBound);
-  void checkPositions(const yade::Scene& scene) const;
+  void checkPosition(const yade::Scene& scene, std::size_t id) const;
 
   std::vector<Box> boxes_;
   std::vector<Ball> balls_;
   std::vector<Kind> kinds_;
+  std::vector<Known> known_;
+  std::vector<BoxId> changed_;
+  std::vector<BoxId> others_;  // to be looked at by their functors
+  std::vector<std::vector<BoxId>> changedByPart_, othersByPart_;
+  bool onlyChanged_ = false;  // `commit` is about `changed_`
   std::vector<Turning> turning_;
   std::vector<const SurfaceSegment*> segments_;
   std::size_t segmentCount_ = 0;

@@ -10,15 +10,13 @@ using yade::Body;
 using yade::Interaction;
 using yade::InteractionContainer;
 
-namespace {
-
 /// True if the searches know where the body is: it has a box that is kept up to date.
-bool isSearched(const Body* body) { return !body || (body->bound && body->isBounded()); }
+static bool isSearched(const Body* body) { return !body || (body->bound && body->isBounded()); }
 
 /// Functors of grids and PFacets insert potential interactions by themselves, between nodes and
 /// connections that have no bound. No box tells that these are far apart, so they stay, wherever
 /// they are. (YADE takes the origin for the box of a body without one.)
-bool mayErase(const Interaction& is, const std::vector<yade::shared_ptr<Body>>& bodies) {
+bool InteractionUpdate::mayErase(const Interaction& is, const Bodies& bodies) {
   const auto bodyOf = [&](Body::id_t id) {
     const auto slot = static_cast<std::size_t>(id);
     return slot < bodies.size() ? bodies[slot].get() : nullptr;
@@ -26,13 +24,12 @@ bool mayErase(const Interaction& is, const std::vector<yade::shared_ptr<Body>>& 
   return isSearched(bodyOf(is.getId1())) && isSearched(bodyOf(is.getId2()));
 }
 
-}  // namespace
-
 void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> near,
                               const MayCollide& mayCollide) {
   InteractionContainer& interactions = *scene.interactions;
   known_.assign(near.size(), 0);
   toErase_.clear();
+  held_.clear();
   if (interactions.size() > 0) markKnown(interactions, near, scene.bodies->body);
   // Backwards: erasing moves the last one into the gap, which must not be one still to be erased.
   for (auto place = toErase_.rbegin(); place != toErase_.rend(); ++place) {
@@ -40,6 +37,7 @@ void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> ne
     interactions.erase(gone.getId1(), gone.getId2(), *place);
   }
   makeNew(scene, near, mayCollide);
+  sizeAfter_ = interactions.size();
 }
 
 void InteractionUpdate::markKnown(InteractionContainer& interactions,
@@ -70,7 +68,10 @@ void InteractionUpdate::markKnown(InteractionContainer& interactions,
                         const yade::Vector3i& cells = near[index].cellDist;
                         is.cellDist = swapped ? yade::Vector3i(-cells) : cells;
                       });
-    if (!isNear && !is.isReal() && mayErase(is, bodies))
+    if (isNear) continue;
+    if (is.isReal())
+      held_.emplace_back(first, second);
+    else if (mayErase(is, bodies))
       toErase_.push_back(static_cast<int>(place));
   }
 }

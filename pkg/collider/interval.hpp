@@ -1,5 +1,5 @@
 #pragma once
-// For how many steps a search should hold.
+// For how many steps a body's room should last.
 
 #include <algorithm>
 #include <cmath>
@@ -8,16 +8,37 @@
 
 namespace yadefrag {
 
-/// Long sweeps make searches rare and potential interactions many. With N bodies, k steps since the
-/// last search and H pairs that are near only because sweeps are not half as long, a step costs
-/// about search·N/k + pair·(rest + 2H), of which the last part grows with the interval: the sum is
-/// least where search·N = pair·2H·k. All of it is counted and nothing timed, so that a run stays
-/// reproducible.
+/// Long sweeps make searches rare and potential interactions many. Where searches have taken the
+/// work W (in looks at a body by a search of all) in k steps, and H pairs are near only because
+/// sweeps are not half as long, a step costs about search·W/k + pair·(rest + 2H). The first part is
+/// inverse to the interval, the last one proportional: the sum is least where both are equal. All
+/// of it is counted and nothing timed, so that a run stays reproducible.
 class Interval {
  public:
-  static double next(double interval, double bodies, double steps, double pairsOfHalf) {
-    if (!(steps > 0)) return interval;
-    const double ratio = searchOverPair(bodies) * bodies / (2 * pairsOfHalf * steps + 1);
+  /// A search that was due because a body had left its room: it looked whether `looked` bodies have
+  /// left theirs and searched `searched` bodies; `halves` times one of these had a near neighbour
+  /// that it would not have with sweeps half as long.
+  void add(double looked, double searched, double halves) {
+    work_ += searched == looked ? searched
+                                : tolerance::kLookWork * looked + tolerance::kChangeWork * searched;
+    searched_ += searched;
+    halves_ += halves;
+  }
+  void addSteps(double steps) { steps_ += steps; }
+
+  /// True if most bodies that move have been searched since the last call of `next`.
+  [[nodiscard]] bool isRound(double interval, double bodies) const {
+    return searched_ >= bodies || steps_ >= 2 * interval;
+  }
+
+  /// The interval from now on, and the count starts anew.
+  double next(double interval, double bodies) {
+    const double times = std::max(steps_ / interval, 1.);  // that a moving body was searched
+    const double pairs = .5 * halves_ / times;
+    const double ratio = searchOverPair(bodies) * work_ / (2 * pairs * steps_ + 1);
+    const bool known = steps_ > 0 && work_ > 0;
+    *this = {};
+    if (!known) return interval;
     return std::clamp(interval * std::clamp(std::sqrt(ratio), .5, tolerance::kIntervalGrowth),
                       tolerance::kLeastInterval, tolerance::kMostInterval);
   }
@@ -28,8 +49,10 @@ class Interval {
   /// fetched from memory (2-core machine, November 2026). The caches end between 3·10³ and 10⁵
   /// bodies.
   static double searchOverPair(double bodies) {
-    return std::clamp(4 * std::pow(3000 / bodies, .4), 1., 4.);
+    return std::clamp(4 * std::pow(3000 / bodies, .4), 1.5, 4.);
   }
+
+  double work_ = 0, searched_ = 0, halves_ = 0, steps_ = 0;
 };
 
 }  // namespace yadefrag

@@ -71,19 +71,16 @@ bool MotionWatch::someNodeMovedOut(const Scene& scene) const {
   });
 }
 
-/// A point at distance R moves by at most 2R‖q − q₀‖ when the orientation goes from q₀ to q.
 bool MotionWatch::someTurnedOut(const Scene& scene) const {
   const auto& bodies = scene.bodies->body;
   for (const Turning& was : turning_) {
     const auto id = static_cast<std::size_t>(was.id);
     if (id >= bodies.size() || !bodies[id] || !bodies[id]->bound) continue;
     const yade::State& state = *bodies[id]->state;
-    const auto& now = state.se3.orientation.coeffs();
-    const auto& before = was.orientation.coeffs();
-    if (now == before) continue;
-    const double turned = std::min((now - before).norm(), (now + before).norm());
+    const double turned = was.turnedBy(state.se3.orientation);
+    if (turned == 0) continue;
     const double moved = (state.se3.position - bodies[id]->bound->refPos).cwiseAbs().maxCoeff();
-    if (!(moved + 2 * was.reach * turned < bodies[id]->bound->sweepLength)) return true;
+    if (!(moved + turned < bodies[id]->bound->sweepLength)) return true;
   }
   return false;
 }

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "collider/complaints.hpp"
-#include "collider/interval.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
 #include "fe/surface_segment.hpp"
@@ -36,24 +35,37 @@ void SearchCollider::action() {
   try {
     chooseVerletDist();
     chooseInterval();
-    boxes_.prepare(*scene, *boundDispatcher, chooseSweeps(), slack_, threads);
-    startSearchIfNeeded();
-    updateSearch(threads);
-    takeEntryPairs();
-    findNeighbours(threads);
+    if (!mayKeep() || !searchChanged(threads)) {
+      boxes_.rollBack();
+      searchAll(threads);
+    }
   } catch (...) {
     std::tie(verletDist, interval, lastIter_) = before;
     boxes_.rollBack();
     search_.reset();  // it looks at boxes that are no longer those of the last search
     pairs_ = {};      // which may be too many
+    keptWith_.reset();
     strideActive_ = onlySegments_ = false;
     throw;
   }
+  sceneIsSearched();
+}
+
+void SearchCollider::searchAll(int threads) {
+  boxes_.prepare(*scene, *boundDispatcher, chooseSweeps(), slack_, threads);
+  startSearchIfNeeded();
+  updateSearch(threads);
+  takeEntryPairs();
+  findNeighbours(threads);
   boxes_.commit(*scene, threads);
   interactions_.apply(*scene, near_, [this](const Body* a, const Body* b) {
     return mayCollide(a, b, scene->subdomain);
   });
-  sceneIsSearched();
+  keptWith_ = choices();
+  lastAll_ = lastLook_ = scene->iter;
+  searchedSinceAll_ = 0;
+  const auto bodies = static_cast<double>(scene->bodies->body.size());
+  countWork(bodies, bodies, 2 * static_cast<double>(pairsOfHalf_));
 }
 
 int SearchCollider::threadsToUse() const {
@@ -77,13 +89,21 @@ void SearchCollider::chooseVerletDist() {
 }
 
 void SearchCollider::chooseInterval() {
+  const auto bodies = static_cast<double>(scene->bodies->body.size());
   if (targetInterv <= 0 || !adaptInterval || !(interval > 0)) interval = targetInterv;
-  if (targetInterv > 0 && adaptInterval && sweepsEnded_ && trueHalo)
-    interval = Interval::next(interval, static_cast<double>(scene->bodies->body.size()),
-                              static_cast<double>(scene->iter - lastIter_),
-                              static_cast<double>(pairsOfHalf_));
-  sweepsEnded_ = false;
+  counts_.addSteps(static_cast<double>(scene->iter - lastIter_));
+  if (targetInterv > 0 && adaptInterval && sweepsEnded_ && trueHalo &&
+      counts_.isRound(interval, bodies))
+    interval = counts_.next(interval, bodies);
   lastIter_ = scene->iter;
+}
+
+/// `pairsOfHalf` counts a pair twice if both its bodies were searched.
+void SearchCollider::countWork(double looked, double searchedNow, double halves) {
+  searched = static_cast<long>(searchedNow);
+  searchedTotal += searched;
+  if (sweepsEnded_) counts_.add(looked, searchedNow, halves);
+  sweepsEnded_ = quickLook_ = false;
 }
 
 /// How far bodies, and neighbours by the cell's deformation, may move before the next search.
@@ -119,7 +139,7 @@ void SearchCollider::startSearchIfNeeded() {
       periodic_ == scene->isPeriodic)
     return;
   if (!search_ || searchCounts_ != countComparisons) {
-    search_ = makeSearch(method_, countComparisons);
+    search_ = std::make_unique<IncrementalSearch>(method_, countComparisons);
     searchCounts_ = countComparisons;
   }
   search_->clear();
@@ -134,27 +154,14 @@ void SearchCollider::updateSearch(int threads) {
     // Twice the tolerance: the exact test that follows must not be the stricter one.
     images_.build(boxes_.boxes(), {size[0], size[1], size[2]}, 2 * overlapTolerance);
     search_->update(images_.boxes());
-    findPairs();
+    findPairs([this] { search_->findPairs(pairs_); });
     images_.toSlots(pairs_);
   } else {
     search_->update(boxes_.boxes());
-    findPairs();
+    findPairs([this] { search_->findPairs(pairs_); });
   }
   comparisons = static_cast<long>(search_->comparisons().total() - before.total());
   comparisonsTotal += comparisons;
-}
-
-/// An interaction takes far more memory than a pair: the scene is refused before there are any.
-void SearchCollider::findPairs() {
-  const std::size_t bodies = scene->bodies->body.size();
-  const std::size_t most = memory_.most(bodies, scene->interactions->size());
-  pairs_.clear();
-  search_->setMostPairs(most);
-  try {
-    search_->findPairs(pairs_);
-  } catch (const TooManyPairs&) {
-    complainOfPairs(bodies, most, memory_.free());
-  }
 }
 
 /// Pairs of surface segments leave `pairs_` for a list of their own.
@@ -272,15 +279,15 @@ bool SearchCollider::bodiesCame() const {
 }
 
 bool SearchCollider::isActivated() {
-  if (doSort || scene->doSort || scene->interactions->dirty || periodic_ != scene->isPeriodic ||
-      bodiesCame())
-    return true;
-  if (onlySegments_) return false;
+  if (doSort || scene->interactions->dirty || periodic_ != scene->isPeriodic) return true;
+  const bool came = bodiesCame();
+  if (onlySegments_) return came || scene->doSort;
   if (!strideActive_) return true;
   newton = MotionWatch::findIntegrator(*scene);
   if (newton) fastestBodyMaxDist = MotionWatch::fastestBody(*newton);
   sweepsEnded_ = watch_.boundsBroken(*scene);
-  return sweepsEnded_;
+  quickLook_ = came && !sweepsEnded_;
+  return came || scene->doSort || sweepsEnded_;
 }
 
 void SearchCollider::invalidatePersistentData() { doSort = true; }

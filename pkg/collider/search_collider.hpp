@@ -7,12 +7,14 @@
 
 #include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"
+#include "collider/complaints.hpp"
 #include "collider/free_memory.hpp"
 #include "collider/halo.hpp"
 #include "collider/interaction_update.hpp"
+#include "collider/interval.hpp"
 #include "collider/motion_watch.hpp"
 #include "publish/attribute.hpp"
-#include "search/contact_search.hpp"
+#include "search/incremental_search.hpp"
 #include "search/lattice.hpp"
 #include "search/periodic_images.hpp"
 
@@ -51,6 +53,8 @@ class SearchCollider : public yade::Collider {
   bool countComparisons = false;
   long comparisons = 0;
   long comparisonsTotal = 0;
+  long searched = 0;
+  long searchedTotal = 0;
   yade::shared_ptr<yade::NewtonIntegrator> newton;
 
   /// Pairs of surface segments whose bounds overlapped at the last search, by body id and in the
@@ -66,12 +70,22 @@ class SearchCollider : public yade::Collider {
   static void pyExtra(PyClass& pyClass);
 
  private:
+  void searchAll(int threads);
+  bool searchChanged(int threads);
+  [[nodiscard]] bool mayKeep() const;
+  [[nodiscard]] double workLeft() const;
+  [[nodiscard]] double stepsToLast() const;
+  [[nodiscard]] double halvesOfChanged() const;
+  [[nodiscard]] bool someErased() const;
+  [[nodiscard]] bool isStillNear(yade::Body::id_t id1, yade::Body::id_t id2) const;
   void chooseVerletDist();
   void chooseInterval();
+  void countWork(double looked, double searchedNow, double halves);
   SweepRule chooseSweeps();
   void startSearchIfNeeded();
   void updateSearch(int threads);
-  void findPairs();
+  template <class Find>
+  void findPairs(Find find);
   void takeEntryPairs();
   void findNeighbours(int threads);
   bool isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const;
@@ -84,8 +98,19 @@ class SearchCollider : public yade::Collider {
   [[nodiscard]] int threadsToUse() const;
 
   SearchMethod method_;
-  std::unique_ptr<ContactSearch> search_;
+  std::unique_ptr<IncrementalSearch> search_;
   bool searchCounts_ = false;
+  /// Settings with which the kept interactions were found.
+  struct Choices {
+    bool trueHalo;
+    yade::mask_t avoided;
+    int subdomain;
+    friend bool operator==(const Choices&, const Choices&) = default;
+  };
+  [[nodiscard]] Choices choices() const {
+    return {trueHalo, avoidSelfInteractionMask, scene->subdomain};
+  }
+  std::optional<Choices> keptWith_;  // none: all bodies have to be searched
   BodyBoxes boxes_;
   PeriodicImages images_;
   std::optional<Lattice> lattice_;  // of a periodic cell
@@ -96,15 +121,34 @@ class SearchCollider : public yade::Collider {
   std::vector<BoxPair> entryPairs_;
   std::vector<Neighbours> near_;
   std::vector<std::vector<Neighbours>> nearByPart_;
-  std::size_t pairsOfHalf_ = 0;  // near only because the sweeps are not half as long
-  long lastIter_ = -1;           // step of the last search
-  bool sweepsEnded_ = false;     // this search is due because a body left its bound
-  double slack_ = 0;             // m, room for the cell's deformation in every box
-  std::size_t numBodies_ = 0;    // at the last search
+  std::size_t pairsOfHalf_ = 0;       // near only because the sweeps are not half as long
+  Interval counts_;                   // since the interval was chosen
+  bool quickLook_ = false;            // this search is due only because there are further bodies
+  std::size_t searchedSinceAll_ = 0;  // bodies, since all were searched
+  long lastAll_ = -1;                 // step at which all bodies were searched
+  long lastLook_ = -1;                // step at which all bodies were looked at
+  long lastIter_ = -1;                // step of the last search
+  bool sweepsEnded_ = false;          // this search is due because a body left its bound
+  double slack_ = 0;                  // m, room for the cell's deformation in every box
+  std::size_t numBodies_ = 0;         // at the last search
   bool periodic_ = false;
   bool strideActive_ = false;
   bool onlySegments_ = false;  // FESolver alone says when a search is due
 };
+
+/// An interaction takes far more memory than a pair: the scene is refused before there are any.
+template <class Find>
+void SearchCollider::findPairs(Find find) {
+  const std::size_t bodies = scene->bodies->body.size();
+  const std::size_t most = memory_.most(bodies, scene->interactions->size());
+  pairs_.clear();
+  search_->setMostPairs(most);
+  try {
+    find();
+  } catch (const TooManyPairs&) {
+    complainOfPairs(bodies, most, memory_.free());
+  }
+}
 
 }  // namespace yadefrag
 

@@ -17,6 +17,7 @@ struct SweepRule {
   double least;                      ///< m, minSweepDistFactor · verletDist
   double ahead;                      ///< s, the time to be covered; not finite: always `most`
   double shortestPeriod = INFINITY;  ///< m, of a periodic cell
+  double lookAhead = 0;              ///< s, for which a body's room should last if it is to be kept
 
   SweepRule(double verletDist, double minFactor, double dt, double interval)
       : most(verletDist),
@@ -34,6 +35,13 @@ struct SweepRule {
   [[nodiscard]] double lengthForBall(double radius, double speed) const {
     const double room = (.25 * shortestPeriod - radius) / std::sqrt(3.);
     return std::min(lengthFor(speed), std::max(room, 0.));
+  }
+
+  /// False if a body that has moved by `moved` (m) within a room for `sweep` has left it or is
+  /// about to, or is now so slow that the room costs needless neighbours.
+  [[nodiscard]] bool lasts(double sweep, double moved, double speed) const {
+    const double soon = moved + speed * lookAhead;
+    return (soon < sweep || soon == 0) && sweep <= tolerance::kLooseSweep * lengthFor(speed);
   }
 
   /// The integrator asks for a search when the largest component has reached the sweep.

@@ -27,8 +27,8 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 RIVAL = 'InsertionSortCollider'
 OURS = ['LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider']
 ROWS = [RIVAL, 'tuned'] + OURS
-SCENES = ['gas', 'packing', 'polydisperse', 'polydisperse50', 'clusters', 'plane', 'projectile',
-          'insertion']
+SCENES = ['gas', 'gas4', 'packing', 'polydisperse', 'polydisperse4', 'polydisperse50', 'clusters',
+          'plane', 'projectile', 'insertion', 'exchange', 'rest']
 FINALISTS = 3
 # Multiples of the smallest radius (YADE takes a negative verletDist so) and steps between bounds.
 GRID = [dict(verletDist=-v, targetInterv=t) for v in (.05, .1, .2, .5, 1.) for t in (0, 10, 50)]

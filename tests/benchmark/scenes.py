@@ -26,7 +26,7 @@ DENSITY = 2600.0  # kg/m3
 SPEED = 1.0  # m/s, standard deviation of each velocity component in a gas
 
 
-def gas(n, seed):
+def gas(n, seed, speed=SPEED):
     """A loose cloud of n equal spheres, volume fraction .1, free to expand.
 
     Sites are drawn from a lattice 7.5 % wider than the spheres. Velocities are normal, 1 m/s per
@@ -35,8 +35,13 @@ def gas(n, seed):
     rng = np.random.default_rng(seed)
     spacing = 2.15 * RADIUS
     positions = _lattice(rng, n, spacing, _occupancy(.1, spacing, 1))
-    _addSpheres(rng, positions, np.full(n, RADIUS), rng.normal(0, SPEED, (n, 3)), _material(1e7))
+    _addSpheres(rng, positions, np.full(n, RADIUS), rng.normal(0, speed, (n, 3)), _material(1e7))
     return _parts(1e7, damping=0, fraction=.1)
+
+
+def gas4(n, seed):
+    """`gas` at four times the speed."""
+    return gas(n, seed, 4 * SPEED)
 
 
 def packing(n, seed):
@@ -56,7 +61,7 @@ def packing(n, seed):
     return _parts(1e7, damping=.2, fraction=.6)
 
 
-def polydisperse(n, seed, ratio=20.):
+def polydisperse(n, seed, ratio=20., speed=SPEED):
     """A gas of n spheres with radii from RADIUS to RADIUS * ratio, volume fraction .25.
 
     The volume is spread evenly over the logarithm of the radius (each octave of radii holds the
@@ -67,8 +72,13 @@ def polydisperse(n, seed, ratio=20.):
     rng = np.random.default_rng(seed)
     positions, radii, edge = _sizeClasses(rng, n, ratio, .25)
     fraction = 4 / 3 * math.pi * (radii ** 3).sum() / edge ** 3
-    _addSpheres(rng, positions, radii, rng.normal(0, SPEED, (n, 3)), _material(1e7))
+    _addSpheres(rng, positions, radii, rng.normal(0, speed, (n, 3)), _material(1e7))
     return _parts(1e7, damping=0, fraction=round(fraction, 3), ratio=ratio)
+
+
+def polydisperse4(n, seed):
+    """`polydisperse` at four times the speed."""
+    return polydisperse(n, seed, speed=4 * SPEED)
 
 
 def polydisperse50(n, seed):
@@ -167,8 +177,40 @@ def insertion(n, seed, perStep=10):
     return parts
 
 
-SCENES = {f.__name__: f for f in (gas, packing, polydisperse, polydisperse50, clusters, plane,
-                                  projectile, insertion)}
+def exchange(n, seed, perStep=100):
+    """`insertion` of 100 bodies before each step, while as many others are erased."""
+    parts = insertion(n, seed, perStep)
+    rng, append = np.random.default_rng(seed + 1), parts['perStep']
+    alive = list(rng.permutation(n))
+
+    def step(number):
+        first = len(O.bodies)
+        append(number)
+        alive.extend(range(first, len(O.bodies)))
+        for _ in range(perStep):
+            place = int(rng.integers(len(alive)))
+            alive[place], alive[-1] = alive[-1], alive[place]
+            O.bodies.erase(int(alive.pop()))
+
+    parts['perStep'] = step
+    return parts
+
+
+def rest(n, seed):
+    """`packing` with nothing fixed and nothing in motion, but for one sphere far outside."""
+    rng = np.random.default_rng(seed)
+    positions = _block(rng, n - 1)
+    far = [2 * positions[:, 0].max(), 0, 0]
+    velocities = np.zeros((n, 3))
+    velocities[-1] = [10 * SPEED, 0, 0]
+    # Without contact, so that they stay at rest.
+    _addSpheres(rng, np.vstack([positions * 1.01, far]), np.full(n, RADIUS), velocities,
+                _material(1e7))
+    return _parts(1e7, damping=0, speed=10 * SPEED)
+
+
+SCENES = {f.__name__: f for f in (gas, gas4, packing, polydisperse, polydisperse4, polydisperse50,
+                                  clusters, plane, projectile, insertion, exchange, rest)}
 
 
 def build(name, n, seed):

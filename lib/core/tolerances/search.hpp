@@ -65,6 +65,10 @@ inline constexpr std::uint32_t kHierarchyLeaf = 4;
 /// that a look at each is as fast. Few bodies of an even packing have as many neighbours.
 inline constexpr std::size_t kLongRow = 16;
 
+/// (looks per box) Boxes that changed are sorted in when those that wait were looked at this many
+/// times the number of all: to sort in costs one look at each.
+inline constexpr std::size_t kAsideWork = 1;
+
 /// (relative to squared lengths) A period vector is taken for shorter than another only beyond
 /// rounding, so that equal ones do not take turns.
 inline constexpr double kShorterPeriod = 1e-12;

@@ -29,6 +29,7 @@ from yadefrag.fragments import (fragmentTable, plotFracture, plotFragmentSizes, 
 from yadefrag.geometry import (circle, grainJoints, readPolygon, rectangle, ring,  # noqa: E402
                                 voronoi)
 from yadefrag.mesh_files import readMesh  # noqa: E402
+from yadefrag.order import inCurveOrder  # noqa: E402
 from yadefrag.outline_report import outlineReport  # noqa: E402
 from yadefrag.outlines import readOutline  # noqa: E402
 from yadefrag.pictures import animate, plotMesh  # noqa: E402
@@ -64,4 +65,4 @@ __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMe
             'outlineReport', 'voronoi', 'grainJoints', 'rectangleMesh', 'plotMesh', 'animate',
             'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
             'plotFracture', 'crackTable', 'engines', 'FERecorder', 'tradeoff', 'TradeoffTable',
-            'ensemble', 'EnsembleTable']
+            'ensemble', 'EnsembleTable', 'inCurveOrder']

@@ -1,0 +1,217 @@
+// A search that is told which boxes changed has, after every change, the pairs of brute force.
+// YADEFRAG_SCENES sets the number of scenes (default 100,000, of which a hundredth is run here).
+#include "search/incremental_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "core/tolerances/search.hpp"
+#include "random_scenes.hpp"
+
+namespace yadefrag {
+namespace {
+
+constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue, SearchMethod::kLinearCode,
+                                     SearchMethod::kHierarchy, SearchMethod::kLinearBvh,
+                                     SearchMethod::kBruteForce};
+
+std::uint64_t sceneCount() {
+  const char* text = std::getenv("YADEFRAG_SCENES");
+  return std::max<std::uint64_t>((text ? std::strtoull(text, nullptr, 10) : 100000) / 100, 100);
+}
+
+std::vector<BoxId> changedSlots(const std::vector<Box>& before, const std::vector<Box>& now) {
+  std::vector<BoxId> changed;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (i >= before.size() || std::memcmp(&before[i], &now[i], sizeof(Box)) != 0)
+      changed.push_back(BoxId(i));
+  return changed;
+}
+
+/// The pairs that a caller keeps from one change to the next.
+class KeptPairs {
+ public:
+  explicit KeptPairs(SearchMethod method, bool counts) : search_(method, counts) {}
+
+  void look(const std::vector<Box>& before, const std::vector<Box>& now) {
+    std::vector<BoxPair> found;
+    if (now.size() < before.size() || before.empty()) {
+      search_.update(now);
+      search_.findPairs(found);
+      pairs_ = found;
+      std::sort(pairs_.begin(), pairs_.end());
+      return;
+    }
+    const std::vector<BoxId> changed = changedSlots(before, now);
+    const auto isChanged = [&](BoxId id) {
+      return std::binary_search(changed.begin(), changed.end(), id);
+    };
+    std::erase_if(pairs_,
+                  [&](const BoxPair& p) { return isChanged(p.first) || isChanged(p.second); });
+    search_.change(now, changed);
+    search_.findPairsOfChanged(found);
+    const auto hasChanged = [&](const BoxPair& p) {
+      return isChanged(p.first) || isChanged(p.second);
+    };
+    EXPECT_TRUE(std::all_of(found.begin(), found.end(), hasChanged));
+    pairs_.insert(pairs_.end(), found.begin(), found.end());
+    std::sort(pairs_.begin(), pairs_.end());
+  }
+
+  [[nodiscard]] const std::vector<BoxPair>& pairs() const { return pairs_; }
+  [[nodiscard]] const IncrementalSearch& search() const { return search_; }
+
+ private:
+  IncrementalSearch search_;
+  std::vector<BoxPair> pairs_;
+};
+
+std::vector<BoxPair> allPairs(const std::vector<Box>& boxes) {
+  const auto brute = makeSearch(SearchMethod::kBruteForce);
+  std::vector<BoxPair> pairs;
+  brute->update(boxes);
+  brute->findPairs(pairs);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+TEST(IncrementalSearch, SamePairsAsBruteForceWhileBoxesMoveComeAndGo) {
+  std::uint64_t found = 0, aside = 0;
+  for (std::uint64_t seed = 0; seed < sceneCount(); ++seed) {
+    RandomScene scene(seed);
+    std::vector<KeptPairs> kept;
+    for (const SearchMethod method : kMethods) kept.emplace_back(method, seed % 2);
+    std::vector<Box> before;
+    for (int step = 0; step < 6; ++step) {
+      // Another array each time: what was given before may be gone.
+      const std::vector<Box> now = scene.boxes();
+      const std::vector<BoxPair> expected = allPairs(now);
+      found += expected.size();
+      for (std::size_t k = 0; k < kept.size(); ++k) {
+        kept[k].look(before, now);
+        ASSERT_EQ(kept[k].pairs(), expected) << "seed " << seed << ", step " << step << ", " << k;
+        aside += kept[k].search().aside();
+        if (now.empty()) continue;
+        const Box& box = now[seed % now.size()];
+        if (!box.isAbsent()) {
+          std::vector<BoxId> overlapping;
+          kept[k].search().findOverlaps(box, overlapping);
+          std::size_t wanted = 0;
+          for (const Box& other : now) wanted += overlaps(box, other);
+          ASSERT_EQ(overlapping.size(), wanted) << "seed " << seed << ", step " << step;
+        }
+      }
+      before = now;
+      scene.step();
+    }
+  }
+  EXPECT_GT(found, 10 * sceneCount()) << "scenes too empty to prove anything";
+  EXPECT_GT(aside, sceneCount()) << "everything was always sorted in";
+}
+
+/// `count` boxes of side 1, on average three neighbours each.
+std::vector<Box> evenBoxes(std::size_t count, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> place(0, std::cbrt(static_cast<double>(count) * 2.7));
+  std::vector<Box> boxes(count);
+  for (Box& box : boxes)
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = place(random);
+      box.max[axis] = box.min[axis] + 1;
+    }
+  return boxes;
+}
+
+TEST(IncrementalSearch, SameOrderForAnyNumberOfThreads) {
+  std::vector<BoxPair> first;
+  for (const int threads : {1, 2, 3, 8}) {
+    std::mt19937_64 random(4);
+    std::vector<Box> boxes = evenBoxes(20000, random);
+    IncrementalSearch search(SearchMethod::kLebesgue);
+    search.setThreads(threads);
+    search.update(boxes);
+    std::vector<BoxPair> pairs;
+    search.findPairs(pairs);
+    for (int round = 0; round < 5; ++round) {
+      std::vector<BoxId> changed;
+      for (std::size_t i = static_cast<std::size_t>(round); i < boxes.size(); i += 7) {
+        boxes[i].max[0] += .5;
+        changed.push_back(BoxId(i));
+      }
+      search.change(boxes, changed);
+      search.findPairsOfChanged(pairs);
+    }
+    if (threads == 1) first = pairs;
+    ASSERT_EQ(pairs, first) << threads << " threads";
+  }
+  EXPECT_GT(first.size(), 10000U);
+}
+
+/// Comparisons of changes by one box among `count`.
+double comparisonsOfOneMove(std::size_t count) {
+  std::mt19937_64 random(5);
+  std::vector<Box> boxes = evenBoxes(count, random);
+  IncrementalSearch search(SearchMethod::kLebesgue, true);
+  search.update(boxes);
+  std::vector<BoxPair> pairs;
+  search.findPairs(pairs);
+  const auto before = search.comparisons().total();
+  constexpr int kMoves = 20;
+  for (int move = 0; move < kMoves; ++move) {
+    const BoxId one(random() % count);
+    boxes[one.value].max[1] += .1;
+    search.change(boxes, {&one, 1});
+    search.findPairsOfChanged(pairs);
+  }
+  return static_cast<double>(search.comparisons().total() - before) / kMoves;
+}
+
+TEST(IncrementalSearch, OneMoveCostsNoMoreAmongMany) {
+  // Without `count`, a search of 4·10⁴ boxes takes 4·10⁴ looks at least.
+  EXPECT_LT(comparisonsOfOneMove(40000), 1000);
+  EXPECT_LT(comparisonsOfOneMove(40000), 2 * comparisonsOfOneMove(1000) + 100);
+}
+
+TEST(IncrementalSearch, SortsInWhatHasWaitedForLong) {
+  std::mt19937_64 random(6);
+  std::vector<Box> boxes = evenBoxes(2000, random);
+  IncrementalSearch search(SearchMethod::kLebesgue);
+  search.update(boxes);
+  bool settled = false;
+  for (std::size_t i = 0; i < boxes.size() && !settled; ++i) {
+    const BoxId one(i);
+    boxes[i].max[0] += .1;
+    search.change(boxes, {&one, 1});
+    settled = search.aside() == 0;
+    // The sum 1 + 2 + … + k of the looks has reached the number of boxes.
+    ASSERT_TRUE(settled || i * i / 2 <= tolerance::kAsideWork * boxes.size());
+  }
+  EXPECT_TRUE(settled);
+}
+
+TEST(IncrementalSearch, StopsWhereThereAreTooManyPairs) {
+  std::vector<Box> boxes(800, Box{{0, 0, 0}, {1, 1, 1}});
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].min[0] = boxes[i].max[0] = 2. * double(i);
+  IncrementalSearch search(SearchMethod::kLebesgue);
+  search.setThreads(2);
+  search.update(boxes);
+  std::vector<BoxId> changed;
+  for (std::size_t i = 0; i < boxes.size(); i += 2) {
+    boxes[i] = {{0, 0, 0}, {2000, 1, 1}};
+    changed.push_back(BoxId(i));
+  }
+  search.setMostPairs(20000);
+  search.change(boxes, changed);
+  std::vector<BoxPair> pairs;
+  EXPECT_THROW(search.findPairsOfChanged(pairs), TooManyPairs);
+  search.setMostPairs(1000000);
+  search.findPairsOfChanged(pairs);
+  EXPECT_EQ(pairs.size(), 400U * 399 / 2 + 400U * 400);
+}
+
+}  // namespace
+}  // namespace yadefrag
