@@ -19,6 +19,9 @@ namespace yade {
 class ClassFactory : public Singleton<ClassFactory> {
   alignas(8) unsigned char libraryManagerAndMap_[136];
 
+ protected:
+  virtual ~ClassFactory();
+
  public:
   std::list<string> pluginClasses;
 
@@ -31,9 +34,6 @@ class ClassFactory : public Singleton<ClassFactory> {
   bool registerFactorable(string name, Factorable* (*create)(),
                           shared_ptr<Factorable> (*createShared)(), void* (*createPureCustom)());
   void registerPluginClasses(const char* fileAndClasses[]);
-
- protected:
-  virtual ~ClassFactory();
 };
 
 class Omega : public Singleton<Omega> {

@@ -285,6 +285,12 @@ struct LayoutProbe {
   CHECK_MEMBER(InteractionContainer, currSize);
   CHECK_MEMBER(InteractionContainer, empty);
   CHECK_MEMBER(InteractionContainer, interaction);
+  CHECK_MEMBER(NewtonIntegrator, syncEnsured);
+  CHECK_MEMBER(NewtonIntegrator, cellChanged);
+  CHECK_MEMBER(NewtonIntegrator, homoDeform);
+  CHECK_MEMBER(NewtonIntegrator, bodySelected);
+  CHECK_MEMBER(NewtonIntegrator, dVelGrad);
+  CHECK_MEMBER(NewtonIntegrator, dSpin);
   CHECK_MEMBER(ScGeom, twist_axis);
   CHECK_MEMBER(ScGeom, orthonormal_axis);
   CHECK_MEMBER(Cell, _invTrsf);

@@ -2,6 +2,7 @@
 // The integrator, whose record of the fastest body drives the stride of a collider.
 
 #include "abi/engine.hpp"
+#include "abi/layout.hpp"
 
 namespace yade {
 
@@ -29,6 +30,13 @@ class NewtonIntegrator : public FieldApplier {
   Vector3r gravity;
   Real maxVelocitySq;
   bool exactAsphericalRot;
+
+ private:
+  // Since 2025: rotAlgorithm, normalizeEvery, niterOmelyan1998. Before: padding.
+  unsigned char rotation_[yadefrag::layoutBytes("NewtonIntegrator", "prevVelGrad") -
+                          yadefrag::layoutBytes("NewtonIntegrator", "exactAsphericalRot") - 1];
+
+ public:
   Matrix3r prevVelGrad;
   Vector3r prevCellSize;
   bool warnNoForceReset;
@@ -43,6 +51,9 @@ class NewtonIntegrator : public FieldApplier {
   NewtonIntegrator() = delete;
   ~NewtonIntegrator() override;
   void action() override;
+
+ private:
+  friend struct LayoutProbe;
 };
 
 }  // namespace yade

@@ -2,6 +2,7 @@
 // Geometries of bodies.
 
 #include "abi/indexable.hpp"
+#include "abi/layout.hpp"
 #include "abi/serializable.hpp"
 
 namespace yade {
@@ -25,6 +26,9 @@ class Shape : public Serializable, public Indexable {
   py::dict pyDict() const override;
   void callPostLoad() override;
   void pyRegisterClass(py::object scope) override;
+#if YADEFRAG_YADE >= 202601
+  virtual Real getVolume() const;
+#endif
 
  protected:
   Shape() = default;

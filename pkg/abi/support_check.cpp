@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "abi/layout.hpp"
 #include "abi/round_trip.hpp"
 
 namespace yadefrag {
@@ -11,10 +12,19 @@ using yade::Matrix3r;
 using yade::Vector3i;
 using yade::Vector3r;
 
+namespace {
+
+// "yadefrag needs YADE 2023.02a as Debian 12 packages it, and the running yade "
+std::string needed() {
+  return std::string("yadefrag needs YADE ") + kYadeVersion + " as " + kYadeSystem +
+         " packages it, and the running yade ";
+}
+
+}  // namespace
+
 void throwMisplaced(const std::string& typeAndMember) {
-  throw UnsupportedYade(
-      "yadefrag needs YADE 2023.02a as Debian 12 packages it, and the running yade differs: " +
-      typeAndMember + " is not where that package keeps it.");
+  throw UnsupportedYade(needed() + "differs: " + typeAndMember +
+                        " is not where that package keeps it.");
 }
 
 namespace {
@@ -324,10 +334,7 @@ void checkRunningYade() {
   try {
     checkAll();
   } catch (const py::error_already_set&) {
-    throw UnsupportedYade(
-        "yadefrag needs YADE 2023.02a as Debian 12 packages it, and the running yade lacks "
-        "something of it: " +
-        takePythonError());
+    throw UnsupportedYade(needed() + "lacks something of it: " + takePythonError());
   }
 }
 

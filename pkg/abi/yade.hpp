@@ -1,5 +1,5 @@
 #pragma once
-// YADE 2023.02a as this project sees it: the one include of everything in pkg/ that touches YADE.
+// YADE as this project sees it: the one include of everything in pkg/ that touches YADE.
 // Names, namespace, members and access are YADE's own, so this file may be replaced by one that
 // includes YADE's real headers (pkg/README.md says how).
 

@@ -1,6 +1,8 @@
 #pragma once
 // The colliders' attributes as Python sees them.
 
+#include <boost/mpl/vector.hpp>
+
 #include "collider/search_collider.hpp"
 
 namespace yadefrag {

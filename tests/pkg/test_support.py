@@ -20,22 +20,38 @@ STOCK = ['OPENMP', 'MPI', 'QT5', 'FEMLIKE', 'VTK', 'CGAL']
 
 
 def test_stockYadeIsAccepted():
-    assert support.describeMismatch('2023.02a', 'PrecisionDouble', STOCK) == ''
+    assert support.describeMismatch(support.VERSION, 'PrecisionDouble', STOCK) == ''
     assert support.describeSurroundings() == ''
 
 
 @pytest.mark.parametrize('version, precision, features, found, needed', [
-    ('2022.01a', 'PrecisionDouble', STOCK, 'version 2022.01a', 'version 2023.02a'),
-    ('2023.02a', 'PrecisionLongDouble', STOCK, 'PrecisionLongDouble', 'PrecisionDouble'),
-    ('2023.02a', 'PrecisionDouble', STOCK + ['VECTORIZE'], 'has VECTORIZE', 'no VECTORIZE'),
-    ('2023.02a', 'PrecisionDouble', STOCK + ['MASK_ARBITRARY'], 'has MASK_ARB', 'no MASK_ARB'),
-    ('2023.02a', 'PrecisionDouble', STOCK + ['SPH'], 'has SPH', 'no SPH'),
-    ('2023.02a', 'PrecisionDouble', ['OPENMP', 'QT5', 'FEMLIKE'], 'has no MPI', 'with MPI'),
+    ('2022.01a', 'PrecisionDouble', STOCK, 'version 2022.01a', 'version ' + support.VERSION),
+    (support.VERSION, 'PrecisionLongDouble', STOCK, 'PrecisionLongDouble', 'PrecisionDouble'),
+    (support.VERSION, 'PrecisionDouble', STOCK + ['VECTORIZE'], 'has VECTORIZE', 'no VECTORIZE'),
+    (support.VERSION, 'PrecisionDouble', STOCK + ['MASK_ARBITRARY'], 'has MASK_ARB', 'no MASK_ARB'),
+    (support.VERSION, 'PrecisionDouble', STOCK + ['SPH'], 'has SPH', 'no SPH'),
+    (support.VERSION, 'PrecisionDouble', ['OPENMP', 'QT5', 'FEMLIKE'], 'has no MPI', 'with MPI'),
 ])
 def test_otherYadeIsNamedInOneSentence(version, precision, features, found, needed):
     sentence = support.describeMismatch(version, precision, features)
     assert found in sentence and needed in sentence
     assert sentence.count('. ') == 0 and sentence.endswith('.') and '\n' not in sentence
+
+
+def test_versionOfAnotherBuildIsNamedAsSuch():
+    others = [version for version in support.ACCEPTED if version != support.VERSION]
+    assert others
+    for version in others:
+        sentence = support.describeMismatch(version, 'PrecisionDouble', STOCK)
+        assert sentence.endswith('for which yadefrag has to be built or installed anew.')
+
+
+def test_untriedVersionIsRefusedInOneSentence(monkeypatch):
+    """A build for a YADE whose layout is known, and which no test was run with."""
+    monkeypatch.setattr(support, 'VERSION', '2026.1.0')
+    sentence = support.describeMismatch('2026.1.0', 'PrecisionDouble', STOCK)
+    assert 'never tested with it' in sentence and '2023.02a' in sentence
+    assert sentence.endswith('.') and '\n' not in sentence
 
 
 def test_everyDifferenceIsNamed():

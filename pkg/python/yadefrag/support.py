@@ -1,11 +1,16 @@
-"""Is the YADE around us the one that yadefrag was built for?
+"""Is the YADE around us the one that this build of yadefrag is for?
 
 Asked in Python, before the extension is loaded: another YADE may lack what it links to.
 """
 
 import sys
 
-VERSION = '2023.02a'
+from yadefrag import _built
+
+# The extension holds the layout of one version: that of the YADE that was installed when it was built.
+VERSION = _built.VERSION
+# Every version that a build can be for, with the system whose package it is.
+ACCEPTED = _built.ACCEPTED
 PRECISION = 'PrecisionDouble'
 # Features that move members of YADE's classes: these make members that the extension knows ...
 NEEDED = ('OPENMP', 'MPI', 'QT5', 'FEMLIKE')
@@ -33,10 +38,29 @@ def describeMismatch(version, precision, features):
         if feature in features:
             found.append('%s' % feature)
             needed.append('no %s' % feature)
-    if not found:
+    if found:
+        return ('this build of yadefrag needs YADE %s as %s packages it, with %s; the running yade '
+                'has %s%s.' % (VERSION, _built.SYSTEM, ', '.join(needed), ', '.join(found),
+                               describeRemedy(version)))
+    return describeUntried(version)
+
+
+def describeRemedy(version):
+    """What else is to be done about a version: for the end of a sentence."""
+    if version == VERSION:
         return ''
-    return ('yadefrag needs YADE %s as Debian 12 packages it, with %s; the running yade has %s.' %
-            (VERSION, ', '.join(needed), ', '.join(found)))
+    if version in ACCEPTED:
+        return ', for which yadefrag has to be built or installed anew'
+    return '; builds can be for %s' % ' and '.join(
+        'YADE %s (%s)' % item for item in sorted(ACCEPTED.items()))
+
+
+def describeUntried(version):
+    """'' unless the layout of `version` is known, but no test was ever run with it."""
+    if version in ACCEPTED:
+        return ''
+    return ('yadefrag is prepared for YADE %s, but was never tested with it and therefore refuses it; '
+            'it accepts %s.' % (version, ' and '.join(sorted(ACCEPTED))))
 
 
 def describeSurroundings(modules=None):

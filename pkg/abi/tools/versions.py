@@ -1,0 +1,53 @@
+"""The files of pkg/abi/versions: what is known of a YADE's classes, one file per version.
+
+version     as yade.config has it
+system      whose package it is
+run         was this project run with it? If not, `import yadefrag` refuses it
+classes     name: size and offsets in bytes, members as [name, type, offset], virtual functions as
+            class_dump.py says
+"""
+
+import json
+import pathlib
+import re
+
+FOLDER = pathlib.Path(__file__).resolve().parent.parent / 'versions'
+
+
+def read(version):
+    return json.loads((FOLDER / (version + '.json')).read_text())
+
+
+def known():
+    """{version: contents of its file}"""
+    return {path.stem: read(path.stem) for path in sorted(FOLDER.glob('*.json'))}
+
+
+def versionOf(libraries):
+    """Version of the YADE whose libraries are in a folder; '' if it says none."""
+    config = pathlib.Path(libraries) / 'py' / 'yade' / 'config.py'
+    found = re.search(r"^version\s*=\s*'([^']*)'", config.read_text(), re.M)
+    return found.group(1) if found else ''
+
+
+def number(version):
+    """202302 of '2023.02a': what the preprocessor compares."""
+    year, month = re.match(r'(\d+)\.(\d+)', version).groups()
+    return 100 * int(year) + int(month)
+
+
+def write(facts):
+    """One line per member and table, so that two versions are compared by diff."""
+    blocks = []
+    for name, entry in sorted(facts['classes'].items()):
+        members = ',\n'.join('   ' + json.dumps(row) for row in entry['members'])
+        tables = ',\n'.join('   %s: [%s]' % (json.dumps(at), ',\n    '.join(map(json.dumps, names)))
+                            for at, names in entry['virtuals'].items())
+        blocks.append('  %s: {"size": %d,\n   "members": [%s],\n   "virtuals": {%s}}' % (
+            json.dumps(name), entry['size'], '\n' + members if members else '',
+            '\n' + tables if tables else ''))
+    head = ',\n '.join('%s: %s' % (json.dumps(key), json.dumps(facts[key]))
+                       for key in ('version', 'system', 'run'))
+    path = FOLDER / (facts['version'] + '.json')
+    path.write_text('{%s,\n "classes": {\n%s}}\n' % (head, ',\n'.join(blocks)))
+    return path
