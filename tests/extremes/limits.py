@@ -1,5 +1,5 @@
 """limits.py TESTS ARGS: runs the tests of the extremes, ARGS as GoogleTest takes them, and writes the
-limits that they measure into the README."""
+limits that they measure into docs/limits.md."""
 
 import os
 import pathlib
@@ -25,7 +25,7 @@ def measured(tests, arguments):
 
 
 def rewrite(text, rows):
-    """The README with these rows in place of those of the same names; new ones come last."""
+    """The page with these rows in place of those of the same names; new ones come last."""
     before, rest = text.split(BEGIN, 1)
     table, after = rest.split(END, 1)
     lines = table.splitlines(keepends=True)
@@ -38,7 +38,7 @@ def rewrite(text, rows):
 
 
 if __name__ == '__main__':
-    readme = ROOT / 'README.md'
+    readme = ROOT / 'docs' / 'limits.md'
     rows = measured(sys.argv[1], sys.argv[2:])
     readme.write_text(rewrite(readme.read_text(), rows))
-    print('README.md is rewritten.')
+    print('docs/limits.md is rewritten.')

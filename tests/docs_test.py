@@ -1,0 +1,56 @@
+"""The manual against the code: what it quotes is said somewhere, its links lead somewhere.
+
+Run by scripts/docs, without YADE; the code of the pages is run by tests/pkg/test_docs.py.
+"""
+
+import pathlib
+import re
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+PAGES = sorted((ROOT / 'docs').glob('*.md')) + [ROOT / 'README.md']
+
+
+def sources():
+    """All sources as one text, in which neighbouring string literals are one."""
+    files = [path for folder in ('lib', 'pkg') for path in (ROOT / folder).rglob('*')
+             if path.suffix in ('.cpp', '.hpp', '.py')]
+    text = '\n'.join(path.read_text() for path in files)
+    text = re.sub(r'"\s*\n\s*"', '', text)
+    return re.sub(r"'\s*\n\s*f?'", '', text)
+
+
+class Manual(unittest.TestCase):
+
+    def test_quotedSentencesAreSaid(self):
+        text = sources()
+        table = (ROOT / 'docs' / 'troubleshooting.md').read_text()
+        quoted = re.findall(r'^\| \*(.*?)\*', table, re.M)
+        self.assertGreater(len(quoted), 10)
+        for sentence in quoted:
+            for part in sentence.split('…'):
+                part = part.strip(' .')
+                if len(part) > 3 and 'unregistered class' not in part:  # YADE's
+                    with self.subTest(part=part):
+                        self.assertIn(part, text)
+
+    def test_linksLeadSomewhere(self):
+        count = 0
+        for page in PAGES:
+            for target in re.findall(r'\]\(([^)#]+)(?:#[^)]*)?\)', page.read_text()):
+                if '://' in target:
+                    continue
+                count += 1
+                with self.subTest(page=page.name, target=target):
+                    self.assertTrue((page.parent / target).exists())
+        self.assertGreater(count, 20)
+
+    def test_chaptersAreInTheTable(self):
+        index = (ROOT / 'docs' / 'index.md').read_text()
+        for page in (ROOT / 'docs').glob('*.md'):
+            if page.stem != 'index':
+                self.assertIn('\n' + page.stem + '\n', index)
+
+
+if __name__ == '__main__':
+    unittest.main()

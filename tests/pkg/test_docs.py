@@ -1,0 +1,27 @@
+"""All Python of the manual and the README runs, as it is printed there."""
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+from test_threads import yadeCommand
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BLOCKS = {f'{page.name}-{number}': block
+          for page in (ROOT / 'README.md', *sorted((ROOT / 'docs').glob('*.md')))
+          for number, block in enumerate(re.findall(r'^```python\n(.*?)^```', page.read_text(), re.S | re.M))}
+
+
+@pytest.mark.parametrize('name', sorted(BLOCKS))
+def test_blockRuns(folder, name):
+    script = pathlib.Path(folder) / 'block.py'
+    script.write_text(BLOCKS[name] + "\nprint('ran to its end')\n")
+    done = subprocess.run([*yadeCommand(), str(script)], cwd=folder, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, timeout=600)
+    assert done.returncode == 0 and 'ran to its end' in done.stdout, done.stdout
+    assert 'Traceback' not in done.stdout and 'yadefrag:' not in done.stdout, done.stdout
+
+
+def test_thereAreBlocks():
+    assert len(BLOCKS) >= 5 and any(name.startswith('getting_started') for name in BLOCKS)
