@@ -71,6 +71,11 @@ void ScriptFunctions::keep(const World& world) {
     return std::ranges::none_of(world.model.motions, isOf) &&
            std::ranges::none_of(world.pressures, isOf);
   });
+  // After loading, numbers are named whose functions are missing: no other function gets them.
+  for (const Motion& motion : world.model.motions)
+    if (motion.isScripted()) functions_.try_emplace(motion.function);
+  for (const Pressure& pressure : world.pressures)
+    if (pressure.function != 0) functions_.try_emplace(pressure.function);
 }
 
 void ScriptFunctions::giveValues(World& world, double dt) const {
@@ -96,7 +101,7 @@ void ScriptFunctions::giveVelocities(World& world, double dt) const {
   for (std::uint32_t m = 0; m < motions.size(); ++m) {
     if (!motions[m].isScripted()) continue;
     const auto known = functions_.find(motions[m].function);
-    if (known == functions_.end()) return;
+    if (known == functions_.end() || known->second.is_none()) return;
     callOne(known->second, world, m, world.time + dt / 2, velocities);
   }
   world.givenVelocities = std::move(velocities);
@@ -105,7 +110,7 @@ void ScriptFunctions::giveVelocities(World& world, double dt) const {
 void ScriptFunctions::givePressures(World& world) const {
   for (const Pressure& pressure : world.pressures) {
     const auto known = functions_.find(pressure.function);
-    if (known == functions_.end()) continue;
+    if (known == functions_.end() || known->second.is_none()) continue;
     world.givenPressures.push_back(
         {pressure.function, py::extract<double>(known->second(world.time))});
   }

@@ -199,7 +199,8 @@ def test_savedMotionsGoOnWithTheSameBits(folder, ending):
 def test_functionsAreAskedForAfterALoad(folder):
     solver = block()
     path = os.path.join(folder, 'scene.yade')
-    solver.prescribe(bottom(solver), vy=lambda x, y, t: 1)
+    low = bottom(solver)
+    solver.prescribe(low, vy=lambda x, y, t: 1)
     steps(3)
     O.save(path)
     O.load(path)
@@ -208,9 +209,14 @@ def test_functionsAreAskedForAfterALoad(folder):
     with pytest.raises(RuntimeError, match='call FESolver.prescribe for them again'):
         O.step()
     assert (solver.nodes == before).all() and (solver.velocities == speed).all()
-    solver.prescribe(bottom(solver), vy=lambda x, y, t: 1)
-    before = solver.nodes[0, 1]
+    # That of other nodes is not theirs.
+    top = np.nonzero(solver.nodes[:, 1] > solver.nodes[:, 1].max() - 1e-9)[0]
+    solver.prescribe(top, vy=lambda x, y, t: -2)
+    with pytest.raises(RuntimeError, match='call FESolver.prescribe for them again'):
+        O.step()
+    solver.prescribe(low, vy=lambda x, y, t: 1)
     O.run(4, True)  # in YADE's own thread
+    assert (solver.velocities[low, 1] == 1).all() and (solver.velocities[top, 1] == -2).all()
     assert solver.time == pytest.approx(7 * O.dt)
 
 
