@@ -14,13 +14,14 @@ using yade::Vector3r;
 bool SearchCollider::mayKeep() const {
   return keptWith_ == choices() && search_ && strideActive_ && !doSort &&
          !scene->interactions->dirty && !scene->isPeriodic && !periodic_ && verletDist > 0 &&
-         searchCounts_ == countComparisons && interactions_.madeByOthers(*scene) <= 0;
+         targetInterv > 0 && searchCounts_ == countComparisons &&
+         interactions_.madeByOthers(*scene) <= 0;
 }
 
 /// False if so many have changed that all have to be searched.
 bool SearchCollider::searchChanged(int threads) {
   SweepRule rule = chooseSweeps();
-  const double soon = tolerance::kLookAhead * stepsToLast();
+  const double soon = tolerance::kLookAhead * interval;
   rule.lookAhead = soon * scene->dt;
   // Where bodies come at every step, the others are looked at now and then only.
   const bool quick = quickLook_ && static_cast<double>(scene->iter - lastLook_) < soon;
@@ -56,11 +57,6 @@ bool SearchCollider::searchChanged(int threads) {
 double SearchCollider::workLeft() const {
   return static_cast<double>(scene->bodies->body.size()) -
          tolerance::kChangeWork * static_cast<double>(searchedSinceAll_);
-}
-
-/// Steps for which rooms are made, or have lasted where their length is given.
-double SearchCollider::stepsToLast() const {
-  return interval > 0 ? interval : static_cast<double>(scene->iter - lastAll_);
 }
 
 /// How often a searched body has a neighbour that is near only because sweeps are not half as long.

@@ -62,7 +62,7 @@ void SearchCollider::searchAll(int threads) {
     return mayCollide(a, b, scene->subdomain);
   });
   keptWith_ = choices();
-  lastAll_ = lastLook_ = scene->iter;
+  lastLook_ = scene->iter;
   searchedSinceAll_ = 0;
   const auto bodies = static_cast<double>(scene->bodies->body.size());
   countWork(bodies, bodies, 2 * static_cast<double>(pairsOfHalf_));

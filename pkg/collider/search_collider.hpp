@@ -74,7 +74,6 @@ class SearchCollider : public yade::Collider {
   bool searchChanged(int threads);
   [[nodiscard]] bool mayKeep() const;
   [[nodiscard]] double workLeft() const;
-  [[nodiscard]] double stepsToLast() const;
   [[nodiscard]] double halvesOfChanged() const;
   [[nodiscard]] bool someErased() const;
   [[nodiscard]] bool isStillNear(yade::Body::id_t id1, yade::Body::id_t id2) const;
@@ -125,7 +124,6 @@ class SearchCollider : public yade::Collider {
   Interval counts_;                   // since the interval was chosen
   bool quickLook_ = false;            // this search is due only because there are further bodies
   std::size_t searchedSinceAll_ = 0;  // bodies, since all were searched
-  long lastAll_ = -1;                 // step at which all bodies were searched
   long lastLook_ = -1;                // step at which all bodies were looked at
   long lastIter_ = -1;                // step of the last search
   bool sweepsEnded_ = false;          // this search is due because a body left its bound
