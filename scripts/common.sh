@@ -22,8 +22,8 @@ use_only_debian_python() {
 use_plugin() {
   local package_dir=$root/build/release/python
   if [ ! -e "$package_dir/yadefrag/__init__.py" ] || [ ! -e "$package_dir/yadefrag/_yadefrag.so" ]; then
-    "$root/scripts/setup" >&2
-    "$root/scripts/build" >&2
+    "$root/scripts/setup" plugin >&2
+    "$root/scripts/build" release _yadefrag >&2
   fi
   export PYTHONPATH="$package_dir${PYTHONPATH:+:$PYTHONPATH}"
 }

@@ -39,13 +39,15 @@ class Cost {
  public:
   explicit Cost(double squaredTolerance) : share_(tolerance::kEqualCosts * squaredTolerance) {}
 
+  /// The optional of Boost; since CGAL 6, that of std.
   template <class Constrained, class Iterator>
-  boost::optional<double> operator()(const Constrained& triangulation, Iterator vertex) const {
-    const auto distance = simplification::Squared_distance_cost()(triangulation, vertex);
+  auto operator()(const Constrained& triangulation, Iterator vertex) const {
+    auto distance = simplification::Squared_distance_cost()(triangulation, vertex);
     const Kernel::Point_2& p = (*vertex)->point();
     const std::uint64_t bits =
         mixBits(mixBits(std::bit_cast<std::uint64_t>(p.x())) + std::bit_cast<std::uint64_t>(p.y()));
-    return *distance + share_ * (static_cast<double>(bits >> 12) * 0x1p-52);
+    *distance += share_ * (static_cast<double>(bits >> 12) * 0x1p-52);
+    return distance;
   }
 
  private:

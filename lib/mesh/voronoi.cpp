@@ -59,7 +59,7 @@ Shape nearerHalf(const Shape& shape, const Point& own, const Point& other) {
     if (sideOfA != CGAL::ON_NEGATIVE_SIDE) half.push_back(a);
     if (sideOfA * sideOfB >= 0) continue;
     const auto crossing = CGAL::intersection(bisector, Kernel::Line_2(a, b));
-    half.push_back(*boost::get<Point>(&*crossing));
+    half.push_back(get<Point>(*crossing));  // of Boost's variant; since CGAL 6, of std's
   }
   return half;
 }

@@ -27,7 +27,7 @@ class Shape : public Serializable, public Indexable {
   void callPostLoad() override;
   void pyRegisterClass(py::object scope) override;
 #if YADEFRAG_YADE >= 202601
-  virtual Real getVolume() const;
+  virtual Real getVolume();
 #endif
 
  protected:

@@ -12,7 +12,7 @@ if(EXISTS ${yade_config})
 endif()
 
 execute_process(
-  COMMAND ${Python3_EXECUTABLE} ${abi_dir}/tools/make_table.py "${found_version}"
+  COMMAND ${Python3_EXECUTABLE} ${abi_dir}/tools/make_table.py "${found_version}" ${YADEFRAG_VERSION}
           ${generated_dir}/abi/layout_table.hpp ${package_dir}/_built.py
   OUTPUT_VARIABLE told OUTPUT_STRIP_TRAILING_WHITESPACE
   RESULT_VARIABLE failed)

@@ -4,6 +4,7 @@
 
 #include "abi/support_check.hpp"
 #include "collider/colliders.hpp"
+#include "dynamics/element_kernel.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/gl_surface_segment.hpp"
 #include "fe/materials.hpp"
@@ -30,6 +31,11 @@ using NewClasses = ClassList<LebesgueCollider, LinearCodeCollider, HierarchyColl
                              BrittleFEMat, SurfaceSegment, Bo1_SurfaceSegment_Aabb,
                              Ig2_Sphere_SurfaceSegment_ScGeom, Gl1_SurfaceSegment, FESolver>;
 
+/// That elements are computed with on this processor.
+std::string instructionSet() {
+  return bestInstructionSet() == InstructionSet::kAvx2 ? "AVX2" : "SSE2";
+}
+
 void toImportError(const UnsupportedYade& error) {
   PyErr_SetString(PyExc_ImportError, error.what());
 }
@@ -48,6 +54,7 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::register_exception_translator<yadefrag::UnsupportedYade>(&yadefrag::toImportError);
   py::def("checkRunningYade", &yadefrag::checkRunningYade,
           "Raises ImportError unless YADE's classes are laid out as this extension declares them.");
+  py::def("instructionSet", &yadefrag::instructionSet);
   py::def("meshOfPolygon", &yadefrag::meshOfPolygon);
   py::def("keptVertices", &yadefrag::keptVertices);
   py::def("latticeTimeStep", &yadefrag::latticeTimeStepOf);

@@ -6,6 +6,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import sysconfig
 
 import pytest
 
@@ -119,6 +120,24 @@ def test_virtualFunctionsOfTheRunningYadeAreTheMeasuredOnes():
     assert compared > 400
 
 
+@pytest.mark.parametrize('version', KNOWN)
+def test_theDeclarationsFitEveryVersion(version, tmp_path):
+    """Also those whose package is not here: sizes and offsets by the compiler, then the functions."""
+    assert make_table.main(version, '0', tmp_path / 'abi' / 'layout_table.hpp',
+                           tmp_path / '_built.py') == 0
+    dump = tmp_path / 'classes.txt'
+    folders = ['/usr/include/eigen3', sysconfig.get_paths()['include']]
+    done = subprocess.run(
+        ['g++', '-std=c++20', '-w', '-fsyntax-only', '-fdump-lang-class=%s' % dump,
+         '-DEIGEN_DONT_VECTORIZE', '-DEIGEN_DONT_ALIGN', '-DBOOST_BIND_GLOBAL_PLACEHOLDERS',
+         '-I%s' % ABI.parent, '-I%s' % tmp_path, *['-isystem' + folder for folder in folders],
+         str(ABI / 'layout_checks.cpp')], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr[-2000:]
+    tables = class_dump.readTables(dump.read_text())
+    assert list(check_virtuals.differences(tables, KNOWN[version]['classes'],
+                                           check_virtuals.derivedFrom())) == []
+
+
 @pytest.mark.parametrize('tables, line', [
     ({'0': ['~', '~', 'getVolume', 'getClassIndex']}, 'Shape, base at byte 0, virtual function 3'),
     ({'0': ['~', '~']}, 'Shape, base at byte 0: getVolume is not declared'),
@@ -161,7 +180,7 @@ Class yade::Shape
 
 
 def test_anUnknownVersionIsNamedInOneSentence(tmp_path, capsys):
-    assert make_table.main('2031.1', tmp_path / 'a.hpp', tmp_path / 'b.py') == 2
+    assert make_table.main('2031.1', '0', tmp_path / 'a.hpp', tmp_path / 'b.py') == 2
     said = capsys.readouterr().out
     assert '2031.1' in said and all(version in said for version in KNOWN)
     assert said.count('\n') == 1 and not list(tmp_path.iterdir())

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""make_table.py VERSION HEADER MODULE: what the build needs of pkg/abi/versions/VERSION.json.
+"""make_table.py VERSION OWN HEADER MODULE: what the build needs of pkg/abi/versions/VERSION.json.
 
-HEADER gets sizes and offsets, for the compiler; MODULE which YADE the extension is built for, for
-Python. Exit code 2, and one sentence: that version is not known.
+HEADER gets sizes and offsets, for the compiler; MODULE which YADE the extension is built for, and
+OWN, the version of yadefrag, for Python. Exit code 2, and one sentence: that YADE is not known.
 """
 
 import pathlib
@@ -29,8 +29,9 @@ inline constexpr LayoutEntry kLayout[] = {
 }  // namespace yadefrag
 '''
 
-MODULE = '''"""Which YADE this build of yadefrag is for. Made by pkg/abi/tools/make_table.py."""
+MODULE = '''"""What this build of yadefrag is, and which YADE it is for. Made by pkg/abi/tools/make_table.py."""
 
+YADEFRAG = %(own)r
 VERSION = %(version)r
 SYSTEM = %(system)r
 # Was this project run with it?
@@ -54,7 +55,7 @@ def writeIfNew(path, text):
         path.write_text(text)
 
 
-def main(version, header, module):
+def main(version, own, header, module):
     known = versions.known()
     if version not in known:
         print('yadefrag knows YADE %s, and not %s; "How to move to another YADE" in pkg/README.md '
@@ -64,7 +65,7 @@ def main(version, header, module):
     writeIfNew(header, HEADER % {**facts, 'number': versions.number(version),
                                  'rows': '\n'.join(rows(facts['classes']))})
     accepted = {name: other['system'] for name, other in known.items() if other['run']}
-    writeIfNew(module, MODULE % {**facts, 'accepted': accepted})
+    writeIfNew(module, MODULE % {**facts, 'own': own, 'accepted': accepted})
     return 0
 
 

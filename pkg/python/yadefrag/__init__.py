@@ -9,6 +9,10 @@ import sys
 
 from yadefrag import support
 
+if support.isReportAsked():  # python3 -m yadefrag: in a Python without YADE nothing else can follow
+    from yadefrag import about_run
+    sys.exit(about_run.main())
+
 support.require()
 
 # Only after the check: without the right YADE these may not exist, or not load.
@@ -20,6 +24,7 @@ __all__ = list(_yadefrag.publish())
 
 # Only now: FESolver is there.
 from yadefrag import attributes, lifecycle, solver  # noqa: E402
+from yadefrag.about import about  # noqa: E402
 from yadefrag.engines import engines  # noqa: E402
 from yadefrag.ensemble import ensemble  # noqa: E402
 from yadefrag.ensemble_table import EnsembleTable  # noqa: E402
@@ -65,4 +70,5 @@ __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMe
             'outlineReport', 'voronoi', 'grainJoints', 'rectangleMesh', 'plotMesh', 'animate',
             'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
             'plotFracture', 'crackTable', 'engines', 'FERecorder', 'tradeoff', 'TradeoffTable',
-            'ensemble', 'EnsembleTable', 'inCurveOrder']
+            'ensemble', 'EnsembleTable', 'inCurveOrder', 'about']
+__version__ = support.YADEFRAG

@@ -7,6 +7,7 @@ import sys
 
 from yadefrag import _built
 
+YADEFRAG = _built.YADEFRAG
 # The extension holds the layout of one version: that of the YADE that was installed when it was built.
 VERSION = _built.VERSION
 # Every version that a build can be for, with the system whose package it is.
@@ -73,6 +74,13 @@ def describeSurroundings(modules=None):
     return describeMismatch(getattr(config, 'version', 'unknown'),
                             getattr(config, 'highPrecisionName', 'unknown precision'),
                             getattr(config, 'features', []))
+
+
+def isReportAsked():
+    """Is this `python3 -m yadefrag`?"""
+    begin = getattr(sys, 'orig_argv', [])
+    return 'yade' not in sys.modules and '-m' in begin[:-1] and (
+        begin[begin.index('-m') + 1] == 'yadefrag')
 
 
 def require():

@@ -1,0 +1,63 @@
+"""What is installed, and does it work here?"""
+
+import os
+import pathlib
+import platform
+
+from yade import config
+
+from yadefrag import _built, _yadefrag, support
+
+_OWN = pathlib.Path(__file__).resolve().parent
+# Of a source tree, whose build folder has links to it; of what was installed below /usr, /usr/local.
+_PLACES = (_OWN.parents[2], _OWN.parents[3] / 'share' / 'doc' / 'yadefrag')
+
+
+def about(show=print):
+    """Prints what is installed and whether it works here; returns True if all is well.
+
+    Versions of yadefrag, YADE and Python; whether YADE's classes are where the extension takes them
+    to be; instruction set and threads of the finite elements; folders of examples and manual.
+    `python3 -m yadefrag`, outside YADE, prints the same and exits with 0 if all is well, else 1.
+
+    show  called with each line (default: print)
+    """
+    well = True
+    for name, text, good in _rows():
+        show('%-12s %s%s' % (name, text, '' if good else '   <- not as it should be'))
+        well = well and good
+    show('All is well.' if well else 'Not all is well: see above.')
+    return well
+
+
+def _rows():
+    """(what, text, whether it is as it should be), line by line."""
+    yield 'yadefrag', '%s in %s' % (support.YADEFRAG, _OWN), True
+    yield 'YADE', '%s; built for %s of %s' % (config.version, _built.VERSION, _built.SYSTEM), (
+        config.version == _built.VERSION)
+    yield 'Python', platform.python_version(), True
+    problem = support.describeSurroundings() or _problemOfInterface()
+    yield 'interface', problem or "YADE's classes are as they were measured", not problem
+    yield 'instructions', _yadefrag.instructionSet(), True
+    yield 'threads', _threads(), True
+    examples, manual = _place('examples'), _place('docs') or _place('README.md')
+    yield 'examples', str(examples or 'not found'), examples is not None
+    yield 'manual', str(manual or 'not found'), manual is not None
+
+
+def _problemOfInterface():
+    try:
+        _yadefrag.checkRunningYade()
+    except ImportError as error:
+        return str(error)
+    return ''
+
+
+def _threads():
+    limit = os.environ.get('OMP_NUM_THREADS')
+    return '%s of %d (yade -j N)' % (limit or 1, len(os.sched_getaffinity(0)))
+
+
+def _place(name):
+    """The first of the folders that has it, as a path; None if none has."""
+    return next((place / name for place in _PLACES if (place / name).exists()), None)
