@@ -14,7 +14,7 @@ see the same boxes and have to find the same pairs:
 
 Times are processor time in ms, elapsed time with several threads: the first search of all, and the
 least of a few later ones. Writes search.json, search.md and search.png to out/bench; with --readme
-the table also goes into README.md.
+the table also goes into docs/measured.md.
 """
 import argparse
 import json
@@ -111,7 +111,7 @@ def processor():
 
 
 def report(rows, options):
-    """Write search.json, search.md, search.png and, if asked to, the README's table."""
+    """Write search.json, search.md, search.png and, if asked to, the manual's table."""
     os.makedirs(options.out, exist_ok=True)
     with open(os.path.join(options.out, 'search.json'), 'w') as file:
         json.dump(rows, file, indent=1)
@@ -129,7 +129,7 @@ def report(rows, options):
 
 
 def _intoReadme(text):
-    path = os.path.join(ROOT, 'README.md')
+    path = os.path.join(ROOT, 'docs', 'measured.md')
     with open(path) as file:
         readme = file.read()
     before, rest = readme.split(MARKS[0])
@@ -148,7 +148,7 @@ def main(arguments):
     parser.add_argument('--sizes', type=whole, default=[1000, 10000, 100000, 1000000])
     parser.add_argument('--threads', type=whole, default=[1, 2])
     parser.add_argument('--most', type=float, default=20., help='s per method; default: 20')
-    parser.add_argument('--readme', action='store_true', help='write the table into README.md')
+    parser.add_argument('--readme', action='store_true', help='write the table into docs/measured.md')
     parser.add_argument('--out', default=os.path.join(ROOT, 'out', 'bench'))
     parser.add_argument('--program', help='default: build/release/tests/yadefrag_rivals',
                         default=os.path.join(ROOT, 'build', 'release', 'tests', 'yadefrag_rivals'))

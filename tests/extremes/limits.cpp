@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "extremes/number_text.hpp"
-#include "extremes/readme_table.hpp"
+#include "extremes/limits_table.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -22,7 +22,7 @@ void expectNear(const std::string& what, double measured, const std::string& sta
   }
   const double value = numberOf(stated);
   EXPECT_TRUE(measured == value || std::abs(std::log(measured / value)) <= std::log(factor))
-      << what << ": README.md says " << stated << ", measured " << measured
+      << what << ": docs/limits.md says " << stated << ", measured " << measured
       << "; scripts/bench limits rewrites it";
 }
 
@@ -44,7 +44,7 @@ void limit(const std::string& name, double smallest, double largest, const std::
     EXPECT_EQ(stated.beyond, beyond) << name;
     return;
   }
-  ADD_FAILURE() << "README.md has no row for\n" << lineOf(row) << "scripts/bench limits adds it";
+  ADD_FAILURE() << "docs/limits.md has no row for\n" << lineOf(row) << "scripts/bench limits adds it";
 }
 
 bool longRun() { return std::getenv("YADEFRAG_LONG") != nullptr; }

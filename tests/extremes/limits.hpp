@@ -1,6 +1,6 @@
 #pragma once
-// The README's table of limits, which the tests make and check: a test measures the smallest and
-// the largest value that works, and the README has to say the same.
+// The manual's table of limits, which the tests make and check: a test measures the smallest and
+// the largest value that works, and docs/limits.md has to say the same.
 
 #include <cmath>
 #include <string>
@@ -12,7 +12,7 @@ namespace yadefrag::test {
 /// There is no such bound: the table says "–".
 inline constexpr double kNone = NAN;
 
-/// One row. The README's row of this name has to have the same sentence, and numbers that are equal
+/// One row. The page's row of this name has to have the same sentence, and numbers that are equal
 /// but for a factor: the default is that of rounding to two digits, larger ones are for measured
 /// figures that depend on rounding. `name` is a literal at the call, and holds the unit. With
 /// YADEFRAG_LIMITS=folder the row is written there instead, for scripts/bench limits.

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "extremes/number_text.hpp"
-#include "extremes/readme_table.hpp"
+#include "extremes/limits_table.hpp"
 
 namespace yadefrag::test {
 namespace {

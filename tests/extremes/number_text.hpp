@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as the README's tables write them, and read back.
+// Numbers as the manual's tables write them, and read back.
 
 #include <string>
 

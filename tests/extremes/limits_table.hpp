@@ -1,5 +1,5 @@
 #pragma once
-// The table of limits in the README.
+// The table of limits in docs/limits.md.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@ struct LimitRow {
   std::string name, smallest, largest, beyond;
 };
 
-/// The rows between the README's two marks.
+/// The rows between the page's two marks.
 std::vector<LimitRow> readmeLimits();
 
 /// With its line end.

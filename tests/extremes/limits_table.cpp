@@ -1,4 +1,4 @@
-#include "extremes/readme_table.hpp"
+#include "extremes/limits_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,12 +16,12 @@ std::string trimmed(const std::string& text) {
 }
 
 std::string limitsOfReadme() {
-  std::ifstream in(YADEFRAG_ROOT "/README.md");
+  std::ifstream in(YADEFRAG_ROOT "/docs/limits.md");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const auto begin = text.find("<!-- limits");
   const auto end = text.find("<!-- end of limits -->");
   if (begin < end && end != std::string::npos) return text.substr(begin, end - begin);
-  ADD_FAILURE() << "README.md lacks the marks of its table of limits";
+  ADD_FAILURE() << "docs/limits.md lacks the marks of its table of limits";
   return {};
 }
 
