@@ -18,6 +18,7 @@ file(STRINGS /etc/os-release os_lines REGEX "^VERSION_ID=")
 string(REGEX REPLACE "[^0-9.]" "" os_version "${os_lines}")
 execute_process(COMMAND dpkg-query -W -f "\${source:Upstream-Version}" yade
                 OUTPUT_VARIABLE yade_upstream ERROR_QUIET)
+find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
 math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
 
 set(CPACK_GENERATOR DEB)
@@ -41,7 +42,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${YADEFRAG_YADE_LIBDIR})
 set(python_version ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR})
 string(JOIN ", " CPACK_DEBIAN_PACKAGE_DEPENDS
        "yade (>= ${yade_upstream}), yade (<< ${yade_upstream}.~)"
-       "python3 (>= ${python_version}), python3 (<< ${Python3_VERSION_MAJOR}.${next_minor})"
+       "python3 (>= ${python_version}~), python3 (<< ${Python3_VERSION_MAJOR}.${next_minor}~)"
        "python3-numpy")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib, python3-meshio, python3-pil, python3-tqdm")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS

@@ -1,6 +1,7 @@
 #pragma once
 // One attribute of a published class: a name for Python and archives, and where it is kept.
 
+#include <boost/mpl/vector.hpp>
 #include <mutex>
 #include <type_traits>
 #include <variant>
