@@ -112,8 +112,8 @@ void registerAll() {
   for (const int dimensions : {2, 3})
     for (const int ratio : {1, 50})
       for (const Method& m : kMethods) {
-        const std::string name =
-            "comparisons/" + std::to_string(dimensions) + "D/1:" + std::to_string(ratio) + "/" + m.name;
+        const std::string name = "comparisons/" + std::to_string(dimensions) +
+                                 "D/1:" + std::to_string(ratio) + "/" + m.name;
         benchmark::RegisterBenchmark(
             name.c_str(),
             [=](benchmark::State& state) { runSearch(state, m.method, dimensions, ratio); })

@@ -36,7 +36,8 @@ inline constexpr double kLooseSweep = 4;
 inline constexpr double kLookAhead = .25;
 
 /// (of a body's share in a search of all) Work of the look whether a body has left its room, which
-/// is to fetch it from memory, and of the search of one that has (measured: 0.05 and 1.8 of 0.33 µs).
+/// is to fetch it from memory, and of the search of one that has (measured: 0.05 and 1.8 of 0.33
+/// µs).
 inline constexpr double kLookWork = .15, kChangeWork = 6;
 
 /// (steps) Shortest and longest interval between searches that is aimed at.
