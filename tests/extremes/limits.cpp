@@ -8,8 +8,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "extremes/number_text.hpp"
 #include "extremes/limits_table.hpp"
+#include "extremes/number_text.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -44,7 +44,8 @@ void limit(const std::string& name, double smallest, double largest, const std::
     EXPECT_EQ(stated.beyond, beyond) << name;
     return;
   }
-  ADD_FAILURE() << "docs/limits.md has no row for\n" << lineOf(row) << "scripts/bench limits adds it";
+  ADD_FAILURE() << "docs/limits.md has no row for\n"
+                << lineOf(row) << "scripts/bench limits adds it";
 }
 
 bool longRun() { return std::getenv("YADEFRAG_LONG") != nullptr; }

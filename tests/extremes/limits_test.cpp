@@ -9,8 +9,8 @@
 #include <iterator>
 #include <set>
 
-#include "extremes/number_text.hpp"
 #include "extremes/limits_table.hpp"
+#include "extremes/number_text.hpp"
 
 namespace yadefrag::test {
 namespace {
