@@ -99,8 +99,9 @@ def plot(rows, file):
     for axis in axes[:, 0]:
         axis.set_ylabel('µs per box and search')
     handles = {h.get_label(): h for axis in axes.flat for h in axis.get_lines()}
-    figure.legend(handles=list(handles.values()), loc='outside right upper', fontsize=9)
-    figure.savefig(file, dpi=100)
+    figure.legend(handles=list(handles.values()), loc='center left', bbox_to_anchor=(1, .5),
+                  fontsize=9)
+    figure.savefig(file, dpi=100, bbox_inches='tight')
 
 
 def processor():
@@ -123,12 +124,12 @@ def report(rows, options):
     plot([r for r in rows if r['threads'] == 1], os.path.join(options.out, 'search.png'))
     if options.readme:
         n = 100000 if 100000 in options.sizes else options.sizes[-1]
-        _intoReadme(f'Milliseconds for {n:,} boxes, one thread: the first search of all; a later '
+        _intoManual(f'Milliseconds for {n:,} boxes, one thread: the first search of all; a later '
                     f'one, after boxes have moved by up to a tenth of their sides ({about}).\n\n'
                     + table(rows, n, 1))
 
 
-def _intoReadme(text):
+def _intoManual(text):
     path = os.path.join(ROOT, 'docs', 'measured.md')
     with open(path) as file:
         readme = file.read()
