@@ -1,7 +1,8 @@
 # `ctest` in this folder runs the tests of a build below it: of `cmake -B build`, else of the scripts.
+# (Paths are relative: ctest sets no variable for this file's folder.)
 foreach(folder build build/release)
-  if(EXISTS ${CMAKE_CURRENT_LIST_DIR}/${folder}/CTestTestfile.cmake)
-    subdirs(${CMAKE_CURRENT_LIST_DIR}/${folder})
+  if(EXISTS ${folder}/CTestTestfile.cmake)
+    subdirs(${folder})
     break()
   endif()
 endforeach()
