@@ -52,7 +52,8 @@ void SearchCollider::action() {
 }
 
 void SearchCollider::searchAll(int threads) {
-  boxes_.prepare(*scene, *boundDispatcher, chooseSweeps(), slack_, threads);
+  const SweepRule rule = chooseSweeps();  // sets slack_, too
+  boxes_.prepare(*scene, *boundDispatcher, rule, slack_, threads);
   startSearchIfNeeded();
   updateSearch(threads);
   takeEntryPairs();
