@@ -96,7 +96,7 @@ void CodeTree::makeNode(std::int64_t i) {
   const std::int64_t first = std::min(i, end), last = std::max(i, end);
   Node& node = nodes_[static_cast<std::size_t>(i)];
   const auto child = [](std::int64_t place, bool isLeaf) {
-    return static_cast<std::uint32_t>(place) | (isLeaf ? leafFlag : 0);
+    return static_cast<std::uint32_t>(place) | (isLeaf ? kLeafFlag : 0);
   };
   node.left = child(at, at == first);
   node.right = child(at + 1, at + 1 == last);
@@ -105,7 +105,7 @@ void CodeTree::makeNode(std::int64_t i) {
 
 /// Boxes of a subtree, from below. Its depth is that of the codes and the indices: 96 at most.
 const Box& CodeTree::fit(std::uint32_t child) {
-  if (child & leafFlag) return boxes_[child & ~leafFlag];
+  if (child & kLeafFlag) return boxes_[child & ~kLeafFlag];
   Node& node = nodes_[child];
   const Box& left = fit(node.left);
   node.box = enclosing(left, fit(node.right));

@@ -13,14 +13,14 @@ namespace yadefrag {
 
 class CodeTree {
  public:
-  /// An inner node. A child below `leafFlag` is an inner node, any other the leaf `child -
-  /// leafFlag`.
+  /// An inner node. A child below `kLeafFlag` is an inner node, any other the leaf `child -
+  /// kLeafFlag`.
   struct Node {
     Box box;
     std::uint32_t left, right;
     std::uint32_t last;  ///< the last leaf below it
   };
-  static constexpr std::uint32_t leafFlag = std::uint32_t{1} << 31;
+  static constexpr std::uint32_t kLeafFlag = std::uint32_t{1} << 31;
 
   /// Builds the tree over finite boxes; node 0 is the root. With one box or none there is no node.
   void build(std::span<const Box> boxes, const std::vector<std::uint32_t>& slots, int threads);

@@ -77,8 +77,8 @@ class LinearBvh final : public ContactSearch {
     std::array<std::uint32_t, 128> waiting;  // a node of each depth at most
     std::size_t size = 0;
     const auto enter = [&](std::uint32_t child) {
-      const bool isLeaf = child & CodeTree::leafFlag;
-      const std::uint32_t place = child & ~CodeTree::leafFlag;
+      const bool isLeaf = child & CodeTree::kLeafFlag;
+      const std::uint32_t place = child & ~CodeTree::kLeafFlag;
       count.range(7);
       if ((isLeaf ? place : tree_.nodes()[place].last) < first) return;
       if (!overlaps(box, isLeaf ? tree_.boxes()[place] : tree_.nodes()[place].box)) return;
@@ -87,7 +87,7 @@ class LinearBvh final : public ContactSearch {
       else
         waiting[size++] = place;
     };
-    if (!tree_.slots().empty()) enter(tree_.nodes().empty() ? CodeTree::leafFlag : 0);
+    if (!tree_.slots().empty()) enter(tree_.nodes().empty() ? CodeTree::kLeafFlag : 0);
     while (size > 0) {
       const CodeTree::Node& node = tree_.nodes()[waiting[--size]];
       enter(node.left);
