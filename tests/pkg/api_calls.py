@@ -124,6 +124,7 @@ def right(fe, folder):
                           selfContact=True, strength=[1e4], fractureEnergy=[0.]),
         bond=dict(a=0, b=1, strength=1e6, energy=1e3),
         prescribe=dict(nodes=[0], vx=[(0, 0.), (1, 1.)], vy=None), removeBody=dict(component=0), fragments=dict(held=False),
+        about=dict(show=str), inCurveOrder=dict(bodies=[(0, 0, 0), ((1, 1, 0), .5)]),
         crackTable=dict(fe=fe, file=folder + '/d.csv'), engines=dict(fe=fe, gravity=(0, -1), spheres=True),
         FERecorder=dict(iterPeriod=5, file=folder + '/e', fields=['stress']),
         rotate=dict(nodes=0, omega=[(0, 0), (1, 2.)], centre=(0, 0)), nodesOf=dict(component=0),

@@ -7,6 +7,7 @@ import platform
 from yade import config
 
 from yadefrag import _built, _yadefrag, support
+from yadefrag.values import refuse
 
 _OWN = pathlib.Path(__file__).resolve().parent
 # Of a source tree, whose build folder has links to it; of what was installed below /usr, /usr/local.
@@ -22,6 +23,8 @@ def about(show=print):
 
     show  called with each line (default: print)
     """
+    if not callable(show):
+        refuse('show', show, 'a function that takes a line')
     well = True
     for name, text, good in _rows():
         show('%-12s %s%s' % (name, text, '' if good else '   <- not as it should be'))

@@ -19,7 +19,10 @@ def inCurveOrder(bodies):
     order gain in the interaction loop what they lose in the integrator. Paper section 4.2 (Diekmann
     et al. 2000).
     """
-    bodies = list(bodies)
+    try:
+        bodies = list(bodies)
+    except TypeError:
+        refuse('bodies', bodies, 'a sequence of bodies, or of places')
     if not bodies:
         return bodies
     places = np.array([_place(body, number) for number, body in enumerate(bodies)])

@@ -118,7 +118,7 @@ def _shapes(name, lines, gap, leastArea):
     except ValueError as error:
         raise ValueError('%s: %s' % (shownPath(name), error)) from None
     closed = [loop for loop in closed if abs(loops.area(loop)) >= leastArea]
-    flat = [loop for loop in closed if abs(loops.area(loop)) <= 1e-12 * side**2]
+    flat = [loop for loop in closed if abs(loops.area(loop)) <= 1e-12 * side * side]
     if flat:
         raise ValueError('%s has a loop without area at (%g, %g).' %
                          (shownPath(name), *flat[0][0]))
