@@ -46,6 +46,8 @@ void HaloWatch::rebuild(const Scene& scene) {
   if (scene.canTouch) apart_.takeFrom(scene.model, nodes);
   scene.dynamics.watchSpeed(scene.canTouch ? 0 : tolerance::kAnySpeed);
   search_.reset();
+  // A loaded state may crack before its first search.
+  passRule_.update(scene.surfaces, scene.reference, scene.settings.passes, scene.hasRigid);
   motion_.farthest = INFINITY;
 }
 

@@ -142,18 +142,18 @@ void FESolver::valuesOf(PyClass& pyClass) {
           "that turn take from it, of second order in O.dt: 5e-4 of the work in a drum of rubber, "
           "1.3e-4 with half the step. O.energy has the same, with the "
           "same signs, as feKinetic, feStrain ... feOutside, if O.trackEnergy. Besides, external "
-          "is -outside.")
-      .add_property("_energyBalance", &Locked<energyBalanceOf>::call)
-      .add_property("warnings", &Locked<warningsOf>::call,
-                    "Sentences that warn of numerical errors: energy that contact, cracks or the "
-                    "time integration have created, above 1 % of the bodies' energy and above "
-                    "rounding, and penetration above a tenth of the shortest segment. One per "
-                    "doubling, each also on stderr when it comes up.");
+          "is -outside.");
 }
 
 template <class PyClass>
 void FESolver::countersOf(PyClass& pyClass) {
-  pyClass.add_property("numSearches", &Locked<searchesOf>::call, "Contact searches so far.")
+  pyClass.add_property("_energyBalance", &Locked<energyBalanceOf>::call)
+      .add_property("warnings", &Locked<warningsOf>::call,
+                    "Sentences that warn of numerical errors: energy that contact, cracks or the "
+                    "time integration have created, above 1 % of the bodies' energy and above "
+                    "rounding, and penetration above a tenth of the shortest segment. One per "
+                    "doubling, each also on stderr when it comes up.")
+      .add_property("numSearches", &Locked<searchesOf>::call, "Contact searches so far.")
       .add_property("numActives", &Locked<activesOf>::call, "Points in contact in the last step.")
       .add_property("maxPenetration", &Locked<penetrationOf>::call,
                     "Deepest penetration (m) that was left at points in contact in the last step; "

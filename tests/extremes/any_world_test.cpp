@@ -191,5 +191,13 @@ TEST(ExtremeScenes, AreStoodOrRefused) {
   EXPECT_GT(share(tally.cracked), .1);
 }
 
+// A state that was loaded cracked before its first search, when no roles of slave and master were
+// known.
+TEST(ExtremeScenes, ThatOnceFailed) {
+  Tally tally;
+  for (const std::uint64_t seed : {48778U}) SceneRun(seed, tally).all();
+  EXPECT_GT(tally.cracked, 0U);
+}
+
 }  // namespace
 }  // namespace yadefrag::test
