@@ -43,11 +43,13 @@ double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
 
 void HaloWatch::rebuild(const Scene& scene) {
   if (isVoid && scene.canTouch) watchAll(scene);
-  if (scene.canTouch) apart_.takeFrom(scene.model, nodes);
+  if (scene.canTouch) {
+    apart_.takeFrom(scene.model, nodes);
+    // A loaded state may crack before its first search.
+    passRule_.update(scene.surfaces, scene.reference, scene.settings.passes, scene.hasRigid);
+  }
   scene.dynamics.watchSpeed(scene.canTouch ? 0 : tolerance::kAnySpeed);
   search_.reset();
-  // A loaded state may crack before its first search.
-  passRule_.update(scene.surfaces, scene.reference, scene.settings.passes, scene.hasRigid);
   motion_.farthest = INFINITY;
 }
 
