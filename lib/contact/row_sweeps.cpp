@@ -38,10 +38,8 @@ void RowSweeps::begin(std::span<const ContactRow> rows, std::span<const std::uin
   numbers_.resize(nodes.size());
   nodes_.clear();
   displacement_.clear();
-  pushedAt_.clear();
   rows_.resize(members.size());
   ends_.resize(members.size());
-  now_ = 1;  // All are stale.
   for (std::size_t r = 0; r < members.size(); ++r) {
     const ContactRow& row = rows[members[r]];
     Lean& lean = rows_[r];
@@ -66,6 +64,8 @@ void RowSweeps::begin(std::span<const ContactRow> rows, std::span<const std::uin
     }
     push(lean, ends, row.force());
   }
+  findRowsOfNodes();
+  waiting_.fill(rows_.size());
 }
 
 std::uint32_t RowSweeps::numberOf(NodeId node) {
@@ -74,7 +74,6 @@ std::uint32_t RowSweeps::numberOf(NodeId node) {
   number = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(node);
   displacement_.emplace_back();
-  pushedAt_.push_back(now_);
   return number;
 }
 
@@ -83,28 +82,33 @@ void RowSweeps::push(const Lean& row, const Ends& ends, Vec2 force) {
     displacement_[ends.node[k]] += Vec2{row.perForce[k].x * force.x, row.perForce[k].y * force.y};
 }
 
-/// Has another row moved one of its nodes since it was relaxed.
-bool RowSweeps::isStale(const Ends& ends) const {
-  for (std::uint32_t k = 0; k < ends.count; ++k)
-    if (pushedAt_[ends.node[k]] > ends.looked) return true;
-  return false;
+void RowSweeps::findRowsOfNodes() {
+  links_.clear();
+  for (std::uint32_t r = 0; r < ends_.size(); ++r)
+    for (std::uint32_t k = 0; k < ends_[r].count; ++k) links_.push_back({ends_[r].node[k], r});
+  fillRows(
+      rowsOfNodes_, nodes_.size(), links_.size(), [&](std::size_t i) { return links_[i].node; },
+      [&](std::size_t i) { return links_[i].row; });
 }
 
 double RowSweeps::sweep(bool forwards, double tolerance) {
   double most = 0;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const std::size_t r = forwards ? i : rows_.size() - 1 - i;
-    Ends& ends = ends_[r];
-    if (!isStale(ends)) continue;
+  const auto visit = [&](std::size_t r) {
+    const Ends& ends = ends_[r];
     // A corner against a straight piece, as most: loops of a known length.
     const double moved = ends.count == 3
                              ? relax(rows_[r], ends, std::integral_constant<std::uint32_t, 3>{})
                              : relax(rows_[r], ends, ends.count);
-    ends.looked = ++now_;
     most = std::max(most, moved);
-    if (!(moved > tolerance)) continue;
-    for (std::uint32_t k = 0; k < ends.count; ++k) pushedAt_[ends.node[k]] = now_;
-  }
+    if (!(moved > tolerance)) return;
+    for (std::uint32_t k = 0; k < ends.count; ++k)
+      for (const std::uint32_t other : rowsOfNodes_.row(ends.node[k])) waiting_.add(other);
+    waiting_.remove(r);
+  };
+  if (forwards)
+    waiting_.visitUp(visit);
+  else
+    waiting_.visitDown(visit);
   return most;
 }
 

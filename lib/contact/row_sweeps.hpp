@@ -16,8 +16,10 @@
 #include <vector>
 
 #include "contact/contact_row.hpp"
+#include "core/csr.hpp"
 #include "core/footprint.hpp"
 #include "core/step_length.hpp"
+#include "core/work_list.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -41,7 +43,9 @@ class RowSweeps {
   /// Room for so many nodes of the model.
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, rows_, ends_, all_, nodes_, numbers_, displacement_, pushedAt_);
+    footprint.add(use, rows_, ends_, all_, nodes_, numbers_, displacement_, links_,
+                  rowsOfNodes_.values, rowsOfNodes_.offsets);
+    waiting_.addTo(footprint, use);
   }
 
  private:
@@ -56,11 +60,13 @@ class RowSweeps {
     double normalForce, tangentForce;        // N
     std::uint32_t place;                     // among all rows
   };
-  /// Its nodes: most rows that a sweep comes to are left alone, and read no more than this.
+  /// Its nodes.
   struct Ends {
     std::array<std::uint32_t, 5> node;  // among those of all rows
     std::uint32_t count;
-    std::uint64_t looked;  // when the row was relaxed last
+  };
+  struct Link {
+    std::uint32_t node, row;
   };
 
   void begin(std::span<const ContactRow> rows, std::span<const std::uint32_t> members,
@@ -70,16 +76,17 @@ class RowSweeps {
   template <class Count>
   double relax(Lean& row, const Ends& ends, Count count);
   double sweep(bool forwards, double tolerance);
-  [[nodiscard]] bool isStale(const Ends& ends) const;
+  void findRowsOfNodes();
 
   std::vector<Lean> rows_;
-  std::vector<Ends> ends_;               // of the rows
-  std::vector<std::uint32_t> all_;       // 0, 1, 2, …
-  std::vector<NodeId> nodes_;            // of rows
-  std::vector<std::uint32_t> numbers_;   // by node: among nodes_; of those only
-  std::vector<Vec2> displacement_;       // m, by number
-  std::vector<std::uint64_t> pushedAt_;  // by number: when it last moved by more than the tolerance
-  std::uint64_t now_ = 0;
+  std::vector<Ends> ends_;              // of the rows
+  std::vector<std::uint32_t> all_;      // 0, 1, 2, …
+  std::vector<NodeId> nodes_;           // of rows
+  std::vector<std::uint32_t> numbers_;  // by node: among nodes_; of those only
+  std::vector<Vec2> displacement_;      // m, by number
+  std::vector<Link> links_;
+  Csr<std::uint32_t> rowsOfNodes_;  // by number
+  WorkList waiting_;  // rows whose nodes another one has moved by more than the tolerance
   int count_ = 0;
 };
 
