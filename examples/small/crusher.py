@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 from yade import utils
-from yade.minieigenHP import Quaternion, Vector3
+from yade.minieigenHP import Quaternion
 from yadefrag import *
 
 R, LEAN, SPEED, STRENGTH = .02, -.2, 1., 5e6  # m, rad, m/s, Pa
@@ -24,7 +24,7 @@ fe.addPolygon(circle((0, 0), R, 48), size=1.6e-3, material='stone', name='pebble
 def jaw(side, lean):
     """A plate whose face is 0.1 mm beside the pebble; `lean` (rad) brings it nearer below."""
     normal, middle = np.array([np.cos(lean), np.sin(lean)]), R + 1e-4 + .005
-    return utils.box((*(side * middle * normal), 0), (.005, .045, .02), fixed=True, material='steel',
+    return utils.box((*(side * middle * normal), 0), (.005, .045, .02), fixed=True, material='steel', color=(.8, .8, .8),
                      orientation=Quaternion((0, 0, 1), lean))
 
 
@@ -49,9 +49,6 @@ import matplotlib.figure  # noqa: E402
 figure = matplotlib.figure.Figure(figsize=(11, 5), layout='constrained')
 body, curve = figure.subplots(1, 2)
 plotMesh(fe, 'fragment', ax=body)
-for state in (O.bodies[number].state for number in (still, moving)):
-    ends = [state.pos + state.ori * Vector3(x, y, 0) for x, y in rectangle((-.005, -.045), (.005, .045))]
-    body.fill(*zip(*[(x, y) for x, y, _ in ends]), color='.8')
 curve.plot(1e6 * times, 1e-3 * left, label='still jaw')
 curve.plot(1e6 * times, 1e-3 * right, label='moving jaw')
 curve.set(xlabel='time (µs)', ylabel='force (kN per m of thickness)')

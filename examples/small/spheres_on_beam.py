@@ -17,7 +17,8 @@ O.materials.append(FrictMat(young=1e7, poisson=.3, density=7800, frictionAngle=0
 fe = FESolver()
 nodes, triangles = rectangleMesh((-OVER, 0), (SPAN + OVER, H), 108, 4)
 fe.addTriangles(nodes, triangles, material='resin', thickness=WIDTH, element='smoothed', name='beam')
-supports = [utils.box((x, -.01, 0), (.03, .01, .03), fixed=True, material='steel') for x in (-.03, SPAN + .03)]
+supports = [utils.box((x, -.01, 0), (.03, .01, .03), fixed=True, material='steel', color=(.8, .8, .8))
+            for x in (-.03, SPAN + .03)]
 O.bodies.append(supports)  # the beam bears on their inner edges
 for place in (.25, .5, .75):
     ball = utils.sphere((place * SPAN, H + R, 0), R, material='steel', color=(.5, .6, .8))

@@ -11,6 +11,7 @@
 #include "fe/mesh_python.hpp"
 #include "fe/polygon_python.hpp"
 #include "fe/running.hpp"
+#include "fe/section_python.hpp"
 #include "fe/segment_functors.hpp"
 #include "fe/surface_segment.hpp"
 #include "publish/publish.hpp"
@@ -60,6 +61,7 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("latticeTimeStep", &yadefrag::latticeTimeStepOf);
   py::def("meshOfRectangle", &yadefrag::meshOfRectangle);
   py::def("polygonOfText", &yadefrag::polygonOfText);
+  py::def("sectionsOfScene", &yadefrag::sectionsOfScene);
   py::def("voronoiOf", &yadefrag::voronoiOf);
   py::def("isInStep", &yadefrag::isInStep);
   py::def("requirePaused", &yadefrag::requirePaused,

@@ -141,6 +141,70 @@ def test_spheresAreLeftOutWhereAskedFor():
     assert drawnSpheres(ax) == [] and ax.get_xlim()[1] < 1.2
 
 
+def rigidScene():
+    """A square body of 1 m on a turned box, between a wall and a facet, and what is not in the plane."""
+    from yade import utils, wrapper
+    from yade.minieigenHP import Quaternion
+    O.materials.append(wrapper.FEMat(young=1e7, poisson=.3, density=1000, label='m'))
+    fe = wrapper.FESolver()
+    fe.addPolygon([(0, 0), (1, 0), (1, 1), (0, 1)], size=.5, material='m')
+    O.bodies.append([
+        utils.box((.5, -.3, 0), (.1, .3, 5), orientation=Quaternion((0, 0, 1), numpy.pi / 2), color=(1, 0, 0)),
+        # Its corners are at z = -1 and 3: it cuts the plane at a quarter of two of its sides.
+        utils.facet([(1.2, 0, -1), (1.2, .8, 3), (1.6, 0, 3)], color=(0, 0, 1)),
+        utils.wall(-.25, axis=0, color=(0, 1, 0)), utils.wall(-90, axis=1, color=(1, 1, 0)),
+        utils.box((0, 0, 3), (1, 1, 1)), utils.facet([(0, 2, 0), (1, 2, 0), (0, 3, 0)])])
+    return fe
+
+
+def drawnRigid(ax):
+    """(corners of outlines, ends of lines, {axis and place of walls}) of what is drawn."""
+    from matplotlib.collections import LineCollection, PolyCollection
+    outlines = [path.vertices[:-1] for c in ax.collections if type(c) is PolyCollection and c.zorder < 1
+                for path in c.get_paths()]
+    lines = [part for c in ax.collections if isinstance(c, LineCollection) for part in c.get_segments()]
+    walls = {(axis, data[0]) for line in ax.lines for axis, data in enumerate(line.get_data())
+             if line.get_path_effects() and data[0] == data[1]}
+    return outlines, lines, walls
+
+
+def test_sectionsOfWallsBoxesAndFacetsAreDrawn(folder):
+    image = pytest.importorskip('PIL.Image')
+    ax = pictures.plotMesh(rigidScene(), 'component', file=folder + '/a.png')
+    (box,), (facet,), walls = drawnRigid(ax)
+    assert sorted(box.round(9).tolist()) == [[.2, -.4], [.2, -.2], [.8, -.4], [.8, -.2]]
+    assert sorted(facet.round(9).tolist()) == [[1.2, .2], [1.3, 0]]
+    assert walls == {(0, -.25), (1, -90)}
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    assert -.5 < left < -.25 and 1.3 < right < 1.5 and -.6 < bottom < -.4 and 1 < top < 1.2
+    with image.open(folder + '/a.png') as picture:
+        pixels = numpy.asarray(picture.convert('RGB'))
+    scale = ax.get_window_extent().width * 150 / ax.figure.dpi / (right - left)  # pixels per m
+    red = (pixels == (255, 0, 0)).all(axis=2).sum()
+    assert red == pytest.approx(.6 * .2 * scale**2, rel=.05)
+    green = numpy.nonzero((pixels == (0, 255, 0)).all(axis=2))
+    assert len(set(green[0])) > .9 * (top - bottom) * scale and len(set(green[1])) <= 4  # one upright line
+    assert (pixels == (0, 0, 255)).all(axis=2).any() and not (pixels == (255, 255, 0)).all(axis=2).any()
+
+
+def test_rigidBodiesAreLeftOutWhereAskedFor():
+    ax = pictures.plotMesh(rigidScene(), rigidBodies=False)
+    assert drawnRigid(ax) == ([], [], set()) and ax.get_xlim()[0] > -.2 and ax.get_xlim()[1] < 1.2
+
+
+def test_longFloorsDoNotMakeBodiesSmall():
+    """Of what is drawn, bodies and spheres take at least half: the box is seen as far as that goes."""
+    from yade import utils
+    fe = rigidScene()
+    O.bodies.append(utils.box((0, -20.5, 0), (1000, 20, 1)))
+    ax = pictures.plotMesh(fe)
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    assert -.6 <= left < -.5 and 1.5 < right <= 1.6 and -.6 <= bottom < -.5 and 1 < top < 1.1
+    tall, wide = [pictures.plotMesh(fe, fields=[None, None], **window)[0].figure.get_size_inches()
+                  for window in ({}, dict(xlim=(0, 1), ylim=(0, .1)))]
+    assert tall[0] > tall[1] and wide[1] < wide[0] / 2
+
+
 def test_windowIsWhatIsDrawn():
     ax = scenePicture(xlim=(-1, 3), ylim=(.2, .6))
     assert ax.get_xlim() == (-1, 3) and ax.get_ylim() == (.2, .6)
@@ -169,6 +233,7 @@ def test_severalFieldsSideBySide(folder):
     (dict(xlim=3), 'xlim is 3, it must be a pair of numbers'),
     (dict(ylim=(1, 0)), r'ylim is \(1, 0\), it must be a pair of numbers \(m\), the lower one first'),
     (dict(xlim=(0, float('inf'))), 'xlim is'), (dict(spheres=1), 'spheres is 1, it must be True'),
+    (dict(rigidBodies=0), 'rigidBodies is 0, it must be True'),
     (dict(fields=[]), r'fields is \[\], it must be a list of 1 to 12'),
     (dict(fields='xx'), "fields is 'xx', it must be a list"),
     (dict(fields=['xx', 'zz']), "field is 'zz', it must be one of"),

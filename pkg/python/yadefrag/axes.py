@@ -33,6 +33,6 @@ def newPanels(count, width, height):
 def _figure(width, height):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
-    figure = Figure(figsize=(width, height), layout='constrained')
+    figure = Figure(figsize=(width, height), layout='compressed')  # leaves labels room beside axes of a fixed ratio
     FigureCanvasAgg(figure)
     return figure

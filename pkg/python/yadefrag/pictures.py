@@ -4,13 +4,13 @@ import math
 
 import numpy
 
-from yade import wrapper
 from yadefrag.axes import MOST_PANELS, newAxes, newPanels, requireAxes
 from yadefrag.colours import fragmentColours, palette
 from yadefrag.files import replacing, requireWritable, savePicture
 from yadefrag.guards import requireNoStep
 from yadefrag.shown import betweenSteps, heldCracks, requireSolver, shownMesh
 from yadefrag.values import flag, number, numbersOf, path, refuse, shown, whole
+from yadefrag.yade_bodies import YadeBodies
 
 _UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
           'mises': 'von Mises stress (Pa)', 'speed': 'speed (m/s)', 'component': 'component',
@@ -54,9 +54,10 @@ def _values(fe, field):
 
 
 def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xlim=None, ylim=None,
-             spheres=True):
+             spheres=True, rigidBodies=True):
     """Draws the triangles of an FESolver where they are now, but not those of dropped fragments, in
-    red the cracks that cohesion still holds, and YADE's spheres; returns Matplotlib's axes.
+    red the cracks that cohesion still holds, and YADE's spheres, walls, boxes and facets; returns
+    Matplotlib's axes.
 
     field   None (no colours), 'xx', 'yy', 'xy' (Pa), 'mises' (Pa, of these three: with the stress
             zz left out), 'speed' (m/s), 'component', 'fragment' (colours without a meaning, of
@@ -72,24 +73,26 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xl
     ylim    (bottom, top) in m, likewise
     spheres are YADE's spheres drawn, the members of clumps among them: in their colours, with their
             whole radius, wherever they are beside the plane
+    rigidBodies are the sections of YADE's Wall, Box and Facet with the plane z = 0 drawn, in their
+            colours. They widen what is drawn by at most half of what the bodies and spheres take up
     ValueError for any other field or limits, and for a solver without bodies.
     """
     _requireBodies(fe)
-    spheres = flag('spheres', spheres)
+    asked = flag('spheres', spheres), flag('rigidBodies', rigidBodies)
     chosen = [field] if fields is None else _severalFields(field, fields, ax)
     limits = _limitsOfAll(limits, len(chosen)) if fields is not None else [_limits(limits)]
     window = _range('xlim', xlim), _range('ylim', ylim)
     with betweenSteps(fe):
         pictures = [_Picture(fe, one) for one in chosen]
-        balls = Spheres() if spheres else None
+        others = YadeBodies(*asked)
     if ax is not None:
         panels = [requireAxes(ax)]
     elif fields is None:
         panels = [newAxes()]
     else:
-        panels = newPanels(len(chosen), *_extent(pictures[0], balls, window))
+        panels = newPanels(len(chosen), *_extent(pictures[0], others, window))
     for one, picture, scale in zip(panels, pictures, limits):
-        _draw(one, picture, scale, balls)
+        _draw(one, picture, scale, others)
         if len(panels) > 1 and isinstance(picture.field, str):
             one.set_title(_UNITS[picture.field])
         one.set(**{name: ends for name, ends in zip(('xlim', 'ylim'), window) if ends})
@@ -127,39 +130,10 @@ def _range(name, value):
     return ends
 
 
-def _extent(picture, balls, window):
+def _extent(picture, others, window):
     """(width, height) in m of what is drawn."""
-    places = numpy.stack([picture.x, picture.y], axis=1)
-    low, high = places.min(axis=0), places.max(axis=0)
-    if balls is not None and len(balls.radii):
-        low = numpy.minimum(low, (balls.places - balls.radii[:, None]).min(axis=0))
-        high = numpy.maximum(high, (balls.places + balls.radii[:, None]).max(axis=0))
+    low, high = others.extent(*picture.box())
     return [ends[1] - ends[0] if ends else side for ends, side in zip(window, high - low)]
-
-
-class Spheres:
-    """Those of YADE's scene now: places (n, 2) and radii (n) in m, colours (n, 3)."""
-
-    def __init__(self):
-        found = [(body.state.pos[0], body.state.pos[1], body.shape.radius, *body.shape.color)
-                 for body in wrapper.Omega().bodies if isinstance(body.shape, wrapper.Sphere)]
-        table = numpy.array(found, dtype=float).reshape(-1, 6)
-        table = table[numpy.isfinite(table).all(axis=1)]
-        self.places, self.radii, self.colours = table[:, :2], table[:, 2], table[:, 3:].clip(0, 1)
-
-    def draw(self, ax):
-        """Adds them to the axes, whose limits follow."""
-        from matplotlib.collections import EllipseCollection
-        if not len(self.radii):
-            return
-        sides = 2 * self.radii
-        ax.add_collection(EllipseCollection(
-            sides, sides, numpy.zeros(len(sides)), units='xy', offsets=self.places,
-            offset_transform=ax.transData, facecolors=self.colours, edgecolors='k', linewidths=.3,
-            zorder=2), autolim=False)
-        arms = self.radii[:, None]
-        ax.update_datalim(numpy.concatenate([self.places - arms, self.places + arms]))
-        ax.autoscale_view()
 
 
 class _Picture:
@@ -184,6 +158,11 @@ class _Picture:
             self.x, self.y = places[nodes].T
         self.perNode = perNode
         self.values = None if values is None else values[nodes if perNode else shown]
+
+    def box(self):
+        """(low, high) of the nodes, each (2) in m."""
+        places = numpy.stack([self.x, self.y], axis=1)
+        return places.min(axis=0), places.max(axis=0)
 
 
 def _requireBodies(fe):
@@ -219,14 +198,13 @@ def _corners(window):
     return numbersOf(low, 2), numbersOf(high, 2)
 
 
-def _draw(ax, picture, limits, balls=None):
+def _draw(ax, picture, limits, others):
     _drawTriangles(ax, picture, limits)
     if len(picture.held):
         from matplotlib.collections import LineCollection
         ax.add_collection(LineCollection(picture.held, colors=HELD, linewidths=1, zorder=3),
                           autolim=False)
-    if balls is not None:
-        balls.draw(ax)
+    others.draw(ax, *picture.box())
 
 
 def _drawTriangles(ax, picture, limits):
@@ -256,7 +234,7 @@ def _drawTriangles(ax, picture, limits):
 
 
 def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=20,
-            spheres=True):
+            spheres=True, rigidBodies=True):
     """Runs the scene for `steps` steps and writes a GIF with a frame at the start and after each
     `every` steps; returns the number of frames.
 
@@ -265,7 +243,7 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
     window         ((left, bottom), (right, top)) in m, default all nodes of the first frame and a
                    quarter more on each side
     rate           frames per second of the film
-    spheres        as in plotMesh
+    spheres, rigidBodies  as in plotMesh
     When the run is interrupted, paused or fails, the frames until then are written. ValueError,
     before any step, for counts that are not positive, a field or limits as in plotMesh, a file that is no
     .gif, a window that is none; OSError for a file that cannot be written.
@@ -279,7 +257,7 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
     steps, every = whole('steps', steps), whole('every', every)
     rate = number('rate', rate, lambda r: .01 <= r <= 1000,
                   'a number of frames per second from 0.01 to 1000')
-    limits, spheres = _limits(limits), flag('spheres', spheres)
+    limits, asked = _limits(limits), (flag('spheres', spheres), flag('rigidBodies', rigidBodies))
     low, high = _windowOf(fe) if window is None else _corners(window)
     name = path('file', file, '.gif')
     requireNoStep('animate')
@@ -295,10 +273,10 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
             ax = figure.add_subplot()
             with betweenSteps(fe):
                 picture = _Picture(fe, field, colours)
-                balls = Spheres() if spheres else None
+                others = YadeBodies(*asked)
             if field == 'fragment':  # a fragment keeps its colour from frame to frame
                 colours = picture.colours
-            _draw(ax, picture, limits, balls)
+            _draw(ax, picture, limits, others)
             ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), title='step %d' % done)
             writer.grab_frame()
             frames += 1
