@@ -1,0 +1,51 @@
+"""What the tests of readOutline share: files, and how far loops are from curves."""
+import os
+
+import numpy as np
+
+from yadefrag.readers import loops
+
+kSquare = [(0, 0), (4, 0), (4, 4), (0, 4)]
+
+
+def written(folder, name, text):
+    file = os.path.join(folder, name)
+    with open(file, 'w', encoding='utf-8') as out:
+        out.write(text)
+    return file
+
+
+def svg(folder, body, page='viewBox="0 0 100 50"'):
+    return written(folder, 'a.svg', '<svg xmlns="http://www.w3.org/2000/svg" %s>%s</svg>' %
+                   (page, body))
+
+
+def area(loop):
+    return loops.area(np.array(loop))
+
+
+def corners(loop):
+    """The loop's points, rounded, from the lowest one on."""
+    points = [(round(x, 9) + 0., round(y, 9) + 0.) for x, y in loop]
+    first = points.index(min(points))
+    return points[first:] + points[:first]
+
+
+def offLine(places, line):
+    """Largest distance (m) of places from a closed polyline."""
+    starts, sides = line, np.roll(line, -1, axis=0) - line
+    squares = (sides**2).sum(1)
+
+    def off(place):
+        along = np.clip(((place - starts) * sides).sum(1) / squares, 0, 1)
+        return np.linalg.norm(starts + along[:, None] * sides - place, axis=1).min()
+    return max(map(off, places))
+
+
+def offEllipse(loop, centre, a, b):
+    """(largest distance of points, of middles of sides) from an ellipse of upright axes, which
+    is itself replaced by a polyline, to 10⁻⁸ of a radius."""
+    t = np.linspace(0, 2 * np.pi, 20000, endpoint=False)
+    curve = np.stack([centre[0] + a * np.cos(t), centre[1] + b * np.sin(t)], axis=1)
+    points = np.array(loop)
+    return offLine(points, curve), offLine((points + np.roll(points, -1, axis=0)) / 2, curve)
