@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "contact/joint_rules.hpp"
 #include "core/tolerances/contact.hpp"
 
 namespace yadefrag {
@@ -26,6 +27,11 @@ FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, 
       foot.xi < range.begin ? surfaces.prev[master.value] : surfaces.next[master.value];
   if (neighbour == pair.slave || neighbour == surfaces.prev[pair.slave.value])
     return {master, foot};
+  // In a notch its normal would push the slave on the way that it came: energy from nothing.
+  const bool isNotch = neighbour == surfaces.prev[master.value]
+                           ? isConcaveJoint(before, neighbour, master)
+                           : isConcaveJoint(before, master, neighbour);
+  if (isNotch) return {master, foot};
   const Foot other = before.foot(neighbour, slave);
   const PieceRange otherRange = before.range(neighbour);
   const bool overOther = other.xi >= otherRange.begin && other.xi <= otherRange.end;

@@ -115,6 +115,16 @@ TEST(RowBuilder, FootBeforeOnTheNeighbourAcrossAFlatJoint) {
   EXPECT_NEAR(cross(a.masterPoint(row) - Vec2{1.05, 1.1}, row.normal), 0, 1e-14);
 }
 
+/// Into a notch, however blunt: with the neighbour's normal contact would push the point on the way
+/// that it came.
+TEST(RowBuilder, NormalIsThePiecesOwnInANotch) {
+  const Approach a({{0, 0}, {2, 0}, {2, 1.1}, {1, 1}, {0, 1.1}}, {}, {1.05, 1.1}, {.95, .9});
+  const ContactRow row = a.row(a.body + 3);  // from (1, 1) to (0, 1.1)
+  EXPECT_EQ(row.node[1], NodeId(std::size_t{3}));
+  EXPECT_NEAR(cross(row.normal, {.1, 1}), 0, 1e-15);
+  EXPECT_NEAR(cross(a.masterPoint(row) - Vec2{1.05, 1.1}, row.normal), 0, 1e-14);
+}
+
 /// At a sharp corner the neighbour's normal is another: the piece's own end takes the force, a
 /// little beyond it where that keeps the moment small.
 TEST(RowBuilder, FootBeforePastASharpCorner) {
