@@ -49,7 +49,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 8;
+  static constexpr std::uint64_t kFormat = 9;
   /// (count) A damaged length must not take all memory: values are read in parts as large as this,
   /// and the archive ends before the memory does.
   static constexpr std::uint64_t kPart = 1 << 16;

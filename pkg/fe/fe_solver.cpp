@@ -45,7 +45,7 @@ void FESolver::action() try {
   }
   const std::uint64_t dropped = world_.dropped.count;
   const std::size_t complaints = world_.complaints.size();
-  bodies_.collectForces(*scene, world_, world_.outerForces);
+  collectForces();
   const bool mayBeBorn = world_.fracture.numCracks() > 0 && !world_.outerForces.empty();
   const double born = mayBeBorn ? energyBornInside(*scene, bodies_) : 0;
   functions_.giveValues(world_, scene->dt);
@@ -71,6 +71,14 @@ void FESolver::action() try {
 } catch (const std::exception& error) {
   noteStop(error.what());
   throw;
+}
+
+/// Of spheres and others on the boundary.
+void FESolver::collectForces() {
+  bodies_.collectForces(*scene, world_, world_.outerForces);
+  if (world_.outerForces.empty()) return rolling_.forget();
+  if (rolling_.carry(*scene, bodies_, world_.surfaces))
+    bodies_.collectForces(*scene, world_, world_.outerForces);
 }
 
 /// `born`: J, what contacts with spheres have begun with. Told above 1 % of the bodies' energy and

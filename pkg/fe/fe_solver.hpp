@@ -11,6 +11,7 @@
 #include "fe/fe_archive.hpp"
 #include "fe/materials.hpp"
 #include "fe/rigid_bodies.hpp"
+#include "fe/rolling.hpp"
 #include "fe/scene_watch.hpp"
 #include "fe/script_functions.hpp"
 #include "fe/step_lock.hpp"
@@ -80,6 +81,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
   void giveSettings();
+  void collectForces();
   void bookSpheres(double born);
   void warn(std::size_t known) const;
   void lookAround(bool enginesAreNew);
@@ -99,6 +101,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   EngineOrder order_;
   SceneWatch around_;
   RigidBodies rigid_;
+  RollingSpheres rolling_;
   bool toldRigid_ = true;  // `rigidBodies` when the scene was last looked at
   ScriptFunctions functions_;
   std::vector<BoxPair> pairs_;
@@ -189,6 +192,7 @@ void FESolver::archiveMore(Archive& archive) {
   if constexpr (Archive::is_loading::value) surveyed_ = 0;
   WorldArchive<Archive>(archive).run(world_, ids);
   rigid_.archive(archive, world_);
+  rolling_.archive(archive);
   if constexpr (Archive::is_loading::value) bodies_.restore(std::move(ids));
 }
 

@@ -1,0 +1,139 @@
+#include "fe/rolling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/tolerances/contact.hpp"
+
+namespace yadefrag {
+namespace {
+
+using yade::Vector3r;
+
+Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
+Vector3r inSpace(Vec2 v) { return {v.x, v.y, 0}; }
+Vec2 leftOf(Vec2 v) { return {-v.y, v.x}; }
+
+bool areNeighbours(const ContactSurfaces& surfaces, EntryId a, EntryId b) {
+  return surfaces.next[a.value] == b || surfaces.next[b.value] == a;
+}
+
+bool areOneFace(Vec2 a, Vec2 b) { return dot(a, b) > tolerance::kSameFace; }
+
+}  // namespace
+
+struct RollingSpheres::Contact {
+  yade::Interaction* contact;
+  const yade::ScGeom* geom;
+  yade::NormShearPhys* phys;
+  yade::Body::id_t sphere, piece;
+  EntryId entry;
+  double shear, normal;  // as in Held
+  Vec2 direction;
+
+  /// Of tangential force and pressure: what friction allows is no less.
+  [[nodiscard]] double ratio() const { return normal > 0 ? std::abs(shear) / normal : 0; }
+  /// The smaller coefficient of the two materials, which most laws take.
+  [[nodiscard]] double friction(const yade::Scene& scene) const;
+  void addForce(yade::Scene& scene, double by) const;
+};
+
+double RollingSpheres::Contact::friction(const yade::Scene& scene) const {
+  double least = INFINITY;
+  for (const auto id : {sphere, piece}) {
+    const yade::Body& body = *scene.bodies->body[static_cast<std::size_t>(id)];
+    const auto* material = dynamic_cast<const yade::FrictMat*>(body.material.get());
+    least = std::min(least, material ? std::tan(material->frictionAngle) : 0);
+  }
+  return least;
+}
+
+/// As YADE's laws do: on the sphere the opposite.
+void RollingSpheres::Contact::addForce(yade::Scene& scene, double by) const {
+  const Vector3r force = by * inSpace(leftOf(direction));
+  phys->shearForce += force;
+  const auto& bodies = scene.bodies->body;
+  for (const auto& [id, sign] : {std::pair(contact->getId1(), -1.), {contact->getId2(), 1.}}) {
+    const Vector3r& place = bodies[static_cast<std::size_t>(id)]->state->se3.position;
+    const Vector3r part = sign * force;
+    scene.forces.addForce(id, part);
+    scene.forces.addTorque(id, (geom->contactPoint - place).cross(part));
+  }
+}
+
+/// Of all spheres with pieces, by sphere, then piece.
+RollingSpheres::Contacts RollingSpheres::contactsOf(const EntryBodies& bodies) {
+  Contacts found;
+  for (std::size_t e = 0; e < bodies.ids().size(); ++e) {
+    if (!bodies.hasBody(EntryId(e))) continue;
+    for (const auto& [other, contact] : bodies.body(EntryId(e)).intrs) {
+      if (!contact->isReal()) continue;
+      const auto* geom = dynamic_cast<const yade::ScGeom*>(contact->geom.get());
+      auto* phys = dynamic_cast<yade::NormShearPhys*>(contact->phys.get());
+      if (!geom || !phys) continue;
+      const Vec2 direction = inPlane(geom->normal);
+      found.push_back({contact.get(), geom, phys, other, bodies.ids()[e], EntryId(e),
+                       cross(direction, inPlane(phys->shearForce)), phys->normalForce.norm(),
+                       direction});
+    }
+  }
+  std::ranges::sort(found, {}, [](const Contact& one) { return std::pair(one.sphere, one.piece); });
+  return found;
+}
+
+/// What ended in this step goes to the sphere's contact with the piece beside it.
+void RollingSpheres::carryEnded(Contacts& contacts, const yade::Scene& scene,
+                                const EntryBodies& bodies, const ContactSurfaces& surfaces) const {
+  const auto pairOf = [](const auto& one) { return std::pair(one.sphere, one.piece); };
+  for (const Held& held : held_) {
+    const EntryId entry = bodies.entryOf(held.piece);
+    if (held.shear == 0 || entry == EntryId::none()) continue;
+    if (std::ranges::binary_search(contacts, pairOf(held), {}, pairOf)) continue;
+    const auto its = std::ranges::equal_range(contacts, held.sphere, {}, &Contact::sphere);
+    const auto heir = std::ranges::find_if(its, [&](const Contact& one) {
+      return areNeighbours(surfaces, one.entry, entry) && areOneFace(one.direction, held.direction);
+    });
+    if (heir == its.end()) continue;
+    const double ratio =
+        std::max({heir->ratio(), std::abs(held.shear) / held.normal, heir->friction(scene)});
+    const double most = ratio * heir->normal;
+    heir->shear = std::clamp(heir->shear + held.shear, -most, most);
+  }
+}
+
+bool RollingSpheres::carry(yade::Scene& scene, const EntryBodies& bodies,
+                           const ContactSurfaces& surfaces) {
+  Contacts contacts = contactsOf(bodies);
+  std::vector<double> former;
+  for (const Contact& one : contacts) former.push_back(one.shear);
+  carryEnded(contacts, scene, bodies, surfaces);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    for (std::size_t k = i + 1; k < contacts.size() && contacts[k].sphere == contacts[i].sphere;
+         ++k) {
+      Contact &a = contacts[i], &b = contacts[k];
+      const double normal = a.normal + b.normal;
+      if (!(normal > 0) || !areNeighbours(surfaces, a.entry, b.entry) ||
+          !areOneFace(a.direction, b.direction))
+        continue;
+      const double shear = a.shear + b.shear;
+      a.shear = shear * a.normal / normal, b.shear = shear - a.shear;
+    }
+  bool any = false;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (contacts[i].shear == former[i]) continue;
+    contacts[i].addForce(scene, contacts[i].shear - former[i]);
+    any = true;
+  }
+  remember(contacts);
+  return any;
+}
+
+void RollingSpheres::remember(const Contacts& contacts) {
+  held_.clear();
+  for (const Contact& one : contacts)
+    if (one.normal > 0)
+      held_.push_back({one.sphere, one.piece, one.shear, one.normal, one.direction});
+}
+
+}  // namespace yadefrag
