@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.657371534205573);
-  expectNear(places.y, 1.4585928671290864);
-  expectNear(speeds, 4525.1158589127917);
-  expectNear(totalEnergy(world), 89.999331856785545);
-  expectNear(world.ledger.contact, 4.4376729000611457);
+  expectNear(places.x, 3.6573643596824295);
+  expectNear(places.y, 1.4585951321970334);
+  expectNear(speeds, 4524.9087186620427);
+  expectNear(totalEnergy(world), 89.999330790131353);
+  expectNear(world.ledger.contact, 4.4371809026056104);
 }
 
 }  // namespace
