@@ -53,6 +53,9 @@ class Contact {
 
   /// After nodes or entries were renumbered or added: candidates and touches are void.
   void reset();
+  /// After entries got new numbers, by former number; none() of those that are gone. What touched
+  /// goes on to touch: contact that is deep, as a penalty leaves it, would be lost else.
+  void renumber(std::span<const EntryId> numbers);
   /// After nodes were added.
   void resize(std::size_t nodes);
   /// Room for so many nodes.

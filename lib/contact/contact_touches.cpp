@@ -1,10 +1,50 @@
 // What contact remembers from one step to the next.
 
 #include <algorithm>
+#include <utility>
 
 #include "contact/contact.hpp"
 
 namespace yadefrag {
+
+namespace {
+
+/// Without those of entries that are gone.
+std::vector<Touch> renumbered(std::vector<Touch> touches, std::span<const EntryId> numbers) {
+  for (Touch& touch : touches)
+    touch.pair = {numbers[touch.pair.slave.value], numbers[touch.pair.master.value]};
+  std::erase_if(touches, [](const Touch& touch) {
+    return touch.pair.slave == EntryId::none() || touch.pair.master == EntryId::none();
+  });
+  std::ranges::sort(touches, {}, &Touch::pair);
+  return touches;
+}
+
+/// Only their flags are needed until the next search.
+Candidates renumbered(const Candidates& candidates, std::span<const EntryId> numbers) {
+  std::vector<std::pair<SlaveMaster, std::uint8_t>> flags;
+  for (std::size_t r = 0; r < candidates.slaves.size() && !candidates.outside.empty(); ++r)
+    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
+      const SlaveMaster pair{numbers[candidates.slaves[r].value],
+                             numbers[candidates.masters[c].value]};
+      if (pair.slave != EntryId::none() && pair.master != EntryId::none())
+        flags.emplace_back(pair, candidates.outside[c]);
+    }
+  Candidates left;
+  if (flags.empty()) return left;
+  std::ranges::sort(flags);
+  for (const auto& [pair, outside] : flags) {
+    if (left.slaves.empty() || left.slaves.back() != pair.slave) {
+      left.slaves.push_back(pair.slave);
+      left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
+    }
+    left.masters.push_back(pair.master), left.outside.push_back(outside);
+  }
+  left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
+  return left;
+}
+
+}  // namespace
 
 /// (m) How deep the deepest is, at xⁿ, of those that touched in the last step.
 double Contact::deepestTouch(const ContactSurfaces& surfaces, std::span<const Vec2> before) const {
@@ -15,6 +55,13 @@ double Contact::deepestTouch(const ContactSurfaces& surfaces, std::span<const Ve
           std::max(most, -geometry.foot(touch.pair.master, geometry.slave(touch.pair.slave)).gap);
   });
   return most;
+}
+
+void Contact::renumber(std::span<const EntryId> numbers) {
+  std::vector<Touch> keptTouches = renumbered(std::move(touches), numbers);
+  Candidates keptCandidates = renumbered(candidates, numbers);
+  reset();
+  touches = std::move(keptTouches), candidates = std::move(keptCandidates);
 }
 
 void Contact::removeGone(const ContactSurfaces& surfaces) {

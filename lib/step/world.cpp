@@ -87,7 +87,7 @@ std::vector<EntryId> World::takeOff(const std::vector<std::uint8_t>& gone,
   std::vector<EntryId> entries = surfaces.removeComponents(gone);
   surfaces.renumberNodes(renumbered, model.nodes.size());
   forgetUnusedMotions();
-  contact.reset();
+  contact.renumber(entries);
   rebuild();
   return entries;
 }

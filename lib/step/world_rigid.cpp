@@ -1,51 +1,13 @@
 // The world's part in rigid boundaries: outlines of bodies that are not made of elements.
 
 #include <algorithm>
+#include <utility>
 
 #include "core/tolerances/dynamics.hpp"
 #include "mesh/assembly.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
-
-namespace {
-
-/// Without those of entries that are gone.
-std::vector<Touch> renumbered(std::vector<Touch> touches, std::span<const EntryId> numbers) {
-  for (Touch& touch : touches)
-    touch.pair = {numbers[touch.pair.slave.value], numbers[touch.pair.master.value]};
-  std::erase_if(touches, [](const Touch& touch) {
-    return touch.pair.slave == EntryId::none() || touch.pair.master == EntryId::none();
-  });
-  std::ranges::sort(touches, {}, &Touch::pair);
-  return touches;
-}
-
-/// Only their flags are needed until the next search.
-Candidates renumbered(const Candidates& candidates, std::span<const EntryId> numbers) {
-  std::vector<std::pair<SlaveMaster, std::uint8_t>> flags;
-  for (std::size_t r = 0; r < candidates.slaves.size() && !candidates.outside.empty(); ++r)
-    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
-      const SlaveMaster pair{numbers[candidates.slaves[r].value],
-                             numbers[candidates.masters[c].value]};
-      if (pair.slave != EntryId::none() && pair.master != EntryId::none())
-        flags.emplace_back(pair, candidates.outside[c]);
-    }
-  Candidates left;
-  if (flags.empty()) return left;
-  std::ranges::sort(flags);
-  for (const auto& [pair, outside] : flags) {
-    if (left.slaves.empty() || left.slaves.back() != pair.slave) {
-      left.slaves.push_back(pair.slave);
-      left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
-    }
-    left.masters.push_back(pair.master), left.outside.push_back(outside);
-  }
-  left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
-  return left;
-}
-
-}  // namespace
 
 /// The motion of all their nodes.
 std::uint32_t World::rigidMotion() {
@@ -124,8 +86,8 @@ std::vector<std::uint32_t> World::rigidEntries() const {
 
 void World::replaceRigid(std::span<const RigidSpec> specs, std::span<const std::uint32_t> former) {
   const std::vector<std::uint32_t> corners = rigidEntries();
-  const std::vector<Touch> touches = contact.touches;
-  const Candidates candidates = contact.candidates;
+  std::vector<Touch> touches = contact.touches;
+  Candidates candidates = contact.candidates;
   std::vector<EntryId> numbers = removeAllRigid();
   try {
     for (const RigidSpec& spec : specs) appendRigid(spec);
@@ -140,8 +102,8 @@ void World::replaceRigid(std::span<const RigidSpec> specs, std::span<const std::
     if (now[e] != kNoCorner && former[now[e]] != kNoCorner) entryOf[former[now[e]]] = EntryId(e);
   for (std::size_t e = 0; e < numbers.size(); ++e)
     if (corners[e] != kNoCorner) numbers[e] = entryOf[corners[e]];
-  contact.touches = renumbered(touches, numbers);
-  contact.candidates = renumbered(candidates, numbers);
+  contact.touches = std::move(touches), contact.candidates = std::move(candidates);
+  contact.renumber(numbers);
 }
 
 void World::slideRigid(std::span<const Vec2> places) {
