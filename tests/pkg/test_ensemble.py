@@ -39,6 +39,9 @@ def test_runsOfSeedsAndTables(folder):
     with open(folder + '/a.csv') as lines:
         assert next(lines).strip() == 'seed,result,value,steps,wall,message'
         assert next(lines).startswith('0,ok,"[%r' % drawn(0)[0])
+    assert str(table).splitlines()[:3] == [
+        'Draws', 'seed=0: %.6g on average of %d' % (np.mean(drawn(0)), len(drawn(0))),
+        'seed=1: %.6g on average of %d' % (np.mean(drawn(1)), len(drawn(1)))]
     for wanted in (dict(seed=[7, 8], strength=np.array([1., 2.])),
                    [dict(seed=7, strength=1.), dict(seed=8, strength=2.)]):
         values = [row.value for row in together(scenes.flight, wanted).rows]
@@ -52,6 +55,9 @@ def test_whatFailsIsARow():
     assert all(word in row.message for word, row in zip(words, found))
     assert [row.value for row in found] == [0, None, None, None, None]
     table = EnsembleTable(found)
+    assert str(table).splitlines()[0] == 'seed=0: 0'
+    assert str(table).splitlines()[2] == 'seed=2: refused, no such strength.'
+    assert str(table).splitlines()[-1] == 'Mean of 1 run: 0; 4 have no value.'
     line, = table.statistics()
     assert line['runs'] == 1 and line['failed'] == 4 and math.isnan(line['low'])
 
@@ -122,7 +128,7 @@ def test_tradeoffByAnExecutorAndAgain(folder):
     (dict(wanted=[]), r'runs is \[\], it must be a number of runs'),
     (dict(wanted='three'), "runs is 'three', it must be a number of runs"),
     (dict(wanted=[1.5]), 'runs has the seed 1.5, it must be a whole number, or a dict'),
-    (dict(wanted={'seed': [1, 2], 'a': [1]}), 'a dict of lists of one length'),
+    (dict(wanted={'seed': [1, 2], 'a': [1]}), 'a dict of lists that have all the same length'),
     (dict(wanted=[dict(value=1)]), "runs has the choice 'value', a name must be a text that is no other"),
     (dict(wanted=[dict(passes=3)]), 'passes=3, it must be 1 or 2'),
     (dict(wanted=[dict(a=[1])]), r'runs has the choice a=\[1\], it must be a number'),

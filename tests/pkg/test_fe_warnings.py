@@ -1,11 +1,12 @@
 """What FESolver complains of: energy that contact makes, bodies that sink into one another."""
 import builtins
 import random
+import warnings
 
 import pytest
 
 import yadefrag
-from fe_scene import finder, run
+from fe_scene import fe, finder, run
 from yade import wrapper as w
 
 O = builtins.O
@@ -100,3 +101,19 @@ def test_deepestOverlapKnowsWhatContactKnows():
     O.run(60, True)
     assert solver.maxPenetration > 1e-5
     assert abs(solver.deepestOverlap() / solver.maxPenetration - 1) < .05
+
+
+def test_bodiesWithoutTheirEngineAreTold():
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    O.engines, O.dt = [w.ForceResetter()], 1e-6
+    with pytest.warns(UserWarning, match='O.engines has no FESolver, so that nothing moves its bodies'):
+        yadefrag.runSteps(1)
+    O.reset()
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    O.engines = yadefrag.engines(solver)
+    O.dt = .5 * solver.criticalTimeStep()
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')
+        yadefrag.runSteps(1)

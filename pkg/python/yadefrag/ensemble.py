@@ -73,7 +73,7 @@ def _settings(runs):
         columns = {name: _listOf(values) for name, values in runs.items()}
         lengths = {None if values is None else len(values) for values in columns.values()}
         if len(lengths) != 1 or None in lengths:
-            refuse('runs', runs, 'a dict of lists of one length')
+            refuse('runs', runs, 'a dict of lists that have all the same length')
         runs = [dict(zip(columns, row)) for row in zip(*columns.values())]
     rows = _listOf(runs)
     if not rows or len(rows) > _MOST_RUNS:

@@ -7,7 +7,7 @@ import numpy
 
 from yadefrag import student
 from yadefrag.files import savePicture, writeText
-from yadefrag.tradeoff_table import tableText
+from yadefrag.tradeoff_table import describe, tableText
 from yadefrag.values import array, number, path, refuse, text
 
 COLUMNS = ('result', 'value', 'steps', 'wall', 'message')
@@ -53,6 +53,12 @@ class EnsembleTable:
         if not isRight:
             refuse('rows', rows, 'a list of EnsembleRow')
         self.rows, self.title = list(rows), text('title', title)
+
+    def __str__(self):
+        """A line for each row, and the mean."""
+        lines = [self.title] * bool(self.title) + [
+            '%s: %s' % (describe(row.settings), _found(row)) for row in self.rows]
+        return '\n'.join(lines + [_meanText(*self.statistics())] * bool(self.good()))
 
     def good(self):
         """Rows with a value."""
@@ -164,6 +170,24 @@ class EnsembleTable:
     def namesOfFiles(files):
         """Those that `write` writes."""
         return [path('files', files) + ending for ending in ('.csv', '.png')]
+
+
+def _meanText(line):
+    """A line of `statistics` as text."""
+    said = 'Mean of %d run%s: %.6g' % (line['runs'], 's' * (line['runs'] > 1), line['mean'])
+    if math.isfinite(line['low']):
+        said += ', with 95 %% confidence between %.6g and %.6g' % (line['low'], line['high'])
+    return said + ('; %d have no value.' % line['failed'] if line['failed'] else '.')
+
+
+def _found(row):
+    """What a run gave, as text."""
+    if row.result != 'ok':
+        return '%s, %s' % (row.result, row.message) if row.message else row.result
+    values = numpy.atleast_1d(row.value)
+    if len(values) == 1:
+        return '%.6g' % values[0]
+    return '%.6g on average of %d' % (values.mean(), len(values)) if len(values) else 'no numbers'
 
 
 def _drawBand(ax, x, table, count, confidence, style='-'):

@@ -2,6 +2,7 @@
 
 import sys
 import time
+import warnings
 
 from yade import wrapper
 from yadefrag import _yadefrag, lifecycle
@@ -26,6 +27,7 @@ def runSteps(steps, every=None, call=None):
         raise ValueError('call is %s with every=%s: give a function and after how many steps it is '
                          'to be called.' % (shown(call), shown(every)))
     requireNoStep('runSteps')
+    warnOfNoSolver()
     omega = wrapper.Omega()
     done, begin = 0, lifecycle.stepsDone()
     bar = _Bar(steps)
@@ -53,6 +55,18 @@ def runSteps(steps, every=None, call=None):
     finally:
         bar.close()
     return done
+
+
+def warnOfNoSolver():
+    """Before the first step: FE bodies without an engine that moves them are a slip of the script."""
+    omega = wrapper.Omega()
+    if omega.iter > 0 or any(isinstance(one, (wrapper.FESolver, wrapper.ParallelEngine))
+                             for one in omega.engines):
+        return
+    if any(isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.component >= 0
+           for body in omega.bodies):
+        warnings.warn('O.engines has no FESolver, so that nothing moves its bodies: '
+                      'O.engines = engines(fe) sets the engines.', stacklevel=3)
 
 
 def runPart(steps):

@@ -131,6 +131,10 @@ class TradeoffTable:
                              (shownPath(name), rows.index(None)))
         return cls(rows, title)
 
+    def __str__(self):
+        """As Markdown."""
+        return self.markdown() if self.rows else 'no rows'
+
     def markdown(self, file=None, time='wall'):
         """The table as Markdown text, rows of the front in bold; written to `file` if there is one.
 
