@@ -3,11 +3,12 @@ import builtins
 import os
 import sys
 
+import numpy as np
 import pytest
 
 from fe_scene import fe
 from yade import wrapper as w
-from yadefrag import readMesh
+from yadefrag import readMesh, rectangleMesh
 
 O = builtins.O
 # A strip of 2 × 1 squares: one cut in triangles (steel, the second clockwise), one a quad (stone);
@@ -141,3 +142,12 @@ def test_missingLibraryAndFile(folder, monkeypatch):
     monkeypatch.setitem(sys.modules, 'meshio', None)
     with pytest.raises(ImportError, match="install Debian's package python3-meshio[.]"):
         readMesh(written(folder, 'a.msh', kGmsh))
+
+
+def test_pointsOfThreeColumnsGoIntoAddTriangles():
+    nodes, triangles = rectangleMesh((0, 0), (1, 2), 3, 5)
+    solver = fe()
+    solver.addTriangles(np.column_stack([nodes, np.full(len(nodes), 7.)]), triangles, material='m')
+    assert (solver.nodes == nodes).all()
+    with pytest.raises(ValueError, match=r'^nodes must be a list of points \(x, y\) in m'):
+        solver.addTriangles(np.column_stack([nodes, np.arange(len(nodes))]), triangles, material='m')

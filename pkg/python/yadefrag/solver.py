@@ -270,11 +270,11 @@ def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0,
                  interfaceEnergy=None, name=None):
     """Adds a body of triangles of one's own; returns its number (int).
 
-    nodes (n, 2) in m, all of them used; triangles (m, 3) node numbers, counter-clockwise. `smooth`
+    nodes (n, 2) in m, or (n, 3) of one z, which is left out, all of them used; triangles (m, 3) node numbers, counter-clockwise. `smooth`
     is True or False; the rest, materials by triangle too, is as in addPolygon. ValueError before
     anything changes.
     """
-    points = pointsOf('nodes', nodes, 3)
+    points = pointsOf('nodes', _withoutHeight(nodes), 3)
     corners = array(triangles)
     if corners is None or corners.ndim != 2 or corners.shape[1] != 3 or len(corners) == 0 \
             or not numpy.issubdtype(corners.dtype, numpy.integer):
@@ -289,6 +289,14 @@ def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0,
     places = brittlePlaces(mesh, materials, between, strength, fractureEnergy)
     return _add(self, mesh, _smoothNodes(smooth, mesh), materials, velocity, spin, displacement,
                 stress, fixed, thickness, selfContact, element, places, name)
+
+
+def _withoutHeight(nodes):
+    """Points of three columns, as other programs have them, without z if it is the same for all."""
+    found = array(nodes, float)
+    isFlat = found is not None and found.ndim == 2 and found.shape[1] == 3 and len(found) > 0 \
+        and (found[:, 2] == found[0, 2]).all()
+    return found[:, :2] if isFlat else nodes
 
 
 def _boundaryLoops(count, triangles):
