@@ -8,7 +8,7 @@
 namespace yadefrag {
 namespace {
 
-constexpr int kDigitBits = 11;  // 2048 counters stay in the first-level cache
+constexpr int kDigitBits = 11;  // 2048 counters fit into the first-level cache
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 
 }  // namespace
