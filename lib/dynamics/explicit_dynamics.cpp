@@ -16,7 +16,7 @@ namespace {
 
 std::size_t elementsPerThread() { return tolerance::kElementsPerItem * leastItemsPerThread(); }
 
-/// (m) Of all triangles, stress-free: 1/|∇Nᵢ| is the height on corner i.
+/// (m) Least height of all triangles, stress-free: 1/|∇Nᵢ| is the height on corner i.
 double leastHeight(const Triangles& triangles) {
   double steepest = 0;  // 1/m²
   for (std::size_t e = 0; e < triangles.size(); ++e) {
@@ -35,7 +35,7 @@ struct ExplicitDynamics::Update {
   double dt, kept, rate;
   double swift;      // m/s
   Vec2 fall;         // m/s
-  double outerPart;  // of Δv: how long outer forces act
+  double outerPart;  // of Δv: duration of external forces
   std::span<const Vec2> outer, load;
   int threads;
 };
@@ -163,8 +163,8 @@ void ExplicitDynamics::sumShared(const BulkViscosity& viscosity, NodeId begin, N
   }
 }
 
-/// Held directions move as the model says; returns how the node moved before, which may differ from
-/// what the model says now: that change, too, is work of whatever prescribes it.
+/// Moves held directions at their prescribed velocity. Returns the node's previous velocity, which
+/// may differ from the prescribed one: that change is work of the prescribed motion, too.
 Vec2 ExplicitDynamics::holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity) {
   Vec2 before = nodes.velocity[node];
   for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}})
@@ -176,7 +176,7 @@ Vec2 ExplicitDynamics::holdBack(const Nodes& nodes, std::size_t node, Vec2& velo
   return before;
 }
 
-/// `kForced`: are there loads or outer forces.
+/// `kForced`: there are loads or external forces.
 template <bool kForced>
 void ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begin,
                             std::size_t end) {
@@ -195,7 +195,7 @@ void ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begi
     const Vec2 x = nodes.position[n] + update.dt * v;
     previousVelocity_[n] = v;
     previousPosition_[n] = x;
-    // A slow node's way is finite, and too short to leave the finite numbers.
+    // The displacement of a slow node is finite, and too small for an overflow.
     const double squared = dot(v, v);
     if (squared <= squaredSlow) [[likely]]
       continue;
@@ -224,8 +224,9 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
     scratch.values.resize((viscosity.isOn() ? 4 : 2) * elements_.mostNodes);
     if (smoothing_.isOn()) scratch.room.resize(elements_.mostNodes);
   }
-  PartErrors errors;  // memory for elements under stress may run out
-  // One region for both loops: waking the threads twice would show in small scenes.
+  PartErrors errors;  // the list of stressed elements may exceed the memory
+  // One parallel region for both loops: starting the threads twice would be visible in small
+  // scenes.
 #pragma omp parallel num_threads(threads) if (threads > 1)
   {
     const std::size_t part = omp_get_thread_num();
@@ -261,11 +262,11 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
        {dt, (1 - d) / (1 + d), rate, tolerance::kSwift * leastHeight_ / dt, rate * settings.gravity,
         dt / length.velocity, outerForces, model.nodes.load, threads},
        settings.viscosity);
-  // Threads take successive chunks: theirs in turn are ascending.
+  // Each thread has successive chunks, so that the joined list is ascending.
   stressed_.clear();
   for (const Scratch& scratch : scratch_)
     stressed_.insert(stressed_.end(), scratch.stressed.begin(), scratch.stressed.end());
-  // Bodies with smoothed strains are looked at before all others.
+  // Bodies with smoothed strains were checked before all others: sort.
   if (smoothing_.isOn()) std::sort(stressed_.begin(), stressed_.end());
   if (badElement_) refuseElement(model);
   if (badNode_) refuseNode(model);
@@ -273,7 +274,7 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
   model.nodes.velocity.swap(previousVelocity_);
 }
 
-/// The works on single nodes, in one direction.
+/// Work at single nodes, in one direction.
 struct ExplicitDynamics::Works {
   const ExplicitDynamics& dynamics;
   const Nodes& nodes;
@@ -281,7 +282,7 @@ struct ExplicitDynamics::Works {
   const StepSettings& settings;
   std::span<const Vec2> outer, contact;
 
-  /// (N) Of what acts from outside on a node, held or not, over Δv.
+  /// (N) External force on a node, held or not, averaged over Δv.
   [[nodiscard]] double outerForce(std::size_t n, double Vec2::*axis) const {
     double force = nodes.mass[n] * settings.gravity.*axis;
     if (!nodes.load.empty()) force += nodes.load[n].*axis;
@@ -289,7 +290,7 @@ struct ExplicitDynamics::Works {
     return force;
   }
 
-  /// (N) Of elements and of other surfaces.
+  /// (N) Force of elements and of other surfaces.
   [[nodiscard]] double innerForce(std::size_t n, double Vec2::*axis) const {
     return dynamics.force_[n].*axis + (contact.empty() ? 0 : contact[n].*axis);
   }
@@ -301,7 +302,7 @@ struct ExplicitDynamics::Works {
     const double way = length.velocity * (before + after) / 2;
     if (!dynamics.viscousForce_.empty()) ledger.damping -= dynamics.viscousForce_[n].*axis * way;
     if (held) {
-      // The reaction is whatever the node needs to move as it does.
+      // The reaction is the force that the prescribed motion requires.
       ledger.external += mass * (after + before) * (after - before) / 2 - innerForce(n, axis) * way;
       return;
     }
@@ -319,7 +320,7 @@ void ExplicitDynamics::finish(const Model& model, const StepLength& length,
                    settings.damping != 0 || !viscousForce_.empty();
   if (!all && heldVelocity_.empty()) return;
   const Works works{*this, nodes, length, settings, outerForces, contactForces};
-  // Summed by blocks of a fixed length, which do not depend on the number of threads.
+  // Sums over blocks of a fixed length, so that they do not depend on the number of threads.
   const std::size_t blocks = (nodes.size() + tolerance::kNodesPerSum - 1) / tolerance::kNodesPerSum;
   std::vector<EnergyLedger> sums(blocks);
   const bool many = model.triangles.size() >= 2 * elementsPerThread();
@@ -350,7 +351,7 @@ void ExplicitDynamics::measureReactions(const Model& model, const StepLength& le
   for (const NodeId node : heldNodes_) {
     const std::uint32_t n = node.value;
     reactions[n] = {};
-    if (nodes.mass[n] == 0) continue;  // of a dropped triangle
+    if (nodes.mass[n] == 0) continue;  // of a removed triangle
     for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}}) {
       if ((nodes.held[n] & flag) == 0) continue;
       const double gained = nodes.velocity[n].*axis - previousVelocity_[n].*axis;

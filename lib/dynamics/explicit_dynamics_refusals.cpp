@@ -1,4 +1,5 @@
-// Steps that cannot be made: which element or node is the reason, and back to where they began.
+// Errors in a step: finds the element or node that causes them, and restores the state before the
+// step.
 
 #include <cmath>
 #include <sstream>
@@ -26,7 +27,7 @@ std::string nameOf(const Model& model, ElementId element, std::span<const Vec2> 
 
 }  // namespace
 
-/// A chunk with an element that is flat, inverted or not finite.
+/// Handles a chunk with an element that is flat, inverted or not finite.
 void ExplicitDynamics::lookAtFlat(const Model& model, const Chunk& chunk, Scratch& scratch) {
   scratch.flat.push_back({chunk.firstElement, chunk.lastElement});
   for (std::uint32_t e = chunk.firstElement; e < chunk.lastElement; ++e)
@@ -51,7 +52,7 @@ void ExplicitDynamics::requireUpright(const Model& model, double dt, double corr
     for (const ElementRange& range : scratch.flat) look(range.firstElement, range.lastElement);
 }
 
-/// Held directions: what the model says, and how the nodes moved before, change places again.
+/// Exchanges the prescribed velocities of held directions with the nodes' previous velocities.
 void ExplicitDynamics::letGo(Nodes& nodes) {
   if (heldVelocity_.empty()) return;
   for (std::size_t n = 0; n < nodes.size(); ++n)

@@ -15,7 +15,7 @@ namespace {
 
 struct Shape {
   Vec2 centre;
-  double shortest = 0;  // m, of the sides
+  double shortest = 0;  // m, shortest side
   double altitude = 0;  // m, onto the longest side
 };
 
