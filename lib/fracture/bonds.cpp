@@ -13,7 +13,7 @@
 namespace yadefrag {
 namespace {
 
-/// Sides of one triangle only, that no edge knows.
+/// Sides of one triangle only, which are no edge of CrackEdges.
 std::vector<Side> freeSides(const Model& model, const CrackEdges& edges, ComponentId component) {
   const std::vector<KeyedSide> sides = sidesByNodes(model, model.components[component.value]);
   std::vector<Side> result;
@@ -41,18 +41,19 @@ Line lineOf(const Model& model, Side side) {
           model.nodes.position[lastNode(model, side).value]};
 }
 
-/// Sides of two bodies have the material on the left: they match where they run against each other.
+/// Boundary sides have the material on the left: sides of two bodies match if they run in opposite
+/// directions.
 bool match(const Line& a, const Line& b) {
   double farthest = 0;
   for (const Vec2 x : {a.begin, a.end})
     farthest = std::max({farthest, std::abs(x.x), std::abs(x.y)});
-  // Outlines that mean the same may differ by some roundings of their coordinates.
+  // Equal outlines may differ by some roundings of their coordinates.
   const double gap = std::max(tolerance::kBondGap * std::min(a.length(), b.length()),
                               8 * std::numeric_limits<double>::epsilon() * farthest);
   return norm(a.begin - b.end) <= gap && norm(a.end - b.begin) <= gap;
 }
 
-/// Do two sides run along each other, for a part of the shorter one?
+/// True if two sides are parallel and coincide along a part of the shorter one.
 bool runAlong(const Line& a, const Line& b) {
   const double size = std::min(a.length(), b.length());
   const double near = tolerance::kBondMeant * size;
