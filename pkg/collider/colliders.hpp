@@ -1,5 +1,5 @@
 #pragma once
-// The three colliders: one search each.
+// The three colliders, one for each search.
 
 #include "collider/search_collider.hpp"
 #include "publish/published.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// The sentences in which the colliders refuse bad input.
+// Error messages of the colliders.
 
 #include <cstddef>
 #include <string>
@@ -12,13 +12,13 @@ namespace yadefrag {
 [[noreturn]] void complainOfRadius(std::size_t id, double radius);
 [[noreturn]] void complainOfBound(std::size_t id, const yade::Bound& bound);
 
-/// More pairs of bounds overlap than there is memory for.
+/// More pairs of bounds overlap than fit into the memory.
 [[noreturn]] void complainOfPairs(std::size_t bodies, std::size_t mostPairs, double freeBytes);
 
 [[noreturn]] void complainOfVerletDist(const std::string& collider, double verletDist);
 
-/// The body spans more than the cell allows along an axis; YADE's words, for scripts that look for
-/// them, with the body in front.
+/// The body is larger along an axis than the cell permits. The message has YADE's text, since
+/// scripts may search for it, preceded by the body.
 [[noreturn]] void complainOfSize(std::size_t id, int axis, double cellSize);
 
 }  // namespace yadefrag

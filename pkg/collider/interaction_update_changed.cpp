@@ -1,4 +1,4 @@
-// Second part of interaction_update: only bodies that changed are looked at.
+// Second part of interaction_update: checks only bodies that changed.
 
 #include <algorithm>
 
@@ -43,8 +43,8 @@ void InteractionUpdate::lookAtBodies(yade::Scene& scene, std::span<const Neighbo
     return std::lower_bound(changed.begin(), changed.end(), BoxId(static_cast<std::size_t>(id))) -
            changed.begin();
   };
-  // Every pair stands in the rows of both its bodies; that of a body that has not changed is the
-  // last one, which is not looked at.
+  // Every pair is in the rows of both its bodies. Bodies that have not changed share the last row,
+  // which is ignored.
   const auto rowOf = [&](std::size_t i) {
     const Body::id_t id = i % 2 ? near[i / 2].second : near[i / 2].first;
     const auto place = static_cast<std::size_t>(placeOf(id));
