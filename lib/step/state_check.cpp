@@ -195,7 +195,7 @@ std::string whatIsWrong(const World& world) {
   if (!segmentsAreRight(world) || !entriesAreRight(world)) return "its boundaries";
   if (!loadsAreRight(world)) return "its loads";
   if (!contactIsRight(world)) return "its contacts";
-  if (!searchIsRight(world)) return "its search";
+  if (!searchIsRight(world)) return "its search data";
   if (!fractureIsRight(world)) return "its cracks";
   return {};
 }

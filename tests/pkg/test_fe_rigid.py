@@ -326,7 +326,7 @@ def test_forcesThatAreTakenAwayAreRefused():
     O.bodies[-1].state.blockedDOFs = 'zXY'
     run(solver)
     O.engines = [w.ForceResetter(), w.NewtonIntegrator(damping=0), solver]
-    with pytest.raises(ValueError, match='takes the forces of FESolver away before NewtonIntegrator'):
+    with pytest.raises(ValueError, match='deletes the forces of FESolver before NewtonIntegrator'):
         O.step()
 
 
