@@ -315,7 +315,7 @@ def test_namesThatDoNotExistAreTold():
 def test_prescribeForNoNodeIsTold():
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-    with pytest.warns(UserWarning, match='^prescribe: nodes chooses none of the %d nodes.$' % len(solver.nodes)):
+    with pytest.warns(UserWarning, match='^prescribe: nodes selects none of the %d nodes.$' % len(solver.nodes)):
         solver.prescribe(lambda x, y: x > 2, vx=0)
 
 

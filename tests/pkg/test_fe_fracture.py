@@ -255,7 +255,7 @@ def test_savedRunGoesOnBitForBit(ending, energy, folder):
 
 def test_fragmentTableAndSizes(folder):
     solver = impact()
-    with pytest.raises(ValueError, match='no body that is in pieces'):
+    with pytest.raises(ValueError, match='no broken body'):
         yadefrag.plotFragmentSizes(solver)
     steps(300)
     with pytest.raises(ValueError, match=r"its name must end with '\.csv'"):

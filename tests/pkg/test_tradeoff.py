@@ -121,7 +121,7 @@ def test_refusedRows():
     ('step', 'refused', 'O.dt is 0'),
     ('bug', 'failed', "NameError: name 'nowhere' is not defined"),
     ('crash', 'failed', 'yade ended with status -6'),
-    ('nan', 'blew up', 'what was measured is not finite.'),
+    ('nan', 'blew up', 'the measured value is not finite.'),
 ])
 def test_faultsAreRows(fault, result, sentence):
     table = trade(scenes.odd, {'fault': [fault]}, scenes.oddWay, repeats=2)
