@@ -12,12 +12,12 @@ namespace yadefrag {
 
 namespace {
 
-/// Walks through the rows of the former candidates in the order in which new pairs come.
+/// Visits the rows of the former candidates in the order of the new pairs.
 class FormerFlags {
  public:
   explicit FormerFlags(const Candidates& former) : former_(former) {}
 
-  /// The flag of a pair, or `unknown` if it was no candidate or had none.
+  /// The flag of a pair, or `unknown` if it was no candidate or had no flag.
   std::uint8_t find(const SlaveMaster& pair, std::uint8_t unknown) {
     while (row_ < former_.slaves.size() && former_.slaves[row_] < pair.slave)
       at_ = former_.offsets[++row_];
@@ -42,7 +42,7 @@ std::uint8_t flagAt(const PieceGeometry& geometry, const SlaveMaster& pair) {
   return geometry.foot(pair.master, slave).gap >= -touching ? 1 : 0;
 }
 
-/// The pairs, ascending, as rows; returns what was there before.
+/// Stores the pairs, ascending, as rows; returns the former candidates.
 Candidates fill(Candidates& candidates, const std::vector<SlaveMaster>& pairs,
                 const ContactSurfaces& surfaces, std::span<const Vec2> before, bool flags) {
   constexpr std::uint8_t kUnknown = 2;

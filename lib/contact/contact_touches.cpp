@@ -1,4 +1,4 @@
-// What contact remembers from one step to the next.
+// Data of contact that are stored from one step to the next.
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 
 namespace yadefrag {
 
-/// (m) How deep the deepest is, at xⁿ, of those that touched in the last step.
+/// (m) Largest depth at xⁿ of the contacts of the last step.
 double Contact::deepestTouch(const ContactSurfaces& surfaces, std::span<const Vec2> before) const {
   double most = 0;
   withGeometry(surfaces, before, [&](const auto& geometry) {
@@ -38,7 +38,7 @@ void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec
       const Foot foot = geometry.foot(pair.master, geometry.slave(pair.slave));
       const double gap = foot.gap;
       if (gap >= 0) continue;
-      // Without flags: a form changes by a part of a piece's length only.
+      // Without flags: a change of shape is a fraction of a piece's length only.
       if (candidates.outside.empty() &&
           (!isOver(geometry, pair.master, foot) || gap < -.25 * geometry.length(pair.master)))
         continue;

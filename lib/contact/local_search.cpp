@@ -11,21 +11,22 @@ namespace yadefrag {
 
 namespace {
 
-/// A straight neighbour has to know on which side of the arc a slave was.
+/// True if flags are needed beside an arc: for an adjacent straight piece it must be known on which
+/// side of the arc a slave was.
 template <class Geometry>
 bool isArcAmongArcs(const ContactSurfaces& surfaces, const Geometry& geometry, EntryId entry) {
   return geometry.isArc(entry) && geometry.isArc(surfaces.next[entry.value]) &&
          geometry.isArc(surfaces.prev[entry.value]);
 }
 
-/// Where a point lies beside the chord of a piece.
+/// Position of a point relative to the chord of a piece.
 struct Beside {
   double gap;      ///< m
-  double beyond;   ///< m, by how much it is past an end; negative: over the piece
-  double inverse;  ///< 1/m, of the chord's length
+  double beyond;   ///< m, distance past an end; negative: over the piece
+  double inverse;  ///< 1/m, inverse of the chord's length
 
-  /// (m/m) Change of the gap, and of an arc's bulge, for a motion of all points by no more than 1,
-  /// as long as the gap is open: beside its ends a chord swings farther than they move.
+  /// (m/m) Change of the gap, and of an arc's height, per largest displacement of all points, as
+  /// long as the gap is open: beside its ends a chord moves more than its ends do.
   [[nodiscard]] double leverage(bool arc) const {
     return (arc ? 4 : 2) + 2 * (std::max(0., beyond) + std::abs(gap)) * inverse;
   }
@@ -92,7 +93,8 @@ void LocalSearch::scanRows(Candidates& candidates, const ContactSurfaces& surfac
   }
 }
 
-/// By the path, what was behind a straight piece at xⁿ does not come in, unless it touched.
+/// With entry by the path, a slave that was behind a straight piece at xⁿ cannot enter it, unless
+/// it was in contact.
 template <class Geometry>
 void LocalSearch::findEnterable(const Candidates& candidates, const Geometry& before,
                                 std::span<Near> row) const {
@@ -103,8 +105,8 @@ void LocalSearch::findEnterable(const Candidates& candidates, const Geometry& be
     if (before.isArc(master)) continue;
     const PieceEnds ends = before.ends(master);
     const Vec2 along = ends.end - ends.begin;
-    // Twice the depth, since the piece may be longer at the end of the step; where it turns in the
-    // step, a slave may come out and in again by less than the product of two motions.
+    // Twice the depth, since the piece may be longer at the end of the step. If the piece rotates
+    // in the step, a slave may leave and enter again by less than the product of two displacements.
     const double inside = cross(along, point - ends.begin) - reach_ * reach_;
     near.canEnter =
         inside <= 2 * start_.depth * norm(along) ||
@@ -112,7 +114,7 @@ void LocalSearch::findEnterable(const Candidates& candidates, const Geometry& be
   }
 }
 
-/// In rubble nearly every slave is awake, and every piece the master of several.
+/// In rubble nearly every slave must be checked, and every piece is the master of several.
 template <class Geometry>
 void LocalSearch::findChords(const Candidates& candidates, const ContactSurfaces& surfaces,
                              const Geometry& geometry) {
@@ -154,8 +156,8 @@ double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, st
       found.push_back({row, c, true, (before - tolerance::kTouching / chord.inverse) / leverage});
     else if (!byPath_)
       candidates.outside[c] = beside.gap >= 0 ? 1 : 0;
-    // By flags, nothing comes of a straight master that the slave is behind of, until it has come
-    // out; by the path, of any master that it is deeper in.
+    // By flags, a straight master behind whose line the slave is cannot become active before the
+    // slave has come out; by the path, any master in which the slave is deeper cannot.
     const bool behind = byPath_ ? beside.gap < -deepest : !arc && candidates.outside[c] == 0;
     const double open =
         behind ? std::abs(beside.gap) - (byPath_ ? deepest : 0) - chord.bulge : before;
@@ -183,7 +185,7 @@ void LocalSearch::findActives(const Candidates& candidates, const ContactSurface
   }
 }
 
-/// The first near pair at or after this one that begins a slave's.
+/// Index of the first near pair at or after this one that is the first of its slave.
 std::size_t LocalSearch::beginOfRow(std::size_t at) const {
   while (at > 0 && at < near_.size() && near_[at].row == near_[at - 1].row) ++at;
   return at;
@@ -208,7 +210,7 @@ void LocalSearch::tryRows(const Asked& asked, const Geometry& geometry, std::siz
   }
 }
 
-/// Most slaves are behind none of the masters' lines that they can cross.
+/// Most slaves are not behind the line of any master that they can cross.
 template <class Geometry>
 void LocalSearch::tryByPath(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
                             Part& part) const {
@@ -219,7 +221,8 @@ void LocalSearch::tryByPath(const Asked& asked, const Geometry& geometry, std::s
     for (const Near& near : row) {
       if (near.canEnter != canEnter || near.clear > asked.moved) continue;
       const EntryId master = asked.candidates.masters[near.candidate];
-      // The quick test of an arc says nothing of what is past an end that is a straight piece's.
+      // The quick test of an arc does not cover points past an end that is shared with a straight
+      // piece.
       const bool quick =
           !geometry.isArc(master) || isArcAmongArcs(asked.surfaces, geometry, master);
       if (quick && !geometry.mayPenetrate(master, point)) continue;
@@ -238,7 +241,8 @@ void LocalSearch::tryByPath(const Asked& asked, const Geometry& geometry, std::s
   decideByPath(asked.surfaces, step, part.trials);
 }
 
-/// Whatever the rules do, they wake no master without a flag or an arc in the row.
+/// Independently of the rules, masters without a flag are not activated unless there is an arc in
+/// the row.
 template <class Geometry>
 void LocalSearch::tryByFlags(const Asked& asked, const Geometry& geometry,
                              std::span<const Near> row, Part& part) const {
@@ -261,7 +265,7 @@ void LocalSearch::tryByFlags(const Asked& asked, const Geometry& geometry,
   bool anyInside = false;
   for (const Near& near : row) {
     const EntryId master = candidates.masters[near.candidate];
-    // The quick test spares the iteration.
+    // The quick test saves the iteration.
     if (isArcAmongArcs(asked.surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
       continue;
     const Foot foot = geometry.foot(master, point);

@@ -20,7 +20,7 @@ double RowSweeps::solve(std::span<ContactRow> rows, std::span<const std::uint32_
   double change = 0;
   count_ = 0;
   while (count_ < stop.most) {
-    // There and back: forces pass along chains of pieces.
+    // Alternating directions: forces are transmitted along chains of pieces.
     change = sweep(count_++ % 2 == 0, stop.change);
     if (!(change > stop.change)) break;
   }
@@ -95,7 +95,7 @@ double RowSweeps::sweep(bool forwards, double tolerance) {
   double most = 0;
   const auto visit = [&](std::size_t r) {
     const Ends& ends = ends_[r];
-    // A corner against a straight piece, as most: loops of a known length.
+    // A corner against a straight piece, as most rows: loops of constant length.
     const double moved = ends.count == 3
                              ? relax(rows_[r], ends, std::integral_constant<std::uint32_t, 3>{})
                              : relax(rows_[r], ends, ends.count);
@@ -112,8 +112,8 @@ double RowSweeps::sweep(bool forwards, double tolerance) {
   return most;
 }
 
-/// Sets one row's forces so that its own gap and slip vanish, as far as the bounds allow; returns
-/// by how much it moved (m). A row whose nodes are all held has nothing to say.
+/// Sets one row's forces so that its own gap and slip vanish, within the bounds; returns the
+/// displacement that this causes (m). A row whose nodes are all held is skipped.
 template <class Count>
 double RowSweeps::relax(Lean& row, const Ends& ends, Count count) {
   if (!(row.normalResponse > 0)) return 0;
