@@ -41,8 +41,8 @@ void ExplicitDynamics::requireUpright(const Model& model, double dt, double corr
     for (std::size_t e = begin; e < end; ++e) {
       if (determinant(deformationGradient(model, ElementId(e))) > 0) continue;
       std::ostringstream text;
-      text << nameOf(model, ElementId(e), previousPosition_)
-           << " is turned inside out in a step of " << dt << " s; take a shorter one.";
+      text << nameOf(model, ElementId(e), previousPosition_) << " is inverted in a step of " << dt
+           << " s; take a shorter one.";
       throw RunError(text.str());
     }
   };
@@ -71,7 +71,7 @@ void ExplicitDynamics::refuseElement(const Model& model) {
   while (determinant(deformationGradient(model, ElementId(e))) > 0) ++e;
   const bool inverted = determinant(deformationGradient(model, ElementId(e))) <= 0;
   throw RunError(nameOf(model, ElementId(e), model.nodes.position) +
-                 (inverted ? " is turned inside out." : " has a value that is not finite."));
+                 (inverted ? " is inverted." : " has a value that is not finite."));
 }
 
 void ExplicitDynamics::refuseNode(Model& model) {

@@ -83,7 +83,7 @@ std::string named(ComponentId a, ComponentId b) {
 [[noreturn]] void refuseMismatch(ComponentId a, ComponentId b, Vec2 at) {
   std::ostringstream text;
   text << "At (" << at.x << ", " << at.y << ") sides of " << named(a, b)
-       << " run along each other without the same ends, as bonded ones must have; give both "
+       << " coincide but have different ends; bonded sides must have the same ends. Give both "
           "outlines the same points there and the same size, or add one body with joints.";
   throw InputError(text.str());
 }

@@ -90,9 +90,9 @@ void requireResolved(const Cohesive& edge, double crossed, double meanLength, do
   const double ratio = critical / crossed;
   // Masses are proportional to the size squared. With a step in proportion to the size, `crossed`
   // is proportional to the size.
-  throw InputError(edge.name + ": a crack holds up to an opening of " + text(critical, " m") +
+  throw InputError(edge.name + ": a crack is cohesive up to an opening of " + text(critical, " m") +
                    ", which a step of " + text(dt, " s") + " does not resolve; a step of " +
-                   atMost(dt * std::sqrt(ratio), " s") + " would do, or elements of " +
+                   atMost(dt * std::sqrt(ratio), " s") + " is sufficient, or elements of " +
                    atMost(ratio * meanLength, " m") + " (now " + text(meanLength, " m") +
                    ") with a step in proportion.");
 }
@@ -107,10 +107,10 @@ std::string zoneSentence(double young, const Cohesive& edge, double size) {
       young / edge.strength * edge.fractureEnergy / edge.strength * std::min(1., edge.sliding);
   const double wanted = zone / tolerance::kZoneElements;
   if (size <= wanted) return {};
-  return edge.name + ": the cohesive zone " + (edge.sliding < 1 ? "of a crack that slides " : "") +
+  return edge.name + ": the cohesive zone " + (edge.sliding < 1 ? "of a sliding crack " : "") +
          "is " + text(zone, " m") + " long, less than four elements of " + text(size, " m") +
-         "; notched or cracked bodies bear too much, and elements of " + atMost(wanted, " m") +
-         " would do.";
+         "; notched or cracked bodies carry too much load; elements of " + atMost(wanted, " m") +
+         " are sufficient.";
 }
 
 /// (m²/kg) (L/2)(1/m₁ + 1/m₂) of an edge, where m is the least mass of a node with one triangle

@@ -14,7 +14,7 @@ bool allBelow(const std::vector<Id>& ids, std::size_t count) {
   return std::ranges::all_of(ids, [&](Id id) { return id.value < count; });
 }
 
-/// The same, where some may point nowhere.
+/// The same, where entries may be none().
 template <class Id>
 bool allBelowOrNone(const std::vector<Id>& ids, std::size_t count) {
   return std::ranges::all_of(ids, [&](Id id) { return id == Id::none() || id.value < count; });
@@ -24,7 +24,7 @@ bool allFinite(const std::vector<Vec2>& values) { return std::ranges::all_of(val
 
 bool isPositive(double value) { return value > 0 && std::isfinite(value); }
 
-/// Are `next` and `prev` a permutation and its inverse?
+/// True if `next` and `prev` are a permutation and its inverse.
 template <class Id>
 bool areLinks(const std::vector<Id>& next, const std::vector<Id>& prev) {
   const std::size_t count = next.size();
@@ -76,7 +76,7 @@ bool nodesAreRight(const World& world) {
          allBelow(n.component, world.model.components.size()) && motionsAreRight(world.model);
 }
 
-/// Nodes of triangles that count have a mass.
+/// Nodes of triangles that were not removed have a mass.
 bool triangleIsRight(const Model& model, std::size_t element) {
   const Triangles& t = model.triangles;
   const auto& components = model.components;

@@ -24,7 +24,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   component.brittleByPlace = !spec.places.empty() || !spec.materials.empty();
   component.name = spec.name;
   component.thickness = spec.thickness;
-  // What comes off a body touches what is left of it.
+  // A fragment has contact with the rest of its body.
   component.selfContact = spec.selfContact || component.brittle.cracks();
   component.element = spec.element;
   const std::size_t first = model.nodes.size();
@@ -52,7 +52,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   return id;
 }
 
-/// `purpose`: what is to be done with it.
+/// `purpose`: the intended operation, for the message.
 void World::requireBody(ComponentId component, const char* purpose) const {
   if (component.value < model.components.size()) {
     const Component& body = model.components[component.value];
@@ -74,7 +74,7 @@ void World::removeBody(ComponentId component) {
   stableStep = 0;
 }
 
-/// What components that have left the model leave behind. Returns the new numbers of entries.
+/// Removes the data of removed components. Returns the new numbers of entries.
 std::vector<EntryId> World::takeOff(const std::vector<std::uint8_t>& gone,
                                     std::span<const NodeId> renumbered) {
   search.forget();
@@ -135,7 +135,8 @@ void World::buildIfChanged() {
   isBuilt_ = true;
 }
 
-/// Only what may crack is looked at, and only where it is stressed nearly up to its weakest edge.
+/// Only elements that can crack are checked, and only if their stress is near the strength of their
+/// weakest edge.
 void World::watchStrengths() {
   std::vector<double>& least = fracture.leastStrength;
   least.assign(fracture.isOn() ? model.components.size() : 0, INFINITY);
@@ -152,8 +153,9 @@ double World::criticalTimeStep() const {
   return yadefrag::criticalTimeStep(model, dynamicsSettings.viscosity, threads);
 }
 
-/// Only before the first step, and when the step or the viscosity has changed or bodies came or
-/// went: a mesh that is compressed so far that this matters is the user's to watch.
+/// Checked only before the first step, and when the step or the viscosity has changed or bodies
+/// were added or removed. The reduction of the critical step in a very compressed mesh must be
+/// checked by the user.
 void World::requireStableStep(double dt) {
   const BulkViscosity& viscosity = dynamicsSettings.viscosity;
   if (dt > 0 && dt <= stableStep && viscosity == stableViscosity) return;

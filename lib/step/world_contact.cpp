@@ -1,4 +1,4 @@
-// The world's part in contact: what the search and the correction work on, and what to book.
+// World: contact; data of the search and of the correction, and energies.
 
 #include "core/tolerances/contact.hpp"
 #include "core/tolerances/step.hpp"
@@ -8,7 +8,7 @@ namespace yadefrag {
 
 double World::finestSegment() const { return shortestSegment(model, surfaces, reference); }
 
-/// One body that cannot touch itself needs neither search nor candidates.
+/// A single body that cannot touch itself needs neither search nor candidates.
 bool World::canTouch() const {
   const std::vector<ComponentId>& owners = surfaces.component;
   if (owners.empty()) return false;

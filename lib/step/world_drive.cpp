@@ -1,4 +1,4 @@
-// The world's part in prescribed motion.
+// World: prescribed motion.
 
 #include <algorithm>
 #include <cmath>
@@ -32,14 +32,15 @@ void World::prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
   const bool changed = std::any_of(nodes.begin(), nodes.end(), isNew);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::uint32_t node = nodes[i].value;
-    if (model.nodes.mass[node] == 0) continue;  // of a dropped triangle
+    if (model.nodes.mass[node] == 0) continue;  // of a removed triangle
     Vec2& present = model.nodes.velocity[node];
     const Vec2 former = present;
     model.nodes.held[node] = held;
     if (!model.nodes.motion.empty()) model.nodes.motion[node] = 0;
     if ((held & kHeldX) != 0) present.x = velocity[i].x;
     if ((held & kHeldY) != 0) present.y = velocity[i].y;
-    // The dynamics book a jump of nodes that were held before; after a rebuild they know of none.
+    // The dynamics counts the work of a velocity jump of nodes that were held before; after a
+    // rebuild it has no such nodes.
     if (changed)
       ledger.external += model.nodes.mass[node] / 2 * (dot(present, present) - dot(former, former));
   }
@@ -61,7 +62,7 @@ void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Mo
   model.motions.push_back(std::move(motion));
   const Motion& added = model.motions.back();
   for (const NodeId node : nodes) {
-    if (all.mass[node.value] == 0) continue;  // of a dropped triangle
+    if (all.mass[node.value] == 0) continue;  // of a removed triangle
     if (all.held[node.value] != held) isBuilt_ = false;
     all.held[node.value] = held;
     all.motion[node.value] = static_cast<std::uint32_t>(model.motions.size());
@@ -70,7 +71,7 @@ void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Mo
   forgetUnusedMotions();
 }
 
-/// Those that no node has any more, as a script that changes its motion in every step leaves them.
+/// Removes motions without nodes, e.g. those of a script that changes its motion in every step.
 void World::forgetUnusedMotions() {
   if (model.motions.empty()) return;
   std::vector<std::uint32_t> numbers(model.motions.size() + 1);
@@ -87,7 +88,8 @@ void World::forgetUnusedMotions() {
   if (kept == 0) model.nodes.motion = {}, model.nodes.arm = {};
 }
 
-/// Nodes that have a motion get the velocity that takes them to their place at the end of the step.
+/// Sets the velocity of nodes with a motion such that they reach their prescribed position at the
+/// end of the step.
 void World::drive(double dt) {
   Nodes& nodes = model.nodes;
   if (nodes.motion.empty()) return;

@@ -1,4 +1,4 @@
-// The world's part in rigid boundaries: outlines of bodies that are not made of elements.
+// World: rigid boundaries, which are outlines of objects without elements.
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace yadefrag {
 
 namespace {
 
-/// Without those of entries that are gone.
+/// With new numbers, and without contacts of removed entries.
 std::vector<Touch> renumbered(std::vector<Touch> touches, std::span<const EntryId> numbers) {
   for (Touch& touch : touches)
     touch.pair = {numbers[touch.pair.slave.value], numbers[touch.pair.master.value]};
@@ -21,7 +21,7 @@ std::vector<Touch> renumbered(std::vector<Touch> touches, std::span<const EntryI
   return touches;
 }
 
-/// Only their flags are needed until the next search.
+/// Only the flags are needed until the next search.
 Candidates renumbered(const Candidates& candidates, std::span<const EntryId> numbers) {
   std::vector<std::pair<SlaveMaster, std::uint8_t>> flags;
   for (std::size_t r = 0; r < candidates.slaves.size() && !candidates.outside.empty(); ++r)
@@ -47,7 +47,7 @@ Candidates renumbered(const Candidates& candidates, std::span<const EntryId> num
 
 }  // namespace
 
-/// The motion of all their nodes.
+/// The common motion of all their nodes.
 std::uint32_t World::rigidMotion() {
   std::vector<Motion>& motions = model.motions;
   const auto known = std::ranges::find(motions, Motion::kRigid, &Motion::function);
@@ -66,7 +66,7 @@ ComponentId World::addRigid(const RigidSpec& spec) {
   return id;
 }
 
-/// All but what follows from the state.
+/// Adds a rigid boundary; derived data are not updated.
 ComponentId World::appendRigid(const RigidSpec& spec) {
   BodySpec held;
   held.held.assign(spec.shape.nodes.size(), kHeldXY);
@@ -111,8 +111,8 @@ std::vector<EntryId> World::removeAllRigid() {
   return entries;
 }
 
-/// By entry: the place in `rigidNodes` of the corner at which it begins; kNoCorner: it is of a
-/// body.
+/// By entry: index in `rigidNodes` of the corner at which it begins; kNoCorner for entries of
+/// bodies.
 std::vector<std::uint32_t> World::rigidEntries() const {
   std::vector<std::uint32_t> corners(surfaces.entries(), kNoCorner);
   for (std::uint32_t i = 0; i < rigidNodes_.size(); ++i) {

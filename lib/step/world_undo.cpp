@@ -1,4 +1,4 @@
-// Back to where a step began that is refused.
+// Restores the state before a refused step.
 
 #include "step/world.hpp"
 
@@ -14,7 +14,7 @@ void World::beginUndo() {
   search.begin();
 }
 
-/// Needs no memory.
+/// Allocates no memory.
 void World::takeBack() {
   if (undo_.hasCorrected) contact.takeBack();
   search.takeBack(searchScene());

@@ -23,15 +23,15 @@ void complainOfPosition(std::size_t id, const yade::Vector3r& position) {
 
 void complainOfRadius(std::size_t id, double radius) {
   std::ostringstream text;
-  text << "Body #" << id << " has a bound that is turned inside out: its sphere's radius is "
-       << radius << " and must not be negative.";
+  text << "Body #" << id << " has an inverted bound: the radius of its sphere is " << radius
+       << "; it must not be negative.";
   throw InputError(text.str());
 }
 
 void complainOfBound(std::size_t id, const yade::Bound& bound) {
   std::ostringstream text;
-  text << "Body #" << id << " has a bound that is turned inside out or not a number: from "
-       << bound.min << " to " << bound.max << "; its shape or its orientation must be wrong.";
+  text << "Body #" << id << " has an inverted bound or one that is not a number: from " << bound.min
+       << " to " << bound.max << "; its shape or its orientation is wrong.";
   throw InputError(text.str());
 }
 
@@ -40,7 +40,7 @@ void complainOfPairs(std::size_t bodies, std::size_t mostPairs, double freeBytes
   text << "Of " << bodies << " bodies more than " << mostPairs
        << " pairs have overlapping bounds; their interactions do not fit into the "
        << freeBytes / 1e9
-       << " GB of memory that are free. Bodies lie on one another, or they or verletDist are too "
+       << " GB of free memory. Many bodies overlap, or they or verletDist are too "
           "large for the scene or its periodic cell.";
   throw RunError(text.str());
 }

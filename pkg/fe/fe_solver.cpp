@@ -128,7 +128,7 @@ void FESolver::followRigid(bool enginesAreNew) {
     areNew = rigid_.follow(*scene, world_, bodies_, rigidBodies, timeToIntegrate());
   } catch (const InputError& error) {
     throw std::invalid_argument(std::string(error.what()) +
-                                " FESolver(rigidBodies=False) lets bodies go through it.");
+                                " FESolver(rigidBodies=False) disables contact with it.");
   }
   tell(rigid_.takeSentences());
   if ((enginesAreNew || areNew) && rigid_.anyMovable(*scene))

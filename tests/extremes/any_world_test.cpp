@@ -152,7 +152,7 @@ class SceneRun {
            (isPenalty ? std::max(0., world.ledger.contact) : 0);
   }
 
-  /// In a complaint, or at the end of the run, mostly of an element turned inside out.
+  /// In a complaint, or at the end of the run, mostly about an inverted element.
   [[nodiscard]] bool hasSaidSo() const { return !goesOn_ || !any_.world.complaints.empty(); }
 
   void look() {

@@ -183,7 +183,7 @@ def test_supersonicBlowEndsWithASentence(collider, isBehind):
     if isBehind:
         O.engines = [O.engines[0], *O.engines[2:], O.engines[1]]
     asked = 0
-    with pytest.raises(RuntimeError, match='turned inside out|contact moves a surface node'):
+    with pytest.raises(RuntimeError, match='is inverted|contact moves a surface node'):
         for _ in range(1000):
             try:
                 O.step()
@@ -285,7 +285,7 @@ def test_fractureEnergyOfNextToNothing():
     with pytest.warns(UserWarning, match='less than four elements'):
         solver, _ = brittle(1e6, 1e-9)
     before = solver.nodes
-    with pytest.raises(ValueError, match='^fractureEnergy is 1e-09 J/m² .* would do'):
+    with pytest.raises(ValueError, match='^fractureEnergy is 1e-09 J/m² .* is sufficient'):
         O.step()
     assert np.array_equal(solver.nodes, before)
     O.reset()

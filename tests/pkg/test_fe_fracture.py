@@ -57,7 +57,7 @@ def test_openingThatNoStepResolvesIsRefused():
     with pytest.warns(UserWarning):
         impact(fractureEnergy=1e-6)
     with pytest.raises((ValueError, RuntimeError), 
-                       match='^fractureEnergy is .*a step of .* would do'):
+                       match='^fractureEnergy is .*a step of .* is sufficient'):
         O.step()
 
 

@@ -85,7 +85,7 @@ TEST(EnergyWatch, CracksAreToldApart) {
   EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   ledger.fracture = -3;
-  EXPECT_TRUE(said(watch, stepOf(ledger)).find("cracks that still hold have created 3 J") !=
+  EXPECT_TRUE(said(watch, stepOf(ledger)).find("cohesive cracks have created 3 J") !=
               std::string::npos);
   watch.split = 7;
   ledger.fracture = -7;
@@ -125,7 +125,7 @@ TEST(EnergyWatch, SumsUpWhereBodiesMoveWithMoreThanThereIs) {
   EXPECT_EQ(saidOf(watch, 110.5, 50), "") << "looked at already";
   EXPECT_EQ(saidOf(watch, 112, -10),
             "Step 7, time 0.5 s: the time integration has created 2 J, 2 % of the bodies' energy; "
-            "take a shorter step: in one of 0.1 s the bodies turn or deform too much.");
+            "take a shorter step: in one of 0.1 s the bodies rotate or deform too much.");
   EXPECT_EQ(saidOf(watch, 130, -26.1), "");
   EXPECT_NE(saidOf(watch, 150, -45.5), "") << "doubled";
 }
@@ -182,7 +182,7 @@ TEST(EnergyWatch, TellsOfDepth) {
   };
   EXPECT_EQ(deep(.09), "");
   EXPECT_EQ(deep(.2),
-            "Step 7, time 0.5 s: bodies are in one another by 0.2 m, 0.2 of the shortest segment; "
+            "Step 7, time 0.5 s: bodies overlap by 0.2 m, 0.2 of the shortest segment; "
             "take the Lagrangian correction, or a larger penalty factor.");
   EXPECT_EQ(deep(.3), "");
   EXPECT_NE(deep(.5), "");
@@ -220,7 +220,7 @@ TEST(EnergyWatch, HealthyBlowsAreQuiet) {
 TEST(EnergyWatch, ASoftPenaltyIsTold) {
   const World world = blow({Correction::kPenalty, 1, 1e-4}, 400);
   ASSERT_FALSE(world.complaints.empty());
-  EXPECT_TRUE(world.complaints.front().find("bodies are in one another by") != std::string::npos)
+  EXPECT_TRUE(world.complaints.front().find("bodies overlap by") != std::string::npos)
       << world.complaints.front();
   EXPECT_LT(world.complaints.size(), 8U);
 }
