@@ -102,21 +102,21 @@ void keepFlags(Candidates& candidates, const ContactSurfaces& surfaces,
 }
 
 void removeGone(Candidates& candidates, const ContactSurfaces& surfaces) {
-  Candidates left;
+  Candidates kept;
   for (std::size_t r = 0; r < candidates.slaves.size(); ++r) {
     if (surfaces.isGone(candidates.slaves[r])) continue;
-    const auto begin = static_cast<std::uint32_t>(left.masters.size());
+    const auto begin = static_cast<std::uint32_t>(kept.masters.size());
     for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
       if (surfaces.isGone(candidates.masters[c])) continue;
-      left.masters.push_back(candidates.masters[c]);
-      if (!candidates.outside.empty()) left.outside.push_back(candidates.outside[c]);
+      kept.masters.push_back(candidates.masters[c]);
+      if (!candidates.outside.empty()) kept.outside.push_back(candidates.outside[c]);
     }
-    if (left.masters.size() == begin) continue;
-    left.slaves.push_back(candidates.slaves[r]);
-    left.offsets.push_back(begin);
+    if (kept.masters.size() == begin) continue;
+    kept.slaves.push_back(candidates.slaves[r]);
+    kept.offsets.push_back(begin);
   }
-  left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
-  candidates = std::move(left);
+  kept.offsets.push_back(static_cast<std::uint32_t>(kept.masters.size()));
+  candidates = std::move(kept);
 }
 
 }  // namespace yadefrag

@@ -24,12 +24,12 @@ struct Candidates {
   std::vector<std::uint8_t> outside;
   /// By row: distance (m) that the fastest node must travel before the row can have an active
   /// (LocalSearch::scan); empty: unknown. Derived data.
-  std::vector<double> asleep;
+  std::vector<double> idleDistance;
 
   [[nodiscard]] std::size_t size() const { return masters.size(); }
   void clear();
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kSearch, slaves, offsets, masters, outside, asleep);
+    footprint.add(Use::kSearch, slaves, offsets, masters, outside, idleDistance);
   }
 };
 

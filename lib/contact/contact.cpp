@@ -23,7 +23,7 @@ bool byPair(const ContactRow& a, const ContactRow& b) { return pairOf(a) < pairO
 /// (m) Penetration above which the system is solved again.
 double worthwhile(const ContactStep& step) {
   const double remainder = step.rubble ? tolerance::kRubbleRemainder : tolerance::kRemainder;
-  return std::max(remainder * step.move, tolerance::kPenetrationLeft * step.shortest);
+  return std::max(remainder * step.move, tolerance::kRemainingPenetration * step.shortest);
 }
 
 /// True if two pieces meet in a joint that does not turn towards the void.
@@ -101,7 +101,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
       scan(model, surfaces, step, reach);
     }
   }
-  if (step.rubble && !gapsAreKnown) lookAgain(model, surfaces, step);
+  if (step.rubble && !gapsAreKnown) rescan(model, surfaces, step);
   if (!rows_.empty() && !gapsAreKnown) updateGaps(model, surfaces, step);
   finish(model, surfaces, step);
 }
@@ -129,7 +129,7 @@ void Contact::clearForces() {
 void Contact::takeBack() {
   if (!hasBegun_) return;
   candidates.outside.swap(formerOutside_);
-  candidates.asleep.clear();
+  candidates.idleDistance.clear();
   if (isFinished_) touches.swap(formerTouches_);
   rows_.swap(formerRows_);
   now_ = former_;
@@ -141,15 +141,14 @@ void Contact::takeBack() {
 
 /// Penetrations caused by the last correction of a step are left to the next one, which needs the
 /// information that the slaves came from outside.
-void Contact::lookAgain(const Model& model, const ContactSurfaces& surfaces,
-                        const ContactStep& step) {
+void Contact::rescan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   if (addRows(model, surfaces, step)) releaseUnsolved();
 }
 
 /// Rows added after the last solution have not moved a node: their force is zero.
 void Contact::releaseUnsolved() {
   for (ContactRow& row : rows_)
-    if (!std::isfinite(row.left)) row.normalForce = row.tangentForce = 0;
+    if (!std::isfinite(row.excess)) row.normalForce = row.tangentForce = 0;
 }
 
 /// `moved` (m): upper bound of the displacement of any node since the last scan, without
@@ -283,15 +282,16 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
       std::lower_bound(touches.begin(), touches.end(), active.pair,
                        [](const Touch& known, SlaveMaster pair) { return known.pair < pair; });
   if (former != touches.end() && former->pair == active.pair) {
-    row.allowed = std::min(
-        0., former->allowed + tolerance::kOverlapDecay * std::min(-former->allowed, step.move));
+    row.toleratedGap =
+        std::min(0., former->toleratedGap +
+                         tolerance::kOverlapDecay * std::min(-former->toleratedGap, step.move));
     row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;
     return;
   }
   // An overlap from before the step (missed by the flags, or beside an end) must not become
   // velocity at once.
   const double gap = before.foot(row.master, before.slave(row.slave)).gap;
-  row.allowed = std::min(0., gap + tolerance::kOverlapDecay * step.move);
+  row.toleratedGap = std::min(0., gap + tolerance::kOverlapDecay * step.move);
 }
 
 /// Computes the exact gaps at the corrected positions, and transforms them back to the predicted
@@ -303,8 +303,8 @@ void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces,
   withGeometry(surfaces, model.nodes.position, [&](const auto& geometry) {
     for (ContactRow& row : rows_) {
       const double gap = gapOf(row, geometry);
-      now_.maxPenetration = std::max(now_.maxPenetration, row.allowed - gap);
-      if (std::isfinite(row.left)) row.left = row.allowed - gap;
+      now_.maxPenetration = std::max(now_.maxPenetration, row.toleratedGap - gap);
+      if (std::isfinite(row.excess)) row.excess = row.toleratedGap - gap;
       row.gap = gap - dot(relative(row, displacement_), row.normal);
     }
   });
@@ -355,12 +355,12 @@ void Contact::finish(Model& model, const ContactSurfaces& surfaces, const Contac
   const StageTimer timer(step.times, &StageTimes::localSearch);
   formerTouches_.clear();
   for (const ContactRow& row : rows_)
-    formerTouches_.push_back({pairOf(row), row.normalForce, row.tangentForce, row.allowed});
+    formerTouches_.push_back({pairOf(row), row.normalForce, row.tangentForce, row.toleratedGap});
   touches.swap(formerTouches_);
   isFinished_ = true;
-  const double left = step.rubble ? tolerance::kLeftInside * step.reach : 0;
+  const double restored = step.rubble ? tolerance::kRestoredDepth * step.reach : 0;
   if (entry_ == Entry::kFlags && search_.anyNear())
-    search_.settle(candidates, surfaces, model.nodes.position, known_, left);
+    search_.settle(candidates, surfaces, model.nodes.position, known_, restored);
 }
 
 void Contact::addTo(Footprint& footprint) const {

@@ -114,7 +114,7 @@ class Contact {
                 const PieceGeometry& before, const Active& active, const ContactStep& step) const;
   void updateGaps(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void move(Model& model, const ContactStep& step);
-  void lookAgain(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
+  void rescan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void releaseUnsolved();
   void touch(NodeId node);
   void sumForces();

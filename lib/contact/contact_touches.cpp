@@ -46,7 +46,7 @@ void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec
           std::lower_bound(touches.begin(), touches.end(), pair,
                            [](const Touch& t, const SlaveMaster& p) { return t.pair < p; });
       if (at != touches.end() && at->pair == pair)
-        at->allowed = std::min(at->allowed, gap);
+        at->toleratedGap = std::min(at->toleratedGap, gap);
       else
         touches.insert(at, {pair, 0, 0, gap});
     }

@@ -12,7 +12,7 @@ namespace {
 
 /// True if a row penetrates, or pushes a slave farther out than necessary.
 bool isOpen(const ContactRow& row, double tolerance) {
-  return row.left > tolerance || (row.left < -tolerance && row.normalForce > 0);
+  return row.excess > tolerance || (row.excess < -tolerance && row.normalForce > 0);
 }
 
 double weighted(Vec2 a, Vec2 mobile, Vec2 b) { return a.x * mobile.x * b.x + a.y * mobile.y * b.y; }
@@ -116,7 +116,7 @@ void Lagrange::setGaps(std::span<const ContactRow> rows, Members members, BoxPro
   start_.resize(unknowns);
   for (const std::uint32_t r : members) {
     const std::uint32_t normal = normalOf_[r], tangent = tangentOf(r);
-    problem.constant[normal] = rows[r].gap - rows[r].allowed;
+    problem.constant[normal] = rows[r].gap - rows[r].toleratedGap;
     problem.lower[normal] = 0;
     problem.upper[normal] = kNoBound;
     start_[normal] = rows[r].normalForce;
@@ -155,7 +155,7 @@ void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& s
       start_[i] = std::clamp(result->lambda[i], problem.lower[i], problem.upper[i]);
   }
   for (const std::uint32_t r : members) {
-    rows[r].left = 0;
+    rows[r].excess = 0;
     rows[r].normalForce = result->lambda[normalOf_[r]];
     if (tangentOf(r) == kNone) continue;
     const double most = rows[r].friction * rows[r].normalForce;
@@ -207,7 +207,7 @@ void penalize(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& 
       normal += weighted(row.normal, mobile, row.normal);
       tangent += weighted(row.tangent(), mobile, row.tangent());
     }
-    row.normalForce = normal > 0 ? factor * std::max(0., row.allowed - row.gap) / normal : 0;
+    row.normalForce = normal > 0 ? factor * std::max(0., row.toleratedGap - row.gap) / normal : 0;
     const double most = row.friction * row.normalForce;
     row.tangentForce = tangent > 0 ? std::clamp(-factor * row.slip / tangent, -most, most) : 0;
   }

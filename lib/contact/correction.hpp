@@ -31,7 +31,7 @@ class Lagrange {
   void setRows(std::span<const ContactRow> rows, const Nodes& nodes, const StepLength& step,
                double drag);
   /// Computes the forces of all rows, starting from their present values. Groups without a
-  /// penetration (`left`) above `tolerance` (m) keep their forces. `nodes`, `step`, `drag` as in
+  /// penetration (`excess`) above `tolerance` (m) keep their forces. `nodes`, `step`, `drag` as in
   /// `setRows`.
   Outcome solve(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
                 double tolerance);

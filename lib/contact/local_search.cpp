@@ -58,8 +58,8 @@ void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
   if (start) start_ = *start;
   const std::size_t rows = candidates.slaves.size();
   way_ += moved;
-  if (candidates.asleep.size() != rows || !std::isfinite(way_))
-    candidates.asleep.assign(rows, 0), way_ = 0;
+  if (candidates.idleDistance.size() != rows || !std::isfinite(way_))
+    candidates.idleDistance.assign(rows, 0), way_ = 0;
   near_.clear();
   parts_.resize(static_cast<std::size_t>(std::max(threads, 1)));
   const int parts = withGeometry(surfaces, positions, [&](const auto& geometry) {
@@ -84,10 +84,10 @@ void LocalSearch::scanRows(Candidates& candidates, const ContactSurfaces& surfac
   const Geometry before(surfaces, start_.positions, pointsBefore_);
   part.near.clear();
   for (std::size_t r = begin; r < end; ++r) {
-    if (candidates.asleep[r] > way_ + reach_) continue;
+    if (candidates.idleDistance[r] > way_ + reach_) continue;
     const std::size_t first = part.near.size();
     const auto row = static_cast<std::uint32_t>(r);
-    candidates.asleep[r] = way_ + scanRow(candidates, geometry, row, chord, part.near);
+    candidates.idleDistance[r] = way_ + scanRow(candidates, geometry, row, chord, part.near);
     if (byPath_ && part.near.size() > first)
       findEnterable(candidates, before, std::span(part.near).subspan(first));
   }
@@ -118,9 +118,10 @@ void LocalSearch::findEnterable(const Candidates& candidates, const Geometry& be
 template <class Geometry>
 void LocalSearch::findChords(const Candidates& candidates, const ContactSurfaces& surfaces,
                              const Geometry& geometry) {
-  const auto isAwake = [&](double asleep) { return asleep <= way_ + reach_; };
-  const auto awake = static_cast<std::size_t>(std::ranges::count_if(candidates.asleep, isAwake));
-  const std::size_t count = awake > surfaces.entries() / 4 ? surfaces.entries() : 0;
+  const auto mustCheck = [&](double idleDistance) { return idleDistance <= way_ + reach_; };
+  const auto checked =
+      static_cast<std::size_t>(std::ranges::count_if(candidates.idleDistance, mustCheck));
+  const std::size_t count = checked > surfaces.entries() / 4 ? surfaces.entries() : 0;
   chords_.resize(count);
   forEachPart(count, threads_, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t e = begin; e < end; ++e) chords_[e] = chordOf(geometry, EntryId(e));
@@ -170,12 +171,12 @@ void LocalSearch::findActives(const Candidates& candidates, const ContactSurface
                               std::span<const Vec2> positions, double deepest,
                               std::vector<Active>& actives, std::span<const SlaveMaster> known,
                               double moved) {
-  const Asked asked{candidates, surfaces, deepest, known, moved};
+  const Query query{candidates, surfaces, deepest, known, moved};
   const int parts = withGeometry(surfaces, positions, [&]<class Geometry>(const Geometry& plain) {
     findPoints(plain, chords_.size(), points_);
     const Geometry geometry(surfaces, positions, points_);
     return forEachPart(near_.size(), threads_, [&](std::size_t begin, std::size_t end, int part) {
-      tryRows(asked, geometry, beginOfRow(begin), beginOfRow(end),
+      tryRows(query, geometry, beginOfRow(begin), beginOfRow(end),
               parts_[static_cast<std::size_t>(part)]);
     });
   });
@@ -192,19 +193,19 @@ std::size_t LocalSearch::beginOfRow(std::size_t at) const {
 }
 
 template <class Geometry>
-void LocalSearch::tryRows(const Asked& asked, const Geometry& geometry, std::size_t from,
+void LocalSearch::tryRows(const Query& query, const Geometry& geometry, std::size_t from,
                           std::size_t to, Part& part) const {
   part.actives.clear();
   const std::span<const Near> near(near_);
   for (std::size_t begin = from, end = from; begin < to; begin = end) {
-    const EntryId slave = asked.slaveOf(near[begin]);
+    const EntryId slave = query.slaveOf(near[begin]);
     while (end < to && near[end].row == near[begin].row) ++end;
     part.trials.clear();
     const std::span<const Near> row = near.subspan(begin, end - begin);
     if (byPath_)
-      tryByPath(asked, geometry, row, part);
+      tryByPath(query, geometry, row, part);
     else
-      tryByFlags(asked, geometry, row, part);
+      tryByFlags(query, geometry, row, part);
     for (const Trial& trial : part.trials)
       if (trial.active) part.actives.push_back({{slave, trial.master}, trial.foot});
   }
@@ -212,45 +213,45 @@ void LocalSearch::tryRows(const Asked& asked, const Geometry& geometry, std::siz
 
 /// Most slaves are not behind the line of any master that they can cross.
 template <class Geometry>
-void LocalSearch::tryByPath(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
+void LocalSearch::tryByPath(const Query& query, const Geometry& geometry, std::span<const Near> row,
                             Part& part) const {
-  const EntryId slave = asked.slaveOf(row.front());
+  const EntryId slave = query.slaveOf(row.front());
   const Vec2 point = geometry.slave(slave);
   bool allKnown = true;
   const auto addTrials = [&](bool canEnter) {
     for (const Near& near : row) {
-      if (near.canEnter != canEnter || near.clear > asked.moved) continue;
-      const EntryId master = asked.candidates.masters[near.candidate];
+      if (near.canEnter != canEnter || near.clear > query.moved) continue;
+      const EntryId master = query.candidates.masters[near.candidate];
       // The quick test of an arc does not cover points past an end that is shared with a straight
       // piece.
       const bool quick =
-          !geometry.isArc(master) || isArcAmongArcs(asked.surfaces, geometry, master);
+          !geometry.isArc(master) || isArcAmongArcs(query.surfaces, geometry, master);
       if (quick && !geometry.mayPenetrate(master, point)) continue;
       part.trials.push_back({master, {}, canEnter, false, false, false});
-      allKnown = allKnown && asked.isKnown({slave, master});
+      allKnown = allKnown && query.isKnown({slave, master});
     }
   };
   addTrials(true);
   if (allKnown) return part.trials.clear();
-  const Geometry before(asked.surfaces, start_.positions, pointsBefore_);
+  const Geometry before(query.surfaces, start_.positions, pointsBefore_);
   const SlaveStep<Geometry> step{before, geometry, slave, touchesOf(start_.touches, slave),
                                  start_.depth};
-  if (!findEntered(asked.surfaces, step, part.trials, asked.deepest)) return part.trials.clear();
+  if (!findEntered(query.surfaces, step, part.trials, query.deepest)) return part.trials.clear();
   addTrials(false);
   std::ranges::sort(part.trials, {}, &Trial::master);
-  decideByPath(asked.surfaces, step, part.trials);
+  decideByPath(query.surfaces, step, part.trials);
 }
 
 /// Independently of the rules, masters without a flag are not activated unless there is an arc in
 /// the row.
 template <class Geometry>
-void LocalSearch::tryByFlags(const Asked& asked, const Geometry& geometry,
+void LocalSearch::tryByFlags(const Query& query, const Geometry& geometry,
                              std::span<const Near> row, Part& part) const {
-  const Candidates& candidates = asked.candidates;
-  const EntryId slave = asked.slaveOf(row.front());
+  const Candidates& candidates = query.candidates;
+  const EntryId slave = query.slaveOf(row.front());
   const Vec2 point = geometry.slave(slave);
   const auto isKnown = [&](const Near& near) {
-    return asked.isKnown({slave, candidates.masters[near.candidate]});
+    return query.isKnown({slave, candidates.masters[near.candidate]});
   };
   if (std::ranges::all_of(row, isKnown)) return;
   bool anyOutside = false, anyNear = false;
@@ -261,12 +262,12 @@ void LocalSearch::tryByFlags(const Asked& asked, const Geometry& geometry,
     anyNear = anyNear || arc || geometry.mayPenetrate(master, point);
   }
   if (!anyOutside || !anyNear) return;
-  const SlaveNormals normals = slaveNormals(asked.surfaces, geometry, slave);
+  const SlaveNormals normals = slaveNormals(query.surfaces, geometry, slave);
   bool anyInside = false;
   for (const Near& near : row) {
     const EntryId master = candidates.masters[near.candidate];
     // The quick test saves the iteration.
-    if (isArcAmongArcs(asked.surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
+    if (isArcAmongArcs(query.surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
       continue;
     const Foot foot = geometry.foot(master, point);
     const bool opposed = normals.oppose(foot.normal);
@@ -275,14 +276,14 @@ void LocalSearch::tryByFlags(const Asked& asked, const Geometry& geometry,
         {master, foot, candidates.outside[near.candidate] != 0, opposed, false, true});
   }
   if (anyInside)
-    part.rules.decide(asked.surfaces, geometry, part.trials, asked.deepest, reach_);
+    part.rules.decide(query.surfaces, geometry, part.trials, query.deepest, reach_);
   else
     part.trials.clear();
 }
 
 void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces,
                          std::span<const Vec2> positions, std::span<const SlaveMaster> touched,
-                         double left) const {
+                         double tolerated) const {
   withGeometry(surfaces, positions, [&](const auto& geometry) {
     auto next = touched.begin();
     for (const Near& near : near_) {
@@ -290,7 +291,7 @@ void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces
       while (next != touched.end() && *next < pair) ++next;
       const bool active = next != touched.end() && *next == pair;
       std::uint8_t& outside = candidates.outside[near.candidate];
-      const double least = outside != 0 ? -left : 0;
+      const double least = outside != 0 ? -tolerated : 0;
       const double gap = geometry.foot(pair.master, geometry.slave(pair.slave)).gap;
       outside = active || gap >= least ? 1 : 0;
     }

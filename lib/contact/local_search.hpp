@@ -52,10 +52,10 @@ class LocalSearch {
 
   /// Sets the outside flags of the near pairs after the step, in which `touched` (ascending) were
   /// active: those stay outside, independently of rounding, and so do pairs that were outside and
-  /// are inside by no more than `left` (m).
+  /// are inside by no more than `tolerated` (m).
   void settle(Candidates& candidates, const ContactSurfaces& surfaces,
               std::span<const Vec2> positions, std::span<const SlaveMaster> touched,
-              double left = 0) const;
+              double tolerated = 0) const;
 
   [[nodiscard]] bool anyNear() const { return !near_.empty(); }
   void addTo(Footprint& footprint) const {
@@ -74,7 +74,7 @@ class LocalSearch {
     double clear;   ///< m, displacement of all nodes up to which the slave is in front of the piece
   };
   /// The arguments of `findActives`.
-  struct Asked {
+  struct Query {
     const Candidates& candidates;
     const ContactSurfaces& surfaces;
     double deepest;
@@ -110,13 +110,13 @@ class LocalSearch {
                      std::span<Near> row) const;
   [[nodiscard]] std::size_t beginOfRow(std::size_t at) const;
   template <class Geometry>
-  void tryRows(const Asked& asked, const Geometry& geometry, std::size_t from, std::size_t to,
+  void tryRows(const Query& query, const Geometry& geometry, std::size_t from, std::size_t to,
                Part& part) const;
   template <class Geometry>
-  void tryByPath(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
+  void tryByPath(const Query& query, const Geometry& geometry, std::span<const Near> row,
                  Part& part) const;
   template <class Geometry>
-  void tryByFlags(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
+  void tryByFlags(const Query& query, const Geometry& geometry, std::span<const Near> row,
                   Part& part) const;
 
   double way_ = 0;    // m, distance travelled by the fastest node since the candidates were found

@@ -10,8 +10,8 @@
 
 namespace yadefrag {
 
-/// `before`: positions xⁿ. The row's gap is that of the active; its `allowed` is 0, its friction is
-/// not set.
+/// `before`: positions xⁿ. The row's gap is that of the active; its `toleratedGap` is 0, its
+/// friction is not set.
 ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
                    const Active& active);
 

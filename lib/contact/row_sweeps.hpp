@@ -49,7 +49,7 @@ class RowSweeps {
 
  private:
   /// A row in the form for the sweeps: only the data that they read and write.
-  struct Lean {
+  struct SweepRow {
     std::array<double, 5> weight;
     std::array<Vec2, 5> perForce;  // m/N, by axis: displacement of the node per force
     Vec2 normal;
@@ -71,13 +71,13 @@ class RowSweeps {
   void begin(std::span<const ContactRow> rows, std::span<const std::uint32_t> members,
              const Nodes& nodes, const StepLength& step, double drag);
   std::uint32_t numberOf(NodeId node);
-  void push(const Lean& row, const Ends& ends, Vec2 force);
+  void push(const SweepRow& row, const Ends& ends, Vec2 force);
   template <class Count>
-  double relax(Lean& row, const Ends& ends, Count count);
+  double relax(SweepRow& row, const Ends& ends, Count count);
   double sweep(bool forwards, double tolerance);
   void findRowsOfNodes();
 
-  std::vector<Lean> rows_;
+  std::vector<SweepRow> rows_;
   std::vector<Ends> ends_;              // nodes of the rows
   std::vector<std::uint32_t> all_;      // 0, 1, 2, …
   std::vector<NodeId> nodes_;           // nodes with a row

@@ -11,7 +11,7 @@ namespace yadefrag {
 struct Touch {
   SlaveMaster pair;
   double normalForce, tangentForce;  ///< N, start values of the next solution
-  double allowed;                    ///< m, ≤ 0: the rest of an overlap older than the contact
+  double toleratedGap;               ///< m, ≤ 0: the rest of an overlap older than the contact
 };
 
 /// The contacts of a slave among `touches` (by pair).

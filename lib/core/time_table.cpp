@@ -13,7 +13,7 @@ TimeTable::TimeTable(std::vector<double> times, std::vector<double> values)
     sums_[i] = sums_[i - 1] + (times_[i] - times_[i - 1]) * (values_[i - 1] + values_[i]) / 2;
 }
 
-bool TimeTable::isRight(const std::vector<double>& times, const std::vector<double>& values) {
+bool TimeTable::isValid(const std::vector<double>& times, const std::vector<double>& values) {
   const auto isFinite = [](double v) { return std::isfinite(v); };
   return !times.empty() && times.size() == values.size() && std::ranges::all_of(times, isFinite) &&
          std::ranges::all_of(values, isFinite) &&

@@ -15,7 +15,7 @@ class TimeTable {
 
   /// True if there is at least one value, as many values as times, all are finite, and the times
   /// ascend.
-  [[nodiscard]] static bool isRight(const std::vector<double>& times,
+  [[nodiscard]] static bool isValid(const std::vector<double>& times,
                                     const std::vector<double>& values);
 
   [[nodiscard]] const std::vector<double>& times() const { return times_; }

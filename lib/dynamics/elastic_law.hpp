@@ -52,12 +52,12 @@ inline double contract(const Matrix2& a, const Matrix2& b) {
 }
 
 /// Parameters of the stress check of brittle elements.
-struct StressLook {
+struct StressLimit {
   double shearWeight;        ///< 1/β²
   double friction, incline;  ///< μ, √(1 + μ²)
   double squared;            ///< Pa², limit of the squared measure; infinite: no check
 
-  StressLook(double shearFactor, double slope, double squaredMeasure)
+  StressLimit(double shearFactor, double slope, double squaredMeasure)
       : shearWeight(1 / (shearFactor * shearFactor)),
         friction(slope),
         incline(std::sqrt(1 + slope * slope)),
@@ -69,7 +69,7 @@ struct StressLook {
 /// stress. The effective traction is not greater in any direction (`largestTraction` in
 /// fracture/separation.hpp). The measure is convex, so that this is also true for averages.
 [[gnu::always_inline]] inline bool isStressed(const Matrix2& f, double lame, double shear,
-                                              const StressLook& look) {
+                                              const StressLimit& look) {
   const double a = f.xx + f.yy;
   const double b = f.yx - f.xy;
   const double c = f.xx - f.yy;

@@ -28,7 +28,7 @@ Chunk chunkOf(const Component& c) {
   chunk.strength = c.brittle.cracks() ? c.brittle.tensileStrength : 0;
   chunk.shearFactor = c.brittle.cracks() ? c.brittle.shearFactor : 0;
   chunk.friction = c.brittle.cracks() ? c.friction : 0;
-  chunk.squaredLook = kNever;
+  chunk.squaredStressLimit = kNever;
   return chunk;
 }
 
@@ -170,9 +170,9 @@ bool ElementChunks::watch(const std::vector<double>& leastStrength) {
       for (std::size_t c = chunk.firstComponent;
            c <= chunk.lastComponent && c < leastStrength.size(); ++c)
         if (leastStrength[c] > 0) least = std::min(least, leastStrength[c]);
-    const double look = tolerance::kStrengthLook * least;
-    chunk.squaredLook = look * look;
-    any = any || chunk.squaredLook < kNever;
+    const double look = tolerance::kStrengthCheck * least;
+    chunk.squaredStressLimit = look * look;
+    any = any || chunk.squaredStressLimit < kNever;
   }
   return any;
 }

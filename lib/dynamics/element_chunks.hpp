@@ -47,7 +47,7 @@ struct Chunk {
   double strength, shearFactor, friction;
   /// (Pa²) Elements whose squared stress measure reaches this value are reported as stressed;
   /// infinite: no check.
-  double squaredLook;
+  double squaredStressLimit;
   std::uint32_t firstComponent, lastComponent;  ///< `lastComponent` is included
   std::uint32_t firstElement, lastElement;
   std::uint32_t firstLanes, lastLanes;

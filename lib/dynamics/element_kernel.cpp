@@ -16,7 +16,7 @@ template <bool kWatched, bool kMixed>
                                                      const ElementLaws* laws, Corners& c) {
   const double chunkLame = chunk.lame;
   const double chunkShear = chunk.shear;
-  const StressLook look(chunk.shearFactor, chunk.friction, chunk.squaredLook);
+  const StressLimit look(chunk.shearFactor, chunk.friction, chunk.squaredStressLimit);
   int flat = 0;
   int stressed = 0;
 #pragma omp simd reduction(+ : flat, stressed)

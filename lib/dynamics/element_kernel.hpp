@@ -22,7 +22,7 @@ bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes
                       const ElementLaws* laws, const Vec2* position, Vec2* force);
 
 /// The same, with the same bits. It also appends, in ascending order, the ranges of up to kLanes
-/// elements of which at least one is stressed (`Chunk::squaredLook`).
+/// elements of which at least one is stressed (`Chunk::squaredStressLimit`).
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const ElementLaws* laws, const Vec2* position, Vec2* force,
                       std::vector<ElementRange>& stressed);

@@ -33,9 +33,9 @@ double leastHeight(const Triangles& triangles) {
 /// v ← kept·v + (rate/m)·f + fall, x ← x + Δt v
 struct ExplicitDynamics::Update {
   double dt, kept, rate;
-  double swift;      // m/s
-  Vec2 fall;         // m/s
-  double outerPart;  // of Δv: duration of external forces
+  double largeSpeed;  // m/s
+  Vec2 fall;          // m/s
+  double outerPart;   // of Δv: duration of external forces
   std::span<const Vec2> outer, load;
   int threads;
 };
@@ -97,7 +97,7 @@ void ExplicitDynamics::drop(std::span<const NodeId> nodes) {
   for (const NodeId node : nodes) heldVelocity_[node.value] = {};
 }
 
-void ExplicitDynamics::watchStress(std::vector<double> leastStrengthByComponent) {
+void ExplicitDynamics::setStressLimits(std::vector<double> leastStrengthByComponent) {
   leastStrength_ = std::move(leastStrengthByComponent);
   watching_ = elements_.watch(leastStrength_);
 }
@@ -112,7 +112,7 @@ void ExplicitDynamics::smoothStrains(const Model& model, std::size_t part, std::
       if (chunk.element != ElementKind::kSmoothed) continue;
       fetchNodes(elements_, chunk, model.nodes.position, scratch.values.data());
       if (!smoothing_.sum(set_, elements_, chunk, scratch.values.data(), scratch.stressed))
-        lookAtFlat(model, chunk, scratch);
+        handleFlat(model, chunk, scratch);
     }
   });
 #pragma omp barrier
@@ -136,10 +136,10 @@ void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
     smoothing_.addForces(set_, elements_, chunk, model.nodes.mass, scratch.room, force);
   else {
     const bool upright =
-        std::isfinite(chunk.squaredLook)
+        std::isfinite(chunk.squaredStressLimit)
             ? addElasticForces(set_, chunk, lanes, laws, position, force, scratch.stressed)
             : addElasticForces(set_, chunk, lanes, laws, position, force);
-    if (!upright) lookAtFlat(model, chunk, scratch);
+    if (!upright) handleFlat(model, chunk, scratch);
   }
   if (viscosity.isOn()) {
     Vec2* velocity = force + elements_.mostNodes;
@@ -165,7 +165,7 @@ void ExplicitDynamics::sumShared(const BulkViscosity& viscosity, NodeId begin, N
 
 /// Moves held directions at their prescribed velocity. Returns the node's previous velocity, which
 /// may differ from the prescribed one: that change is work of the prescribed motion, too.
-Vec2 ExplicitDynamics::holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity) {
+Vec2 ExplicitDynamics::applyHeld(const Nodes& nodes, std::size_t node, Vec2& velocity) {
   Vec2 before = nodes.velocity[node];
   for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}})
     if ((nodes.held[node] & flag) != 0) {
@@ -180,10 +180,10 @@ Vec2 ExplicitDynamics::holdBack(const Nodes& nodes, std::size_t node, Vec2& velo
 template <bool kForced>
 void ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begin,
                             std::size_t end) {
-  const double slow = std::min(speedLimit_, update.swift);
+  const double slow = std::min(speedLimit_, update.largeSpeed);
   const double squaredSlow = slow * slow, squaredLimit = speedLimit_ * speedLimit_;
-  const double squaredSwift = update.swift * update.swift;
-  bool good = true, faster = false, swift = false;
+  const double squaredSwift = update.largeSpeed * update.largeSpeed;
+  bool good = true, faster = false, largeSpeed = false;
   for (std::size_t n = begin; n < end; ++n) {
     Vec2 force = force_[n];
     if constexpr (kForced) {
@@ -191,7 +191,7 @@ void ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begi
       if (!update.outer.empty()) force += update.outerPart * update.outer[n];
     }
     Vec2 v = update.kept * nodes.velocity[n] + update.rate / nodes.mass[n] * force + update.fall;
-    if (nodes.held[n] != kFree) nodes.velocity[n] = holdBack(nodes, n, v);
+    if (nodes.held[n] != kFree) nodes.velocity[n] = applyHeld(nodes, n, v);
     const Vec2 x = nodes.position[n] + update.dt * v;
     previousVelocity_[n] = v;
     previousPosition_[n] = x;
@@ -200,15 +200,15 @@ void ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begi
     if (squared <= squaredSlow) [[likely]]
       continue;
     faster = faster || !(squared <= squaredLimit);
-    swift = swift || !(squared <= squaredSwift);
+    largeSpeed = largeSpeed || !(squared <= squaredSwift);
     good = good && isFinite(x);
   }
   if (faster)
 #pragma omp atomic write
-    anyFaster_ = true;
-  if (swift)
+    anyAboveSpeedLimit_ = true;
+  if (largeSpeed)
 #pragma omp atomic write
-    anySwift_ = true;
+    anyLargeMove_ = true;
   if (!good)
 #pragma omp atomic write
     badNode_ = true;
@@ -255,12 +255,12 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
   const double dt = length.position;
   const double d = settings.drag(length);
   const double rate = length.velocity / (1 + d);
-  badElement_ = badNode_ = anyFaster_ = anySwift_ = false;
+  badElement_ = badNode_ = anyAboveSpeedLimit_ = anyLargeMove_ = false;
   viscousForce_.resize(settings.viscosity.isOn() ? force_.size() : 0);
   partialViscous_.resize(settings.viscosity.isOn() ? elements_.partials() : 0);
   step(model,
-       {dt, (1 - d) / (1 + d), rate, tolerance::kSwift * leastHeight_ / dt, rate * settings.gravity,
-        dt / length.velocity, outerForces, model.nodes.load, threads},
+       {dt, (1 - d) / (1 + d), rate, tolerance::kLargeMove * leastHeight_ / dt,
+        rate * settings.gravity, dt / length.velocity, outerForces, model.nodes.load, threads},
        settings.viscosity);
   // Each thread has successive chunks, so that the joined list is ascending.
   stressed_.clear();

@@ -47,19 +47,19 @@ class ExplicitDynamics {
   void reserve(std::size_t nodes);
 
   /// Starts the stress check: each step finds brittle elements whose stress is near
-  /// (`kStrengthLook`) the lowest strength (Pa) of their component or above. 0 or infinite: no
+  /// (`kStrengthCheck`) the lowest strength (Pa) of their component or above. 0 or infinite: no
   /// check of that component; empty: none at all. Without any check there is no cost. Stays in
   /// force after `rebuild` and `follow`.
-  void watchStress(std::vector<double> leastStrengthByComponent);
+  void setStressLimits(std::vector<double> leastStrengthByComponent);
   /// Small ranges, ascending, that contain all elements found stressed in the last step, at its xⁿ.
   [[nodiscard]] std::span<const ElementRange> stressed() const { return stressed_; }
 
   /// From now on each step reports whether any node became faster than `most` (m/s, up to
-  /// `kAnySpeed`). This costs nothing: the step tests the new velocity in any case.
-  void watchSpeed(double most) { speedLimit_ = most; }
+  /// `kMostSpeed`). This costs nothing: the step tests the new velocity in any case.
+  void setSpeedLimit(double most) { speedLimit_ = most; }
   [[nodiscard]] double speedLimit() const { return speedLimit_; }
   /// True if any node exceeded that speed in the last step.
-  [[nodiscard]] bool anyFaster() const { return anyFaster_; }
+  [[nodiscard]] bool anyAboveSpeedLimit() const { return anyAboveSpeedLimit_; }
 
   /// One step; `outerForces` (N, by node) may be empty. These act for Δt, not Δv: their reactions
   /// act on other bodies, which are integrated with steps of Δt, and so momentum is conserved. Held
@@ -71,7 +71,7 @@ class ExplicitDynamics {
 
   /// Throws RunError if the step so far has inverted an element. `correction` (m): the largest
   /// displacement of a node since `predict`. Elements are checked only if some were flat at xⁿ, or
-  /// if a node moves by a large part (`kSwift`) of the least height of an element.
+  /// if a node moves by a large part (`kLargeMove`) of the least height of an element.
   void requireUpright(const Model& model, double dt, double correction) const;
 
   /// Undoes `predict` and all later changes of positions and velocities.
@@ -98,9 +98,9 @@ class ExplicitDynamics {
   /// contact computes work with v̄ = ½(previous + present).
   [[nodiscard]] std::span<const Vec2> previousPosition() const { return previousPosition_; }
   [[nodiscard]] std::span<const Vec2> previousVelocity() const { return previousVelocity_; }
-  /// True if in the last step a node moved by a large part (`kSwift`) of the least height of an
+  /// True if in the last step a node moved by a large part (`kLargeMove`) of the least height of an
   /// element.
-  [[nodiscard]] bool anySwift() const { return anySwift_; }
+  [[nodiscard]] bool anyLargeMove() const { return anyLargeMove_; }
   /// (N) Elastic and viscous forces f(xⁿ) by node, of the last step.
   [[nodiscard]] std::span<const Vec2> internalForces() const { return force_; }
   void addTo(Footprint& footprint) const;
@@ -118,9 +118,9 @@ class ExplicitDynamics {
   void smoothStrains(const Model& model, std::size_t part, std::size_t parts, PartErrors& errors);
   void sumChunk(const Model& model, const Chunk& chunk, const BulkViscosity& viscosity,
                 Scratch& scratch);
-  void lookAtFlat(const Model& model, const Chunk& chunk, Scratch& scratch);
-  Vec2 holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity);
-  void letGo(Nodes& nodes);
+  void handleFlat(const Model& model, const Chunk& chunk, Scratch& scratch);
+  Vec2 applyHeld(const Nodes& nodes, std::size_t node, Vec2& velocity);
+  void exchangeHeld(Nodes& nodes);
   void sumShared(const BulkViscosity& viscosity, NodeId begin, NodeId end);
   template <bool kForced>
   void move(Nodes& nodes, const Update& update, std::size_t begin, std::size_t end);
@@ -142,10 +142,10 @@ class ExplicitDynamics {
   std::vector<Scratch> scratch_;       // one per thread
   std::vector<double> leastStrength_;  // Pa, by component
   std::vector<ElementRange> stressed_;
-  double speedLimit_ = tolerance::kAnySpeed;  // m/s
-  double leastHeight_ = 0;                    // m, of all elements, stress-free
+  double speedLimit_ = tolerance::kMostSpeed;  // m/s
+  double leastHeight_ = 0;                     // m, of all elements, stress-free
   bool watching_ = false;
-  bool badElement_ = false, badNode_ = false, anyFaster_ = false, anySwift_ = false;
+  bool badElement_ = false, badNode_ = false, anyAboveSpeedLimit_ = false, anyLargeMove_ = false;
 };
 
 }  // namespace yadefrag

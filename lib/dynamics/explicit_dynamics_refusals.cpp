@@ -28,7 +28,7 @@ std::string nameOf(const Model& model, ElementId element, std::span<const Vec2> 
 }  // namespace
 
 /// Handles a chunk with an element that is flat, inverted or not finite.
-void ExplicitDynamics::lookAtFlat(const Model& model, const Chunk& chunk, Scratch& scratch) {
+void ExplicitDynamics::handleFlat(const Model& model, const Chunk& chunk, Scratch& scratch) {
   scratch.flat.push_back({chunk.firstElement, chunk.lastElement});
   for (std::uint32_t e = chunk.firstElement; e < chunk.lastElement; ++e)
     if (!(determinant(deformationGradient(model, ElementId(e))) > 0))
@@ -46,14 +46,14 @@ void ExplicitDynamics::requireUpright(const Model& model, double dt, double corr
       throw RunError(text.str());
     }
   };
-  if (anySwift_ || correction > tolerance::kSwift * leastHeight_)
+  if (anyLargeMove_ || correction > tolerance::kLargeMove * leastHeight_)
     return look(0, model.triangles.size());
   for (const Scratch& scratch : scratch_)
     for (const ElementRange& range : scratch.flat) look(range.firstElement, range.lastElement);
 }
 
 /// Exchanges the prescribed velocities of held directions with the nodes' previous velocities.
-void ExplicitDynamics::letGo(Nodes& nodes) {
+void ExplicitDynamics::exchangeHeld(Nodes& nodes) {
   if (heldVelocity_.empty()) return;
   for (std::size_t n = 0; n < nodes.size(); ++n)
     for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}})
@@ -63,7 +63,7 @@ void ExplicitDynamics::letGo(Nodes& nodes) {
 void ExplicitDynamics::takeBack(Model& model) {
   model.nodes.position.swap(previousPosition_);
   model.nodes.velocity.swap(previousVelocity_);
-  letGo(model.nodes);
+  exchangeHeld(model.nodes);
 }
 
 void ExplicitDynamics::refuseElement(const Model& model) {
@@ -76,7 +76,7 @@ void ExplicitDynamics::refuseElement(const Model& model) {
 
 void ExplicitDynamics::refuseNode(Model& model) {
   Nodes& nodes = model.nodes;
-  letGo(nodes);
+  exchangeHeld(nodes);
   std::size_t bad = 0;
   while (isFinite(previousPosition_[bad])) ++bad;
   std::ostringstream text;

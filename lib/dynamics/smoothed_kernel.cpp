@@ -13,7 +13,7 @@ template <bool kWatched>
 [[gnu::always_inline]] inline Findings splitGradients(const ElementLanes& e, const Chunk& chunk,
                                                       const Corners& c, DistortionLanes& kept,
                                                       SplitGradient* weighted) {
-  const StressLook look(chunk.shearFactor, chunk.friction, chunk.squaredLook);
+  const StressLimit look(chunk.shearFactor, chunk.friction, chunk.squaredStressLimit);
   int flat = 0;
   int stressed = 0;
 #pragma omp simd reduction(+ : flat, stressed)

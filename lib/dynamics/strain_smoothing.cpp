@@ -33,7 +33,7 @@ bool StrainSmoothing::sum(InstructionSet set, const ElementChunks& elements, con
   std::fill_n(nodes, chunk.lastNode - chunk.firstNode, SplitGradient{});
   const ElementLanes* lanes = elements.lanes.data();
   const bool good =
-      std::isfinite(chunk.squaredLook)
+      std::isfinite(chunk.squaredStressLimit)
           ? sumGradients(set, chunk, lanes, position, distortion_.data(), nodes, stressed)
           : sumGradients(set, chunk, lanes, position, distortion_.data(), nodes);
   for (std::uint32_t i = chunk.firstShared; i < chunk.lastNode; ++i)

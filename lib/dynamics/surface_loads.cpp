@@ -136,8 +136,8 @@ void AbsorbingBoundary::correct(Model& model, const ContactSurfaces& surfaces,
   }
 }
 
-void AbsorbingBoundary::book(EnergyLedger& ledger, const Model& model, std::span<const Vec2> before,
-                             const StepLength& step) const {
+void AbsorbingBoundary::addWork(EnergyLedger& ledger, const Model& model,
+                                std::span<const Vec2> before, const StepLength& step) const {
   for (const Dashpot& d : dashpots_) {
     const Vec2 mean = .5 * (before[d.node.value] + model.nodes.velocity[d.node.value]);
     ledger.damping -= step.velocity * dot(d.force, mean);

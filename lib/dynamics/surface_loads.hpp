@@ -49,8 +49,8 @@ class AbsorbingBoundary {
   void correct(Model& model, const ContactSurfaces& surfaces, std::span<const Vec2> place,
                std::span<const Vec2> before, const StepLength& step, double drag);
   /// Adds the dashpots' work in the step, with the mean velocity, to `damping`.
-  void book(EnergyLedger& ledger, const Model& model, std::span<const Vec2> before,
-            const StepLength& step) const;
+  void addWork(EnergyLedger& ledger, const Model& model, std::span<const Vec2> before,
+               const StepLength& step) const;
 
  private:
   /// (kg/s) A symmetric matrix for the boundary around one node.

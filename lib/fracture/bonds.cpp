@@ -56,7 +56,7 @@ bool match(const Line& a, const Line& b) {
 /// True if two sides are parallel and coincide along a part of the shorter one.
 bool runAlong(const Line& a, const Line& b) {
   const double size = std::min(a.length(), b.length());
-  const double near = tolerance::kBondMeant * size;
+  const double near = tolerance::kProbableBond * size;
   const Vec2 along = (1 / a.length()) * (a.end - a.begin);
   const auto aside = [&](Vec2 x) { return std::abs(cross(along, x - a.begin)); };
   const double from = dot(along, b.end - a.begin), to = dot(along, b.begin - a.begin);
@@ -67,7 +67,7 @@ bool runAlong(const Line& a, const Line& b) {
 std::vector<BoxPair> nearPairs(const std::vector<Line>& lines) {
   std::vector<Box> boxes;
   for (const Line& l : lines) {
-    const double by = tolerance::kBondMeant * l.length();
+    const double by = tolerance::kProbableBond * l.length();
     boxes.push_back({{std::min(l.begin.x, l.end.x) - by, std::min(l.begin.y, l.end.y) - by, 0},
                      {std::max(l.begin.x, l.end.x) + by, std::max(l.begin.y, l.end.y) + by, 0}});
   }

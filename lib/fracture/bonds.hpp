@@ -12,7 +12,7 @@ namespace yadefrag {
 /// Pairs of boundary sides, the first of body `a` and the second of `b`, whose ends coincide, to
 /// kBondGap of a side. Sides that are bonded already and faces of cracks are excluded. Throws
 /// InputError, with the remedy, if there are none, or if sides of the two coincide elsewhere
-/// (kBondMeant) with different ends.
+/// (kProbableBond) with different ends.
 [[nodiscard]] std::vector<std::array<Side, 2>> matchingSides(const Model& model,
                                                              const CrackEdges& edges, ComponentId a,
                                                              ComponentId b);

@@ -217,8 +217,8 @@ void Cohesion::addForces(std::vector<Vec2>& forces) const {
   }
 }
 
-void Cohesion::book(EnergyLedger& ledger, const Model& model,
-                    std::span<const Vec2> previousVelocity, const StepLength& step) const {
+void Cohesion::addWork(EnergyLedger& ledger, const Model& model,
+                       std::span<const Vec2> previousVelocity, const StepLength& step) const {
   const auto mean = [&](NodeId node) {
     return .5 * (previousVelocity[node.value] + model.nodes.velocity[node.value]);
   };

@@ -49,8 +49,8 @@ class Cohesion {
 
   /// Adds the work of the step's tractions, with the mean velocity: that of the law to `fracture`,
   /// that of the traction against overlap to `contact`, that of friction to `friction`.
-  void book(EnergyLedger& ledger, const Model& model, std::span<const Vec2> previousVelocity,
-            const StepLength& step) const;
+  void addWork(EnergyLedger& ledger, const Model& model, std::span<const Vec2> previousVelocity,
+               const StepLength& step) const;
   /// Call it at the end of the step, after contact. Stores the cracks' largest openings, and
   /// removes cracks that no longer transmit traction; these are listed in `released`.
   void settle(const Model& model, const CrackEdges& edges);

@@ -28,22 +28,22 @@ std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackE
   // The stress of a checked node is needed for all edges that end there, of any triangle.
   for (const ElementRange& range : where)
     for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e)
-      if (!model.triangles.isDropped(e)) lookAtCorners(model, edges, ElementId(e), leastStrength);
+      if (!model.triangles.isDropped(e)) checkCorners(model, edges, ElementId(e), leastStrength);
   return pickApart(model, edges);
 }
 
 /// Most stressed elements in rubble have no edge left that could crack.
-void StrengthCheck::lookAtCorners(const Model& model, const CrackEdges& edges, ElementId element,
-                                  std::span<const double> leastStrength) {
+void StrengthCheck::checkCorners(const Model& model, const CrackEdges& edges, ElementId element,
+                                 std::span<const double> leastStrength) {
   std::array<bool, 3> whole{};
   for (std::uint8_t i = 0; i < 3; ++i) whole[i] = edges.across({element, i}) != ElementId::none();
   for (std::uint8_t i = 0; i < 3; ++i)
     if (whole[i] || whole[beforeCorner(i)])
-      lookAround(model, edges, model.triangles.nodes[element.value][i], leastStrength);
+      checkNode(model, edges, model.triangles.nodes[element.value][i], leastStrength);
 }
 
-void StrengthCheck::lookAround(const Model& model, const CrackEdges& edges, NodeId node,
-                               std::span<const double> leastStrength) {
+void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeId node,
+                              std::span<const double> leastStrength) {
   if (nodeLookedAt_[node.value] == call_) return;
   nodeLookedAt_[node.value] = call_;
   // At one end of an edge, at least, the traction is not less than their mean: check the ends

@@ -37,10 +37,10 @@ class StrengthCheck {
     EdgeId edge;
   };
 
-  void lookAtCorners(const Model& model, const CrackEdges& edges, ElementId element,
-                     std::span<const double> leastStrength);
-  void lookAround(const Model& model, const CrackEdges& edges, NodeId node,
-                  std::span<const double> leastStrength);
+  void checkCorners(const Model& model, const CrackEdges& edges, ElementId element,
+                    std::span<const double> leastStrength);
+  void checkNode(const Model& model, const CrackEdges& edges, NodeId node,
+                 std::span<const double> leastStrength);
   const Stress& stressOf(const Model& model, ElementId element);
   const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
   template <class Counts>

@@ -30,7 +30,7 @@ class Reader {
   bool take(std::size_t count, TimeTable& table) {
     std::vector<double> times, values;
     if (!take(count, times) || !take(count, values)) return false;
-    if (count > 0 && !TimeTable::isRight(times, values)) return false;
+    if (count > 0 && !TimeTable::isValid(times, values)) return false;
     table = TimeTable(std::move(times), std::move(values));
     return true;
   }

@@ -73,7 +73,7 @@ class CodeSearch final : public ContactSearch {
   std::uint32_t lowerBound(const CodeLevel& level, std::uint64_t code, Count& count) const;
   double lowestStart(const Box& box, int axis, int level) const;
   Extent rectangleOf(const Box& box, int level, CodeRange& corners) const;
-  [[nodiscard]] bool asks(int own, int other) const;
+  [[nodiscard]] bool searchesLevel(int own, int other) const;
 
   LevelGrid<Dim> grid_;
   std::span<const Box> boxes_;

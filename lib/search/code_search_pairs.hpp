@@ -34,13 +34,13 @@ void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
 /// fine boxes, it is cheaper to find for each coarse box the fine ones, on the ranges of the curve
 /// that it covers.
 template <class Numbering, int Dim, class Count>
-bool CodeSearch<Numbering, Dim, Count>::asks(int own, int other) const {
+bool CodeSearch<Numbering, Dim, Count>::searchesLevel(int own, int other) const {
   const int fine = std::min(own, other);
   const int coarse = std::max(own, other);
-  const bool coarseAsks =
+  const bool coarseSearches =
       Numbering::kIsCurve &&
       tolerance::kFinePerCoarse * levels_[coarse].size() <= levels_[fine].size();
-  return own == (coarseAsks ? coarse : fine);
+  return own == (coarseSearches ? coarse : fine);
 }
 
 /// Pairs of the i-th box of a level with later boxes of its level, with boxes of all levels that
@@ -51,7 +51,7 @@ void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, std::vec
   const CodedBox& me = levels_[own][i];
   const FilterBox& filter = levels_[own].filter(i);
   for (const int other : occupied_) {
-    if (other != own && !asks(own, other)) continue;
+    if (other != own && !searchesLevel(own, other)) continue;
     const CodeLevel& level = levels_[other];
     const std::uint64_t* codes = level.codes().data();
     // Starting at the begin of a range, a linear scan reaches its end faster than a look-up.

@@ -14,7 +14,7 @@ constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 }  // namespace
 
 void sortByCode(std::vector<CodedSlot>& list) {
-  if (list.size() < tolerance::kRadixPays) {
+  if (list.size() < tolerance::kRadixLength) {
     std::sort(list.begin(), list.end());
     return;
   }

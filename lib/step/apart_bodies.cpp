@@ -68,7 +68,7 @@ bool ApartBodies::choose(const Model& model, const ContactSurfaces& surfaces, do
   for (std::size_t c = 0; c < bodies; ++c) apart_[c] = mayBeApart(model.components[c]) ? 1 : 0;
   count_ = std::count(apart_.begin(), apart_.end(), 1);
   if (count_ > 0) {
-    const double widest = tolerance::kApartLook * reach;
+    const double widest = tolerance::kApartSearch * reach;
     const std::vector<Gap> gaps = gapsBelow(model, surfaces, widest);
     for (const Gap& gap : gaps)
       if (gap.width <= tolerance::kApart * reach) apart_[gap.a.value] = apart_[gap.b.value] = 0;
@@ -79,7 +79,7 @@ bool ApartBodies::choose(const Model& model, const ContactSurfaces& surfaces, do
 }
 
 void ApartBodies::look(const Model& model, const ContactSurfaces& surfaces, double reach) {
-  const double widest = tolerance::kApartLook * reach;
+  const double widest = tolerance::kApartSearch * reach;
   measure(gapsBelow(model, surfaces, widest), widest, reach);
 }
 

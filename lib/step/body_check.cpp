@@ -46,7 +46,7 @@ void requireFinite(const char* name, const std::vector<Vec2>& values) {
 void requireSlow(const std::vector<Vec2>& velocities) {
   for (const Vec2 velocity : velocities)
     for (const double one : {velocity.x, velocity.y})
-      require(std::abs(one) <= tolerance::kAnySpeed, "velocity", one, " m/s", "at most 1e100 m/s");
+      require(std::abs(one) <= tolerance::kMostSpeed, "velocity", one, " m/s", "at most 1e100 m/s");
 }
 
 void requireHeld(const std::vector<std::uint8_t>& held) {
@@ -194,7 +194,7 @@ void checkRounding(const TriangleMesh& mesh, const BodySpec& spec) {
   double fastest = 0;
   for (const Vec2 velocity : spec.velocity) fastest = std::max(fastest, norm(velocity));
   const double step = extent.shortest / fastestWave(spec);
-  const double seen = tolerance::kSeenMotion * extent.farthest;
+  const double seen = tolerance::kLeastMotion * extent.farthest;
   if (fastest == 0 || fastest * step >= seen) return;
   text << "velocity is " << fastest << " m/s at most: at coordinates of " << extent.farthest
        << " m, a step of " << step << " s would be lost in rounding; it must be zero or above "

@@ -16,7 +16,7 @@ class BodyPlaces {
   /// Adds the bodies that were added since the last call.
   void update(const Model& model, const ContactSurfaces& surfaces);
   /// Must be called when bodies move or are removed.
-  void forget() { *this = {}; }
+  void clear() { *this = {}; }
 
   /// Absent for a removed body.
   [[nodiscard]] const Box& box(ComponentId body) const { return boxes_[body.value]; }

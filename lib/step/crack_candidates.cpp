@@ -126,7 +126,7 @@ void inheritTouches(std::vector<Touch>& touches, const ContactSurfaces& surfaces
         for (std::size_t k = begin; k < end; ++k) {
           const EntryId to = slaveAt(twins[k].node);
           if (k != i && to != touch.pair.master && surfaces.prev[to.value] != touch.pair.master)
-            more.push_back({{to, touch.pair.master}, 0, 0, touch.allowed});
+            more.push_back({{to, touch.pair.master}, 0, 0, touch.toleratedGap});
         }
     }
   }

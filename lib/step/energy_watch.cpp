@@ -26,8 +26,8 @@ std::string amountText(double amount, double most) {
 }
 
 /// Sums over all bodies are computed only for an amount that has grown since the last ones.
-bool isWorthALook(double amount, double tolerated, double& looked) {
-  if (!(amount > tolerated && amount > tolerance::kLookAgain * looked)) return false;
+bool mustEvaluate(double amount, double tolerated, double& looked) {
+  if (!(amount > tolerated && amount > tolerance::kEvaluateAgain * looked)) return false;
   looked = amount;
   return true;
 }
@@ -39,7 +39,7 @@ void EnergyWatch::begin(double energy, const EnergyLedger& ledger) {
   gone = expected + ledger.external - energy;
   most = energy;
   contact = ledger.contact, friction = ledger.friction;
-  lookedCreated = lookedGrown = toldCreated = toldGrown = 0;
+  evaluatedCreated = evaluatedGrown = reportedCreated = reportedGrown = 0;
 }
 
 void EnergyWatch::count(const WatchedStep& step) {
@@ -61,18 +61,18 @@ double EnergyWatch::created(const EnergyLedger& ledger) const {
          std::max(0., -ledger.fracture);
 }
 
-double EnergyWatch::tolerated(double told) const {
-  return std::max(tolerance::kGivenEnergy * most, 2 * told);
+double EnergyWatch::tolerated(double reported) const {
+  return std::max(tolerance::kGivenEnergy * most, 2 * reported);
 }
 
 bool EnergyWatch::mayHaveCreated(const WatchedStep& step) {
-  return isWorthALook(created(step.ledger), tolerated(toldCreated), lookedCreated);
+  return mustEvaluate(created(step.ledger), tolerated(reportedCreated), evaluatedCreated);
 }
 
-std::string EnergyWatch::complainOfContact(const WatchedStep& step, double noise) {
+std::string EnergyWatch::contactMessage(const WatchedStep& step, double noise) {
   const double amount = created(step.ledger);
-  if (!(amount > std::max(tolerated(toldCreated), noise))) return {};
-  toldCreated = amount;
+  if (!(amount > std::max(tolerated(reportedCreated), noise))) return {};
+  reportedCreated = amount;
   const bool byCracks = -step.ledger.fracture > amount / 2;
   std::ostringstream text = yadefrag::begin(step);
   const bool bySplits = byCracks && split > amount / 2;
@@ -93,19 +93,19 @@ std::string EnergyWatch::complainOfContact(const WatchedStep& step, double noise
 }
 
 bool EnergyWatch::isDue(std::uint64_t step) {
-  return step == 1 || step % tolerance::kStepsToLook == 0;
+  return step == 1 || step % tolerance::kStepsToCheck == 0;
 }
 
 bool EnergyWatch::mayHaveGrown(const WatchedStep& step, double kinetic) {
   if (step.step % tolerance::kStepsToSumUp == 0) return true;
   const double over = kinetic - (expected - step.ledger.total(0, 0));
-  return isWorthALook(over, tolerated(toldGrown), lookedGrown);
+  return mustEvaluate(over, tolerated(reportedGrown), evaluatedGrown);
 }
 
-std::string EnergyWatch::complainOfGrowth(const WatchedStep& step, double energy, double noise) {
+std::string EnergyWatch::growthMessage(const WatchedStep& step, double energy, double noise) {
   const double over = step.ledger.total(energy, 0) - expected;
-  if (!(over > std::max(tolerated(toldGrown), noise))) return {};
-  toldGrown = over;
+  if (!(over > std::max(tolerated(reportedGrown), noise))) return {};
+  reportedGrown = over;
   std::ostringstream text = yadefrag::begin(step);
   text << "the time integration has created " << amountText(over, most) << "; " << stepAdvice(step);
   return text.str();
@@ -124,10 +124,10 @@ std::string EnergyWatch::stepAdvice(const WatchedStep& step) const {
   return text.str();
 }
 
-std::string EnergyWatch::complainOfDepth(const WatchedStep& step) {
+std::string EnergyWatch::depthMessage(const WatchedStep& step) {
   const double deep = std::min(tolerance::kDeep * step.shortest, step.halo / 2);
-  if (step.depth <= std::max(deep, 2 * toldDepth)) return {};
-  toldDepth = step.depth;
+  if (step.depth <= std::max(deep, 2 * reportedDepth)) return {};
+  reportedDepth = step.depth;
   std::ostringstream text = yadefrag::begin(step);
   text << "bodies overlap by " << step.depth << " m, " << step.depth / step.shortest
        << " of the shortest segment; "

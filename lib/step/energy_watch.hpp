@@ -38,7 +38,7 @@ class EnergyWatch {
   /// True if contact or cracks may have created more energy than tolerated.
   bool mayHaveCreated(const WatchedStep& step);
   /// The message; empty if there is none. `noise` (J): energy of rounding errors.
-  std::string complainOfContact(const WatchedStep& step, double noise);
+  std::string contactMessage(const WatchedStep& step, double noise);
 
   /// True if the kinetic energy, or all energies, must be evaluated in this step.
   [[nodiscard]] static bool isDue(std::uint64_t step);
@@ -47,9 +47,9 @@ class EnergyWatch {
   /// a reason to compute the strain energy.
   bool mayHaveGrown(const WatchedStep& step, double kinetic);
   /// The message for the kinetic plus strain energy (J).
-  std::string complainOfGrowth(const WatchedStep& step, double energy, double noise);
+  std::string growthMessage(const WatchedStep& step, double energy, double noise);
 
-  std::string complainOfDepth(const WatchedStep& step);
+  std::string depthMessage(const WatchedStep& step);
 
   double expected = 0;  ///< J, expected total of the ledger
   double gone = 0;      ///< J, part of the supplied energy that left with removed bodies
@@ -57,14 +57,15 @@ class EnergyWatch {
   double contact = 0,
          friction = 0;  ///< J, largest values in the ledger: a decrease is created energy
   double split = 0;     ///< J, part of the ledger's fracture: separated averages of strains
-  double lookedCreated = 0, lookedGrown = 0;             ///< J, at the last evaluation
-  double toldCreated = 0, toldGrown = 0, toldDepth = 0;  ///< J, J, m, in the last message; 0: none
-  double lastStep = 0, leastStep = 0, mostStep = 0;      ///< s; 0: none so far
+  double evaluatedCreated = 0, evaluatedGrown = 0;  ///< J, at the last evaluation
+  double reportedCreated = 0, reportedGrown = 0,
+         reportedDepth = 0;                          ///< J, J, m, in the last message; 0: none
+  double lastStep = 0, leastStep = 0, mostStep = 0;  ///< s; 0: none so far
   std::uint64_t changes = 0;  ///< number of steps with another length than the previous one
 
  private:
   [[nodiscard]] double created(const EnergyLedger& ledger) const;
-  [[nodiscard]] double tolerated(double told) const;
+  [[nodiscard]] double tolerated(double reported) const;
   [[nodiscard]] std::string stepAdvice(const WatchedStep& step) const;
 };
 

@@ -48,12 +48,12 @@ void HaloWatch::rebuild(const Scene& scene) {
     // A loaded state may crack before its first search.
     passRule_.update(scene.surfaces, scene.reference, scene.settings.passes, scene.hasRigid);
   }
-  scene.dynamics.watchSpeed(scene.canTouch ? 0 : tolerance::kAnySpeed);
+  scene.dynamics.setSpeedLimit(scene.canTouch ? 0 : tolerance::kMostSpeed);
   search_.reset();
   motion_.farthest = INFINITY;
 }
 
-void HaloWatch::forget() {
+void HaloWatch::invalidate() {
   nodes.clear();
   positions.clear();
   isVoid = true;
@@ -108,8 +108,8 @@ void HaloWatch::foreseeMotion(const Scene& scene, double dt) {
 /// Uses x*. If no node is faster than predicted, a quiet step needs no check of the nodes.
 void HaloWatch::measureMove(const Scene& scene, double dt) {
   const StageTimer timer(scene.times, &StageTimes::search);
-  if (scene.dynamics.anyFaster()) {
-    watchSpeed(scene, dt);
+  if (scene.dynamics.anyAboveSpeedLimit()) {
+    updateSpeedLimit(scene, dt);
     motion_.isQuiet = false;
   } else {
     motion_.most = scene.dynamics.speedLimit() * dt;
@@ -130,13 +130,13 @@ void HaloWatch::measureMove(const Scene& scene, double dt) {
 }
 
 /// Determines the largest speed of all nodes, and sets the limit that the next steps check.
-void HaloWatch::watchSpeed(const Scene& scene, double dt) {
+void HaloWatch::updateSpeedLimit(const Scene& scene, double dt) {
   double most = 0;
   for (const Vec2 velocity : scene.model.nodes.velocity)
     most = std::max(most, dot(velocity, velocity));
   most = std::sqrt(most);
   motion_.most = most * dt;
-  scene.dynamics.watchSpeed(std::min(tolerance::kSpeedSpare * most, tolerance::kAnySpeed));
+  scene.dynamics.setSpeedLimit(std::min(tolerance::kSpeedSpare * most, tolerance::kMostSpeed));
 }
 
 /// (m) The reach of isolated bodies: no other body is nearer. Two bodies that touch in a step are,
@@ -171,7 +171,7 @@ void HaloWatch::foreseeSearch(const Scene& scene, double dt) {
   if (isDue) return;
   const StageTimer timer(scene.times, &StageTimes::search);
   if (apart_.any() && apart_.spare() < 2 * scene.dynamics.speedLimit() * dt) {
-    watchSpeed(scene, dt);
+    updateSpeedLimit(scene, dt);
     apart_.look(scene.model, scene.surfaces, apartReach());
     isDue = apart_.spare() < 2 * scene.dynamics.speedLimit() * dt;
     if (isDue) return;
@@ -226,7 +226,7 @@ void HaloWatch::takePairs(const Scene& scene, std::span<const BoxPair> overlappi
     isDue = isVoid = false;
     return;
   }
-  watchSpeed(scene, lastDt);
+  updateSpeedLimit(scene, lastDt);
   chooseWatched(scene);
   considerPairs(scene, overlapping, scene.model.nodes.position);
 }
@@ -249,7 +249,7 @@ void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overl
   ++scene.numSearches;
   // If all nodes are checked in every step, no bound of their speed is needed.
   if (!apart_.any() && scene.contact.candidates.size() > 0)
-    scene.dynamics.watchSpeed(tolerance::kAnySpeed);
+    scene.dynamics.setSpeedLimit(tolerance::kMostSpeed);
 }
 
 /// No contact is missed: independently of predictions, x* is decisive.
@@ -277,7 +277,7 @@ void HaloWatch::searchNow(const Scene& scene, double dt) {
     shortest = shortestSegment(scene.model, scene.surfaces, scene.model.nodes.position);
     halo = wideHalo(scene.settings, 2 * tolerance::kHaloSpare * motion_.largest);
   }
-  watchSpeed(scene, dt);
+  updateSpeedLimit(scene, dt);
   chooseWatched(scene);
   if (!search_) search_ = makeSearch(SearchMethod::kLebesgue);
   boxes_.resize(scene.surfaces.entries());
@@ -302,7 +302,7 @@ void HaloWatch::appear(NodeId node, Vec2 place) {
   positions.push_back(place);
 }
 
-void HaloWatch::forgetDropped(const Model& model) {
+void HaloWatch::removeDropped(const Model& model) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (model.nodes.mass[nodes[i].value] == 0) continue;

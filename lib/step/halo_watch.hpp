@@ -51,7 +51,7 @@ class HaloWatch : public SearchState {
   /// Must be called after bodies were added or removed, and after loading.
   void rebuild(const Scene& scene);
   /// Must be called after nodes have changed their numbers: the next step does a search.
-  void forget();
+  void invalidate();
 
   // --- in the order of a step
   void begin();
@@ -79,7 +79,7 @@ class HaloWatch : public SearchState {
 
   // --- at a crack
   /// Nodes of removed triangles are no longer checked.
-  void forgetDropped(const Model& model);
+  void removeDropped(const Model& model);
   /// A node, at `place` (m), is on the surface from now on.
   void appear(NodeId node, Vec2 place);
   /// Adds candidates among entries around a crack.
@@ -112,7 +112,7 @@ class HaloWatch : public SearchState {
   };
 
   void watchAll(const Scene& scene);
-  void watchSpeed(const Scene& scene, double dt);
+  void updateSpeedLimit(const Scene& scene, double dt);
   void watchApart(const Scene& scene);
   void chooseWatched(const Scene& scene);
   [[nodiscard]] double apartReach() const;

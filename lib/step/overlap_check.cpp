@@ -120,7 +120,7 @@ class OverlapSearch {
   void add(const Side& side) { add(sides_, side); }
   void add(const Facet& facet) { add(facets_, facet); }
   /// Limits the search to this box.
-  void lookIn(const Box& box) { within_ = box; }
+  void limitTo(const Box& box) { within_ = box; }
 
   [[nodiscard]] std::optional<Overlap> find(ComponentId newBody) const {
     std::vector<Along> known;
@@ -194,7 +194,7 @@ std::optional<Overlap> findOverlap(const Model& model, const ContactSurfaces& su
   const Box own = boxAround(positions);
   const ComponentId newBody(model.components.size());
   OverlapSearch search;
-  search.lookIn(own);
+  search.limitTo(own);
   Box near = Box::absent();
   for (std::size_t c = 0; c < model.components.size(); ++c) {
     const ComponentId body(c);
@@ -205,7 +205,7 @@ std::optional<Overlap> findOverlap(const Model& model, const ContactSurfaces& su
     include(near, {box.max[0], box.max[1]});
   }
   if (near.isAbsent()) return std::nullopt;
-  search.lookIn(near);
+  search.limitTo(near);
   addNew(search, mesh, positions, spec.held, newBody, spec.rigid && mesh.triangles.empty());
   return search.find(newBody);
 }

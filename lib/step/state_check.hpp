@@ -10,6 +10,6 @@ class World;
 /// Returns an empty string if every array has its length, every index is in range, every list is
 /// consistently linked, and every divisor is positive and finite; otherwise the invalid part. For
 /// states from files.
-[[nodiscard]] std::string whatIsWrong(const World& world);
+[[nodiscard]] std::string findInvalidPart(const World& world);
 
 }  // namespace yadefrag

@@ -58,13 +58,13 @@ void World::advance(double dt) {
     requireResolvedMotion(dt);
     // Local search and correction, from x*, v* to xⁿ⁺¹, vⁿ⁺½. Contact forces act at xⁿ.
     correctContact(length);
-    bookContact(length);
+    countContactWork(length);
   }
   requireUpright(dt);
 
   // Work of all forces except contact, with the mean of both velocities.
   finish(length);
-  bookFracture(length);
+  countFractureWork(length);
   requireFiniteEnergy();
 }
 
@@ -89,18 +89,18 @@ void World::conclude(double dt) {
 }
 
 void World::predict(const StepLength& length) {
-  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
+  const StageTimer timer(timesIfRequested(), &StageTimes::forces);
   dynamics_.predict(model, length, dynamicsSettings, allOuterForces(), threads);
   undo_.hasMoved = true;
 }
 
 void World::requireUpright(double dt) {
-  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
+  const StageTimer timer(timesIfRequested(), &StageTimes::forces);
   dynamics_.requireUpright(model, dt, canTouch() ? contact.largestCorrection() : 0);
 }
 
 void World::finish(const StepLength& length) {
-  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
+  const StageTimer timer(timesIfRequested(), &StageTimes::forces);
   // Reactions of held nodes include contact and cohesive cracks.
   pushes_ = contact.forces().known;
   if (!fracture.cohesion.edge.empty()) {
@@ -111,12 +111,12 @@ void World::finish(const StepLength& length) {
   }
   dynamics_.finish(model, length, dynamicsSettings, allOuterForces(), pushes_, ledger, threads);
   if (!absorbing.segments.empty())
-    absorbing.book(ledger, model, dynamics_.previousVelocity(), length);
+    absorbing.addWork(ledger, model, dynamics_.previousVelocity(), length);
 }
 
 void World::measureReactions(const StepLength& length) {
   if (dynamics_.holdsNone()) return reactions.clear();
-  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
+  const StageTimer timer(timesIfRequested(), &StageTimes::forces);
   dynamics_.measureReactions(model, length, dynamicsSettings, allOuterForces(), pushes_, reactions);
 }
 

@@ -47,7 +47,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   openJoints(fracture.addBody(model, id, spec.places));
   watch.join(energyOf(id, NodeId(first), lastDt));
   stableStep = 0;
-  search.forget();
+  search.invalidate();
   rebuild();
   return id;
 }
@@ -77,16 +77,16 @@ void World::removeBody(ComponentId component) {
 /// Removes the data of removed components. Returns the new numbers of entries.
 std::vector<EntryId> World::takeOff(const std::vector<std::uint8_t>& gone,
                                     std::span<const NodeId> renumbered) {
-  search.forget();
-  places_.forget();
+  search.invalidate();
+  places_.clear();
   for (std::size_t i = 0; i < renumbered.size(); ++i)
     if (renumbered[i] != NodeId::none()) reference[renumbered[i].value] = reference[i];
   reference.resize(model.nodes.size());
-  takeLoadsOff(gone);
+  removeLoads(gone);
   reactions.clear();
   std::vector<EntryId> entries = surfaces.removeComponents(gone);
   surfaces.renumberNodes(renumbered, model.nodes.size());
-  forgetUnusedMotions();
+  removeUnusedMotions();
   contact.reset();
   rebuild();
   return entries;
@@ -113,7 +113,7 @@ void World::rebuild() {
 
 void World::buildIfChanged() {
   if (isBuilt_) return;
-  places_.forget();
+  places_.clear();
   dynamics_.rebuild(model);
   absorbing.findTriangles(model, surfaces);
   reactions.clear();
@@ -129,7 +129,7 @@ void World::buildIfChanged() {
     contact.reserve(room);
   }
   search.rebuild(searchScene());
-  watchStrengths();
+  updateStressLimits();
   finest_ = finestSegment();
   droppedBelow_ = 0;
   isBuilt_ = true;
@@ -137,7 +137,7 @@ void World::buildIfChanged() {
 
 /// Only elements that can crack are checked, and only if their stress is near the strength of their
 /// weakest edge.
-void World::watchStrengths() {
+void World::updateStressLimits() {
   std::vector<double>& least = fracture.leastStrength;
   least.assign(fracture.isOn() ? model.components.size() : 0, INFINITY);
   const CrackEdges& edges = fracture.edges;
@@ -146,7 +146,7 @@ void World::watchStrengths() {
     const ComponentId body = model.triangles.component[edges.element[i][0].value];
     least[body.value] = std::min(least[body.value], edges.strength[i]);
   }
-  dynamics_.watchStress(least);
+  dynamics_.setStressLimits(least);
 }
 
 double World::criticalTimeStep() const {

@@ -171,7 +171,7 @@ class World {
   Fracture fracture;
   EnergyLedger ledger;
   EnergyWatch watch;
-  std::vector<std::string> complaints;  ///< all messages of the watch so far
+  std::vector<std::string> warnings;  ///< all messages of the watch so far
   Dropped dropped;
   std::vector<Vec2> reference;  ///< m, stress-free positions by node
   /// (N) Reactions in the last step, by node, in held directions: the force that the prescribed
@@ -192,21 +192,21 @@ class World {
 
  private:
   [[nodiscard]] std::vector<SegmentId> segmentsAmong(std::span<const NodeId> nodes) const;
-  void forgetUnusedPressures();
+  void removeUnusedPressures();
   void spreadPressures();
-  void takeLoadsOff(const std::vector<std::uint8_t>& gone);
+  void removeLoads(const std::vector<std::uint8_t>& gone);
   void sumOuterForces();
   [[nodiscard]] const std::vector<Vec2>& allOuterForces() const {
     return pressures.empty() ? outerForces : allOuterForces_;
   }
   void absorb(const StepLength& length);
   void requireNodes(std::span<const NodeId> nodes) const;
-  void forgetUnusedMotions();
+  void removeUnusedMotions();
   void drive(double dt);
-  void letDrivenGo();
+  void undoDrive();
   void buildIfChanged();
   void requireStableStep(double dt);
-  void watchStrengths();
+  void updateStressLimits();
   void advance(double dt);
   void beginUndo();
   void takeBack();
@@ -224,9 +224,9 @@ class World {
   void requireResolvedMotion(double dt);
   void requireFiniteEnergy() const;
   void correctContact(const StepLength& length);
-  void bookContact(const StepLength& length);
+  void countContactWork(const StepLength& length);
   void cohere(const StepLength& length);
-  void bookFracture(const StepLength& length);
+  void countFractureWork(const StepLength& length);
   void watchEnergy();
   [[nodiscard]] double energyOf(ComponentId body, NodeId first, double dt) const;
   bool crack();
@@ -241,7 +241,7 @@ class World {
   void requireUpright(double dt);
   void finish(const StepLength& length);
   void measureReactions(const StepLength& length);
-  [[nodiscard]] StageTimes* timesIfAsked() { return timing ? &times : nullptr; }
+  [[nodiscard]] StageTimes* timesIfRequested() { return timing ? &times : nullptr; }
 
   ExplicitDynamics dynamics_;
   SplitResult split_;

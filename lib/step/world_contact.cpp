@@ -16,9 +16,9 @@ bool World::canTouch() const {
 }
 
 HaloWatch::Scene World::searchScene() {
-  return {model,      surfaces,       contactSettings, reference,
-          finest_,    canTouch(),     hasRigid(),      !fracture.cohesion.edge.empty(),
-          threads,    timesIfAsked(), dynamics_,       contact,
+  return {model,      surfaces,           contactSettings, reference,
+          finest_,    canTouch(),         hasRigid(),      !fracture.cohesion.edge.empty(),
+          threads,    timesIfRequested(), dynamics_,       contact,
           numSearches};
 }
 
@@ -42,14 +42,14 @@ void World::correctContact(const StepLength& length) {
                         dynamics_.previousPosition(),
                         threads,
                         fracture.numCracks() > 0,
-                        timesIfAsked()};
+                        timesIfRequested()};
   undo_.hasCorrected = true;
   contact.correct(model, surfaces, contactSettings, now);
   search.addCorrection(contact.largestCorrection());
 }
 
-void World::bookContact(const StepLength& length) {
-  const StageTimer timer(timesIfAsked(), &StageTimes::correction);
+void World::countContactWork(const StepLength& length) {
+  const StageTimer timer(timesIfRequested(), &StageTimes::correction);
   const std::span<const Vec2> former = dynamics_.previousVelocity();
   for (const ContactRow& row : contact.rows()) {
     const Vec2 mean = .5 * (relative(row, former) + relative(row, model.nodes.velocity));

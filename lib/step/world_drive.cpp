@@ -26,7 +26,7 @@ void World::prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
                           std::span<const Vec2> velocity) {
   requireNodes(nodes);
   for (const Vec2 v : velocity)
-    if (!(std::max(std::abs(v.x), std::abs(v.y)) <= tolerance::kAnySpeed))
+    if (!(std::max(std::abs(v.x), std::abs(v.y)) <= tolerance::kMostSpeed))
       throw InputError("The prescribed velocity must be finite and at most 1e100 m/s.");
   const auto isNew = [&](NodeId node) { return model.nodes.held[node.value] != held; };
   const bool changed = std::any_of(nodes.begin(), nodes.end(), isNew);
@@ -44,7 +44,7 @@ void World::prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
     if (changed)
       ledger.external += model.nodes.mass[node] / 2 * (dot(present, present) - dot(former, former));
   }
-  forgetUnusedMotions();
+  removeUnusedMotions();
   if (changed) isBuilt_ = false;
 }
 
@@ -52,7 +52,7 @@ void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Mo
   requireNodes(nodes);
   if (!isFinite(motion.centre)) throw InputError("The centre of a motion must be finite.");
   for (const TimeTable* table : {&motion.speedX, &motion.speedY, &motion.turn})
-    if (!table->times().empty() && !TimeTable::isRight(table->times(), table->values()))
+    if (!table->times().empty() && !TimeTable::isValid(table->times(), table->values()))
       throw InputError("The times of a motion must ascend, and its values be finite.");
   if (!motion.turn.times().empty() && held != kHeldXY)
     throw InputError("A motion that turns must hold both directions.");
@@ -68,11 +68,11 @@ void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Mo
     all.motion[node.value] = static_cast<std::uint32_t>(model.motions.size());
     all.arm[node.value] = all.position[node.value] - added.centre;
   }
-  forgetUnusedMotions();
+  removeUnusedMotions();
 }
 
 /// Removes motions without nodes, e.g. those of a script that changes its motion in every step.
-void World::forgetUnusedMotions() {
+void World::removeUnusedMotions() {
   if (model.motions.empty()) return;
   std::vector<std::uint32_t> numbers(model.motions.size() + 1);
   for (const std::uint32_t motion : model.nodes.motion) numbers[motion] = 1;
@@ -117,7 +117,7 @@ void World::drive(double dt) {
 }
 
 /// Undoes `drive`.
-void World::letDrivenGo() {
+void World::undoDrive() {
   std::size_t next = 0;
   for (std::size_t n = 0; next < undo_.driven.size() && n < model.nodes.size(); ++n)
     if (model.nodes.motion[n] != 0) model.nodes.velocity[n] = undo_.driven[next++];

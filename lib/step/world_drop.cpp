@@ -14,7 +14,7 @@ void World::dropFragments(bool split) {
     droppedBelow_ = 0;
     return;
   }
-  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
   std::vector<ElementId> around;
   if (droppedBelow_ != area) {
     for (std::size_t e = 0; e < fracture.edges.ofElement.size(); ++e)
@@ -66,7 +66,7 @@ void World::takeOut(std::span<const ElementId> triangles) {
   fracture.cohesion.removeDropped(model.triangles, fracture.edges);
   surfaces.drop(nodes);
   contact.removeGone(surfaces);
-  search.forgetDropped(model);
+  search.removeDropped(model);
   finest_ = finestSegment();
 }
 

@@ -43,11 +43,11 @@ void World::watchEnergy() {
                         finest_,
                         search.halo,
                         ledger};
-  const auto tell = [this](std::string sentence) {
-    if (!sentence.empty()) complaints.push_back(std::move(sentence));
+  const auto report = [this](std::string sentence) {
+    if (!sentence.empty()) warnings.push_back(std::move(sentence));
   };
   watch.count(now);
-  if (watch.mayHaveCreated(now)) tell(watch.complainOfContact(now, roundingEnergy()));
+  if (watch.mayHaveCreated(now)) report(watch.contactMessage(now, roundingEnergy()));
   if (EnergyWatch::isDue(steps)) {
     const double kinetic = kineticEnergy();
     if (watch.mayHaveGrown(now, kinetic)) {
@@ -55,10 +55,10 @@ void World::watchEnergy() {
       const double grown = ledger.total(energy, 0) - watch.expected;
       // The energy of rounding takes long to compute; it is needed only if the excess is large.
       const bool isMuch = grown > tolerance::kGivenEnergy * watch.most;
-      tell(watch.complainOfGrowth(now, energy, isMuch ? roundingEnergy() : 0));
+      report(watch.growthMessage(now, energy, isMuch ? roundingEnergy() : 0));
     }
   }
-  tell(watch.complainOfDepth(now));
+  report(watch.depthMessage(now));
 }
 
 }  // namespace yadefrag

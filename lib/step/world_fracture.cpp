@@ -10,21 +10,21 @@ namespace yadefrag {
 
 void World::cohere(const StepLength& length) {
   if (fracture.cohesion.edge.empty()) return;
-  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
   fracture.cohesion.correct(model, fracture.edges, dynamics_.previousPosition(), length,
                             dynamicsSettings.drag(length));
 }
 
-void World::bookFracture(const StepLength& length) {
+void World::countFractureWork(const StepLength& length) {
   if (fracture.cohesion.edge.empty()) return;
-  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
-  fracture.cohesion.book(ledger, model, dynamics_.previousVelocity(), length);
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
+  fracture.cohesion.addWork(ledger, model, dynamics_.previousVelocity(), length);
 }
 
 /// Returns true if nodes have split.
 bool World::crack() {
   if (!fracture.isOn()) return false;
-  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
   fracture.cohesion.settle(model, fracture.edges);
   const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), split_);
   fracture.noteStart(time);

@@ -26,7 +26,7 @@ std::vector<SegmentId> World::segmentsAmong(std::span<const NodeId> nodes) const
 void World::setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function,
                         bool intoCracks) {
   std::vector<SegmentId> segments = segmentsAmong(nodes);
-  if (!value.times().empty() && !TimeTable::isRight(value.times(), value.values()))
+  if (!value.times().empty() && !TimeTable::isValid(value.times(), value.values()))
     throw InputError("The times of a pressure must ascend, and its values be finite.");
   // The new pressure replaces earlier ones on these segments.
   for (Pressure& other : pressures)
@@ -34,7 +34,7 @@ void World::setPressure(std::span<const NodeId> nodes, TimeTable value, std::uin
   const auto firstNew = static_cast<std::uint32_t>(surfaces.segments());
   pressures.push_back(
       {std::move(segments), std::move(value), function, intoCracks ? firstNew : Pressure::kNever});
-  forgetUnusedPressures();
+  removeUnusedPressures();
 }
 
 void World::setAbsorbing(std::span<const NodeId> nodes) {
@@ -47,7 +47,7 @@ void World::setAbsorbing(std::span<const NodeId> nodes) {
 }
 
 /// Removes pressures without segments, or with a constant value of 0.
-void World::forgetUnusedPressures() {
+void World::removeUnusedPressures() {
   std::erase_if(pressures, [](const Pressure& p) {
     return p.segments.empty() || (p.function == 0 && p.value.values() == std::vector<double>{0});
   });
@@ -55,7 +55,7 @@ void World::forgetUnusedPressures() {
 
 /// Must be called before the component is removed from the surfaces: later segments get lower
 /// numbers.
-void World::takeLoadsOff(const std::vector<std::uint8_t>& gone) {
+void World::removeLoads(const std::vector<std::uint8_t>& gone) {
   std::vector<SegmentId> numbers(surfaces.segments(), SegmentId::none());
   std::size_t kept = 0;
   for (std::size_t s = 0; s < numbers.size(); ++s)
@@ -72,7 +72,7 @@ void World::takeLoadsOff(const std::vector<std::uint8_t>& gone) {
           std::count(numbers.begin(), numbers.begin() + pressure.firstNew, SegmentId::none()));
   }
   renumber(absorbing.segments);
-  forgetUnusedPressures();
+  removeUnusedPressures();
 }
 
 /// Must be called after cracks have opened or lost their cohesion. Faces of cohesive cracks have no

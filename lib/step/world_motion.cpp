@@ -67,7 +67,7 @@ void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec,
 
 /// With larger displacements neither the search nor the deformation would be meaningful.
 void World::requireBoundedMotion(double dt) {
-  if (!dynamics_.anySwift()) return;
+  if (!dynamics_.anyLargeMove()) return;
   const std::span<const Vec2> before = dynamics_.previousPosition();
   double most = 0;
   for (std::size_t n = 0; n < before.size(); ++n)

@@ -31,18 +31,18 @@ Candidates renumbered(const Candidates& candidates, std::span<const EntryId> num
       if (pair.slave != EntryId::none() && pair.master != EntryId::none())
         flags.emplace_back(pair, candidates.outside[c]);
     }
-  Candidates left;
-  if (flags.empty()) return left;
+  Candidates kept;
+  if (flags.empty()) return kept;
   std::ranges::sort(flags);
   for (const auto& [pair, outside] : flags) {
-    if (left.slaves.empty() || left.slaves.back() != pair.slave) {
-      left.slaves.push_back(pair.slave);
-      left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
+    if (kept.slaves.empty() || kept.slaves.back() != pair.slave) {
+      kept.slaves.push_back(pair.slave);
+      kept.offsets.push_back(static_cast<std::uint32_t>(kept.masters.size()));
     }
-    left.masters.push_back(pair.master), left.outside.push_back(outside);
+    kept.masters.push_back(pair.master), kept.outside.push_back(outside);
   }
-  left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
-  return left;
+  kept.offsets.push_back(static_cast<std::uint32_t>(kept.masters.size()));
+  return kept;
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ ComponentId World::appendRigid(const RigidSpec& spec) {
     for (const std::uint32_t node : loop) nodes.emplace_back(first + node);
     surfaces.addLoop(nodes, std::vector<std::uint8_t>(nodes.size()), id);
   }
-  search.forget();
+  search.invalidate();
   return id;
 }
 
@@ -147,7 +147,7 @@ void World::replaceRigid(std::span<const RigidSpec> specs, std::span<const std::
 void World::slideRigid(std::span<const Vec2> places) {
   for (std::size_t i = 0; i < places.size(); ++i)
     model.nodes.position[rigidNodes_[i].value] = reference[rigidNodes_[i].value] = places[i];
-  places_.forget();
+  places_.clear();
   search.isVoid = true;
 }
 

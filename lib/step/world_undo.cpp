@@ -19,11 +19,11 @@ void World::takeBack() {
   if (undo_.hasCorrected) contact.takeBack();
   search.takeBack(searchScene());
   if (undo_.hasMoved) dynamics_.takeBack(model);
-  letDrivenGo();
+  undoDrive();
   ledger = undo_.ledger;
   watch = undo_.watch;
   stableStep = undo_.stableStep, stableViscosity = undo_.stableViscosity;
-  dynamics_.watchSpeed(undo_.speedLimit);
+  dynamics_.setSpeedLimit(undo_.speedLimit);
 }
 
 }  // namespace yadefrag

@@ -125,12 +125,12 @@ std::vector<EntryId> ContactSurfaces::removeComponents(const std::vector<std::ui
   translate(prev, entryNumbers);
 
   // Numbers of loops are kept without gaps, too.
-  std::vector<std::uint32_t> left(loop);
-  std::sort(left.begin(), left.end());
-  left.erase(std::unique(left.begin(), left.end()), left.end());
+  std::vector<std::uint32_t> remaining(loop);
+  std::sort(remaining.begin(), remaining.end());
+  remaining.erase(std::unique(remaining.begin(), remaining.end()), remaining.end());
   for (std::uint32_t& number : loop)
-    number = static_cast<std::uint32_t>(std::lower_bound(left.begin(), left.end(), number) -
-                                        left.begin());
+    number = static_cast<std::uint32_t>(
+        std::lower_bound(remaining.begin(), remaining.end(), number) - remaining.begin());
   return entryNumbers;
 }
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <typeinfo>
 
-#include "collider/complaints.hpp"
+#include "collider/error_messages.hpp"
 #include "core/parallel.hpp"
 #include "fe/surface_segment.hpp"
 
@@ -144,12 +144,12 @@ auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
 
 void BodyBoxes::checkPosition(const yade::Scene& scene, std::size_t id) const {
   if (kinds_[id] == Kind::kSphere) {
-    if (!balls_[id].centre.allFinite()) complainOfPosition(id, balls_[id].centre);
-    if (!(balls_[id].radius >= 0)) complainOfRadius(id, balls_[id].radius);
+    if (!balls_[id].centre.allFinite()) throwBadPosition(id, balls_[id].centre);
+    if (!(balls_[id].radius >= 0)) throwBadRadius(id, balls_[id].radius);
   } else if (kinds_[id] == Kind::kOther) {
     const yade::Body& body = *scene.bodies->body[id];
     if (body.shape && body.isBounded() && !body.state->se3.position.allFinite())
-      complainOfPosition(id, body.state->se3.position);
+      throwBadPosition(id, body.state->se3.position);
   }
 }
 
@@ -181,7 +181,7 @@ void BodyBoxes::updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatch
 void BodyBoxes::takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene) {
   const auto id = static_cast<std::size_t>(body->id);
   Bound& bound = *body->bound;
-  if (!isGood(toBox(bound.min, bound.max))) complainOfBound(id, bound);
+  if (!isGood(toBox(bound.min, bound.max))) throwBadBound(id, bound);
   // A body that no longer requests a bound keeps its present one, as in YADE.
   if (body->shape && body->isBounded()) {
     if (shapeKinds_.of(*body->shape) == ShapeKind::kSegment) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "collider/body_boxes.hpp"
-#include "collider/complaints.hpp"
+#include "collider/error_messages.hpp"
 #include "core/parallel.hpp"
 
 namespace yadefrag {

@@ -43,9 +43,9 @@ class InteractionUpdate {
   void markKnown(yade::InteractionContainer& interactions, std::span<const Neighbours> near,
                  const Bodies& bodies);
   void makeNew(yade::Scene& scene, std::span<const Neighbours> near, const MayCollide& mayCollide);
-  void lookAtBodies(yade::Scene& scene, std::span<const Neighbours> near,
-                    std::span<const BoxId> changed);
-  void lookAtHeld(yade::Scene& scene, const IsNear& isNear);
+  void checkBodies(yade::Scene& scene, std::span<const Neighbours> near,
+                   std::span<const BoxId> changed);
+  void checkHeld(yade::Scene& scene, const IsNear& isNear);
 
   PartnerTable partners_;
   std::vector<char> known_;          // by index: true if this interaction exists

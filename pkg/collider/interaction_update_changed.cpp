@@ -14,8 +14,8 @@ void InteractionUpdate::applyChanged(yade::Scene& scene, std::span<const Neighbo
                                      const IsNear& isNear) {
   known_.assign(near.size(), 0);
   gone_.clear();
-  lookAtHeld(scene, isNear);
-  lookAtBodies(scene, near, changed);
+  checkHeld(scene, isNear);
+  checkBodies(scene, near, changed);
   std::sort(gone_.begin(), gone_.end(),
             [](const Interaction* a, const Interaction* b) { return a->linIx > b->linIx; });
   gone_.erase(std::unique(gone_.begin(), gone_.end()), gone_.end());
@@ -25,7 +25,7 @@ void InteractionUpdate::applyChanged(yade::Scene& scene, std::span<const Neighbo
   sizeAfter_ = scene.interactions->size();
 }
 
-void InteractionUpdate::lookAtHeld(yade::Scene& scene, const IsNear& isNear) {
+void InteractionUpdate::checkHeld(yade::Scene& scene, const IsNear& isNear) {
   const auto& bodies = scene.bodies->body;
   std::erase_if(held_, [&](const auto& ids) {
     const yade::shared_ptr<Interaction>& is = scene.interactions->find(ids.first, ids.second);
@@ -36,8 +36,8 @@ void InteractionUpdate::lookAtHeld(yade::Scene& scene, const IsNear& isNear) {
   });
 }
 
-void InteractionUpdate::lookAtBodies(yade::Scene& scene, std::span<const Neighbours> near,
-                                     std::span<const BoxId> changed) {
+void InteractionUpdate::checkBodies(yade::Scene& scene, std::span<const Neighbours> near,
+                                    std::span<const BoxId> changed) {
   const auto& bodies = scene.bodies->body;
   const auto placeOf = [&](Body::id_t id) {
     return std::lower_bound(changed.begin(), changed.end(), BoxId(static_cast<std::size_t>(id))) -

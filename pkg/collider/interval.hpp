@@ -20,8 +20,9 @@ class Interval {
   /// and searched `searched` bodies; `halves` is the number of near neighbours of these that would
   /// not be near with sweeps half as long.
   void add(double looked, double searched, double halves) {
-    work_ += searched == looked ? searched
-                                : tolerance::kLookWork * looked + tolerance::kChangeWork * searched;
+    work_ += searched == looked
+                 ? searched
+                 : tolerance::kCheckWork * looked + tolerance::kChangeWork * searched;
     searched_ += searched;
     halves_ += halves;
   }

@@ -24,8 +24,9 @@ bool SearchCollider::searchChanged(int threads) {
   const double soon = tolerance::kLookAhead * interval;
   rule.lookAhead = soon * scene->dt;
   // If bodies are added at every step, the others are checked only now and then.
-  const bool quick = quickLook_ && static_cast<double>(scene->iter - lastLook_) < soon;
-  const auto most = static_cast<std::size_t>(std::max(workLeft() / tolerance::kChangeWork, 0.));
+  const bool quick = quickCheck_ && static_cast<double>(scene->iter - lastCheck_) < soon;
+  const auto most =
+      static_cast<std::size_t>(std::max(remainingWork() / tolerance::kChangeWork, 0.));
   if (!boxes_.prepareChanged(*scene, *boundDispatcher, rule, most, quick, threads)) return false;
   // The interactions of erased bodies were erased with them. If any other interaction was erased,
   // it may have to be created again by a full search.
@@ -45,7 +46,7 @@ bool SearchCollider::searchChanged(int threads) {
       *scene, near_, boxes_.changed(),
       [this](const Body* a, const Body* b) { return mayCollide(a, b, scene->subdomain); },
       [this](Body::id_t id1, Body::id_t id2) { return isStillNear(id1, id2); });
-  if (!quick) lastLook_ = scene->iter;
+  if (!quick) lastCheck_ = scene->iter;
   searchedSinceAll_ += boxes_.changed().size();
   countWork(quick ? 0 : static_cast<double>(boxes_.boxes().size()),
             static_cast<double>(boxes_.changed().size()), halvesOfChanged());
@@ -54,7 +55,7 @@ bool SearchCollider::searchChanged(int threads) {
 
 /// All bodies are searched when the searches of changed bodies have cost as much as a full search.
 /// For any sequence of events the cost is then at most twice that of the cheaper method.
-double SearchCollider::workLeft() const {
+double SearchCollider::remainingWork() const {
   return static_cast<double>(scene->bodies->body.size()) -
          tolerance::kChangeWork * static_cast<double>(searchedSinceAll_);
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "collider/complaints.hpp"
+#include "collider/error_messages.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
 #include "fe/surface_segment.hpp"
@@ -63,7 +63,7 @@ void SearchCollider::searchAll(int threads) {
     return mayCollide(a, b, scene->subdomain);
   });
   keptWith_ = choices();
-  lastLook_ = scene->iter;
+  lastCheck_ = scene->iter;
   searchedSinceAll_ = 0;
   const auto bodies = static_cast<double>(scene->bodies->body.size());
   countWork(bodies, bodies, 2 * static_cast<double>(pairsOfHalf_));
@@ -78,7 +78,7 @@ int SearchCollider::threadsToUse() const {
 /// later. (YADE would set it to 0 permanently; a scene that a factory fills would then be searched
 /// at every step.)
 void SearchCollider::chooseVerletDist() {
-  if (!std::isfinite(verletDist)) complainOfVerletDist(getClassName(), verletDist);
+  if (!std::isfinite(verletDist)) throwBadVerletDist(getClassName(), verletDist);
   if (verletDist >= 0) return;
   double least = INFINITY;
   for (const auto& body : scene->bodies->body) {
@@ -104,7 +104,7 @@ void SearchCollider::countWork(double looked, double searchedNow, double halves)
   searched = static_cast<long>(searchedNow);
   searchedTotal += searched;
   if (sweepsEnded_) counts_.add(looked, searchedNow, halves);
-  sweepsEnded_ = quickLook_ = false;
+  sweepsEnded_ = quickCheck_ = false;
 }
 
 /// Permitted displacements of bodies, and of neighbours by the cell's deformation, before the next
@@ -225,8 +225,8 @@ bool SearchCollider::isNear(const BoxPair& pair, const Halo& halo, Neighbours& o
   const PeriodicOverlap meets =
       periodicOverlap(boxes_.boxes()[pair.first.value], boxes_.boxes()[pair.second.value], rules);
   if (meets.kind == PeriodicOverlap::kTooLarge)
-    complainOfSize(meets.secondTooLarge ? pair.second.value : pair.first.value, meets.axis,
-                   rules.size[static_cast<std::size_t>(meets.axis)]);
+    throwTooLarge(meets.secondTooLarge ? pair.second.value : pair.first.value, meets.axis,
+                  rules.size[static_cast<std::size_t>(meets.axis)]);
   out.cellDist = yade::Vector3i(meets.shift[0], meets.shift[1], meets.shift[2]);
   return meets.kind == PeriodicOverlap::kOverlap;
 }
@@ -289,7 +289,7 @@ bool SearchCollider::isActivated() {
   newton = MotionWatch::findIntegrator(*scene);
   if (newton) fastestBodyMaxDist = MotionWatch::fastestBody(*newton);
   sweepsEnded_ = watch_.boundsBroken(*scene);
-  quickLook_ = came && !sweepsEnded_;
+  quickCheck_ = came && !sweepsEnded_;
   return came || scene->doSort || sweepsEnded_;
 }
 

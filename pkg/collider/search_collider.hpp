@@ -7,7 +7,7 @@
 
 #include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"
-#include "collider/complaints.hpp"
+#include "collider/error_messages.hpp"
 #include "collider/free_memory.hpp"
 #include "collider/halo.hpp"
 #include "collider/interaction_update.hpp"
@@ -73,7 +73,7 @@ class SearchCollider : public yade::Collider {
   void searchAll(int threads);
   bool searchChanged(int threads);
   [[nodiscard]] bool mayKeep() const;
-  [[nodiscard]] double workLeft() const;
+  [[nodiscard]] double remainingWork() const;
   [[nodiscard]] double halvesOfChanged() const;
   [[nodiscard]] bool someErased() const;
   [[nodiscard]] bool isStillNear(yade::Body::id_t id1, yade::Body::id_t id2) const;
@@ -122,9 +122,9 @@ class SearchCollider : public yade::Collider {
   std::vector<std::vector<Neighbours>> nearByPart_;
   std::size_t pairsOfHalf_ = 0;       // pairs near only because the sweeps are not half as long
   Interval counts_;                   // counts since the interval was chosen
-  bool quickLook_ = false;            // this search is due only because bodies were added
+  bool quickCheck_ = false;           // this search is due only because bodies were added
   std::size_t searchedSinceAll_ = 0;  // bodies searched since the last full search
-  long lastLook_ = -1;                // step at which all bodies were checked
+  long lastCheck_ = -1;               // step at which all bodies were checked
   long lastIter_ = -1;                // step of the last search
   bool sweepsEnded_ = false;          // this search is due because a body left its bound
   double slack_ = 0;                  // m, margin for the cell's deformation in every box
@@ -145,7 +145,7 @@ void SearchCollider::findPairs(Find find) {
   try {
     find();
   } catch (const TooManyPairs&) {
-    complainOfPairs(bodies, most, memory_.free());
+    throwTooManyPairs(bodies, most, memory_.free());
   }
 }
 

@@ -91,8 +91,8 @@ bool isPresent(const yade::Scene& scene, yade::Body::id_t id) {
          dynamic_cast<const SurfaceSegment*>(scene.bodies->body[place]->shape.get());
 }
 
-[[noreturn]] void complainOfMissing(const yade::Scene& scene,
-                                    const std::vector<yade::Body::id_t>& ids, yade::Body::id_t id) {
+[[noreturn]] void throwMissing(const yade::Scene& scene, const std::vector<yade::Body::id_t>& ids,
+                               yade::Body::id_t id) {
   if (std::none_of(ids.begin(), ids.end(), [&](auto one) { return isPresent(scene, one); }))
     throw RunError(
         "The bodies of this FESolver are not in the scene any more (O.reset, O.load, O.switchScene "
@@ -250,7 +250,7 @@ void EntryBodies::requireAll(const yade::Scene& scene) {
   for (std::size_t e = 0; e < ids_.size(); ++e) {
     if (!hasBody(EntryId(e))) continue;
     const auto id = static_cast<std::size_t>(ids_[e]);
-    if (id >= present.size() || present[id] != bodies_[e]) complainOfMissing(scene, ids_, ids_[e]);
+    if (id >= present.size() || present[id] != bodies_[e]) throwMissing(scene, ids_, ids_[e]);
   }
 }
 
@@ -267,11 +267,11 @@ void EntryBodies::findBodies(const yade::Scene& scene) {
       continue;
     }
     const auto place = static_cast<std::size_t>(id);
-    if (place >= present.size() || !present[place]) complainOfMissing(scene, ids_, id);
+    if (place >= present.size() || !present[place]) throwMissing(scene, ids_, id);
     bodies.push_back(present[place]);
     shapes.push_back(boost::dynamic_pointer_cast<SurfaceSegment>(present[place]->shape));
     states.push_back(present[place]->state);
-    if (!shapes.back()) complainOfMissing(scene, ids_, id);
+    if (!shapes.back()) throwMissing(scene, ids_, id);
   }
   bodies_.swap(bodies);
   shapes_.swap(shapes);

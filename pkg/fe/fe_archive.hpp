@@ -70,7 +70,7 @@ class WorldArchive {
     archive_& boost::serialization::make_nvp("checksum", checksum);
     if constexpr (Archive::is_loading::value) {
       if (checksum != sum_.value() && !kIgnoreChecksum) refuse("its checksum is wrong");
-      const std::string wrong = whatIsWrong(world);
+      const std::string wrong = findInvalidPart(world);
       if (!wrong.empty()) refuse(wrong + " are invalid");
       if (entryBodies.size() != world.surfaces.entries()) refuse("its bodies are invalid");
       world.rebuild();
@@ -110,12 +110,12 @@ class WorldArchive {
     value("mostEnergy", watch.most);
     value("watchedContact", watch.contact), value("watchedFriction", watch.friction);
     value("watchedSplit", watch.split);
-    value("lookedCreated", watch.lookedCreated), value("lookedGrown", watch.lookedGrown);
-    value("toldCreated", watch.toldCreated), value("toldGrown", watch.toldGrown);
-    value("toldDepth", watch.toldDepth), value("lastStep", watch.lastStep);
+    value("lookedCreated", watch.evaluatedCreated), value("lookedGrown", watch.evaluatedGrown);
+    value("toldCreated", watch.reportedCreated), value("toldGrown", watch.reportedGrown);
+    value("toldDepth", watch.reportedDepth), value("lastStep", watch.lastStep);
     value("leastStep", watch.leastStep), value("mostStep", watch.mostStep);
     value("stepChanges", watch.changes);
-    lines("complaints", world.complaints);
+    lines("complaints", world.warnings);
   }
 
   void lines(const char* name, std::vector<std::string>& all) {
@@ -289,7 +289,7 @@ class WorldArchive {
     value(name, times), value(name, values);
     if constexpr (Archive::is_loading::value) {
       if (!times.empty() || !values.empty())
-        if (!TimeTable::isRight(times, values)) refuse(std::string(name) + " is invalid");
+        if (!TimeTable::isValid(times, values)) refuse(std::string(name) + " is invalid");
       table = TimeTable(std::move(times), std::move(values));
     }
   }
@@ -305,7 +305,7 @@ class WorldArchive {
     member("touchMaster", rows, [](Touch& t) -> Index& { return t.pair.master.value; });
     member("touchNormal", rows, [](Touch& t) -> double& { return t.normalForce; });
     member("touchTangent", rows, [](Touch& t) -> double& { return t.tangentForce; });
-    member("touchAllowed", rows, [](Touch& t) -> double& { return t.allowed; });
+    member("touchAllowed", rows, [](Touch& t) -> double& { return t.toleratedGap; });
   }
 
   void search(SearchState& search) {

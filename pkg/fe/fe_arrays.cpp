@@ -297,7 +297,7 @@ py::tuple energyBalanceOf(const FESolver& solver) {
 
 py::list warningsOf(const FESolver& solver) {
   py::list result;
-  for (const std::string& sentence : solver.world().complaints) result.append(sentence);
+  for (const std::string& sentence : solver.world().warnings) result.append(sentence);
   return result;
 }
 

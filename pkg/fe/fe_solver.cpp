@@ -33,7 +33,7 @@ void FESolver::action() try {
   const bool enginesAreNew = order_.require(*scene, *this);
   bodies_.requireAll(*scene);
   giveSettings();
-  lookAround(enginesAreNew);
+  checkScene(enginesAreNew);
   followRigid(enginesAreNew);
   if (world_.search.isDue || world_.search.isVoid) {
     bodies_.requireWhole();
@@ -44,7 +44,7 @@ void FESolver::action() try {
       world_.takePairs(pairs_);
   }
   const std::uint64_t dropped = world_.dropped.count;
-  const std::size_t complaints = world_.complaints.size();
+  const std::size_t known = world_.warnings.size();
   bodies_.collectForces(*scene, world_, world_.outerForces);
   const bool mayBeBorn = world_.fracture.numCracks() > 0 && !world_.outerForces.empty();
   const double born = mayBeBorn ? energyBornInside(*scene, bodies_) : 0;
@@ -58,11 +58,11 @@ void FESolver::action() try {
   } catch (const InputError& error) {
     throw std::invalid_argument(error.what());
   }
-  bookSpheres(born);
-  warn(complaints);
+  countSphereEnergy(born);
+  warn(known);
   if (rigid_.any()) {
     rigid_.giveForces(*scene, world_, length);
-    tell(rigid_.takeSentences());
+    report(rigid_.takeSentences());
   }
   followCracks(dropped);
   bodies_.update(world_, timeToIntegrate(), world_.threads);
@@ -75,7 +75,7 @@ void FESolver::action() try {
 
 /// `born`: J, initial energy of contacts with spheres. A message is given above 1 % of the bodies'
 /// energy, and once per doubling.
-void FESolver::bookSpheres(double born) {
+void FESolver::countSphereEnergy(double born) {
   if (born == 0) return;
   const double least = tolerance::kGivenEnergy * world_.watch.most;
   const auto doublings = [&](double energy) {
@@ -90,34 +90,34 @@ void FESolver::bookSpheres(double born) {
        << " s: where cracks opened under spheres, new contacts have created " << energyFromSpheres
        << " J, " << 100 * energyFromSpheres / world_.watch.most
        << " % of the bodies' energy; stiffer spheres overlap the new corners less.";
-  world_.complaints.push_back(text.str());
+  world_.warnings.push_back(text.str());
 }
 
 /// Writes the new warnings.
 void FESolver::warn(std::size_t known) const {
-  for (std::size_t i = known; i < world_.complaints.size(); ++i)
-    std::cerr << "WARN  FESolver: " << world_.complaints[i] << std::endl;
+  for (std::size_t i = known; i < world_.warnings.size(); ++i)
+    std::cerr << "WARN  FESolver: " << world_.warnings[i] << std::endl;
 }
 
 /// Takes over the gravity of the scene, and reports contacts and forces that the bodies will not
 /// have.
-void FESolver::lookAround(bool enginesAreNew) {
+void FESolver::checkScene(bool enginesAreNew) {
   const yade::NewtonIntegrator* newton = integrator(false);
   const yade::Vector3r theirs = newton ? newton->gravity : yade::Vector3r::Zero();
   if (takesOver()) world_.dynamicsSettings.gravity = {theirs[0], theirs[1]};
   const bool bodiesAreNew = around_.look(*scene);
-  const bool rigidChanged = std::exchange(toldRigid_, rigidBodies) != rigidBodies;
+  const bool rigidChanged = std::exchange(checkedRigid_, rigidBodies) != rigidBodies;
   if (!bodiesAreNew && !enginesAreNew && !rigidChanged) return;
-  tell(around_.sentences(theirs, rigidBodies));
+  report(around_.sentences(theirs, rigidBodies));
 }
 
 /// Reports those messages that have not been reported yet.
-void FESolver::tell(std::vector<std::string> sentences) {
-  const std::size_t known = world_.complaints.size();
-  std::vector<std::string>& told = world_.complaints;
+void FESolver::report(std::vector<std::string> sentences) {
+  const std::size_t known = world_.warnings.size();
+  std::vector<std::string>& warnings = world_.warnings;
   for (std::string& sentence : sentences)
-    if (std::find(told.begin(), told.end(), sentence) == told.end())
-      told.push_back(std::move(sentence));
+    if (std::find(warnings.begin(), warnings.end(), sentence) == warnings.end())
+      warnings.push_back(std::move(sentence));
   warn(known);
 }
 
@@ -130,7 +130,7 @@ void FESolver::followRigid(bool enginesAreNew) {
     throw std::invalid_argument(std::string(error.what()) +
                                 " FESolver(rigidBodies=False) disables contact with it.");
   }
-  tell(rigid_.takeSentences());
+  report(rigid_.takeSentences());
   if ((enginesAreNew || areNew) && rigid_.anyMovable(*scene))
     EngineOrder::requireReturn(*scene, *this);
 }

@@ -80,11 +80,11 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
   void giveSettings();
-  void bookSpheres(double born);
+  void countSphereEnergy(double born);
   void warn(std::size_t known) const;
-  void lookAround(bool enginesAreNew);
+  void checkScene(bool enginesAreNew);
   void followRigid(bool enginesAreNew);
-  void tell(std::vector<std::string> sentences);
+  void report(std::vector<std::string> sentences);
   [[nodiscard]] const yade::NewtonIntegrator* integrator(bool behind) const;
   [[nodiscard]] bool takesOver() const { return takesGravity && gravity.isZero(0); }
   void followCracks(std::uint64_t dropped);
@@ -99,7 +99,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   EngineOrder order_;
   SceneWatch around_;
   RigidBodies rigid_;
-  bool toldRigid_ = true;  // `rigidBodies` when the scene was last checked
+  bool checkedRigid_ = true;  // `rigidBodies` when the scene was last checked
   ScriptFunctions functions_;
   std::vector<BoxPair> pairs_;
   /// Number of segments for which the halo was chosen, and that have not moved since.

@@ -98,7 +98,7 @@ bool RigidBodies::takeNew(const yade::Scene& scene, int mask) {
     if (!body || !body->shape || !mayHaveSection(*body) || (body->groupMask & mask) == 0) continue;
     const auto isKnown = [&](const Member& member) { return member.id == body->id; };
     if (std::ranges::any_of(members_, isKnown)) continue;
-    if (isFlat(*body) && !std::exchange(toldFlat_, true))
+    if (isFlat(*body) && !std::exchange(reportedFlat_, true))
       sentences_.push_back("FE bodies go through facets that lie in their plane z = 0, such as #" +
                            std::to_string(body->id) + ": a facet must cut the plane.");
     members_.push_back({body->id, body, formOf(*body->shape)});
@@ -265,7 +265,7 @@ bool RigidBodies::slideWalls(World& world) {
   for (const NodeId node : world.rigidNodes())
     places.push_back(world.model.nodes.position[node.value]);
   const Extent extent(world);
-  const double left = tolerance::kWallLeft * extent.size;
+  const double margin = tolerance::kWallMargin * extent.size;
   bool anyShort = false;
   for (std::size_t i = 0, end = 0; i < corners_.size(); i = end) {
     while (end < corners_.size() && corners_[end].member == corners_[i].member) ++end;
@@ -273,8 +273,8 @@ bool RigidBodies::slideWalls(World& world) {
     const double length = norm(places[i + 1] - places[i]);
     const Vec2 along = (1 / length) * (places[i + 1] - places[i]);
     const double off = dot(extent.middle - .5 * (places[i] + places[i + 1]), along);
-    if (length / 2 - std::abs(off) >= left) continue;
-    if (length < 4 * left) return false;
+    if (length / 2 - std::abs(off) >= margin) continue;
+    if (length < 4 * margin) return false;
     anyShort = true;
     const Vec2 by = off * along;
     for (std::size_t k = i; k < end; ++k) {
@@ -337,7 +337,7 @@ void RigidBodies::giveForces(yade::Scene& scene, const World& world,
     scene.forces.addForce(body.id, inSpace(force));
     scene.forces.addTorque(body.id, Vector3r(0, 0, cross(arm, force)));
   }
-  if (!toldLight_) warnOfLight(scene, world);
+  if (!reportedLight_) warnOfLight(scene, world);
 }
 
 /// A boundary keeps its velocity during a step, independently of forces. A body lighter than the
@@ -370,7 +370,7 @@ void RigidBodies::warnOfLight(const yade::Scene& scene, const World& world) cons
          << " kg, less than the nodes of FE bodies that it touches, " << touched[m]
          << " kg: it bounces back faster than it came; make it heavier, or the elements smaller.";
     sentences_.push_back(text.str());
-    toldLight_ = true;
+    reportedLight_ = true;
     return;
   }
 }

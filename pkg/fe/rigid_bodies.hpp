@@ -76,8 +76,8 @@ class RigidBodies {
   std::vector<RigidCorner> corners_;
   std::size_t seen_ = 0;  // number of the scene's bodies at the last check
   mutable std::vector<std::string> sentences_;
-  mutable bool toldLight_ = false;
-  bool toldFlat_ = false;
+  mutable bool reportedLight_ = false;
+  bool reportedFlat_ = false;
 };
 
 template <class Archive>
@@ -97,14 +97,14 @@ void RigidBodies::archive(Archive& archive, const World& world) {
   if constexpr (Archive::is_loading::value) {
     *this = {};
     const std::size_t count = world.rigidNodes().size();
-    bool isRight = numbers.size() == 2 * count && places.size() == 6 * count;
-    for (std::size_t i = 0; isRight && i < count; ++i) {
+    bool isValid = numbers.size() == 2 * count && places.size() == 6 * count;
+    for (std::size_t i = 0; isValid && i < count; ++i) {
       const double* at = places.data() + 6 * i;
       corners_.push_back(
           {numbers[2 * i], numbers[2 * i + 1], {at[0], at[1], at[2]}, {at[3], at[4], at[5]}});
-      isRight = numbers[2 * i] < ids.size() && numbers[2 * i + 1] < count;
+      isValid = numbers[2 * i] < ids.size() && numbers[2 * i + 1] < count;
     }
-    if (!isRight)
+    if (!isValid)
       throw InputError(
           "The saved state of FESolver is damaged (its rigid boundaries are invalid); "
           "load another save.");

@@ -31,7 +31,7 @@ TEST(ExtremeSpeed, FromANanometrePerSecondToTheWaveSpeed) {
         << part << ": " << beyond;
   }
   limit("closing speed of two elastic blocks, of the wave speed", kNone, most,
-        "works by shorter steps, or stops: a shorter step is asked for, or an element is inverted");
+        "works by shorter steps, or stops: a shorter step is needed, or an element is inverted");
   limit("closing speed, m/s", least, kNone,
         "body too slow for its coordinates' rounding: refused when added");
 }
@@ -175,9 +175,9 @@ TEST(ExtremeSpeed, LimitsOfAStep) {
     if (sentenceOf([&] { world.step(dt); }).empty()) mostAlone = part;
   }
   limit("motion of bodies about to touch in one step, of a segment", kNone, most,
-        "refused: a shorter step is asked for");
+        "refused: a shorter step is needed");
   limit("motion of any surface node in one step, of the shortest segment", kNone, mostAlone,
-        "refused: a shorter step is asked for");
+        "refused: a shorter step is needed");
 }
 
 }  // namespace

@@ -207,7 +207,7 @@ def test_wrongOptions(name, options, sentence):
 
 
 def test_interruptedRunStillReports(folder):
-    # On a terminal a bar tells that the run goes on: an interrupt before that ends the script. It
+    # On a terminal a bar shows that the run has started: an interrupt before that ends the script. It
     # has to be read, too, and one that Python loses while it writes the bar has to be sent again.
     terminal, its = pty.openpty()
     running = start('squares', '--n', '4', '--steps', '10000000', '--out', folder, stderr=its)

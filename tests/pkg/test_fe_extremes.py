@@ -35,7 +35,7 @@ def speeds(solver):
 
 
 def isSound(solver, start, allowed=1e-3):
-    """No energy out of nothing: `start` is what there was."""
+    """No energy is created: `start` is the initial energy."""
     energy = solver.energy
     return energy['kinetic'] + energy['strain'] <= start * (1 + allowed) \
         and abs(energy['total'] / start - 1) < .01
@@ -164,7 +164,7 @@ def test_supersonicPassByNeedsNoShorterStep(collider):
 
 @pytest.mark.parametrize('collider', ['LebesgueCollider', 'InsertionSortCollider'])
 def test_supersonicPassByGoesOnWithTheStepThatIsProposed(collider):
-    """Two blocks shoot past each other and just touch: nobody can tell before. The corners graze
+    """Two blocks shoot past each other and just touch, which cannot be predicted. The corners graze
     each other: half a per cent of the speed goes over."""
     solver, _ = blow(5 * WAVE, gap=.2, aside=1, collider=collider)
     asked = 0

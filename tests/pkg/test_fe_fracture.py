@@ -278,7 +278,7 @@ def test_fragmentTableAndSizes(folder):
 
 @pytest.mark.filterwarnings('ignore:fractureEnergy')
 def test_heldPartsCountAsOne():
-    """A bar that is torn: two parts as soon as nodes part, but one until the crack has let go."""
+    """A bar in tension: two parts as soon as nodes split, but one until the crack has lost its cohesion."""
     solver = w.FESolver()
     nodes, triangles = yadefrag.rectangleMesh((-.01, 0), (.01, .01), 2, 1)
     solver.addTriangles(nodes, triangles, material=brittle(fractureEnergy=500),

@@ -1,4 +1,4 @@
-"""What FE bodies will not touch or feel is said once; gravity is that of the scene."""
+"""Contacts and forces that FE bodies will not have are reported once; gravity is that of the scene."""
 import builtins
 import os
 

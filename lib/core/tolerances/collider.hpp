@@ -38,7 +38,7 @@ inline constexpr double kLookAhead = .25;
 /// (of a body's share in a full search) Cost of the test whether a body has left its swept box,
 /// which is mostly memory access, and cost of searching one body that has (measured: 0.05 and 1.8
 /// of 0.33 µs).
-inline constexpr double kLookWork = .15, kChangeWork = 6;
+inline constexpr double kCheckWork = .15, kChangeWork = 6;
 
 /// (steps) Target range of the interval between two searches.
 inline constexpr double kLeastInterval = 3, kMostInterval = 200;
@@ -58,6 +58,6 @@ inline constexpr double kMeet = 1e-6;
 
 /// (of the bodies' extent) Half the length that represents a wall, which is infinite, and the
 /// minimum length beyond any body. With these values the represented part is rarely shifted.
-inline constexpr double kWallReach = 20, kWallLeft = 2;
+inline constexpr double kWallReach = 20, kWallMargin = 2;
 
 }  // namespace yadefrag::tolerance

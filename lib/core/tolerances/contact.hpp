@@ -41,7 +41,7 @@ inline constexpr double kLeansIn = .5;
 /// impact in twelve had pieces that overlap by more than half a segment. With ten times the value
 /// corners that had passed a master's end were pushed back, and contact created ten times as much
 /// energy.
-inline constexpr double kLeftInside = .02;
+inline constexpr double kRestoredDepth = .02;
 
 /// (of the shortest segment) Applies to entry by the path. A slave no deeper than this behind a
 /// piece at the start of a step counts as outside. In twelve impacts pieces overlap by up to 1.9e-4
@@ -69,7 +69,7 @@ inline constexpr double kSameFace = .866;
 /// (of the largest displacement in the step; of the shortest segment) Penetrations below these
 /// sizes are not solved again. The first is the second-order remainder of the linearised contact
 /// condition; it is an error of the same size in velocities. The second is rounding.
-inline constexpr double kRemainder = 1e-5, kPenetrationLeft = 1e-10;
+inline constexpr double kRemainder = 1e-5, kRemainingPenetration = 1e-10;
 
 /// (count) Maximum number of detections in one step.
 inline constexpr int kDetections = 10;

@@ -10,7 +10,7 @@ namespace yadefrag::tolerance {
 
 /// (m/s) Highest speed that a velocity may have or be prescribed: the speed squared and the
 /// displacement in a step stay finite numbers.
-inline constexpr double kAnySpeed = 1e100;
+inline constexpr double kMostSpeed = 1e100;
 
 /// (1) Largest coefficients of bulk viscosity. Usual ones are 0.06 and 1.2; the critical time step
 /// falls in proportion.
@@ -18,8 +18,8 @@ inline constexpr double kMostViscosity = 1e6;
 
 /// (det F; of the least stress-free height) An element compressed to `kFlat` of its area is flat.
 /// An element can be inverted in one step only if it is flat or if one of its nodes moves by
-/// `kSwift` or more; elements that are also stretched in one direction are the exception.
-inline constexpr double kFlat = .2, kSwift = .1;
+/// `kLargeMove` or more; elements that are also stretched in one direction are the exception.
+inline constexpr double kFlat = .2, kLargeMove = .1;
 
 /// (count) Elements per block in the sum of forces. The nodes of a block stay in the first-level
 /// cache, and few of them belong to another block.
@@ -27,7 +27,7 @@ inline constexpr std::size_t kChunkElements = 512;
 
 /// (ratio) Elements stressed to this part of their body's lowest strength are checked in detail.
 /// The margin is needed since the stress is that of the previous step.
-inline constexpr double kStrengthLook = .9;
+inline constexpr double kStrengthCheck = .9;
 
 /// (ratio) Minimum number of elements per thread, as a multiple of the minimum for other items:
 /// threads wait for each other twice a step.

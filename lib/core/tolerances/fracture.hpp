@@ -18,7 +18,7 @@ inline constexpr double kZoneElements = 4;
 inline constexpr double kBondGap = 1e-9;
 /// (of a side) Parallel sides no farther apart than this that do not match were probably meant to
 /// be bonded: a message is given.
-inline constexpr double kBondMeant = .01;
+inline constexpr double kProbableBond = .01;
 
 /// (of the strength; count) The sweeps over cohesive tractions with common nodes end when no
 /// traction changes by more, or after this number of sweeps. With ten times the first value the

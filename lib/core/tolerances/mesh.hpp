@@ -21,7 +21,7 @@ inline constexpr double kLeastSize = 0x1p-40;
 
 /// (of the largest coordinate) Smallest displacement in a step that a given velocity must cause: 16
 /// roundings of a coordinate.
-inline constexpr double kSeenMotion = 0x1p-49;
+inline constexpr double kLeastMotion = 0x1p-49;
 
 /// (rad) Smallest angle of a triangle. Below it, about half of the 52 bits of the triangle's area
 /// are rounding.

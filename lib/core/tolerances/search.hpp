@@ -53,7 +53,7 @@ inline constexpr std::uint64_t kCodesPerBox = 4;
 
 /// (count) Lists of at least this length are sorted by digits (radix sort); shorter ones have fewer
 /// entries than the sort has counters.
-inline constexpr std::size_t kRadixPays = 256;
+inline constexpr std::size_t kRadixLength = 256;
 
 /// (ratio) The hierarchy is rebuilt when the total half-perimeter of its refitted nodes exceeds
 /// this multiple of its value after building.

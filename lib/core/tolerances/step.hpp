@@ -19,11 +19,11 @@ inline constexpr double kFarthestMove = 10;
 
 /// (of the bodies' largest energy; ratio) A message is given if contact or cracks have added more
 /// than this energy. Energies are evaluated again when that amount has grown by the second value.
-inline constexpr double kGivenEnergy = .01, kLookAgain = 1.1;
+inline constexpr double kGivenEnergy = .01, kEvaluateAgain = 1.1;
 
 /// (steps) Interval between two evaluations of the kinetic energy: each costs half a per cent of a
 /// step.
-inline constexpr std::uint64_t kStepsToLook = 8;
+inline constexpr std::uint64_t kStepsToCheck = 8;
 
 /// (steps) Interval between two sums over all energies: each takes as long as four steps.
 inline constexpr std::uint64_t kStepsToSumUp = 1024;
@@ -51,9 +51,9 @@ inline constexpr double kHaloSteps = 40;
 inline constexpr double kHaloSpare = 1.1;
 
 /// (of the reach) A body is isolated if all others are farther away than `kApart` times the reach.
-/// With this margin the classification does not alternate between checks. Gaps up to `kApartLook`
+/// With this margin the classification does not alternate between checks. Gaps up to `kApartSearch`
 /// times the reach are computed; a body covers such a gap in some hundred steps.
-inline constexpr double kApart = 2, kApartLook = 8;
+inline constexpr double kApart = 2, kApartSearch = 8;
 
 /// (of the largest displacement in a step) Reach of isolated bodies, if that is more than the halo:
 /// two bodies that approach each other are detected well before they could touch.
