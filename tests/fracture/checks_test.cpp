@@ -201,8 +201,7 @@ TEST(CohesiveZoneWarning, GoesByTheZoneOfACrackThatSlidesIfThatIsShorter) {
   material.shearFactor = 3, material.shearEnergyFactor = 2;
   const double zone = 275e9 * 300 / 9e16 * 2 / 9;
   const std::string sentence = cohesiveZoneWarning(body(kSide, material), kBody);
-  EXPECT_NEAR(numberAfter(sentence, "the cohesive zone of a sliding crack is "), zone,
-              1e-3 * zone);
+  EXPECT_NEAR(numberAfter(sentence, "the cohesive zone of a sliding crack is "), zone, 1e-3 * zone);
   EXPECT_NEAR(numberAfter(sentence, "at most "), zone / 4, .02 * zone / 4);
   material.shearEnergyFactor = 9;
   EXPECT_EQ(cohesiveZoneWarning(body(kSide, material), kBody), "");
