@@ -1,5 +1,5 @@
-# YADEFRAG_VERSION: 0.1.0 at the tag v0.1.0; between tags with commits since and the commit, say
-# 0.1.0+12.gabcdef0; without git that of project().
+# YADEFRAG_VERSION: 0.1.0 at the tag v0.1.0; between tags with number of commits and the commit, e.g.
+# 0.1.0+12.gabcdef0; without git the version in project().
 
 set(YADEFRAG_VERSION ${PROJECT_VERSION})
 find_program(GIT_PROGRAM git)

@@ -1,5 +1,5 @@
 # `cmake --install`: the Python package, documents and examples. `cpack`: the same as a .deb for the
-# release that it is built on.
+# release of the machine.
 
 set(doc_dir share/doc/yadefrag)
 install(FILES README.md CHANGELOG.md DESTINATION ${doc_dir} COMPONENT plugin)
@@ -22,7 +22,7 @@ find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
 math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
 
 set(CPACK_GENERATOR DEB)
-# Neither tests nor the headers of lib.
+# Without tests and without the headers of lib.
 set(CPACK_INSTALL_CMAKE_PROJECTS "${CMAKE_BINARY_DIR};yadefrag;plugin;/")
 set(CPACK_PACKAGE_NAME yadefrag)
 set(CPACK_PACKAGE_VERSION ${YADEFRAG_VERSION})
@@ -36,7 +36,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1~deb${os_version})
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-# The yade and the Python that it is built for; libraries by what the extension links to.
+# The yade and the Python of the build; libraries to which the extension is linked.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${YADEFRAG_YADE_LIBDIR})
 set(python_version ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR})
@@ -47,7 +47,7 @@ string(JOIN ", " CPACK_DEBIAN_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib, python3-meshio, python3-pil, python3-tqdm")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
     "python3-distributed, python3-ezdxf, python3-shapely, python3-skimage, python3-svgelements")
-# Python's compiled files are made at installation and leave with the package.
+# Python's compiled files are created at the installation and removed with the package.
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst
                                        ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)

@@ -24,7 +24,7 @@ def text(of):
 
 
 def ownMembers(of):
-    """Public members that YADE's base classes do not have."""
+    """Public members that are not those of YADE's base classes."""
     known = set()
     for base in of.__mro__[1:]:
         known.update(vars(base))
@@ -53,7 +53,7 @@ def describe(name, of):
 
 def main(path):
     named = set()
-    lines = ['# Reference\n', 'Made from the docstrings. Units are SI. `help(name)` shows the same in YADE.\n']
+    lines = ['# Reference\n', 'Generated from the docstrings. Units are SI. `help(name)` shows the same in YADE.\n']
     for title, names in GROUPS:
         lines.append(f'## {title}\n')
         for name in names:

@@ -1,4 +1,4 @@
-"""What the finite-element examples share: options, engines, the run itself, the report."""
+"""Common parts of the finite-element examples: options, engines, the run, the report."""
 import argparse
 import hashlib
 import math
@@ -14,7 +14,7 @@ COLLIDERS = dict(Lebesgue='LebesgueCollider', LinearCode='LinearCodeCollider',
 
 
 class Options(argparse.ArgumentParser):
-    """The options of an example, with those that all have."""
+    """The options of an example, including the common ones."""
 
     def __init__(self, doc, steps):
         script = sys.argv[0]
@@ -36,7 +36,7 @@ class Options(argparse.ArgumentParser):
 
 
 def makeFolder(parser, folder):
-    """Makes what --out says, if it is not there; the parser tells what is wrong."""
+    """Creates the folder of --out, if it does not exist; the parser reports errors."""
     try:
         os.makedirs(folder, exist_ok=True)
     except OSError as error:
@@ -45,7 +45,7 @@ def makeFolder(parser, folder):
 
 
 def wholeNumber(text, least=1):
-    """An option's value as an int of at least `least`; argparse tells what is wrong."""
+    """An option's value as an int of at least `least`; argparse reports errors."""
     try:
         value = int(text)
     except ValueError:
@@ -57,12 +57,13 @@ def wholeNumber(text, least=1):
 
 
 def atLeast(least):
-    """`wholeNumber` with another least value, for add_argument(type=...)."""
+    """`wholeNumber` with another minimum, for add_argument(type=...)."""
     return lambda text: wholeNumber(text, least)
 
 
 def number(text, isRight, wanted):
-    """An option's value as a float of which isRight(value) is true; `wanted` is said if not."""
+    """An option's value as a float for which isRight(value) is true; `wanted` describes valid
+    values."""
     try:
         value = float(text)
     except ValueError:
@@ -83,7 +84,7 @@ def notNegative(text):
 
 
 def setEngines(fe, collider):
-    """The usual loop around the solver `fe`, and a time step of 0.8 of the critical one."""
+    """The usual loop with the solver `fe`, and a time step of 0.8 of the critical one."""
     finder = getattr(w, COLLIDERS[collider])
     O.engines = yadefrag.engines(fe, spheres=True, collider=finder)
     O.dt = .8 * fe.criticalTimeStep()
@@ -91,7 +92,7 @@ def setEngines(fe, collider):
 
 
 class Run:
-    """A run that is watched: the deepest penetration of all steps, and the energies over time."""
+    """A run with a record: the deepest penetration of all steps, and the energies over time."""
 
     def __init__(self, fe):
         self.fe = fe
@@ -106,10 +107,10 @@ class Run:
         self.history.append(dict(self.fe.energy, time=O.time, actives=self.fe.numActives))
 
     def go(self, steps, moments=(), show=None, every=50, each=None):
-        """Runs `steps` steps; Ctrl-C ends the run after a step, with all that was found so far.
+        """Runs `steps` steps; Ctrl-C ends the run after a step, with all results so far.
 
         Calls show() before the first step and after each of the steps in `moments`, each() after
-        every step, and remembers the energies after each `every` steps.
+        every step, and stores the energies after each `every` steps.
         """
         fe, moments = self.fe, set(moments)
         if show:
@@ -134,11 +135,11 @@ class Run:
         return self
 
     def series(self, name):
-        """(n) of one of the remembered values: an energy (J), 'time' (s), 'actives'."""
+        """(n) of one of the stored values: an energy (J), 'time' (s), 'actives'."""
         return np.array([moment[name] for moment in self.history])
 
     def report(self):
-        """Prints what the run was, and what came out; one value on a line."""
+        """Prints the setting and the results of the run; one value per line."""
         fe, total = self.fe, self.series('total')
         lost = self.history[-1]['contact'] - self.history[0]['contact']
         scale = max(abs(total).max(), np.finfo(float).tiny)
@@ -152,22 +153,22 @@ class Run:
                 ('energy at the start', f'{total[0]:.6g} J'),
                 ('energy drift', f'{(total[-1] - total[0]) / scale:+.1e} at the end, '
                                  f'{(total - total[0]).max() / scale:+.1e} at most'),
-                ('lost at touch', f'{lost / scale:+.2%} of the energy'),
-                ('lost by friction', f'{self.history[-1]["friction"] / scale:+.2%} of the energy'),
+                ('dissipated by contact', f'{lost / scale:+.2%} of the energy'),
+                ('dissipated by friction', f'{self.history[-1]["friction"] / scale:+.2%} of the energy'),
                 ('positions (md5)', hashlib.md5(fe.nodes.tobytes()).hexdigest())]
         print('\n'.join(f'{name + ":":24}{value}' for name, value in rows))
         print(timeSplit())
 
 
 def shortestSegment(fe):
-    """(m) of all surfaces."""
+    """(m) The shortest segment of all surfaces."""
     nodes = fe.nodes
     return min(np.linalg.norm(nodes[loop] - nodes[np.roll(loop, -1)], axis=1).min()
                for loop in fe.surfaces)
 
 
 def timeSplit():
-    """The engines' shares of the time, from YADE's timing, as text."""
+    """The engines' fractions of the time, from YADE's timing, as text."""
     seconds = {type(e).__name__: 1e-9 * e.execTime for e in O.engines}
     whole = sum(seconds.values()) or 1
     return '\n'.join(f'{"  " + name:24}{value:7.2f} s  {value / whole:6.1%}'
@@ -175,7 +176,7 @@ def timeSplit():
 
 
 def progress(steps):
-    """1 … steps; with a bar of steps and time left if standard error is a terminal."""
+    """1 … steps; with a bar of steps and remaining time if standard error is a terminal."""
     counted = range(1, steps + 1)
     try:
         from tqdm import tqdm
@@ -185,12 +186,12 @@ def progress(steps):
 
 
 def moments(steps, count):
-    """`count` steps from the first to the last, evenly (the start is not one of them)."""
+    """`count` steps from the first to the last, evenly spaced (without the start)."""
     return [round(steps * (k + 1) / count) for k in range(count)]
 
 
 def tell(options, *names):
-    """Prints which pictures were written."""
+    """Prints the names of the written pictures."""
     if not options.no_pictures:
         files = ', '.join(os.path.relpath(os.path.join(options.out, name)) for name in names)
         print(f'{"written:":24}{files}')

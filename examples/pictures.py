@@ -24,7 +24,7 @@ class Shot:
 
 
 class Film:
-    """Shots of a run; `film.take` is to be called at the moments that are to be seen."""
+    """Shots of a run; call `film.take` at the moments of the pictures."""
 
     def __init__(self, fe, field):
         self.fe, self.field, self.shots = fe, field, []
@@ -34,9 +34,9 @@ class Film:
 
 
 def values(fe, field, triangles):
-    """(m) speed of the triangles (m/s), or von Mises stress of the plane's components (MPa).
+    """(m) speed of the triangles (m/s), or von Mises stress from the in-plane components (MPa).
 
-    Stresses are averaged at the nodes first: those of single linear triangles scatter.
+    Stresses are first averaged at the nodes: those of single linear triangles scatter.
     """
     if field == 'speed':
         return np.linalg.norm(fe.velocities[triangles].mean(axis=1), axis=1)
@@ -48,7 +48,7 @@ def values(fe, field, triangles):
 
 
 def draw(axis, shot, norm, cmap='viridis', outline=.6):
-    """Draws a shot; returns what a colour bar wants."""
+    """Draws a shot; returns the mappable for a colour bar."""
     drawn = PolyCollection(shot.corners, array=shot.values, norm=norm, cmap=cmap,
                            edgecolors='none', antialiaseds=False)
     axis.add_collection(drawn)
@@ -58,7 +58,7 @@ def draw(axis, shot, norm, cmap='viridis', outline=.6):
 
 
 def limits(shots, margin=.03):
-    """((left, right), (bottom, top)) in mm around all that is in the shots."""
+    """((left, right), (bottom, top)) in mm around everything in the shots."""
     points = np.concatenate([np.concatenate(shot.outlines) for shot in shots])
     low, high = points.min(axis=0), points.max(axis=0)
     room = margin * (high - low).max()

@@ -1,9 +1,9 @@
-# Sourced by every script here: where the project is, and how to fail with one sentence.
+# Sourced by every script here: the project's folder, and errors with one sentence.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 python=/usr/bin/python3
-# Debian's tools, whatever pyenv or conda put first.
+# Debian's tools have priority over those of pyenv or conda.
 export PATH="/usr/sbin:/usr/bin:/sbin:/bin:$PATH"
 unset PYTHONHOME VIRTUAL_ENV CONDA_PREFIX
 
@@ -12,13 +12,13 @@ die() {
   exit 1
 }
 
-# The project's own runs take no Python package but Debian's.
+# The project's own runs use Debian's Python packages only.
 use_only_debian_python() {
   export PYTHONNOUSERSITE=1
   unset PYTHONPATH PYTHONSTARTUP
 }
 
-# Processes started from here find `import yadefrag`; it is built first where it is not there.
+# Processes started from here find `import yadefrag`; it is built first if it does not exist.
 use_plugin() {
   local package_dir=$root/build/release/python
   if [ ! -e "$package_dir/yadefrag/__init__.py" ] || [ ! -e "$package_dir/yadefrag/_yadefrag.so" ]; then

@@ -1,9 +1,9 @@
-"""A block of mortar with aggregates is pressed together: weak interfaces crack, aggregates do not.
+"""A block of mortar with aggregates is compressed: weak interfaces crack, aggregates do not.
 
     scripts/yade -n -x examples/aggregates/aggregates.py [--steps 3000] [--collider Lebesgue] …
 
-50 mm of mortar with round aggregates, twelve-sided, between ends that come nearer at 2 m/s. What
-is between the two has half the mortar's strength. Plane strain. Writes aggregates.png.
+50 mm of mortar with round aggregates, twelve-sided, between ends that approach each other at 2 m/s.
+Their interfaces have half the mortar's strength. Plane strain. Writes aggregates.png.
 """
 import os
 import sys
@@ -20,7 +20,7 @@ SIDE, SIZE, SPEED, GAP = 50e-3, 1.5e-3, 1., 2e-3  # m, m, m/s, m
 
 
 def aggregates(random):
-    """(x, y, radius) of circles that neither overlap nor leave the block."""
+    """(x, y, radius) of circles inside the block that do not overlap."""
     placed = []
     for radius in np.repeat([7e-3, 5e-3, 3.5e-3], [4, 7, 12]):
         for _ in range(3000):

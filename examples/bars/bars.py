@@ -1,11 +1,11 @@
-"""Slender elastic bars that a heavy block presses into folds.
+"""Slender elastic bars that are folded by a heavy block.
 
     scripts/yade -n -x examples/bars/bars.py [--n 8] [--steps 5000] [--collider Lebesgue] …
 
 The benchmark "bars" of Diekmann et al., ECCOMAS 2000, §6, figure 13: elastic bars are compressed by
-a heavy block and interfolded. Here rubber bars (E 5 MPa), 2 × 60 mm, 0.5 mm apart and each a
-little wavy, stand between walls on a rigid floor; the block above falls on them at 10 m/s and does
-not turn. Friction 0.2, the bars touch themselves. All in SI units, plane strain, per metre of
+a heavy block and interfolded. Here rubber bars (E 5 MPa), 2 × 60 mm, 0.5 mm apart and each slightly
+wavy, stand between walls on a rigid floor; the block above falls on them at 10 m/s and does not
+rotate. Friction 0.2, the bars touch themselves. All in SI units, plane strain, per metre of
 thickness. Writes bars.png.
 """
 import math
@@ -22,8 +22,8 @@ from yadefrag import rectangle, rectangleMesh  # noqa: E402
 
 LENGTH, THICKNESS, GAP = 60e-3, 2e-3, .5e-3  # m
 CELLS = 60, 2  # along and across a bar
-WAVE = .4e-3  # m, how far a bar's middle line is from straight
-SIDE, WALL, BLOCK = 4e-3, 3e-3, 15e-3  # m: room beside the bars, thickness of wall and block
+WAVE = .4e-3  # m, amplitude of a bar's middle line
+SIDE, WALL, BLOCK = 4e-3, 3e-3, 15e-3  # m: free space beside the bars, thickness of wall and block
 SPEED = 10.  # m/s
 
 
@@ -48,7 +48,8 @@ def build(n, passes, seed):
 
 
 def addBar(fe, left, one, two):
-    """A bar whose middle line is bent by two sine waves of the amplitudes one and two × WAVE."""
+    """A bar whose middle line is the sum of two sine waves with the amplitudes one and two ×
+    WAVE."""
     nodes, triangles = rectangleMesh((0, GAP / 10), (THICKNESS, GAP / 10 + LENGTH), CELLS[1],
                                      CELLS[0], crossed=True)
     y = nodes[:, 1] * np.pi / LENGTH

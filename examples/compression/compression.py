@@ -1,13 +1,13 @@
-"""Blocks of rock are compressed until they break, beside Mohr's and Coulomb's law.
+"""Blocks of rock are compressed until they break, compared with the Mohr–Coulomb law.
 
     scripts/yade -n -x examples/compression/compression.py [--size 8e-4] [--pressures 0 2.5 5]
         [--held] [--scatter .1] [--fracture-energy 10] [--seed 1] [--out FOLDER] [--no-pictures]
 
 A block of 20 × 40 mm, E 20 GPa, tensile strength 5 MPa, cohesion three times that, friction angle
-0.6 rad, between platens that slide sideways without friction (--held: that hold its ends), under
-lateral pressures in MPa. Theory: 2c cos φ/(1 − sin φ) + σ₃(1 + sin φ)/(1 − sin φ). Each block ends
-when it bears half of its peak, or is 1.25 times as short as at failure. Writes compression.png
-(compression_held.png): stress at the peak, pieces after it, and the load over the shortening.
+0.6 rad, between platens on which the ends slide without friction (--held: the ends are held), under
+lateral pressures in MPa. Theory: 2c cos φ/(1 − sin φ) + σ₃(1 + sin φ)/(1 − sin φ). A run ends when the
+load falls to half of its peak, or at 1.25 times the shortening at failure. Writes compression.png
+(compression_held.png): stress at the peak, fragments after it, and the load over the shortening.
 """
 import math
 import os
@@ -31,7 +31,7 @@ FILE, HELD_FILE = 'compression.png', 'compression_held.png'
 
 
 def theory(pressure):
-    """(Pa) Mohr and Coulomb."""
+    """(Pa) Mohr–Coulomb law."""
     s = math.sin(FRICTION)
     return (2 * SHEAR * STRENGTH * math.cos(FRICTION) + pressure * (1 + s)) / (1 - s)
 
@@ -83,7 +83,7 @@ class Block:
         return loads
 
     def platensWork(self):
-        """(J) All outer work but that of the lateral pressure."""
+        """(J) All external work except that of the lateral pressure."""
         work = self.fe.energy['external']
         return work - (self.fe.loads * self.fe.nodes).sum() if self.pressure > 0 else work
 
@@ -106,7 +106,7 @@ class Block:
         self.drift = self.fe.energy['total'] - start
 
     def keep(self):
-        """What is drawn in the end: the next block resets the scene."""
+        """Stores the data for the pictures: the next block resets the scene."""
         fe = self.fe
         nodes = 1e3 * fe.nodes
         self.after = (nodes[fe.triangles], pieceColours(fe),
@@ -129,7 +129,7 @@ def shot(fe):
 
 
 def pieceColours(fe):
-    """(m, 3) Pieces in colours; the largest is grey."""
+    """(m, 3) Colours of the fragments; the largest is grey."""
     import pictures
     from yadefrag.colours import fragmentColours
     palette = np.array([pictures.matplotlib.colors.to_rgb(c) for c in
@@ -141,7 +141,7 @@ def pieceColours(fe):
 
 
 def drawColumn(block, axes, norm):
-    """Returns what a colour bar wants."""
+    """Draws a block's pictures; returns the mappable for a colour bar."""
     import pictures
     corners, stress = block.atPeak
     drawn = axes[0].add_collection(pictures.PolyCollection(
@@ -176,7 +176,7 @@ def picture(blocks, file):
                             label=f'σ₃ = {1e-6 * block.pressure:g} MPa')
         curves.axhline(1e-6 * block.failure, color=line.get_color(), linewidth=.7, linestyle='--')
     curves.set(xlabel='shortening, mm per m', ylabel='load, MPa', ylim=(0, None))
-    curves.legend(title='dashed: Mohr and Coulomb', loc='upper left', frameon=False)
+    curves.legend(title='dashed: Mohr–Coulomb', loc='upper left', frameon=False)
     figure.savefig(file, dpi=90)
     pictures.plt.close(figure)
 

@@ -1,4 +1,4 @@
-"""A steel cylinder strikes a ceramic block that is held at its bottom.
+"""A steel cylinder hits a ceramic block that is held at its bottom.
 
     scripts/yade -n -x examples/cylinder/cylinder.py [--size 5e-4] [--steps 500] [--vtk FILE] …
 
@@ -21,7 +21,7 @@ from yade.wrapper import FEMat, FESolver  # noqa: E402
 from yadefrag import circle, exportVTK, rectangle  # noqa: E402
 
 RADIUS, BLOCK, SPEED = 5e-3, (40e-3, 20e-3), 200.  # m, m, m/s
-FRAMES = 48  # of the film, beside the first
+FRAMES = 48  # of the animation, besides the first
 TOP = 6000  # MPa, of the colours
 CROP = ((-.5, 40.5), (-.5, 32.))  # mm
 
@@ -53,7 +53,7 @@ class Watch:
         self.forces.append(self.fe.contactForces[self.nodes, 1].sum())
 
     def report(self):
-        """Prints the force, how long it lasts, and how the cylinder goes back."""
+        """Prints the force, the duration of contact, and the rebound of the cylinder."""
         times, forces = np.array(self.times), np.array(self.forces)
         mass = self.fe.fragments()[1]['mass']
         back = self.fe.fragments()[1]['velocity'][1]
@@ -76,7 +76,7 @@ def curves(watch, run, file):
     axes[0].set_ylabel('force on the cylinder, MN per m')
     for name, colour in (('total', 'k'), ('kinetic', '#3d8fb5'), ('strain', '#edae49'),
                          ('contact', '#66a182')):
-        label = 'lost at touch' if name == 'contact' else name
+        label = 'dissipated by contact' if name == 'contact' else name
         axes[1].plot(1e6 * run.series('time'), 1e-3 * run.series(name), label=label, color=colour)
     axes[1].set(xlabel='time, µs', ylabel='energy, kJ per m')
     axes[1].legend(ncol=4, frameon=False, loc='lower center', bbox_to_anchor=(.5, 1))

@@ -3,12 +3,12 @@ import numpy as np
 import pictures
 from yadefrag.colours import fragmentColours
 
-INTACT = '#e4e1da'  # the largest piece of a body
+INTACT = '#e4e1da'  # the largest fragment of a body
 COLOURS = ('#8ecae6', '#ffb703', '#90be6d', '#f28482', '#b8a1d9', '#e9c46a', '#5f9ea0', '#d4a373')
 
 
 class Films:
-    """The stress at the moments that are to be seen, and the fragments at the last of them."""
+    """The stress at the chosen moments, and the fragments at the last of them."""
 
     def __init__(self, fe):
         self.fe, self.film = fe, pictures.Film(fe, 'mises')
@@ -26,7 +26,7 @@ class Films:
 
 
 def drawFragments(fe, shot, file, title, window):
-    """The pieces in colours, the largest of each body in a grey."""
+    """The fragments in colours, the largest of each body in grey."""
     of = fe.fragmentOf
     palette = np.array([pictures.matplotlib.colors.to_rgb(c) for c in COLOURS])
     colours = palette[fragmentColours(fe) % len(palette)]
@@ -42,13 +42,13 @@ def drawFragments(fe, shot, file, title, window):
                                                 edgecolors='none', antialiaseds=False))
     axis.add_collection(pictures.LineCollection(shot.outlines, colors='k', linewidths=.5))
     axis.set(aspect='equal', xlim=(left, right), ylim=(low, high), xlabel='x, mm', ylabel='y, mm')
-    axis.set_title(f'{title}: {len(area):,} pieces after {1e6 * shot.time:.1f} µs', loc='left')
+    axis.set_title(f'{title}: {len(area):,} fragments after {1e6 * shot.time:.1f} µs', loc='left')
     figure.savefig(file, dpi=100)
     pictures.plt.close(figure)
 
 
 def course(file, picture, title):
-    """Surface segments, cracks and fragments over time, and where the energy is, of a record."""
+    """Surface segments, cracks and fragments over time, and the energies, from a record."""
     data = np.genfromtxt(file, delimiter=',', names=True, deletechars='')
     time = 1e6 * data['time_(s)']
     figure, axes = pictures.plt.subplots(2, 1, figsize=(9, 7.4), sharex=True, layout='constrained')
@@ -59,8 +59,8 @@ def course(file, picture, title):
     axes[0].set_ylabel('number')
     for name, label, colour in (
             ('total', 'total', 'k'), ('kinetic', 'kinetic', '#3d8fb5'),
-            ('strain', 'strain', '#edae49'), ('friction', 'lost by friction', '#8d6a9f'),
-            ('contact', 'lost at touch', '#66a182'), ('fracture', 'lost in cracks', '#d1495b')):
+            ('strain', 'strain', '#edae49'), ('friction', 'dissipated by friction', '#8d6a9f'),
+            ('contact', 'dissipated by contact', '#66a182'), ('fracture', 'dissipated by cracks', '#d1495b')):
         axes[1].plot(time, 1e-3 * data[f'{name}_(J)'], label=label, color=colour)
     axes[1].set(xlabel='time, µs', ylabel='energy, kJ per m')
     for axis in axes:

@@ -1,13 +1,14 @@
-"""An elastic cylinder drops on a block of brittle material, held at its bottom: it shatters.
+"""Impact of an elastic cylinder on a block of brittle material, held at its bottom, which breaks
+into fragments.
 
     scripts/impact            sets up, builds and runs this
     scripts/yade -n -x examples/impact/impact.py [--size 5e-4] [--speed 50] [--steps 4000] …
 
 The impact of Diekmann et al., ECCOMAS 2000, §6, figure 15. Steel cylinder of 10 mm with a smooth
-surface, ceramic block of 40 × 20 mm that cracks along the edges of its triangles; what comes loose
-touches everything else from that step on. All in SI units, plane strain, per metre of thickness.
-Writes to out/impact/: impact.png (stress at six moments), impact_fragments.png (the pieces at the
-end), impact_course.png (surface segments, cracks, fragments, energies over time), impact_sizes.png,
+surface, ceramic block of 40 × 20 mm that cracks along the edges of its triangles; the fragments have
+contact from that step on. All in SI units, plane strain, per metre of thickness. Writes to
+out/impact/: impact.png (stress at six moments), impact_fragments.png (the fragments at the end),
+impact_course.png (surface segments, cracks, fragments, energies over time), impact_sizes.png,
 course.csv and fragments.csv.
 """
 import math
@@ -29,7 +30,7 @@ RADIUS, BLOCK = 5e-3, (40e-3, 20e-3)  # m
 BRITTLE, CYLINDER = 0, 1  # components
 EVERY = 5  # steps between two lines of the record
 TOP = 1500  # MPa, of the colours
-SHARES = (.03, .06, .1, .2, .5, 1)  # of the steps: the moments to be seen
+SHARES = (.03, .06, .1, .2, .5, 1)  # of the steps: the moments of the pictures
 CROP = ((-2.5, 42.5), (-.5, 32.))  # mm
 OUT = os.path.normpath(os.path.join(HERE, '..', '..', 'out', 'impact'))
 FILES = ('impact.png', 'impact_fragments.png', 'impact_course.png', 'impact_sizes.png',
@@ -53,7 +54,7 @@ def build(options):
 
 
 class Watch:
-    """Mass, momentum and the record of the run; to be called after every step."""
+    """Mass, momentum and the record of the run; called after every step."""
 
     def __init__(self, fe, file):
         self.fe, self.start = fe, time.process_time()
@@ -68,7 +69,7 @@ class Watch:
             self.record()
 
     def report(self):
-        """Prints what the cracks made of the block, and which time it took."""
+        """Prints the results of cracking, and the time that it took."""
         fe = self.fe
         table = fragmentTable(fe)
         pieces = table[table['component'] == BRITTLE]
@@ -82,7 +83,7 @@ class Watch:
                               f'{(pieces["triangles"] == 1).sum():,} of one triangle'),
                 ('mass', f'{fe.masses.sum() / self.mass - 1:+.1e} of it changed'),
                 ('cylinder at the end', f'{back:+.2f} m/s'),
-                ('spent in cracks', f'{fe.energy["fracture"]:.6g} J'),
+                ('dissipated by cracks', f'{fe.energy["fracture"]:.6g} J'),
                 ('CPU time', f'{time.process_time() - self.start:.1f} s')]
         print('\n'.join(f'{name + ":":24}{value}' for name, value in rows))
 

@@ -1,5 +1,5 @@
-// A bar of steel hits another one that is at rest: the library without YADE. Without lateral motion
-// a wave runs through both at c = sqrt(E/rho); after 2L/c they part, and have exchanged their
+// A steel bar hits another one at rest: the library without YADE. Without lateral motion a wave
+// propagates through both at c = sqrt(E/rho); after 2L/c they separate, and have exchanged their
 // speeds.
 
 #include <cmath>

@@ -1,15 +1,15 @@
-"""A ceramic ring that expands breaks to pieces: how large they are, over the rate of strain.
+"""Expanding ceramic rings break: size of the fragments over the strain rate.
 
     scripts/yade -n -x examples/ring_fragments/ring_fragments.py [--seeds 3] [--rates 1e3 1e4 1e5]
         [--moduli 0 50 20] [--out FOLDER] [--no-pictures]
 
 Thin rings of 50 mm circumference, E 275 GPa, 2750 kg/m³, strength 300 MPa, fracture energy
 100 J/m², in plane stress without lateral strain, start just below their strength with a uniform
-radial speed. Beside the mean size of the fragments stands what Zhou, Molinari and Ramesh 2006
-(Appl. Phys. Lett. 88, 261917) found for a ring in one dimension without any scatter,
+radial speed. The mean size of the fragments is compared with the result of Zhou, Molinari and Ramesh
+2006 (Appl. Phys. Lett. 88, 261917) for a ring in one dimension without scatter,
 s/s0 = 4.5 / (1 + 0.77 r^0.25 + 5.4 r^0.75), s0 = E Gc/σ², r = rate · E² Gc/(c σ³). A Weibull
-modulus of 0 stands for a scatter of ±10⁻⁴ alone. Writes ring_sizes.png (sizes over rates) and
-ring_pieces.png (the pieces of the first seed along the ring, unrolled).
+modulus of 0 means a scatter of ±10⁻⁴ only. Writes ring_sizes.png (sizes over rates) and
+ring_pieces.png (the fragments of the first seed along the ring, unrolled).
 """
 import argparse
 import math
@@ -31,20 +31,20 @@ FILES = ('ring_sizes.png', 'ring_pieces.png')
 
 
 def theory(rate):
-    """(m) The mean size of a fragment at a rate of strain (1/s)."""
+    """(m) The mean size of a fragment at a strain rate (1/s)."""
     wave = math.sqrt(YOUNG / DENSITY)
     r = rate * YOUNG**2 * ENERGY / (wave * STRENGTH**3)
     return 4.5 * YOUNG * ENERGY / STRENGTH**2 / (1 + .77 * r**.25 + 5.4 * r**.75)
 
 
 def cellsFor(rate):
-    """Square cells around: five for each fragment that there may be, and three for E Gc/σ²."""
+    """Number of square cells: five for each expected fragment, and three for E Gc/σ²."""
     return max(500, 50 * round(5 * CIRCUMFERENCE / theory(rate) / 50))
 
 
 def ringMesh(cells):
-    """(nodes, triangles) of square cells, each cut in four about its middle: cut in two, the light
-    ends of radial edges open first, and the ring unfolds like a zigzag."""
+    """(nodes, triangles) of square cells, each divided into four triangles around its middle: with two, the
+    light ends of radial edges open first, and the ring unfolds in a zigzag."""
     angles = 2 * math.pi * np.arange(cells) / cells
     around = lambda angle, radius: radius * np.stack([np.cos(angle), np.sin(angle)], 1)  # noqa: E731
     width = CIRCUMFERENCE / cells
@@ -70,7 +70,7 @@ class Ring:
             young=YOUNG, poisson=0, density=DENSITY, planeStress=True, frictionAngle=0,
             tensileStrength=STRENGTH, fractureEnergy=ENERGY, weibullModulus=modulus, seed=seed,
             strengthScatter=0 if modulus else 1e-4))
-        # Just below the weakest of the radial edges, as it is likely to be.
+        # Just below the probable strength of the weakest radial edge.
         start = .98 * STRENGTH * (cells**(-1 / modulus) if modulus else 1)
         stretch = start / YOUNG * RADIUS
         self.fe = fe = FESolver()
@@ -83,7 +83,7 @@ class Ring:
         O.dt = .4 * fe.criticalTimeStep()
         O.step()
         before = fe.energy['total']
-        # Until nothing breaks any more; the strongest edges are reached that much later.
+        # Until no edge breaks any more; the strongest edges are reached that much later.
         duration = 2.5e-6 * (1e3 / rate)**.4 + 2 * (1.1 * STRENGTH - start) / YOUNG / rate
         O.run(math.ceil(duration / O.dt), True)
         self.drift = fe.energy['total'] / before - 1
@@ -91,11 +91,11 @@ class Ring:
         self.spent = fe.energy['fracture']
 
     def size(self):
-        """(m) The mean length of a piece."""
+        """(m) The mean length of a fragment."""
         return CIRCUMFERENCE / len(self.pieces)
 
     def arcs(self):
-        """(k, 2) begin and length of the pieces along the ring (m), in order."""
+        """(k, 2) begin and length of the fragments along the ring (m), in order."""
         mass = np.array([piece['mass'] for piece in self.pieces])
         at = np.array([math.atan2(*piece['centroid'][::-1]) for piece in self.pieces])
         order = np.argsort(at)
@@ -136,7 +136,7 @@ def drawSizes(found, options, file):
         mean = sizes.mean(axis=1)
         spread = np.abs(np.stack([sizes.min(axis=1), sizes.max(axis=1)]) - mean)
         axis.errorbar(options.rates, mean, spread, fmt=marker, capsize=3, label=name(modulus))
-    axis.set(xscale='log', yscale='log', xlabel='rate of strain, 1/s',
+    axis.set(xscale='log', yscale='log', xlabel='strain rate, 1/s',
              ylabel='mean size of the fragments, mm')
     axis.grid(True, which='both', linewidth=.3)
     axis.legend()
@@ -151,7 +151,7 @@ def drawPieces(found, options, file):
         arcs = 1e3 * found[key][1]
         whole = 1e3 * CIRCUMFERENCE
         colours = np.where(np.arange(len(arcs)) % 2, '#d8b365', '#5ab4ac')
-        for shift in (-whole, 0, whole):  # a piece may go over the end of the strip
+        for shift in (-whole, 0, whole):  # a fragment may extend over the end of the strip
             axis.broken_barh(arcs + [shift, 0], (height - .38, .76), facecolors=colours)
     axis.set(xlim=(0, whole), ylim=(len(rows) - .5, -.5), xlabel='along the ring, mm',
              yticks=range(len(rows)),

@@ -1,4 +1,4 @@
-"""Concentric elastic rings that start in different directions.
+"""Concentric elastic rings with initial velocities in different directions.
 
     scripts/yade -n -x examples/rings/rings.py [--n 8] [--steps 6000] [--collider Lebesgue] …
 
@@ -18,12 +18,12 @@ from yade.wrapper import FEMat, FESolver  # noqa: E402
 from yadefrag import ring  # noqa: E402
 
 INNERMOST, THICKNESS, GAP = 10e-3, 2e-3, .4e-3  # m
-SEGMENTS, MORE = 128, 8  # around the innermost ring; more on each next one
+SEGMENTS, MORE = 128, 8  # of the innermost ring; additional ones of each next ring
 SPEED = 5.  # m/s
 
 
 def build(n, passes, smooth, seed):
-    """n rings around each other; returns the solver."""
+    """n concentric rings; returns the solver."""
     O.materials.append(FEMat(young=50e6, poisson=.4, density=1100, frictionAngle=0, label='rubber'))
     fe = FESolver(passes=passes)
     random = np.random.default_rng(seed)
@@ -31,7 +31,7 @@ def build(n, passes, smooth, seed):
         inner = INNERMOST + k * (THICKNESS + GAP)
         outer = inner + THICKNESS
         segments = SEGMENTS + MORE * k
-        size = 1.05 * 2 * np.pi * outer / segments  # just too long to divide a segment
+        size = 1.05 * 2 * np.pi * outer / segments  # slightly too long to divide a segment
         fe.addPolygon(*ring((0, 0), inner, outer, segments), size=size, material='rubber',
                       smooth=smooth, velocity=SPEED * np.array([np.cos(angle), np.sin(angle)]),
                       selfContact=False)

@@ -2,13 +2,13 @@
 
     scripts/yade -n -x examples/rolling/rolling.py [--segments 64] [--block .25] [--passes 2] …
 
-A rubbery cylinder (E 200 MPa, radius 10 mm) is pressed by gravity (2000 m/s²) onto a flat block and
-rolls at 0.25 m/s without slipping. A polygon of N sides drops onto its sides and is lifted over its
-corners, so that the force changes with each segment; the smooth surface of the same nodes does so
-less. How much less depends on the block's segments and on the passes (README.md). Mass-proportional
-damping takes the first bounce away, and a force along the block makes up for what it takes from the
-motion. Prints the ripple (max − min) / mean of the vertical force, and its standard deviation. All
-in SI units, plane strain, per metre of thickness. Writes rolling.png.
+A rubber cylinder (E 200 MPa, radius 10 mm) is pressed by gravity (2000 m/s²) onto a flat block and
+rolls at 0.25 m/s without slipping. A polygon of N sides falls onto its sides and is lifted over its
+corners, so that the force changes with each segment; with the smooth surface of the same nodes it
+changes less. The difference depends on the block's segments and on the passes (README.md).
+Mass-proportional damping removes the first bounce, and a force along the block compensates its effect
+on the motion. Prints the ripple (max − min) / mean of the vertical force, and its standard deviation.
+All in SI units, plane strain, per metre of thickness. Writes rolling.png.
 """
 import math
 import os
@@ -24,7 +24,7 @@ from yadefrag import circle, rectangle  # noqa: E402
 
 RADIUS, SPEED, GRAVITY = 10e-3, .25, 2000.  # m, m/s, m/s²
 DAMPING = 3000.  # 1/s
-SETTLING, SEGMENTS = 4e-3, 6  # s before the measurement, and segments that it lasts
+SETTLING, SEGMENTS = 4e-3, 6  # s before the measurement; its length in segments
 
 
 def build(segments, block, passes, smooth):
@@ -32,7 +32,7 @@ def build(segments, block, passes, smooth):
     O.reset()
     O.materials.append(FEMat(young=200e6, poisson=.3, density=1000, frictionAngle=math.atan(.6),
                              label='m'))
-    # Damping takes α·m·v from the translation, and α·m·v/2 through the spin.
+    # Damping reduces the translation by α·m·v, and by α·m·v/2 through the spin.
     fe = FESolver(passes=passes, damping=DAMPING, gravity=(1.5 * DAMPING * SPEED, -GRAVITY, 0))
     segment = 2 * math.pi * RADIUS / segments
     far = SPEED * SETTLING + SEGMENTS * segment
@@ -44,7 +44,7 @@ def build(segments, block, passes, smooth):
 
 
 def roll(options, smooth, film=None):
-    """(angle in segments, vertical force in N) of the part that is measured, and the report."""
+    """(angle in segments, vertical force in N) of the measured part, and the report."""
     fe = build(options.segments, options.block, options.passes, smooth)
     common.setEngines(fe, options.collider)
     segment = 2 * math.pi * RADIUS / options.segments
@@ -78,7 +78,7 @@ def roll(options, smooth, film=None):
 
 
 def draw(file, options, results, shot):
-    """The force over the angle, and the cylinder as it stands at the end."""
+    """The force over the angle, and the cylinder at the end."""
     import pictures
     figure, axes = pictures.plt.subplots(1, 2, figsize=(12, 4.4), layout='constrained',
                                          width_ratios=(1.5, 1))
@@ -86,7 +86,7 @@ def draw(file, options, results, shot):
                                                results):
         axes[0].plot(way, force, color=colour, lw=1,
                      label=f'{name}: ripple {np.ptp(force) / force.mean():.1%}')
-    axes[0].set(xlabel='way rolled, segments', ylabel='vertical contact force / weight')
+    axes[0].set(xlabel='rolling distance, segments', ylabel='vertical contact force / weight')
     axes[0].legend(frameon=False, loc='lower center', bbox_to_anchor=(.5, 1), ncol=2)
     axes[0].spines[['top', 'right']].set_visible(False)
     top = np.percentile(shot.values, 99.8)

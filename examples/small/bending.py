@@ -1,4 +1,5 @@
-"""Three-point bending of an elastic beam: deflection beside Timoshenko's, reactions beside the load.
+"""Three-point bending of an elastic beam: deflection compared with Timoshenko's, reactions with the
+load.
 
     scripts/yade -n -x examples/small/bending.py [FOLDER of the picture]
 """
@@ -12,7 +13,7 @@ SPAN, OVER, H, E, NU, LOAD = .4, .02, .04, 2e9, .3, 1e3  # m, m, m, Pa, -, N for
 
 O.materials.append(FEMat(young=E, poisson=NU, density=1200, planeStress=True, label='resin'))
 fe = FESolver()
-# A node bears at each support; the load is on five of the top.
+# One node at each support is held; the load is on five nodes at the top.
 nodes, triangles = rectangleMesh((-OVER, 0), (SPAN + OVER, H), 88, 8)
 held = lambda x, y: y < 1e-9 and (abs(x) < 1e-9 and 'xy' or abs(x - SPAN) < 1e-9 and 'y')
 fe.addTriangles(nodes, triangles, material='resin', element='smoothed', fixed=held, name='beam')
@@ -28,7 +29,7 @@ at = fe.nodes - fe.displacements
 
 
 def sinks(x):
-    """(m) by which the axis has gone down there."""
+    """(m) Deflection of the axis at x."""
     near = (abs(at[:, 0] - x) < 1e-9) & (abs(at[:, 1] - H / 2) < 1e-9)
     return -fe.displacements[near, 1].mean()
 

@@ -1,4 +1,5 @@
-"""Pressure in the hole of a disc of rock: first little, beside Lamé's solution, then a blast that cracks it.
+"""Pressure in the hole of a disc of rock: first a small one, compared with Lamé's solution, then a
+blast that cracks it.
 
     scripts/yade -n -x examples/small/blast.py [FOLDER of the picture]
 """
@@ -35,7 +36,7 @@ print('hoop stress at two radii: %.5g Pa, Lamé %.5g Pa' %
       (hoop, np.mean(LITTLE * A**2 / (B**2 - A**2) * (1 + B**2 / radius**2))))
 
 rim = np.nonzero(np.hypot(*fe.nodes.T) > .99 * B)[0]
-fe.absorb(rim)  # as in rock without an end
+fe.absorb(rim)  # as in infinite rock
 now = fe.time
 fe.pressure(wall, [(now, LITTLE), (now + 5e-6, 60e6), (now + 8e-5, 0.)])
 before = fe.energy['total']

@@ -1,4 +1,4 @@
-"""Five blocks on top of each other come to rest: what each one bears is the weight above it.
+"""Five blocks on top of each other come to rest: the load on each one is the weight above it.
 
     scripts/yade -n -x examples/small/column.py [FOLDER of the picture]
 """
@@ -21,7 +21,7 @@ O.engines = engines(fe, gravity=(0, -G))
 O.dt = .8 * fe.criticalTimeStep()
 fe.relax(1e-10)
 
-weight = RHO * SIDE**2 * G  # N, of one block, 1 m thick
+weight = RHO * SIDE**2 * G  # N, weight of one block, 1 m thick
 for k, (below, name) in enumerate(zip(['floor'] + names, names)):
     force = fe.contactForce(below, name)
     print('%s on %s: %.9g N, weight above %.9g N, sideways %.3g N' %

@@ -1,4 +1,4 @@
-"""Ten turns of a drum with stones in it: the drum stays round, and its work is what the stones take.
+"""Ten turns of a drum with stones: the drum stays round, and its work is the energy of the stones.
 
     scripts/yade -n -x examples/small/drum.py [FOLDER of the picture] [turns]
 """

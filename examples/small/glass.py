@@ -1,4 +1,5 @@
-"""Wind on a pane of glass, seen from its edge: it breaks in the middle, at the pressure of beam theory.
+"""Wind on a pane of glass, in a section across its edge: it breaks in the middle, at the pressure
+of beam theory.
 
     scripts/yade -n -x examples/small/glass.py [FOLDER of the picture]
 """
@@ -9,8 +10,8 @@ import numpy as np
 from yadefrag import *
 
 SPAN, H, ROWS, E, NU, RHO, STRENGTH = .1, .008, 10, 70e9, .22, 2500, 45e6  # m, m, Pa, kg/m³, Pa
-# σ = 3/4 p (L/h)² at the surface of a strip on two supports; edges there have their middles half an
-# edge below it.
+# σ = 3/4 p (L/h)² at the surface of a strip on two supports; the middles of edges there are half an
+# edge below the surface.
 THEORY = 4 / 3 * STRENGTH * (H / SPAN)**2 / (1 - 1 / ROWS)  # Pa
 PERIOD = 2 / np.pi * SPAN**2 / H * np.sqrt(12 * RHO * (1 - NU**2) / E)  # s, of the slowest vibration
 

@@ -2,8 +2,8 @@
 
     scripts/yade -n -x examples/small/monte_carlo.py [FOLDER of the picture and the runs] [rings of each strength]
 
-At 10⁴ per second, beside what Zhou, Molinari and Ramesh 2006 (Appl. Phys. Lett. 88, 261917) found for
-rings in one dimension. An interrupted call goes on where it stopped: monte_carlo.jsonl.
+At 10⁴ per second, compared with the result of Zhou, Molinari and Ramesh 2006 (Appl. Phys. Lett. 88,
+261917) for rings in one dimension. An interrupted call continues where it stopped: monte_carlo.jsonl.
 """
 import math
 import os
@@ -42,7 +42,7 @@ def scene(choices):
 
 
 def sizes(fe):
-    """(m) Along the ring."""
+    """(m) Lengths along the ring."""
     return [AROUND * piece['mass'] / fe.masses.sum() for piece in fe.fragments(held=True)]
 
 

@@ -1,8 +1,8 @@
-"""YADE's spheres lie on an elastic beam, the beam on two of YADE's boxes: deflection, forces.
+"""YADE's spheres on an elastic beam, which two of YADE's boxes support: deflection, forces.
 
     scripts/yade -n -x examples/small/spheres_on_beam.py [FOLDER of the picture]
 
-The spheres move up and down only, as between guides.
+The spheres move vertically only, as between guides.
 """
 import os
 import sys
@@ -19,7 +19,7 @@ nodes, triangles = rectangleMesh((-OVER, 0), (SPAN + OVER, H), 108, 4)
 fe.addTriangles(nodes, triangles, material='resin', thickness=WIDTH, element='smoothed', name='beam')
 supports = [utils.box((x, -.01, 0), (.03, .01, .03), fixed=True, material='steel', color=(.8, .8, .8))
             for x in (-.03, SPAN + .03)]
-O.bodies.append(supports)  # the beam bears on their inner edges
+O.bodies.append(supports)  # the beam rests on their inner edges
 for place in (.25, .5, .75):
     ball = utils.sphere((place * SPAN, H + R, 0), R, material='steel', color=(.5, .6, .8))
     ball.state.blockedDOFs = 'xzXYZ'

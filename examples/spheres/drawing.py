@@ -8,7 +8,7 @@ COLOURS = {'collider': '#d1495b', 'loop': '#3d8fb5', 'integrator': '#8fb996', 'r
 
 
 def frames(result, times, file):
-    """Frames side by side: a cut through the bed, spheres coloured by speed (m/s)."""
+    """Frames side by side: a section through the bed, spheres coloured by speed (m/s)."""
     shots = result['snapshots']
     half = 1e2 * np.abs(shots[0]['x'][:, 0]).max() * 1.03
     top = 1e2 * np.sort(shots[-1]['x'][:, 2])[-10] + 2
@@ -68,7 +68,7 @@ def times(results, file):
     axis.set_xlim(0, 1.12 * left.max())
     axis.set_xlabel('time, s')
     axis.spines[['top', 'right']].set_visible(False)
-    figure.suptitle('Projectile into 20,000 spheres: where the time goes', fontsize=12)
+    figure.suptitle('Projectile into 20,000 spheres: distribution of the time', fontsize=12)
     axis.legend(loc='lower center', bbox_to_anchor=(.5, 1), ncol=4, frameon=False)
     figure.savefig(file, dpi=110)
     plt.close(figure)

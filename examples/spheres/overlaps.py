@@ -1,4 +1,4 @@
-"""Which spheres overlap, found with NumPy and no collider, and the comparison of two runs."""
+"""Overlapping spheres, found with NumPy and without a collider, and the comparison of two runs."""
 import numpy as np
 from yade import O
 from yade.wrapper import Sphere
@@ -26,9 +26,9 @@ def snapshot(before):
 
 
 def overlapping(x, radii):
-    """Sorted pairs i * n + j, i < j, of spheres whose centres are nearer than their radii's sum.
+    """Sorted pairs i * n + j, i < j, of spheres whose distance is below the sum of their radii.
 
-    Spheres of one size go into a grid of cells, the few larger ones are compared with all.
+    Spheres of one size are sorted into a grid of cells, the few larger ones are compared with all.
     """
     n, r = len(x), np.median(radii)
     big = np.flatnonzero(radii > 1.001 * r)
@@ -58,7 +58,7 @@ def _touching(i, j, x, radii):
 
 
 def compare(results, checks):
-    """Print what agrees at each check; returns how many contacts are wrong."""
+    """Prints the agreement at each check; returns the number of wrong contacts."""
     wrong = 0
     for k, step in enumerate(checks):
         shots = [r['snapshots'][k] for r in results]
@@ -86,7 +86,8 @@ def _difference(a, b):
 
 
 def _impossible(a, b):
-    """Contacts of only one run that overlap by more than the two runs' positions differ."""
+    """Contacts of only one run that overlap by more than the difference of the two runs'
+    positions."""
     pairs = np.setxor1d(a['contacts'], b['contacts'])
     i, j = np.divmod(pairs, len(a['radii']))
     touch = a['radii'][i] + a['radii'][j]

@@ -1,4 +1,4 @@
-"""A projectile into 20,000 spheres, with YADE's collider and with LebesgueCollider.
+"""Impact of a steel ball on 20,000 spheres, with YADE's collider and with LebesgueCollider.
 
     scripts/spheres           sets up, builds and runs this
     scripts/yade -n -x examples/spheres/spheres.py [--steps 1000] [--seed 1] [--colliders A,B]
@@ -6,13 +6,13 @@
 The same scene is run once with each collider. Prints a table and checks the contacts; writes
 out/spheres.png and out/spheres_times.png. Exit status 1 if a contact is missing anywhere.
 
-What agreement to expect. In each run, at each check, the contacts must be exactly the pairs of
-spheres that overlap there, which NumPy finds without any collider. Between the runs they are the
-same as long as the trajectories are. Those agree at first to the last digit or nearly so: colliders
-list the contacts in different orders, so the forces on a sphere are summed in different orders, and
-the rounding differs by 1e-16. An impact is chaotic, it multiplies such differences with each
-collision. A pair may then touch in one run and just not in the other; what it overlaps can be no
-more than the two spheres' positions differ, and that is checked.
+Expected agreement. In each run, at each check, the contacts must be exactly the pairs of spheres that
+overlap, which NumPy finds without any collider. The two runs have the same contacts as long as their
+trajectories agree. At first these agree to the last digit or nearly so: colliders list the contacts in
+different orders, so that the forces on a sphere are summed in different orders, and the rounding
+differs by 1e-16. An impact is chaotic: such differences grow with each collision. A pair may then
+touch in one run and just not in the other; its overlap cannot exceed the difference of the two
+spheres' positions, and that is checked.
 """
 import argparse
 import os
@@ -48,7 +48,7 @@ def build(seed):
     O.materials.append(sand)
     O.materials.append(steel)
     centres = bed(seed)
-    # Neighbours in space are neighbours in memory, where there is yadefrag to order them.
+    # Neighbours in space are neighbours in memory, if yadefrag is there to sort them.
     order = getattr(sys.modules.get('yadefrag'), 'inCurveOrder', list)
     for centre in order(centres.tolist()):
         O.bodies.append(utils.sphere(centre, RADIUS, material='sand', color=(.8, .7, .5)))
@@ -61,7 +61,8 @@ def build(seed):
 
 
 def bed(seed):
-    """Centres (20000, 3), m: hexagonal layers, spheres just apart and shaken by 1 % of a radius."""
+    """Centres (20000, 3), m: hexagonal layers, spheres just apart, with random shifts of 1 % of a
+    radius."""
     i, j, k = (a.ravel() for a in np.meshgrid(*map(range, SHAPE), indexing='ij'))
     x = 2 * i + (j + k) % 2
     y = 3 ** .5 * (j + (k % 2) / 3)
@@ -90,7 +91,7 @@ def run(collider, seed, steps, checks, progress):
         while O.iter < stop - 1:
             result['seconds'] += _timed(min(25, stop - 1 - O.iter))
             progress(collider.__name__, O.iter)
-        before = overlaps.positions()  # the contacts of the next step are those of these positions
+        before = overlaps.positions()  # the contacts of the next step belong to these positions
         result['seconds'] += _timed(1)
         result['snapshots'].append(overlaps.snapshot(before))
     progress(collider.__name__, steps)
@@ -145,7 +146,7 @@ def progressBar(total):
 
 
 def findColliders(names):
-    """The classes of these names; those that do not exist are left out with a sentence."""
+    """The classes with these names; unknown names are left out with a message."""
     try:
         import yadefrag
     except ImportError as error:
@@ -194,4 +195,4 @@ def main(arguments):
 if __name__ == '__main__':
     status = main(sys.argv[1:])
     sys.stdout.flush()
-    os._exit(status)  # yade -x alone would end with 0
+    os._exit(status)  # yade -x would end with 0

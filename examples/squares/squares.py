@@ -1,4 +1,4 @@
-"""Squares in a frame: a quarter of them starts in random directions with one speed.
+"""Squares in a frame: a quarter of them starts in random directions with the same speed.
 
     scripts/yade -n -x examples/squares/squares.py [--n 8] [--steps 12000] [--collider Lebesgue] …
 

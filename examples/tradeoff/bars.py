@@ -1,6 +1,7 @@
-"""Two equal steel bars meet head on: the contact stress is ρcv/2 for 2L/c, then nothing.
+"""Two equal steel bars collide head on: the contact stress is ρcv/2 for 2L/c, then zero.
 
-With ν = 0 and the long faces held sideways, waves run along x at c = √(E/ρ) and keep their shape.
+With ν = 0 and the long faces held sideways, waves propagate along x at c = √(E/ρ) without
+dispersion.
 """
 import numpy as np
 
@@ -48,7 +49,7 @@ def measure(_, watched):
 
 
 def right():
-    """(98) What `measure` should give."""
+    """(98) The correct result of `measure`."""
     touching = np.clip(EDGES, 0, 2 * LENGTH / WAVE)
     return DENSITY * WAVE * SPEED / 2 * np.diff(touching) / np.diff(EDGES)
 

@@ -1,6 +1,6 @@
-"""A block of rock is compressed until it breaks: the largest load, over Mohr's and Coulomb's.
+"""A block of rock is compressed until it breaks: the largest load relative to the Mohr–Coulomb law.
 
-20 × 40 mm, between platens that slide sideways without friction: the stress is uniform until the
+20 × 40 mm, between platens on which the ends slide without friction: the stress is uniform until the
 first crack, and the load is 2c cos φ/(1 − sin φ). ../compression has pictures of it.
 """
 import math
@@ -16,11 +16,11 @@ STRAIN = LOAD * (1 - POISSON**2) / YOUNG  # of the elastic block at failure
 WAVE = math.sqrt(YOUNG / DENSITY)  # m/s
 RATE = STRAIN / (60 * HIGH / WAVE)  # 1/s, slow against waves
 DURATION = 1.15 * STRAIN / RATE
-EVERY = HIGH / WAVE / 4  # s between two looks at the work
+EVERY = HIGH / WAVE / 4  # s between two evaluations of the work
 
 
 def scene(choices):
-    """The block, which gets shorter and wider as the elastic one would: no wave disturbs it."""
+    """The block, whose initial motion is that of uniform shortening: no wave is excited."""
     fe = choices.solver(damping=.2 * WAVE / HIGH)
     material = choices.material(
         young=YOUNG, poisson=POISSON, density=DENSITY, frictionAngle=FRICTION,
@@ -42,7 +42,7 @@ def watch(fe):
 
 
 def measure(_, watched):
-    """The largest load, over Mohr's and Coulomb's."""
+    """The largest load relative to the Mohr–Coulomb law."""
     pairs = zip([(0, 0), *watched], watched)
     return max((work - before) / (time - since) for (since, before), (time, work) in pairs) \
         / (RATE * HIGH * WIDE * LOAD)

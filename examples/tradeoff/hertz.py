@@ -1,7 +1,7 @@
-"""A half cylinder pressed on a block until it rests, against Hertz's ellipse of pressure.
+"""A half cylinder pressed on a block at rest, compared with Hertz's ellipse of pressure.
 
 35 MN/m on a steel cylinder of radius 50 mm, the block of a third of its stiffness; plane strain.
-Hertz's half spaces are not quite this: our finest meshes have a p₀ of 1 % more.
+Hertz's half spaces are an approximation: our finest meshes have a p₀ that is 1 % higher.
 """
 import math
 
@@ -9,11 +9,11 @@ import numpy as np
 
 RADIUS, LINE = .05, 35e6  # m, N/m
 STEEL = dict(young=210e9, poisson=.3, density=7800, frictionAngle=0)
-LIGHT = dict(young=70e9, poisson=.3, density=2600, frictionAngle=0)  # with waves as fast
-EVEN = 9e-3  # m, from the middle, in which there may be contact
+LIGHT = dict(young=70e9, poisson=.3, density=2600, frictionAngle=0)  # with the same wave speed
+EVEN = 9e-3  # m, half width of the region with possible contact
 FAR, WIDE = .01, .1  # m: edges far from the contact, half the width of the block and its depth
 SMOOTH = .6 * RADIUS  # m, around the contact, in which surfaces may be smooth
-BOUNCE = 5e3  # 1/s, of the cylinder on the block
+BOUNCE = 5e3  # 1/s, bouncing frequency of the cylinder on the block
 
 
 def ellipse(planeStress):
@@ -24,7 +24,7 @@ def ellipse(planeStress):
 
 
 def graded(fine, end):
-    """Distances up to `end` (m): `fine` where there may be contact, then wider and wider."""
+    """Distances up to `end` (m): `fine` in the region with possible contact, then increasing."""
     at = [0.]
     while at[-1] < end:
         at.append(at[-1] + min(FAR, fine + max(0, .25 * (at[-1] - EVEN))))
@@ -33,9 +33,9 @@ def graded(fine, end):
 
 
 def scene(choices):
-    """The half cylinder, the block, and an even load on the flat top."""
+    """The half cylinder, the block, and a uniform load on the flat top."""
     size = choices.size(1e-3)
-    # A critically damped bounce is at rest within .7 ms.
+    # A critically damped bounce comes to rest within .7 ms.
     fe = choices.solver(passes=2, damping=4 * math.pi * BOUNCE)
     steel, light = choices.material(**STEEL), choices.material(**LIGHT)
     angles = graded(1.5 * size, math.pi / 2 * RADIUS) / RADIUS
@@ -57,7 +57,7 @@ def scene(choices):
 
 
 def load(fe):
-    """Spreads the load over the nodes of the flat top."""
+    """Distributes the load to the nodes of the flat top."""
     nodes = fe.nodes
     top = np.flatnonzero(nodes[:, 1] > RADIUS * (1 - 1e-9))
     top = top[np.argsort(nodes[top, 0])]
@@ -69,7 +69,8 @@ def load(fe):
 
 
 def measure(built):
-    """rms over the cylinder's surface of the pressure off Hertz's, over that of Hertz's."""
+    """rms of the pressure's deviation from Hertz's over the cylinder's surface, relative to that of
+    Hertz's."""
     fe, (peak, width) = built
     loop = fe.surfaces[0]  # the cylinder was added first
     x = fe.nodes[loop]
@@ -77,7 +78,7 @@ def measure(built):
     order = np.argsort(x[near, 0])
     at = x[near, 0][order] / width
     force = np.linalg.norm(fe.contactForces[loop], axis=1)[near][order]
-    # What Hertz's ellipse gives a node's share of the surface, from middle to middle.
+    # Hertz's pressure averaged over a node's part of the surface, from middle to middle.
     ends = np.clip((at[1:] + at[:-1]) / 2, -1, 1)
     right = peak * width / 2 * np.diff(ends * np.sqrt(1 - ends**2) + np.arcsin(ends))
     share = (at[2:] - at[:-2]) / 2

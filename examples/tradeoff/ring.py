@@ -1,4 +1,4 @@
-"""Expanding ceramic rings break: the mean size of their pieces, over the formula's.
+"""Expanding ceramic rings break: the mean size of their fragments relative to the formula.
 
 s/s₀ = 4.5 / (1 + 0.77 ė^0.25 + 5.4 ė^0.75), s₀ = E·Gc/σc², ė = ε̇/ė₀, ė₀ = c·σc³/(E²·Gc), of Zhou,
 Molinari and Ramesh 2006, for a ring in one dimension; a fit. Seeds differ by 5 %: three rings.
@@ -22,7 +22,7 @@ def expected():
 
 
 def ring(count):
-    """`count` square cells around, each cut in four about its middle: (nodes, triangles)."""
+    """`count` square cells around, each divided into four triangles: (nodes, triangles)."""
     angles = 2 * np.pi * np.arange(count) / count
     width = AROUND / count
     radii = RADIUS - width / 2, RADIUS + width / 2, RADIUS * math.cos(math.pi / count)
@@ -37,7 +37,7 @@ def ring(count):
 
 
 def out(centre, factor):
-    """A field that points away from the centre, of the length `factor` × radius."""
+    """A field that points away from the centre, with the length `factor` × radius."""
     def along(x, y):
         scale = factor * RADIUS / math.hypot(x - centre, y)
         return scale * (x - centre), scale * y
@@ -45,7 +45,7 @@ def out(centre, factor):
 
 
 def scene(choices):
-    """The rings beside each other, just below their strength, and flying apart."""
+    """The rings beside each other, expanding, just below their strength."""
     fe = choices.solver()
     count, kind = round(AROUND / choices.size(1e-4)), choices.get('mesh', 'crossed')
     for seed in range(1, RINGS + 1):
@@ -68,7 +68,7 @@ def scene(choices):
 
 
 def measure(fe):
-    """Mean size of the pieces that no crack holds any more, over the formula's."""
+    """Mean size of the parts that no cohesive crack connects, relative to the formula."""
     return RINGS * AROUND / len(fe.fragments(held=True)) / expected()
 
 

@@ -1,7 +1,7 @@
-"""A rubbery cylinder rolls over a flat block: the force on it should be its weight, all the time.
+"""A rubber cylinder rolls over a flat block: the force on it should always be its weight.
 
-E 200 MPa, radius 10 mm, pressed by gravity (2000 m/s²), rolling at 0.25 m/s: ../rolling at length.
-A polygon drops onto its sides and is lifted over its corners; a smooth surface less.
+E 200 MPa, radius 10 mm, pressed by gravity (2000 m/s²), rolling at 0.25 m/s; details in ../rolling.
+A polygon falls onto its sides and is lifted over its corners; with a smooth surface the effect is smaller.
 """
 import math
 
@@ -12,16 +12,16 @@ from yadefrag import circle, rectangle
 RADIUS, SPEED, GRAVITY = 10e-3, .25, 2000.  # m, m/s, m/s²
 DAMPING = 3000.  # 1/s
 SEGMENTS, BLOCK = 48, .25  # around the cylinder; the block's segments in those
-SETTLING, ROLLED = 3e-3, 2  # s before the measurement, and segments that it lasts
+SETTLING, ROLLED = 3e-3, 2  # s before the measurement; its length in segments
 SEGMENT = 2 * math.pi * RADIUS / SEGMENTS  # m
 DURATION = SETTLING + ROLLED * SEGMENT / SPEED
-EVERY = 1e-5  # s between two looks at the force
+EVERY = 1e-5  # s between two evaluations of the force
 
 
 def scene(choices):
     """Block (body 0) and cylinder (body 1); the size is that of the cylinder's segments."""
     size = choices.size(SEGMENT)
-    # Damping takes α·m·v from the translation, and α·m·v/2 through the spin.
+    # Damping reduces the translation by α·m·v, and by α·m·v/2 through the spin.
     fe = choices.solver(passes=2, damping=DAMPING,
                         gravity=(1.5 * DAMPING * SPEED, -GRAVITY, 0))
     material = choices.material(young=200e6, poisson=.3, density=1000,
@@ -46,7 +46,7 @@ def watch(built):
 
 
 def measure(_, watched):
-    """rms of the force off the weight, over it."""
+    """rms of the force's deviation from the weight, relative to it."""
     rolling = np.array(watched[round(SETTLING / EVERY):])
     return float(np.sqrt(np.mean((rolling - 1)**2)))
 

@@ -1,11 +1,11 @@
-"""What speed costs in accuracy, in five problems with known answers.
+"""Speed against accuracy in five problems with known solutions.
 
     scripts/bench tradeoff [--problems bars,hertz,rolling,ring,compression] [--repeats 3]
         [--time wall|cpu] [--out FOLDER]
 
 For each problem a table of choices (NAME.csv, NAME.md) with times and errors, and a plot with the
-Pareto front (NAME.png), by yadefrag.tradeoff; tradeoff.png has all of them. What they teach is in
-README.md.
+Pareto front (NAME.png), by yadefrag.tradeoff; tradeoff.png has all of them. README.md discusses the
+results.
 """
 import argparse
 import datetime
@@ -42,7 +42,7 @@ def known(text):
 
 
 def machine():
-    """Processor, cores, how busy they are, date."""
+    """Processor, cores, load, date."""
     with open('/proc/cpuinfo', encoding='utf-8') as f:
         names = [line.split(':')[1].strip() for line in f if line.startswith('model name')]
     return '%s, %d cores, load %.1f before the run, %s' % (

@@ -110,7 +110,7 @@ void BoxPivoting::beginDescent(const Shifted& shifted, const std::vector<double>
   readStates(shifted);
 }
 
-/// Rows at a bound that are pushed against it stay there, the others are free.
+/// Rows at a bound whose r pushes them against it stay there; the others are free.
 void BoxPivoting::readStates(const Shifted& shifted) {
   const ScaledBox& box = shifted.box;
   slope_.resize(box.size());
@@ -124,7 +124,8 @@ void BoxPivoting::readStates(const Shifted& shifted) {
   }
 }
 
-/// Goes from `current_` towards the target, clamped, as far as the energy falls enough.
+/// Moves from `current_` towards the target, clamped to the bounds, as far as the energy decreases
+/// sufficiently.
 bool BoxPivoting::descend(const Shifted& shifted, const std::vector<double>& target) {
   const ScaledBox& box = shifted.box;
   step_.resize(box.size());

@@ -9,7 +9,7 @@
 
 namespace yadefrag {
 
-/// The problem in units in which G has a unit diagonal.
+/// The problem, scaled so that G has a unit diagonal.
 struct ScaledBox {
   SparseView matrix;
   std::vector<double> constant, lower, upper;
@@ -22,17 +22,17 @@ enum class RowState : std::uint8_t { kAtLower, kAtUpper, kFree };
 
 class BoxPivoting {
  public:
-  /// Takes a new matrix and guesses the states from `lambda` (within the bounds).
+  /// Sets a new matrix, and the initial states from `lambda` (within the bounds).
   void begin(const ScaledBox& box, const std::vector<double>& lambda, bool isGuess);
-  /// Solves with H = G + ε·1 and c = g − ε·centre. False if it takes too long or a number is not
-  /// finite.
+  /// Solves with H = G + ε·1 and c = g − ε·centre. Returns false if it takes too many pivots or if
+  /// a number is not finite.
   bool solve(const ScaledBox& box, double added, const std::vector<double>& centre,
              std::vector<double>& lambda);
 
   [[nodiscard]] int pivots() const { return pivots_; }
 
  private:
-  /// What is solved: H and c.
+  /// The shifted problem: H and c.
   struct Shifted {
     const ScaledBox& box;
     double added;
@@ -52,8 +52,8 @@ class BoxPivoting {
   std::vector<std::uint8_t> isFree_;
   std::vector<std::uint32_t> wrong_;  ///< rows whose state is contradicted
   std::vector<double> side_;
-  std::vector<double> current_, slope_, step_;  ///< of the descent: λ, r there, way to the next λ
-  double factored_ = -1;  ///< the ε of the factor of the present free rows, or negative
+  std::vector<double> current_, slope_, step_;  ///< of the descent: λ, r at λ, step to the next λ
+  double factored_ = -1;  ///< ε of the factor for the present free rows, or negative
   int pivots_ = 0;
 };
 

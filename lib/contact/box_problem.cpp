@@ -51,8 +51,8 @@ void BoxProblem::setMatrix(std::size_t size, std::span<const MatrixEntry> entrie
 
 struct BoxSolver::Work {
   ScaledBox box;
-  std::vector<double> values;  ///< of the scaled matrix
-  std::vector<double> root;    ///< √Gᵢᵢ; 0: the row takes no part
+  std::vector<double> values;  ///< values of the scaled matrix
+  std::vector<double> root;    ///< √Gᵢᵢ; 0: the row is excluded
   std::vector<double> lambda, centre, best;
   BoxPivoting pivoting;
   double largest = 0;  ///< m, max |g|
@@ -108,7 +108,7 @@ void BoxSolver::Work::startAt(const BoxProblem& p, std::span<const double> start
     best[i] = std::clamp(guess, box.lower[i], box.upper[i]);
     push = std::max(push, std::abs(std::clamp(0., box.lower[i], box.upper[i])) * root[i]);
   }
-  largest = std::max(largest, push);  // bounds that leave out zero push even if g does not
+  largest = std::max(largest, push);  // bounds that exclude zero cause forces even without g
   for (std::size_t i = 0; i < n; ++i)
     box.slack[i] = root[i] > 0 ? tolerance::kPivotSlack * largest / root[i] : 0;
   bestError = kNoBound;
@@ -116,7 +116,8 @@ void BoxSolver::Work::startAt(const BoxProblem& p, std::span<const double> start
   pivots = refinements = 0;
 }
 
-/// The true error of `lambda`, which is clamped into the box; is it within tolerance or rounding.
+/// The true error of `lambda`, which is clamped into the box. `enough`: the error is within the
+/// tolerance or rounding.
 double BoxSolver::Work::errorOf(bool& enough) {
   double error = 0;
   enough = true;
@@ -134,12 +135,12 @@ double BoxSolver::Work::errorOf(bool& enough) {
         std::abs(lambda[i] - std::clamp(lambda[i] - r, box.lower[i], box.upper[i])) * root[i];
     enough = enough && rowError <= tolerance::kBoxResidual * largest +
                                        tolerance::kGapRounding * sum * root[i];
-    if (!(rowError <= error)) error = rowError;  // and NaN stays
+    if (!(rowError <= error)) error = rowError;  // NaN is kept
   }
   return error;
 }
 
-/// Keeps `lambda` if it is the best; true if it is good enough.
+/// Stores `lambda` if it is the best so far; returns true if it is accurate enough.
 bool BoxSolver::Work::check() {
   bool enough;
   const double error = errorOf(enough);
@@ -148,7 +149,7 @@ bool BoxSolver::Work::check() {
   return enough;
 }
 
-/// Proximal iterations with one ε; false if pivoting cycles or they do not converge.
+/// Proximal iterations with one ε; returns false if pivoting cycles or if they do not converge.
 bool BoxSolver::Work::iterate(double added, bool isGuess) {
   lambda = best;
   pivoting.begin(box, lambda, isGuess);
@@ -171,7 +172,7 @@ bool BoxSolver::Work::iterate(double added, bool isGuess) {
   return false;
 }
 
-/// Projected Gauss–Seidel on the true problem.
+/// Projected Gauss–Seidel sweeps on the original problem.
 bool BoxSolver::Work::sweep(int sweeps) {
   for (int s = 0; s < sweeps; ++s) {
     for (std::size_t i = 0; i < lambda.size(); ++i) {
@@ -184,9 +185,9 @@ bool BoxSolver::Work::sweep(int sweeps) {
   return false;
 }
 
-/// Where nothing converges, perhaps there is no solution, and λ has grown without bound: a few
-/// steps with a large ε satisfy the rows that can be, and bound the others' forces. True if the
-/// error is small enough after all.
+/// Used if nothing converges: there may be no solution, and λ has grown without bound. A few steps
+/// with a large ε satisfy the rows that can be satisfied, and bound the forces of the others.
+/// Returns true if the error is small enough nevertheless.
 bool BoxSolver::Work::fallBack() {
   const double firmError = bestError;
   const std::vector<double> firm = best;

@@ -1,9 +1,9 @@
 #pragma once
 // The forces of one contact group: find λ with lower ≤ λ ≤ upper such that r = Gλ + g is
-// complementary to it: r ≥ 0 where λ is at its lower bound, r ≤ 0 where at its upper, r = 0
-// between. G is symmetric and positive semi-definite; redundant rows (both passes of master and
-// slave) make it singular. A normal row has 0 ≤ λ < ∞ and r is its gap, a friction row −b ≤ λ ≤ b
-// and r its slip.
+// complementary to it: r ≥ 0 where λ is at its lower bound, r ≤ 0 where it is at its upper bound, r
+// = 0 in between. G is symmetric and positive semi-definite; redundant rows (both passes of master
+// and slave) make it singular. A normal row has 0 ≤ λ < ∞, and r is its gap. A friction row has −b
+// ≤ λ ≤ b, and r is its slip.
 
 #include <cstdint>
 #include <limits>
@@ -27,29 +27,30 @@ struct BoxProblem {
   std::vector<std::uint32_t> columns;
   std::vector<double> values;        ///< m/N
   std::vector<double> constant;      ///< m, g
-  std::vector<double> lower, upper;  ///< N; −∞ and ∞ are allowed, lower ≤ upper
+  std::vector<double> lower, upper;  ///< N; may be −∞ and ∞; lower ≤ upper
 
   [[nodiscard]] std::size_t size() const { return constant.size(); }
-  /// G from entries of both triangles in any order; repeated ones add up. Columns come out
-  /// ascending.
+  /// Sets G from entries of both triangles in any order; repeated entries are added. The columns of
+  /// the result ascend.
   void setMatrix(std::size_t size, std::span<const MatrixEntry> entries);
 };
 
 struct BoxResult {
   std::vector<double> lambda;  ///< N
-  /// Largest error of the true problem over max |g|: Gᵢᵢ·|λᵢ − clamp(λᵢ − rᵢ/Gᵢᵢ)|, which is the
-  /// gap or slip that is wrong. Rows with Gᵢᵢ = 0 (all nodes fixed) are left out.
+  /// Largest error of the original problem over max |g|: Gᵢᵢ·|λᵢ − clamp(λᵢ − rᵢ/Gᵢᵢ)|, which is
+  /// the error of a gap or slip. Rows with Gᵢᵢ = 0 (all nodes fixed) are excluded.
   double residual = 0;
   int pivots = 0;          ///< changes of the set of free rows
-  int refinements = 0;     ///< solves after the first that took the regularisation out again
-  bool converged = false;  ///< residual within tolerance or what rounding allows
+  int refinements = 0;     ///< solutions after the first that removed the regularisation
+  bool converged = false;  ///< residual within the tolerance, or of the size of rounding
 };
 
-/// Solves one problem after another and keeps its memory; the answer depends on the arguments
-/// alone. Block principal pivoting on G + ε·diag(G), which is definite, with projected Newton steps
-/// where it stalls; proximal iterations take ε out again; a larger ε if they fail, Gauss–Seidel
-/// sweeps if that fails, too. A problem without a solution (a node pinched between walls) ends with
-/// a bounded compromise and `converged` false. Never throws on numbers, not even on NaN.
+/// Solves a sequence of problems, and keeps its memory; the result depends on the arguments only.
+/// Method: block principal pivoting on G + ε·diag(G), which is definite, with projected Newton
+/// steps if it stalls; proximal iterations remove the effect of ε. If they fail, a larger ε is
+/// used; if that fails, too, Gauss–Seidel sweeps. A problem without a solution (a node between two
+/// walls that approach each other) ends with bounded forces and `converged` false. Numbers never
+/// cause an exception, not even NaN.
 class BoxSolver {
  public:
   BoxSolver();
@@ -57,7 +58,8 @@ class BoxSolver {
   BoxSolver(BoxSolver&&) noexcept;
   BoxSolver& operator=(BoxSolver&&) noexcept;
 
-  /// `start`: a guess of λ (of the step before), or empty. The result lives until the next call.
+  /// `start`: initial λ (that of the previous step), or empty. The result is valid until the next
+  /// call.
   const BoxResult& solve(const BoxProblem& problem, std::span<const double> start = {});
 
  private:

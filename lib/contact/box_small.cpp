@@ -56,7 +56,7 @@ double errorOfTwo(const BoxProblem& p, const TwoByTwo& m, const double (&lambda)
   for (int i = 0; i < 2; ++i) {
     const double r = m.diagonal[i] * lambda[i] + m.across * lambda[1 - i] + p.constant[i];
     const double one = rowError(m.diagonal[i], lambda[i], r, p.lower[i], p.upper[i]);
-    if (!(one <= error)) error = one;  // and NaN stays
+    if (!(one <= error)) error = one;  // NaN is kept
   }
   return error;
 }
@@ -75,7 +75,7 @@ bool solveTwo(const BoxProblem& p, BoxResult& result) {
   for (int i = 0; i < 2; ++i) inside = inside && lambda[i] >= p.lower[i] && lambda[i] <= p.upper[i];
   if (!inside) error = kNoBound;
 
-  // Otherwise one of them is at a bound, and the other follows.
+  // Otherwise one of them is at a bound; the other one is then determined.
   for (int i = 0; i < 2 && !inside; ++i)
     for (const double bound : {p.lower[i], p.upper[i]}) {
       if (!std::isfinite(bound)) continue;

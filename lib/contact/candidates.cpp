@@ -12,12 +12,12 @@ namespace yadefrag {
 
 namespace {
 
-/// Walks through the rows of the former candidates in the order in which new pairs come.
+/// Visits the rows of the former candidates in the order of the new pairs.
 class FormerFlags {
  public:
   explicit FormerFlags(const Candidates& former) : former_(former) {}
 
-  /// The flag of a pair, or `unknown` if it was no candidate or had none.
+  /// The flag of a pair, or `unknown` if it was no candidate or had no flag.
   std::uint8_t find(const SlaveMaster& pair, std::uint8_t unknown) {
     while (row_ < former_.slaves.size() && former_.slaves[row_] < pair.slave)
       at_ = former_.offsets[++row_];
@@ -42,7 +42,7 @@ std::uint8_t flagAt(const PieceGeometry& geometry, const SlaveMaster& pair) {
   return geometry.foot(pair.master, slave).gap >= -touching ? 1 : 0;
 }
 
-/// The pairs, ascending, as rows; returns what was there before.
+/// Stores the pairs, ascending, as rows; returns the former candidates.
 Candidates fill(Candidates& candidates, const std::vector<SlaveMaster>& pairs,
                 const ContactSurfaces& surfaces, std::span<const Vec2> before, bool flags) {
   constexpr std::uint8_t kUnknown = 2;
@@ -102,21 +102,21 @@ void keepFlags(Candidates& candidates, const ContactSurfaces& surfaces,
 }
 
 void removeGone(Candidates& candidates, const ContactSurfaces& surfaces) {
-  Candidates left;
+  Candidates kept;
   for (std::size_t r = 0; r < candidates.slaves.size(); ++r) {
     if (surfaces.isGone(candidates.slaves[r])) continue;
-    const auto begin = static_cast<std::uint32_t>(left.masters.size());
+    const auto begin = static_cast<std::uint32_t>(kept.masters.size());
     for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
       if (surfaces.isGone(candidates.masters[c])) continue;
-      left.masters.push_back(candidates.masters[c]);
-      if (!candidates.outside.empty()) left.outside.push_back(candidates.outside[c]);
+      kept.masters.push_back(candidates.masters[c]);
+      if (!candidates.outside.empty()) kept.outside.push_back(candidates.outside[c]);
     }
-    if (left.masters.size() == begin) continue;
-    left.slaves.push_back(candidates.slaves[r]);
-    left.offsets.push_back(begin);
+    if (kept.masters.size() == begin) continue;
+    kept.slaves.push_back(candidates.slaves[r]);
+    kept.offsets.push_back(begin);
   }
-  left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
-  candidates = std::move(left);
+  kept.offsets.push_back(static_cast<std::uint32_t>(kept.masters.size()));
+  candidates = std::move(kept);
 }
 
 }  // namespace yadefrag

@@ -1,5 +1,5 @@
 #pragma once
-// Which slaves may come to touch which masters until the next search, and on which side they are
+// Slaves and masters that may touch before the next search, and the side on which the slave is
 // (paper §3.2, §5.1).
 
 #include <cstdint>
@@ -13,22 +13,23 @@
 
 namespace yadefrag {
 
-/// Rows by slave: of the masters of one slave, neighbours decide together which is active.
+/// Rows by slave: the masters of one slave are adjacent, and rules for adjacent pieces decide
+/// together which of them is active.
 struct Candidates {
-  std::vector<EntryId> slaves;         ///< those that have any, ascending
+  std::vector<EntryId> slaves;         ///< slaves with candidates, ascending
   std::vector<std::uint32_t> offsets;  ///< row r: [offsets[r], offsets[r + 1])
   std::vector<EntryId> masters;        ///< ascending within a row
-  /// Was the slave on the void side of the master (paper fig. 8) at the end of the last step. Empty
-  /// if entry is by the path.
+  /// True if the slave was on the void side of the master (paper fig. 8) at the end of the last
+  /// step. Empty if entry is by the path.
   std::vector<std::uint8_t> outside;
-  /// By row: the way of the fastest node up to which nothing can come of it (LocalSearch::scan);
-  /// empty: unknown. Follows from the rest.
-  std::vector<double> asleep;
+  /// By row: distance (m) that the fastest node must travel before the row can have an active
+  /// (LocalSearch::scan); empty: unknown. Derived data.
+  std::vector<double> idleDistance;
 
   [[nodiscard]] std::size_t size() const { return masters.size(); }
   void clear();
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kSearch, slaves, offsets, masters, outside, asleep);
+    footprint.add(Use::kSearch, slaves, offsets, masters, outside, idleDistance);
   }
 };
 
@@ -39,23 +40,23 @@ struct SlaveMaster {
   friend auto operator<=>(const SlaveMaster&, const SlaveMaster&) = default;
 };
 
-/// Sorts the pairs into rows. Outside flags, if there are any, are kept of pairs that `candidates`
-/// had already; those of new ones come from `before`, the positions at the end of the last step (m,
-/// by node). Returns what `candidates` were.
+/// Sorts the pairs into rows. Outside flags, if used, are kept for pairs that `candidates` had
+/// already; those of new pairs are determined from `before`, the positions at the end of the last
+/// step (m, by node). Returns the former `candidates`.
 Candidates replaceCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
                              const ContactSurfaces& surfaces, std::span<const Vec2> before,
                              bool flags = true);
 
-/// The same, but in addition to what is there already.
+/// The same, in addition to the existing candidates.
 void addCandidates(Candidates& candidates, std::vector<SlaveMaster>& pairs,
                    const ContactSurfaces& surfaces, std::span<const Vec2> before,
                    bool flags = true);
 
-/// With flags for all pairs, from `before` where there are none yet, or without any.
+/// Sets flags for all pairs, from `before` where there are none yet, or removes all flags.
 void keepFlags(Candidates& candidates, const ContactSurfaces& surfaces,
                std::span<const Vec2> before, bool keep);
 
-/// Leaves out those in which a piece takes part that is gone.
+/// Removes pairs with a removed piece.
 void removeGone(Candidates& candidates, const ContactSurfaces& surfaces);
 
 }  // namespace yadefrag

@@ -20,13 +20,13 @@ SlaveMaster pairOf(const ContactRow& row) { return {row.slave, row.master}; }
 
 bool byPair(const ContactRow& a, const ContactRow& b) { return pairOf(a) < pairOf(b); }
 
-/// (m) Penetration that is worth another solve.
+/// (m) Penetration above which the system is solved again.
 double worthwhile(const ContactStep& step) {
   const double remainder = step.rubble ? tolerance::kRubbleRemainder : tolerance::kRemainder;
-  return std::max(remainder * step.move, tolerance::kPenetrationLeft * step.shortest);
+  return std::max(remainder * step.move, tolerance::kRemainingPenetration * step.shortest);
 }
 
-/// Do two pieces meet in a joint that does not turn towards the void?
+/// True if two pieces meet in a joint that does not turn towards the void.
 bool meetInConvexJoint(const ContactSurfaces& surfaces, const PieceGeometry& geometry, EntryId a,
                        EntryId b) {
   if (surfaces.next[b.value] == a) std::swap(a, b);
@@ -52,7 +52,7 @@ void Contact::resize(std::size_t nodes) {
   if (!forces_.empty()) makeRoom(nodes);
 }
 
-/// Bodies that never meet need none of this.
+/// Allocates memory on the first contact: bodies that never touch need none.
 void Contact::makeRoom(std::size_t nodes) {
   forces_.resize(nodes);
   displacement_.resize(nodes);
@@ -73,7 +73,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
   keepFlags(candidates, surfaces, step.before, entry_ == Entry::kFlags);
   deepest_ = deepestTouch(surfaces, step.before);
   bool gapsAreKnown = false;
-  // Corrections are mostly as large as those of the step before.
+  // Corrections are mostly as large as those of the previous step.
   double reach = std::max(step.reach, tolerance::kReachSpare * former_.largestCorrection);
   scan(model, surfaces, step, reach, step.move);
   const int most = step.rubble ? tolerance::kRubbleDetections : tolerance::kDetections;
@@ -83,7 +83,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
     if (detection > 0) {
       updateGaps(model, surfaces, step);
       gapsAreKnown = true;
-      // What this detection found and does not penetrate by a worthwhile depth waits for the next
+      // New rows of this detection without a penetration above the threshold wait for the next
       // step.
       if (now_.maxPenetration <= worthwhile(step)) {
         releaseUnsolved();
@@ -93,7 +93,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
       if (!anyNew && settings.correction == Correction::kPenalty) break;
     }
     solve(model, settings, step, anyNew);
-    // What the correction moved by more than the scan looked ahead is looked at again.
+    // Nodes that the correction moved beyond the reach of the scan are scanned again.
     move(model, step);
     gapsAreKnown = false;
     if (2 * now_.largestCorrection > reach) {
@@ -101,7 +101,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
       scan(model, surfaces, step, reach);
     }
   }
-  if (step.rubble && !gapsAreKnown) lookAgain(model, surfaces, step);
+  if (step.rubble && !gapsAreKnown) rescan(model, surfaces, step);
   if (!rows_.empty() && !gapsAreKnown) updateGaps(model, surfaces, step);
   finish(model, surfaces, step);
 }
@@ -129,7 +129,7 @@ void Contact::clearForces() {
 void Contact::takeBack() {
   if (!hasBegun_) return;
   candidates.outside.swap(formerOutside_);
-  candidates.asleep.clear();
+  candidates.idleDistance.clear();
   if (isFinished_) touches.swap(formerTouches_);
   rows_.swap(formerRows_);
   now_ = former_;
@@ -139,20 +139,20 @@ void Contact::takeBack() {
   sumForces();
 }
 
-/// What the last correction of a step made penetrate is left to the next one, which has to know
-/// that it came in from outside.
-void Contact::lookAgain(const Model& model, const ContactSurfaces& surfaces,
-                        const ContactStep& step) {
+/// Penetrations caused by the last correction of a step are left to the next one, which needs the
+/// information that the slaves came from outside.
+void Contact::rescan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   if (addRows(model, surfaces, step)) releaseUnsolved();
 }
 
-/// Rows that no solve has seen have not moved a node: they carry no force.
+/// Rows added after the last solution have not moved a node: their force is zero.
 void Contact::releaseUnsolved() {
   for (ContactRow& row : rows_)
-    if (!std::isfinite(row.left)) row.normalForce = row.tangentForce = 0;
+    if (!std::isfinite(row.excess)) row.normalForce = row.tangentForce = 0;
 }
 
-/// `moved`: m, by no more than this has anything but corrections moved a node since the last scan.
+/// `moved` (m): upper bound of the displacement of any node since the last scan, without
+/// corrections.
 void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
                    double reach, double moved) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
@@ -177,7 +177,7 @@ void Contact::solve(const Model& model, const ContactSettings& settings, const C
   }
 }
 
-/// Adds a row for every active that has none; true if there was one.
+/// Adds a row for every active without one; returns true if there was any.
 bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
                       const ContactStep& step) {
   if (!search_.anyNear()) return false;
@@ -195,7 +195,7 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
     startRow(row, model, surfaces, before, active, step);
     if (contradicts(surfaces, row)) row.friction = row.tangentForce = 0;
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
-    rows_.push_back(row);  // Actives come in order.
+    rows_.push_back(row);  // Actives are in order.
   }
   if (rows_.size() == former) return false;
   std::inplace_merge(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(former),
@@ -222,8 +222,9 @@ bool Contact::anyRowOf(EntryId slave, Test test) const {
   return false;
 }
 
-/// A slave that the correction pushed on to the next master keeps its row: the two differ by the
-/// second-order remainder, and both together would hold it before a convex corner's both faces.
+/// A slave that the correction moved to the next master keeps its row. The two rows differ by the
+/// second-order remainder, and both together would hold the slave in front of both faces of a
+/// convex corner.
 bool Contact::hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
                      SlaveMaster pair) const {
   return anyRowOf(pair.slave, [&](const ContactRow& row) {
@@ -232,8 +233,9 @@ bool Contact::hasRow(const ContactSurfaces& surfaces, const PieceGeometry& befor
   });
 }
 
-/// A smooth master takes a slave without a flag. Where its own body is thinner than the halo, that
-/// is the other side: it was as deep before, and did not touch.
+/// A smooth master takes a slave without a flag. Where the slave's own body is thinner than the
+/// halo, the master may be on the other side of that body: the slave was as deep before, and was
+/// not in contact.
 bool Contact::isThroughItself(const ContactSurfaces& surfaces, const PieceGeometry& before,
                               SlaveMaster pair, const ContactStep& step) const {
   if (surfaces.component[pair.slave.value] != surfaces.component[pair.master.value] ||
@@ -244,8 +246,9 @@ bool Contact::isThroughItself(const ContactSurfaces& surfaces, const PieceGeomet
          -tolerance::kTouching * step.shortest;
 }
 
-/// Two corners that met past each other: each is behind a face of the other, and the two rows push
-/// the same way. With friction on both, their forces would hold each other up without bound.
+/// Two corners that have passed each other: each is behind a face of the other, and the two rows
+/// push in the same direction. With friction in both, their forces would support each other without
+/// bound.
 bool Contact::contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const {
   const auto pushesAlike = [&](const ContactRow& other) {
     const bool exchanged =
@@ -256,7 +259,7 @@ bool Contact::contradicts(const ContactSurfaces& surfaces, const ContactRow& row
          anyRowOf(surfaces.next[row.master.value], pushesAlike);
 }
 
-/// Friction, slip, and what the last step knows of the contact.
+/// Sets friction, slip, and the values stored for this contact in the last step.
 void Contact::startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
                        const PieceGeometry& before, const Active& active,
                        const ContactStep& step) const {
@@ -279,18 +282,20 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
       std::lower_bound(touches.begin(), touches.end(), active.pair,
                        [](const Touch& known, SlaveMaster pair) { return known.pair < pair; });
   if (former != touches.end() && former->pair == active.pair) {
-    row.allowed = std::min(
-        0., former->allowed + tolerance::kOverlapDecay * std::min(-former->allowed, step.move));
+    row.toleratedGap =
+        std::min(0., former->toleratedGap +
+                         tolerance::kOverlapDecay * std::min(-former->toleratedGap, step.move));
     row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;
     return;
   }
-  // What overlapped before, in spite of all flags or beside an end, would become velocity at once.
+  // An overlap from before the step (missed by the flags, or beside an end) must not become
+  // velocity at once.
   const double gap = before.foot(row.master, before.slave(row.slave)).gap;
-  row.allowed = std::min(0., gap + tolerance::kOverlapDecay * step.move);
+  row.toleratedGap = std::min(0., gap + tolerance::kOverlapDecay * step.move);
 }
 
-/// The true gaps at the corrected positions, taken back to the predicted ones along the rows: the
-/// next solve then leaves a remainder of higher order.
+/// Computes the exact gaps at the corrected positions, and transforms them back to the predicted
+/// positions by the rows' linearisation: the next solution then leaves a remainder of higher order.
 void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces,
                          const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
@@ -298,14 +303,14 @@ void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces,
   withGeometry(surfaces, model.nodes.position, [&](const auto& geometry) {
     for (ContactRow& row : rows_) {
       const double gap = gapOf(row, geometry);
-      now_.maxPenetration = std::max(now_.maxPenetration, row.allowed - gap);
-      if (std::isfinite(row.left)) row.left = row.allowed - gap;
+      now_.maxPenetration = std::max(now_.maxPenetration, row.toleratedGap - gap);
+      if (std::isfinite(row.excess)) row.excess = row.toleratedGap - gap;
       row.gap = gap - dot(relative(row, displacement_), row.normal);
     }
   });
 }
 
-/// Moves the nodes from where they are to x* + u.
+/// Moves the nodes from their present positions to x* + u.
 void Contact::move(Model& model, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
   for (const NodeId node : touched_) forces_[node.value] = {};
@@ -343,19 +348,19 @@ void Contact::sumForces() {
   }
 }
 
-/// Velocities, outside flags, and what the next step has to know.
+/// Sets velocities, outside flags, and the data for the next step.
 void Contact::finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   for (const NodeId node : touched_)
     model.nodes.velocity[node.value] += (1 / step.length.position) * displacement_[node.value];
   const StageTimer timer(step.times, &StageTimes::localSearch);
   formerTouches_.clear();
   for (const ContactRow& row : rows_)
-    formerTouches_.push_back({pairOf(row), row.normalForce, row.tangentForce, row.allowed});
+    formerTouches_.push_back({pairOf(row), row.normalForce, row.tangentForce, row.toleratedGap});
   touches.swap(formerTouches_);
   isFinished_ = true;
-  const double left = step.rubble ? tolerance::kLeftInside * step.reach : 0;
+  const double restored = step.rubble ? tolerance::kRestoredDepth * step.reach : 0;
   if (entry_ == Entry::kFlags && search_.anyNear())
-    search_.settle(candidates, surfaces, model.nodes.position, known_, left);
+    search_.settle(candidates, surfaces, model.nodes.position, known_, restored);
 }
 
 void Contact::addTo(Footprint& footprint) const {

@@ -1,6 +1,6 @@
 #pragma once
 // Contact of all surfaces within one step: local search, then the Lagrangian correction of
-// positions and velocities, repeated while anything newly penetrates.
+// positions and velocities, repeated while new penetrations occur.
 
 #include <cstdint>
 #include <span>
@@ -19,23 +19,23 @@
 
 namespace yadefrag {
 
-/// The step that contact is part of. Spans are by node.
+/// Data of the step for contact. Spans are by node.
 struct ContactStep {
   StepLength length;
   double drag;                   ///< αΔt/2
   double move;                   ///< m, largest displacement of a surface node
   double reach;                  ///< m, twice the largest displacement of a surface node
   double shortest;               ///< m, shortest segment
-  double deepest;                ///< m, a smooth master holds nothing deeper
+  double deepest;                ///< m, maximum depth of contact with a smooth master
   std::span<const Vec2> before;  ///< m, xⁿ; of surface nodes only
   int threads;
-  bool rubble;                  ///< do faces of cracks take part
+  bool rubble;                  ///< true: faces of cracks are included
   StageTimes* times = nullptr;  ///< null: not measured
 };
 
-/// By node; 0 everywhere as long as nothing has ever touched, without an array that says so.
+/// Forces by node; 0 everywhere before the first contact, without an allocated array.
 struct ContactForces {
-  std::span<const Vec2> known;  ///< N; empty if nothing has ever touched
+  std::span<const Vec2> known;  ///< N; empty before the first contact
 
   Vec2 operator[](std::size_t node) const { return known.empty() ? Vec2{} : known[node]; }
   [[nodiscard]] auto begin() const { return known.begin(); }
@@ -47,39 +47,40 @@ class Contact {
   /// From the predicted x* and v* of `model` to xⁿ⁺¹ and vⁿ⁺½.
   void correct(Model& model, const ContactSurfaces& surfaces, const ContactSettings& settings,
                const ContactStep& step);
-  /// Undoes the last `correct`, whether it came to its end or threw, but for positions and
-  /// velocities. Needs no memory.
+  /// Undoes the last `correct`, complete or ended by an exception, except for positions and
+  /// velocities. Allocates no memory.
   void takeBack();
 
-  /// After nodes or entries were renumbered or added: candidates and touches are void.
+  /// Must be called after nodes or entries were renumbered or added: deletes candidates and stored
+  /// contacts.
   void reset();
-  /// After entries got new numbers, by former number; none() of those that are gone. What touched
-  /// goes on to touch: contact that is deep, as a penalty leaves it, would be lost else.
+  /// After entries were renumbered: `numbers` by former number; none() of removed ones. Contacts are
+  /// kept: a contact that is deep, such as with a penalty, would be lost otherwise.
   void renumber(std::span<const EntryId> numbers);
-  /// After nodes were added.
+  /// Must be called after nodes were added.
   void resize(std::size_t nodes);
-  /// Room for so many nodes.
+  /// Reserves memory for this number of nodes.
   void reserve(std::size_t nodes);
 
-  /// After pieces of surfaces are gone: nothing touches them any more.
+  /// Must be called after pieces of surfaces were removed: deletes their contacts.
   void removeGone(const ContactSurfaces& surfaces);
 
-  /// Masters that came nearer to their slaves because they changed their form, and single pairs
-  /// (ascending) that became outside, at `positions` (m, by node): what they overlap by is let out
-  /// in time, not pushed out in one step.
+  /// Tolerates overlaps at `positions` (m, by node) of masters that approached their slaves by a
+  /// change of shape, and of single pairs (ascending) whose flag became outside: these overlaps are
+  /// reduced over many steps, not in one.
   void allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
                      std::span<const EntryId> masters, std::span<const SlaveMaster> pairs);
 
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
-  /// (N) By node, of the last step.
+  /// (N) By node, in the last step.
   [[nodiscard]] ContactForces forces() const { return ContactForces{forces_}; }
-  /// (m) Of a node, in the last step.
+  /// (m) Largest correction of a node in the last step.
   [[nodiscard]] double largestCorrection() const { return now_.largestCorrection; }
   [[nodiscard]] double maxPenetration() const { return now_.maxPenetration; }
   /// Largest residual of the last step's systems, relative to their largest gap.
   [[nodiscard]] double residual() const { return now_.residual; }
 
-  /// Sweeps over the rows of the largest swept group, in all detections of the last step.
+  /// Number of sweeps over the rows of the largest swept group, in all detections of the last step.
   [[nodiscard]] int sweeps() const { return now_.sweeps; }
 
   void addTo(Footprint& footprint) const;
@@ -88,7 +89,7 @@ class Contact {
   std::vector<Touch> touches;  ///< by pair
 
  private:
-  /// What a step says of itself.
+  /// Statistics of a step.
   struct Figures {
     double largestCorrection = 0;  // m
     double maxPenetration = 0;     // m
@@ -116,28 +117,28 @@ class Contact {
                 const PieceGeometry& before, const Active& active, const ContactStep& step) const;
   void updateGaps(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void move(Model& model, const ContactStep& step);
-  void lookAgain(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
+  void rescan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void releaseUnsolved();
   void touch(NodeId node);
   void sumForces();
   void finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
 
   Entry entry_ = Entry::kPath;
-  double deepest_ = 0;  // m, of the touches at the step's start
+  double deepest_ = 0;  // m, of the touches at the begin of the step
   LocalSearch search_;
   Lagrange lagrange_;
   std::vector<Active> actives_;
-  std::vector<ContactRow> rows_;  // by pair; within a detection its own come after the others
-  std::size_t formerCount_ = 0;   // of the others
+  std::vector<ContactRow> rows_;  // by pair; within a detection its new rows are after the others
+  std::size_t formerCount_ = 0;   // number of the others
   Figures now_;
-  std::vector<SlaveMaster> known_;       // of the rows
+  std::vector<SlaveMaster> known_;       // pairs of the rows
   std::vector<Vec2> forces_;             // N, by node
   std::vector<Vec2> displacement_;       // m, by node: the correction u so far
-  std::vector<NodeId> touched_;          // nodes of a row
+  std::vector<NodeId> touched_;          // nodes with a row
   std::vector<std::uint8_t> isTouched_;  // by node
-  double inexact_ = 0;                   // m, by how much sweeps may be wrong
-  double sinceScan_ = 0;                 // m, by no more have corrections moved a node since then
-  // Of the step before, for `takeBack`; touches once the step has some of its own.
+  double inexact_ = 0;                   // m, possible error of the sweeps
+  double sinceScan_ = 0;                 // m, upper bound of corrections since the last scan
+  // Of the previous step, for `takeBack`; `touches` only after the step has set its own.
   std::vector<ContactRow> formerRows_;
   std::vector<Touch> formerTouches_;
   std::vector<std::uint8_t> formerOutside_;

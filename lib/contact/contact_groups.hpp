@@ -1,5 +1,5 @@
 #pragma once
-// Contact groups: actives that share a node which can move are solved together (paper §2, end).
+// Contact groups: actives with a common free node are solved together (paper §2, end).
 
 #include <span>
 #include <vector>
@@ -10,21 +10,21 @@
 
 namespace yadefrag {
 
-/// One node in one row; sorted by node, so that rows that share it follow each other.
+/// One node in one row; sorted by node, so that rows with a common node are adjacent.
 struct RowNode {
   NodeId node;
   std::uint32_t row;
   double weight;
 };
 
-/// The system of all rows before it is cut into groups.
+/// The links between rows and nodes, and the groups of rows.
 struct ContactGroups {
-  std::vector<RowNode> links;  ///< of nodes that can move
+  std::vector<RowNode> links;  ///< of free nodes
   Csr<std::uint32_t> rows;     ///< by group, rows ascending; groups by their first row
-  Csr<std::uint32_t> spans;    ///< by group: where in `links` each of its nodes begins
+  Csr<std::uint32_t> spans;    ///< by group: index in `links` at which each of its nodes begins
 };
 
-/// A row whose nodes are all held makes a group of its own without links.
+/// A row whose nodes are all held is a group of its own, without links.
 void findContactGroups(std::span<const ContactRow> rows, const Nodes& nodes, ContactGroups& groups);
 
 }  // namespace yadefrag

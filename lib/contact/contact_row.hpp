@@ -9,19 +9,20 @@
 
 namespace yadefrag {
 
-/// One active: a slave that penetrates a master, as a row of its group's system. The relative
-/// displacement of slave to master is the sum of weight × displacement over the nodes.
+/// One active: a slave that penetrates a master, as a row of its group's system. The displacement
+/// of the slave relative to the master is the sum of weight × displacement over the nodes.
 struct ContactRow {
   EntryId slave;
   EntryId master;
-  std::array<NodeId, 5> node;    ///< of the slave, then of the master
+  std::array<NodeId, 5> node;    ///< nodes of the slave, then of the master
   std::array<double, 5> weight;  ///< hᵢ of the slave, −hᵢ of the master (eq. 4, 6, 7)
   int count = 0;
-  Vec2 normal;         ///< out of the master, at xⁿ
-  double gap = 0;      ///< m, at the predicted positions; negative: penetration
-  double allowed = 0;  ///< m, ≤ 0: an overlap older than this contact
-  /// (m) Penetration beyond `allowed` when last looked at; infinite before the first solve.
-  double left = std::numeric_limits<double>::infinity();
+  Vec2 normal;              ///< outward normal of the master, at xⁿ
+  double gap = 0;           ///< m, at the predicted positions; negative: penetration
+  double toleratedGap = 0;  ///< m, ≤ 0: an overlap older than this contact
+  /// (m) Penetration beyond `toleratedGap` at the last evaluation; infinite before the first
+  /// solution.
+  double excess = std::numeric_limits<double>::infinity();
   double slip = 0;          ///< m, of the slave along `tangent()` in this step, without contact
   double friction = 0;      ///< tan of the friction angle
   double normalForce = 0;   ///< N, on the slave along the normal

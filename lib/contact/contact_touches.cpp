@@ -1,4 +1,4 @@
-// What contact remembers from one step to the next.
+// Data of contact that are stored from one step to the next.
 
 #include <algorithm>
 #include <utility>
@@ -9,7 +9,7 @@ namespace yadefrag {
 
 namespace {
 
-/// Without those of entries that are gone.
+/// With new numbers, and without contacts of removed entries.
 std::vector<Touch> renumbered(std::vector<Touch> touches, std::span<const EntryId> numbers) {
   for (Touch& touch : touches)
     touch.pair = {numbers[touch.pair.slave.value], numbers[touch.pair.master.value]};
@@ -20,7 +20,7 @@ std::vector<Touch> renumbered(std::vector<Touch> touches, std::span<const EntryI
   return touches;
 }
 
-/// Only their flags are needed until the next search.
+/// Only the flags are needed until the next search.
 Candidates renumbered(const Candidates& candidates, std::span<const EntryId> numbers) {
   std::vector<std::pair<SlaveMaster, std::uint8_t>> flags;
   for (std::size_t r = 0; r < candidates.slaves.size() && !candidates.outside.empty(); ++r)
@@ -30,23 +30,23 @@ Candidates renumbered(const Candidates& candidates, std::span<const EntryId> num
       if (pair.slave != EntryId::none() && pair.master != EntryId::none())
         flags.emplace_back(pair, candidates.outside[c]);
     }
-  Candidates left;
-  if (flags.empty()) return left;
+  Candidates kept;
+  if (flags.empty()) return kept;
   std::ranges::sort(flags);
   for (const auto& [pair, outside] : flags) {
-    if (left.slaves.empty() || left.slaves.back() != pair.slave) {
-      left.slaves.push_back(pair.slave);
-      left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
+    if (kept.slaves.empty() || kept.slaves.back() != pair.slave) {
+      kept.slaves.push_back(pair.slave);
+      kept.offsets.push_back(static_cast<std::uint32_t>(kept.masters.size()));
     }
-    left.masters.push_back(pair.master), left.outside.push_back(outside);
+    kept.masters.push_back(pair.master), kept.outside.push_back(outside);
   }
-  left.offsets.push_back(static_cast<std::uint32_t>(left.masters.size()));
-  return left;
+  kept.offsets.push_back(static_cast<std::uint32_t>(kept.masters.size()));
+  return kept;
 }
 
 }  // namespace
 
-/// (m) How deep the deepest is, at xⁿ, of those that touched in the last step.
+/// (m) Largest depth at xⁿ of the contacts of the last step.
 double Contact::deepestTouch(const ContactSurfaces& surfaces, std::span<const Vec2> before) const {
   double most = 0;
   withGeometry(surfaces, before, [&](const auto& geometry) {
@@ -85,7 +85,7 @@ void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec
       const Foot foot = geometry.foot(pair.master, geometry.slave(pair.slave));
       const double gap = foot.gap;
       if (gap >= 0) continue;
-      // Without flags: a form changes by a part of a piece's length only.
+      // Without flags: a change of shape is a fraction of a piece's length only.
       if (candidates.outside.empty() &&
           (!isOver(geometry, pair.master, foot) || gap < -.25 * geometry.length(pair.master)))
         continue;
@@ -93,7 +93,7 @@ void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec
           std::lower_bound(touches.begin(), touches.end(), pair,
                            [](const Touch& t, const SlaveMaster& p) { return t.pair < p; });
       if (at != touches.end() && at->pair == pair)
-        at->allowed = std::min(at->allowed, gap);
+        at->toleratedGap = std::min(at->toleratedGap, gap);
       else
         touches.insert(at, {pair, 0, 0, gap});
     }

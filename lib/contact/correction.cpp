@@ -10,14 +10,14 @@ namespace yadefrag {
 
 namespace {
 
-/// Does a row penetrate, or push a slave farther out than it need be.
+/// True if a row penetrates, or pushes a slave farther out than necessary.
 bool isOpen(const ContactRow& row, double tolerance) {
-  return row.left > tolerance || (row.left < -tolerance && row.normalForce > 0);
+  return row.excess > tolerance || (row.excess < -tolerance && row.normalForce > 0);
 }
 
 double weighted(Vec2 a, Vec2 mobile, Vec2 b) { return a.x * mobile.x * b.x + a.y * mobile.y * b.y; }
 
-/// (N) The largest force that undoes one row's gap or slip by itself.
+/// (N) The largest force that removes the gap or slip of one row alone.
 double forceScale(const BoxProblem& problem) {
   double scale = 0;
   for (std::size_t i = 0; i < problem.size(); ++i)
@@ -68,12 +68,13 @@ double Lagrange::sweep(std::span<ContactRow> rows, const Nodes& nodes, const Ste
   return sweeps_.solve(rows, nodes, step, drag, {change, tolerance::kRowSweeps});
 }
 
-/// Without friction pivoting is as fast and exact. With it, the bounds change with each solve.
+/// True if a group is solved by sweeps. Without friction pivoting is as fast, and exact. With
+/// friction, the bounds change with each solution.
 bool Lagrange::isSwept(Members members) const {
   return members.size() > tolerance::kPivotedRows && !tangentOf_.empty();
 }
 
-/// Normal forces first; tangential ones only where there is friction. Returns how many.
+/// Normal forces first; tangential forces only with friction. Returns the number of unknowns.
 std::size_t Lagrange::numberUnknowns(std::span<const ContactRow> rows, Members members) {
   std::uint32_t count = 0;
   for (const std::uint32_t r : members) normalOf_[r] = count++;
@@ -82,7 +83,7 @@ std::size_t Lagrange::numberUnknowns(std::span<const ContactRow> rows, Members m
   return count;
 }
 
-/// G = Δt² W M⁻¹ Wᵀ: two rows act on one another through every node that they share.
+/// G = Δt² W M⁻¹ Wᵀ: two rows interact through every common node.
 void Lagrange::assemble(std::span<const ContactRow> rows, const Nodes& nodes, std::size_t group,
                         const StepLength& step, double drag) {
   System& system = systems_[group];
@@ -115,7 +116,7 @@ void Lagrange::setGaps(std::span<const ContactRow> rows, Members members, BoxPro
   start_.resize(unknowns);
   for (const std::uint32_t r : members) {
     const std::uint32_t normal = normalOf_[r], tangent = tangentOf(r);
-    problem.constant[normal] = rows[r].gap - rows[r].allowed;
+    problem.constant[normal] = rows[r].gap - rows[r].toleratedGap;
     problem.lower[normal] = 0;
     problem.upper[normal] = kNoBound;
     start_[normal] = rows[r].normalForce;
@@ -137,10 +138,10 @@ void Lagrange::addPair(const ContactRow& a, const ContactRow& b, const RowNode& 
   if (tb != kNone) entries_.push_back({ta, tb, weighted(a.tangent(), scaled, b.tangent())});
 }
 
-/// Without friction one solve. With it, the bounds of the tangential forces depend on the normal
-/// ones: a sequence of solves with given bounds, which starts from the last step's forces and ends
-/// where bounds and forces agree. Rejected: slip forces as −μ sgn(v)|F·e| in the matrix (eq. 8)
-/// make it unsymmetric, and the sign has to be known beforehand.
+/// Without friction one solution. With friction, the bounds of the tangential forces depend on the
+/// normal ones: a sequence of solutions with given bounds, which starts from the last step's forces
+/// and ends when bounds and forces are consistent. Rejected: slip forces as −μ sgn(v)|F·e| in the
+/// matrix (eq. 8) make it unsymmetric, and the sign must be known in advance.
 void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& system) {
   BoxProblem& problem = system.problem;
   setGaps(rows, members, problem);
@@ -154,7 +155,7 @@ void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& s
       start_[i] = std::clamp(result->lambda[i], problem.lower[i], problem.upper[i]);
   }
   for (const std::uint32_t r : members) {
-    rows[r].left = 0;
+    rows[r].excess = 0;
     rows[r].normalForce = result->lambda[normalOf_[r]];
     if (tangentOf(r) == kNone) continue;
     const double most = rows[r].friction * rows[r].normalForce;
@@ -163,9 +164,9 @@ void Lagrange::solveGroup(std::span<ContactRow> rows, Members members, System& s
   system.outcome = {result->residual, 0, 0};
 }
 
-/// Sets |τ| ≤ μλ; true if a bound has changed by more than the tolerance. Normal forces of bodies
-/// that friction jams between each other grow from round to round: beyond any sense they bound no
-/// more.
+/// Sets |τ| ≤ μλ; returns true if a bound has changed by more than the tolerance. Normal forces of
+/// bodies that are jammed by friction grow from round to round; above `mostForce` they do not
+/// increase bounds any more.
 bool Lagrange::boundFriction(std::span<const ContactRow> rows, Members members, System& system,
                              std::span<const double> lambda) const {
   if (tangentOf_.empty()) return false;
@@ -187,7 +188,7 @@ void Lagrange::addTo(Footprint& footprint) const {
   footprint.add(Use::kContact, groups_.links, groups_.rows.values, groups_.rows.offsets,
                 groups_.spans.values, groups_.spans.offsets, systems_, entries_, normalOf_, start_);
   footprint.add(Use::kFriction, tangentOf_);
-  // Sweeps are for large groups with friction, and for rubble.
+  // Sweeps are used for large groups with friction, and for rubble.
   sweeps_.addTo(footprint, tangentOf_.empty() ? Use::kFracture : Use::kFriction);
   for (const System& system : systems_) {
     const BoxProblem& p = system.problem;
@@ -206,7 +207,7 @@ void penalize(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& 
       normal += weighted(row.normal, mobile, row.normal);
       tangent += weighted(row.tangent(), mobile, row.tangent());
     }
-    row.normalForce = normal > 0 ? factor * std::max(0., row.allowed - row.gap) / normal : 0;
+    row.normalForce = normal > 0 ? factor * std::max(0., row.toleratedGap - row.gap) / normal : 0;
     const double most = row.friction * row.normalForce;
     row.tangentForce = tangent > 0 ? std::clamp(-factor * row.slip / tangent, -most, most) : 0;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Forces of the actives that keep slaves out of their masters (paper §2, eq. 3–8).
+// Forces of the actives that prevent penetration (paper §2, eq. 3–8).
 
 #include <cstdint>
 #include <span>
@@ -16,36 +16,40 @@
 namespace yadefrag {
 
 /// Lagrange: λ ≥ 0, g + Gλ ≥ 0, λ·(g + Gλ) = 0 for the normal forces, with G = Δt² W M⁻¹ Wᵀ; for
-/// the tangential ones |τ| ≤ μλ, and no slip where less is enough.
+/// the tangential ones |τ| ≤ μλ, and no slip if a smaller force is sufficient.
 class Lagrange {
  public:
-  /// How far the forces of any group are from the solution, and what they took.
+  /// Errors of the solution, and its cost.
   struct Outcome {
-    double residual = 0;  ///< of a pivoted group: largest wrong gap or slip, over its largest gap
+    /// Of a pivoted group: largest error of a gap or slip, over its largest gap.
+    double residual = 0;
     double change = 0;  ///< m, of a swept group: largest change of a gap or slip in the last sweep
     int sweeps = 0;     ///< of a swept group
   };
-  /// New rows, or the same ones in another order: finds their groups and systems.
+  /// Must be called for new rows, or the same ones in another order: determines their groups and
+  /// systems.
   void setRows(std::span<const ContactRow> rows, const Nodes& nodes, const StepLength& step,
                double drag);
-  /// Sets the forces of all rows, starting from those they have; groups in which no more than
-  /// `tolerance` (m) is `left` keep theirs. `nodes`, `step`, `drag` are those of `setRows`.
+  /// Computes the forces of all rows, starting from their present values. Groups without a
+  /// penetration (`excess`) above `tolerance` (m) keep their forces. `nodes`, `step`, `drag` as in
+  /// `setRows`.
   Outcome solve(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
                 double tolerance);
-  /// The same in rubble: for all rows by a few sweeps, whatever their groups are, until no gap or
-  /// slip changes by more than `change` (m). Needs no `setRows`; returns the last change (m).
+  /// The same in rubble: all rows are solved by a few sweeps, independently of groups, until no gap
+  /// or slip changes by more than `change` (m). Does not need `setRows`; returns the last change
+  /// (m).
   double sweep(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
                double change);
-  /// Room for so many nodes of the model.
+  /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { sweeps_.reserve(nodes); }
-  /// Without what the solver of a group works with.
+  /// Without the memory of the solver of a group.
   void addTo(Footprint& footprint) const;
 
  private:
   struct System {
     BoxProblem problem;
-    bool isSwept = false;  ///< there is no matrix
-    double mostForce = 0;  ///< N, what bounds friction
+    bool isSwept = false;  ///< true: solved by sweeps, without a matrix
+    double mostForce = 0;  ///< N, largest normal force in friction bounds
     Outcome outcome;
   };
   using Members = std::span<const std::uint32_t>;
@@ -67,16 +71,17 @@ class Lagrange {
                      std::span<const double> lambda) const;
 
   ContactGroups groups_;
-  std::vector<System> systems_;  // of the groups; more than there are, to keep their memory
+  std::vector<System> systems_;  // of the groups; unused ones are kept for their memory
   BoxSolver solver_;
   RowSweeps sweeps_;
   std::vector<MatrixEntry> entries_;
-  std::vector<std::uint32_t> normalOf_;   // unknowns of a row, by row
-  std::vector<std::uint32_t> tangentOf_;  // the same; empty without friction
+  std::vector<std::uint32_t> normalOf_;   // by row: unknown of its normal force
+  std::vector<std::uint32_t> tangentOf_;  // by row: of its tangential force; empty without friction
   std::vector<double> start_;
 };
 
-/// Penalty: each row by itself, the force that would undo `factor` of its penetration in one step.
+/// Penalty: for each row separately, the force that would remove `factor` of its penetration in one
+/// step.
 void penalize(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
               double factor);
 

@@ -27,10 +27,10 @@ std::optional<Crossing> crossing(const PointAndPiece& before, const PointAndPiec
   const double b = cross(from0, along) + cross(from, along0);
   const double a = cross(from, along);
   if (a + b + c >= 0) {
-    if (c < 0) return std::nullopt;  // It came from behind.
+    if (c < 0) return std::nullopt;  // It was behind from the start.
     return at(1, from1, along1);
   }
-  // The one root at which the gap falls.
+  // The only root at which the gap decreases.
   const double square = b * b - 4 * a * c;
   if (square < 0) return std::nullopt;
   const double root = std::sqrt(square);

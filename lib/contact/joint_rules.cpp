@@ -15,10 +15,10 @@ bool isBeforeBegin(const Geometry& geometry, EntryId master, const Foot& foot) {
   return foot.xi < geometry.range(master).begin;
 }
 
-/// A slave that was outside `from` is now inside `to`, whose flag says that it was behind its line
-/// before: it came in past the end of `from`, along which it may have slid, or, a corner that
-/// grazes a corner, through `from` itself, a lateral face that does not oppose it. Nothing slides
-/// deeper in a step than it moves.
+/// A slave that was outside `from` is now inside `to`, whose flag has the value that it was behind
+/// its line before. It entered past the end of `from`, along which it may have slid; or, as a
+/// corner that grazes a corner, through `from` itself, a lateral face to which it is not opposed. A
+/// sliding point is not deeper than its displacement in the step.
 void enterFromNeighbour(const Trial& from, Trial& to, bool pastFrom, double reach) {
   if (!from.outside || !to.opposed || to.active || to.foot.gap >= 0) return;
   if (!pastFrom && (from.opposed || from.foot.gap >= 0)) return;
@@ -47,7 +47,7 @@ void decideNeighbours(const Geometry& geometry, Trial& first, Trial& second) {
   const bool pastSecond = isBeforeBegin(geometry, second.master, second.foot);
   const bool concave = isConcaveJoint(geometry, first.master, second.master);
   if (concave && pastFirst && pastSecond) {
-    // No orthogonal correction is possible: to the corner, which both masters' rows together do. In
+    // No orthogonal correction is possible: correct to the corner, by the rows of both masters. In
     // a notch narrower than a right angle the slave may be behind one of them only.
     const bool both = first.foot.gap < 0 && second.foot.gap < 0;
     const bool wasOutside = first.outside || second.outside;
@@ -64,8 +64,8 @@ void decideNeighbours(const Geometry& geometry, Trial& first, Trial& second) {
 
 /// The outside-inside criterion (§5.1), then the exceptions where two masters meet (§5.2). A smooth
 /// master needs no flag (§5.3): its normal always exists and is unique. But where a body folds up,
-/// the normals of a tight arc reach far into it and out at the other side: a depth beyond
-/// `deepest` is none.
+/// the normals of a tight arc pass through the body and leave it at the other side: depths beyond
+/// `deepest` are ignored.
 template <class Geometry>
 void JointRules::decide(const ContactSurfaces& surfaces, const Geometry& geometry,
                         std::span<Trial> trials, double deepest, double reach) {
@@ -75,8 +75,8 @@ void JointRules::decide(const ContactSurfaces& surfaces, const Geometry& geometr
                    (!arc || trial.foot.gap >= -deepest) &&
                    isOver(geometry, trial.master, trial.foot);
   }
-  // All that came in past an end before any choice: else one neighbour would bring back what the
-  // other one is nearer to.
+  // All slaves that entered past an end, before any choice: otherwise one of two adjacent pieces
+  // would activate again a slave that is nearer to the other one.
   joints_.clear();
   for (std::uint32_t i = 0; i < trials.size(); ++i) {
     const EntryId after = surfaces.next[trials[i].master.value];

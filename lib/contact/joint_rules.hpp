@@ -1,11 +1,11 @@
 #pragma once
-// Entry by flags: which of its masters a slave is active on (paper §5.1, the outside-inside
-// criterion, fig. 8), and the exceptions where two masters meet (§5.2, fig. 9):
+// Entry by flags: selects the masters on which a slave is active (paper §5.1, the outside-inside
+// criterion, fig. 8), with the exceptions where two masters meet (§5.2, fig. 9):
 //
 // - case C of fig. 9: active on both, at a convex joint: the nearer one;
-// - near a concave corner without an orthogonal foot on either: to the corner's node;
-// - not in the paper: a slave that comes in past the end of one master, and was always behind the
-//   line of the other, whose flag therefore says that it is none of that one's.
+// - near a concave corner without an orthogonal foot on either: correction to the corner's node;
+// - not in the paper: a slave that enters past the end of one master, and was always behind the
+//   line of the other, whose flag therefore excludes it.
 
 #include <cstdint>
 #include <span>
@@ -18,17 +18,17 @@
 
 namespace yadefrag {
 
-/// A slave against one of the masters that it is near to.
+/// A slave and one of its near masters.
 struct Trial {
   EntryId master;
   Foot foot;
   bool outside;  ///< flag
-  bool opposed;  ///< do the outward normals of slave and master oppose each other
+  bool opposed;  ///< true: the outward normals of slave and master are opposed
   bool active;
-  bool hasFoot = true;  ///< is `foot` known already
+  bool hasFoot = true;  ///< true: `foot` is already computed
 };
 
-/// Is a foot over its piece; at a joint of two, rounding leaves none between them.
+/// True if a foot is over its piece; at a joint of two pieces, rounding leaves no gap between them.
 template <class Geometry>
 bool isOver(const Geometry& geometry, EntryId master, const Foot& foot) {
   const PieceRange range = geometry.range(master);
@@ -36,29 +36,29 @@ bool isOver(const Geometry& geometry, EntryId master, const Foot& foot) {
          foot.xi <= range.end + tolerance::kFootRange;
 }
 
-/// Does the boundary turn towards the void between two pieces that follow each other.
+/// True if the boundary turns towards the void between two successive pieces.
 template <class Geometry>
 bool isConcaveJoint(const Geometry& geometry, EntryId first, EntryId second) {
   return cross(geometry.tangent(first, geometry.range(first).end),
                geometry.tangent(second, geometry.range(second).begin)) < 0;
 }
 
-/// §5.2 for all joints among one slave's masters, from their `active` and `outside`.
+/// The rules of §5.2 for all joints among one slave's masters, from their `active` and `outside`.
 template <class Geometry>
 void decideJoints(const ContactSurfaces& surfaces, const Geometry& geometry,
                   std::span<Trial> trials);
 
 class JointRules {
  public:
-  /// Sets `active` of all masters of one slave. Nothing is deeper in a smooth master than `deepest`
-  /// (m), and nothing slides deeper in past an end than twice `reach` (m), the scan's.
+  /// Sets `active` for all masters of one slave. Depths in a smooth master beyond `deepest` (m) are
+  /// ignored, and so are slaves that slid in past an end deeper than twice `reach` (m) of the scan.
   template <class Geometry>
   void decide(const ContactSurfaces& surfaces, const Geometry& geometry, std::span<Trial> trials,
               double deepest, double reach);
   void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, joints_); }
 
  private:
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> joints_;  // trials, one after the other
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> joints_;  // pairs of successive trials
 };
 
 }  // namespace yadefrag

@@ -11,21 +11,22 @@ namespace yadefrag {
 
 namespace {
 
-/// A straight neighbour has to know on which side of the arc a slave was.
+/// True if flags are needed beside an arc: for an adjacent straight piece it must be known on which
+/// side of the arc a slave was.
 template <class Geometry>
 bool isArcAmongArcs(const ContactSurfaces& surfaces, const Geometry& geometry, EntryId entry) {
   return geometry.isArc(entry) && geometry.isArc(surfaces.next[entry.value]) &&
          geometry.isArc(surfaces.prev[entry.value]);
 }
 
-/// Where a point lies beside the chord of a piece.
+/// Position of a point relative to the chord of a piece.
 struct Beside {
   double gap;      ///< m
-  double beyond;   ///< m, by how much it is past an end; negative: over the piece
-  double inverse;  ///< 1/m, of the chord's length
+  double beyond;   ///< m, distance past an end; negative: over the piece
+  double inverse;  ///< 1/m, inverse of the chord's length
 
-  /// (m/m) Change of the gap, and of an arc's bulge, for a motion of all points by no more than 1,
-  /// as long as the gap is open: beside its ends a chord swings farther than they move.
+  /// (m/m) Change of the gap, and of an arc's height, per largest displacement of all points, as
+  /// long as the gap is open: beside its ends a chord moves more than its ends do.
   [[nodiscard]] double leverage(bool arc) const {
     return (arc ? 4 : 2) + 2 * (std::max(0., beyond) + std::abs(gap)) * inverse;
   }
@@ -57,8 +58,8 @@ void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
   if (start) start_ = *start;
   const std::size_t rows = candidates.slaves.size();
   way_ += moved;
-  if (candidates.asleep.size() != rows || !std::isfinite(way_))
-    candidates.asleep.assign(rows, 0), way_ = 0;
+  if (candidates.idleDistance.size() != rows || !std::isfinite(way_))
+    candidates.idleDistance.assign(rows, 0), way_ = 0;
   near_.clear();
   parts_.resize(static_cast<std::size_t>(std::max(threads, 1)));
   const int parts = withGeometry(surfaces, positions, [&](const auto& geometry) {
@@ -83,16 +84,17 @@ void LocalSearch::scanRows(Candidates& candidates, const ContactSurfaces& surfac
   const Geometry before(surfaces, start_.positions, pointsBefore_);
   part.near.clear();
   for (std::size_t r = begin; r < end; ++r) {
-    if (candidates.asleep[r] > way_ + reach_) continue;
+    if (candidates.idleDistance[r] > way_ + reach_) continue;
     const std::size_t first = part.near.size();
     const auto row = static_cast<std::uint32_t>(r);
-    candidates.asleep[r] = way_ + scanRow(candidates, geometry, row, chord, part.near);
+    candidates.idleDistance[r] = way_ + scanRow(candidates, geometry, row, chord, part.near);
     if (byPath_ && part.near.size() > first)
       findEnterable(candidates, before, std::span(part.near).subspan(first));
   }
 }
 
-/// By the path, what was behind a straight piece at xⁿ does not come in, unless it touched.
+/// With entry by the path, a slave that was behind a straight piece at xⁿ cannot enter it, unless
+/// it was in contact.
 template <class Geometry>
 void LocalSearch::findEnterable(const Candidates& candidates, const Geometry& before,
                                 std::span<Near> row) const {
@@ -103,8 +105,8 @@ void LocalSearch::findEnterable(const Candidates& candidates, const Geometry& be
     if (before.isArc(master)) continue;
     const PieceEnds ends = before.ends(master);
     const Vec2 along = ends.end - ends.begin;
-    // Twice the depth, since the piece may be longer at the end of the step; where it turns in the
-    // step, a slave may come out and in again by less than the product of two motions.
+    // Twice the depth, since the piece may be longer at the end of the step. If the piece rotates
+    // in the step, a slave may leave and enter again by less than the product of two displacements.
     const double inside = cross(along, point - ends.begin) - reach_ * reach_;
     near.canEnter =
         inside <= 2 * start_.depth * norm(along) ||
@@ -112,13 +114,14 @@ void LocalSearch::findEnterable(const Candidates& candidates, const Geometry& be
   }
 }
 
-/// In rubble nearly every slave is awake, and every piece the master of several.
+/// In rubble nearly every slave must be checked, and every piece is the master of several.
 template <class Geometry>
 void LocalSearch::findChords(const Candidates& candidates, const ContactSurfaces& surfaces,
                              const Geometry& geometry) {
-  const auto isAwake = [&](double asleep) { return asleep <= way_ + reach_; };
-  const auto awake = static_cast<std::size_t>(std::ranges::count_if(candidates.asleep, isAwake));
-  const std::size_t count = awake > surfaces.entries() / 4 ? surfaces.entries() : 0;
+  const auto mustCheck = [&](double idleDistance) { return idleDistance <= way_ + reach_; };
+  const auto checked =
+      static_cast<std::size_t>(std::ranges::count_if(candidates.idleDistance, mustCheck));
+  const std::size_t count = checked > surfaces.entries() / 4 ? surfaces.entries() : 0;
   chords_.resize(count);
   forEachPart(count, threads_, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t e = begin; e < end; ++e) chords_[e] = chordOf(geometry, EntryId(e));
@@ -154,8 +157,8 @@ double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, st
       found.push_back({row, c, true, (before - tolerance::kTouching / chord.inverse) / leverage});
     else if (!byPath_)
       candidates.outside[c] = beside.gap >= 0 ? 1 : 0;
-    // By flags, nothing comes of a straight master that the slave is behind of, until it has come
-    // out; by the path, of any master that it is deeper in.
+    // By flags, a straight master behind whose line the slave is cannot become active before the
+    // slave has come out; by the path, any master in which the slave is deeper cannot.
     const bool behind = byPath_ ? beside.gap < -deepest : !arc && candidates.outside[c] == 0;
     const double open =
         behind ? std::abs(beside.gap) - (byPath_ ? deepest : 0) - chord.bulge : before;
@@ -168,12 +171,12 @@ void LocalSearch::findActives(const Candidates& candidates, const ContactSurface
                               std::span<const Vec2> positions, double deepest,
                               std::vector<Active>& actives, std::span<const SlaveMaster> known,
                               double moved) {
-  const Asked asked{candidates, surfaces, deepest, known, moved};
+  const Query query{candidates, surfaces, deepest, known, moved};
   const int parts = withGeometry(surfaces, positions, [&]<class Geometry>(const Geometry& plain) {
     findPoints(plain, chords_.size(), points_);
     const Geometry geometry(surfaces, positions, points_);
     return forEachPart(near_.size(), threads_, [&](std::size_t begin, std::size_t end, int part) {
-      tryRows(asked, geometry, beginOfRow(begin), beginOfRow(end),
+      tryRows(query, geometry, beginOfRow(begin), beginOfRow(end),
               parts_[static_cast<std::size_t>(part)]);
     });
   });
@@ -183,70 +186,72 @@ void LocalSearch::findActives(const Candidates& candidates, const ContactSurface
   }
 }
 
-/// The first near pair at or after this one that begins a slave's.
+/// Index of the first near pair at or after this one that is the first of its slave.
 std::size_t LocalSearch::beginOfRow(std::size_t at) const {
   while (at > 0 && at < near_.size() && near_[at].row == near_[at - 1].row) ++at;
   return at;
 }
 
 template <class Geometry>
-void LocalSearch::tryRows(const Asked& asked, const Geometry& geometry, std::size_t from,
+void LocalSearch::tryRows(const Query& query, const Geometry& geometry, std::size_t from,
                           std::size_t to, Part& part) const {
   part.actives.clear();
   const std::span<const Near> near(near_);
   for (std::size_t begin = from, end = from; begin < to; begin = end) {
-    const EntryId slave = asked.slaveOf(near[begin]);
+    const EntryId slave = query.slaveOf(near[begin]);
     while (end < to && near[end].row == near[begin].row) ++end;
     part.trials.clear();
     const std::span<const Near> row = near.subspan(begin, end - begin);
     if (byPath_)
-      tryByPath(asked, geometry, row, part);
+      tryByPath(query, geometry, row, part);
     else
-      tryByFlags(asked, geometry, row, part);
+      tryByFlags(query, geometry, row, part);
     for (const Trial& trial : part.trials)
       if (trial.active) part.actives.push_back({{slave, trial.master}, trial.foot});
   }
 }
 
-/// Most slaves are behind none of the masters' lines that they can cross.
+/// Most slaves are not behind the line of any master that they can cross.
 template <class Geometry>
-void LocalSearch::tryByPath(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
+void LocalSearch::tryByPath(const Query& query, const Geometry& geometry, std::span<const Near> row,
                             Part& part) const {
-  const EntryId slave = asked.slaveOf(row.front());
+  const EntryId slave = query.slaveOf(row.front());
   const Vec2 point = geometry.slave(slave);
   bool allKnown = true;
   const auto addTrials = [&](bool canEnter) {
     for (const Near& near : row) {
-      if (near.canEnter != canEnter || near.clear > asked.moved) continue;
-      const EntryId master = asked.candidates.masters[near.candidate];
-      // The quick test of an arc says nothing of what is past an end that is a straight piece's.
+      if (near.canEnter != canEnter || near.clear > query.moved) continue;
+      const EntryId master = query.candidates.masters[near.candidate];
+      // The quick test of an arc does not cover points past an end that is shared with a straight
+      // piece.
       const bool quick =
-          !geometry.isArc(master) || isArcAmongArcs(asked.surfaces, geometry, master);
+          !geometry.isArc(master) || isArcAmongArcs(query.surfaces, geometry, master);
       if (quick && !geometry.mayPenetrate(master, point)) continue;
       part.trials.push_back({master, {}, canEnter, false, false, false});
-      allKnown = allKnown && asked.isKnown({slave, master});
+      allKnown = allKnown && query.isKnown({slave, master});
     }
   };
   addTrials(true);
   if (allKnown) return part.trials.clear();
-  const Geometry before(asked.surfaces, start_.positions, pointsBefore_);
+  const Geometry before(query.surfaces, start_.positions, pointsBefore_);
   const SlaveStep<Geometry> step{before, geometry, slave, touchesOf(start_.touches, slave),
                                  start_.depth};
-  if (!findEntered(asked.surfaces, step, part.trials, asked.deepest)) return part.trials.clear();
+  if (!findEntered(query.surfaces, step, part.trials, query.deepest)) return part.trials.clear();
   addTrials(false);
   std::ranges::sort(part.trials, {}, &Trial::master);
-  decideByPath(asked.surfaces, step, part.trials);
+  decideByPath(query.surfaces, step, part.trials);
 }
 
-/// Whatever the rules do, they wake no master without a flag or an arc in the row.
+/// Independently of the rules, masters without a flag are not activated unless there is an arc in
+/// the row.
 template <class Geometry>
-void LocalSearch::tryByFlags(const Asked& asked, const Geometry& geometry,
+void LocalSearch::tryByFlags(const Query& query, const Geometry& geometry,
                              std::span<const Near> row, Part& part) const {
-  const Candidates& candidates = asked.candidates;
-  const EntryId slave = asked.slaveOf(row.front());
+  const Candidates& candidates = query.candidates;
+  const EntryId slave = query.slaveOf(row.front());
   const Vec2 point = geometry.slave(slave);
   const auto isKnown = [&](const Near& near) {
-    return asked.isKnown({slave, candidates.masters[near.candidate]});
+    return query.isKnown({slave, candidates.masters[near.candidate]});
   };
   if (std::ranges::all_of(row, isKnown)) return;
   bool anyOutside = false, anyNear = false;
@@ -257,12 +262,12 @@ void LocalSearch::tryByFlags(const Asked& asked, const Geometry& geometry,
     anyNear = anyNear || arc || geometry.mayPenetrate(master, point);
   }
   if (!anyOutside || !anyNear) return;
-  const SlaveNormals normals = slaveNormals(asked.surfaces, geometry, slave);
+  const SlaveNormals normals = slaveNormals(query.surfaces, geometry, slave);
   bool anyInside = false;
   for (const Near& near : row) {
     const EntryId master = candidates.masters[near.candidate];
-    // The quick test spares the iteration.
-    if (isArcAmongArcs(asked.surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
+    // The quick test saves the iteration.
+    if (isArcAmongArcs(query.surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
       continue;
     const Foot foot = geometry.foot(master, point);
     const bool opposed = normals.oppose(foot.normal);
@@ -271,14 +276,14 @@ void LocalSearch::tryByFlags(const Asked& asked, const Geometry& geometry,
         {master, foot, candidates.outside[near.candidate] != 0, opposed, false, true});
   }
   if (anyInside)
-    part.rules.decide(asked.surfaces, geometry, part.trials, asked.deepest, reach_);
+    part.rules.decide(query.surfaces, geometry, part.trials, query.deepest, reach_);
   else
     part.trials.clear();
 }
 
 void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces,
                          std::span<const Vec2> positions, std::span<const SlaveMaster> touched,
-                         double left) const {
+                         double tolerated) const {
   withGeometry(surfaces, positions, [&](const auto& geometry) {
     auto next = touched.begin();
     for (const Near& near : near_) {
@@ -286,7 +291,7 @@ void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces
       while (next != touched.end() && *next < pair) ++next;
       const bool active = next != touched.end() && *next == pair;
       std::uint8_t& outside = candidates.outside[near.candidate];
-      const double least = outside != 0 ? -left : 0;
+      const double least = outside != 0 ? -tolerated : 0;
       const double gap = geometry.foot(pair.master, geometry.slave(pair.slave)).gap;
       outside = active || gap >= least ? 1 : 0;
     }

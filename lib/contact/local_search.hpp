@@ -1,6 +1,6 @@
 #pragma once
-// From candidates to actives (paper §5): a scan of all candidates that leaves the few which are
-// near, then, for each slave, the masters it is active on (joint_rules.hpp).
+// From candidates to actives (paper §5): a scan of all candidates selects the few near pairs; then,
+// for each slave, the masters are determined on which it is active (joint_rules.hpp).
 
 #include <algorithm>
 #include <cmath>
@@ -15,47 +15,47 @@
 
 namespace yadefrag {
 
-/// A slave that penetrates a master now, and where.
+/// A slave that penetrates a master at present, and its foot.
 struct Active {
   SlaveMaster pair;
   Foot foot;
 };
 
-/// The chord of a piece at the scan's positions.
+/// The chord of a piece at the positions of the scan.
 struct Chord {
   Vec2 begin, end;
-  double inverse;  ///< 1/m, of its length
-  double bulge;    ///< m, of an arc over it: near an arc is near its chord by that much more
+  double inverse;  ///< 1/m, inverse of its length
+  double bulge;    ///< m, height of an arc over its chord: added to distances from the chord
 };
 
 class LocalSearch {
  public:
   /// First phase (§5.1) at `positions` (m, by node). A candidate is near if its slave is within
-  /// `reach` (m) of the master's line, or inside it by no more than that and what was deepest at
-  /// the start, and beside the piece by no more than a few `reach`. With flags, depth is no bound,
-  /// and those of all that are not near are brought up to date. No surface node has moved by more
-  /// than `moved` (m) since the last scan: rows too far away to become near by all the ways since
-  /// they were looked at are left alone. Infinite: nothing is known. Entry is by the path from
-  /// `start`, or by the candidates' flags without one.
+  /// `reach` (m) of the master's line, or inside it by no more than that plus the largest depth at
+  /// the start, and beside the piece by no more than a few `reach`. With flags, depth is not
+  /// limited, and the flags of all pairs that are not near are updated. `moved` (m): upper bound of
+  /// the displacement of surface nodes since the last scan; infinite: unknown. Rows that cannot
+  /// have become near by all displacements since their last check are skipped. Entry is by the path
+  /// from `start`, or by the candidates' flags without it.
   void scan(Candidates& candidates, const ContactSurfaces& surfaces,
             std::span<const Vec2> positions, double reach, int threads, double moved = INFINITY,
             const PathStart* start = nullptr);
 
-  /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master. None is deeper
-  /// in a smooth master than `deepest` (m), whatever the halo is; but what is deeper than the halo
-  /// at a search, as a penalty may leave it, is no candidate at all. Slaves `known`
-  /// (ascending) to be active on all masters that they are near to are left out, and so is what a
-  /// motion of no more than `moved` (m) since the scan cannot have brought behind a master.
+  /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master. Depths in a
+  /// smooth master beyond `deepest` (m) are ignored, for any width of the halo; but a slave deeper
+  /// than the halo at a search, as a penalty may leave it, is no candidate at all. Excluded are
+  /// slaves `known` (ascending) to be active on all their near masters, and pairs that a
+  /// displacement of at most `moved` (m) since the scan cannot have brought into penetration.
   void findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
                    std::span<const Vec2> positions, double deepest, std::vector<Active>& actives,
                    std::span<const SlaveMaster> known = {}, double moved = INFINITY);
 
-  /// Outside flags of the near ones after the step, in which `touched` (ascending) were active:
-  /// those stay outside, however rounding has placed them, and so do those that were outside and
-  /// are inside by no more than `left` (m).
+  /// Sets the outside flags of the near pairs after the step, in which `touched` (ascending) were
+  /// active: those stay outside, independently of rounding, and so do pairs that were outside and
+  /// are inside by no more than `tolerated` (m).
   void settle(Candidates& candidates, const ContactSurfaces& surfaces,
               std::span<const Vec2> positions, std::span<const SlaveMaster> touched,
-              double left = 0) const;
+              double tolerated = 0) const;
 
   [[nodiscard]] bool anyNear() const { return !near_.empty(); }
   void addTo(Footprint& footprint) const {
@@ -70,11 +70,11 @@ class LocalSearch {
   struct Near {
     std::uint32_t row;
     std::uint32_t candidate;
-    bool canEnter;  ///< by the path
-    double clear;   ///< m, motion of all nodes up to which the slave is before the piece
+    bool canEnter;  ///< with entry by the path
+    double clear;   ///< m, displacement of all nodes up to which the slave is in front of the piece
   };
-  /// What `findActives` was called with.
-  struct Asked {
+  /// The arguments of `findActives`.
+  struct Query {
     const Candidates& candidates;
     const ContactSurfaces& surfaces;
     double deepest;
@@ -85,7 +85,7 @@ class LocalSearch {
       return std::ranges::binary_search(known, pair);
     }
   };
-  /// What one thread finds, and what it works with.
+  /// Results of one thread, and its memory.
   struct Part {
     std::vector<Near> near;
     std::vector<Active> actives;
@@ -101,7 +101,7 @@ class LocalSearch {
   template <class Geometry>
   void scanRows(Candidates& candidates, const ContactSurfaces& surfaces, const Geometry& geometry,
                 std::size_t begin, std::size_t end, Part& part) const;
-  /// What `scan` does with one slave; returns how far everything may move before it is near.
+  /// Scans one slave; returns the displacement of all nodes before which it cannot be near.
   template <class Geometry, class ChordOf>
   double scanRow(Candidates& candidates, const Geometry& geometry, std::uint32_t row,
                  ChordOf chordOfEntry, std::vector<Near>& found) const;
@@ -110,23 +110,23 @@ class LocalSearch {
                      std::span<Near> row) const;
   [[nodiscard]] std::size_t beginOfRow(std::size_t at) const;
   template <class Geometry>
-  void tryRows(const Asked& asked, const Geometry& geometry, std::size_t from, std::size_t to,
+  void tryRows(const Query& query, const Geometry& geometry, std::size_t from, std::size_t to,
                Part& part) const;
   template <class Geometry>
-  void tryByPath(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
+  void tryByPath(const Query& query, const Geometry& geometry, std::span<const Near> row,
                  Part& part) const;
   template <class Geometry>
-  void tryByFlags(const Asked& asked, const Geometry& geometry, std::span<const Near> row,
+  void tryByFlags(const Query& query, const Geometry& geometry, std::span<const Near> row,
                   Part& part) const;
 
-  double way_ = 0;    // m, of the fastest node since the candidates were found
+  double way_ = 0;    // m, distance travelled by the fastest node since the candidates were found
   double reach_ = 0;  // m, of the last scan
   bool byPath_ = false;
   PathStart start_;  // of the last scan
   std::vector<Near> near_;
   std::vector<Part> parts_;  // by thread
   int threads_ = 1;
-  // By entry; empty where few are needed. Points (m) are the slaves', at xⁿ and now.
+  // By entry; empty if only few are needed. Points (m): the slaves', at xⁿ and at present.
   std::vector<Chord> chords_;
   std::vector<Vec2> pointsBefore_, points_;
 };

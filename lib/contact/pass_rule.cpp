@@ -10,7 +10,7 @@ namespace yadefrag {
 
 namespace {
 
-/// Does the boundary turn left by more than an angle (rad) where the entry begins.
+/// True if the boundary turns left by more than an angle (rad) at the begin of the entry.
 bool isSharp(const ContactSurfaces& surfaces, const PieceGeometry& geometry, EntryId entry,
              double angle) {
   const EntryId former = surfaces.prev[entry.value];
@@ -29,7 +29,7 @@ void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> ref
   passes_ = passes;
   anyRigid_ = anyRigid;
   if (passes == 2 && !anyRigid) return;
-  // With two passes only corners of rigid boundaries are looked up.
+  // With two passes only corners of rigid boundaries are determined.
   const double angle = passes == 2 ? tolerance::kLineCorner : tolerance::kSharpCorner;
   const PieceGeometry geometry(surfaces, reference);
   const std::size_t count = surfaces.entries();
@@ -44,7 +44,7 @@ void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> ref
     pieces[surfaces.loop[e]] += 1;
     sharp_[e] = isSharp(surfaces, geometry, entry, angle) ? 1 : 0;
   }
-  // Compared with a tolerance by rounding: equal meshes at different places are equally fine.
+  // With a tolerance for rounding: equal meshes at different positions are equally fine.
   for (std::uint32_t l = 0; l < loops; ++l)
     if (pieces[l] > 0)
       fineness_[l] = std::round(std::log2(fineness_[l] / pieces[l]) * tolerance::kFinenessSteps);

@@ -1,5 +1,5 @@
 #pragma once
-// Which points are slaves of which surfaces (paper §2: single and double passing).
+// Selection of slaves for pairs of surfaces (paper §2: single and double passing).
 
 #include <cstdint>
 #include <span>
@@ -11,17 +11,17 @@
 
 namespace yadefrag {
 
-/// Single pass: of two surfaces the finer one's sampling points are slaves, and the sharp corners
-/// of the coarser one, which would otherwise pass through the finer one's segments unseen. Within
-/// one surface, with bodies that crack, and in a double pass, every point is a slave: a crack makes
-/// corners and surfaces. Roles chosen anew at cracks were tried: candidates that were there kept
-/// the old ones until the next search, so that results depended on when that was.
-/// All points are slaves of rigid boundaries. Of these the sharp corners are slaves only, in a
-/// double pass all convex ones.
+/// Single pass: of two surfaces the sampling points of the finer one are slaves, and the sharp
+/// corners of the coarser one, which would otherwise pass through the finer one's segments
+/// undetected. Within one surface, with bodies that can crack, and in a double pass, every point is
+/// a slave: a crack creates corners and surfaces. Rejected: new roles at cracks; existing
+/// candidates kept the old roles until the next search, so that results depended on the time of
+/// that search. All points are slaves of rigid boundaries. Of the points of rigid boundaries only
+/// the sharp corners are slaves, in a double pass all convex ones.
 class PassRule {
  public:
-  /// `reference`: m, stress-free, by node, so that no motion changes a role.
-  /// `anyRigid`: are there rigid boundaries.
+  /// `reference`: m, stress-free, by node, so that motion does not change the roles. `anyRigid`:
+  /// true if there are rigid boundaries.
   void update(const ContactSurfaces& surfaces, std::span<const Vec2> reference, int passes,
               bool anyRigid = false);
 
@@ -53,7 +53,7 @@ class PassRule {
   int passes_ = 1;
   bool anyRigid_ = false;
   std::vector<double> fineness_;     ///< m, mean length of a loop's pieces
-  std::vector<std::uint8_t> sharp_;  ///< by entry: is its sampling point such a corner
+  std::vector<std::uint8_t> sharp_;  ///< by entry: true if its sampling point is such a corner
 };
 
 }  // namespace yadefrag

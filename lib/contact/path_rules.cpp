@@ -10,7 +10,7 @@ namespace yadefrag {
 
 namespace {
 
-/// One slave's way through the step.
+/// The path of one slave in the step.
 template <class Geometry>
 class Path {
  public:
@@ -21,7 +21,8 @@ class Path {
         from_(step.before.slave(step.slave)),
         to_(step.now.slave(step.slave)) {}
 
-  /// Has it come into a piece that it is behind now. Sets the trial's foot where it needs it.
+  /// True if the slave has entered a piece behind which it is now. Computes the trial's foot if
+  /// needed.
   [[nodiscard]] bool enters(Trial& trial, double deepest) const {
     const EntryId master = trial.master;
     const bool arc = now_.isArc(master), touched = isTouched(master);
@@ -44,8 +45,8 @@ class Path {
                                [&](const Touch& touch) { return touch.pair.master == master; });
   }
 
-  /// Is ξ (0 at the begin of a piece, 1 at its end) over it, or, at a concave joint, not farther
-  /// past it than a slave `depth` (m) behind the piece may be inside a notch.
+  /// True if ξ (0 at the begin of a piece, 1 at its end) is over the piece, or, at a concave joint,
+  /// no farther past it than a slave `depth` (m) behind the piece may be inside a notch.
   [[nodiscard]] bool isWithin(EntryId master, double xi, double length, double depth) const {
     const double past = tolerance::kPastConcave * depth / length;
     const double least = isConcave(surfaces_.prev[master.value], master) ? past : 0;

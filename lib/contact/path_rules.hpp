@@ -1,17 +1,18 @@
 #pragma once
-// Entry by the path: a slave is active on a piece that its path from xⁿ to where it is now crosses.
+// Entry by the path: a slave is active on a piece that its path from xⁿ to its present position
+// crosses.
 //
-// Nothing has to be remembered about sides. A slave that is behind a piece by no more than `depth`
-// at xⁿ counts as before it: what rounding and unfinished corrections leave is less. Only what was
-// active in the step before keeps its piece, however deep it is.
+// No sides have to be stored. A slave that is behind a piece by no more than `depth` at xⁿ counts
+// as in front of it: rounding and unfinished corrections leave less. Only an active of the previous
+// step keeps its piece at any depth.
 //
 //     void          p0            The gap to the moving piece is a quadratic in time. The slave
 //     ──────────────●─ line       enters at the time at which it falls below −depth, or at the end
-//     body           ╲            of the step; over which piece it is then decides, also where it
-//                     p*          goes through a thin body or past an end within the step.
+//     body           ╲            of the step. The position on the piece at that time is decisive,
+//                     p*          also if the slave passes through a thin body or past an end.
 //
-// Joints: at a convex one of two actives the nearer one holds; at a concave one, what is past both
-// ends is inside, and both hold it (paper §5.2).
+// Joints: of two actives at a convex joint the nearer one is kept; at a concave joint, a slave past
+// both ends is inside, and both are active (paper §5.2).
 
 #include <span>
 
@@ -20,30 +21,30 @@
 
 namespace yadefrag {
 
-/// The step before, as entry by the path needs it. It must outlive the search.
+/// Data of the previous step for entry by the path. The arrays must outlive the search.
 struct PathStart {
   std::span<const Vec2> positions;  ///< m, xⁿ, by node; of surface nodes only
   std::span<const Touch> touches;   ///< by pair
-  double depth = 0;                 ///< m, at which a slave is behind a line
-  double deepest = 0;               ///< m, of the touches
+  double depth = 0;                 ///< m, depth from which a slave counts as behind a line
+  double deepest = 0;               ///< m, largest depth of the touches
 };
 
-/// One slave's step.
+/// The step of one slave.
 template <class Geometry>
 struct SlaveStep {
   const Geometry &before, &now;
   EntryId slave;
-  std::span<const Touch> touches;  ///< of the slave
+  std::span<const Touch> touches;  ///< stored contacts of the slave
   double depth;                    ///< m, as in PathStart
 };
 
-/// Sets `active` of the masters that a slave has come into; is there any. Nothing is deeper in a
-/// smooth master than `deepest` (m).
+/// Sets `active` for the masters that a slave has entered; returns true if there are any. Depths in
+/// a smooth master beyond `deepest` (m) are ignored.
 template <class Geometry>
 bool findEntered(const ContactSurfaces& surfaces, const SlaveStep<Geometry>& step,
                  std::span<Trial> trials, double deepest);
 
-/// Then, among all masters that it is behind: on which of them it is active.
+/// Then selects, among all masters behind which the slave is, those on which it is active.
 template <class Geometry>
 void decideByPath(const ContactSurfaces& surfaces, const SlaveStep<Geometry>& step,
                   std::span<Trial> trials);

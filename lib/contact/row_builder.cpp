@@ -14,9 +14,9 @@ struct FootOn {
   Foot foot;
 };
 
-/// The foot at xⁿ: on the master, or on its neighbour if the slave was over that one and the
-/// boundary does not turn towards the void between them (there the neighbour's normal is another).
-/// Not on a piece that the slave is an end of: it cannot be pushed away from itself.
+/// The foot at xⁿ: on the master, or on its adjacent piece if the slave was over that one and the
+/// boundary does not turn towards the void between them (otherwise the adjacent piece has another
+/// normal). A piece of which the slave is an end is excluded: it cannot be pushed away from itself.
 FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair,
                   Vec2 slave) {
   const EntryId master = pair.master;
@@ -39,7 +39,7 @@ FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, 
   return {master, foot};
 }
 
-/// A foot past the end of a straight piece goes on a little, elsewhere it stays at the end.
+/// A foot past the end of a straight piece is extrapolated a little; otherwise it is at the end.
 double usableXi(const PieceGeometry& before, EntryId master, double xi, bool atCorner) {
   const PieceRange range = before.range(master);
   const bool near =
@@ -48,7 +48,7 @@ double usableXi(const PieceGeometry& before, EntryId master, double xi, bool atC
   return std::clamp(xi, range.begin, range.end);
 }
 
-/// Does the boundary go on past that end of a piece without a corner worth the name?
+/// True if the boundary continues past that end of a piece without a significant corner.
 bool goesOn(const ContactSurfaces& surfaces, const PieceGeometry& before, EntryId master, double xi,
             Vec2 slave) {
   const bool atBegin = xi < before.range(master).begin;
@@ -64,7 +64,7 @@ ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
   const Stencil slave = surfaces.slave(active.pair.slave);
   const Vec2 point = before.slave(active.pair.slave);
   const PieceRange range = before.range(active.pair.master);
-  // Active without a foot on the piece: corrected to the node of a concave corner.
+  // Active without a foot on the piece: correct to the node of a concave corner.
   const bool past = active.foot.xi < range.begin - tolerance::kFootRange ||
                     active.foot.xi > range.end + tolerance::kFootRange;
   const bool atCorner =

@@ -1,6 +1,6 @@
 #pragma once
-// Rows of the contact system from actives. Normal and foot are those at xⁿ, where the forces act:
-// the angular momentum is kept; the gap is that at the predicted positions.
+// Rows of the contact system from actives. Normal and foot are those at xⁿ, where the forces act,
+// so that the angular momentum is conserved; the gap is that at the predicted positions.
 
 #include <span>
 
@@ -10,11 +10,12 @@
 
 namespace yadefrag {
 
-/// `before`: positions xⁿ. The row's gap is the active's; its `allowed` is 0, its friction unset.
+/// `before`: positions xⁿ. The row's gap is that of the active; its `toleratedGap` is 0, its
+/// friction is not set.
 ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
                    const Active& active);
 
-/// (m) The gap of a row's slave to its master's line or arc; negative: penetration.
+/// (m) Gap of a row's slave relative to its master's line or arc; negative: penetration.
 template <bool kSmooth>
 double gapOf(const ContactRow& row, const PieceGeometryOf<kSmooth>& geometry) {
   return geometry.foot(row.master, geometry.slave(row.slave)).gap;

@@ -20,15 +20,15 @@ double RowSweeps::solve(std::span<ContactRow> rows, std::span<const std::uint32_
   double change = 0;
   count_ = 0;
   while (count_ < stop.most) {
-    // There and back: forces pass along chains of pieces.
+    // Alternating directions: forces are transmitted along chains of pieces.
     change = sweep(count_++ % 2 == 0, stop.change);
     if (!(change > stop.change)) break;
   }
-  for (const Lean& lean : rows_) {
-    ContactRow& row = rows[lean.place];
-    row.normalForce = lean.normalForce;
-    row.tangentForce = lean.tangentForce;
-    row.left = 0;
+  for (const SweepRow& swept : rows_) {
+    ContactRow& row = rows[swept.place];
+    row.normalForce = swept.normalForce;
+    row.tangentForce = swept.tangentForce;
+    row.excess = 0;
   }
   return change;
 }
@@ -42,27 +42,27 @@ void RowSweeps::begin(std::span<const ContactRow> rows, std::span<const std::uin
   ends_.resize(members.size());
   for (std::size_t r = 0; r < members.size(); ++r) {
     const ContactRow& row = rows[members[r]];
-    Lean& lean = rows_[r];
+    SweepRow& swept = rows_[r];
     Ends& ends = ends_[r];
-    lean = {};
+    swept = {};
     ends = {};
-    lean.place = members[r];
+    swept.place = members[r];
     ends.count = static_cast<std::uint32_t>(row.count);
-    lean.normal = row.normal;
-    lean.gap = row.gap - row.allowed, lean.slip = row.slip, lean.friction = row.friction;
-    lean.normalForce = row.normalForce, lean.tangentForce = row.tangentForce;
+    swept.normal = row.normal;
+    swept.gap = row.gap - row.toleratedGap, swept.slip = row.slip, swept.friction = row.friction;
+    swept.normalForce = row.normalForce, swept.tangentForce = row.tangentForce;
     const Vec2 along = row.tangent();
     for (std::uint32_t k = 0; k < ends.count; ++k) {
       const Vec2 mobile = step.squared() * row.weight[k] * mobility(nodes, row.node[k], drag);
       const Vec2 perNormal{mobile.x * row.normal.x, mobile.y * row.normal.y};
       const Vec2 perTangent{mobile.x * along.x, mobile.y * along.y};
-      lean.normalResponse += row.weight[k] * dot(perNormal, row.normal);
-      lean.tangentResponse += row.weight[k] * dot(perTangent, along);
-      lean.slipPerNormal += row.weight[k] * dot(perNormal, along);
+      swept.normalResponse += row.weight[k] * dot(perNormal, row.normal);
+      swept.tangentResponse += row.weight[k] * dot(perTangent, along);
+      swept.slipPerNormal += row.weight[k] * dot(perNormal, along);
       ends.node[k] = numberOf(row.node[k]);
-      lean.weight[k] = row.weight[k], lean.perForce[k] = mobile;
+      swept.weight[k] = row.weight[k], swept.perForce[k] = mobile;
     }
-    push(lean, ends, row.force());
+    push(swept, ends, row.force());
   }
   findRowsOfNodes();
   waiting_.fill(rows_.size());
@@ -77,7 +77,7 @@ std::uint32_t RowSweeps::numberOf(NodeId node) {
   return number;
 }
 
-void RowSweeps::push(const Lean& row, const Ends& ends, Vec2 force) {
+void RowSweeps::push(const SweepRow& row, const Ends& ends, Vec2 force) {
   for (std::uint32_t k = 0; k < ends.count; ++k)
     displacement_[ends.node[k]] += Vec2{row.perForce[k].x * force.x, row.perForce[k].y * force.y};
 }
@@ -95,7 +95,7 @@ double RowSweeps::sweep(bool forwards, double tolerance) {
   double most = 0;
   const auto visit = [&](std::size_t r) {
     const Ends& ends = ends_[r];
-    // A corner against a straight piece, as most: loops of a known length.
+    // A corner against a straight piece, as most rows: loops of constant length.
     const double moved = ends.count == 3
                              ? relax(rows_[r], ends, std::integral_constant<std::uint32_t, 3>{})
                              : relax(rows_[r], ends, ends.count);
@@ -112,10 +112,10 @@ double RowSweeps::sweep(bool forwards, double tolerance) {
   return most;
 }
 
-/// Sets one row's forces so that its own gap and slip vanish, as far as the bounds allow; returns
-/// by how much it moved (m). A row whose nodes are all held has nothing to say.
+/// Sets one row's forces so that its own gap and slip vanish, within the bounds; returns the
+/// displacement that this causes (m). A row whose nodes are all held is skipped.
 template <class Count>
-double RowSweeps::relax(Lean& row, const Ends& ends, Count count) {
+double RowSweeps::relax(SweepRow& row, const Ends& ends, Count count) {
   if (!(row.normalResponse > 0)) return 0;
   const Vec2 along{-row.normal.y, row.normal.x};
   Vec2 moved;

@@ -1,14 +1,14 @@
 #pragma once
 // Contact forces by sweeps from row to row (nonlinear block Gauss–Seidel of Moreau and Jean's
-// contact dynamics), without a matrix: each row uses the displacements that the other rows have
-// given to its nodes so far. Used in rubble, and for large groups with friction.
+// contact dynamics), without a matrix: each row uses the displacements of its nodes by the other
+// rows so far. Used in rubble, and for large groups with friction.
 //
-// In rubble and in dry stacks each row shares nodes with a dozen others, many rows are redundant,
-// and each normal force changes a bound of friction. Exact solves for given bounds then take a
-// hundred times longer (36 blocks that touch exactly: 149 ms a step instead of 1.3). Where pieces
-// jam, they also grow forces that cancel each other, which friction turns into energy. Sweeps that
-// start from the forces of the last step stay near them; the gap that they leave is corrected in
-// the next step.
+// In rubble and in dry stacks each row has common nodes with a dozen others, many rows are
+// redundant, and each normal force changes a bound of friction. Exact solutions for given bounds
+// then take a hundred times longer (36 blocks that touch exactly: 149 ms a step instead of 1.3).
+// Where pieces jam, exact solutions also have large forces that cancel each other, which friction
+// converts into energy. Sweeps that start from the forces of the last step stay near them; the
+// remaining gap is corrected in the next step.
 
 #include <array>
 #include <cstdint>
@@ -26,21 +26,20 @@ namespace yadefrag {
 
 class RowSweeps {
  public:
-  /// When to stop: no gap or slip changes by more than `change` (m) in a sweep, or after `most`
-  /// sweeps.
+  /// Stop criterion: no gap or slip changes by more than `change` (m) in a sweep, or `most` sweeps.
   struct Stop {
     double change;
     int most;
   };
-  /// Improves the forces of all rows; returns the largest change of the last sweep (m).
+  /// Improves the forces of all rows; returns the largest change in the last sweep (m).
   double solve(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
                Stop stop);
   /// The same for the rows `members` only.
   double solve(std::span<ContactRow> rows, std::span<const std::uint32_t> members,
                const Nodes& nodes, const StepLength& step, double drag, Stop stop);
-  /// Of the last solve.
+  /// Number of sweeps of the last solution.
   [[nodiscard]] int sweeps() const { return count_; }
-  /// Room for so many nodes of the model.
+  /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
     footprint.add(use, rows_, ends_, all_, nodes_, numbers_, displacement_, links_,
@@ -49,20 +48,20 @@ class RowSweeps {
   }
 
  private:
-  /// A row as the sweeps want it: all that they touch, and nothing else.
-  struct Lean {
+  /// A row in the form for the sweeps: only the data that they read and write.
+  struct SweepRow {
     std::array<double, 5> weight;
-    std::array<Vec2, 5> perForce;  // m/N, by axis: what a force does to the node
+    std::array<Vec2, 5> perForce;  // m/N, by axis: displacement of the node per force
     Vec2 normal;
     double gap, slip, friction;
-    double normalResponse, tangentResponse;  // m/N: what 1 N undoes of gap and slip
-    double slipPerNormal;                    // m/N: where a node is held in one direction
+    double normalResponse, tangentResponse;  // m/N: change of gap and slip per force
+    double slipPerNormal;                    // m/N: coupling, if a node is held in one direction
     double normalForce, tangentForce;        // N
-    std::uint32_t place;                     // among all rows
+    std::uint32_t place;                     // index among all rows
   };
-  /// Its nodes.
+  /// Nodes of a row.
   struct Ends {
-    std::array<std::uint32_t, 5> node;  // among those of all rows
+    std::array<std::uint32_t, 5> node;  // index among the nodes of all rows
     std::uint32_t count;
   };
   struct Link {
@@ -72,21 +71,21 @@ class RowSweeps {
   void begin(std::span<const ContactRow> rows, std::span<const std::uint32_t> members,
              const Nodes& nodes, const StepLength& step, double drag);
   std::uint32_t numberOf(NodeId node);
-  void push(const Lean& row, const Ends& ends, Vec2 force);
+  void push(const SweepRow& row, const Ends& ends, Vec2 force);
   template <class Count>
-  double relax(Lean& row, const Ends& ends, Count count);
+  double relax(SweepRow& row, const Ends& ends, Count count);
   double sweep(bool forwards, double tolerance);
   void findRowsOfNodes();
 
-  std::vector<Lean> rows_;
-  std::vector<Ends> ends_;              // of the rows
+  std::vector<SweepRow> rows_;
+  std::vector<Ends> ends_;              // nodes of the rows
   std::vector<std::uint32_t> all_;      // 0, 1, 2, …
-  std::vector<NodeId> nodes_;           // of rows
-  std::vector<std::uint32_t> numbers_;  // by node: among nodes_; of those only
+  std::vector<NodeId> nodes_;           // nodes with a row
+  std::vector<std::uint32_t> numbers_;  // by node: index in nodes_; valid for these only
   std::vector<Vec2> displacement_;      // m, by number
   std::vector<Link> links_;
   Csr<std::uint32_t> rowsOfNodes_;  // by number
-  WorkList waiting_;  // rows whose nodes another one has moved by more than the tolerance
+  WorkList waiting_;  // rows with a node that another row has moved by more than the tolerance
   int count_ = 0;
 };
 

@@ -7,10 +7,11 @@
 
 namespace yadefrag {
 
-/// The slave's outward normals, of the piece before it and of its own: a corner has two, and if it
-/// is convex all between them. The two sides of a splinter do not oppose what its tip pricks. A
-/// sharp corner one of whose sides lies on the master's inner side has come past the master's end,
-/// where the other side of it touches, or that end touches the slave's side.
+/// The slave's outward normals: those of the previous piece and of its own piece. A convex corner
+/// has these two and all normals in between. The two sides of a splinter are not opposed to the
+/// face that its tip touches. A sharp corner with one side on the master's inner side has come past
+/// the master's end: the contact is then between its other side and that end, or between the
+/// master's end and the slave's side.
 struct SlaveNormals {
   Vec2 before, after;
   [[nodiscard]] bool oppose(Vec2 normal) const {

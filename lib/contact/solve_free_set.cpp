@@ -12,8 +12,8 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Cholesky factor in place, lower triangle of a row-major square. Plain loops: below some dozen
-/// rows Eigen's blocking costs more than the work.
+/// Cholesky factor in place, lower triangle of a row-major square matrix. Plain loops: below some
+/// dozen rows the blocking of Eigen costs more than the work.
 bool choleskySmall(double* m, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     double* row = m + i * n;
@@ -45,8 +45,8 @@ void substitute(const double* m, std::size_t n, double* x) {
 
 }  // namespace
 
-/// The pattern is that of the whole matrix, so that the order of elimination serves every free set:
-/// rows that are not free become rows of the unit matrix.
+/// The pattern is that of the whole matrix, so that one order of elimination is valid for every
+/// free set: rows that are not free become rows of the unit matrix.
 struct FreeSetFactor::Sparse {
   Eigen::SparseMatrix<double> lower;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> ldlt;
@@ -57,7 +57,7 @@ struct FreeSetFactor::Sparse {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(matrix.values.size());
     for (std::uint32_t i = 0; i < matrix.size(); ++i) {
-      entries.emplace_back(i, i, 1);  // there even where G has none
+      entries.emplace_back(i, i, 1);  // present even if G has no such entry
       for (std::uint32_t k = matrix.offsets[i]; k < matrix.offsets[i + 1]; ++k)
         if (matrix.columns[k] < i) entries.emplace_back(i, matrix.columns[k], matrix.values[k]);
     }

@@ -28,12 +28,12 @@ class FreeSetFactor {
   FreeSetFactor();
   ~FreeSetFactor();
 
-  /// A new matrix: forgets the factor. The view must stay valid while it is used.
+  /// Sets a new matrix and deletes the factor. The view must stay valid while it is used.
   void setMatrix(const SparseView& matrix);
-  /// False if the matrix is not definite, or not finite.
+  /// Returns false if the matrix is not definite, or not finite.
   bool factorize(const std::vector<std::uint8_t>& isFree, double added);
-  /// Solves for the free rows; `x` is the right-hand side and the solution, its other rows are not
-  /// touched.
+  /// Solves for the free rows; `x` is the right-hand side and the solution; its other rows do not
+  /// change.
   void solve(std::vector<double>& x);
 
  private:
@@ -44,8 +44,8 @@ class FreeSetFactor {
 
   SparseView matrix_;
   bool dense_ = true;
-  std::vector<std::uint32_t> rows_;   ///< free ones
-  std::vector<std::uint32_t> place_;  ///< by row: which free one
+  std::vector<std::uint32_t> rows_;   ///< free rows
+  std::vector<std::uint32_t> place_;  ///< by row: index among the free rows
   std::vector<double> triangle_;      ///< lower Cholesky factor, row by row, full square
   std::vector<double> side_;
   std::unique_ptr<Sparse> sparse_;

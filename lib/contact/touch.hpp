@@ -7,14 +7,14 @@
 
 namespace yadefrag {
 
-/// What the next step has to know of an active.
+/// Data of an active that are stored for the next step.
 struct Touch {
   SlaveMaster pair;
-  double normalForce, tangentForce;  ///< N, where the next solve starts from
-  double allowed;  ///< m, ≤ 0: what is left of an overlap older than the contact
+  double normalForce, tangentForce;  ///< N, start values of the next solution
+  double toleratedGap;               ///< m, ≤ 0: the rest of an overlap older than the contact
 };
 
-/// Those of a slave among `touches` (by pair).
+/// The contacts of a slave among `touches` (by pair).
 inline std::span<const Touch> touchesOf(std::span<const Touch> touches, EntryId slave) {
   const auto slaveOf = [](const Touch& touch) { return touch.pair.slave; };
   const auto begin = std::ranges::lower_bound(touches, slave, {}, slaveOf);

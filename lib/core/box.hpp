@@ -1,5 +1,5 @@
 #pragma once
-// Axis-aligned boxes: what every search works on.
+// Axis-aligned boxes: the input of every search.
 
 #include <array>
 #include <cmath>
@@ -7,12 +7,12 @@
 
 namespace yadefrag {
 
-/// A closed axis-aligned box (m). A point is a box of no size; a wall has infinite sides.
+/// A closed axis-aligned box (m). A point is a box of size 0; a wall has infinite sides.
 struct Box {
   std::array<double, 3> min;
   std::array<double, 3> max;
 
-  /// The box of a slot in which there is nothing now; it overlaps no other box, not even itself.
+  /// The box of an empty slot. It overlaps no box, itself included.
   static constexpr Box absent() {
     constexpr double inf = std::numeric_limits<double>::infinity();
     return {{inf, inf, inf}, {-inf, -inf, -inf}};

@@ -1,5 +1,5 @@
 #pragma once
-// Has anything changed on the way?
+// Detects corrupted data.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace yadefrag {
 
-/// 64 bits that depend on every bit of what is added, and on the order. Each word is mixed by the
-/// finaliser of Steele, Lea and Flood 2014 (OOPSLA, "Fast splittable pseudorandom number
-/// generators"), which is one-to-one: a single changed word is always seen.
+/// A 64-bit checksum that depends on every bit of the data and on their order. Each word is mixed
+/// by the finaliser of Steele, Lea and Flood 2014 (OOPSLA, "Fast splittable pseudorandom number
+/// generators"). The finaliser is one-to-one, so that a single changed word is always detected.
 class Checksum {
  public:
   void add(std::uint64_t word) {

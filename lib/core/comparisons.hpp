@@ -1,6 +1,6 @@
 #pragma once
-// Counting of comparisons as the paper does it (§6): one is the comparison of two integers (list
-// indices, codes) or of two coordinates.
+// Counts comparisons as the paper does (§6): one comparison is that of two integers (list indices,
+// codes) or of two coordinates.
 
 #include <cstdint>
 
@@ -8,10 +8,10 @@ namespace yadefrag {
 
 /// Comparisons of one search, by stage.
 struct Comparisons {
-  std::uint64_t move = 0;    ///< has a box left its position-code box, and across which level
-  std::uint64_t resort = 0;  ///< bringing the list of codes back into order
+  std::uint64_t move = 0;    ///< tests whether a box has left its position-code box, per level
+  std::uint64_t resort = 0;  ///< sorting the list of codes again
   std::uint64_t range = 0;   ///< finding the ends of code ranges; overlap of tree nodes
-  std::uint64_t test = 0;    ///< coordinates of candidate boxes
+  std::uint64_t test = 0;    ///< coordinates of the boxes of candidate pairs
 
   [[nodiscard]] std::uint64_t total() const { return move + resort + range + test; }
   Comparisons& operator+=(const Comparisons& o) {
@@ -20,7 +20,7 @@ struct Comparisons {
   }
 };
 
-/// Policy of a search that counts nothing: every call compiles to nothing.
+/// Policy of a search without counting: every call compiles to nothing.
 struct CountNothing {
   static constexpr bool kOn = false;
   void move(std::uint64_t) {}
@@ -31,7 +31,7 @@ struct CountNothing {
   void merge(const CountNothing&) {}
 };
 
-/// Policy of a search that counts.
+/// Policy of a search with counting.
 struct CountAll {
   static constexpr bool kOn = true;
   Comparisons sum;

@@ -1,5 +1,5 @@
 #pragma once
-// Results of varying length, one row per key, in two flat arrays (compressed sparse rows).
+// Results of varying length, one row per key, in two flat arrays (compressed sparse row format).
 
 #include <cassert>
 #include <cstdint>
@@ -24,9 +24,9 @@ struct Csr {
   }
 };
 
-/// Sorts `count` items into `rows` rows by counting, in the order in which they come:
-/// `keyOf(i)` is the row of item i, `valueOf(i)` what is stored there. Throws RunError for more
-/// items than an offset can count.
+/// Sorts `count` items into `rows` rows by counting; the order within a row is that of the input.
+/// `keyOf(i)` is the row of item i, `valueOf(i)` is the stored value. Throws RunError for more
+/// items than a 32-bit offset can count.
 template <class T, class KeyOf, class ValueOf>
 void fillRows(Csr<T>& csr, std::size_t rows, std::size_t count, KeyOf keyOf, ValueOf valueOf) {
   if (count > std::numeric_limits<std::uint32_t>::max())
@@ -35,7 +35,8 @@ void fillRows(Csr<T>& csr, std::size_t rows, std::size_t count, KeyOf keyOf, Val
   csr.values.resize(count);
   for (std::size_t i = 0; i < count; ++i) ++csr.offsets[keyOf(i) + 1];
   for (std::size_t r = 0; r < rows; ++r) csr.offsets[r + 1] += csr.offsets[r];
-  // offsets[r] serves as the cursor of row r and ends at the start of row r + 1: shift back after.
+  // offsets[r] serves as the write position of row r and ends at the start of row r + 1. The loop
+  // below shifts the offsets back.
   for (std::size_t i = 0; i < count; ++i) csr.values[csr.offsets[keyOf(i)]++] = valueOf(i);
   for (std::size_t r = rows; r > 0; --r) csr.offsets[r] = csr.offsets[r - 1];
   csr.offsets[0] = 0;

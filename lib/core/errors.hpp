@@ -1,23 +1,23 @@
 #pragma once
-// Bad input is reported by a typed exception with one sentence; our own mistakes are `assert`s.
+// Bad input is reported by a typed exception with one sentence; programming errors are `assert`s.
 
 #include <stdexcept>
 
 namespace yadefrag {
 
-/// The caller's input cannot be used; the message says what it was and what would be right.
+/// The caller's input cannot be used. The message states the value and the valid range.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The same, where it is the time step that cannot be used.
+/// An InputError whose cause is the time step.
 class TimeStepError : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// A run cannot go on: an element is inverted, or a value is not finite.
+/// The simulation cannot continue: an element is inverted, or a value is not finite.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

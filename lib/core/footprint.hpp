@@ -1,5 +1,5 @@
 #pragma once
-// What the arrays of a scene are for, and how long they are.
+// Memory of a scene, by the use of its arrays.
 
 #include <array>
 #include <cstddef>
@@ -10,23 +10,23 @@ namespace yadefrag {
 
 enum class Use : std::uint8_t {
   kMesh,       ///< nodes, triangles, bodies
-  kDynamics,   ///< the step without contact
+  kDynamics,   ///< the time integration without contact
   kHeld,       ///< nodes with a prescribed motion
-  kMaterials,  ///< of bodies with several
-  kLoads,      ///< constant and outer forces
+  kMaterials,  ///< of bodies with several materials
+  kLoads,      ///< constant and external forces
   kViscosity,  ///< bulk viscosity
   kSmoothing,  ///< smoothed strains
   kSurfaces,   ///< the two layers of the boundary
-  kSmooth,     ///< parts of it that are C¹-smooth
+  kSmooth,     ///< the C¹-smooth parts of the boundary
   kSearch,     ///< the global search and its candidates
-  kContact,    ///< what touches
+  kContact,    ///< actives and their forces
   kFriction,
   kFracture,
   kCohesion,
   kCount
 };
 
-/// Bytes as allocated, which may be more than what is in the arrays.
+/// Allocated bytes; the arrays may use less.
 class Footprint {
  public:
   template <class... Arrays>

@@ -1,5 +1,5 @@
 #pragma once
-// Typed 32-bit ids: an index into one array cannot be handed to another by mistake.
+// Typed 32-bit ids: the compiler refuses an index into one array where that of another is due.
 
 #include <compare>
 #include <cstdint>
@@ -17,11 +17,11 @@ struct Id {
   static constexpr Id none() { return Id(std::size_t{0xffffffff}); }
 };
 
-using NodeId = Id<struct NodeTag>;            ///< of a mesh
+using NodeId = Id<struct NodeTag>;            ///< a node of a mesh
 using ElementId = Id<struct ElementTag>;      ///< a triangle
-using ComponentId = Id<struct ComponentTag>;  ///< a body of triangles
-using EdgeId = Id<struct EdgeTag>;            ///< between two triangles that may crack
-using SegmentId = Id<struct SegmentTag>;      ///< of a mesh's boundary
+using ComponentId = Id<struct ComponentTag>;  ///< a finite-element body
+using EdgeId = Id<struct EdgeTag>;            ///< an edge between two triangles, which may crack
+using SegmentId = Id<struct SegmentTag>;      ///< a segment of a mesh's boundary
 using EntryId = Id<struct EntryTag>;  ///< of a contact surface: a sampling point and a piece
 
 /// A slot in the array of boxes given to a search.

@@ -1,7 +1,7 @@
 #pragma once
-// The one way in which lib/ uses threads: a range is cut into contiguous parts, one per thread,
-// each part appends to its own list, and the lists are joined in the order of the range. The result
-// is the same, in the same order, for any number of threads.
+// Threads in lib/ are used in this way only: a range is cut into contiguous parts, one per thread.
+// Each part appends to its own list, and the lists are joined in the order of the range. The result
+// and its order are the same for any number of threads.
 
 #include <omp.h>
 
@@ -16,8 +16,9 @@
 
 namespace yadefrag {
 
-/// An exception must not leave a parallel region: it would end the process. It is caught by `run`
-/// inside the region and thrown again by `rethrow` after it; of several, that of the first part.
+/// Carries exceptions out of a parallel region, which they must not leave by themselves: that would
+/// end the process. `run` catches an exception inside the region; `rethrow` throws it again after
+/// the region. Of several exceptions, that of the first part is thrown.
 class PartErrors {
  public:
   template <class Work>
@@ -29,7 +30,7 @@ class PartErrors {
       if (part < part_) error_ = std::current_exception(), part_ = part;
     }
   }
-  /// To be asked after a barrier.
+  /// Call it after a barrier.
   [[nodiscard]] bool any() const { return error_ != nullptr; }
   void rethrow() const {
     if (error_) std::rethrow_exception(error_);
@@ -41,14 +42,15 @@ class PartErrors {
   int part_ = std::numeric_limits<int>::max();
 };
 
-/// (count) Least items of a thread's part. Tests lower it: small scenes then run on threads, too.
+/// (count) Minimum number of items of a thread's part. Tests lower it so that small scenes use
+/// several threads.
 inline std::size_t& leastItemsPerThread() {
   static std::size_t items = tolerance::kMinItemsPerThread;
   return items;
 }
 
-/// Calls `work(begin, end, part)` for contiguous parts of [0, count) and returns how many there
-/// were. What `work` throws reaches the caller, after all parts have ended.
+/// Calls `work(begin, end, part)` for contiguous parts of [0, count) and returns the number of
+/// parts. An exception of `work` reaches the caller after all parts have ended.
 template <class Work>
 int forEachPart(std::size_t count, int threads, Work work) {
   const int parts = std::max(1, std::min(threads, static_cast<int>(count / leastItemsPerThread())));

@@ -1,15 +1,15 @@
 #pragma once
-// Random numbers that are the same bits on every machine; those of <random>'s distributions are
-// not.
+// Random numbers with the same bits on every machine; the distributions of <random> do not
+// guarantee that.
 
 #include <cstdint>
 
 namespace yadefrag {
 
-/// Odd, near 2⁶⁴ over the golden ratio.
+/// The odd number next to 2⁶⁴ divided by the golden ratio.
 inline constexpr std::uint64_t kRandomStride = 0x9e3779b97f4a7c15;
 
-/// The finisher of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, "Fast splittable pseudorandom
+/// The finaliser of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, "Fast splittable pseudorandom
 /// number generators", fig. 14): every bit of the result depends on every bit of x.
 constexpr std::uint64_t mixBits(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
@@ -17,12 +17,12 @@ constexpr std::uint64_t mixBits(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// SplitMix64's sequence.
+/// The sequence of SplitMix64.
 class RandomSequence {
  public:
   explicit RandomSequence(std::uint64_t seed) : state_(mixBits(seed + kRandomStride)) {}
 
-  /// Even in [−1, 1), exact.
+  /// Uniform in [−1, 1), without rounding.
   double symmetric() { return static_cast<double>(next() >> 11) * 0x1p-52 - 1; }
 
  private:

@@ -1,25 +1,25 @@
 #pragma once
-// Where the time of a step goes. Nothing is measured unless it is asked for.
+// Wall-clock time of the stages of a step. It is measured on request only.
 
 #include <chrono>
 
 namespace yadefrag {
 
-/// (s) Summed over the steps.
+/// (s) Sums over the steps.
 struct StageTimes {
-  double forces = 0;       ///< internal forces, motion, works
-  double search = 0;       ///< global search, and whether one is due
+  double forces = 0;       ///< internal forces, time integration, work of the forces
+  double search = 0;       ///< global search, and the test whether one is due
   double localSearch = 0;  ///< candidates → actives
   double correction = 0;   ///< actives → contact forces, positions, velocities
-  double fracture = 0;     ///< strength check, cohesion, cracks and all that follows them
+  double fracture = 0;     ///< strength check, cohesion, cracks and their consequences
 
   [[nodiscard]] double contact() const { return search + localSearch + correction; }
 };
 
-/// Adds the time until it goes out of scope to one stage.
+/// Adds the time of its own lifetime to one stage.
 class StageTimer {
  public:
-  /// `times` is null where nothing is measured.
+  /// `times` is null if nothing is measured.
   StageTimer(StageTimes* times, double StageTimes::*stage)
       : sum_(times ? &(times->*stage) : nullptr) {
     if (sum_) start_ = Clock::now();

@@ -13,14 +13,14 @@ TimeTable::TimeTable(std::vector<double> times, std::vector<double> values)
     sums_[i] = sums_[i - 1] + (times_[i] - times_[i - 1]) * (values_[i - 1] + values_[i]) / 2;
 }
 
-bool TimeTable::isRight(const std::vector<double>& times, const std::vector<double>& values) {
+bool TimeTable::isValid(const std::vector<double>& times, const std::vector<double>& values) {
   const auto isFinite = [](double v) { return std::isfinite(v); };
   return !times.empty() && times.size() == values.size() && std::ranges::all_of(times, isFinite) &&
          std::ranges::all_of(values, isFinite) &&
          std::ranges::adjacent_find(times, std::greater_equal<>()) == times.end();
 }
 
-/// The first time after `time`.
+/// Index of the first time after `time`.
 std::size_t TimeTable::after(double time) const {
   return static_cast<std::size_t>(std::ranges::upper_bound(times_, time) - times_.begin());
 }
@@ -38,7 +38,7 @@ double TimeTable::integral(double from, double to) const {
   return times_.empty() ? 0 : sumUpTo(to) - sumUpTo(from);
 }
 
-/// From the first time on.
+/// Integral from the first time to `time`.
 double TimeTable::sumUpTo(double time) const {
   const std::size_t i = after(time);
   if (i == 0) return (time - times_.front()) * values_.front();

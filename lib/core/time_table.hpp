@@ -1,5 +1,5 @@
 #pragma once
-// A quantity that changes linearly between given times, and is constant before and after them.
+// A piecewise linear function of time, constant before its first time and after its last.
 
 #include <cstddef>
 #include <vector>
@@ -10,19 +10,20 @@ class TimeTable {
  public:
   TimeTable() = default;
   explicit TimeTable(double constant) : TimeTable({0}, {constant}) {}
-  /// `times`: s, ascending; a value for each.
+  /// `times` (s), ascending; one value for each.
   TimeTable(std::vector<double> times, std::vector<double> values);
 
-  /// As many values as times, one at least, all finite, and times that ascend.
-  [[nodiscard]] static bool isRight(const std::vector<double>& times,
+  /// True if there is at least one value, as many values as times, all are finite, and the times
+  /// ascend.
+  [[nodiscard]] static bool isValid(const std::vector<double>& times,
                                     const std::vector<double>& values);
 
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
   [[nodiscard]] const std::vector<double>& values() const { return values_; }
 
-  /// 0 without any value.
+  /// 0 for a table without values.
   [[nodiscard]] double at(double time) const;
-  /// Exact, but for rounding.
+  /// Exact, except for rounding.
   [[nodiscard]] double integral(double from, double to) const;
 
  private:
@@ -30,7 +31,7 @@ class TimeTable {
   [[nodiscard]] double sumUpTo(double time) const;
 
   std::vector<double> times_, values_;
-  std::vector<double> sums_;  // the integral from the first time to each
+  std::vector<double> sums_;  // integral from the first time to each time
 };
 
 }  // namespace yadefrag

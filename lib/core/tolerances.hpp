@@ -1,6 +1,6 @@
 #pragma once
-// Every tolerance and threshold of the project, with its unit and its reason: all parts. A source
-// includes the parts that it uses, so that a change of one constant rebuilds little.
+// All tolerances and thresholds of the project, each with its unit and its reason. A source file
+// includes only the parts that it uses, so that a changed constant rebuilds little.
 
 #include "core/tolerances/collider.hpp"
 #include "core/tolerances/contact.hpp"

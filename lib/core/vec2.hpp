@@ -1,5 +1,5 @@
 #pragma once
-// Points and vectors of the plane.
+// Points and vectors in the plane.
 
 #include <cmath>
 
@@ -21,10 +21,10 @@ struct Vec2 {
 };
 
 inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-/// z of the cross product: positive where b is to the left of a.
+/// z of the cross product: positive if b points to the left of a.
 inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
-/// a turned by a right angle to the right: the outward normal of a boundary that runs along a.
+/// a rotated clockwise by a right angle: the outward normal of a boundary that runs along a.
 inline Vec2 rightOf(Vec2 a) { return {a.y, -a.x}; }
 inline bool isFinite(Vec2 a) { return std::isfinite(a.x) && std::isfinite(a.y); }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers that wait for work, a bit each. They are visited in order while the visits add others.
+// Numbers that wait for work, one bit each. They are visited in order; a visit may add others.
 
 #include <bit>
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace yadefrag {
 
-/// One pass visits a number at most once. What is added ahead of the pass waits for this pass, what
-/// is added behind it for the next one.
+/// One pass visits a number at most once. A number added ahead of the pass is visited in this pass,
+/// one added behind it in the next pass.
 class WorkList {
  public:
-  /// All numbers below `count` wait.
+  /// Adds all numbers below `count`.
   void fill(std::size_t count) {
     words_.assign((count + 63) / 64, ~std::uint64_t{0});
     if (count % 64 != 0) words_.back() = (std::uint64_t{1} << count % 64) - 1;
@@ -22,7 +22,7 @@ class WorkList {
   void add(std::size_t number) { words_[number / 64] |= bit(number); }
   void remove(std::size_t number) { words_[number / 64] &= ~bit(number); }
 
-  /// Calls `visit(number)` for those that wait, in ascending order; they wait no longer.
+  /// Removes the waiting numbers in ascending order, and calls `visit(number)` for each.
   template <class Visit>
   void visitUp(Visit visit) {
     for (std::size_t w = 0; w < words_.size(); ++w) {

@@ -24,11 +24,11 @@ struct CodeRanges {
   int count = 0;
 };
 
-/// Cuts an axis' interval [low, high] where the highest-level boundary of the curve crosses it. All
-/// numbers are an axis' bits in their places within a code, `unit` is the lowest of them: comparing
-/// and cutting need no unpacking. A pair below one parent box is left whole: the range is then at
-/// most twice as long, and there are half as many. An interval that wraps (low > high) is cut at
-/// the wrap, the highest boundary of all.
+/// Cuts an axis' interval [low, high] at the highest-level boundary of the curve inside it. All
+/// numbers are an axis' bits at their places within a code, `unit` is the lowest of these bits, so
+/// that comparisons and cuts need no unpacking. An interval of two boxes below one parent box is
+/// not cut: the range is then at most twice as long, and there are half as many ranges. An interval
+/// that wraps around (low > high) is cut where it wraps, at the highest boundary of all.
 inline int cutAtHighestBoundary(const CodeRange& axis, std::uint64_t mask, std::uint64_t unit,
                                 std::array<CodeRange, 2>& part) {
   const std::uint64_t differing = axis.start ^ axis.stop;
@@ -45,8 +45,8 @@ inline int cutAtHighestBoundary(const CodeRange& axis, std::uint64_t mask, std::
   return 2;
 }
 
-/// Parts longer than a pair can give ranges that overlap: their codes vary on levels above the one
-/// on which another axis was cut. Joins those.
+/// Parts longer than two boxes can give overlapping ranges: their codes vary on levels above the
+/// one on which another axis was cut. This function joins such ranges.
 template <int Dim>
 void joinOverlapping(CodeRanges<Dim>& ranges) {
   const auto begin = ranges.range.begin();
@@ -63,9 +63,9 @@ void joinOverlapping(CodeRanges<Dim>& ranges) {
   ranges.count = kept + 1;
 }
 
-/// Ranges of all boxes of the rectangle (modulo 2^kBits an axis) between two corners, given by
-/// their codes, each range clipped to the codes of its part's lower-left and upper-right corner.
-/// Other boxes may lie in a range too.
+/// Ranges of all boxes of the rectangle (modulo 2^kBits per axis) between two corners, which are
+/// given by their codes. Each range is clipped to the codes of its part's lower-left and
+/// upper-right corner. A range may also contain other boxes.
 template <int Dim>
 CodeRanges<Dim> rangesOfRectangle(std::uint64_t low, std::uint64_t high) {
   using Code = PositionCode<Dim>;
@@ -94,9 +94,10 @@ CodeRanges<Dim> rangesOfRectangle(std::uint64_t low, std::uint64_t high) {
   return out;
 }
 
-/// Ranges of a rectangle of any shape and size, in the order of the curve: it is cut again until no
-/// range holds more than kCodesPerBox codes for each of its boxes. The highest bit in which the
-/// corners differ tells which axis to cut: the two parts are then apart on the curve.
+/// Ranges of a rectangle of any shape and size, in the order of the curve. The rectangle is cut
+/// until no range contains more than kCodesPerBox codes per box of the range. The cut is along the
+/// axis of the highest bit in which the corners differ: the two parts are then separate on the
+/// curve.
 template <int Dim, class Visit>
 void forEachRangeOfLarge(std::uint64_t low, std::uint64_t high, Visit& visit) {
   using Code = PositionCode<Dim>;

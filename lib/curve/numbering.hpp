@@ -1,7 +1,7 @@
 #pragma once
 // The two numberings of position-code boxes: along the Lebesgue curve (SPC, paper §4.2) and row by
-// row (LPC, Oldenburg and Nilsson 1994, the paper's [5]). Both count coordinates modulo 2^kBits:
-// far boxes then share codes, which costs a candidate and loses none.
+// row (LPC, Oldenburg and Nilsson 1994, the paper's [5]). Both count coordinates modulo 2^kBits.
+// Distant boxes can therefore have the same code, which adds a candidate and loses none.
 
 #include "curve/code_ranges.hpp"
 #include "curve/position_code.hpp"
@@ -16,7 +16,7 @@ struct LebesgueNumbering {
 
   static std::uint64_t encode(const Cell& cell) { return Code::encode(cell); }
 
-  /// Code of the next box down or up an axis: arithmetic on that axis' bits where they are.
+  /// Code of the previous or next box along an axis, by arithmetic on that axis' bits in place.
   static std::uint64_t down(std::uint64_t code, int axis) {
     const std::uint64_t mask = Code::axisMask(axis);
     return (code & ~mask) | (((code & mask) - (std::uint64_t{1} << Code::axisShift(axis))) & mask);
@@ -26,14 +26,14 @@ struct LebesgueNumbering {
     return (code & ~mask) | (((code | ~mask) + (std::uint64_t{1} << Code::axisShift(axis))) & mask);
   }
 
-  /// Ranges of the rectangle between two corners, given by their codes.
+  /// Visits the ranges of the rectangle between two corners, which are given by their codes.
   template <class Visit>
   static void forEachRange(std::uint64_t low, std::uint64_t high, Visit visit) {
     const CodeRanges<Dim> ranges = rangesOfRectangle<Dim>(low, high);
     for (int r = 0; r < ranges.count; ++r) visit(ranges.range[r]);
   }
 
-  /// The same for a rectangle of any size that does not wrap.
+  /// The same for a rectangle of any size that does not wrap around.
   template <class Visit>
   static void forEachRangeOfLarge(std::uint64_t low, std::uint64_t high, Visit visit) {
     yadefrag::forEachRangeOfLarge<Dim>(low, high, visit);
@@ -46,7 +46,7 @@ struct LinearNumbering {
   using Cell = typename Code::Cell;
   static constexpr bool kIsCurve = false;
 
-  /// Rows run along x, the first axis; each row has room for all 2^kBits boxes.
+  /// Rows run along x, the first axis; each row has 2^kBits boxes.
   static std::uint64_t encode(const Cell& cell) {
     std::uint64_t code = 0;
     for (int axis = Dim - 1; axis >= 0; --axis) code = (code << Code::kBits) | cell[axis];
@@ -64,7 +64,7 @@ struct LinearNumbering {
   }
   static std::uint64_t up(std::uint64_t code, int axis) { return stepped(code, axis, 1); }
 
-  /// One range per row of the rectangle, two where the row wraps.
+  /// One range per row of the rectangle; two if the row wraps around.
   template <class Visit>
   static void forEachRange(std::uint64_t lowCode, std::uint64_t highCode, Visit visit) {
     const Cell low = decode(lowCode);

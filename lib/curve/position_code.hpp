@@ -8,7 +8,7 @@
 // Laws (tests/curve/position_code_test.cpp):
 //   decode(encode(c)) = c;  encode is monotone in every coordinate;
 //   encode(c ± 1 on one axis) = step(encode(c)), with the coordinates counted modulo 2^kBits;
-//   startCode(e, i) … stopCode(e, i) are the codes of the block of side 2^i around e, all of them.
+//   startCode(e, i) … stopCode(e, i) are exactly the codes of the block of side 2^i around e.
 
 #include <array>
 #include <bit>
@@ -24,8 +24,8 @@ struct PositionCode {
   static constexpr std::uint32_t kMask = (std::uint32_t{1} << kBits) - 1;
   using Cell = std::array<std::uint32_t, Dim>;
 
-  /// Puts Dim − 1 zeros in front of every bit. Shifts and masks; the `pdep` instruction is as fast
-  /// but not on every processor that Debian runs on.
+  /// Puts Dim − 1 zeros in front of every bit, by shifts and masks. The instruction `pdep` is as
+  /// fast, but not every processor that Debian supports has it.
   static constexpr std::uint64_t spread(std::uint32_t v) {
     std::uint64_t x = v & kMask;
     if constexpr (Dim == 2) {
@@ -64,7 +64,7 @@ struct PositionCode {
     return static_cast<std::uint32_t>(x) & kMask;
   }
 
-  /// x holds the higher bit of each group (fig. 5).
+  /// The axis x has the highest bit of each group (fig. 5).
   static constexpr int axisShift(int axis) { return Dim - 1 - axis; }
 
   static constexpr std::uint64_t encode(const Cell& cell) {
@@ -85,7 +85,7 @@ struct PositionCode {
   }
 
   /// Fig. 6, down: the lowest set bit of L is the level of the boundary that is crossed. At L = 0
-  /// the coordinate wraps, which the paper excludes by space around the mesh.
+  /// the coordinate wraps around; the paper excludes that by free space around the mesh.
   static constexpr std::uint64_t stepDown(std::uint64_t code, int axis, std::uint32_t l) {
     l &= kMask;
     return code ^ flipMask(axis, l == 0 ? kBits - 1 : std::countr_zero(l));

@@ -1,5 +1,5 @@
 #pragma once
-// Nodal values of a chunk: to its local numbers, and back to the nodes or to partial sums.
+// Nodal values of a chunk: copied to its local numbers, and back to the nodes or to partial sums.
 
 #include <vector>
 

@@ -27,7 +27,7 @@ const ElasticMaterial& elasticOf(const Model& model, std::size_t element) {
   return model.materialOf(ElementId(element)).material;
 }
 
-/// (N/m) How stiffly an element holds its corners.
+/// (N/m) Stiffness of an element at each of its corners.
 std::array<double, 3> cornerStiffness(const Model& model, std::size_t element) {
   const Component& c = componentOf(model, element);
   const double modulus =
@@ -38,7 +38,7 @@ std::array<double, 3> cornerStiffness(const Model& model, std::size_t element) {
   return stiffness;
 }
 
-/// (N/m) By node: all its elements together.
+/// (N/m) By node: the sum over its elements.
 std::vector<double> nodeStiffness(const Model& model) {
   std::vector<double> sum(model.nodes.size(), 0);
   for (std::size_t e = 0; e < model.triangles.size(); ++e) {
@@ -50,9 +50,9 @@ std::vector<double> nodeStiffness(const Model& model) {
 
 using Masses = std::array<double, 3>;
 
-/// (of the element's mass) Its share of its nodes' masses: a third where it may come to stand
-/// alone, for the step must hold when it does. As ratios, no product of them leaves the range of
-/// numbers.
+/// (of the element's mass) The element's parts of its nodes' masses. They are thirds if the element
+/// may separate from its neighbours by cracks, since the time step must then be stable for it
+/// alone. As ratios, their products do not overflow.
 Masses massShares(const Model& model, const std::vector<double>& nodeStiffness,
                   std::size_t element) {
   const Component& c = componentOf(model, element);
@@ -67,9 +67,9 @@ Masses massShares(const Model& model, const std::vector<double>& nodeStiffness,
   return shares;
 }
 
-/// ω² of the fastest mode of one element. The elastic law is linear in F but for the rotation, so
-/// its stiffness is that of the stress-free shape. With S = Σ∇N∇Nᵀ/m the modes fall into two pairs:
-/// stretches, and shear with rotation, which stiffens where the element is drawn out.
+/// ω² of the highest mode of one element. The elastic law is linear in F except for the rotation,
+/// so that its stiffness is that of the stress-free shape. With S = Σ∇N∇Nᵀ/m the modes are two
+/// pairs: stretch modes, and shear with rotation, which is stiffer in a stretched element.
 double squaredFrequency(const Model& model, std::size_t element, const Masses& mass) {
   const ElasticMaterial& material = elasticOf(model, element);
   const double lame = material.lame();
@@ -90,12 +90,12 @@ double squaredFrequency(const Model& model, std::size_t element, const Masses& m
   const double product = 4 * (shear / modulus) * ((lame + shear) / modulus) * shape;
   const double stretch = sum * (1 + std::sqrt(std::max(0., 1 - 4 * product))) / 2;
   const Matrix2 f = deformationGradient(model, ElementId(element));
-  const double drawn = std::hypot(f.xx + f.yy, f.yx - f.xy);  // 2 where there is no stretch
+  const double drawn = std::hypot(f.xx + f.yy, f.yx - f.xy);  // 2 without stretch
   const double turn = (shear + std::max(0., (lame + shear) * (1 - 2 / drawn))) * trace;
   return std::max(stretch, turn) / material.density;
 }
 
-/// (1/s) The fastest decay rate of the element's bulk viscosity, of its present shape.
+/// (1/s) The fastest decay rate of the element's bulk viscosity, in its present shape.
 double viscousRate(const BulkViscosity& viscosity, const Model& model, std::size_t element,
                    const Masses& mass) {
   const ElasticMaterial& material = elasticOf(model, element);
@@ -104,8 +104,8 @@ double viscousRate(const BulkViscosity& viscosity, const Model& model, std::size
   for (int i = 0; i < 3; ++i) x[i] = model.nodes.position[nodes[i].value];
   const double twiceArea = cross(x[1] - x[0], x[2] - x[0]);
   double longest = 0;
-  double rate = 0;  // of the volume strain, 1/s
-  double sum = 0;   // of |∇N|²/m
+  double rate = 0;  // rate of the volume strain, 1/s
+  double sum = 0;   // sum of |∇N|²/m
   for (int i = 0; i < 3; ++i) {
     const Vec2 edge = x[(i + 2) % 3] - x[(i + 1) % 3];
     longest = std::max(longest, norm(edge));
@@ -134,7 +134,7 @@ double criticalTimeStep(const Model& model, const BulkViscosity& viscosity, int 
       const double zeta =
           viscosity.isOn() ? viscousRate(viscosity, model, e, mass) / (2 * omega) : 0;
       const double stable = 2 / omega / (std::hypot(1, zeta) + zeta);
-      step = stable >= 0 ? std::min(step, stable) : 0;  // 0 where it is no number
+      step = stable >= 0 ? std::min(step, stable) : 0;  // 0 if it is NaN
     }
     least[part] = step;
   });

@@ -1,10 +1,10 @@
 #pragma once
-// The elastic law of an element: corotational, W = μ‖F − R‖² + λ/2 tr²(RᵀF − I), R the rotation
-// nearest to the deformation gradient F. Its force is the exact gradient of W, so that neither
-// energy nor angular momentum leaks in large rotation.
+// The elastic law of an element: corotational, W = μ‖F − R‖² + λ/2 tr²(RᵀF − I), where R is the
+// rotation nearest to the deformation gradient F. The force is the exact gradient of W, so that
+// energy and angular momentum are conserved in large rotations.
 //
-// tr(RᵀF) = √((F₁₁+F₂₂)² + (F₂₁−F₁₂)²): the plane needs no decomposition. All of it is inlined into
-// the vector loops of element_kernel.cpp.
+// tr(RᵀF) = √((F₁₁+F₂₂)² + (F₂₁−F₁₂)²): in the plane no polar decomposition is needed. All
+// functions are inlined into the vector loops of element_kernel.cpp.
 
 #include <cmath>
 
@@ -51,25 +51,25 @@ inline double contract(const Matrix2& a, const Matrix2& b) {
           m * (f.yx - sine) + s * sine, m * (f.yy - cosine) + s * cosine};
 }
 
-/// What brittle elements are watched for.
-struct StressLook {
+/// Parameters of the stress check of brittle elements.
+struct StressLimit {
   double shearWeight;        ///< 1/β²
   double friction, incline;  ///< μ, √(1 + μ²)
-  double squared;            ///< Pa², of the measure; infinite: not watched
+  double squared;            ///< Pa², limit of the squared measure; infinite: no check
 
-  StressLook(double shearFactor, double slope, double squaredMeasure)
+  StressLimit(double shearFactor, double slope, double squaredMeasure)
       : shearWeight(1 / (shearFactor * shearFactor)),
         friction(slope),
         incline(std::sqrt(1 + slope * slope)),
         squared(squaredMeasure) {}
 };
 
-/// Does the stress measure of brittle materials, √(max(c + r, 0)² + (max(r√(1 + μ²) + μc, 0)/β)²),
-/// reach the value that is looked for? c is the mean principal stress of RᵀP and r its greatest
-/// shear stress. In no direction is the effective traction greater (`largestTraction` in
-/// fracture/separation.hpp); the measure is convex, so that this goes for averages, too.
+/// True if the stress measure of brittle materials, √(max(c + r, 0)² + (max(r√(1 + μ²) + μc,
+/// 0)/β)²), reaches the given limit. c is the mean principal stress of RᵀP and r its maximum shear
+/// stress. The effective traction is not greater in any direction (`largestTraction` in
+/// fracture/separation.hpp). The measure is convex, so that this is also true for averages.
 [[gnu::always_inline]] inline bool isStressed(const Matrix2& f, double lame, double shear,
-                                              const StressLook& look) {
+                                              const StressLimit& look) {
   const double a = f.xx + f.yy;
   const double b = f.yx - f.xy;
   const double c = f.xx - f.yy;

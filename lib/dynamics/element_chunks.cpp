@@ -28,7 +28,7 @@ Chunk chunkOf(const Component& c) {
   chunk.strength = c.brittle.cracks() ? c.brittle.tensileStrength : 0;
   chunk.shearFactor = c.brittle.cracks() ? c.brittle.shearFactor : 0;
   chunk.friction = c.brittle.cracks() ? c.friction : 0;
-  chunk.squaredLook = kNever;
+  chunk.squaredStressLimit = kNever;
   return chunk;
 }
 
@@ -38,8 +38,8 @@ bool sameMaterial(const Chunk& a, const Chunk& b) {
          a.strength == b.strength && a.shearFactor == b.shearFactor && a.friction == b.friction;
 }
 
-/// Cuts the elements into chunks. Small bodies of one material share chunks: a scene of a thousand
-/// rings is not a thousand beginnings of a loop.
+/// Divides the elements into chunks. Small bodies of one material share chunks: otherwise a scene
+/// of a thousand rings would start a thousand short loops.
 std::vector<Chunk> cutElements(const Model& model) {
   std::vector<Chunk> chunks;
   for (std::uint32_t c = 0; c < model.components.size(); ++c) {
@@ -59,7 +59,7 @@ std::vector<Chunk> cutElements(const Model& model) {
   return chunks;
 }
 
-/// By node: is it used by more than one chunk?
+/// By node: true if more than one chunk uses it.
 std::vector<std::uint8_t> findShared(const Model& model, const std::vector<Chunk>& chunks) {
   std::vector<std::uint32_t> user(model.nodes.size(), kUnseen);
   std::vector<std::uint8_t> shared(model.nodes.size(), 0);
@@ -72,8 +72,8 @@ std::vector<std::uint8_t> findShared(const Model& model, const std::vector<Chunk
   return shared;
 }
 
-/// Appends the chunk's nodes in ascending order, own ones first; ascending, they are read and
-/// written nearly in sequence.
+/// Appends the chunk's nodes: own ones first, then shared ones, each in ascending order. They are
+/// then read and written nearly in sequence.
 void appendNodes(const Model& model, const std::vector<std::uint8_t>& shared, Chunk& chunk,
                  std::vector<NodeId>& nodes) {
   chunk.firstNode = static_cast<std::uint32_t>(nodes.size());
@@ -146,7 +146,7 @@ void ElementChunks::placePartials(const std::vector<std::uint8_t>& shared) {
       rowOf[n] = static_cast<std::uint32_t>(sharedNodes.size());
       sharedNodes.emplace_back(n);
     }
-  std::vector<std::uint32_t> places;  // in `nodes`
+  std::vector<std::uint32_t> places;  // indices in `nodes`
   for (const Chunk& chunk : chunks)
     for (std::uint32_t i = chunk.firstShared; i < chunk.lastNode; ++i) places.push_back(i);
   Csr<std::uint32_t> rows;
@@ -160,7 +160,8 @@ void ElementChunks::placePartials(const std::vector<std::uint8_t>& shared) {
   firstPartial = std::move(rows.offsets);
 }
 
-/// Bodies that share a chunk differ at most by the scatter of their strength; the weakest counts.
+/// Bodies that share a chunk differ at most by the scatter of their strengths; the lowest strength
+/// is used.
 bool ElementChunks::watch(const std::vector<double>& leastStrength) {
   bool any = false;
   for (Chunk& chunk : chunks) {
@@ -169,9 +170,9 @@ bool ElementChunks::watch(const std::vector<double>& leastStrength) {
       for (std::size_t c = chunk.firstComponent;
            c <= chunk.lastComponent && c < leastStrength.size(); ++c)
         if (leastStrength[c] > 0) least = std::min(least, leastStrength[c]);
-    const double look = tolerance::kStrengthLook * least;
-    chunk.squaredLook = look * look;
-    any = any || chunk.squaredLook < kNever;
+    const double look = tolerance::kStrengthCheck * least;
+    chunk.squaredStressLimit = look * look;
+    any = any || chunk.squaredStressLimit < kNever;
   }
   return any;
 }

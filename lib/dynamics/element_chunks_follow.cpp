@@ -1,5 +1,5 @@
-// Chunks follow nodes that split. Only new nodes come to a chunk, and they have the highest
-// numbers: nothing is sorted but what is new, and no partial sum of another chunk moves.
+// Updates the chunks after nodes were split. A chunk gets only new nodes, which have the highest
+// numbers: only these are sorted, and the partial sums of other chunks keep their indices.
 #include <algorithm>
 #include <tuple>
 
@@ -35,11 +35,11 @@ struct ElementChunks::NewPlace {
   friend auto operator<=>(const NewPlace&, const NewPlace&) = default;
 };
 
-/// The nodes of a chunk that is built anew.
+/// The nodes of a chunk that is rebuilt.
 struct ElementChunks::NodeList {
   std::vector<NodeId> nodes;
   std::vector<std::uint32_t> partials;
-  std::size_t shared = 0;  // the first of them
+  std::size_t shared = 0;  // index of the first shared node
 
   void add(NodeId node, std::uint32_t partial) {
     nodes.push_back(node);
@@ -47,7 +47,7 @@ struct ElementChunks::NodeList {
   }
 };
 
-/// Gives partial sums to new nodes in several chunks; `places` by node, then chunk.
+/// Assigns partial sums to new nodes in several chunks; `places` is sorted by node, then chunk.
 void ElementChunks::shareNewNodes(std::span<NewPlace> places) {
   for (std::size_t first = 0; first < places.size();) {
     std::size_t last = first + 1;
@@ -67,7 +67,8 @@ void ElementChunks::listNodes(const Model& model, const Chunk& chunk,
                               std::vector<std::uint32_t>& abandoned) {
   list.nodes.clear();
   list.partials.clear();
-  // The elements' own nodes stay theirs: some of them keep the old node of every one that split.
+  // The chunk's own nodes remain own nodes: for each node that split, some of its elements keep the
+  // old number.
   for (std::uint32_t i = chunk.firstNode; i < chunk.firstShared; ++i) list.add(nodes[i], kOwn);
   for (const NewPlace& place : added)
     if (place.partial == kOwn) list.add(place.node, kOwn);
@@ -84,8 +85,8 @@ void ElementChunks::listNodes(const Model& model, const Chunk& chunk,
     if (place.partial != kOwn) list.add(place.node, place.partial);
 }
 
-/// Lists that outgrow their room move to the end with half as much again to spare: what they leave
-/// behind is never more than a few times what is in use.
+/// A list that exceeds its reserve is moved to the end, with a reserve of half its length. The
+/// unused memory left behind is never more than a few times the used memory.
 void ElementChunks::replaceNodes(Chunk& chunk, const NodeList& list) {
   const auto count = static_cast<std::uint32_t>(list.nodes.size());
   if (count > chunk.endOfRoom - chunk.firstNode) {

@@ -10,13 +10,13 @@
 namespace yadefrag {
 namespace {
 
-/// Replaces the corners' coordinates by their forces. `laws`: of the lanes, if `kMixed`.
+/// Replaces the corners' coordinates by their forces. `laws`: laws of the lanes, if `kMixed`.
 template <bool kWatched, bool kMixed>
 [[gnu::always_inline]] inline Findings elasticForces(const ElementLanes& e, const Chunk& chunk,
                                                      const ElementLaws* laws, Corners& c) {
   const double chunkLame = chunk.lame;
   const double chunkShear = chunk.shear;
-  const StressLook look(chunk.shearFactor, chunk.friction, chunk.squaredLook);
+  const StressLimit look(chunk.shearFactor, chunk.friction, chunk.squaredStressLimit);
   int flat = 0;
   int stressed = 0;
 #pragma omp simd reduction(+ : flat, stressed)
@@ -30,7 +30,7 @@ template <bool kWatched, bool kMixed>
     const Matrix2 f = deformationGradient(c.x[1][k] - c.x[0][k], c.y[1][k] - c.y[0][k],
                                           c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],  //
                                           i11, i12, i21, i22);
-    flat += determinant(f) > tolerance::kFlat ? 0 : 1;  // NaN too
+    flat += determinant(f) > tolerance::kFlat ? 0 : 1;  // also for NaN
     if constexpr (kWatched) stressed += isStressed(f, lame, shear, look) ? 1 : 0;
     const Matrix2 p = firstPiola(f, lame, shear);
     const double v = e.volume[k];
@@ -117,7 +117,7 @@ void addViscousForces(const BulkViscosity& viscosity, const Chunk& chunk, const 
     const Vec2 a = position[corner[0]];
     const Vec2 b = position[corner[1]];
     const Vec2 c = position[corner[2]];
-    // 2·area·∇Nᵢ: the opposite edge, turned inward.
+    // 2·area·∇Nᵢ: the opposite edge, rotated to point inwards.
     const Vec2 gradient[3] = {rightOf(b - c), rightOf(c - a), rightOf(a - b)};
     const double twiceArea = cross(b - a, c - a);
     const double longest =

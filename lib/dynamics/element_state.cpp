@@ -5,7 +5,7 @@
 namespace yadefrag {
 namespace {
 
-/// The gradient, in the stress-free shape, of a field given at the nodes.
+/// The gradient, in the stress-free shape, of a field with the given nodal values.
 Matrix2 gradient(const Model& model, ElementId element, const std::vector<Vec2>& field) {
   const auto& nodes = model.triangles.nodes[element.value];
   const auto& inverse = model.triangles.inverseEdges[element.value];

@@ -1,5 +1,5 @@
 #pragma once
-// Deformation, stress and energy of single elements, for those who ask.
+// Deformation, stress and energy of single elements, for output.
 
 #include <array>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace yadefrag {
 
-/// (Pa) Of elements one after the other: those of their body, or their own.
+/// (Pa) Elastic moduli of successive elements: those of the body or of the element's own material.
 class Moduli {
  public:
   explicit Moduli(const ElasticMaterial& m) : lame(m.lame()), shear(m.shearModulus()) {}
-  /// Costs nothing where the body has one material.
+  /// Does nothing if the body has one material.
   void take(const Model& model, const Component& body, ElementId element) {
     if (body.isMixed()) *this = Moduli(model.materialOf(element).material);
   }
@@ -21,17 +21,17 @@ class Moduli {
   double lame, shear;
 };
 
-/// F at the present positions.
+/// The deformation gradient F at the present positions.
 Matrix2 deformationGradient(const Model& model, ElementId element);
 
 /// Δt Ḟ: the change of F over a step at the present velocities.
 Matrix2 deformationStep(const Model& model, ElementId element, double dt);
 
-/// (Pa) Cauchy stress xx, yy, xy that belongs to the F of one element, whether its body's strains
-/// are smoothed or not: cracks take the mean of these at a node, which smooths them.
+/// (Pa) Cauchy stress xx, yy, xy of the F of one element, without strain smoothing. Cracks average
+/// it over the elements at a node, which is a smoothing of its own.
 std::array<double, 3> stressOf(const Model& model, ElementId element);
 
-/// (Pa) Of every element, that which makes the forces.
+/// (Pa) The stress of every element from which its forces are computed.
 std::vector<std::array<double, 3>> stresses(const Model& model);
 
 /// (J) Strain energy of every element at the present positions.

@@ -16,7 +16,7 @@ namespace {
 
 std::size_t elementsPerThread() { return tolerance::kElementsPerItem * leastItemsPerThread(); }
 
-/// (m) Of all triangles, stress-free: 1/|∇Nᵢ| is the height on corner i.
+/// (m) Least height of all triangles, stress-free: 1/|∇Nᵢ| is the height on corner i.
 double leastHeight(const Triangles& triangles) {
   double steepest = 0;  // 1/m²
   for (std::size_t e = 0; e < triangles.size(); ++e) {
@@ -33,9 +33,9 @@ double leastHeight(const Triangles& triangles) {
 /// v ← kept·v + (rate/m)·f + fall, x ← x + Δt v
 struct ExplicitDynamics::Update {
   double dt, kept, rate;
-  double swift;      // m/s
-  Vec2 fall;         // m/s
-  double outerPart;  // of Δv: how long outer forces act
+  double largeSpeed;  // m/s
+  Vec2 fall;          // m/s
+  double outerPart;   // of Δv: duration of external forces
   std::span<const Vec2> outer, load;
   int threads;
 };
@@ -97,7 +97,7 @@ void ExplicitDynamics::drop(std::span<const NodeId> nodes) {
   for (const NodeId node : nodes) heldVelocity_[node.value] = {};
 }
 
-void ExplicitDynamics::watchStress(std::vector<double> leastStrengthByComponent) {
+void ExplicitDynamics::setStressLimits(std::vector<double> leastStrengthByComponent) {
   leastStrength_ = std::move(leastStrengthByComponent);
   watching_ = elements_.watch(leastStrength_);
 }
@@ -112,7 +112,7 @@ void ExplicitDynamics::smoothStrains(const Model& model, std::size_t part, std::
       if (chunk.element != ElementKind::kSmoothed) continue;
       fetchNodes(elements_, chunk, model.nodes.position, scratch.values.data());
       if (!smoothing_.sum(set_, elements_, chunk, scratch.values.data(), scratch.stressed))
-        lookAtFlat(model, chunk, scratch);
+        handleFlat(model, chunk, scratch);
     }
   });
 #pragma omp barrier
@@ -136,10 +136,10 @@ void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
     smoothing_.addForces(set_, elements_, chunk, model.nodes.mass, scratch.room, force);
   else {
     const bool upright =
-        std::isfinite(chunk.squaredLook)
+        std::isfinite(chunk.squaredStressLimit)
             ? addElasticForces(set_, chunk, lanes, laws, position, force, scratch.stressed)
             : addElasticForces(set_, chunk, lanes, laws, position, force);
-    if (!upright) lookAtFlat(model, chunk, scratch);
+    if (!upright) handleFlat(model, chunk, scratch);
   }
   if (viscosity.isOn()) {
     Vec2* velocity = force + elements_.mostNodes;
@@ -163,9 +163,9 @@ void ExplicitDynamics::sumShared(const BulkViscosity& viscosity, NodeId begin, N
   }
 }
 
-/// Held directions move as the model says; returns how the node moved before, which may differ from
-/// what the model says now: that change, too, is work of whatever prescribes it.
-Vec2 ExplicitDynamics::holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity) {
+/// Moves held directions at their prescribed velocity. Returns the node's previous velocity, which
+/// may differ from the prescribed one: that change is work of the prescribed motion, too.
+Vec2 ExplicitDynamics::applyHeld(const Nodes& nodes, std::size_t node, Vec2& velocity) {
   Vec2 before = nodes.velocity[node];
   for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}})
     if ((nodes.held[node] & flag) != 0) {
@@ -176,14 +176,14 @@ Vec2 ExplicitDynamics::holdBack(const Nodes& nodes, std::size_t node, Vec2& velo
   return before;
 }
 
-/// `kForced`: are there loads or outer forces.
+/// `kForced`: there are loads or external forces.
 template <bool kForced>
 void ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begin,
                             std::size_t end) {
-  const double slow = std::min(speedLimit_, update.swift);
+  const double slow = std::min(speedLimit_, update.largeSpeed);
   const double squaredSlow = slow * slow, squaredLimit = speedLimit_ * speedLimit_;
-  const double squaredSwift = update.swift * update.swift;
-  bool good = true, faster = false, swift = false;
+  const double squaredSwift = update.largeSpeed * update.largeSpeed;
+  bool good = true, faster = false, largeSpeed = false;
   for (std::size_t n = begin; n < end; ++n) {
     Vec2 force = force_[n];
     if constexpr (kForced) {
@@ -191,24 +191,24 @@ void ExplicitDynamics::move(Nodes& nodes, const Update& update, std::size_t begi
       if (!update.outer.empty()) force += update.outerPart * update.outer[n];
     }
     Vec2 v = update.kept * nodes.velocity[n] + update.rate / nodes.mass[n] * force + update.fall;
-    if (nodes.held[n] != kFree) nodes.velocity[n] = holdBack(nodes, n, v);
+    if (nodes.held[n] != kFree) nodes.velocity[n] = applyHeld(nodes, n, v);
     const Vec2 x = nodes.position[n] + update.dt * v;
     previousVelocity_[n] = v;
     previousPosition_[n] = x;
-    // A slow node's way is finite, and too short to leave the finite numbers.
+    // The displacement of a slow node is finite, and too small for an overflow.
     const double squared = dot(v, v);
     if (squared <= squaredSlow) [[likely]]
       continue;
     faster = faster || !(squared <= squaredLimit);
-    swift = swift || !(squared <= squaredSwift);
+    largeSpeed = largeSpeed || !(squared <= squaredSwift);
     good = good && isFinite(x);
   }
   if (faster)
 #pragma omp atomic write
-    anyFaster_ = true;
-  if (swift)
+    anyAboveSpeedLimit_ = true;
+  if (largeSpeed)
 #pragma omp atomic write
-    anySwift_ = true;
+    anyLargeMove_ = true;
   if (!good)
 #pragma omp atomic write
     badNode_ = true;
@@ -224,8 +224,9 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
     scratch.values.resize((viscosity.isOn() ? 4 : 2) * elements_.mostNodes);
     if (smoothing_.isOn()) scratch.room.resize(elements_.mostNodes);
   }
-  PartErrors errors;  // memory for elements under stress may run out
-  // One region for both loops: waking the threads twice would show in small scenes.
+  PartErrors errors;  // the list of stressed elements may exceed the memory
+  // One parallel region for both loops: starting the threads twice would be visible in small
+  // scenes.
 #pragma omp parallel num_threads(threads) if (threads > 1)
   {
     const std::size_t part = omp_get_thread_num();
@@ -254,18 +255,18 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
   const double dt = length.position;
   const double d = settings.drag(length);
   const double rate = length.velocity / (1 + d);
-  badElement_ = badNode_ = anyFaster_ = anySwift_ = false;
+  badElement_ = badNode_ = anyAboveSpeedLimit_ = anyLargeMove_ = false;
   viscousForce_.resize(settings.viscosity.isOn() ? force_.size() : 0);
   partialViscous_.resize(settings.viscosity.isOn() ? elements_.partials() : 0);
   step(model,
-       {dt, (1 - d) / (1 + d), rate, tolerance::kSwift * leastHeight_ / dt, rate * settings.gravity,
-        dt / length.velocity, outerForces, model.nodes.load, threads},
+       {dt, (1 - d) / (1 + d), rate, tolerance::kLargeMove * leastHeight_ / dt,
+        rate * settings.gravity, dt / length.velocity, outerForces, model.nodes.load, threads},
        settings.viscosity);
-  // Threads take successive chunks: theirs in turn are ascending.
+  // Each thread has successive chunks, so that the joined list is ascending.
   stressed_.clear();
   for (const Scratch& scratch : scratch_)
     stressed_.insert(stressed_.end(), scratch.stressed.begin(), scratch.stressed.end());
-  // Bodies with smoothed strains are looked at before all others.
+  // Bodies with smoothed strains were checked before all others: sort.
   if (smoothing_.isOn()) std::sort(stressed_.begin(), stressed_.end());
   if (badElement_) refuseElement(model);
   if (badNode_) refuseNode(model);
@@ -273,7 +274,7 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
   model.nodes.velocity.swap(previousVelocity_);
 }
 
-/// The works on single nodes, in one direction.
+/// Work at single nodes, in one direction.
 struct ExplicitDynamics::Works {
   const ExplicitDynamics& dynamics;
   const Nodes& nodes;
@@ -281,7 +282,7 @@ struct ExplicitDynamics::Works {
   const StepSettings& settings;
   std::span<const Vec2> outer, contact;
 
-  /// (N) Of what acts from outside on a node, held or not, over Δv.
+  /// (N) External force on a node, held or not, averaged over Δv.
   [[nodiscard]] double outerForce(std::size_t n, double Vec2::*axis) const {
     double force = nodes.mass[n] * settings.gravity.*axis;
     if (!nodes.load.empty()) force += nodes.load[n].*axis;
@@ -289,7 +290,7 @@ struct ExplicitDynamics::Works {
     return force;
   }
 
-  /// (N) Of elements and of other surfaces.
+  /// (N) Force of elements and of other surfaces.
   [[nodiscard]] double innerForce(std::size_t n, double Vec2::*axis) const {
     return dynamics.force_[n].*axis + (contact.empty() ? 0 : contact[n].*axis);
   }
@@ -301,7 +302,7 @@ struct ExplicitDynamics::Works {
     const double way = length.velocity * (before + after) / 2;
     if (!dynamics.viscousForce_.empty()) ledger.damping -= dynamics.viscousForce_[n].*axis * way;
     if (held) {
-      // The reaction is whatever the node needs to move as it does.
+      // The reaction is the force that the prescribed motion requires.
       ledger.external += mass * (after + before) * (after - before) / 2 - innerForce(n, axis) * way;
       return;
     }
@@ -319,7 +320,7 @@ void ExplicitDynamics::finish(const Model& model, const StepLength& length,
                    settings.damping != 0 || !viscousForce_.empty();
   if (!all && heldVelocity_.empty()) return;
   const Works works{*this, nodes, length, settings, outerForces, contactForces};
-  // Summed by blocks of a fixed length, which do not depend on the number of threads.
+  // Sums over blocks of a fixed length, so that they do not depend on the number of threads.
   const std::size_t blocks = (nodes.size() + tolerance::kNodesPerSum - 1) / tolerance::kNodesPerSum;
   std::vector<EnergyLedger> sums(blocks);
   const bool many = model.triangles.size() >= 2 * elementsPerThread();
@@ -350,7 +351,7 @@ void ExplicitDynamics::measureReactions(const Model& model, const StepLength& le
   for (const NodeId node : heldNodes_) {
     const std::uint32_t n = node.value;
     reactions[n] = {};
-    if (nodes.mass[n] == 0) continue;  // of a dropped triangle
+    if (nodes.mass[n] == 0) continue;  // of a removed triangle
     for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}}) {
       if ((nodes.held[n] & flag) == 0) continue;
       const double gained = nodes.velocity[n].*axis - previousVelocity_[n].*axis;

@@ -2,7 +2,7 @@
 // The explicit time step of all bodies without contact (leapfrog):
 //   v* = [(1−d) vⁿ⁻½ + Δv f(xⁿ)/m] / (1+d), d = αΔv/2;  x* = xⁿ + Δt v*,
 // where Δv = ½(Δtⁿ⁻¹ + Δtⁿ) is Δt as long as the step does not change.
-// Contact then corrects x* and v*, and `finish` books the works of the whole step.
+// Contact then corrects x* and v*, and `finish` computes the work of the whole step.
 
 #include <span>
 #include <vector>
@@ -29,74 +29,78 @@ class ExplicitDynamics {
  public:
   explicit ExplicitDynamics(InstructionSet set = bestInstructionSet()) : set_(set) {}
 
-  /// To be called after nodes or triangles came, went or were renumbered, before the next step.
+  /// Must be called after nodes or triangles were added, removed or renumbered, before the next
+  /// step.
   void rebuild(const Model& model);
 
-  /// The same where nodes only split, at a cost that grows with the number of changed elements: new
-  /// nodes were appended, and corners of the `changed` elements became new nodes. `originals[i]` is
-  /// what the i-th new node was copied from. All later steps have the same bits as after `rebuild`.
-  /// Returns how many chunks of elements were built anew.
+  /// The same after a mere split of nodes, at a cost that grows with the number of changed
+  /// elements: new nodes were appended, and corners of the `changed` elements became new nodes.
+  /// `originals[i]` is the node from which the i-th new node was copied. All later steps have the
+  /// same bits as after `rebuild`. Returns the number of chunks of elements that were rebuilt.
   std::size_t follow(const Model& model, std::span<const ElementId> changed,
                      std::span<const NodeId> originals);
 
-  /// Nodes of dropped triangles stay where they are from now on; no work is booked for that.
+  /// Stops the nodes of removed triangles for the rest of the simulation; no work is counted for
+  /// that.
   void drop(std::span<const NodeId> nodes);
-  /// Room for so many nodes, so that the first that split do not wait for it.
+  /// Reserves memory for this number of nodes, so that the first splits need no allocation.
   void reserve(std::size_t nodes);
 
-  /// From now on, steps look for brittle elements that are stressed nearly (`kStrengthLook`) up to
-  /// the lowest strength (Pa) of their component; 0 or infinite: not watched; empty: none is. That
-  /// costs nothing where nothing is watched. Holds on through `rebuild` and `follow`.
-  void watchStress(std::vector<double> leastStrengthByComponent);
-  /// Small ranges, ascending, that hold all elements found stressed in the last step, at its xⁿ.
+  /// Starts the stress check: each step finds brittle elements whose stress is near
+  /// (`kStrengthCheck`) the lowest strength (Pa) of their component or above. 0 or infinite: no
+  /// check of that component; empty: none at all. Without any check there is no cost. Stays in
+  /// force after `rebuild` and `follow`.
+  void setStressLimits(std::vector<double> leastStrengthByComponent);
+  /// Small ranges, ascending, that contain all elements found stressed in the last step, at its xⁿ.
   [[nodiscard]] std::span<const ElementRange> stressed() const { return stressed_; }
 
-  /// From now on each step tells whether any node became faster than `most` (m/s, up to
-  /// `kAnySpeed`), which costs nothing: it takes the place of another look at the new velocity.
-  void watchSpeed(double most) { speedLimit_ = most; }
+  /// From now on each step reports whether any node became faster than `most` (m/s, up to
+  /// `kMostSpeed`). This costs nothing: the step tests the new velocity in any case.
+  void setSpeedLimit(double most) { speedLimit_ = most; }
   [[nodiscard]] double speedLimit() const { return speedLimit_; }
-  /// In the last step.
-  [[nodiscard]] bool anyFaster() const { return anyFaster_; }
+  /// True if any node exceeded that speed in the last step.
+  [[nodiscard]] bool anyAboveSpeedLimit() const { return anyAboveSpeedLimit_; }
 
-  /// One step; `outerForces` (N, by node) may be empty. They act for Δt, not Δv: so does what they
-  /// push back on, which others integrate with steps of Δt, and momentum is kept. Held directions
-  /// keep their velocity. The result has the same bits for any number of threads. Throws RunError
-  /// with element or node and place, and changes nothing, where an element is inverted or not
-  /// finite at xⁿ, or a force or a velocity is not finite.
+  /// One step; `outerForces` (N, by node) may be empty. These act for Δt, not Δv: their reactions
+  /// act on other bodies, which are integrated with steps of Δt, and so momentum is conserved. Held
+  /// directions keep their velocity. The result has the same bits for any number of threads. Throws
+  /// RunError with the element or node and its position, and changes nothing, if an element is
+  /// inverted or not finite at xⁿ, or if a force or a velocity is not finite.
   void predict(Model& model, const StepLength& length, const StepSettings& settings,
                std::span<const Vec2> outerForces, int threads);
 
-  /// Throws RunError where the step so far has turned an element inside out; `correction` (m): the
-  /// most that a node was moved by since `predict`. Elements are looked at only if some were flat
-  /// at xⁿ, or if a node moves by a good part of the least height of an element.
+  /// Throws RunError if the step so far has inverted an element. `correction` (m): the largest
+  /// displacement of a node since `predict`. Elements are checked only if some were flat at xⁿ, or
+  /// if a node moves by a large part (`kLargeMove`) of the least height of an element.
   void requireUpright(const Model& model, double dt, double correction) const;
 
-  /// Undoes `predict` and all that has happened to positions and velocities since.
+  /// Undoes `predict` and all later changes of positions and velocities.
   void takeBack(Model& model);
 
-  /// Books the works of gravity, loads, outer forces, damping, viscosity and prescribed motion,
-  /// once the velocities are corrected. `contactForces` (N, by node, empty: none) serve only to
-  /// find the reactions of held nodes: contact books its own work. Costs nothing where none of
-  /// these act.
+  /// Computes the work of gravity, loads, external forces, damping, viscosity and prescribed
+  /// motion, after the correction of the velocities. `contactForces` (N, by node; empty: none) are
+  /// used only for the reactions of held nodes: contact computes its own work. No cost if none of
+  /// these acts.
   void finish(const Model& model, const StepLength& length, const StepSettings& settings,
               std::span<const Vec2> outerForces, std::span<const Vec2> contactForces,
               EnergyLedger& ledger, int threads = 1) const;
 
-  /// Was no node held in the last step, nor since the last `rebuild`?
+  /// True if no node was held in the last step, nor since the last `rebuild`.
   [[nodiscard]] bool holdsNone() const { return heldNodes_.empty(); }
-  /// (N) By node, 0 in directions that are not held: what is needed, over all forces that act on
-  /// the node, to move it as it is prescribed. Arguments as those of `finish`, after it. Values of
-  /// nodes that are not held are left as they are, or 0 if they are new.
+  /// (N) Reactions by node, 0 in directions that are not held: the force, in addition to all others
+  /// on the node, that the prescribed motion requires. Call after `finish`, with the same
+  /// arguments. Values of nodes that are not held are not changed; those of new nodes are 0.
   void measureReactions(const Model& model, const StepLength& length, const StepSettings& settings,
                         std::span<const Vec2> outerForces, std::span<const Vec2> contactForces,
                         std::vector<Vec2>& reactions) const;
 
-  /// (m) xⁿ and (m/s) vⁿ⁻½ by node, between `predict` and the next change of the model:
-  /// v̄ = ½(previous + present) is what contact books with.
+  /// (m) xⁿ and (m/s) vⁿ⁻½ by node, valid between `predict` and the next change of the model:
+  /// contact computes work with v̄ = ½(previous + present).
   [[nodiscard]] std::span<const Vec2> previousPosition() const { return previousPosition_; }
   [[nodiscard]] std::span<const Vec2> previousVelocity() const { return previousVelocity_; }
-  /// In the last step, did a node move by a good part of the least height of an element.
-  [[nodiscard]] bool anySwift() const { return anySwift_; }
+  /// True if in the last step a node moved by a large part (`kLargeMove`) of the least height of an
+  /// element.
+  [[nodiscard]] bool anyLargeMove() const { return anyLargeMove_; }
   /// (N) Elastic and viscous forces f(xⁿ) by node, of the last step.
   [[nodiscard]] std::span<const Vec2> internalForces() const { return force_; }
   void addTo(Footprint& footprint) const;
@@ -104,7 +108,7 @@ class ExplicitDynamics {
  private:
   struct Update;
   struct Works;
-  /// Of one thread.
+  /// Data of one thread.
   struct alignas(64) Scratch {
     std::vector<Vec2> values;
     std::vector<ElementRange> stressed, flat;
@@ -114,9 +118,9 @@ class ExplicitDynamics {
   void smoothStrains(const Model& model, std::size_t part, std::size_t parts, PartErrors& errors);
   void sumChunk(const Model& model, const Chunk& chunk, const BulkViscosity& viscosity,
                 Scratch& scratch);
-  void lookAtFlat(const Model& model, const Chunk& chunk, Scratch& scratch);
-  Vec2 holdBack(const Nodes& nodes, std::size_t node, Vec2& velocity);
-  void letGo(Nodes& nodes);
+  void handleFlat(const Model& model, const Chunk& chunk, Scratch& scratch);
+  Vec2 applyHeld(const Nodes& nodes, std::size_t node, Vec2& velocity);
+  void exchangeHeld(Nodes& nodes);
   void sumShared(const BulkViscosity& viscosity, NodeId begin, NodeId end);
   template <bool kForced>
   void move(Nodes& nodes, const Update& update, std::size_t begin, std::size_t end);
@@ -127,21 +131,21 @@ class ExplicitDynamics {
   InstructionSet set_;
   ElementChunks elements_;
   StrainSmoothing smoothing_;
-  std::vector<Vec2> force_, partialForce_;  // of all: N
+  std::vector<Vec2> force_, partialForce_;  // N, total
   std::vector<Vec2> viscousForce_,
-      partialViscous_;  // of the viscosity alone; empty while it is off
-  // Each step writes into these, and then exchanges them for the model's: the state before it stays
-  // at hand without a copy.
+      partialViscous_;  // of the viscosity only; empty if it is off
+  // Each step writes into these arrays and then swaps them with the model's: the previous state is
+  // kept without a copy.
   std::vector<Vec2> previousPosition_, previousVelocity_;
   std::vector<NodeId> heldNodes_;
   std::vector<Vec2> heldVelocity_;     // of held nodes in the last step; empty if none was held
   std::vector<Scratch> scratch_;       // one per thread
   std::vector<double> leastStrength_;  // Pa, by component
   std::vector<ElementRange> stressed_;
-  double speedLimit_ = tolerance::kAnySpeed;  // m/s
-  double leastHeight_ = 0;                    // m, of all elements, stress-free
+  double speedLimit_ = tolerance::kMostSpeed;  // m/s
+  double leastHeight_ = 0;                     // m, of all elements, stress-free
   bool watching_ = false;
-  bool badElement_ = false, badNode_ = false, anyFaster_ = false, anySwift_ = false;
+  bool badElement_ = false, badNode_ = false, anyAboveSpeedLimit_ = false, anyLargeMove_ = false;
 };
 
 }  // namespace yadefrag

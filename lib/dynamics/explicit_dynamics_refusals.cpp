@@ -1,4 +1,5 @@
-// Steps that cannot be made: which element or node is the reason, and back to where they began.
+// Errors in a step: finds the element or node that causes them, and restores the state before the
+// step.
 
 #include <cmath>
 #include <sstream>
@@ -26,8 +27,8 @@ std::string nameOf(const Model& model, ElementId element, std::span<const Vec2> 
 
 }  // namespace
 
-/// A chunk with an element that is flat, inverted or not finite.
-void ExplicitDynamics::lookAtFlat(const Model& model, const Chunk& chunk, Scratch& scratch) {
+/// Handles a chunk with an element that is flat, inverted or not finite.
+void ExplicitDynamics::handleFlat(const Model& model, const Chunk& chunk, Scratch& scratch) {
   scratch.flat.push_back({chunk.firstElement, chunk.lastElement});
   for (std::uint32_t e = chunk.firstElement; e < chunk.lastElement; ++e)
     if (!(determinant(deformationGradient(model, ElementId(e))) > 0))
@@ -40,19 +41,19 @@ void ExplicitDynamics::requireUpright(const Model& model, double dt, double corr
     for (std::size_t e = begin; e < end; ++e) {
       if (determinant(deformationGradient(model, ElementId(e))) > 0) continue;
       std::ostringstream text;
-      text << nameOf(model, ElementId(e), previousPosition_)
-           << " is turned inside out in a step of " << dt << " s; take a shorter one.";
+      text << nameOf(model, ElementId(e), previousPosition_) << " is inverted in a step of " << dt
+           << " s; take a shorter one.";
       throw RunError(text.str());
     }
   };
-  if (anySwift_ || correction > tolerance::kSwift * leastHeight_)
+  if (anyLargeMove_ || correction > tolerance::kLargeMove * leastHeight_)
     return look(0, model.triangles.size());
   for (const Scratch& scratch : scratch_)
     for (const ElementRange& range : scratch.flat) look(range.firstElement, range.lastElement);
 }
 
-/// Held directions: what the model says, and how the nodes moved before, change places again.
-void ExplicitDynamics::letGo(Nodes& nodes) {
+/// Exchanges the prescribed velocities of held directions with the nodes' previous velocities.
+void ExplicitDynamics::exchangeHeld(Nodes& nodes) {
   if (heldVelocity_.empty()) return;
   for (std::size_t n = 0; n < nodes.size(); ++n)
     for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}})
@@ -62,7 +63,7 @@ void ExplicitDynamics::letGo(Nodes& nodes) {
 void ExplicitDynamics::takeBack(Model& model) {
   model.nodes.position.swap(previousPosition_);
   model.nodes.velocity.swap(previousVelocity_);
-  letGo(model.nodes);
+  exchangeHeld(model.nodes);
 }
 
 void ExplicitDynamics::refuseElement(const Model& model) {
@@ -70,12 +71,12 @@ void ExplicitDynamics::refuseElement(const Model& model) {
   while (determinant(deformationGradient(model, ElementId(e))) > 0) ++e;
   const bool inverted = determinant(deformationGradient(model, ElementId(e))) <= 0;
   throw RunError(nameOf(model, ElementId(e), model.nodes.position) +
-                 (inverted ? " is turned inside out." : " has a value that is not finite."));
+                 (inverted ? " is inverted." : " has a value that is not finite."));
 }
 
 void ExplicitDynamics::refuseNode(Model& model) {
   Nodes& nodes = model.nodes;
-  letGo(nodes);
+  exchangeHeld(nodes);
   std::size_t bad = 0;
   while (isFinite(previousPosition_[bad])) ++bad;
   std::ostringstream text;

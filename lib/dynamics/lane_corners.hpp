@@ -1,6 +1,6 @@
 #pragma once
-// What the vector loops over elements share: nodal values to lanes and back, and the lanes in which
-// something was found.
+// Common code of the vector loops over elements: copies nodal values to lanes and back, and
+// collects the lanes with findings.
 
 #include <algorithm>
 #include <array>
@@ -40,17 +40,17 @@ struct alignas(64) Corners {
     }
 }
 
-/// Flat and stressed elements among kLanes.
+/// Number of flat and of stressed elements among kLanes.
 struct Findings {
   int flat = 0, stressed = 0;
 };
 
-/// Numbers of lanes that hold a stressed element.
+/// Numbers of the lanes that contain a stressed element.
 struct StressedLanes {
   std::array<std::uint32_t, tolerance::kChunkElements / kLanes> lanes;
   std::size_t count = 0;
 
-  /// Without a branch: what is not counted is overwritten.
+  /// Without a branch: an entry that is not counted is overwritten by the next one.
   [[gnu::always_inline]] void note(std::uint32_t lane, int stressed) {
     lanes[count] = lane;
     count += stressed != 0 ? 1 : 0;
@@ -66,8 +66,8 @@ struct StressedLanes {
   }
 };
 
-/// Calls `work(l, corners)`, which must be always inlined, for each lanes l of the chunk, and notes
-/// which have a stressed element if `kWatched`. Returns false if an element is flat.
+/// Calls `work(l, corners)`, which must be always inlined, for each index l of the chunk's lanes,
+/// and records those with a stressed element if `kWatched`. Returns false if an element is flat.
 template <bool kWatched, class Work>
 [[gnu::always_inline]] inline bool forEachLanes(const Chunk& chunk, const ElementLanes* lanes,
                                                 const Vec2* position, StressedLanes& stressed,

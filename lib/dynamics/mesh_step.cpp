@@ -15,7 +15,7 @@ namespace {
 
 struct Shape {
   Vec2 centre;
-  double shortest = 0;  // m, of the sides
+  double shortest = 0;  // m, shortest side
   double altitude = 0;  // m, onto the longest side
 };
 
@@ -80,8 +80,8 @@ std::string costlyStepWarning(const TriangleMesh& mesh, const Component& compone
   (void)std::snprintf(
       text.data(), text.size(),
       "the critical time step is %.3g times shorter than with even triangles of the "
-      "size %.4g m, since at (%.6g, %.6g) the outline or a joint asks for a triangle with an "
-      "edge of %.3g m and a height of %.3g m; simplify= leaves out points that it can do without.",
+      "size %.4g m, since at (%.6g, %.6g) the outline or a joint requires a triangle with an "
+      "edge of %.3g m and a height of %.3g m; simplify= removes redundant points.",
       factor, size, worst.centre.x, worst.centre.y, worst.shortest, worst.altitude);
   return text.data();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a body's mesh costs in time steps.
+// The effect of a body's mesh on the time step.
 
 #include <string>
 
@@ -8,22 +8,22 @@
 
 namespace yadefrag {
 
-/// The stress-free mesh of one component, nodes renumbered, without loops and dropped triangles.
-/// `reference` are the stress-free positions of the model's nodes.
+/// The stress-free mesh of one component, with new node numbers, without loops and removed
+/// triangles. `reference` are the stress-free positions of the model's nodes.
 [[nodiscard]] TriangleMesh stressFreeMesh(const Model& model, const std::vector<Vec2>& reference,
                                           ComponentId component);
 
-/// (s) Critical time step of a stress-free mesh of a component's material.
+/// (s) Critical time step of a stress-free mesh with a component's material.
 [[nodiscard]] double meshTimeStep(const TriangleMesh& mesh, const Component& component);
 
-/// (s) That of an even lattice, of equilateral triangles of edges `side` (m).
+/// (s) Critical time step of an even lattice: equilateral triangles with edges of `side` (m).
 [[nodiscard]] double latticeTimeStep(const Component& component, double side);
 
-/// (m) Edges of an even lattice with as many triangles in as much area.
+/// (m) Edges of an even lattice with the same area and number of triangles.
 [[nodiscard]] double latticeSide(const TriangleMesh& mesh);
 
-/// A sentence where the critical step of the mesh is less than a third of that of a lattice with
-/// edges of `size` (m), else empty: which place costs how much.
+/// A message if the critical step of the mesh is less than a third of that of a lattice with edges
+/// of `size` (m): it names the place and its effect. Otherwise an empty string.
 [[nodiscard]] std::string costlyStepWarning(const TriangleMesh& mesh, const Component& component,
                                             double size);
 

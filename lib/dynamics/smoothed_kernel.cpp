@@ -13,7 +13,7 @@ template <bool kWatched>
 [[gnu::always_inline]] inline Findings splitGradients(const ElementLanes& e, const Chunk& chunk,
                                                       const Corners& c, DistortionLanes& kept,
                                                       SplitGradient* weighted) {
-  const StressLook look(chunk.shearFactor, chunk.friction, chunk.squaredLook);
+  const StressLimit look(chunk.shearFactor, chunk.friction, chunk.squaredStressLimit);
   int flat = 0;
   int stressed = 0;
 #pragma omp simd reduction(+ : flat, stressed)
@@ -21,7 +21,7 @@ template <bool kWatched>
     const Matrix2 f = deformationGradient(
         c.x[1][k] - c.x[0][k], c.y[1][k] - c.y[0][k], c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],
         e.inverseEdges[0][k], e.inverseEdges[1][k], e.inverseEdges[2][k], e.inverseEdges[3][k]);
-    flat += determinant(f) > tolerance::kFlat ? 0 : 1;  // NaN too
+    flat += determinant(f) > tolerance::kFlat ? 0 : 1;  // also for NaN
     if constexpr (kWatched) stressed += isStressed(f, chunk.lame, chunk.shear, look) ? 1 : 0;
     const double third = e.volume[k] * (1. / 3);
     const double c1 = f.xx - f.yy;
@@ -69,7 +69,7 @@ struct StressNodes {
       const double* part = nodes[n].part;
       factors.similar[n] = part[0] * part[0] + part[1] * part[1];
     }
-    // Of the sum A = Σa the stress is κ(|⟨a⟩| − 2)⟨a⟩/|⟨a⟩| = κ(ρ/m − 2/|A|) A, as V = m/ρ.
+    // With the sum A = Σa, the stress is κ(|⟨a⟩| − 2)⟨a⟩/|⟨a⟩| = κ(ρ/m − 2/|A|) A, as V = m/ρ.
     const double third = 1. / 3;
     const double bulk = third * (chunk.lame + chunk.shear);
     const double shear = third * kSmoothedShare * chunk.shear;

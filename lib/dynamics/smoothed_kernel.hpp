@@ -1,6 +1,7 @@
 #pragma once
-// The loops over the elements of a chunk with smoothed strains, in two passes: gradients to nodes,
-// then stresses from nodes. As in element_kernel.hpp, every instruction set gives the same bits.
+// The loops over the elements of a chunk with smoothed strains. There are two passes: gradients to
+// nodes, then stresses from nodes. As in element_kernel.hpp, every instruction set gives the same
+// bits.
 
 #include <vector>
 
@@ -9,32 +10,33 @@
 
 namespace yadefrag {
 
-/// c and d of kLanes elements, from the first pass for the second.
+/// c and d of kLanes elements, stored by the first pass for the second.
 struct alignas(64) DistortionLanes {
   double part[2][kLanes];
 };
 
-/// Adds the gradients, by a third of the volume (m³), to `nodes` (by local number), and keeps the
-/// distortions. Returns false if an element is inverted or not finite.
+/// Adds the gradients, multiplied by a third of the volume (m³), to `nodes` (by local number), and
+/// stores the distortions. Returns false if an element is inverted or not finite.
 bool sumGradients(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                   const Vec2* position, DistortionLanes* kept, SplitGradient* nodes);
-/// The same bits; appends the ranges of stressed elements as `addElasticForces` does.
+/// The same, with the same bits; it appends the ranges of stressed elements as `addElasticForces`
+/// does.
 bool sumGradients(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                   const Vec2* position, DistortionLanes* kept, SplitGradient* nodes,
                   std::vector<ElementRange>& stressed);
 
-/// (Pa/m³) From a node's summed gradient to a third of its stress, by local number.
+/// (Pa/m³) Factors from a node's summed gradient to a third of its stress, by local number.
 struct NodeFactors {
   double *similar, *distorted;
 };
 
-/// Makes a third of the nodes' stresses (Pa) of their summed gradients; `mass` (kg) and `nodes` by
-/// local number, `factors` is room for as many. Nodes of dropped triangles have no mass and no
-/// stress.
+/// Converts the nodes' summed gradients to a third of the nodes' stresses (Pa); `mass` (kg) and
+/// `nodes` by local number, `factors` is scratch memory of the same length. Nodes of removed
+/// triangles have no mass and no stress.
 void stressNodes(InstructionSet set, const Chunk& chunk, const double* mass, NodeFactors factors,
                  SplitGradient* nodes);
 
-/// Adds the elastic forces (N) that follow from the nodes' stresses and the elements' distortions.
+/// Adds the elastic forces (N) of the nodes' stresses and the elements' distortions.
 void addSmoothedForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                        const DistortionLanes* kept, const SplitGradient* nodes, Vec2* force);
 

@@ -3,16 +3,16 @@
 //
 // F splits into a similarity (a, b) = (F₁₁+F₂₂, F₂₁−F₁₂) and a distortion (c, d) = (F₁₁−F₂₂,
 // F₂₁+F₁₂). In these the corotational law is W = ½μ(c² + d²) + ½(λ+μ)(√(a² + b²) − 2)²: the first
-// part is the distortion's, the second, without any shear, the dilatation's. With ⟨·⟩ the mean over
-// the triangles at a node, by volume, a body's energy is
+// term is that of the distortion, the second that of the dilatation, without shear. With ⟨·⟩ the
+// mean over the triangles at a node, weighted by volume, a body's energy is
 //   Σ_triangles V (1−α)·½μ(c² + d²)
 //     + Σ_nodes V [α·½μ(⟨c⟩² + ⟨d⟩²) + ½(λ+μ)(√(⟨a⟩² + ⟨b⟩²) − 2)²],  V of a node: a third of each.
 // The dilatation at nodes is that of Dohrmann et al. 2000 (Int. J. Numer. Meth. Eng. 47, 1549) and
-// Bonet et al. 2001 (Commun. Numer. Meth. Eng. 17, 551), the mixture of triangles and nodes the
-// α-FEM of Liu et al. 2008 (Comput. Methods Appl. Mech. Eng. 197, 3883). Forces are its exact
-// gradient. Uniform strains are exact. No mean has more energy than what it is taken of, so that
-// the critical step of linear triangles holds; where c and d vanish everywhere the body is only
-// scaled, so that no motion but the rigid ones is without energy.
+// Bonet et al. 2001 (Commun. Numer. Meth. Eng. 17, 551); the mixture of triangles and nodes is the
+// α-FEM of Liu et al. 2008 (Comput. Methods Appl. Mech. Eng. 197, 3883). Forces are the exact
+// gradient of this energy. Uniform strains are exact. A mean has at most the energy of the values
+// that it averages, so that the critical step of linear triangles is stable. Where c and d vanish
+// everywhere the body is only scaled, so that only rigid motions have no energy.
 
 #include <cmath>
 
@@ -21,12 +21,12 @@
 
 namespace yadefrag {
 
-/// α: 0.4 makes a cantilever of 2, 4, 8 triangles in height bend 1.02, 1.02, 1.00 of what is right
-/// at ν = 0.3 and 0.90, 1.00, 1.00 at ν = 0.49 (`addPolygon`'s mesh); on regular grids 4 bend 0.93
-/// to 1.01. A larger one is softer on all of them.
+/// α. With 0.4 a cantilever of 2, 4, 8 triangles in height bends by 1.02, 1.02, 1.00 of the exact
+/// deflection at ν = 0.3 and by 0.90, 1.00, 1.00 at ν = 0.49 (meshes of `addPolygon`); on regular
+/// grids 4 triangles give 0.93 to 1.01. A larger α is softer on all of them.
 inline constexpr double kSmoothedShare = .4;
 
-/// (1) F, or (Pa) the stress ∂W/∂(a, b, c, d), in a similarity a, b and a distortion c, d.
+/// F (1), or the stress ∂W/∂(a, b, c, d) (Pa), as a similarity a, b and a distortion c, d.
 struct alignas(32) SplitGradient {
   double part[4] = {};
 
@@ -50,13 +50,13 @@ inline SplitGradient splitGradient(const Matrix2& f) {
   return {{f.xx + f.yy, f.yx - f.xy, f.xx - f.yy, f.yx + f.xy}};
 }
 
-/// (Pa) P = ∂W/∂F of the stress in a, b, c, d.
+/// (Pa) P = ∂W/∂F from the stress in a, b, c, d.
 inline Matrix2 piolaOf(const SplitGradient& stress) {
   const auto& [a, b, c, d] = stress.part;
   return {a + c, d - b, d + b, a - c};
 }
 
-/// (J/m³) Of a node's mean gradient.
+/// (J/m³) Energy density of a node's mean gradient.
 inline double nodeEnergyDensity(const SplitGradient& mean, const ElasticMaterial& m) {
   const auto& [a, b, c, d] = mean.part;
   const double dilatation = std::sqrt(a * a + b * b) - 2;
@@ -64,7 +64,7 @@ inline double nodeEnergyDensity(const SplitGradient& mean, const ElasticMaterial
          (m.lame() + m.shearModulus()) / 2 * dilatation * dilatation;
 }
 
-/// (Pa) Its gradient.
+/// (Pa) Gradient of that energy density.
 inline SplitGradient nodeStress(const SplitGradient& mean, const ElasticMaterial& m) {
   const auto& [a, b, c, d] = mean.part;
   const double similar = (m.lame() + m.shearModulus()) * (1 - 2 / std::sqrt(a * a + b * b));

@@ -15,7 +15,7 @@ double volumeOf(const Model& model, ElementId element) {
   return model.triangles.area[element.value] * bodyOf(model, element).thickness;
 }
 
-/// (J) Twice the triangle's own part at the half step.
+/// (J) Twice the triangle's own energy at the half step.
 double twiceOwnEnergy(const Model& model, ElementId element, double dt) {
   const Matrix2 f = deformationGradient(model, element);
   const SplitGradient now = splitGradient(f);
@@ -26,7 +26,7 @@ double twiceOwnEnergy(const Model& model, ElementId element, double dt) {
 
 bool isSmoothed(const Component& body) { return body.element == ElementKind::kSmoothed; }
 
-/// `use(element)` for all triangles with smoothed strains that have not been dropped.
+/// Calls `use(element)` for all triangles with smoothed strains that have not been removed.
 template <class Use>
 void forEachSmoothed(const Model& model, Use use) {
   for (const Component& body : model.components)
@@ -35,7 +35,7 @@ void forEachSmoothed(const Model& model, Use use) {
         if (!model.triangles.isDropped(e)) use(ElementId(e));
 }
 
-/// Means by node; nothing at nodes of other bodies.
+/// Means by node; zero at nodes of other bodies.
 std::vector<SplitGradient> smoothedMeans(const Model& model) {
   std::vector<SplitGradient> means(model.nodes.size());
   forEachSmoothed(model, [&](ElementId element) {
@@ -132,7 +132,7 @@ void setSmoothedStresses(const Model& model, std::vector<std::array<double, 3>>&
       stress += 1. / 3 * nodeStress(means[node.value], material);
     const Matrix2 p = piolaOf(stress);
     const double det = determinant(f);
-    // σ = P Fᵀ / det F; its two shears differ where neighbours turn differently.
+    // σ = P Fᵀ / det F; its two shear components differ if neighbours rotate differently.
     stresses[element.value] = {(p.xx * f.xx + p.xy * f.xy) / det, (p.yx * f.yx + p.yy * f.yy) / det,
                                (p.xx * f.yx + p.xy * f.yy + p.yx * f.xx + p.yy * f.xy) / (2 * det)};
   });

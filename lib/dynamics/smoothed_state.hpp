@@ -1,5 +1,6 @@
 #pragma once
-// Energy and stress of bodies with smoothed strains (smoothed_law.hpp), for output and for books.
+// Energy and stress of bodies with smoothed strains (smoothed_law.hpp), for output and for the
+// energy balance.
 
 #include <array>
 #include <cstddef>
@@ -11,28 +12,28 @@
 
 namespace yadefrag {
 
-/// The gradient F of the triangles at a node, summed by thirds of their volumes, now and a step
-/// ago.
+/// The gradient F of the triangles at a node, summed with a third of their volumes, now and one
+/// step before.
 struct NodeSum {
   SplitGradient now, before;  ///< m³
   double volume = 0;          ///< m³
 
   void add(const Model& model, ElementId element, double dt);
   NodeSum& operator+=(const NodeSum& other);
-  /// (J) The node's share of the energy at the half step (energy_ledger.hpp).
+  /// (J) The node's part of the energy at the half step (energy_ledger.hpp).
   [[nodiscard]] double energy(const ElasticMaterial& material) const;
 };
 
-// The following leave out all bodies without smoothed strains.
+// The following functions ignore all bodies without smoothed strains.
 
-/// (J) At the half step.
+/// (J) Energy at the half step.
 double smoothedEnergy(const Model& model, double dt);
-/// The same of some triangles, at whose nodes there are no others.
+/// The same for some triangles; there must be no others at their nodes.
 double smoothedEnergy(const Model& model, std::span<const ElementId> elements, double dt);
 
-/// Sets the Cauchy stresses (Pa: xx, yy, xy), by triangle: those that make its forces.
+/// Sets the Cauchy stresses (Pa: xx, yy, xy), by triangle, from which the forces are computed.
 void setSmoothedStresses(const Model& model, std::vector<std::array<double, 3>>& stresses);
-/// Sets the energies (J), by triangle: its own, and its shares of the nodes'.
+/// Sets the energies (J), by triangle: its own energy, and its parts of the nodes' energies.
 void setSmoothedEnergies(const Model& model, std::vector<double>& energies);
 
 }  // namespace yadefrag

@@ -17,7 +17,7 @@ void StrainSmoothing::rebuild(const ElementChunks& elements) {
   distortion_.resize(on ? elements.lanes.size() : 0);
 }
 
-/// Partial sums that are no longer written must not count.
+/// Partial sums that are no longer written must be zero.
 void StrainSmoothing::follow(const ElementChunks& elements,
                              std::span<const std::uint32_t> abandoned) {
   if (!isOn()) return;
@@ -33,7 +33,7 @@ bool StrainSmoothing::sum(InstructionSet set, const ElementChunks& elements, con
   std::fill_n(nodes, chunk.lastNode - chunk.firstNode, SplitGradient{});
   const ElementLanes* lanes = elements.lanes.data();
   const bool good =
-      std::isfinite(chunk.squaredLook)
+      std::isfinite(chunk.squaredStressLimit)
           ? sumGradients(set, chunk, lanes, position, distortion_.data(), nodes, stressed)
           : sumGradients(set, chunk, lanes, position, distortion_.data(), nodes);
   for (std::uint32_t i = chunk.firstShared; i < chunk.lastNode; ++i)
@@ -41,7 +41,7 @@ bool StrainSmoothing::sum(InstructionSet set, const ElementChunks& elements, con
   return good;
 }
 
-/// Each of the node's chunks gets the whole sum.
+/// Each chunk of the node gets the whole sum.
 void StrainSmoothing::sumShared(const ElementChunks& elements, std::size_t row) {
   const std::uint32_t begin = elements.firstPartial[row];
   const std::uint32_t end = elements.firstPartial[row + 1];

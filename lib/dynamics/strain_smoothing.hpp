@@ -1,6 +1,6 @@
 #pragma once
-// Smoothed strains in a step: between the two passes over the chunks, nodes of several chunks get
-// their sums, in a fixed order. Costs nothing where no body has them.
+// Smoothed strains in a step: between the two passes over the chunks the sums of nodes in several
+// chunks are added, in a fixed order. No cost if no body has smoothed strains.
 
 #include <span>
 #include <vector>
@@ -12,7 +12,7 @@ namespace yadefrag {
 
 class StrainSmoothing {
  public:
-  /// Of one thread.
+  /// Memory of one thread.
   struct Room {
     std::vector<double> mass, similar, distorted;
     void resize(std::size_t count) {
@@ -21,16 +21,17 @@ class StrainSmoothing {
   };
 
   void rebuild(const ElementChunks& elements);
-  /// After nodes split.
+  /// Must be called after a split of nodes.
   void follow(const ElementChunks& elements, std::span<const std::uint32_t> abandoned);
   [[nodiscard]] bool isOn() const { return !distortion_.empty(); }
 
-  /// First pass, of one chunk; positions by local number. False if an element is bad.
+  /// First pass, for one chunk; positions by local number. Returns false if an element is flat,
+  /// inverted or not finite.
   bool sum(InstructionSet set, const ElementChunks& elements, const Chunk& chunk,
            const Vec2* position, std::vector<ElementRange>& stressed);
-  /// Then nodes of several chunks.
+  /// Then the sums of nodes in several chunks.
   void sumShared(const ElementChunks& elements, std::size_t row);
-  /// Second pass, of one chunk; `mass` (kg) by node.
+  /// Second pass, for one chunk; `mass` (kg) by node.
   void addForces(InstructionSet set, const ElementChunks& elements, const Chunk& chunk,
                  const std::vector<double>& mass, Room& room, Vec2* force);
 
@@ -39,9 +40,11 @@ class StrainSmoothing {
   }
 
  private:
-  // Sums by thirds of volumes (m³), by chunk and local number; later stresses (Pa).
+  // Sums with a third of the volumes (m³), by chunk and local number; after sumShared stresses
+  // (Pa).
   std::vector<SplitGradient> gradient_;
-  // Of nodes in several chunks: a chunk's part, and the whole, both by number of the partial sum.
+  // For nodes in several chunks: a chunk's part and the whole sum, both by number of the partial
+  // sum.
   std::vector<SplitGradient> partialGradient_, wholeGradient_;
   std::vector<DistortionLanes> distortion_;
 };

@@ -36,7 +36,7 @@ void addPressure(const Model& model, const ContactSurfaces& surfaces,
 void spread(Pressure& pressure, const ContactSurfaces& surfaces) {
   std::vector<bool> has(surfaces.segments());
   for (const SegmentId s : pressure.segments) has[s.value] = true;
-  // What joins is looked at in its turn.
+  // Segments added here are visited by this loop, too.
   for (std::size_t i = 0; i < pressure.segments.size(); ++i)
     for (const auto* links : {&surfaces.segmentNext, &surfaces.segmentPrev}) {
       const SegmentId other = (*links)[pressure.segments[i].value];
@@ -100,7 +100,7 @@ void AbsorbingBoundary::collect(const Model& model, const ContactSurfaces& surfa
   dashpots_.resize(kept);
 }
 
-/// m'(v − v*) = −ΔvC(v + v⁻)/2 with m' = m(1 + drag), in the directions that are free.
+/// m'(v − v*) = −ΔvC(v + v⁻)/2 with m' = m(1 + drag), in the directions that are not held.
 void AbsorbingBoundary::correct(Model& model, const ContactSurfaces& surfaces,
                                 std::span<const Vec2> place, std::span<const Vec2> before,
                                 const StepLength& step, double drag) {
@@ -136,8 +136,8 @@ void AbsorbingBoundary::correct(Model& model, const ContactSurfaces& surfaces,
   }
 }
 
-void AbsorbingBoundary::book(EnergyLedger& ledger, const Model& model, std::span<const Vec2> before,
-                             const StepLength& step) const {
+void AbsorbingBoundary::addWork(EnergyLedger& ledger, const Model& model,
+                                std::span<const Vec2> before, const StepLength& step) const {
   for (const Dashpot& d : dashpots_) {
     const Vec2 mean = .5 * (before[d.node.value] + model.nodes.velocity[d.node.value]);
     ledger.damping -= step.velocity * dot(d.force, mean);

@@ -13,7 +13,7 @@
 namespace yadefrag {
 namespace {
 
-/// Sides of one triangle only, that no edge knows.
+/// Sides of one triangle only, which are no edge of CrackEdges.
 std::vector<Side> freeSides(const Model& model, const CrackEdges& edges, ComponentId component) {
   const std::vector<KeyedSide> sides = sidesByNodes(model, model.components[component.value]);
   std::vector<Side> result;
@@ -41,21 +41,22 @@ Line lineOf(const Model& model, Side side) {
           model.nodes.position[lastNode(model, side).value]};
 }
 
-/// Sides of two bodies have the material on the left: they match where they run against each other.
+/// Boundary sides have the material on the left: sides of two bodies match if they run in opposite
+/// directions.
 bool match(const Line& a, const Line& b) {
   double farthest = 0;
   for (const Vec2 x : {a.begin, a.end})
     farthest = std::max({farthest, std::abs(x.x), std::abs(x.y)});
-  // Outlines that mean the same may differ by some roundings of their coordinates.
+  // Equal outlines may differ by some roundings of their coordinates.
   const double gap = std::max(tolerance::kBondGap * std::min(a.length(), b.length()),
                               8 * std::numeric_limits<double>::epsilon() * farthest);
   return norm(a.begin - b.end) <= gap && norm(a.end - b.begin) <= gap;
 }
 
-/// Do two sides run along each other, for a part of the shorter one?
+/// True if two sides are parallel and coincide along a part of the shorter one.
 bool runAlong(const Line& a, const Line& b) {
   const double size = std::min(a.length(), b.length());
-  const double near = tolerance::kBondMeant * size;
+  const double near = tolerance::kProbableBond * size;
   const Vec2 along = (1 / a.length()) * (a.end - a.begin);
   const auto aside = [&](Vec2 x) { return std::abs(cross(along, x - a.begin)); };
   const double from = dot(along, b.end - a.begin), to = dot(along, b.begin - a.begin);
@@ -66,7 +67,7 @@ bool runAlong(const Line& a, const Line& b) {
 std::vector<BoxPair> nearPairs(const std::vector<Line>& lines) {
   std::vector<Box> boxes;
   for (const Line& l : lines) {
-    const double by = tolerance::kBondMeant * l.length();
+    const double by = tolerance::kProbableBond * l.length();
     boxes.push_back({{std::min(l.begin.x, l.end.x) - by, std::min(l.begin.y, l.end.y) - by, 0},
                      {std::max(l.begin.x, l.end.x) + by, std::max(l.begin.y, l.end.y) + by, 0}});
   }
@@ -82,7 +83,7 @@ std::string named(ComponentId a, ComponentId b) {
 [[noreturn]] void refuseMismatch(ComponentId a, ComponentId b, Vec2 at) {
   std::ostringstream text;
   text << "At (" << at.x << ", " << at.y << ") sides of " << named(a, b)
-       << " run along each other without the same ends, as bonded ones must have; give both "
+       << " coincide but have different ends; bonded sides must have the same ends. Give both "
           "outlines the same points there and the same size, or add one body with joints.";
   throw InputError(text.str());
 }

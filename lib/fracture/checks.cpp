@@ -21,7 +21,7 @@ std::string text(double value, const char* unit) {
   return buffer.data();
 }
 
-/// What would do, with room for the rounding to three digits.
+/// A permitted value for messages, with a margin for the rounding to three digits.
 std::string atMost(double value, const char* unit) {
   std::array<char, 48> buffer;
   (void)std::snprintf(buffer.data(), buffer.size(), "at most %.3g%s", .99 * value, unit);
@@ -35,19 +35,20 @@ void require(bool holds, const char* name, double value, const char* unit, const
 
 struct EdgeSums {
   std::size_t inner = 0;
-  double meanLength = 0;  // m, of inner and outer ones
-  /// (m²/kg) Greatest (L/2)(1/m₁ + 1/m₂) of the inner ones.
+  double meanLength = 0;  // m, of inner and outer edges
+  /// (m²/kg) Greatest (L/2)(1/m₁ + 1/m₂) of the inner edges.
   double lightest = 0;
-  double leastVolume = INFINITY;  // m³, of the inner ones
+  double leastVolume = INFINITY;  // m³, of the inner edges
 };
 
 EdgeSums sumsOf(const Model& model, const Component& body) {
   const std::vector<KeyedSide> sides = sidesByNodes(model, body);
   EdgeSums sums;
-  const auto thirdOf = [&](ElementId e) {  // m³, of a triangle
+  const auto thirdOf = [&](ElementId e) {  // m³, a third of a triangle's volume
     return body.thickness * model.triangles.area[e.value] / 3;
   };
-  const auto inverseMass = [&](ElementId e) {  // 1/kg, of the least that it can give to a node
+  // 1/kg, for the least mass that a node of this triangle may have.
+  const auto inverseMass = [&](ElementId e) {
     return 3 /
            (model.materialOf(e).material.density * body.thickness * model.triangles.area[e.value]);
   };
@@ -73,29 +74,30 @@ std::string named(double fractureEnergy, ComponentId component) {
          std::to_string(component.value);
 }
 
-/// An edge's own values.
+/// Cohesive values of one edge.
 struct Cohesive {
   double strength;        // Pa
   double fractureEnergy;  // J/m²
-  std::string name;       // of the energy and of whatever has it
-  double sliding = 1;     // κ/β², of the zone's length where a crack slides
+  std::string name;       // for messages: the energy, and the edge or body that has it
+  double sliding = 1;     // κ/β², factor of the zone's length for a sliding crack
   [[nodiscard]] double critical() const { return 2 * fractureEnergy / strength; }
 };
 
-/// `crossed` (m): what a step takes from the opening.
+/// `crossed` (m): the closing of the crack in one step by its tractions.
 void requireResolved(const Cohesive& edge, double crossed, double meanLength, double dt) {
   const double critical = edge.critical();
   if (crossed < critical) return;
   const double ratio = critical / crossed;
-  // Masses go with the size squared; with a step in proportion, what is crossed goes with the size.
-  throw InputError(edge.name + ": a crack holds up to an opening of " + text(critical, " m") +
+  // Masses are proportional to the size squared. With a step in proportion to the size, `crossed`
+  // is proportional to the size.
+  throw InputError(edge.name + ": a crack is cohesive up to an opening of " + text(critical, " m") +
                    ", which a step of " + text(dt, " s") + " does not resolve; a step of " +
-                   atMost(dt * std::sqrt(ratio), " s") + " would do, or elements of " +
+                   atMost(dt * std::sqrt(ratio), " s") + " is sufficient, or elements of " +
                    atMost(ratio * meanLength, " m") + " (now " + text(meanLength, " m") +
                    ") with a step in proportion.");
 }
 
-/// κ/β²: the zone of a crack that slides is E·κGc/(βσc)² long.
+/// κ/β²: the cohesive zone of a sliding crack has the length E·κGc/(βσc)².
 double slidingOf(const BrittleMaterial& brittle) {
   return brittle.shearEnergyFactor / brittle.shearFactor / brittle.shearFactor;
 }
@@ -105,13 +107,14 @@ std::string zoneSentence(double young, const Cohesive& edge, double size) {
       young / edge.strength * edge.fractureEnergy / edge.strength * std::min(1., edge.sliding);
   const double wanted = zone / tolerance::kZoneElements;
   if (size <= wanted) return {};
-  return edge.name + ": the cohesive zone " + (edge.sliding < 1 ? "of a crack that slides " : "") +
+  return edge.name + ": the cohesive zone " + (edge.sliding < 1 ? "of a sliding crack " : "") +
          "is " + text(zone, " m") + " long, less than four elements of " + text(size, " m") +
-         "; notched or cracked bodies bear too much, and elements of " + atMost(wanted, " m") +
-         " would do.";
+         "; notched or cracked bodies carry too much load; elements of " + atMost(wanted, " m") +
+         " are sufficient.";
 }
 
-/// (m²/kg) (L/2)(1/m₁ + 1/m₂) of an edge, m the least that one triangle can give to a node.
+/// (m²/kg) (L/2)(1/m₁ + 1/m₂) of an edge, where m is the least mass of a node with one triangle
+/// only.
 double lightnessOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const Side side = edges.side(edge, 0);
   double inverse = 0;
@@ -123,8 +126,8 @@ double lightnessOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   return norm(along) / 2 * inverse;
 }
 
-/// Of the edges from `first` on for which `counts` and that hold after they crack, the one with the
-/// least `measure`; none() without.
+/// The edge with the least `measure` out of those from `first` on for which `counts` is true and
+/// that are cohesive after cracking; none() if there is none.
 template <class Counts, class Measure>
 EdgeId leastOf(const Model& model, const CrackEdges& edges, EdgeId first, Counts counts,
                Measure measure) {
@@ -141,7 +144,7 @@ EdgeId leastOf(const Model& model, const CrackEdges& edges, EdgeId first, Counts
   return least;
 }
 
-/// Is an edge inside the body?
+/// True for an edge inside the body.
 auto inside(const Model& model, const CrackEdges& edges, ComponentId component) {
   return [&model, &edges, component](EdgeId edge) {
     return model.triangles.component[edges.element[edge.value][0].value] == component &&
@@ -169,7 +172,7 @@ double crossedBy(const Model& model, const CrackEdges& edges, EdgeId edge, doubl
   return dt * dt * thickness * lightnessOf(model, edges, edge) * edges.strength[edge.value] / 4;
 }
 
-/// Against what a step crosses, the edge whose opening is the smallest.
+/// The edge whose opening is the smallest in relation to its closing in one step.
 template <class Counts>
 EdgeId leastResolved(const Model& model, const CrackEdges& edges, Counts counts, double dt) {
   return leastOf(model, edges, EdgeId(std::size_t{0}), counts, [&](EdgeId edge) {
@@ -184,7 +187,7 @@ double lengthOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
               model.nodes.position[firstNode(model, side).value]);
 }
 
-/// (Pa) Of a crack between two materials: the mean of their compliances counts.
+/// (Pa) For a crack between two materials: the modulus of their mean compliance.
 double youngAt(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const auto [a, b] = edges.element[edge.value];
   const double first = model.materialOf(a).material.young;
@@ -192,7 +195,7 @@ double youngAt(const Model& model, const CrackEdges& edges, EdgeId edge) {
   return first == second ? first : 2 / (1 / first + 1 / second);
 }
 
-/// (m) E·Gc/σc², or κ/β² of it if that is shorter.
+/// (m) E·Gc/σc², or κ/β² times that if it is shorter.
 double zoneOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const double strength = edges.strength[edge.value];
   const auto [a, b] = edges.element[edge.value];

@@ -1,5 +1,5 @@
 #pragma once
-// Brittle materials that cannot be, and fracture energies that a mesh or a step cannot resolve.
+// Checks of brittle materials, and of fracture energies that a mesh or a step cannot resolve.
 
 #include <string>
 
@@ -10,37 +10,37 @@
 
 namespace yadefrag {
 
-/// Throws InputError unless the material can crack and every value can be meant: for the callers
-/// that were asked for a brittle one, since a strength of 0 elsewhere says that there is none.
+/// Throws InputError unless the material can crack and every value is valid. Call it only for
+/// materials that are meant to be brittle: elsewhere a strength of 0 means that the material never
+/// cracks.
 void checkBrittle(const BrittleMaterial& material);
 
-/// Throws InputError if, between two triangles of the component, a step would cross the cohesive
-/// law's whole opening: ¼k·σ/δc < 1 must hold, δc = 2Gc/σ, σ the strength that the strongest edge
-/// is likely to have. k = Δt²(L/2)·thickness·(1/m₁ + 1/m₂) is what 1 Pa takes from the opening at
-/// one end of an edge of length L, whose half it is, and m a third of a triangle's mass: no node
-/// ends up with less. A quarter, since the leapfrog is stable up to ω = 2/Δt: ¼kσ is the smallest
-/// opening at which the law's slope can be resolved. Without a fracture energy there is nothing to
-/// resolve.
+/// Throws InputError if, between two triangles of the component, one step would close the whole
+/// opening of the cohesive law. Required: ¼k·σ/δc < 1, with δc = 2Gc/σ and σ the probable strength
+/// of the strongest edge. k = Δt²(L/2)·thickness·(1/m₁ + 1/m₂) is the closing by 1 Pa at one end of
+/// an edge of length L, which has half of the edge; m is a third of a triangle's mass, the least
+/// mass that a node can have. The factor ¼ is due to the leapfrog, which is stable up to ω = 2/Δt:
+/// ¼kσ is the smallest opening at which the slope of the law is resolved. Without a fracture energy
+/// there is no condition.
 void checkCohesiveResolution(const Model& model, ComponentId component, double dt);
 
-/// The same; of a body whose strength or fracture energy differ by place, edge by edge with the
-/// values that `edges` has.
+/// The same; for a body whose strength or fracture energy varies by place, edge by edge with the
+/// values in `edges`.
 void checkCohesiveResolution(const Model& model, const CrackEdges& edges, ComponentId component,
                              double dt);
 
 /// The same for bonds between bodies.
 void checkBondResolution(const Model& model, const CrackEdges& edges, double dt);
 
-/// A sentence where the zone in which a crack's faces still hold is shorter than four elements, so
-/// that bodies with a notch or a crack bear too much; else empty. Its length is E·Gc/σc²
-/// (Hillerborg, Modéer and Petersson 1976, Cem. Concr. Res. 6, 773), and that of a crack that
-/// slides E·κGc/(βσc)²: the shorter one counts. An element's length is the mean of the component's
-/// edges.
+/// A message if the cohesive zone is shorter than four elements, so that bodies with a notch or a
+/// crack carry too much load; otherwise empty. The length of the zone is E·Gc/σc² (Hillerborg,
+/// Modéer and Petersson 1976, Cem. Concr. Res. 6, 773), and that of a sliding crack E·κGc/(βσc)²:
+/// the shorter one is used. An element's length is the mean of the component's edges.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, ComponentId component);
-/// The same, of a body whose strength or fracture energy differ by place for its shortest zone.
+/// The same for the shortest zone of a body whose strength or fracture energy varies by place.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,
                                               ComponentId component);
-/// The same of the bonds from edge `first` on.
+/// The same for the bonds from edge `first` on.
 [[nodiscard]] std::string bondZoneWarning(const Model& model, const CrackEdges& edges,
                                           EdgeId first);
 

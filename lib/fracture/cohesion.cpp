@@ -10,7 +10,7 @@
 namespace yadefrag {
 namespace {
 
-/// The nodes at one end of an edge: those of its first and second triangle.
+/// The nodes at one end of an edge: those of its first and of its second triangle.
 std::array<NodeId, 2> nodesAt(const Model& model, const CrackEdges& edges, EdgeId edge, int end) {
   const Side first = edges.side(edge, 0), second = edges.side(edge, 1);
   if (end == 0) return {firstNode(model, first), lastNode(model, second)};
@@ -31,9 +31,9 @@ CohesiveHold holdOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
 
 Vec2 times(Vec2 a, Vec2 b) { return {a.x * b.x, a.y * b.y}; }
 
-/// (m/Pa) Across the edge and along it, where `compliance` is given by axis. Nodes that are held in
-/// one direction couple the two. The larger value for both leaves what sweeps put right; it is 0
-/// where nothing can move.
+/// (m/Pa) Compliance across the edge and along it, from the `compliance` by axis. Nodes that are
+/// held in one direction couple the two; the larger value is then used for both, and the sweeps
+/// correct the difference. 0 if no node can move.
 AcrossAlong byDirection(Vec2 compliance, Vec2 normal) {
   const double most = std::max(compliance.x, compliance.y);
   const double x = normal.x * normal.x, y = normal.y * normal.y;
@@ -83,7 +83,7 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
     const double critical = criticalOpening(edges, edge[c]);
     const Vec2 first = before[d.value] - before[a.value];
     const Vec2 second = before[e.value] - before[b.value];
-    // Faces at a right angle hang together by an end at most, and soon have no common normal.
+    // Faces at a right angle are connected at one end at most, and will soon have no common normal.
     if (dot(first, second) <= 0) {
       turned_.push_back(c);
       continue;
@@ -92,7 +92,8 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
     const Vec2 normal = (1 / norm(across)) * across;
     for (std::uint32_t end = 0; end < 2; ++end) {
       const NodeId here = end == 0 ? a : d, there = end == 0 ? b : e;
-      // What is broken touches like any other surface, whatever way it has turned since.
+      // An end that transmits no traction has contact like any other surface, at any later
+      // rotation.
       const double opening = counted(c, end, critical);
       if (here == there || opening >= critical) continue;
       Point& point = points_.emplace_back();
@@ -116,7 +117,8 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
   }
 }
 
-/// Points that share a node, and those that share one with them: the parts of one node that split.
+/// Groups of points that share nodes, directly or through other points: the parts of one node that
+/// split.
 void Cohesion::findGroups(std::size_t nodes) {
   firstAt_.resize(nodes);
   const auto count = static_cast<std::uint32_t>(points_.size());
@@ -137,7 +139,7 @@ void Cohesion::apply(std::vector<Vec2>& position, const Point& point, Vec2 chang
   position[point.there.value] -= times(point.rateThere, change);
 }
 
-/// Sets one point's traction right, the others being what they are.
+/// Solves for the tractions of one point, with those of the others fixed.
 void Cohesion::relax(std::vector<Vec2>& position, Point& point) {
   const Vec2 tangent = -rightOf(point.normal);
   const Vec2 apart = position[point.there.value] - position[point.here.value];
@@ -153,13 +155,13 @@ void Cohesion::relax(std::vector<Vec2>& position, Point& point) {
   apply(position, point, point.change);
 }
 
-/// Sweeps over points that share nodes, from the tractions of the last step. Returns the change in
-/// the last sweep, of the strength.
+/// Sweeps over points that share nodes, starting from the tractions of the last step. Returns the
+/// largest change in the last sweep, divided by the strength.
 double Cohesion::solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group) {
   for (const std::uint32_t i : group) points_[i].change = {};
   double worst = 0;
   for (int sweep = 1; sweep <= tolerance::kCohesionSweeps; ++sweep) {
-    double now = 0, before = 0, common = 0;  // Pa², of the changes
+    double now = 0, before = 0, common = 0;  // Pa², sums over the changes
     worst = 0;
     for (const std::uint32_t i : group) {
       Point& point = points_[i];
@@ -170,7 +172,7 @@ double Cohesion::solve(std::vector<Vec2>& position, std::span<const std::uint32_
       worst = std::max(worst, dot(point.change, point.change) / (point.strength * point.strength));
     }
     worst = std::sqrt(worst);
-    if (group.size() == 1 && points_[group[0]].isEven) return 0;  // right at once
+    if (group.size() == 1 && points_[group[0]].isEven) return 0;  // exact after one solution
     if (worst <= tolerance::kCohesionChange) break;
     const bool isSeries =
         common > 0 && common < before && common * common >= tolerance::kSameChange * now * before;
@@ -215,8 +217,8 @@ void Cohesion::addForces(std::vector<Vec2>& forces) const {
   }
 }
 
-void Cohesion::book(EnergyLedger& ledger, const Model& model,
-                    std::span<const Vec2> previousVelocity, const StepLength& step) const {
+void Cohesion::addWork(EnergyLedger& ledger, const Model& model,
+                       std::span<const Vec2> previousVelocity, const StepLength& step) const {
   const auto mean = [&](NodeId node) {
     return .5 * (previousVelocity[node.value] + model.nodes.velocity[node.value]);
   };
@@ -230,8 +232,8 @@ void Cohesion::book(EnergyLedger& ledger, const Model& model,
   }
 }
 
-/// Broken ends of edges that hold at the other one: they pull no more, but how far they open
-/// counts.
+/// Broken ends of edges that are cohesive at the other end: they transmit no traction, but their
+/// opening is needed.
 void Cohesion::widenBroken(const Model& model, const CrackEdges& edges) {
   for (std::size_t c = 0; c < edge.size(); ++c) {
     const double critical = criticalOpening(edges, edge[c]);
@@ -259,7 +261,7 @@ void Cohesion::settle(const Model& model, const CrackEdges& edges) {
   widenBroken(model, edges);
   const auto critical = [&](std::size_t c) { return criticalOpening(edges, edge[c]); };
   for (const std::uint32_t c : turned_) largest[c] = {critical(c), critical(c)};
-  turned_.clear();  // without a crack left, the next step collects nothing
+  turned_.clear();  // without a crack the next step collects nothing
   released.clear();
   keepOnly([&](std::size_t c) {
     const bool holds =

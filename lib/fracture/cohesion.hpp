@@ -1,18 +1,20 @@
 #pragma once
-// What still holds the two faces of a crack that has not opened wide (extrinsic linear cohesive
-// law, Camacho and Ortiz 1996).
+// Tractions between the faces of cracks that have not opened wide (extrinsic linear cohesive law,
+// Camacho and Ortiz 1996).
 //
-// A crack that opens further is pulled back by what the law gives for the opening at the step's
-// begin: the leapfrog then sums the work by the trapezoid rule, which is exact below a straight
-// line. Taken at the step's end, the law would spend 2Δδ/δc too little, Δδ the opening in a step.
-// But no crack is pulled below the unloading line: so one that has hardly opened, whose line is
-// stiffer than any step resolves, is held like a contact by whatever keeps it as it is, up to what
-// the law allows.
+// A crack that opens further has the traction of the law for the opening at the begin of the step:
+// the leapfrog then sums the work by the trapezoid rule, which is exact for a straight line. With
+// the opening at the end of the step, the dissipated energy would be lower by the part 2Δδ/δc,
+// where Δδ is the opening in a step. Unloading limits this traction: the opening must not fall
+// below the unloading line. A crack that has hardly opened has an unloading line too stiff for any
+// step; it is then treated as a contact, by the traction that keeps its opening, up to the limit of
+// the law.
 //
-// As long as one end of a crack holds, its faces are opposite each other, node to node, and are
-// kept apart here, too: pulled together here and pushed apart by contact in turn, corner on corner,
-// they would slide past each other, and contact would push out what it has not kept out. Pressed
-// together they rub, too: the traction along the face goes on from βσc + μp, at which it opened.
+// As long as one end of a crack is cohesive, its faces are opposite each other, node to node, and
+// their overlap is prevented here, too. If the law pulled the nodes together and contact pushed
+// them apart in turn, corner on corner, they would slide past each other, and contact would remove
+// an overlap that it did not prevent. Faces that are pressed together also have friction: the
+// traction along the face continues from βσc + μp, at which the crack opened.
 
 #include <array>
 #include <span>
@@ -30,62 +32,63 @@ namespace yadefrag {
 
 class Cohesion {
  public:
-  /// From now on the crack holds together as the law says. `reference`: m, stress-free, by node.
+  /// Makes a crack cohesive. `reference`: m, stress-free, by node.
   void add(const Model& model, const CrackEdges& edges, EdgeId edge,
            std::span<const Vec2> reference);
-  /// Edges are known by new numbers, none() if they are gone.
+  /// Changes edge numbers; none(): the edge was removed.
   void renumberEdges(std::span<const EdgeId> renumbered);
 
-  /// From the predicted x* and v* without cohesion to those with it; `before`: m, xⁿ, for the
-  /// normals. Returns the largest correction of a position (m). What the cracks know of their
-  /// openings changes in `settle` alone.
+  /// Corrects the predicted x* and v* by the cohesive tractions; `before`: m, xⁿ, for the normals.
+  /// Returns the largest correction of a position (m). The stored openings of the cracks change
+  /// only in `settle`.
   double correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                  const StepLength& step, double drag);
 
-  /// Largest change of a traction, of its strength, in the last sweep of the last step.
+  /// Largest change of a traction, divided by the strength, in the last sweep of the last step.
   [[nodiscard]] double residual() const { return residual_; }
 
-  /// Adds what the tractions of the step took, with its mean velocity: of the law to `fracture`, of
-  /// what keeps the faces apart to `contact`, of friction to `friction`.
-  void book(EnergyLedger& ledger, const Model& model, std::span<const Vec2> previousVelocity,
-            const StepLength& step) const;
-  /// At the end of the step, when contact has closed what it closes: cracks learn how far they have
-  /// opened, and those that hold nothing any more are forgotten, and listed in `released`.
+  /// Adds the work of the step's tractions, with the mean velocity: that of the law to `fracture`,
+  /// that of the traction against overlap to `contact`, that of friction to `friction`.
+  void addWork(EnergyLedger& ledger, const Model& model, std::span<const Vec2> previousVelocity,
+               const StepLength& step) const;
+  /// Call it at the end of the step, after contact. Stores the cracks' largest openings, and
+  /// removes cracks that no longer transmit traction; these are listed in `released`.
   void settle(const Model& model, const CrackEdges& edges);
 
-  /// (N) Adds the tractions of the present step, by node.
+  /// (N) Adds the forces of the present step's tractions, by node.
   void addForces(std::vector<Vec2>& forces) const;
 
-  /// Cracks inside dropped triangles hold nothing any more either.
+  /// Removes cracks between removed triangles.
   void removeDropped(const Triangles& triangles, const CrackEdges& edges);
 
-  std::vector<EdgeId> released;  ///< in the last step
+  std::vector<EdgeId> released;  ///< cracks that were removed in the last step
   void addTo(Footprint& footprint) const {
     footprint.add(Use::kCohesion, edge, largest, traction, area, points_, firstAt_, groupOf_,
                   groups_.values, groups_.offsets, turned_, released);
     sets_.addTo(footprint, Use::kCohesion);
   }
 
-  // By crack that holds; both ends of an edge have an opening of their own (see countedOpening).
+  // By cohesive crack; each end of an edge has its own opening (see countedOpening).
   std::vector<EdgeId> edge;
   std::vector<std::array<double, 2>> largest;  ///< m, δmax
-  /// Pa, in the last step, across the crack and along it: where the next one begins. Cracks side by
-  /// side share a load in many ways that move the nodes alike, and sweeps are slow to choose.
+  /// Pa, in the last step, across the crack and along it: the start values of the next step. The
+  /// load of cracks side by side can be divided between them in many ways with the same motion of
+  /// the nodes; without start values the sweeps would converge slowly.
   std::vector<std::array<Vec2, 2>> traction;
-  std::vector<double> area;  ///< m², half the face's
+  std::vector<double> area;  ///< m², half of the face's area
 
  private:
   struct Point {
-    NodeId here, there;        // of the edge's first and second triangle
-    Vec2 normal;               // out of the first
+    NodeId here, there;        // node of the edge's first and second triangle
+    Vec2 normal;               // unit, outward from the first triangle
     Vec2 rateHere, rateThere;  // m/Pa, by axis
     double area, strength, critical;
     CohesiveHold hold;
-    double slid;  // m, at the step's begin
+    double slid;  // m, slip at the begin of the step
     FaceTractions tractions{};
-    Vec2 traction{};  // Pa, all of them, on `here`
+    Vec2 traction{};  // Pa, sum of the tractions on `here`
     Vec2 change{};    // Pa, in the last sweep
-    bool isEven;      // as compliant in all directions
+    bool isEven;      // equal compliance in all directions
     std::uint32_t crack, end;
   };
 
@@ -104,11 +107,11 @@ class Cohesion {
 
   std::vector<Point> points_;
   std::vector<std::uint32_t> firstAt_;  // by node of a point: the first point there
-  DisjointSets sets_;                   // of points
+  DisjointSets sets_;                   // sets of points
   std::vector<std::uint32_t> groupOf_;  // by point
-  Csr<std::uint32_t> groups_;           // of points that share nodes
+  Csr<std::uint32_t> groups_;           // groups of points that share nodes
   double residual_ = 0;
-  std::vector<std::uint32_t> turned_;  // cracks whose faces are at a right angle, or more
+  std::vector<std::uint32_t> turned_;  // cracks whose faces enclose a right angle or more
 };
 
 }  // namespace yadefrag

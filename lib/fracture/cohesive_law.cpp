@@ -8,11 +8,11 @@
 namespace yadefrag {
 namespace {
 
-/// (m) D of the law's tractions T(δmax)·(oₙ, (β²/κ)oₛ)/D at the step's end: δmax on the unloading
-/// line, δ(o) where the opening grows. With o = o* − C·T,
+/// (m) The common denominator D of the tractions T(δmax)·(oₙ, (β²/κ)oₛ)/D at the end of the step:
+/// D = δmax on the unloading line, D = δ(o) where the opening grows. With o = o* − C·T,
 ///   Tₙ = T(δmax) oₙ*/(D + Cₙ T(δmax)),  Tₛ = T(δmax) (β²/κ)oₛ*/(D + Cₛ (β²/κ)T(δmax)),
-/// and δ(o) = D is an equation of one unknown, |f(D)| = 1. 1/|f| is nearly a line: one Newton step
-/// where both directions are alike, else a few.
+/// the condition δ(o) = D is an equation with one unknown, |f(D)| = 1. 1/|f| is nearly linear: one
+/// Newton step is exact if both directions have the same coefficients; otherwise a few are needed.
 double denominator(const CohesiveHold& hold, AcrossAlong trial) {
   const double beta = hold.shearFactor, weight = hold.shearRatio / beta;  // β/κ
   const double normal = std::max(0., trial.normal), shear = weight * trial.shear;
@@ -25,7 +25,7 @@ double denominator(const CohesiveHold& hold, AcrossAlong trial) {
     const double a = normal > 0 ? normal / below : 0, b = shear != 0 ? shear / aside : 0;
     const double squared = a * a + b * b;
     if (squared <= 1) return d;
-    // Newton on 1/√squared − 1 = 0.
+    // Newton's method for 1/√squared − 1 = 0.
     const double fall = (a > 0 ? a * a / below : 0) + (b != 0 ? b * b / aside : 0);
     const double change = (std::sqrt(squared) - 1) * squared / fall;
     d += change;
@@ -34,7 +34,7 @@ double denominator(const CohesiveHold& hold, AcrossAlong trial) {
   return d;
 }
 
-/// Without friction, of faces that are not pressed together.
+/// Tractions without friction, for faces that are not pressed together.
 FaceTractions cohesive(const CohesiveHold& hold, AcrossAlong trial) {
   if (hold.most <= 0) return {};
   const double d = denominator(hold, trial);
@@ -46,8 +46,8 @@ FaceTractions cohesive(const CohesiveHold& hold, AcrossAlong trial) {
           along(trial.shear, hold.shearRatio, hold.compliance.shear), 0};
 }
 
-/// (Pa) The law's shear at the slip at the step's begin, of shut faces; `all`: Pa, what keeps them
-/// there. An edge that has not opened takes what it can.
+/// (Pa) Shear of the law at the slip at the begin of the step, for closed faces. `all`: Pa, the
+/// shear that would keep this slip. An edge that has not opened takes as much of it as possible.
 double shearAt(const CohesiveHold& hold, double slid, double all) {
   const double most = hold.shearFactor * hold.most;
   if (hold.largest <= 0) return std::clamp(all, -most, most);
@@ -57,7 +57,7 @@ double shearAt(const CohesiveHold& hold, double slid, double all) {
 }  // namespace
 
 double envelope(double strength, double criticalOpening, double opening) {
-  if (opening >= criticalOpening) return 0;  // with δc = 0, too
+  if (opening >= criticalOpening) return 0;  // also with δc = 0
   return strength * (criticalOpening - opening) / criticalOpening;
 }
 
@@ -92,7 +92,7 @@ FaceTractions faceTractions(const CohesiveHold& hold, AcrossAlong trial, double 
   if (bound <= 0 || compliance <= 0) {
     result = cohesive(hold, {0, trial.shear});
   } else {
-    // Law and friction both grow with the slip: there is one where they agree with the motion.
+    // Law and friction both increase with the slip: exactly one slip satisfies both and the motion.
     const double all = (trial.shear - slid) / compliance;
     const double stuck = shearAt(hold, slid, all);
     if (std::abs(all - stuck) <= bound) {

@@ -36,8 +36,7 @@ Joints byNodes(const std::vector<JointEdge>& joints, NodeId first) {
   return result;
 }
 
-/// The material as it is where an edge between these two triangles is; that of a triangle which
-/// never cracks does not count.
+/// The material at the edge between two triangles; a triangle that never cracks is ignored.
 BrittleMaterial materialAt(const Model& model, const BrittlePlaces& places, ElementId a,
                            ElementId b) {
   BrittleMaterial material = weakerOf(model, a, b).brittle;
@@ -94,13 +93,13 @@ std::vector<EdgeId> CrackEdges::addBody(const Model& model, ComponentId componen
     }
   const Joints joints = byNodes(places.joints, firstOfBody);
   std::vector<EdgeId> open;
-  // Two bodies of one material do not crack alike.
+  // Two bodies of the same material get different random numbers.
   std::uint64_t number = std::uint64_t{component.value} << 32;
   for (const auto& [a, b] : innerEdges(model, body)) {
     ofElement[a.element.value][a.corner] = ofElement[b.element.value][b.corner] = EdgeId(size());
     element.push_back({a.element, b.element});
     corner.push_back({a.corner, b.corner});
-    // Of each triangle a third belongs to each of its sides.
+    // A third of each triangle belongs to each of its sides.
     const double area =
         model.triangles.area[a.element.value] + model.triangles.area[b.element.value];
     const BrittleMaterial material = materialAt(model, places, a.element, b.element);

@@ -1,9 +1,8 @@
 #pragma once
-// The edges along which brittle bodies may crack, and how their triangles hang together across
-// them.
+// The edges along which brittle bodies may crack, and the connection of triangles across them.
 //
-//   An edge that has cracked separates its two triangles. The triangles around a node that hang
-//   together across edges which have not are its fan: a ring, or a row between two faces.
+//   An edge that has cracked separates its two triangles. The triangles around a node that are
+//   connected across edges without a crack are its fan: a ring, or a row between two faces.
 
 #include <array>
 #include <cstdint>
@@ -22,7 +21,7 @@ struct Side {
   friend auto operator<=>(const Side&, const Side&) = default;
 };
 
-/// Corner `corner` of a triangle, counted around.
+/// The next corner of a triangle, counter-clockwise.
 inline constexpr std::uint8_t afterCorner(int corner) {
   return static_cast<std::uint8_t>(corner == 2 ? 0 : corner + 1);
 }
@@ -30,7 +29,7 @@ inline constexpr std::uint8_t beforeCorner(int corner) {
   return static_cast<std::uint8_t>(corner == 0 ? 2 : corner - 1);
 }
 
-/// A side with its two nodes, the lower one first: two triangles side by side have equal ones.
+/// A side with its two nodes, the lower one first: sides of two adjacent triangles are equal.
 struct KeyedSide {
   NodeId low, high;
   Side side;
@@ -38,38 +37,39 @@ struct KeyedSide {
   [[nodiscard]] bool joins(const KeyedSide& o) const { return low == o.low && high == o.high; }
 };
 
-/// All sides of a body's triangles, ascending; dropped triangles have none.
+/// All sides of a body's triangles, ascending; without removed triangles.
 [[nodiscard]] std::vector<KeyedSide> sidesByNodes(const Model& model, const Component& body);
 
 struct CrackEdges {
   // By edge.
-  std::vector<std::array<ElementId, 2>> element;    ///< the lower one first
-  std::vector<std::array<std::uint8_t, 2>> corner;  ///< of each: where the edge begins in it
-  std::vector<double> strength;                     ///< Pa
-  std::vector<double> fractureEnergy;               ///< J/m²; 0: a crack opens at once
+  std::vector<std::array<ElementId, 2>> element;  ///< both triangles, the lower one first
+  /// Of each triangle: the corner at which the edge begins.
+  std::vector<std::array<std::uint8_t, 2>> corner;
+  std::vector<double> strength;        ///< Pa
+  std::vector<double> fractureEnergy;  ///< J/m²; 0: a crack opens at once
   std::vector<std::uint8_t> cracked;
 
   // By triangle and node of the whole model; none() for bodies that do not crack.
   std::vector<std::array<EdgeId, 3>> ofElement;  ///< by corner; none() on the boundary, too
-  std::vector<ElementId> ofNode;                 ///< one of its fan
+  std::vector<ElementId> ofNode;                 ///< one triangle of its fan
 
   [[nodiscard]] std::size_t size() const { return element.size(); }
 
-  /// Adds the inner edges of a body that has just joined the model, in the order of its triangles.
-  /// Of the values that its two triangles have, by material or in `places`, an edge has the
-  /// smaller; it never cracks where both do not. The strength's scatter is about that value; joints
-  /// have none. Returns the edges of joints without strength.
+  /// Adds the inner edges of a body that was just added to the model, in the order of its
+  /// triangles. An edge has the smaller of the values of its two triangles, by material or in
+  /// `places`; it never cracks if neither triangle does. The scatter of strengths is about that
+  /// value; joints have none. Returns the edges of joints without strength.
   std::vector<EdgeId> addBody(const Model& model, ComponentId component,
                               const BrittlePlaces& places = {});
-  /// Adds edges between two bodies, that are cracked already.
+  /// Adds edges between two bodies, which are cracked from the start.
   void addBonds(const Model& model, std::span<const std::array<Side, 2>> sides, double ofStrength,
                 double ofEnergy);
   [[nodiscard]] bool isBond(const Model& model, EdgeId edge) const {
     const auto& [a, b] = element[edge.value];
     return model.triangles.component[a.value] != model.triangles.component[b.value];
   }
-  /// After a body has left the model: what is left is known by new numbers. Returns those of the
-  /// edges, none() for edges that are gone.
+  /// Must be called after a body was removed from the model: changes all numbers. Returns the new
+  /// numbers of the edges, none() for removed ones.
   std::vector<EdgeId> removeBody(const Model& model, ElementId first, ElementId last,
                                  std::span<const NodeId> renumberedNodes);
 
@@ -77,19 +77,19 @@ struct CrackEdges {
     const auto w = static_cast<std::size_t>(which);
     return {element[edge.value][w], corner[edge.value][w]};
   }
-  /// The same edge from the other triangle; none() on the boundary.
+  /// The same edge as a side of the other triangle; none() on the boundary.
   [[nodiscard]] Side twin(Side side) const;
-  /// The triangle across a side, none() where there is a face or a crack.
+  /// The triangle across a side; none() at a face or a crack.
   [[nodiscard]] ElementId across(Side side) const;
 
-  /// Appends a node's fan, counter-clockwise; true if it is a ring.
+  /// Appends a node's fan, counter-clockwise; returns true if it is a ring.
   bool appendFan(const Model& model, NodeId node, std::vector<ElementId>& fan) const;
 };
 
 /// The corner of a triangle at which a node is.
 int cornerOf(const Model& model, ElementId element, NodeId node);
 
-/// The node at which a side begins, and that at which it ends.
+/// The node at which a side begins, and the node at which it ends.
 inline NodeId firstNode(const Model& model, Side side) {
   return model.triangles.nodes[side.element.value][side.corner];
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How an edge cracks whose two triangles may differ in material: as the weaker of the two.
+// Material of an edge between two triangles of different materials: that of the weaker one.
 
 #include <algorithm>
 
@@ -7,8 +7,8 @@
 
 namespace yadefrag {
 
-/// The material with the smaller tensile strength, of equal ones that of `a`; one that never cracks
-/// only if the other does not either.
+/// The material with the smaller tensile strength; that of `a` if they are equal. A material that
+/// never cracks is returned only if both never crack.
 [[nodiscard]] inline const BodyMaterial& weakerOf(const Model& model, ElementId a, ElementId b) {
   const BodyMaterial& first = model.materialOf(a);
   const BodyMaterial& second = model.materialOf(b);
@@ -17,9 +17,9 @@ namespace yadefrag {
   return second.brittle.tensileStrength < first.brittle.tensileStrength ? second : first;
 }
 
-/// What cracks and rubs between two triangles.
+/// Fracture and friction between two triangles.
 struct EdgeMaterial {
-  const BrittleMaterial& brittle;  ///< of the weaker one
+  const BrittleMaterial& brittle;  ///< of the weaker material
   double friction;                 ///< tan of the friction angle: the smaller one, as in contact
 };
 

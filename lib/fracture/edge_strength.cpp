@@ -9,18 +9,18 @@
 namespace yadefrag {
 namespace {
 
-/// The scatters are drawn apart, so that both may be set.
+/// The two scatters have independent random numbers, so that both may be used together.
 enum Stream : std::uint64_t { kWeibull = 1, kEven = 2 };
 
-/// Even in (0, 1), never an end: number `edge` of SplitMix64's sequence, reached by one jump.
+/// Uniform in the open interval (0, 1): number `edge` of SplitMix64's sequence, computed directly.
 double uniform(std::uint64_t seed, Stream stream, std::uint64_t edge) {
-  // Neighbouring seeds would else share their sequences, shifted by one edge.
+  // Otherwise consecutive seeds would share their sequences, shifted by one edge.
   const std::uint64_t start = mixBits(mixBits(seed + kRandomStride) + stream * kRandomStride);
   const std::uint64_t bits = mixBits(start + (edge + 1) * kRandomStride);
   return (static_cast<double>(bits >> 12) + .5) * 0x1p-52;  // 53 bits: exact
 }
 
-/// (Pa) 63 % of the edges of this volume (m³) are weaker.
+/// (Pa) Scale of the Weibull distribution: 63 % of the edges of this volume (m³) are weaker.
 double scaleOf(const BrittleMaterial& material, double volume) {
   if (material.weibullModulus <= 0 || material.referenceVolume <= 0)
     return material.tensileStrength;
@@ -28,7 +28,7 @@ double scaleOf(const BrittleMaterial& material, double volume) {
          std::pow(material.referenceVolume / volume, 1 / material.weibullModulus);
 }
 
-/// The power of a small modulus may leave the range of numbers.
+/// Limits the power of a small modulus to the range of finite numbers.
 double inRange(double strength) {
   return std::clamp(strength, std::numeric_limits<double>::min(),
                     std::numeric_limits<double>::max());
@@ -48,7 +48,7 @@ double edgeStrength(const BrittleMaterial& material, std::uint64_t edge, double 
 
 double likelyLargestStrength(const BrittleMaterial& material, std::size_t edges, double volume) {
   double strength = scaleOf(material, volume) * (1 + material.strengthScatter);
-  if (material.weibullModulus > 0)  // of one or two edges: no less than the scale
+  if (material.weibullModulus > 0)  // with one or two edges: at least the scale
     strength *=
         std::pow(std::max(1., std::log(static_cast<double>(edges))), 1 / material.weibullModulus);
   return inRange(strength);

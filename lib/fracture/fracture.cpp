@@ -28,7 +28,7 @@ void Fracture::bond(const Model& model, std::span<const std::array<Side, 2>> sid
 
 void Fracture::removeBody(const Model& model, ElementId first, ElementId last,
                           std::span<const NodeId> renumberedNodes) {
-  // A brittle body of a single triangle has no edges, and is known by its nodes nevertheless.
+  // A brittle body of a single triangle has no edges, but its nodes must be registered.
   if (edges.ofNode.empty()) return;
   const std::vector<EdgeId> renumbered = edges.removeBody(model, first, last, renumberedNodes);
   cohesion.renumberEdges(renumbered);
@@ -75,7 +75,7 @@ double Fracture::splitEnergy(const Model& model, std::span<const NodeId> origina
     return sum;
   };
   double gained = 0;
-  // All parts of a node come one after the other.
+  // All parts of a node are consecutive.
   for (std::size_t i = 0; i < originals.size();) {
     const NodeId node = originals[i];
     const Component& body = model.components[model.nodes.component[node.value].value];

@@ -1,5 +1,5 @@
 #pragma once
-// Everything about cracks: which edges may crack, which have, what still holds them together.
+// Cracks: the edges that may crack, those that have cracked, and their cohesion.
 
 #include <span>
 #include <vector>
@@ -14,37 +14,37 @@ namespace yadefrag {
 
 class Fracture {
  public:
-  /// A body has joined the model; nothing happens unless it can crack. Returns edges that are to be
-  /// opened now: those of joints without strength.
+  /// Must be called after a body was added to the model; does nothing unless it can crack. Returns
+  /// the edges to be opened now: those of joints without strength.
   std::vector<EdgeId> addBody(const Model& model, ComponentId component,
                               const BrittlePlaces& places = {});
-  /// Opens edges that nothing has held so far, and splits nodes; they count as no cracks.
+  /// Opens edges without strength, and splits nodes; these do not count as cracks.
   void open(Model& model, const ContactSurfaces& surfaces, std::span<const EdgeId> joints,
             SplitResult& result);
-  /// Two bodies hang together along these sides, as cracks that hold.
+  /// Bonds two bodies along these sides by cohesive cracks.
   void bond(const Model& model, std::span<const std::array<Side, 2>> sides, double strength,
             double energy, std::span<const Vec2> reference);
-  /// A body has left it: its triangles were [first, last).
+  /// Must be called after a body was removed; its triangles were [first, last).
   void removeBody(const Model& model, ElementId first, ElementId last,
                   std::span<const NodeId> renumberedNodes);
 
-  /// Is there anything that may crack.
+  /// True if any edge may crack.
   [[nodiscard]] bool isOn() const { return edges.size() != 0; }
 
-  /// Room for what cracks may add, so that the first of them do not wait for it.
+  /// Reserves memory for cracks, so that the first ones need no allocation.
   void prepare(Model& model);
-  /// Cracks what has reached its strength at the present positions, and splits nodes. True if
-  /// `result` has anything in it that others must follow.
+  /// Cracks all edges that have reached their strength at the present positions, and splits nodes.
+  /// Returns true if `result` contains changes that other arrays must follow.
   bool crack(Model& model, const ContactSurfaces& surfaces, std::span<const ElementRange> where,
              SplitResult& result);
-  /// Notes that the cracks of the last call began at `time` (s).
+  /// Stores `time` (s) as the start of the cracks of the last call.
   void noteStart(double time);
-  /// (J) What bodies with smoothed strains gain when nodes split, at the half step: the parts of a
-  /// node no longer share a mean strain. `originals` as in SplitResult.
+  /// (J) Energy that bodies with smoothed strains gain when nodes split, at the half step: the
+  /// parts of a node no longer have a common mean strain. `originals` as in SplitResult.
   [[nodiscard]] double splitEnergy(const Model& model, std::span<const NodeId> originals,
                                    double dt) const;
-  /// To be called after the reference positions of new nodes are there: cracks that were made hold
-  /// as their law says.
+  /// Must be called after the reference positions of new nodes were set: makes the new cracks
+  /// cohesive by their law.
   void cohere(const Model& model, std::span<const Vec2> reference);
 
   [[nodiscard]] std::uint64_t numCracks() const { return numCracks_; }
@@ -52,16 +52,16 @@ class Fracture {
 
   void addTo(Footprint& footprint) const;
 
-  /// No more edges crack than this, all in all.
+  /// Maximum total number of cracked edges.
   std::uint64_t maxCracks = ~std::uint64_t{0};
-  /// (m²) Fragments that come loose and are smaller are taken out; 0: none.
+  /// (m²) Detached fragments with a smaller area are removed; 0: none.
   double minFragmentArea = 0;
 
   CrackEdges edges;
-  /// (s) By edge, when its crack began; -1: it did not, or was there from the start. Later edges
-  /// than the last one noted have no value.
+  /// (s) By edge, start time of its crack; -1: not cracked, or cracked from the start. Edges after
+  /// the last stored one have no value.
   std::vector<double> started;
-  std::vector<double> leastStrength;  ///< Pa, by component; follows from the edges
+  std::vector<double> leastStrength;  ///< Pa, by component; derived from the edges
   Cohesion cohesion;
 
  private:

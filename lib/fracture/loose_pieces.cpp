@@ -14,9 +14,9 @@ void LoosePieces::find(const Model& model, const CrackEdges& edges, const Cohesi
   firstWalk_ = walk_ + 1;
   for (const ElementId start : around) {
     if (met_[start.value] >= firstWalk_ || model.triangles.isDropped(start.value)) continue;
-    if (!model.bodyOf(start).brittle.cracks()) continue;  // only bonded
+    if (!model.bodyOf(start).brittle.cracks()) continue;  // only bonded, not brittle
     if (!grow(model, edges, start, area)) continue;
-    // In one order, wherever the walk began: the area's last bit may decide.
+    // In one order for any start of the walk: the last bit of the area may be decisive.
     std::sort(piece_.begin(), piece_.end());
     if (!isLoose(model, edges, area)) continue;
     triangles.insert(triangles.end(), piece_.begin(), piece_.end());
@@ -25,8 +25,8 @@ void LoosePieces::find(const Model& model, const CrackEdges& edges, const Cohesi
   for (const EdgeId edge : cohesion.edge) holds_[edge.value] = 0;
 }
 
-/// Walks over what hangs together with `start`; false if it is too large, or was so found by an
-/// earlier walk, which a small piece would have walked as a whole.
+/// Walks over the triangles connected with `start`. Returns false if the piece is too large, or if
+/// an earlier walk met it, which would have visited a small piece completely.
 bool LoosePieces::grow(const Model& model, const CrackEdges& edges, ElementId start, double area) {
   ++walk_;
   piece_.assign(1, start);

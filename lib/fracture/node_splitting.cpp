@@ -11,7 +11,7 @@ void sortUnique(std::vector<T>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-/// Is there a face: a side without a twin, or one that parted from it at an end at least.
+/// True if a side is a face: it has no twin, or is separated from it at one end at least.
 bool isVisible(const Model& model, const CrackEdges& edges, Side side) {
   if (edges.across(side) != ElementId::none()) return false;
   const Side twin = edges.twin(side);
@@ -19,7 +19,7 @@ bool isVisible(const Model& model, const CrackEdges& edges, Side side) {
          lastNode(model, side) != firstNode(model, twin);
 }
 
-/// One node before its edges crack.
+/// The fan of a node before its edges crack.
 struct Fan {
   NodeId node;
   std::uint32_t begin, end;  // in the list of triangles
@@ -31,7 +31,7 @@ class Splitting {
   Splitting(Model& model, CrackEdges& edges, SplitResult& result)
       : model_(model), edges_(edges), result_(result) {}
 
-  /// The fans around the ends of the cracks, as they still hang together.
+  /// The fans around the ends of the cracks, before the separation.
   void collectFans(std::span<const EdgeId> cracks) {
     std::vector<NodeId> ends;
     for (const EdgeId edge : cracks) {
@@ -47,7 +47,7 @@ class Splitting {
     }
   }
 
-  /// The sides around those nodes, with the segments that they are so far.
+  /// The sides around those nodes, with their present segments.
   void collectSides(const ContactSurfaces& surfaces) {
     for (const Fan& fan : fans_)
       for (std::uint32_t i = fan.begin; i < fan.end; ++i) {
@@ -65,7 +65,7 @@ class Splitting {
   void split(const Fan& fan) {
     std::span<ElementId> row(triangles_.data() + fan.begin, fan.end - fan.begin);
     if (fan.ring) turnToCrack(fan.node, row);
-    // Parts end where the next triangle is no longer across.
+    // A part ends where the next triangle is no longer across.
     std::vector<std::span<const ElementId>> parts;
     std::size_t begin = 0;
     for (std::size_t i = 0; i < row.size(); ++i)
@@ -74,7 +74,7 @@ class Splitting {
         begin = i + 1;
       }
     if (parts.size() < 2) return;
-    // The part with the lowest triangle keeps the node.
+    // The part with the lowest triangle keeps the old node.
     const auto keeper =
         std::min_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
           return *std::min_element(a.begin(), a.end()) < *std::min_element(b.begin(), b.end());
@@ -117,7 +117,7 @@ class Splitting {
     return edges_.across({element, beforeCorner(cornerOf(model_, element, node))});
   }
 
-  /// A ring's row begins behind a crack, if there is one.
+  /// Rotates the row of a ring so that it begins behind a crack, if there is one.
   void turnToCrack(NodeId node, std::span<ElementId> row) const {
     const auto cut = std::find_if(row.begin(), row.end(), [&](ElementId element) {
       return counterClockwise(element, node) == ElementId::none();
@@ -132,7 +132,7 @@ class Splitting {
     return added;
   }
 
-  /// `load` is per mass.
+  /// `load`: force per mass.
   void giveNode(NodeId node, NodeId former, std::span<const ElementId> part, Vec2 load) {
     double mass = 0;
     for (const ElementId element : part) {
@@ -153,7 +153,7 @@ class Splitting {
   CrackEdges& edges_;
   SplitResult& result_;
   std::vector<Fan> fans_;
-  std::vector<ElementId> triangles_;  // of the fans
+  std::vector<ElementId> triangles_;  // triangles of the fans
   std::vector<Side> sides_;
   std::vector<SegmentId> segments_;
   std::uint32_t firstNew_ = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// What cracks do to the mesh: the fan of each node at their ends is cut, and every part of it but
-// one gets a node of its own. Mass, momentum and centre stay what they were.
+// Changes of the mesh by cracks: the fan of each node at a crack's end is cut, and all its parts
+// except one get a new node. Mass, momentum and centre of mass do not change.
 
 #include <span>
 #include <vector>
@@ -10,16 +10,17 @@
 
 namespace yadefrag {
 
-/// Everything that changed, so that all arrays by node or triangle can follow.
+/// All changes, from which the arrays by node or triangle are updated.
 struct SplitResult {
   std::vector<ElementId> changed;  ///< triangles with a new node, ascending
-  std::vector<NodeId> originals;   ///< of each new node, in order: the one it was part of
-  std::vector<SurfaceSide> sides;  ///< all boundary sides at nodes that split or came to light
-  std::vector<NodeId> onSurface;   ///< old nodes that were inside before, and are not any more
+  std::vector<NodeId> originals;   ///< of each new node, in order: the node from which it was split
+  /// All boundary sides at nodes that split or are new on the boundary.
+  std::vector<SurfaceSide> sides;
+  std::vector<NodeId> onSurface;  ///< old nodes that were inside before and are now on the boundary
 };
 
-/// Cracks the edges (ascending, none of them cracked before). An edge both of whose ends are still
-/// one node shows no faces: a crack of a single edge inside is shut by the mesh around it.
+/// Cracks the edges (ascending, none of them cracked before). An edge whose two ends both remain
+/// one node has no visible faces: the mesh around a crack of a single inner edge keeps it closed.
 void splitNodes(Model& model, CrackEdges& edges, const ContactSurfaces& surfaces,
                 std::span<const EdgeId> cracks, SplitResult& result);
 

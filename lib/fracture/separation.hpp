@@ -1,5 +1,5 @@
 #pragma once
-// When an edge opens: its effective traction against its strength.
+// The fracture criterion: an edge opens if its effective traction reaches its strength.
 
 #include <algorithm>
 #include <array>
@@ -10,32 +10,32 @@
 
 namespace yadefrag {
 
-/// (Pa) What one side of a line does to the other.
+/// (Pa) Traction across a line.
 struct Traction {
-  double normal;  ///< positive: pulls
-  double shear;   ///< along the normal turned left
+  double normal;  ///< positive: tension
+  double shear;   ///< along the normal rotated by 90° counter-clockwise
 };
 
-/// Cauchy: t = σn, of a stress (Pa: xx, yy, xy) on a line with the unit normal n.
+/// Cauchy's formula: t = σn, for a stress (Pa: xx, yy, xy) and a line with the unit normal n.
 [[nodiscard]] inline Traction tractionOn(const std::array<double, 3>& stress, Vec2 normal) {
   const Vec2 t{stress[0] * normal.x + stress[2] * normal.y,
                stress[2] * normal.x + stress[1] * normal.y};
   return {dot(normal, t), cross(normal, t)};
 }
 
-/// (Pa) Camacho and Ortiz 1996 (Int. J. Solids Struct. 33, 2899), the fracture criterion: under
-/// tension √(σₙ² + (τ/β)²), under compression what friction leaves of the shear, max(0, |τ| −
-/// μ|σₙ|)/β. Both are |τ|/β where σₙ = 0. An edge opens where this reaches its strength.
+/// (Pa) Fracture criterion of Camacho and Ortiz 1996 (Int. J. Solids Struct. 33, 2899). In tension
+/// √(σₙ² + (τ/β)²); in compression the shear minus friction, max(0, |τ| − μ|σₙ|)/β. Both are |τ|/β
+/// for σₙ = 0. An edge opens if this reaches its strength.
 [[nodiscard]] inline double effectiveTraction(double normal, double shear,
                                               const BrittleMaterial& material, double friction) {
   if (normal >= 0) return std::hypot(normal, shear / material.shearFactor);
   return std::max(0., std::abs(shear) + friction * normal) / material.shearFactor;
 }
 
-/// (Pa) A bound of the effective traction on all planes, from Mohr's circle with centre c and
-/// radius r: √((c + r)² + ((r√(1 + μ²) + μc)/β)²), either part if positive. |τ| + μσₙ is largest
-/// where the second part says, so |τ| is below it where σₙ ≥ 0, and |τ| − μ|σₙ| where σₙ < 0. It is
-/// convex: a mean of stresses has no more than the largest of them.
+/// (Pa) An upper bound of the effective traction on all planes, from Mohr's circle with centre c
+/// and radius r: √((c + r)² + ((r√(1 + μ²) + μc)/β)²), each term only if positive. The second term
+/// is the maximum of |τ| + μσₙ; |τ| is below it for σₙ ≥ 0, and so is |τ| − μ|σₙ| for σₙ < 0. The
+/// bound is convex: that of a mean of stresses does not exceed the largest of theirs.
 [[nodiscard]] inline double largestTraction(const std::array<double, 3>& stress,
                                             const BrittleMaterial& material, double friction) {
   const double centre = .5 * (stress[0] + stress[1]);

@@ -25,29 +25,29 @@ std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackE
   prepare(model, edges);
   ++call_;
   found_.clear();
-  // The stress of a node that is looked at belongs to all edges that end there, whosever they are.
+  // The stress of a checked node is needed for all edges that end there, of any triangle.
   for (const ElementRange& range : where)
     for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e)
-      if (!model.triangles.isDropped(e)) lookAtCorners(model, edges, ElementId(e), leastStrength);
+      if (!model.triangles.isDropped(e)) checkCorners(model, edges, ElementId(e), leastStrength);
   return pickApart(model, edges);
 }
 
-/// Most of what is stressed in rubble has no edge left that could crack.
-void StrengthCheck::lookAtCorners(const Model& model, const CrackEdges& edges, ElementId element,
-                                  std::span<const double> leastStrength) {
+/// Most stressed elements in rubble have no edge left that could crack.
+void StrengthCheck::checkCorners(const Model& model, const CrackEdges& edges, ElementId element,
+                                 std::span<const double> leastStrength) {
   std::array<bool, 3> whole{};
   for (std::uint8_t i = 0; i < 3; ++i) whole[i] = edges.across({element, i}) != ElementId::none();
   for (std::uint8_t i = 0; i < 3; ++i)
     if (whole[i] || whole[beforeCorner(i)])
-      lookAround(model, edges, model.triangles.nodes[element.value][i], leastStrength);
+      checkNode(model, edges, model.triangles.nodes[element.value][i], leastStrength);
 }
 
-void StrengthCheck::lookAround(const Model& model, const CrackEdges& edges, NodeId node,
-                               std::span<const double> leastStrength) {
+void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeId node,
+                              std::span<const double> leastStrength) {
   if (nodeLookedAt_[node.value] == call_) return;
   nodeLookedAt_[node.value] = call_;
-  // Of an edge's two ends one at least bears as much by itself as their mean. Where materials meet,
-  // a node's mean is not that of its edges.
+  // At one end of an edge, at least, the traction is not less than their mean: check the ends
+  // first. Where materials meet, a node's mean is not that of its edges.
   const ComponentId body = model.nodes.component[node.value];
   const Component& component = model.components[body.value];
   const double most =
@@ -101,7 +101,7 @@ const StrengthCheck::Stress& StrengthCheck::stressAt(const Model& model, const C
   return mean = meanAt(model, edges, node, [](ElementId) { return true; });
 }
 
-/// At an end of an edge: the mean over those triangles that have one of the edge's two materials.
+/// Stress at an end of an edge: the mean over the triangles with one of the edge's two materials.
 StrengthCheck::Stress StrengthCheck::stressOfMaterials(const Model& model, const CrackEdges& edges,
                                                        EdgeId edge, NodeId node) {
   const auto number = [&](ElementId e) { return model.triangles.material[e.value]; };
@@ -111,7 +111,7 @@ StrengthCheck::Stress StrengthCheck::stressOfMaterials(const Model& model, const
                 [&](ElementId e) { return number(e) == first || number(e) == second; });
 }
 
-/// By area, over those triangles of a node's fan that count.
+/// Mean by area over the triangles of a node's fan for which `counts` is true.
 template <class Counts>
 StrengthCheck::Stress StrengthCheck::meanAt(const Model& model, const CrackEdges& edges,
                                             NodeId node, Counts counts) {
@@ -149,7 +149,7 @@ double StrengthCheck::ratioOf(const Model& model, const CrackEdges& edges, EdgeI
   return most / edges.strength[edge.value];
 }
 
-/// (Pa) At a node that is the tip of a notch or a crack; 0 at any other.
+/// (Pa) Traction at the tip of a notch or a crack; 0 at any other node.
 double StrengthCheck::pullAt(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node,
                              Vec2 normal) {
   if (model.nodes.held[node.value] != kFree) return 0;

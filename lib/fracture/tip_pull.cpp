@@ -33,7 +33,8 @@ double lengthOf(const Model& model, Side side) {
               model.nodes.position[firstNode(model, side).value]);
 }
 
-/// (m) Of the crack that ends at `tip`, whose fan begins and ends at its faces; 0: it is a notch.
+/// (m) Length of the crack that ends at `tip`, whose fan begins and ends at its faces; 0 for a
+/// notch.
 double crackAt(const Model& model, const CrackEdges& edges, std::span<const ElementId> fan,
                NodeId tip) {
   const Side first{fan.front(), static_cast<std::uint8_t>(cornerOf(model, fan.front(), tip))};
@@ -44,7 +45,7 @@ double crackAt(const Model& model, const CrackEdges& edges, std::span<const Elem
   return isCrack ? lengthOf(model, first) : 0;
 }
 
-/// (N/m) What an element's stress (Pa) does to the node between `before` and `after`.
+/// (N/m) Force of an element's stress (Pa) on the node between `before` and `after`.
 Vec2 forceOn(const std::array<double, 3>& stress, Vec2 after, Vec2 before) {
   const Vec2 out = rightOf(before - after);
   return .5 * Vec2{stress[0] * out.x + stress[2] * out.y, stress[2] * out.x + stress[1] * out.y};
@@ -73,7 +74,7 @@ double tipPull(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId 
     mass[part] +=
         model.materialOf(element).material.density / density * model.triangles.area[element.value];
   }
-  // What is left of either's force once both move alike.
+  // The force between the two parts when both move with the same acceleration.
   const Vec2 pull = (1 / (mass[0] + mass[1])) * (mass[1] * force[0] - mass[0] * force[1]);
   const double length =
       (lengthOf(model, edges.side(edge, 0)) + crackAt(model, edges, fan, tip)) / 2;

@@ -1,7 +1,8 @@
 #pragma once
-// What an edge transmits at the tip of a notch or a crack. The stress averaged around such a node
-// takes in what lies behind it, and an edge would give way much too late: a notched beam with four
-// elements in a cohesive zone would bear 37 to 53 % too much, by the pull it bears 2 to 9 %.
+// Traction that an edge transmits at the tip of a notch or a crack. The stress averaged around such
+// a node includes the unloaded material behind the tip, so that by this average an edge would crack
+// far too late: a notched beam with four elements in the cohesive zone would carry 37 to 53 % too
+// much load; with the traction computed here, 2 to 9 %.
 
 #include <span>
 
@@ -9,15 +10,15 @@
 
 namespace yadefrag {
 
-/// Do the triangles around a node of the boundary fill so much more than half of its surroundings
-/// that it is a tip. `fan`: all of them, counter-clockwise.
+/// True if the triangles around a boundary node fill an angle above kTipAngle, so that the node is
+/// the tip of a notch or a crack. `fan`: all these triangles, counter-clockwise.
 [[nodiscard]] bool isTip(const Model& model, std::span<const ElementId> fan, NodeId node);
 
-/// (Pa) How hard the triangles on either side of an edge pull at the tip where it ends, by the
-/// forces of their present stress, when both sides move alike; along `normal` (out of the edge's
-/// first triangle). They act on half of the edge, and on half of the crack that ends there, which
-/// will hold, too. The pull alone: with the shear, cracks in mode II ran on ahead (Kalthoff: at 30
-/// to 42°).
+/// (Pa) Traction that holds the triangles on the two sides of an edge together at the tip where it
+/// ends, from the forces of their present stress, if both sides move with the same acceleration;
+/// component along `normal` (outward from the edge's first triangle). It acts on half of the edge,
+/// and on half of the crack that ends there, which will be cohesive, too. Only the normal component
+/// is used: with the shear, cracks in mode II propagated too early (Kalthoff's test: at 30 to 42°).
 [[nodiscard]] double tipPull(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId tip,
                              std::span<const ElementId> fan, Vec2 normal);
 

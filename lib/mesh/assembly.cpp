@@ -25,7 +25,7 @@ void appendTriangle(Triangles& triangles, const std::array<Vec2, 3>& x) {
   triangles.area.push_back(det / 2);
 }
 
-/// Keeps the items for which `keep(i)` holds, in order.
+/// Keeps the items for which `keep(i)` is true, in order.
 template <class T, class Keep>
 void compact(std::vector<T>& items, Keep keep) {
   std::size_t kept = 0;
@@ -147,7 +147,7 @@ std::vector<NodeId> removeNodes(Model& model, const std::vector<std::uint8_t>& g
   compact(nodes.held, stays);
   if (!nodes.load.empty()) compact(nodes.load, stays);
   if (!nodes.motion.empty()) compact(nodes.motion, stays), compact(nodes.arm, stays);
-  // Last: the others ask it who stays.
+  // The array of components is last because the calls before it read it.
   compact(nodes.component, [&](std::size_t n) { return renumbered[n] != NodeId::none(); });
   return renumbered;
 }

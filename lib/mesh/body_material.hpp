@@ -1,5 +1,5 @@
 #pragma once
-// What the material of a triangle says, and which triangles of a body have which.
+// The material of a triangle, and the assignment of materials to the triangles of a body.
 
 #include <cstdint>
 #include <limits>
@@ -16,20 +16,20 @@ struct BodyMaterial {
   double friction = 0;  ///< tan of the friction angle
 };
 
-/// (Pa) Strength of an edge that never cracks, in a body that does so elsewhere.
+/// (Pa) Strength of an edge that never cracks, in a body with edges that can.
 inline constexpr double kUnbreakable = std::numeric_limits<double>::max();
 
-/// The materials of a body that has several; empty: it has one.
+/// The materials of a body with several; empty for a body with one.
 struct MaterialPlaces {
   std::vector<BodyMaterial> materials;
-  std::vector<std::uint32_t> ofTriangle;  ///< number of its material, by triangle of the mesh
+  std::vector<std::uint32_t> ofTriangle;  ///< number of the material, by triangle of the mesh
 
   [[nodiscard]] bool empty() const { return materials.empty(); }
 };
 
-/// What a body of several materials has in their place where it is looked at as a whole: the first
-/// one's elasticity, and bounds of what it takes to crack: the least strength, of joints, too,
-/// shear factor and friction. Its strength is 0 if no edge can crack.
+/// One material that bounds all materials of a body: the elasticity of the first one, and bounds
+/// for fracture: the least strength (joints included), shear factor and friction. The strength is 0
+/// if no edge can crack.
 [[nodiscard]] BodyMaterial boundOf(const MaterialPlaces& materials, const BrittlePlaces& places);
 
 }  // namespace yadefrag

@@ -1,5 +1,5 @@
 #pragma once
-// What makes a material crack.
+// Material constants of fracture.
 
 #include <array>
 #include <cmath>
@@ -9,33 +9,33 @@
 namespace yadefrag {
 
 struct BrittleMaterial {
-  double tensileStrength = 0;  ///< Pa, σc; 0: never cracks
+  double tensileStrength = 0;  ///< Pa, σc; 0: the material never cracks
   double fractureEnergy = 0;   ///< J/m², Gc; 0: a crack opens at once
   /// β: shear strength over tensile strength. The shear strength is β·σc + tan φ · pressure.
   double shearFactor = 1;
-  /// κ = GII/GI: work that a crack takes by shear, over Gc, which it takes by tension.
+  /// κ = GII/GI: energy per area that a crack dissipates in shear, over that in tension, Gc.
   double shearEnergyFactor = 1;
-  double weibullModulus = 0;   ///< of the strengths' scatter; 0: none
-  double strengthScatter = 0;  ///< relative half-width of an even scatter; 0: none
+  double weibullModulus = 0;   ///< of the scatter of strengths; 0: no scatter
+  double strengthScatter = 0;  ///< relative half-width of a uniform scatter; 0: no scatter
   std::uint64_t seed = 0;      ///< of the scatter
   double referenceVolume = 0;  ///< m³, V₀ of the Weibull scatter; 0: the volume has no influence
 
   [[nodiscard]] bool cracks() const { return tensileStrength > 0; }
-  /// (m) Opening at which a crack no longer holds anything.
+  /// (m) Opening at which a crack no longer transmits traction.
   [[nodiscard]] double criticalOpening() const { return 2 * fractureEnergy / tensileStrength; }
 };
 
-/// An edge of a body's mesh on a joint.
+/// An edge of a body's mesh that lies on a joint.
 struct JointEdge {
-  std::array<std::uint32_t, 2> nodes;  ///< of the mesh
-  /// Pa, without scatter; 0: open from the start; not a number: as the triangles beside it have it.
+  std::array<std::uint32_t, 2> nodes;  ///< node numbers in the mesh
+  /// Pa, without scatter; 0: open from the start; NaN: that of the adjacent triangles.
   double strength = 0;
-  double fractureEnergy = NAN;  ///< J/m²; not a number: as the triangles beside it have it
+  double fractureEnergy = NAN;  ///< J/m²; NaN: that of the adjacent triangles
 };
 
-/// Where a body's strength and fracture energy are not its material's.
+/// Strengths and fracture energies that differ from those of the body's material.
 struct BrittlePlaces {
-  std::vector<double> strength;        ///< Pa, by triangle of the mesh; empty: the material's
+  std::vector<double> strength;        ///< Pa, by triangle of the mesh; empty: that of the material
   std::vector<double> fractureEnergy;  ///< J/m², likewise
   std::vector<JointEdge> joints;
 

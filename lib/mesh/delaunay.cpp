@@ -97,14 +97,15 @@ class Builder {
                      "them apart or make the size larger than the edges.");
   }
 
-  /// Faces reached from the left of the boundary without crossing it get numbers, others kNone.
+  /// Numbers the faces inside, which are reached from the left of the boundary without crossing it;
+  /// all others get kNone.
   void numberInside() {
     for (const Face face : triangulation_.all_face_handles()) face->info() = kNone;
     boundary_.forEachEdge([&](std::uint32_t a, std::uint32_t b) {
       Face face;
       int index = 0;
       triangulation_.is_edge(vertices_[a], vertices_[b], face, index);
-      // CGAL names the face to the right or to the left of a → b: take the one that runs along.
+      // CGAL returns the face to the right or to the left of a → b: take the left one.
       if (face->vertex(Triangulation::ccw(index)) != vertices_[a]) face = face->neighbor(index);
       visit(face);
     });
@@ -116,7 +117,7 @@ class Builder {
     }
   }
 
-  /// Constrained sides that are none are joints.
+  /// Constrained sides that are not on the boundary are on joints.
   [[nodiscard]] bool isBoundary(Face face, int k) const {
     if (!face->is_constrained(k)) return false;
     const std::uint32_t a = face->vertex(Triangulation::ccw(k))->info();
@@ -153,9 +154,9 @@ class Builder {
 
   const DividedBoundary& boundary_;
   Triangulation triangulation_;
-  std::vector<Vertex> vertices_;      // of the boundary's nodes
+  std::vector<Vertex> vertices_;      // vertices of the boundary nodes
   std::vector<std::uint32_t> after_;  // the next node of its loop
-  std::vector<Face> faces_;           // inside
+  std::vector<Face> faces_;           // faces inside the boundary
   Face hint_;
 };
 

@@ -8,9 +8,10 @@
 
 namespace yadefrag {
 
-/// All triangles between the loops of a boundary, joints among their sides, with nodes inside where
-/// they are strictly inside. Nodes are the boundary's in their order, then those of `inside` that
-/// were used. InputError if dividing the edges made loops meet.
+/// All triangles between the loops of a boundary. Joints become sides of triangles. A point of
+/// `inside` becomes a node only if it is strictly inside. The nodes are those of the boundary, in
+/// their order, then the used points of `inside`. Throws InputError if the division of the edges
+/// made loops meet.
 [[nodiscard]] LinkedTriangles triangulateNodes(const DividedBoundary& boundary,
                                                std::span<const Vec2> inside);
 

@@ -31,7 +31,7 @@ double twiceArea(const std::vector<Vec2>& loop) {
 /// Sums over all loops.
 struct Extent {
   double twiceArea = 0;
-  double parts = 0;     // of all edges
+  double parts = 0;     // number of parts of all edges
   double farthest = 0;  // largest coordinate
 };
 
@@ -54,7 +54,8 @@ Extent extentOf(const Polygon& polygon, double size) {
 void checkSize(const Polygon& polygon, const SizeField& field, double mostBytes) {
   const double size = field.smallest();
   const Extent extent = extentOf(polygon, size);
-  // Equilateral triangles, and at least one for each part of the boundary.
+  // Equilateral triangles that fill the area, and at least one triangle for each part of the
+  // boundary.
   const double filling = extent.twiceArea / (std::sqrt(.75) * size * size);
   const double triangles =
       field.isEven() ? std::max(filling, extent.parts) : std::min(filling, field.trianglesInGrid());
@@ -74,14 +75,14 @@ void checkSize(const Polygon& polygon, const SizeField& field, double mostBytes)
                      text(tolerance::kLeastSize * extent.farthest) + " m.");
 }
 
-/// The same from either end.
+/// The same bits from either end.
 Vec2 pointOnEdge(Vec2 a, Vec2 b, std::uint32_t part, std::uint32_t parts) {
   const double n = parts;
   if (2 * part == parts) return (a + b) * .5;
   return 2 * part < parts ? a + (b - a) * (part / n) : b + (a - b) * ((parts - part) / n);
 }
 
-/// The points that cut an edge into equal parts.
+/// The points that divide an edge into equal parts.
 std::vector<Vec2> evenPoints(Vec2 a, Vec2 b, double size) {
   const auto parts = static_cast<std::uint32_t>(std::max(1., std::round(norm(b - a) / size)));
   std::vector<Vec2> points;
@@ -89,10 +90,11 @@ std::vector<Vec2> evenPoints(Vec2 a, Vec2 b, double size) {
   return points;
 }
 
-/// The points that cut the integral of 1/size along the edge into equal parts, each nearly 1.
+/// The points that divide the integral of 1/size along the edge into equal parts, each about 1.
 std::vector<Vec2> gradedPoints(Vec2 a, Vec2 b, const SizeField& size) {
   const double length = norm(b - a);
-  std::vector<double> ends{0}, sums{0};  // of short steps along the edge
+  // Ends of short steps along the edge, and the integral up to them.
+  std::vector<double> ends{0}, sums{0};
   while (ends.back() < length) {
     const double here = size.at(a + (b - a) * (ends.back() / length));
     const double end = std::min(length, ends.back() + here / tolerance::kStepsPerPart);
@@ -167,7 +169,7 @@ class Divider {
 
   const CutLines& lines_;
   const SizeField& size_;
-  std::vector<std::uint32_t> nodeOf_;  // of each point, or kNone
+  std::vector<std::uint32_t> nodeOf_;  // node of each point, or kNone
   DividedBoundary boundary_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// The loops of a polygon and its joints with their long edges divided: all nodes of its mesh that
-// are not free.
+// The loops and joints of a polygon, with long edges divided: they give all nodes of the mesh that
+// must not be moved.
 
 #include <array>
 #include <cmath>
@@ -13,9 +13,9 @@
 namespace yadefrag {
 
 struct DividedBoundary {
-  std::vector<Vec2> nodes;            ///< m, loop by loop, material on the left; then on joints
-  std::vector<std::uint32_t> first;   ///< of each loop, and one past the last
-  std::vector<std::uint32_t> vertex;  ///< of each loop's node, see TriangleMesh::loopVertices
+  std::vector<Vec2> nodes;  ///< m, loop by loop, material on the left; then those on joints
+  std::vector<std::uint32_t> first;   ///< first node of each loop, and one past the last
+  std::vector<std::uint32_t> vertex;  ///< vertex of each loop node, see TriangleMesh::loopVertices
   std::vector<std::array<std::uint32_t, 3>> joints;  ///< see TriangleMesh
 
   [[nodiscard]] std::size_t numLoops() const { return first.size() - 1; }
@@ -29,11 +29,11 @@ struct DividedBoundary {
   }
 };
 
-/// Checks `given` and divides each edge into round(length/size) equal parts, at least one; where
-/// the size varies, into parts of the size there, stretched alike. Vertex numbers are those of
-/// `given`. InputError as checkPolygon, and for a size that is not positive and finite, or too
-/// small for 32-bit numbers, for the rounding of the coordinates, or for triangles in `mostBytes`
-/// of memory; and as cutAtJoints. Parts of joints are divided in the same way.
+/// Checks `given` and divides each edge into round(length/size) equal parts, at least one. If the
+/// size varies, the parts have the local size, all multiplied by one factor. Vertex numbers are
+/// those of `given`. Joints are divided in the same way. Throws InputError as checkPolygon and
+/// cutAtJoints, and for a size that is not positive and finite, or too small for 32-bit numbers,
+/// for the rounding of the coordinates, or for `mostBytes` of memory.
 [[nodiscard]] DividedBoundary divideBoundary(const Polygon& given, const SizeField& size,
                                              double mostBytes = INFINITY,
                                              const JointLines& joints = {});

@@ -11,7 +11,8 @@ struct ElasticMaterial {
 
   /// Pa, Lamé's second constant (shear modulus).
   [[nodiscard]] double shearModulus() const { return young / (2 * (1 + poisson)); }
-  /// Pa, Lamé's first constant; that of plane stress makes the out-of-plane stress vanish.
+  /// Pa, Lamé's first constant. In plane stress it has the value for which the out-of-plane stress
+  /// is zero.
   [[nodiscard]] double lame() const {
     return planeStress ? young * poisson / (1 - poisson * poisson)
                        : young * poisson / ((1 + poisson) * (1 - 2 * poisson));

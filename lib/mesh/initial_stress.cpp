@@ -6,8 +6,8 @@
 
 namespace yadefrag {
 
-/// In principal directions σ₁ = P₁/s₂ and σ₂ = P₂/s₁ with P of the stretches s: two linear
-/// equations for s₁ − 1 and s₂ − 1.
+/// In principal directions σ₁ = P₁/s₂ and σ₂ = P₂/s₁, where P is a function of the stretches s: two
+/// linear equations for s₁ − 1 and s₂ − 1.
 std::optional<std::array<double, 3>> stretchOf(const ElasticMaterial& material,
                                                const std::array<double, 3>& stress) {
   const double modulus = material.waveModulus(), lame = material.lame();

@@ -1,5 +1,5 @@
 #pragma once
-// Triangles that are stressed where they are: what shape they would have without stress.
+// Initial stress: the stress-free shape of triangles that are stressed in their present shape.
 
 #include <array>
 #include <optional>
@@ -9,14 +9,14 @@
 
 namespace yadefrag {
 
-/// The symmetric stretch (xx, yy, xy) by which a material comes to a Cauchy stress (Pa; xx, yy, xy,
-/// tension positive) in the law of dynamics/elastic_law.hpp; none where a principal stretch is not
-/// within tolerance::kMostStretch.
+/// The symmetric stretch (xx, yy, xy) that causes a Cauchy stress (Pa; xx, yy, xy, tension
+/// positive) by the material law of dynamics/elastic_law.hpp; no value if a principal stretch
+/// exceeds tolerance::kMostStretch.
 [[nodiscard]] std::optional<std::array<double, 3>> stretchOf(const ElasticMaterial& material,
                                                              const std::array<double, 3>& stress);
 
-/// From now on a triangle that has no stress would have it after this stretch: its stress-free
-/// edges and area are those before it.
+/// Changes a triangle without stress so that its present shape is stretched by this much: its
+/// stress-free edges and area become those before the stretch.
 void stretch(Triangles& triangles, ElementId element, const std::array<double, 3>& stretch);
 
 }  // namespace yadefrag

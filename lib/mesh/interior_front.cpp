@@ -11,13 +11,13 @@
 namespace yadefrag {
 namespace {
 
-const double kHeight = std::sqrt(.75);  // of an equilateral triangle of side 1
+const double kHeight = std::sqrt(.75);  // height of an equilateral triangle of side 1
 
-/// A node of the front: from it the next ones are proposed.
+/// A node of the advancing front: positions of new nodes are proposed around it.
 struct Source {
   Vec2 position;
-  Vec2 direction;      // of the row it is in, unit; of no use to scattered nodes
-  double spacing = 0;  // wanted edge length here
+  Vec2 direction;      // unit vector along its row; not used for scattered nodes
+  double spacing = 0;  // desired edge length here
 };
 
 double distanceToSegment(Vec2 p, Vec2 a, Vec2 b) {
@@ -26,8 +26,8 @@ double distanceToSegment(Vec2 p, Vec2 a, Vec2 b) {
   return norm(p - a - t * edge);
 }
 
-/// Does the way from p to q leave the body through the edge a → b, which has the body on its left?
-/// p may be on the edge, to rounding.
+/// True if the line from p to q leaves the body through the edge a → b, which has the body on its
+/// left. p may lie on the edge, up to rounding.
 bool leaves(Vec2 p, Vec2 q, Vec2 a, Vec2 b) {
   const Vec2 edge = b - a;
   return cross(edge, q - a) < 0 && cross(edge, p - a) > -tolerance::kOnEdge * dot(edge, edge) &&
@@ -92,7 +92,7 @@ class Front {
     registerJoints();
   }
 
-  /// Nodes on joints follow those of the loops, and their sides the loops' edges.
+  /// The nodes on joints are after those of the loops, and their sides after the loops' edges.
   void registerJoints() {
     const std::size_t first = after_.size();
     onJoints_.resize(boundary_.nodes.size() - first);
@@ -117,7 +117,8 @@ class Front {
     }
   }
 
-  /// Wanted edge length at `there`, a distance from where it is `spacing`.
+  /// Desired edge length at `there`, which has this distance from a point with desired length
+  /// `spacing`.
   [[nodiscard]] double grown(double spacing, double distance, Vec2 there) const {
     const double change = tolerance::kEdgeGrowth * distance;
     return std::clamp(size_.at(there), spacing - change, spacing + change);
@@ -134,7 +135,7 @@ class Front {
     }
   }
 
-  /// To both sides.
+  /// Proposes nodes on both sides of each joint.
   void proposeFromJoints() {
     for (const auto& [a, b, joint] : boundary_.joints) {
       const Vec2 from = boundaryNode(a), edge = boundaryNode(b) - from;
@@ -147,7 +148,7 @@ class Front {
     }
   }
 
-  /// Fans at corners of more than 90°, which edges alone leave open.
+  /// Proposes fans of nodes at corners of more than 90°, where edges alone leave gaps.
   void proposeFromNodes() {
     for (std::uint32_t i = 0; i < after_.size(); ++i) {
       const Vec2 p = boundaryNode(i);
@@ -176,7 +177,7 @@ class Front {
     }
   }
 
-  /// At random places between one and two radii away.
+  /// Proposes random points at one to two radii from the source.
   void scatterFrom(const Source& source) {
     const double farthest = 2 * tolerance::kNodeClearance * source.spacing;
     for (int k = 0; k < tolerance::kNodeTries; ++k) {
@@ -207,7 +208,7 @@ class Front {
     nodeGrid_.insert(to, spacing, static_cast<std::uint32_t>(nodes_.size()));
     nodes_.push_back(to);
     inside_.push_back(to);
-    // Fine regions first: a coarse front that came first would leave no room for them.
+    // Fine regions first: if a coarse front came first it would leave no room for fine nodes.
     const int octave = static_cast<int>(std::lround(2 * std::log2(spacing / size_.largest())));
     queue_[octave].push_back({to, direction, spacing});
   }
@@ -216,11 +217,11 @@ class Front {
   const SizeField& size_;
   bool isScattered_;
   RandomSequence random_;
-  Vec2 low_, high_;  // corners of the boundary: rounding cannot make a front run away
+  Vec2 low_, high_;  // bounding box of the boundary; stops a front that leaves by rounding
   std::vector<std::uint32_t> after_, before_;  // boundary nodes
-  std::vector<double> length_;                 // of the edge from each boundary node
-  std::vector<Source> onJoints_;               // nodes
-  std::vector<Vec2> nodes_;  // of the boundary, then those on joints, then those inside
+  std::vector<double> length_;    // length of the edge that starts at each boundary node
+  std::vector<Source> onJoints_;  // nodes on joints
+  std::vector<Vec2> nodes_;       // of the boundary, then those on joints, then those inside
   std::vector<Vec2> inside_;
   SpacingGrid nodeGrid_;
   SpacingGrid edgeGrid_;

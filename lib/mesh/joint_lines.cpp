@@ -21,7 +21,7 @@ struct Line {
   Vec2 begin, end;
 
   [[nodiscard]] Vec2 along() const { return end - begin; }
-  /// Of the line's point nearest to p, from 0 to 1.
+  /// Position along the line, from 0 to 1, of the line's point nearest to p.
   [[nodiscard]] double shareOf(Vec2 p) const {
     return std::clamp(dot(p - begin, along()) / dot(along(), along()), 0., 1.);
   }
@@ -86,13 +86,14 @@ class Cutter {
 
   void addCrossing(const Line& a, const Line& b) {
     const double sine = cross(a.along(), b.along());
-    if (sine == 0) return;  // lines along each other meet where one of them ends
+    if (sine == 0) return;  // parallel lines meet at the end of one of them
     const double share = cross(b.begin - a.begin, b.along()) / sine;
     const Vec2 p = a.begin + std::clamp(share, 0., 1.) * a.along();
     if (b.distanceTo(p) <= near(p)) addPoint(p);
   }
 
-  /// From its begin to its end, of the points with numbers from `first` on.
+  /// The points on a line, from its begin to its end, out of the points with numbers from `first`
+  /// on.
   [[nodiscard]] std::vector<std::uint32_t> pointsOn(const Line& line, std::uint32_t first) const {
     std::vector<std::uint32_t> found;
     for (std::uint32_t i = first; i < cut_.points.size(); ++i)
@@ -119,7 +120,7 @@ class Cutter {
       refuse(joint, joints_[joint], "must run inside the outline");
   }
 
-  /// And not on an edge.
+  /// True if p is inside and not on an edge.
   [[nodiscard]] bool isInside(Vec2 p) const {
     const double reach = near(p);
     if (std::any_of(edges_.begin(), edges_.end(),

@@ -1,5 +1,5 @@
 #pragma once
-// A polygon's edges and the joints in it, cut where they meet.
+// A polygon's edges and its joints, cut at their intersections.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace yadefrag {
 
 struct CutLines {
-  /// A place on a loop, and the vertex at which its edge begins.
+  /// A point on a loop, and the vertex at which its edge begins.
   struct Corner {
     std::uint32_t point;
     std::uint32_t vertex;
@@ -27,10 +27,10 @@ struct CutLines {
   std::vector<Piece> pieces;               ///< in the order of the joints
 };
 
-/// `polygon` as checkPolygon returns it. Joints may cross each other and the polygon's edges; what
-/// is outside, or lies on an edge, is left out, and of what lies on an earlier joint the same. Ends
-/// and crossings that are nearer to each other or to a line than tolerance::kJointMeets of the size
-/// there are taken as meeting. InputError for a joint of which nothing is left, and for ends that
+/// `polygon` must be a result of checkPolygon. Joints may cross each other and the polygon's edges.
+/// Parts of a joint outside the polygon, on an edge, or on an earlier joint are removed. Two ends
+/// or intersections, or an end and a line, that are nearer than tolerance::kJointMeets of the local
+/// size count as meeting. Throws InputError for a joint without a remaining part, and for ends that
 /// are not finite.
 [[nodiscard]] CutLines cutAtJoints(const Polygon& polygon, const JointLines& joints,
                                    const SizeField& size);

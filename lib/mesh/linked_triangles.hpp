@@ -1,5 +1,5 @@
 #pragma once
-// A mesh that can be changed: triangles that know their neighbours.
+// A mesh under construction: each triangle stores its neighbours.
 
 #include <array>
 #include <cstdint>
@@ -14,16 +14,17 @@ struct LinkedTriangles {
   using Three = std::array<std::uint32_t, 3>;
 
   std::vector<Vec2> nodes;        ///< m
-  std::uint32_t numBoundary = 0;  ///< the first ones, which must not move
+  std::uint32_t numBoundary = 0;  ///< number of boundary nodes; these come first and must not move
   std::vector<Three> triangles;   ///< counter-clockwise
-  /// Across the side opposite to each node, or kNone: on the boundary, and on joints, which stay.
+  /// Neighbour across the side opposite to each node, or kNone: on the boundary, and on joints,
+  /// whose sides must not be flipped.
   std::vector<Three> neighbours;
 
   [[nodiscard]] Vec2 at(std::uint32_t triangle, int corner) const {
     return nodes[triangles[triangle][corner]];
   }
 
-  /// Which corner of `triangle` is across its side to `neighbour`.
+  /// The corner of `triangle` opposite to its side to `neighbour`.
   [[nodiscard]] int cornerAcross(std::uint32_t triangle, std::uint32_t neighbour) const {
     const Three& n = neighbours[triangle];
     return n[0] == neighbour ? 0 : n[1] == neighbour ? 1 : 2;

@@ -61,7 +61,8 @@ class Improver {
     const Vec2 d = mesh_.at(u, m);
     const double crossA = cross(b - a, c - a), dotA = dot(b - a, c - a);
     const double crossD = cross(c - d, b - d), dotD = dot(c - d, b - d);
-    // sin(α + δ) times the four sides, negative if the angles across the edge exceed 180°.
+    // The sine of the sum of the two opposite angles, times the four sides; negative if the sum
+    // exceeds 180°.
     const double sine = crossA * dotD + dotA * crossD;
     const double sides =
         std::sqrt((crossA * crossA + dotA * dotA) * (crossD * crossD + dotD * dotD));
@@ -71,7 +72,7 @@ class Improver {
     return true;
   }
 
-  /// (a b c) and (d c b) become (a b d) and (d c a).
+  /// Triangles (a b c) and (d c b) become (a b d) and (d c a).
   void flip(std::uint32_t t, int k, std::uint32_t u, int m) {
     const std::uint32_t overCa = mesh_.neighbours[t][next(k)];
     const std::uint32_t overBd = mesh_.neighbours[u][next(m)];
@@ -85,7 +86,7 @@ class Improver {
     if (overCa != kNone) mesh_.neighbours[overCa][mesh_.cornerAcross(overCa, t)] = u;
   }
 
-  /// The sides across an inner node, counter-clockwise, as pairs of points.
+  /// The sides opposite to an inner node, counter-clockwise, as pairs of points.
   std::span<const std::pair<Vec2, Vec2>> ringOf(std::uint32_t node) {
     ring_.clear();
     std::uint32_t t = triangleOf_[node];
@@ -97,14 +98,15 @@ class Improver {
     return ring_;
   }
 
-  /// Tangent of the smallest angle around p, or what a low triangle counts as.
+  /// Tangent of the smallest angle around p, or the measure of the lowest triangle if that is less.
   [[nodiscard]] double worst(std::span<const std::pair<Vec2, Vec2>> ring, Vec2 p) const {
     double least = 2;
     for (const auto& [a, b] : ring) least = std::min(least, tanMinAngle(p, a, b));
     return evenHeights_ ? std::min(least, heightMeasure(ring, p)) : least;
   }
 
-  /// kGoodTan where the least height is that of good triangles, in proportion elsewhere.
+  /// Measure of the least height around p: kGoodTan for the height kGoodHeight, otherwise in
+  /// proportion.
   static double heightMeasure(std::span<const std::pair<Vec2, Vec2>> ring, Vec2 p) {
     double least = std::numeric_limits<double>::infinity(), around = 0;
     for (const auto& [a, b] : ring) {
@@ -117,7 +119,8 @@ class Improver {
     return tolerance::kGoodTan * least / good;
   }
 
-  /// To the mean of the circumcentres, weighted by area, which makes Delaunay triangles even.
+  /// Moves a node to the area-weighted mean of the circumcentres, which makes Delaunay triangles
+  /// even.
   void centre(std::uint32_t node) {
     const auto ring = ringOf(node);
     const Vec2 p = mesh_.nodes[node];
@@ -135,7 +138,8 @@ class Improver {
     if (then >= std::min(now, tolerance::kGoodTan)) mesh_.nodes[node] = q;
   }
 
-  /// Where an angle is still small: a search for a place where the smallest is larger.
+  /// Moves a node with a small angle to a position at which its smallest angle is larger, if one is
+  /// found.
   void sharpen(std::uint32_t node) {
     const auto ring = ringOf(node);
     Vec2 p = mesh_.nodes[node];
@@ -159,7 +163,7 @@ class Improver {
 
   LinkedTriangles& mesh_;
   bool evenHeights_;
-  std::vector<std::uint32_t> triangleOf_;  // one at each node
+  std::vector<std::uint32_t> triangleOf_;  // one triangle at each node
   std::vector<std::pair<Vec2, Vec2>> ring_;
 };
 

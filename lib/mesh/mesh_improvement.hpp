@@ -1,13 +1,14 @@
 #pragma once
-// Makes triangles more equilateral.
+// Improves the shape of triangles.
 
 #include "mesh/linked_triangles.hpp"
 
 namespace yadefrag {
 
 /// Moves inner nodes and flips inner edges until the triangles are Delaunay again and their
-/// smallest angles have grown; with `evenHeights`, also their smallest heights, on which the time
-/// step depends: among scattered nodes some triangles are far smaller than their neighbours.
+/// smallest angles have grown. With `evenHeights` it also increases the smallest heights, on which
+/// the time step depends: with scattered nodes some triangles are far smaller than their
+/// neighbours.
 void improve(LinkedTriangles& mesh, bool evenHeights = false);
 
 }  // namespace yadefrag

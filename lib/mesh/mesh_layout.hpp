@@ -1,5 +1,5 @@
 #pragma once
-// How the nodes inside a body are laid.
+// Arrangement of the nodes inside a body.
 
 #include <cstdint>
 
@@ -7,12 +7,12 @@ namespace yadefrag {
 
 enum class NodeLayout : std::uint8_t {
   kRows,       ///< rows along the boundary: nearly equilateral triangles, edges in few directions
-  kScattered,  ///< random, no two nearer than a radius: edges in all directions
+  kScattered,  ///< random with a minimum distance: edges in all directions
 };
 
 struct MeshLayout {
   NodeLayout nodes = NodeLayout::kRows;
-  std::uint64_t seed = 0;  ///< of scattered nodes
+  std::uint64_t seed = 0;  ///< of the random positions
 };
 
 }  // namespace yadefrag

@@ -29,7 +29,7 @@ struct Edge {
   bool isInner;
 };
 
-/// The triangles with nodes at the same place made one.
+/// The triangles, with nodes at the same position merged into one.
 std::vector<Triangle> welded(std::span<const Vec2> nodes, std::span<const Triangle> triangles) {
   std::vector<std::uint32_t> order(nodes.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -117,7 +117,7 @@ class Paths {
     double length;
   };
 
-  /// Dijkstra's algorithm, as far as the paths of the longest line go.
+  /// Dijkstra's algorithm, up to the length of the longest path that is accepted.
   void measureFrom(std::uint32_t source) {
     using Entry = std::pair<double, std::uint32_t>;
     wallsNear(nodes_[source]);
@@ -174,12 +174,12 @@ class Paths {
   }
 
   std::span<const Vec2> nodes_;
-  double longest_;  // m, of the lines
+  double longest_;  // m, longest line
   std::vector<std::uint32_t> first_;
   std::vector<Link> links_;
   std::vector<bool> isInner_;
-  std::vector<Edge> walls_, near_;  // edges of the boundary; those near a source
-  std::vector<double> distance_;    // m, from the source
+  std::vector<Edge> walls_, near_;  // edges of the boundary; those of them near a source
+  std::vector<double> distance_;    // m, along edges from the source
   std::vector<std::uint32_t> reached_;
   std::array<double, kDirections> sum_{}, count_{};
 };
@@ -213,7 +213,7 @@ MeshQuality meshQuality(std::span<const Vec2> nodes, std::span<const Triangle> t
   countEdges(quality, nodes, edges);
   double area = 0;
   for (const Triangle& t : triangles) area += areaOf(nodes[t[0]], nodes[t[1]], nodes[t[2]]);
-  // Edges of equilateral triangles of the same mean area.
+  // The side of equilateral triangles with the same mean area.
   const double side = std::sqrt(area / (std::sqrt(.1875) * static_cast<double>(joined.size())));
   Paths paths(nodes, edges, std::min(.5 * std::sqrt(area), 50 * side));
   paths.measure(sources);

@@ -4,8 +4,8 @@
 
 namespace yadefrag {
 
-/// (1/kg) Acceleration for a force on a node, by direction; 0 where it is held (infinite mass).
-/// `drag` is αΔt/2 of the mass-proportional damping, which the new velocity feels too.
+/// (1/kg) Acceleration per force on a node, by direction; 0 in a held direction (infinite mass).
+/// `drag` is αΔt/2 of the mass-proportional damping, which also acts on the new velocity.
 inline Vec2 mobility(const Nodes& nodes, NodeId node, double drag) {
   const double free = 1 / (nodes.mass[node.value] * (1 + drag));
   const std::uint8_t held = nodes.held[node.value];

@@ -13,21 +13,21 @@
 
 namespace yadefrag {
 
-/// Directions in which a node does not obey forces but moves at its prescribed velocity.
+/// Directions in which a node moves at its prescribed velocity, independent of forces.
 enum Held : std::uint8_t { kFree = 0, kHeldX = 1, kHeldY = 2, kHeldXY = 3 };
 
 struct Nodes {
   std::vector<Vec2> position;  ///< m, xⁿ
-  std::vector<Vec2> velocity;  ///< m/s, vⁿ⁻½; of a held direction: the prescribed one
-  /// kg, lumped; 0 of dropped triangles, whose nodes are held in both directions.
+  std::vector<Vec2> velocity;  ///< m/s, vⁿ⁻½; in a held direction: the prescribed one
+  /// kg, lumped; 0 for nodes of removed triangles, which are held in both directions.
   std::vector<double> mass;
   std::vector<std::uint8_t> held;  ///< Held
   std::vector<ComponentId> component;
-  std::vector<Vec2> load;  ///< N, constant outer force; empty if there is none in the scene
-  /// 1 + the number in Model::motions of what moves a held node; 0: its velocity is constant. Empty
-  /// if there are no motions in the scene.
+  std::vector<Vec2> load;  ///< N, constant external force; empty if the scene has none
+  /// By node: 1 + the index in Model::motions of the motion of a held node; 0: constant velocity.
+  /// Empty if the scene has no motions.
   std::vector<std::uint32_t> motion;
-  std::vector<Vec2> arm;  ///< m, from the motion's centre when it began; as long as `motion`
+  std::vector<Vec2> arm;  ///< m, from the motion's centre at its begin; as long as `motion`
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
   void reserve(std::size_t count) {
@@ -36,7 +36,7 @@ struct Nodes {
     if (!load.empty()) load.reserve(count);
     if (!motion.empty()) motion.reserve(count), arm.reserve(count);
   }
-  /// A further node where `node` is, that moves as it does; its mass is still to be set.
+  /// Adds a node with the position and the motion of `node`; the caller sets its mass.
   NodeId duplicate(NodeId node) {
     const std::uint32_t i = node.value;
     position.push_back(Vec2(position[i]));
@@ -57,35 +57,35 @@ struct Triangles {
   std::vector<std::array<NodeId, 3>> nodes;  ///< counter-clockwise
   /// (1/m) Inverse of the stress-free edge matrix D = [X₁−X₀, X₂−X₀], row by row: F = d·D⁻¹.
   std::vector<std::array<double, 4>> inverseEdges;
-  std::vector<double> area;  ///< m², stress-free; 0: dropped
+  std::vector<double> area;  ///< m², stress-free; 0: removed
   std::vector<ComponentId> component;
-  /// Number of its material among its body's; empty if no body has several.
+  /// Number of the triangle's material among its body's materials; empty if no body has several.
   std::vector<std::uint32_t> material;
 
   [[nodiscard]] std::size_t size() const { return nodes.size(); }
-  /// A dropped triangle keeps its number and its nodes, and does nothing any more.
+  /// A removed ("dropped") triangle keeps its number and its nodes, but takes part in nothing.
   [[nodiscard]] bool isDropped(std::size_t element) const { return area[element] == 0; }
 };
 
-/// How the strains of a body's triangles make its forces (dynamics/smoothed_law.hpp).
+/// Computation of forces from the strains of a body's triangles (dynamics/smoothed_law.hpp).
 enum class ElementKind : std::uint8_t {
-  kLinear,    ///< each triangle by itself: constant strain
-  kSmoothed,  ///< with its neighbours: strains averaged at the nodes
+  kLinear,    ///< constant strain in each triangle
+  kSmoothed,  ///< strains averaged at the nodes
 };
 
-/// What all triangles of one body share; its material, or the bound of several (`boundOf`). A
-/// removed component keeps its slot with no triangles.
+/// Properties common to all triangles of one body: its material, or the bound of several materials
+/// (`boundOf`). A removed component keeps its slot, without triangles.
 struct Component : BodyMaterial {
   double thickness = 1;         ///< m
-  bool brittleByPlace = false;  ///< do its edges have strengths or energies of their own
-  bool selfContact = true;      ///< may its surfaces touch each other
+  bool brittleByPlace = false;  ///< its edges have individual strengths or energies
+  bool selfContact = true;      ///< its surfaces may touch each other
   bool rigid = false;           ///< a boundary without triangles, whose nodes are held
   ElementKind element = ElementKind::kLinear;
   std::uint32_t firstTriangle = 0;
-  std::uint32_t lastTriangle = 0;   ///< one past; triangles of a component are consecutive
+  std::uint32_t lastTriangle = 0;   ///< one past the last; triangles of a component are consecutive
   std::uint32_t firstMaterial = 0;  ///< in Model::materials, if it has several
-  std::uint32_t lastMaterial = 0;   ///< one past
-  std::string name = {};            ///< that a script gave it, or empty
+  std::uint32_t lastMaterial = 0;   ///< one past the last
+  std::string name = {};            ///< given by a script, or empty
 
   [[nodiscard]] bool isMixed() const { return firstMaterial != lastMaterial; }
 };
@@ -94,8 +94,8 @@ struct Model {
   Nodes nodes;
   Triangles triangles;
   std::vector<Component> components;
-  std::vector<BodyMaterial> materials;  ///< of bodies that have several, body by body
-  std::vector<Motion> motions;          ///< of held nodes
+  std::vector<BodyMaterial> materials;  ///< of bodies with several, body by body
+  std::vector<Motion> motions;          ///< motions of held nodes
 
   [[nodiscard]] const Component& bodyOf(ElementId element) const {
     return components[triangles.component[element.value].value];

@@ -6,7 +6,8 @@
 namespace yadefrag {
 namespace {
 
-constexpr std::size_t kCounts = 4;  // of a motion: its function, the lengths of its tables
+/// Numbers before a motion's tables: its function, the lengths of the tables.
+constexpr std::size_t kCounts = 4;
 
 void append(FlatMotions& flat, const TimeTable& table) {
   flat.counts.push_back(static_cast<std::uint32_t>(table.times().size()));
@@ -14,7 +15,7 @@ void append(FlatMotions& flat, const TimeTable& table) {
   flat.numbers.insert(flat.numbers.end(), table.values().begin(), table.values().end());
 }
 
-/// Takes numbers off the front; false where there are too few.
+/// Reads numbers in sequence; returns false at the end of the data.
 class Reader {
  public:
   explicit Reader(const std::vector<double>& numbers) : numbers_(numbers) {}
@@ -29,7 +30,7 @@ class Reader {
   bool take(std::size_t count, TimeTable& table) {
     std::vector<double> times, values;
     if (!take(count, times) || !take(count, values)) return false;
-    if (count > 0 && !TimeTable::isRight(times, values)) return false;
+    if (count > 0 && !TimeTable::isValid(times, values)) return false;
     table = TimeTable(std::move(times), std::move(values));
     return true;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Order along the Lebesgue curve: what is near in the plane becomes near in memory.
+// Numbering along the Lebesgue curve: points that are near in the plane are near in memory.
 
 #include <cstdint>
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace yadefrag {
 
-/// The indices of the points in the order in which the curve meets them; points of one code in
-/// their own order. The curve's grid has 2^20 boxes along the longer side of all points.
+/// The indices of the points in their order along the curve; points with the same code keep their
+/// order. The curve's grid has 2^20 boxes along the longer side of the bounding box.
 [[nodiscard]] std::vector<std::uint32_t> orderAlongCurve(std::span<const Vec2> points);
 
-/// Renumbers the nodes by position and the triangles by centroid; each triangle begins with its
-/// least node, the loops with their own first.
+/// Renumbers the nodes by position and the triangles by centroid. Each triangle then begins with
+/// its lowest node, each loop, too.
 void numberAlongCurve(TriangleMesh& mesh);
 
 }  // namespace yadefrag

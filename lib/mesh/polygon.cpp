@@ -112,7 +112,7 @@ class Checker {
                      nameOf(loop) + ", which must enclose an area.");
   }
 
-  /// The first pair of edges that meet where they may not.
+  /// The first pair of edges that meet at a forbidden point.
   [[nodiscard]] std::optional<std::pair<Corner, Corner>> findCrossing() const {
     using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 2, Corner>;
     std::vector<Box> boxes;
@@ -135,7 +135,7 @@ class Checker {
                               Kernel::Segment_2(toPoint(at(b)), toPoint(at(next(b)))));
   }
 
-  /// Does the edge after a's lie on a's edge?
+  /// True if the edge after a's lies on a's edge.
   [[nodiscard]] bool foldsBack(Corner a) const {
     const Point from = toPoint(at(a));
     const Point tip = toPoint(at(next(a)));

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kSpace = " \t\r\f\v";
 
 [[noreturn]] void refuse(std::size_t line, std::string_view found) {
-  // Of a file that is no text at all, a whole line would be no sentence.
+  // Only the beginning of the line is shown: a file that is not text may be one long line.
   constexpr std::size_t kShown = 40;
   std::string shown;
   for (const char c : found.substr(0, kShown)) shown += c >= ' ' && c <= '~' ? c : '?';
@@ -28,7 +28,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
 }
 
-/// Takes a number from the front of `text`; false if there is none.
+/// Reads a number from the front of `text`; returns false if there is none.
 bool takeNumber(std::string_view& text, double& value) {
   if (text.starts_with('+')) text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

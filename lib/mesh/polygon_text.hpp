@@ -1,5 +1,5 @@
 #pragma once
-// Polygons as text.
+// Reads polygons from text.
 
 #include <string_view>
 
@@ -7,10 +7,10 @@
 
 namespace yadefrag {
 
-/// Loops of points, `x y` (m) on each line, with an empty line between two loops; the first one is
-/// the outline. `#` begins a comment, and a line with nothing but a comment is skipped. Throws
-/// InputError, with the number of the line, for anything else. Nothing is said of whether the
-/// loops can be meshed.
+/// Loops of points: one point `x y` (m) per line, an empty line between two loops; the first loop
+/// is the outline. `#` begins a comment, and a line with only a comment is skipped. Throws
+/// InputError, with the line number, for anything else. Does not check whether the loops can be
+/// meshed.
 [[nodiscard]] Polygon polygonFromText(std::string_view text);
 
 }  // namespace yadefrag

@@ -33,13 +33,13 @@ using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Storage, Tag
 using Triangulation = CGAL::Constrained_triangulation_plus_2<Delaunay>;
 using Loop = std::vector<Vec2>;
 
-/// Squared distances, told apart where they are equal: CGAL would take equal ones in the order of
-/// their addresses in memory.
+/// Squared distances that are made different where they are equal: CGAL would process equal ones in
+/// the order of their memory addresses.
 class Cost {
  public:
   explicit Cost(double squaredTolerance) : share_(tolerance::kEqualCosts * squaredTolerance) {}
 
-  /// The optional of Boost; since CGAL 6, that of std.
+  /// The optional is that of Boost; since CGAL 6, that of std.
   template <class Constrained, class Iterator>
   auto operator()(const Constrained& triangulation, Iterator vertex) const {
     auto distance = simplification::Squared_distance_cost()(triangulation, vertex);
@@ -76,7 +76,7 @@ void checkTolerance(const Loop& loop, const std::string& name, double tolerance)
 
 class Simplification {
  public:
-  /// `scale` is a power of two: squares of the scaled coordinates stay in the range of numbers.
+  /// `scale` is a power of two with which squares of the scaled coordinates do not overflow.
   Simplification(const std::vector<const Loop*>& loops, double scale,
                  std::span<const std::uint8_t> pinned)
       : loops_(loops), scale_(scale) {
@@ -117,7 +117,7 @@ class Simplification {
   std::vector<Triangulation::Constraint_id> constraints_;
 };
 
-/// A power of two that brings all coordinates to at most 1.
+/// A power of two that scales all coordinates to at most 1.
 double scaleOf(const std::vector<const Loop*>& loops) {
   double farthest = 0;
   for (const Loop* loop : loops)

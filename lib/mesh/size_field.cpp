@@ -24,7 +24,7 @@ SizeField::SizeField(Vec2 low, double cell, std::uint32_t columns, std::vector<d
   largest_ = *most;
 }
 
-/// Passes to and fro, as for a distance transform, until nothing changes.
+/// Repeats forward and backward passes, as for a distance transform, until no value changes.
 void SizeField::limitGrowth() {
   std::vector<double> before;
   do {
@@ -40,7 +40,7 @@ void SizeField::limitGrowth() {
 }
 
 void SizeField::relax(std::uint32_t i, std::uint32_t j, int di, int dj) {
-  const std::uint32_t k = i + di, l = j + dj;  // below 0 it wraps to a large number
+  const std::uint32_t k = i + di, l = j + dj;  // a value below 0 wraps to a large number
   if (k >= columns_ || l >= rows()) return;
   const double way = cell_ * std::sqrt(static_cast<double>(di * di + dj * dj));
   double& value = values_[std::size_t{j} * columns_ + i];

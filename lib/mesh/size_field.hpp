@@ -1,5 +1,5 @@
 #pragma once
-// The wanted length of edges, everywhere or by place.
+// The desired edge length, constant or by position.
 
 #include <cstdint>
 #include <vector>
@@ -10,12 +10,12 @@ namespace yadefrag {
 
 class SizeField {
  public:
-  /// `size` (m) everywhere.
+  /// `size` (m) at every point.
   SizeField(double size) : smallest_(size), largest_(size) {}  // NOLINT(*-explicit-*): one number
 
-  /// `values` (m) at the points low + cell·(i, j), row by row, `columns` in each. Between them it
-  /// is interpolated, beyond them it goes on as at the border. Where values grow by more than
-  /// tolerance::kEdgeGrowth per metre they are lowered. InputError if a value is not positive and
+  /// `values` (m) at the points low + cell·(i, j), row by row, `columns` in each. Linear
+  /// interpolation between them, constant extrapolation beyond them. Values that grow by more than
+  /// tolerance::kEdgeGrowth per metre are lowered. Throws InputError if a value is not positive and
   /// finite, and for fewer than two rows or columns.
   SizeField(Vec2 low, double cell, std::uint32_t columns, std::vector<double> values);
 
@@ -24,7 +24,7 @@ class SizeField {
   [[nodiscard]] double smallest() const { return smallest_; }
   [[nodiscard]] double largest() const { return largest_; }
 
-  /// How many equilateral triangles would fill the grid's rectangle.
+  /// Number of equilateral triangles that would fill the grid's rectangle.
   [[nodiscard]] double trianglesInGrid() const;
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
-// Items of very different size, found by place: hash tables of square boxes, on levels of size.
+// Search by position for items of very different size: hash tables of square boxes on levels of
+// size.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,7 @@
 
 namespace yadefrag {
 
-/// One hash table for the boxes of all levels; an item is in one box of the level it is put on.
+/// One hash table for the boxes of all levels; each item is in one box of its level.
 class LevelledHash {
  public:
   explicit LevelledHash(double largest) : largest_(largest) { heads_.assign(1024, kNone); }
@@ -23,7 +24,8 @@ class LevelledHash {
     link(static_cast<std::uint32_t>(entries_.size() - 1));
   }
 
-  /// Does `test(item)` hold for one of a level's items within `radius` of p? Others are asked too.
+  /// True if `test(item)` is true for one of a level's items within `radius` of p. More distant
+  /// items may be tested, too.
   template <class Test>
   [[nodiscard]] bool any(Vec2 p, int level, double radius, Test test) const {
     if (static_cast<std::size_t>(level) >= counts_.size() || counts_[level] == 0) return false;
@@ -68,24 +70,24 @@ class LevelledHash {
   double largest_;
   std::vector<std::uint32_t> heads_;
   std::vector<Entry> entries_;
-  std::vector<std::uint32_t> counts_;  // items on each level
+  std::vector<std::uint32_t> counts_;  // number of items on each level
 };
 
-/// A query looks once on its own level, where all finer items are too, and for the coarser ones on
-/// their own levels, where a few boxes hold all that is near.
+/// A query searches its own level, which also contains all finer items, and each coarser level,
+/// where a few boxes contain all near items.
 class SpacingGrid {
  public:
   explicit SpacingGrid(double largest) : largest_(largest), own_(largest), finer_(largest) {}
 
-  /// `size` may be up to 3/2 of the largest.
+  /// `size` may be up to 3/2 of the largest size.
   void insert(Vec2 p, double size, std::uint32_t item) {
     const int level = levelOf(size);
     own_.insert(p, level, item);
     for (int l = level; l >= 0; --l) finer_.insert(p, l, item);
   }
 
-  /// Does `test(item)` hold for an item whose middle is within `radius`, or that reaches there with
-  /// up to `extent` of its size beyond its middle?
+  /// True if `test(item)` is true for an item whose centre is within `radius`, or within `radius`
+  /// plus `extent` times its size.
   template <class Test>
   [[nodiscard]] bool any(Vec2 p, double size, double radius, double extent, Test test) const {
     int level = levelOf(size);

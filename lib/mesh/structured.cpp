@@ -27,7 +27,7 @@ class Grid {
   }
 
  private:
-  // From the nearer end, so that the grid is symmetric to the last bit.
+  // Computed from the nearer end, so that the grid is symmetric to the last bit.
   static double between(double a, double b, int i, int n) {
     if (2 * i == n) return (a + b) / 2;
     return 2 * i < n ? a + (b - a) * i / n : b - (b - a) * (n - i) / n;

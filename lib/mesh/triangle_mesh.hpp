@@ -1,5 +1,5 @@
 #pragma once
-// One body's mesh, before it joins the model.
+// The mesh of one body, before it is added to the model.
 
 #include <array>
 #include <cstdint>
@@ -16,21 +16,22 @@ struct Polygon {
   std::vector<std::vector<Vec2>> holes;
 };
 
-/// Ends (m) of straight lines along which sides of triangles are to lie.
+/// Ends (m) of straight lines on which sides of triangles must lie.
 using JointLines = std::vector<std::array<Vec2, 2>>;
 
-/// Node and triangle numbers follow the Lebesgue curve, so that neighbours are near in memory.
+/// Node and triangle numbers follow the Lebesgue curve: neighbours are near in memory.
 struct TriangleMesh {
   std::vector<Vec2> nodes;                              ///< m
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise
-  /// Boundary nodes in order, material on the left: first the outline, then the holes as given.
+  /// Boundary nodes in order, material on the left: first the outline, then the holes in the given
+  /// order.
   std::vector<std::vector<std::uint32_t>> loops;
-  /// For each boundary node the vertex of its outline or hole that it is, or else (a node that
-  /// divides a long edge) the vertex at which that edge begins.
+  /// For each boundary node its vertex number in the outline or hole; for a node that divides a
+  /// long edge, the number of the vertex at which that edge begins.
   std::vector<std::vector<std::uint32_t>> loopVertices;
   /// Sides of triangles on joints: both nodes, and the number of the joint.
   std::vector<std::array<std::uint32_t, 3>> joints;
-  double minAngle = 0;  ///< rad, smallest of all triangles
+  double minAngle = 0;  ///< rad, smallest angle of all triangles
 };
 
 }  // namespace yadefrag

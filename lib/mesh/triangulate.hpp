@@ -1,5 +1,5 @@
 #pragma once
-// A polygon becomes triangles.
+// Triangulates a polygon.
 
 #include <cmath>
 
@@ -9,12 +9,12 @@
 
 namespace yadefrag {
 
-/// Constrained Delaunay triangles of edges about `size` (m). Each edge of the polygon is divided
-/// into round(length/size) equal parts, at least one (see divideBoundary where the size varies);
-/// those are all of the boundary nodes. Where the edges are shorter than `size` the triangles are
-/// too, and grow inwards. Joints (see cutAtJoints) are divided likewise, and are sides of
-/// triangles. The same input gives the same bits. InputError as divideBoundary, and where the
-/// polygon is thinner than its coordinates' rounding.
+/// Constrained Delaunay triangles with edges of about `size` (m). Each edge of the polygon is
+/// divided into round(length/size) equal parts, at least one (see divideBoundary for a variable
+/// size); the boundary has no other nodes. Where the polygon's edges are shorter than `size`, the
+/// triangles are small, too, and grow inwards. Joints (see cutAtJoints) are divided in the same
+/// way, and are sides of triangles. The same input gives the same bits. Throws InputError as
+/// divideBoundary, and if the polygon is thinner than the rounding of its coordinates.
 [[nodiscard]] TriangleMesh triangulate(const Polygon& polygon, const SizeField& size,
                                        MeshLayout layout = {}, double mostBytes = INFINITY,
                                        const JointLines& joints = {});

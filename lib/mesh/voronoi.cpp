@@ -37,7 +37,7 @@ Shape toShape(const Loop& loop) {
   return shape;
 }
 
-/// Rounded once, so that equal points give equal bits.
+/// Rounded only once, so that equal points give equal bits.
 Loop rounded(const Shape& shape) {
   Loop loop;
   for (const Point& p : shape.container()) {
@@ -48,9 +48,9 @@ Loop rounded(const Shape& shape) {
   return loop;
 }
 
-/// What of a convex shape is nearer to `own` than to `other`.
+/// The part of a convex shape that is nearer to `own` than to `other`.
 Shape nearerHalf(const Shape& shape, const Point& own, const Point& other) {
-  const Kernel::Line_2 bisector = CGAL::bisector(own, other);  // own is on its left
+  const Kernel::Line_2 bisector = CGAL::bisector(own, other);  // `own` is on its left
   Shape half;
   for (std::size_t i = 0; i < shape.size(); ++i) {
     const Point& a = shape[i];
@@ -59,7 +59,7 @@ Shape nearerHalf(const Shape& shape, const Point& own, const Point& other) {
     if (sideOfA != CGAL::ON_NEGATIVE_SIDE) half.push_back(a);
     if (sideOfA * sideOfB >= 0) continue;
     const auto crossing = CGAL::intersection(bisector, Kernel::Line_2(a, b));
-    half.push_back(get<Point>(*crossing));  // of Boost's variant; since CGAL 6, of std's
+    half.push_back(get<Point>(*crossing));  // Boost's variant; since CGAL 6, that of std
   }
   return half;
 }
@@ -79,12 +79,12 @@ class Grains {
     scatter(count);
   }
 
-  /// To the middles of the grains; a middle outside the outline is no place.
+  /// Moves each point to the centroid of its grain. A centroid outside the outline is not used.
   void even() {
     const auto cells = grains();
     for (std::size_t i = 0; i < places_.size(); ++i) {
       double twiceArea = 0;
-      Vec2 moment;  // about the place, of rounding's sake
+      Vec2 moment;  // relative to the point, which reduces rounding
       for (const Loop& grain : cells[i])
         for (std::size_t k = 0; k < grain.size(); ++k) {
           const Vec2 a = grain[k] - places_[i], b = grain[(k + 1) % grain.size()] - places_[i];
@@ -97,7 +97,7 @@ class Grains {
     }
   }
 
-  /// Of each place.
+  /// The grains of each point.
   [[nodiscard]] std::vector<std::vector<Loop>> grains() const {
     Delaunay delaunay;
     std::vector<Delaunay::Vertex_handle> vertices;
@@ -113,7 +113,7 @@ class Grains {
         Loop grain = rounded(part.outer_boundary());
         if (grain.size() >= 3) all[i].push_back(std::move(grain));
       }
-      // CGAL's order is that of a map.
+      // CGAL's order is that of a map and may vary: sort.
       std::sort(all[i].begin(), all[i].end(), [](const Loop& a, const Loop& b) {
         return std::pair(a[0].x, a[0].y) < std::pair(b[0].x, b[0].y);
       });
@@ -158,9 +158,9 @@ class Grains {
   }
 
   Shape outline_;
-  std::vector<Double::Point_2> corners_;  // of the outline
+  std::vector<Double::Point_2> corners_;  // corners of the outline
   RandomSequence random_;
-  Vec2 low_, high_;  // corners of the outline
+  Vec2 low_, high_;  // bounding box of the outline
   std::vector<Vec2> places_;
 };
 

@@ -26,8 +26,8 @@ double areaOf(const Loop& loop) {
   return twice / 2;
 }
 
-/// What may move where: a point inside anywhere, one on the outline to another there, and the
-/// outline's own corners not at all.
+/// Permitted motion of a point: a point inside may move anywhere, a point on the outline to another
+/// one on the outline; corners of the outline must not move.
 enum Rank : std::uint8_t { kInside, kOnOutline, kCorner };
 
 class Merging {
@@ -49,7 +49,7 @@ class Merging {
     }
   }
 
-  /// False if there was nothing to merge.
+  /// Returns false if there was no side to merge.
   bool run(double shortest) {
     bool any = false;
     for (const auto& [a, b] : sides_) {
@@ -72,17 +72,18 @@ class Merging {
   }
 
  private:
-  /// Of all points that have been joined.
+  /// A set of merged points.
   struct Place {
     Vec2 at;
-    double count;  // of points that `at` is the mean of
+    double count;  // number of points whose mean is `at`
     Rank rank;
   };
 
   std::uint32_t setOf(Key key) { return sets_.find(static_cast<std::uint32_t>(numbers_.at(key))); }
   Place& placeOf(Key key) { return places_[setOf(key)]; }
 
-  /// `isOuter`: is the side between them one of the outline; others must not pinch it off.
+  /// `isOuter`: the side between the points is on the outline. Other sides must not constrict the
+  /// outline.
   bool join(std::uint32_t first, std::uint32_t second, bool isOuter) {
     const Place& a = places_[first];
     const Place& b = places_[second];
@@ -101,8 +102,8 @@ class Merging {
 
   std::set<std::pair<Key, Key>> sides_;
   std::map<Key, std::size_t> numbers_;
-  DisjointSets sets_;          // of numbers
-  std::vector<Place> places_;  // by number; of a set, with the one that stands for it
+  DisjointSets sets_;          // sets of point numbers
+  std::vector<Place> places_;  // by point number; that of a set is at its representative
 };
 
 bool isSound(const Loop& grain) {
@@ -129,15 +130,15 @@ bool isSound(const Loop& grain) {
 std::vector<Loop> withoutShortSides(std::vector<Loop> grains, const Loop& outline,
                                     double shortest) {
   const std::size_t before = grains.size();
-  // What is merged may come near to others.
+  // Merged points may come near to others: repeat.
   for (bool goesOn = true; goesOn;) {
     Merging merging(grains, outline);
     goesOn = merging.run(shortest);
     for (Loop& grain : grains) grain = merging.moved(grain);
     std::erase_if(grains, [](const Loop& grain) { return grain.size() < 3; });
   }
-  // The outline is as it was and every other side has a grain on both sides: grains that are all
-  // upright do not overlap.
+  // The outline is unchanged and every other side has a grain on both sides: grains with positive
+  // area therefore do not overlap.
   if (2 * grains.size() < before || !std::ranges::all_of(grains, isSound)) refuse(shortest);
   return grains;
 }

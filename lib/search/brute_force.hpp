@@ -1,5 +1,5 @@
 #pragma once
-// Every box with every other: what all searches are compared with.
+// Tests every box against every other: the reference for all other searches.
 
 #include "search/box_count.hpp"
 #include "search/contact_search.hpp"

@@ -14,10 +14,10 @@ void CodeDirectory::build(std::span<const std::uint64_t> codes) {
   nodes_.clear();
   table_.clear();
   const auto count = static_cast<std::uint32_t>(codes.size());
-  // An empty list answers 0 to every question: nothing is ≤ first = max.
+  // For an empty list every query returns 0, because no code is ≤ first = max.
   nodes_.push_back(
       {count ? codes.front() : ~std::uint64_t{0}, count ? codes.back() : 0, 0, count, 0, 0});
-  // Children are appended behind, so this visits them too.
+  // Children are appended at the end, so that this loop visits them, too.
   for (std::uint32_t at = 0; at < nodes_.size(); ++at) buildNode(at);
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 // Finds a position code in a sorted list in a constant number of steps.
 //
-// The paper (§4.4) finds the ends of a range by exponential search from where the last one was
-// found. A directory over the leading bits of the codes, about two slots per code, finds its
-// beginning in one look where codes are spread evenly; an overfull slot has a directory of its own,
-// so that two far clusters cost one look more.
+// The paper (§4.4) finds the ends of a range by exponential search, starting from the previous
+// result. A directory over the leading bits of the codes, with about two slots per code, finds the
+// beginning of a range in one access if codes are evenly distributed. A slot with too many codes
+// has a directory of its own: two distant clusters cost one access more.
 
 #include <cstdint>
 #include <span>
@@ -55,7 +55,7 @@ class CodeDirectory {
   template <class Count>
   std::uint32_t scan(std::uint64_t code, std::uint32_t begin, std::uint32_t end,
                      Count& count) const {
-    while (end - begin > 8) {  // only where many boxes share one code
+    while (end - begin > 8) {  // needed only if many boxes have the same code
       const std::uint32_t middle = begin + (end - begin) / 2;
       count.range(1);
       if (codes_[middle] < code)

@@ -14,7 +14,7 @@
 
 namespace yadefrag {
 
-/// A box beside the slot it came from: an exact test touches one cache line.
+/// A box together with its slot: an exact test reads one cache line.
 struct alignas(64) CodedBox {
   Box box;
   std::uint32_t slot;
@@ -31,14 +31,14 @@ class CodeLevel {
   [[nodiscard]] std::span<const std::uint64_t> codes() const { return codes_; }
   static constexpr std::uint64_t kEnd = ~std::uint64_t{0};
 
-  /// Takes out the entries for which `leaves(slot)`, and marks the list as changed.
+  /// Removes the entries for which `leaves(slot)` is true, and marks the list as changed.
   template <class Leaves>
   void remove(Leaves leaves) {
     std::erase_if(list_, [&](const CodedSlot& c) { return leaves(c.slot); });
     changed_ = true;
   }
 
-  /// Puts in new entries, ascending in slot.
+  /// Inserts new entries, which ascend in slot.
   template <class Count>
   void insert(std::vector<CodedSlot>& incoming, std::vector<CodedSlot>& scratch, Count& count) {
     sortByCode(incoming);
@@ -51,7 +51,7 @@ class CodeLevel {
     changed_ = true;
   }
 
-  /// Copies the boxes in curve order; `withDirectory` if codes are looked up through a directory.
+  /// Copies the boxes in curve order. `withDirectory`: codes are looked up through a directory.
   void refresh(std::span<const Box> boxes, const FilterScale& scale, bool withDirectory,
                int threads);
 

@@ -1,10 +1,10 @@
 #pragma once
-// Search by position codes: the paper's SPC (§4) and, with another numbering, its rival LPC.
+// Search by position codes: the paper's SPC (§4) and, with another numbering, LPC.
 //
-// Where this departs from the paper: nodes and segments are boxes (keyed by their lower corner), so
-// a rectangle is stretched by the longest box of the level it asks; boxes of very different size
-// live on levels of their own; pairs on one level are found once, from the one that comes first on
-// the curve.
+// Differences from the paper: nodes and segments are boxes, keyed by their lower corner, so that a
+// query rectangle is enlarged by the longest box of the level that is searched. Boxes of very
+// different size are stored on different levels. Pairs on one level are found once, from the box
+// that comes first on the curve.
 
 #include <array>
 #include <span>
@@ -44,8 +44,7 @@ class CodeSearch final : public ContactSearch {
   static constexpr int kAbsent = -1;
   static constexpr int kWide = -2;
 
-  /// What is remembered of a slot: where it was at the last update (L_x, L_y of the paper, and
-  /// code).
+  /// Stored for each slot: its place at the last update (L_x, L_y of the paper, and the code).
   struct Place {
     std::uint64_t code = 0;
     std::array<std::int32_t, Dim> number{};
@@ -74,16 +73,16 @@ class CodeSearch final : public ContactSearch {
   std::uint32_t lowerBound(const CodeLevel& level, std::uint64_t code, Count& count) const;
   double lowestStart(const Box& box, int axis, int level) const;
   Extent rectangleOf(const Box& box, int level, CodeRange& corners) const;
-  [[nodiscard]] bool asks(int own, int other) const;
+  [[nodiscard]] bool searchesLevel(int own, int other) const;
 
   LevelGrid<Dim> grid_;
   std::span<const Box> boxes_;
   std::vector<Place> places_;
   std::vector<Change> changes_;
   std::array<CodeLevel, kLevels> levels_;
-  Extents extents_{};                   // longest side on each level now
-  std::array<bool, kLevels> isWide_{};  // levels of too few boxes to be worth codes
-  std::array<int, kLevels> joined_{};   // the level on which boxes of each level live
+  Extents extents_{};                   // longest side on each level at present
+  std::array<bool, kLevels> isWide_{};  // levels with too few boxes for codes
+  std::array<int, kLevels> joined_{};   // the level that stores the boxes of each level
   std::vector<int> occupied_;           // levels with boxes, fine to coarse
   WideBoxes wide_;
   std::size_t wideAtStart_ = 0;

@@ -29,31 +29,32 @@ void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
   wide_.pairsAmong(boxes_, pairs, count_, mostPairs_);
 }
 
-/// Which of two levels asks the other: the finer one, of whose boxes each meets a few boxes of the
-/// coarser, unless there are so many more of them that it is cheaper for each coarse box to find
-/// the fine ones on the stretches of the curve that it covers.
+/// True if the boxes of the first of two levels search the second. Normally the finer level
+/// searches the coarser one, since each fine box meets few coarse boxes. If there are many more
+/// fine boxes, it is cheaper to find for each coarse box the fine ones, on the ranges of the curve
+/// that it covers.
 template <class Numbering, int Dim, class Count>
-bool CodeSearch<Numbering, Dim, Count>::asks(int own, int other) const {
+bool CodeSearch<Numbering, Dim, Count>::searchesLevel(int own, int other) const {
   const int fine = std::min(own, other);
   const int coarse = std::max(own, other);
-  const bool coarseAsks =
+  const bool coarseSearches =
       Numbering::kIsCurve &&
       tolerance::kFinePerCoarse * levels_[coarse].size() <= levels_[fine].size();
-  return own == (coarseAsks ? coarse : fine);
+  return own == (coarseSearches ? coarse : fine);
 }
 
-/// Pairs of the i-th box of a level with later ones of its level, with all of the levels that this
-/// one asks, and with the wide ones.
+/// Pairs of the i-th box of a level with later boxes of its level, with boxes of all levels that
+/// this level searches, and with the wide boxes.
 template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, std::vector<BoxPair>& out,
                                                 Count& count) const {
   const CodedBox& me = levels_[own][i];
   const FilterBox& filter = levels_[own].filter(i);
   for (const int other : occupied_) {
-    if (other != own && !asks(own, other)) continue;
+    if (other != own && !searchesLevel(own, other)) continue;
     const CodeLevel& level = levels_[other];
     const std::uint64_t* codes = level.codes().data();
-    // From where a range begins, its end is met sooner than looked up.
+    // Starting at the begin of a range, a linear scan reaches its end faster than a look-up.
     const auto test = [&](std::uint32_t begin, std::uint64_t stop) {
       count.range(1);
       for (std::uint32_t j = begin; codes[j] <= stop; ++j) {
@@ -71,9 +72,9 @@ void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, std::vec
   wide_.pairsWith(boxes_, me.box, me.slot, out, count);
 }
 
-/// Boxes of one level are shorter than an edge: those that overlap lie in the same position-code
-/// box or the next. Which of the next come in question is seen from two comparisons an axis, and
-/// their codes from the own code.
+/// Boxes of one level are shorter than an edge: boxes that overlap lie in the same position-code
+/// box or in adjacent ones. Two comparisons per axis select these adjacent boxes; their codes
+/// follow from the box's own code.
 template <class Numbering, int Dim, class Count>
 template <class Visit>
 void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const CodeLevel& level, int own,
@@ -100,7 +101,7 @@ void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const CodeLevel& le
   });
 }
 
-/// Visits all boxes of a level that can overlap `box`, and others.
+/// Visits all boxes of a level that can overlap `box`; it may visit others, too.
 template <class Numbering, int Dim, class Count>
 template <class Visit>
 void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at, Count& count,
@@ -119,14 +120,14 @@ void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at, C
         Numbering::forEachRangeOfLarge(corners.start, corners.stop, visitRange);
         return;
       }
-      [[fallthrough]];  // a look at every box is cheaper than thousands of rows
+      [[fallthrough]];  // a scan of all boxes is cheaper than thousands of rows
     case Extent::kWraps:
       visit(0, CodeLevel::kEnd - 1);
       return;
   }
 }
 
-/// Boxes of `level` that overlap `box` have their lower corners at or above this.
+/// Lower bound of the lower corners of boxes of `level` that overlap `box`.
 template <class Numbering, int Dim, class Count>
 double CodeSearch<Numbering, Dim, Count>::lowestStart(const Box& box, int axis, int level) const {
   const double extent = extents_[level];
@@ -134,8 +135,8 @@ double CodeSearch<Numbering, Dim, Count>::lowestStart(const Box& box, int axis, 
   return from - (std::abs(from) + extent) * tolerance::kExtentRounding;
 }
 
-/// Codes of the corners of the rectangle that holds the lower corners of all boxes of `level` that
-/// can overlap `box`; none if it is large and wraps.
+/// Codes of the corners of the rectangle that contains the lower corners of all boxes of `level`
+/// that can overlap `box`; no value if the rectangle is large and wraps around.
 template <class Numbering, int Dim, class Count>
 auto CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level,
                                                     CodeRange& corners) const -> Extent {
@@ -159,7 +160,7 @@ auto CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level,
   return wraps ? Extent::kWraps : Extent::kLarge;
 }
 
-/// The Lebesgue search has its directory; the paper's linear rival searches its whole list (§4.5).
+/// The Lebesgue search uses its directory; the linear search (LPC) searches its whole list (§4.5).
 template <class Numbering, int Dim, class Count>
 std::uint32_t CodeSearch<Numbering, Dim, Count>::lowerBound(const CodeLevel& level,
                                                             std::uint64_t code,

@@ -1,5 +1,5 @@
 #pragma once
-// Second part of code_search.hpp: keeping the codes up to date (paper §4.2, §4.3).
+// Second part of code_search.hpp: updating the codes (paper §4.2, §4.3).
 
 #include <algorithm>
 #include <numeric>
@@ -33,7 +33,8 @@ void CodeSearch<Numbering, Dim, Count>::update(std::span<const Box> boxes) {
   }
   collectMoved();
   listOccupiedLevels();
-  // Many new floors or walls, or a crowd of one size that was too rare at the start: begin again.
+  // Start again if there are many new floors or walls, or many boxes of a size that was rare at the
+  // start.
   const bool tooMany = wide_.size() > 2 * wideAtStart_ + tolerance::kWideLevelCount;
   if (!started_) {
     started_ = true;
@@ -52,7 +53,7 @@ template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::locateAll() {
   const std::size_t before = places_.size();
   const std::size_t count = std::max(before, boxes_.size());
-  places_.resize(count);  // slots beyond the new end vanish in this update
+  places_.resize(count);  // this update removes the slots beyond the new end
   changes_.assign(count, Change::kNone);
   std::vector<Extents> extents(static_cast<std::size_t>(threads_), Extents{});
   std::vector<Count> counts(static_cast<std::size_t>(threads_));
@@ -101,7 +102,8 @@ int CodeSearch<Numbering, Dim, Count>::levelFor(const Box& box, double side) con
   return level;
 }
 
-/// Fig. 6: two comparisons an axis tell whether the box kept its position code. Returns true if so.
+/// Fig. 6: two comparisons per axis decide whether the box has kept its position code. Returns true
+/// if it has.
 template <class Numbering, int Dim, class Count>
 bool CodeSearch<Numbering, Dim, Count>::stepWithin(const Box& box, Place& place,
                                                    Count& count) const {
@@ -139,7 +141,7 @@ void CodeSearch<Numbering, Dim, Count>::encodeAnew(const Box& box, Place& place)
   place.code = Numbering::encode(cell);
 }
 
-/// A level of its own for a handful of boxes would cost every smaller box a range search.
+/// A separate level for a few boxes would cost every smaller box a range search.
 template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::sendSparseLevelsWide() {
   std::array<std::size_t, kLevels> population{};
@@ -151,9 +153,9 @@ void CodeSearch<Numbering, Dim, Count>::sendSparseLevelsWide() {
     if (place.level >= 0 && isWide_[place.level]) place.level = kWide;
 }
 
-/// Boxes of a level that are mostly alone even in position-code boxes twice as long may as well
-/// live on the next level: it costs no candidates there, and all other levels one question less.
-/// True if any were joined.
+/// If most boxes of a level are alone even in position-code boxes of twice the edge, the level is
+/// merged into the next one: that adds no candidates there and saves all other levels one search.
+/// Returns true if any levels were merged.
 template <class Numbering, int Dim, class Count>
 bool CodeSearch<Numbering, Dim, Count>::joinThinLevels() {
   std::array<std::vector<CodedSlot>, kLevels> parents;
@@ -161,7 +163,7 @@ bool CodeSearch<Numbering, Dim, Count>::joinThinLevels() {
   for (const Place& place : places_)
     if (place.level >= 0) occupied[place.level] = true;
   for (const Place& place : places_) {
-    // Without a next level there is nothing to join.
+    // Without boxes on the next level there is no level to merge into.
     if (place.level < 0 || !occupied[place.level + 1]) continue;
     Cell cell;
     for (int d = 0; d < Dim; ++d)

@@ -21,7 +21,8 @@ Box enclosing(const Box& a, const Box& b) {
   return both;
 }
 
-/// Position codes of the boxes' middles, in cubes of 2⁻²¹ of the longest side of all.
+/// Position codes of the boxes' centres, in cubes of 2⁻²¹ of the longest side of all boxes
+/// together.
 std::vector<CodedSlot> codesOf(std::span<const Box> boxes,
                                const std::vector<std::uint32_t>& slots) {
   Box all = Box::absent();
@@ -42,7 +43,7 @@ std::vector<CodedSlot> codesOf(std::span<const Box> boxes,
     Code::Cell cell;
     for (int axis = 0; axis < 3; ++axis) {
       const double at = (middle(boxes[slot], axis) - all.min[axis]) * scale;
-      // Not a number where the scale is infinite: any code will do.
+      // `at` is NaN if the scale is infinite: any code is then valid.
       cell[axis] = at >= 0 && at <= Code::kMask ? static_cast<std::uint32_t>(at) : 0;
     }
     codes.push_back({Code::encode(cell), slot});
@@ -65,8 +66,8 @@ void CodeTree::sortAlongCurve(std::span<const Box> boxes, const std::vector<std:
   }
 }
 
-/// Leading bits that the codes i and j have in common, by their indices where they are equal; −1
-/// beyond the ends.
+/// Number of leading bits that the codes i and j have in common; equal codes are distinguished by
+/// their indices. −1 for an index out of range.
 int CodeTree::common(std::int64_t i, std::int64_t j) const {
   if (j < 0 || j >= static_cast<std::int64_t>(codes_.size())) return -1;
   const std::uint64_t differing =
@@ -75,8 +76,8 @@ int CodeTree::common(std::int64_t i, std::int64_t j) const {
   return 64 + std::countl_zero(static_cast<std::uint64_t>(i) ^ static_cast<std::uint64_t>(j));
 }
 
-/// Node i covers a run of leaves that begins or ends at leaf i (§3 of Karras): its direction, its
-/// other end, then where its codes' highest bit changes.
+/// Node i covers a run of leaves that begins or ends at leaf i (§3 of Karras). Computes its
+/// direction, its other end, and the place at which the highest bit of its codes changes.
 void CodeTree::makeNode(std::int64_t i) {
   const int direction = common(i, i + 1) > common(i, i - 1) ? 1 : -1;
   const int least = common(i, i - direction);
@@ -103,7 +104,8 @@ void CodeTree::makeNode(std::int64_t i) {
   node.last = static_cast<std::uint32_t>(last);
 }
 
-/// Boxes of a subtree, from below. Its depth is that of the codes and the indices: 96 at most.
+/// Bounding boxes of a subtree, bottom-up. The depth is limited by the bits of codes and indices to
+/// 96.
 const Box& CodeTree::fit(std::uint32_t child) {
   if (child & kLeafFlag) return boxes_[child & ~kLeafFlag];
   Node& node = nodes_[child];

@@ -1,6 +1,6 @@
 #pragma once
-// A binary tree over sorted position codes: T. Karras, Maximizing Parallelism in the Construction
-// of BVHs, Octrees, and k-d Trees, High Performance Graphics 2012.
+// A binary tree over sorted position codes, after T. Karras, Maximizing Parallelism in the
+// Construction of BVHs, Octrees, and k-d Trees, High Performance Graphics 2012.
 
 #include <cstdint>
 #include <span>
@@ -13,8 +13,8 @@ namespace yadefrag {
 
 class CodeTree {
  public:
-  /// An inner node. A child below `kLeafFlag` is an inner node, any other the leaf `child -
-  /// kLeafFlag`.
+  /// An inner node. A child number below `kLeafFlag` is an inner node; any other number is a leaf,
+  /// of number `child - kLeafFlag`.
   struct Node {
     Box box;
     std::uint32_t left, right;
@@ -22,7 +22,8 @@ class CodeTree {
   };
   static constexpr std::uint32_t kLeafFlag = std::uint32_t{1} << 31;
 
-  /// Builds the tree over finite boxes; node 0 is the root. With one box or none there is no node.
+  /// Builds the tree over finite boxes; node 0 is the root. With fewer than two boxes there is no
+  /// node.
   void build(std::span<const Box> boxes, const std::vector<std::uint32_t>& slots, int threads);
 
   [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }

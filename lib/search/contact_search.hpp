@@ -1,5 +1,5 @@
 #pragma once
-// The interface that all searches share: boxes in, overlapping pairs out.
+// The common interface of all searches. Input: boxes; output: overlapping pairs.
 
 #include <limits>
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace yadefrag {
 
-/// Thrown by `findPairs`: there are more pairs than `setMostPairs` allows.
+/// Thrown by `findPairs` if there are more pairs than `setMostPairs` permits.
 class TooManyPairs : public RunError {
  public:
   TooManyPairs() : RunError("More pairs of boxes overlap than there is memory for.") {}
@@ -30,7 +30,7 @@ class ContactSearch {
  public:
   virtual ~ContactSearch() = default;
 
-  /// Takes the boxes as they are now; they must stay in place until the next update.
+  /// Takes the present boxes; the array must not move until the next update.
   virtual void update(std::span<const Box> boxes) = 0;
 
   /// Appends all overlapping pairs.
@@ -39,14 +39,14 @@ class ContactSearch {
   /// Appends the slots whose boxes overlap `box`.
   virtual void findOverlaps(const Box& box, std::vector<BoxId>& found) const = 0;
 
-  /// The boxes of the last update are now in another array, which may have further slots. Only
-  /// boxes that the caller leaves out of what `findOverlaps` finds may differ.
+  /// The boxes of the last update are now in another array, which may have more slots. Boxes may
+  /// differ only if the caller ignores them in the results of `findOverlaps`.
   virtual void relocate(std::span<const Box> boxes) = 0;
 
-  /// Forgets what it knows: the next update starts from nothing.
+  /// Deletes all stored data: the next update is a complete one.
   virtual void clear() = 0;
 
-  /// Comparisons since construction; zero unless asked for in `makeSearch`.
+  /// Comparisons since construction; zero unless `makeSearch` was called with counting.
   [[nodiscard]] virtual Comparisons comparisons() const = 0;
 
   virtual void addTo(Footprint& footprint) const = 0;
@@ -54,15 +54,15 @@ class ContactSearch {
   /// Upper limit of threads that `update` and `findPairs` may use.
   void setThreads(int threads) { threads_ = threads; }
 
-  /// `findPairs` stops with TooManyPairs soon after it has found more than this (by as many as
-  /// there are boxes, per thread).
+  /// `findPairs` throws TooManyPairs soon after it has found more than this (the excess is at most
+  /// the number of boxes, per thread).
   void setMostPairs(std::size_t most) { mostPairs_ = most; }
 
  protected:
   [[nodiscard]] bool isFull(const std::vector<BoxPair>& pairs) const {
     return pairs.size() > mostPairs_;
   }
-  /// Appends the parts that the threads have found to `pairs`.
+  /// Appends the pairs that the threads have found to `pairs`.
   void join(std::span<const std::vector<BoxPair>> parts, std::vector<BoxPair>& pairs) const {
     std::size_t count = 0;
     for (const auto& part : parts) count += part.size();
@@ -75,11 +75,11 @@ class ContactSearch {
 };
 
 enum class SearchMethod {
-  kBruteForce,  ///< every box with every other: the yardstick of the tests
+  kBruteForce,  ///< every box against every other: the reference of the tests
   kLebesgue,    ///< position codes on the Lebesgue curve (SPC), paper §4
   kLinearCode,  ///< position codes row by row (LPC), the paper's [5]
   kHierarchy,   ///< a tree of boxes (HO), the paper's [12]
-  kLinearBvh,   ///< a tree of boxes over position codes, built anew every time (Karras 2012)
+  kLinearBvh,   ///< a tree of boxes over position codes, rebuilt every time (Karras 2012)
 };
 
 std::unique_ptr<ContactSearch> makeSearch(SearchMethod method, bool countComparisons = false);

@@ -1,6 +1,6 @@
 #pragma once
-// Boxes in single precision, for a first test of two vector comparisons on half a cache line. (With
-// it the gas benchmark's pairs took 11 ms instead of 15.)
+// Boxes in single precision for a quick first test: two vector comparisons on half a cache line.
+// (With it the pairs of the gas benchmark took 11 ms instead of 15.)
 
 #include <array>
 
@@ -12,7 +12,7 @@
 
 namespace yadefrag {
 
-/// Maps coordinates to floats near zero, where floats are dense.
+/// Maps coordinates to floats near zero, where the spacing of floats is smallest.
 struct FilterScale {
   std::array<double, 3> origin{0, 0, 0};
   double factor = 1;  // > 0
@@ -21,8 +21,8 @@ struct FilterScale {
   }
 };
 
-/// Half a cache line. Every step of the mapping is monotone, rounding included: if two boxes
-/// overlap, so do their filters, and nothing has to be inflated.
+/// Half a cache line. Every operation of the mapping is monotone, including its rounding: if two
+/// boxes overlap, so do their filter boxes. No margin is needed.
 struct alignas(32) FilterBox {
   std::array<float, 4> min;
   std::array<float, 4> max;  // the fourth of each is 0
@@ -36,7 +36,7 @@ struct alignas(32) FilterBox {
   }
 };
 
-/// False only if the boxes behind the filters do not overlap.
+/// False only if the original boxes do not overlap.
 inline bool mayOverlap(const FilterBox& a, const FilterBox& b) {
 #if defined(__SSE2__)
   const __m128 below = _mm_cmple_ps(_mm_load_ps(a.min.data()), _mm_load_ps(b.max.data()));

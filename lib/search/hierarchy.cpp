@@ -52,7 +52,8 @@ void Hierarchy::buildRange(std::span<const Box> boxes, std::uint32_t begin, std:
 }
 
 bool Hierarchy::refit(std::span<const Box> boxes) {
-  // Children come after their parent, so backwards every child is fitted before it is asked for.
+  // Children come after their parent: in reverse order every child is fitted before its parent
+  // needs it.
   for (std::uint32_t at = static_cast<std::uint32_t>(nodes_.size()); at-- > 0;) fit(boxes, at);
   return looseness() <= tolerance::kHierarchyDecay * loosenessAtStart_;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A binary tree of boxes over boxes: the data of the hierarchical search (HO, the paper's [12]).
+// A binary tree of bounding boxes: the data of the hierarchical search (HO, the paper's [12]).
 
 #include <cstdint>
 #include <span>
@@ -10,7 +10,8 @@
 
 namespace yadefrag {
 
-/// Nodes in depth-first order; a node's first child follows it, its leaves are a run of `order`.
+/// Nodes in depth-first order. A node's first child is the next node; its leaves are a run of
+/// `order`.
 class Hierarchy {
  public:
   struct Node {
@@ -20,11 +21,11 @@ class Hierarchy {
     [[nodiscard]] bool isLeaf(std::uint32_t at) const { return skip == at + 1; }
   };
 
-  /// Builds the tree over the given slots by halving along the longest side.
+  /// Builds the tree over the given slots by bisection along the longest side.
   void build(std::span<const Box> boxes, std::vector<std::uint32_t> slots);
 
-  /// Fits the nodes to boxes that have moved. Returns false if the tree has become so loose that it
-  /// should be built anew.
+  /// Adapts the nodes to boxes that have moved. Returns false if the nodes have become so large
+  /// that the tree should be rebuilt.
   bool refit(std::span<const Box> boxes);
 
   [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }

@@ -1,5 +1,5 @@
 #pragma once
-// Search in a tree of boxes: the paper's second rival (HO).
+// Search in a tree of boxes (HO), the second method that the paper compares with.
 
 #include <cmath>
 
@@ -77,7 +77,7 @@ class HierarchySearch final : public ContactSearch {
     return true;
   }
 
-  /// Visits the slots from the `first` one of the tree's order on whose boxes overlap `box`.
+  /// Visits the slots whose boxes overlap `box`, from the `first` one of the tree's order on.
   template <class Visit>
   void descend(const Box& box, std::size_t first, Count& count, Visit visit) const {
     const std::span<const Hierarchy::Node> nodes = tree_.nodes();
@@ -98,7 +98,7 @@ class HierarchySearch final : public ContactSearch {
   }
 
   std::span<const Box> boxes_;
-  std::vector<std::uint32_t> slots_;  // what the tree was built over, ascending
+  std::vector<std::uint32_t> slots_;  // slots in the tree, ascending
   Hierarchy tree_;
   WideBoxes wide_;
   Count count_;

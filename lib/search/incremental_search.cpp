@@ -78,7 +78,8 @@ void IncrementalSearch::findPairsOfChanged(std::vector<BoxPair>& pairs) {
   }
 }
 
-/// Two that have both changed find each other: the one with the smaller slot has the pair.
+/// If both boxes of a pair have changed, both find it: only the one with the smaller slot stores
+/// it.
 void IncrementalSearch::pairsOf(BoxId slot, std::vector<BoxId>& found,
                                 std::vector<BoxPair>& out) const {
   const Box& box = boxes_[slot.value];

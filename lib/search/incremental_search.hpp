@@ -1,5 +1,6 @@
 #pragma once
-// A search that is told which boxes changed: its cost is that of these, not of all.
+// A search that receives the list of changed boxes: its cost depends on their number, not on that
+// of all boxes.
 
 #include <memory>
 #include <span>
@@ -9,38 +10,37 @@
 
 namespace yadefrag {
 
-/// Two searches: one holds the boxes as they were when they were last sorted in (`settled_`), the
-/// other those that have changed since (`aside_`). A changed box asks both. When so many are aside
-/// that sorting them in costs less than keeping them apart has cost, all are sorted in.
+/// Two searches: `settled_` holds the boxes as they were when they were last sorted in, `aside_`
+/// those that have changed since. A changed box is tested in both. All boxes are sorted in as soon
+/// as that costs less than the separate search has cost.
 class IncrementalSearch {
  public:
   explicit IncrementalSearch(SearchMethod method, bool countComparisons = false);
 
-  /// Takes all boxes anew, as in `ContactSearch`; they must stay in place until the next call of
+  /// Takes all boxes, as in `ContactSearch`; the array must not move until the next call of
   /// `update` or `change`.
   void update(std::span<const Box> boxes);
-  /// Appends all overlapping pairs; to be called after `update` only.
+  /// Appends all overlapping pairs. Valid only directly after `update`.
   void findPairs(std::vector<BoxPair>& pairs);
 
-  /// Takes the boxes of which only `changed` (ascending) differ from the last call of `update` or
-  /// `change`. There may be more slots than before, not fewer; the further ones are `changed`.
+  /// Takes the boxes, of which only `changed` (ascending) differ from the last call of `update` or
+  /// `change`. There may be more slots than before, not fewer; the new ones are in `changed`.
   void change(std::span<const Box> boxes, std::span<const BoxId> changed);
-  /// Appends the overlapping pairs of which at least one is among those given to `change` last:
-  /// each once, in an order that depends on the calls so far, never on the number of threads.
-  /// Throws TooManyPairs.
+  /// Appends the overlapping pairs with at least one box of the last `changed`: each once, in an
+  /// order that depends on the previous calls, never on the number of threads. Throws TooManyPairs.
   void findPairsOfChanged(std::vector<BoxPair>& pairs);
 
   /// Appends the slots whose boxes overlap `box`.
   void findOverlaps(const Box& box, std::vector<BoxId>& found) const;
 
-  /// Forgets what it knows: `update` has to be next.
+  /// Deletes all stored data: the next call must be `update`.
   void clear();
 
   void setThreads(int threads);
   void setMostPairs(std::size_t most);
   [[nodiscard]] Comparisons comparisons() const;
   void addTo(Footprint& footprint) const;
-  /// Boxes that are not sorted in.
+  /// Number of boxes that are not sorted in.
   [[nodiscard]] std::size_t aside() const { return asideSlots_.size(); }
 
  private:
@@ -51,12 +51,12 @@ class IncrementalSearch {
   std::unique_ptr<ContactSearch> settled_, aside_;
   std::span<const Box> boxes_;
   std::vector<Box> asideBoxes_;
-  std::vector<BoxId> asideSlots_;          // of asideBoxes_
-  std::vector<std::uint32_t> asidePlace_;  // by slot: place in asideBoxes_ plus one; 0: settled
-  std::vector<BoxId> changed_;             // of the last call
+  std::vector<BoxId> asideSlots_;          // slots of asideBoxes_
+  std::vector<std::uint32_t> asidePlace_;  // by slot: index in asideBoxes_ plus one; 0: in settled_
+  std::vector<BoxId> changed_;             // of the last call of `change`
   std::vector<bool> isChanged_;            // by slot
   std::vector<std::vector<BoxPair>> partPairs_;
-  std::size_t workAside_ = 0;  // boxes that were looked at in `aside_` since all were settled
+  std::size_t workAside_ = 0;  // box tests in `aside_` since all boxes were sorted in
   std::size_t mostPairs_ = std::numeric_limits<std::size_t>::max();
   int threads_ = 1;
 };

@@ -24,7 +24,7 @@ Vector plus(const Vector& a, double times, const Vector& b) {
   return {a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]};
 }
 
-/// Rows of the inverse of the matrix with these columns.
+/// Rows of the inverse of the matrix with the given columns.
 std::array<Vector, 3> inverseOf(const std::array<Vector, 3>& columns) {
   const double volume = dot(columns[0], cross(columns[1], columns[2]));
   std::array<Vector, 3> rows;
@@ -49,8 +49,8 @@ Lattice::Lattice(const std::array<Vector, 3>& periods) : periods_(periods), basi
   for (int i = 0; i < 3; ++i) reach_[i] = .5 * shortest_ * std::sqrt(dot(rows[i], rows[i]));
 }
 
-/// Semaev's reduction: in the result no sum of two of the vectors, nor of all three, with signs, is
-/// shorter than the longest of those in it (Minkowski-reduced).
+/// Semaev's reduction. In the result (Minkowski-reduced) no sum or difference of two or of all
+/// three vectors is shorter than the longest vector in it.
 void Lattice::reduce() {
   do {
     sortByLength();
@@ -69,7 +69,8 @@ void Lattice::sortByLength() {
   swapIfLonger(0, 1);
 }
 
-/// Gauss's reduction of the two shorter vectors. Ends since one of them gets shorter each time.
+/// Gauss's reduction of the two shorter vectors. It terminates since each round makes one of them
+/// shorter.
 void Lattice::reducePlane() {
   for (;;) {
     const double before = dot(basis_[1], basis_[1]);
@@ -85,8 +86,8 @@ void Lattice::reducePlane() {
   }
 }
 
-/// Takes from the third vector what of the plane's lattice is nearest to it. True if it is then
-/// shorter than the second: the plane has to be reduced again.
+/// Subtracts from the third vector the nearest lattice vector of the plane. Returns true if it is
+/// then shorter than the second: the plane must be reduced again.
 bool Lattice::reduceThird() {
   const double aa = dot(basis_[0], basis_[0]), bb = dot(basis_[1], basis_[1]);
   const double ab = dot(basis_[0], basis_[1]), det = aa * bb - ab * ab;
@@ -106,7 +107,7 @@ bool Lattice::reduceThird() {
   return (bestX != 0 || bestY != 0) && dot(basis_[2], basis_[2]) < bb;
 }
 
-/// The vector is summed up anew from the periods, so that errors do not add up.
+/// The vector is computed again from the periods, so that errors do not accumulate.
 void Lattice::subtract(int from, int other, double times) {
   if (!(std::abs(times) < tolerance::kMostShear)) {
     throw InputError("The periodic cell is sheared beyond " +
@@ -120,9 +121,9 @@ void Lattice::subtract(int from, int other, double times) {
   }
 }
 
-/// Steps along vectors of the reduced basis, of which each is −1, 0 or 1, lead to every neighbour
-/// whose bisecting plane bounds the region nearest to the origin. A point from which none of them
-/// leads nearer is in that region.
+/// Vectors of the reduced basis, each multiplied by −1, 0 or 1, lead to every neighbour whose
+/// bisecting plane bounds the region of points nearest to the origin. A point is in that region if
+/// none of these steps reduces its distance.
 auto Lattice::nearest(const Vector& point) const -> Cells {
   Whole steps;
   Vector at = point;

@@ -1,8 +1,8 @@
 #pragma once
-// The lattice of a periodic cell: which copy of a point is nearest, whatever the cell's shear.
+// The lattice of a periodic cell: finds the nearest copy of a point for any shear of the cell.
 //
-// The same lattice has many bases. In a cell with columns (1, 0), (7, 1) the nearest copy may be
-// seven cells away; in the reduced basis (1, 0), (0, 1) it is next to the rounded coordinates.
+// A lattice has many bases. In a cell with columns (1, 0), (7, 1) the nearest copy may be seven
+// cells away; in the reduced basis (1, 0), (0, 1) it is next to the rounded coordinates.
 
 #include <array>
 #include <cstdint>
@@ -24,8 +24,8 @@ class Lattice {
   /// Length (m) of the shortest period.
   [[nodiscard]] double shortest() const { return shortest_; }
 
-  /// Periods, per axis, by which a point at half the shortest period from the origin may differ
-  /// from it.
+  /// Number of periods, per axis, by which a point within half the shortest period from the origin
+  /// may differ from it.
   [[nodiscard]] const Vector& reach() const { return reach_; }
 
  private:
@@ -40,7 +40,7 @@ class Lattice {
 
   std::array<Vector, 3> periods_;
   std::array<Vector, 3> basis_;    // reduced, shortest first
-  std::array<Whole, 3> inCells_;   // its vectors as sums of the periods
+  std::array<Whole, 3> inCells_;   // vectors of the basis as sums of the periods
   std::array<Vector, 3> inverse_;  // rows: coordinates in the basis
   double shortest_ = 0;
   Vector reach_{};

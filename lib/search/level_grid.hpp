@@ -1,7 +1,7 @@
 #pragma once
-// Grids of position-code boxes, one per level, each twice as coarse as the one before. A body box
-// lives on the level whose edge fits its longest side, keyed by its lower corner, so that sizes of
-// 1 : 10⁴ in one scene cost fourteen levels and not 10¹² boxes a body.
+// Grids of position-code boxes, one per level; each is twice as coarse as the one before. A body
+// box is stored on the level whose edge fits its longest side, keyed by its lower corner. Sizes of
+// 1 : 10⁴ in one scene therefore need fourteen levels, not 10¹² boxes per body.
 
 #include <array>
 #include <bit>
@@ -15,11 +15,13 @@
 
 namespace yadefrag {
 
-/// Level numbers are biased: `kBaseLevel` has the planned edge, there is room below and above it.
+/// Level numbers have an offset: `kBaseLevel` has the planned edge; finer and coarser levels exist
+/// below and above it.
 inline constexpr int kBaseLevel = 20;
 inline constexpr int kLevels = 60;
 
-/// `std::floor` is a call on plain amd64 (no SSE4.1); this is exact for |x| < 2⁶².
+/// A replacement of `std::floor`, which is a function call on plain amd64 (without SSE4.1); exact
+/// for |x| < 2⁶².
 inline std::int64_t floorToInt(double x) {
   const auto t = static_cast<std::int64_t>(x);
   return t - (static_cast<double>(t) > x);
@@ -37,7 +39,7 @@ class LevelGrid {
       inverseEdge_[level] = 1 / std::ldexp(plan.edge, level - kBaseLevel);
       for (int d = 0; d < Dim; ++d) {
         const double origin = plan.low[plan.axes[d]] * inverseEdge_[level];
-        // Beyond 2^30 boxes from zero the origin keeps its place: coordinates there are not coded.
+        // Beyond 2^30 boxes from zero the origin is not changed: coordinates there get no code.
         origin_[level][d] = std::abs(origin) < kFarthest ? floorToInt(origin) : 0;
       }
     }
@@ -46,11 +48,11 @@ class LevelGrid {
 
   [[nodiscard]] int axis(int d) const { return plan_.axes[d]; }
 
-  /// For filters of all levels: origin and edge of the base level.
+  /// Origin and edge of the base level, for the filter boxes of all levels.
   [[nodiscard]] FilterScale filterScale() const { return {plan_.low, 1 / plan_.edge}; }
 
-  /// The finest level whose edge is at least kEdgeOverExtent times `side`; kLevels if there is
-  /// none.
+  /// The finest level whose edge is at least kEdgeOverExtent times `side`; kLevels if there is no
+  /// such level.
   [[nodiscard]] int levelOf(double side) const {
     const double ratio = side * inverseSmallest_;
     if (!(ratio > 1)) return 0;
@@ -64,11 +66,11 @@ class LevelGrid {
   [[nodiscard]] double scaled(double x, int level) const { return x * inverseEdge_[level]; }
   [[nodiscard]] std::int64_t origin(int level, int d) const { return origin_[level][d]; }
 
-  /// False for coordinates too far out to be numbered at this level.
+  /// False for coordinates too distant for a number on this level.
   static bool isNumbered(double scaled) { return std::abs(scaled) < kFarthest; }
 
-  /// Box number of x along coded axis d, not yet taken modulo 2^kBits. Monotone in x, because the
-  /// one rounding is that of a product with a constant.
+  /// Box number of x along the coded axis d, before the reduction modulo 2^kBits. It is monotone in
+  /// x, because its only rounding is that of a product with a constant.
   [[nodiscard]] std::int32_t number(double x, int level, int d) const {
     return static_cast<std::int32_t>(floorToInt(scaled(x, level)) - origin_[level][d]);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Search in a tree over position codes that is built anew for every update (LBVH, Karras 2012).
+// Search in a tree over position codes that is rebuilt for every update (LBVH, Karras 2012).
 
 #include <array>
 #include <cmath>
@@ -71,10 +71,10 @@ class LinearBvh final : public ContactSearch {
     return true;
   }
 
-  /// Visits the slots of the leaves from the `first` one on whose boxes overlap `box`.
+  /// Visits the slots whose boxes overlap `box`, from the leaf `first` on.
   template <class Visit>
   void descend(const Box& box, std::size_t first, Count& count, Visit visit) const {
-    std::array<std::uint32_t, 128> waiting;  // a node of each depth at most
+    std::array<std::uint32_t, 128> waiting;  // at most one node of each depth
     std::size_t size = 0;
     const auto enter = [&](std::uint32_t child) {
       const bool isLeaf = child & CodeTree::kLeafFlag;

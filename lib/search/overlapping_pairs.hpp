@@ -1,5 +1,5 @@
 #pragma once
-// Pairs among boxes that are looked at once: nothing is kept for a next time.
+// Overlapping pairs of boxes for a single query: no data are kept for later queries.
 
 #include <memory>
 #include <span>

@@ -1,5 +1,5 @@
 #pragma once
-// Pairs by their first member: is this pair among them, and at which index?
+// A table of pairs by their first member. It finds whether a pair is present, and its index.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace yadefrag {
 class PartnerTable {
  public:
   /// Takes `count` pairs; `firstOf(i)` < `rows` and `secondOf(i)` are the members of pair i. A pair
-  /// may come more than once.
+  /// may occur more than once.
   template <class FirstOf, class SecondOf>
   void build(std::size_t rows, std::size_t count, FirstOf firstOf, SecondOf secondOf) {
     fillRows(rows_, rows, count, firstOf, [&](std::size_t i) {
@@ -58,7 +58,7 @@ class PartnerTable {
   };
   static bool isLong(std::size_t size) { return size > tolerance::kLongRow; }
 
-  Csr<Partner> rows_;  // long ones sorted
+  Csr<Partner> rows_;  // long rows are sorted
 };
 
 }  // namespace yadefrag

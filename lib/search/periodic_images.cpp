@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Moves the box's lower corner into [0, size); returns by how many cells.
+/// Moves the box's lower corner into [0, size); returns the shift in cells.
 double wrapAxis(Box& box, int axis, double size, double margin) {
   double& low = box.min[axis];
   double& high = box.max[axis];
@@ -21,7 +21,7 @@ double wrapAxis(Box& box, int axis, double size, double margin) {
   low -= margin * size;
   high += margin * size;
   const double cells = std::floor(low / size);
-  // Rounding may leave `low` a hair outside: the margin covers that.
+  // Rounding may put `low` slightly outside the cell: the margin covers that.
   low -= cells * size;
   high -= cells * size;
   return cells;

@@ -1,11 +1,11 @@
 #pragma once
-// Copies of boxes that stick out of a periodic cell, so that any search, which knows no cell, finds
-// the pairs across its faces.
+// Adds copies of the boxes that protrude from a periodic cell. A search without periodicity then
+// finds the pairs across the cell's faces, too.
 //
-// Every box is moved into the cell by whole cells, lower corner first; where it sticks out of the
+// Every box is moved into the cell by whole cells, lower corner first. Where it protrudes from the
 // upper face of an axis it gets a copy one cell lower. On each axis the pair (a, b) is found with
-// neither, with a or with b shifted, one for each way in which they can overlap; pairs that are
-// both shifted on one axis are found without that shift too and dropped.
+// no shift, with a shifted, or with b shifted: one for each way in which they can overlap. A pair
+// with both shifted on one axis is also found without that shift; the duplicate is removed.
 
 #include <array>
 #include <cstdint>
@@ -23,13 +23,13 @@ class PeriodicImages {
   /// every box. Boxes as long as the cell fill their axis.
   void build(std::span<const Box> boxes, const std::array<double, 3>& size, double margin);
 
-  /// Box i < slots is box i moved into the cell; the copies follow.
+  /// Box i < slots is box i moved into the cell; the copies are after these.
   [[nodiscard]] std::span<const Box> boxes() const { return boxes_; }
 
-  /// Turns pairs of boxes() into pairs of slots. A pair that touches in two ways comes twice.
+  /// Converts pairs of boxes() into pairs of slots. A pair that overlaps in two ways occurs twice.
   void toSlots(std::vector<BoxPair>& pairs) const;
 
-  /// Largest difference in cells between two boxes' lower corners, per axis, plus one.
+  /// Per axis: the largest difference in cells between two boxes' lower corners, plus one.
   [[nodiscard]] const std::array<double, 3>& span() const { return span_; }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
-// A code search that plans anew when the boxes have outgrown its plan: a scene that leaves its
-// plane goes from 2D to 3D codes, one whose boxes grow gets longer position-code boxes.
+// A code search that makes a new plan when the boxes no longer fit the present one: a scene that
+// leaves its plane changes from 2D to 3D codes, one whose boxes grow gets longer position-code
+// boxes.
 
 #include "search/box_count.hpp"
 #include "search/code_search.hpp"

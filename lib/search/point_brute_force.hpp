@@ -1,5 +1,5 @@
 #pragma once
-// Every slave with every master: what the other point searches are compared with.
+// Tests every slave against every master: the reference for the other point searches.
 
 #include "search/point_search.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
-// Slaves by position codes with one box edge: SPC (paper §4.2 to §4.4) and LPC (the paper's [5]).
+// Search of slaves by position codes with one box edge: SPC (paper §4.2 to §4.4) and LPC (the
+// paper's [5]).
 
 #include <algorithm>
 #include <array>
@@ -14,11 +15,12 @@
 
 namespace yadefrag {
 
-/// How the first code of a range is found in the sorted list.
+/// Method for finding the first code of a range in the sorted list.
 enum class Lookup {
-  kExponential,  ///< from the segment's own slave, then binary (SPC as printed: §4.4, lemma A.3)
+  kExponential,  ///< from the segment's own slave, then binary (SPC as in the paper: §4.4, lemma
+                 ///< A.3)
   kBinary,       ///< in the whole list (LPC: the log N of §4.5)
-  kDirectory,    ///< SPC here: as in code_search.hpp, one look
+  kDirectory,    ///< SPC in this project: as in code_search.hpp, one access
 };
 
 template <class Numbering, Lookup kLookup, class Count>
@@ -49,7 +51,7 @@ class PointCodeSearch final : public PointSearch {
 
  private:
   using Code = PositionCode<2>;
-  using Numbers = std::array<std::int64_t, 2>;  // boxes to the left and below: L of fig. 6
+  using Numbers = std::array<std::int64_t, 2>;  // of boxes to the left and below: L of fig. 6
 
   struct Place {
     std::uint64_t code;
@@ -60,7 +62,8 @@ class PointCodeSearch final : public PointSearch {
     std::uint32_t slot;
   };
 
-  /// In box edges. Farther out than a double counts in ones, all share a box: still monotone.
+  /// In box edges. Where the spacing of doubles exceeds one box, coordinates share a box; the
+  /// mapping stays monotone.
   [[nodiscard]] std::array<double, 2> scaled(Vec2 p) const {
     return {std::clamp((p.x - origin_.x) * inverseEdge_, -0x1p52, 0x1p52),
             std::clamp((p.y - origin_.y) * inverseEdge_, -0x1p52, 0x1p52)};
@@ -102,7 +105,7 @@ class PointCodeSearch final : public PointSearch {
     refresh();
   }
 
-  /// What the queries read, in the order of the list.
+  /// Copies the data that queries read into the order of the list.
   void refresh() {
     const std::size_t size = list_.size();
     codes_.resize(size);
@@ -118,7 +121,8 @@ class PointCodeSearch final : public PointSearch {
     if constexpr (kLookup == Lookup::kDirectory) directory_.build(codes_);
   }
 
-  /// Fig. 6: two comparisons an axis tell whether the point kept its box. Returns true if so.
+  /// Fig. 6: two comparisons per axis decide whether the point has kept its box. Returns true if it
+  /// has.
   bool stays(Vec2 p, Place& place) {
     const std::array<double, 2> x = scaled(p);
     bool same = true;
@@ -138,8 +142,8 @@ class PointCodeSearch final : public PointSearch {
     return same;
   }
 
-  /// To the next box. On the curve the level of the boundary has to be found (lemma A.1); on a row
-  /// or from row to row it is one addition.
+  /// Moves to the adjacent box. On the curve this needs the level of the boundary (lemma A.1); on a
+  /// row, or from row to row, it is one addition.
   void stepOver(Place& place, int axis, bool down) {
     if constexpr (Numbering::kIsCurve) {
       const auto l = static_cast<std::uint32_t>(place.number[axis]);
@@ -152,13 +156,13 @@ class PointCodeSearch final : public PointSearch {
     place.number[axis] += down ? -1 : 1;
   }
 
-  /// Up to four ranges (§4.4), of which the paper's bound in the length of the segment holds; for a
-  /// rectangle far longer than b as many as it takes to stay on it.
+  /// Up to four ranges (§4.4), for which the paper's bound in the length of the segment holds. A
+  /// rectangle far longer than b gets as many ranges as are needed to cover little else.
   void findIn(const Rectangle& rectangle, std::size_t own, std::vector<EntryId>& found) {
     const auto visit = [&](const CodeRange& range) {
-      count_.range(1);  // that of the code which ends it
+      count_.range(1);  // the comparison with the code that ends it
       for (std::uint32_t at = firstFrom(range.start, own); at < codes_.size(); ++at) {
-        if (codes_[at] > range.stop) break;  // met sooner than looked up
+        if (codes_[at] > range.stop) break;  // a linear scan is faster than a look-up
         count_.test(5);
         if (contains(rectangle, sorted_[at].point)) found.emplace_back(sorted_[at].slot);
       }
@@ -210,7 +214,7 @@ class PointCodeSearch final : public PointSearch {
   }
 
   static constexpr std::int64_t kFourRanges = 16;     // boxes
-  static constexpr std::int64_t kMostRows = 1 << 16;  // then a look at every point is cheaper
+  static constexpr std::int64_t kMostRows = 1 << 16;  // above it, a scan of all points is cheaper
 
   double inverseEdge_;
   Vec2 origin_;

@@ -79,7 +79,7 @@ void PointHierarchySearch<Count>::find(std::span<const Rectangle> masters, doubl
   found_.clear();
   count_.resort(4 * tree_.refit(masters));
   if (!masters.empty()) {
-    // `contains` rounds where it adds the halo; a group must not be left out for that.
+    // `contains` rounds when it adds the halo; that must not exclude a group.
     const Rectangle& all = tree_.nodes()[0].box;
     reach_ = halo + (farthest(all) + halo) * tolerance::kExtentRounding;
     within(0);

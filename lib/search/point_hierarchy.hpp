@@ -1,6 +1,6 @@
 #pragma once
-// Groups of segments along the surfaces, and groups of these (HO, the paper's [12]): the tree keeps
-// its shape, its boxes follow the motion.
+// Groups of segments along the surfaces, and groups of groups (HO, the paper's [12]). The tree's
+// structure is fixed; its boxes follow the motion.
 
 #include <cstdint>
 #include <span>
@@ -11,21 +11,21 @@
 
 namespace yadefrag {
 
-/// A binary tree over entries in the order of their surfaces: halves of a loop below the loop,
-/// loops in the order of their numbers above. Nodes in depth-first order: the first child follows
-/// its parent. A leaf is one entry.
+/// A binary tree over entries in the order of their surfaces: below a loop, halves of the loop;
+/// above, loops in the order of their numbers. Nodes are in depth-first order: the first child
+/// follows its parent. A leaf is one entry.
 class SurfaceTree {
  public:
   struct Node {
-    Rectangle box;         // of the masters, without halo
+    Rectangle box;         // bounding box of the masters, without halo
     std::uint32_t second;  // the second child; 0 for a leaf
-    std::uint32_t entry;   // of a leaf
+    std::uint32_t entry;   // entry of a leaf
     [[nodiscard]] bool isLeaf() const { return second == 0; }
   };
 
   void build(std::span<const std::uint32_t> loopStart, std::size_t entries);
 
-  /// Fits all boxes to the masters as they are now. Returns how many inner nodes there are.
+  /// Fits all boxes to the present masters. Returns the number of inner nodes.
   std::size_t refit(std::span<const Rectangle> masters);
 
   [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
@@ -56,8 +56,8 @@ class PointHierarchySearch final : public PointSearch {
     std::uint32_t master, slave;
   };
 
-  /// A group with itself, and two groups with each other: their boxes must come within the halo for
-  /// their contents to be candidates (§6).
+  /// Tests a group against itself, and two groups against each other. Their contents can be
+  /// candidates only if the distance of their boxes is within the halo (§6).
   void within(std::uint32_t group);
   void between(std::uint32_t a, std::uint32_t b);
   void test(std::uint32_t master, std::uint32_t slave);

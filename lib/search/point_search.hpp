@@ -1,7 +1,7 @@
 #pragma once
-// The paper's own global search (§4): slaves in the halos of masters. Points have position codes
-// with one box edge b; rectangles ask. The searches of contact_search.hpp are for boxes of any
-// size.
+// The paper's global search (§4): finds slaves in the halos of masters. Points have position codes
+// with one box edge b; rectangles are the queries. The searches of contact_search.hpp handle boxes
+// of any size.
 
 #include <memory>
 #include <span>
@@ -26,36 +26,38 @@ inline bool contains(const Rectangle& r, Vec2 p) {
   return bool((r.low.x <= p.x) & (p.x <= r.high.x) & (r.low.y <= p.y) & (p.y <= r.high.y));
 }
 
-/// The rectangle at distance `halo` around another.
+/// The rectangle enlarged by `halo` on every side.
 inline Rectangle enlarged(const Rectangle& r, double halo) {
   return {{r.low.x - halo, r.low.y - halo}, {r.high.x + halo, r.high.y + halo}};
 }
 
-/// Finds candidates. Entry i of the surfaces is the slave `points[i]` and the master whose piece
-/// has the bounding rectangle `masters[i]`; its slave lies in it. Coordinates are finite.
+/// Finds candidates. Entry i of the surfaces is both the slave `points[i]` and the master whose
+/// piece has the bounding rectangle `masters[i]`; the slave lies in that rectangle. Coordinates are
+/// finite.
 ///
-/// The candidates are those of `contains(enlarged(masters[i], halo), point)`, exactly: each once,
-/// an entry's own slave among them, in an order that depends on the points and on earlier updates.
+/// The candidates are exactly those with `contains(enlarged(masters[i], halo), point)`: each once,
+/// an entry's own slave included, in an order that depends on the points and on earlier updates.
 class PointSearch {
  public:
   virtual ~PointSearch() = default;
 
-  /// Takes the slaves as they are now; they must stay in place until the next update.
+  /// Takes the present slaves; the array must not move until the next update.
   virtual void update(std::span<const Vec2> points) = 0;
 
-  /// Row i: the slaves in the halo of master i. As many masters as slaves.
+  /// Row i: the slaves in the halo of master i. There are as many masters as slaves.
   virtual void find(std::span<const Rectangle> masters, double halo, Csr<EntryId>& candidates) = 0;
 
-  /// Comparisons since construction; zero unless asked for in `makePointSearch`.
+  /// Comparisons since construction; zero unless `makePointSearch` was called with counting.
   [[nodiscard]] virtual Comparisons comparisons() const = 0;
 };
 
-/// What a search must know beforehand.
+/// Parameters of a search.
 struct PointSearchPlan {
   double edge = 1;                       ///< b, edge of the smallest boxes (m), > 0
-  Vec2 origin;                           ///< where a corner of boxes of all sizes lies
+  Vec2 origin;                           ///< a common corner of the boxes of all sizes
   std::vector<std::uint32_t> loopStart;  ///< first entry of each closed loop, ascending, from 0
-  /// Of SPC: where a range begins is looked up in a directory; else found as the paper does it.
+  /// SPC only: the begin of a range is looked up in a directory; otherwise it is found as in the
+  /// paper.
   bool directory = true;
 };
 

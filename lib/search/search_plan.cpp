@@ -12,7 +12,7 @@ namespace {
 struct Sample {
   std::vector<double> sides;
   std::array<double, 3> low;
-  std::array<double, 3> high;  // of the lower corners
+  std::array<double, 3> high;  // maximum of the lower corners
 };
 
 Sample takeSample(std::span<const Box> boxes) {
@@ -32,8 +32,8 @@ Sample takeSample(std::span<const Box> boxes) {
   return s;
 }
 
-/// The longest side within a factor of two above the median: bodies of about one size then share a
-/// level, which they fill to its upper end.
+/// The longest side within a factor of two above the median. Bodies of similar size are then on one
+/// level, whose edge fits the largest of them.
 double typicalSide(std::vector<double>& sides) {
   std::sort(sides.begin(), sides.end());
   const double median = sides[sides.size() / 2];
@@ -54,7 +54,7 @@ SearchPlan planSearch(std::span<const Box> boxes) {
   std::array<double, 3> spread;
   for (int axis = 0; axis < 3; ++axis) spread[axis] = sample.high[axis] - sample.low[axis];
   double side = typicalSide(sample.sides);
-  // Points have no size of their own: any edge far below their spread separates them.
+  // Points have size 0: any edge far below their spread separates them.
   if (side == 0) side = std::ldexp(*std::max_element(spread.begin(), spread.end()), -20);
   if (!(side > 0) || !std::isnormal(side)) side = 1;
   plan.edge = side * tolerance::kSpareSide * tolerance::kEdgeOverExtent;

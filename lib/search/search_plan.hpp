@@ -1,5 +1,6 @@
 #pragma once
-// What a code search decides from the boxes before it numbers them: box edge, axes, origin.
+// Parameters that a code search derives from the boxes before numbering them: box edge, axes,
+// origin.
 
 #include <array>
 #include <span>
@@ -8,15 +9,16 @@
 
 namespace yadefrag {
 
-/// All of it concerns speed alone: any plan gives the same pairs. Hence a sample of the boxes will
-/// do.
+/// These parameters affect speed only: any plan gives the same pairs. A sample of the boxes is
+/// therefore sufficient.
 struct SearchPlan {
   double edge = 1;  ///< m, edge of the position-code boxes of level kBaseLevel
-  std::array<double, 3> low = {0, 0, 0};  ///< m, lower corner of the sample: codes count from here
+  std::array<double, 3> low = {0, 0, 0};  ///< m, lower corner of the sample, origin of the codes
   std::array<int, 3> axes = {0, 1, 2};    ///< the axes that enter the code
-  int dim = 3;                            ///< how many of them: 2 for a plane scene
+  int dim = 3;                            ///< number of these axes: 2 for a plane scene
 
-  /// True if boxes numbered by this plan may stay so although `now` is what would be planned.
+  /// True if boxes numbered by this plan may keep their numbers although `now` would be planned
+  /// today.
   [[nodiscard]] bool stillServes(const SearchPlan& now) const;
 };
 

@@ -8,13 +8,13 @@
 namespace yadefrag {
 namespace {
 
-constexpr int kDigitBits = 11;  // 2048 counters stay in the first-level cache
+constexpr int kDigitBits = 11;  // 2048 counters fit into the first-level cache
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 
 }  // namespace
 
 void sortByCode(std::vector<CodedSlot>& list) {
-  if (list.size() < tolerance::kRadixPays) {
+  if (list.size() < tolerance::kRadixLength) {
     std::sort(list.begin(), list.end());
     return;
   }

@@ -11,19 +11,19 @@ struct CodedSlot {
   std::uint64_t code;
   std::uint32_t slot;
 
-  /// By slot where codes are equal: the order then does not depend on who came first.
+  /// Equal codes are ordered by slot: the order then does not depend on the order of insertion.
   friend bool operator<(const CodedSlot& a, const CodedSlot& b) {
     return a.code != b.code ? a.code < b.code : a.slot < b.slot;
   }
 };
 
-/// Sorts a list that is ascending in slot (radix sort: stable, no comparisons).
+/// Sorts a list that ascends in slot (radix sort: stable, without comparisons).
 void sortByCode(std::vector<CodedSlot>& list);
 
-/// Merges `incoming`, sorted, into `list`, sorted. For each one coming in, the place is found from
-/// the one before by exponential, then binary search (paper §4.4, lemma A.2): comparisons grow with
-/// the gaps between those that moved and not with the length of the list, and every entry is
-/// shifted once.
+/// Merges the sorted list `incoming` into the sorted list `list`. The position of each new entry is
+/// found from the previous one by exponential, then binary search (paper §4.4, lemma A.2). The
+/// number of comparisons grows with the gaps between the new entries, not with the length of the
+/// list; every entry is shifted once.
 template <class Count>
 void mergeByCode(std::vector<CodedSlot>& list, const std::vector<CodedSlot>& incoming,
                  std::vector<CodedSlot>& scratch, Count& count) {

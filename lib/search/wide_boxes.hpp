@@ -1,6 +1,6 @@
 #pragma once
-// Boxes too large, too far out or too few of their kind for a position code: walls, floors,
-// outliers. They are tested against everything.
+// Boxes without a position code: too large, too distant, or too few of one size (walls, floors,
+// outliers). They are tested against all others.
 
 #include <cstdint>
 #include <span>
@@ -21,7 +21,7 @@ class WideBoxes {
   [[nodiscard]] std::span<const std::uint32_t> slots() const { return slots_; }
   void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, slots_); }
 
-  /// Pairs among the wide boxes; `most` is the limit of all of `pairs`.
+  /// Pairs among the wide boxes; `most` limits the total number of `pairs`.
   template <class Count>
   void pairsAmong(std::span<const Box> boxes, std::vector<BoxPair>& pairs, Count& count,
                   std::size_t most) const {
@@ -33,7 +33,7 @@ class WideBoxes {
     }
   }
 
-  /// Pairs of one other box with the wide ones.
+  /// Pairs of another box with the wide ones.
   template <class Count>
   void pairsWith(std::span<const Box> boxes, const Box& box, std::uint32_t slot,
                  std::vector<BoxPair>& pairs, Count& count) const {

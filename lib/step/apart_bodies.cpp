@@ -10,12 +10,12 @@ namespace yadefrag {
 
 namespace {
 
-/// Around the surface of each body; arcs lie within the hull of their nodes.
+/// Boxes around the surface of each body; arcs are inside the hull of their nodes.
 std::vector<Box> bodyBoxes(const Model& model, const ContactSurfaces& surfaces, double margin) {
   std::vector<Box> boxes(model.components.size(), Box::absent());
   const Nodes& nodes = model.nodes;
   for (const NodeId node : surfaces.segmentNode) {
-    if (nodes.mass[node.value] == 0) continue;  // of a dropped triangle
+    if (nodes.mass[node.value] == 0) continue;  // of a removed triangle
     include(boxes[nodes.component[node.value].value], nodes.position[node.value]);
   }
   for (Box& box : boxes)
@@ -23,12 +23,12 @@ std::vector<Box> bodyBoxes(const Model& model, const ContactSurfaces& surfaces, 
   return boxes;
 }
 
-/// Removed bodies leave their numbers behind; what touches itself is always watched.
+/// Removed bodies keep their numbers. A body that can touch itself is always checked.
 bool mayBeApart(const Component& body) {
   return body.firstTriangle < body.lastTriangle && !body.selfContact;
 }
 
-/// (m) Of two boxes with margins: two bodies are at least so far from each other.
+/// (m) Lower bound of the distance of two bodies, from their boxes with margins.
 double gapBetween(const Box& a, const Box& b, double margin) {
   const double x = std::max(a.min[0] - b.max[0], b.min[0] - a.max[0]);
   const double y = std::max(a.min[1] - b.max[1], b.min[1] - a.max[1]);
@@ -68,7 +68,7 @@ bool ApartBodies::choose(const Model& model, const ContactSurfaces& surfaces, do
   for (std::size_t c = 0; c < bodies; ++c) apart_[c] = mayBeApart(model.components[c]) ? 1 : 0;
   count_ = std::count(apart_.begin(), apart_.end(), 1);
   if (count_ > 0) {
-    const double widest = tolerance::kApartLook * reach;
+    const double widest = tolerance::kApartSearch * reach;
     const std::vector<Gap> gaps = gapsBelow(model, surfaces, widest);
     for (const Gap& gap : gaps)
       if (gap.width <= tolerance::kApart * reach) apart_[gap.a.value] = apart_[gap.b.value] = 0;
@@ -79,7 +79,7 @@ bool ApartBodies::choose(const Model& model, const ContactSurfaces& surfaces, do
 }
 
 void ApartBodies::look(const Model& model, const ContactSurfaces& surfaces, double reach) {
-  const double widest = tolerance::kApartLook * reach;
+  const double widest = tolerance::kApartSearch * reach;
   measure(gapsBelow(model, surfaces, widest), widest, reach);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Bodies so far from all others that their nodes need not be watched one by one.
+// Isolated bodies: so far from all others that their nodes need not be checked one by one.
 
 #include <cstdint>
 #include <span>
@@ -13,21 +13,24 @@ namespace yadefrag {
 
 class ApartBodies {
  public:
-  /// Those with none of the `watched` nodes are apart; how far is not known.
+  /// Bodies with none of the `watched` nodes are isolated; their distance from others is not known.
   void takeFrom(const Model& model, std::span<const NodeId> watched);
 
-  /// Chooses anew: apart is a body that cannot touch itself and has none within a few `reach` (m).
-  /// True if the choice is another one; `wasApart` then tells of the former one.
+  /// Determines the isolated bodies again: those that cannot touch themselves and have no other
+  /// body within a few `reach` (m). Returns true if the set has changed; `wasApart` then describes
+  /// the former one.
   bool choose(const Model& model, const ContactSurfaces& surfaces, double reach);
 
-  /// Looks again at how far from all others those are that are apart, as far as matters: `spare`.
+  /// Computes again the distance of isolated bodies from all others, as far as it is needed:
+  /// `spare`.
   void look(const Model& model, const ContactSurfaces& surfaces, double reach);
 
   [[nodiscard]] bool any() const { return count_ > 0; }
   [[nodiscard]] bool isApart(ComponentId body) const { return apart_[body.value] != 0; }
   [[nodiscard]] bool wasApart(ComponentId body) const { return former_[body.value] != 0; }
 
-  /// (m) A body may come so much nearer to one that is apart and is still farther than `reach`.
+  /// (m) A body may approach an isolated one by this distance and is still farther away than
+  /// `reach`.
   [[nodiscard]] double spare() const { return spare_; }
   void comeNearer(double way) { spare_ -= way; }
   void restoreSpare(double spare) { spare_ = spare; }
@@ -44,7 +47,7 @@ class ApartBodies {
   void measure(const std::vector<Gap>& gaps, double widest, double reach);
 
   std::vector<std::uint8_t> apart_, former_;  // by component
-  std::size_t count_ = 0;                     // of those that are apart
+  std::size_t count_ = 0;                     // number of isolated bodies
   double spare_ = -1;                         // m
 };
 

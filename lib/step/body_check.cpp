@@ -46,7 +46,7 @@ void requireFinite(const char* name, const std::vector<Vec2>& values) {
 void requireSlow(const std::vector<Vec2>& velocities) {
   for (const Vec2 velocity : velocities)
     for (const double one : {velocity.x, velocity.y})
-      require(std::abs(one) <= tolerance::kAnySpeed, "velocity", one, " m/s", "at most 1e100 m/s");
+      require(std::abs(one) <= tolerance::kMostSpeed, "velocity", one, " m/s", "at most 1e100 m/s");
 }
 
 void requireHeld(const std::vector<std::uint8_t>& held) {
@@ -60,8 +60,8 @@ void checkDisplacement(const TriangleMesh& mesh, const std::vector<Vec2>& displa
   for (const auto& [a, b, c] : mesh.triangles) {
     if (cross(at(b) - at(a), at(c) - at(a)) > 0) continue;
     std::ostringstream text;
-    text << "displacement turns the triangle at (" << mesh.nodes[a].x << ", " << mesh.nodes[a].y
-         << ") m inside out; every triangle must keep its corners' counter-clockwise order.";
+    text << "displacement inverts the triangle at (" << mesh.nodes[a].x << ", " << mesh.nodes[a].y
+         << ") m; every triangle must keep its corners' counter-clockwise order.";
     throw InputError(text.str());
   }
 }
@@ -89,7 +89,7 @@ void checkMaterial(const BodyMaterial& one) {
   if (one.brittle.tensileStrength != 0) checkBrittle(one.brittle);
 }
 
-/// One material, or several and a number for each triangle.
+/// One material, or several with a number for each triangle.
 void checkMaterials(const TriangleMesh& mesh, const BodySpec& spec) {
   if (spec.materials.empty()) return checkMaterial(spec);
   if (spec.element == ElementKind::kSmoothed)
@@ -131,7 +131,7 @@ void checkPlaces(const TriangleMesh& mesh, const BodySpec& spec) {
   }
 }
 
-/// A mass or a stiffness that is zero, or infinite, by the range of numbers alone.
+/// A mass or a stiffness that is zero or infinite only because of the range of numbers.
 void checkMasses(const TriangleMesh& mesh, const BodySpec& spec) {
   constexpr const char* kRange = "in the range of numbers, from 2e-308 to 2e+305";
   const auto isInRange = [](double value) {
@@ -155,7 +155,7 @@ void checkMasses(const TriangleMesh& mesh, const BodySpec& spec) {
 }
 
 struct Extent {
-  double farthest = 0;         // m, of a coordinate
+  double farthest = 0;         // m, largest coordinate
   double shortest = INFINITY;  // m, edge
 };
 
@@ -170,7 +170,7 @@ Extent extentOf(const TriangleMesh& mesh) {
   return extent;
 }
 
-/// (m/s)
+/// (m/s) Largest speed of compression waves.
 double fastestWave(const BodySpec& spec) {
   const auto wave = [](const ElasticMaterial& m) { return std::sqrt(m.waveModulus() / m.density); };
   if (spec.materials.empty()) return wave(spec.material);
@@ -180,20 +180,21 @@ double fastestWave(const BodySpec& spec) {
   return fastest;
 }
 
-/// Can coordinates hold what elements strain by, and what a step moves them by?
+/// Checks that strains and displacements in a step are larger than the rounding of coordinates.
 void checkRounding(const TriangleMesh& mesh, const BodySpec& spec) {
   const Extent extent = extentOf(mesh);
   std::ostringstream text;
   if (extent.shortest < tolerance::kLeastSize * extent.farthest) {
     text << "The mesh has an edge of " << extent.shortest << " m and a coordinate of "
-         << extent.farthest << " m, where numbers are too coarse for it; edges must be longer than "
+         << extent.farthest
+         << " m, whose rounding is too large for that edge; edges must be longer than "
          << tolerance::kLeastSize * extent.farthest << " m, or the scene nearer to the origin.";
     throw InputError(text.str());
   }
   double fastest = 0;
   for (const Vec2 velocity : spec.velocity) fastest = std::max(fastest, norm(velocity));
   const double step = extent.shortest / fastestWave(spec);
-  const double seen = tolerance::kSeenMotion * extent.farthest;
+  const double seen = tolerance::kLeastMotion * extent.farthest;
   if (fastest == 0 || fastest * step >= seen) return;
   text << "velocity is " << fastest << " m/s at most: at coordinates of " << extent.farthest
        << " m, a step of " << step << " s would be lost in rounding; it must be zero or above "
@@ -205,7 +206,7 @@ void checkStress(const TriangleMesh& mesh, const BodySpec& spec) {
   if (spec.stress.empty()) return;
   requireOfTriangles("stress", spec.stress, mesh);
   if (!spec.displacement.empty())
-    throw InputError("displacement and stress are given, of which only one can be.");
+    throw InputError("displacement and stress are both given, but only one of them can be.");
   for (std::size_t t = 0; t < spec.stress.size(); ++t) {
     const auto& stress = spec.stress[t];
     const ElasticMaterial& material = materialOf(spec, t).material;

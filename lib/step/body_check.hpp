@@ -1,5 +1,5 @@
 #pragma once
-// Can a body be what its mesh and its spec say?
+// Checks the mesh and the specification of a body.
 
 #include "mesh/triangle_mesh.hpp"
 
@@ -7,9 +7,9 @@ namespace yadefrag {
 
 struct BodySpec;
 
-/// Throws InputError, which names what is wrong and what would be right, unless every value can be
-/// meant: finite, of its sign, one for each node of the mesh, and no triangle too light to be
-/// moved.
+/// Throws InputError, which states the invalid value and the valid range, unless every value is
+/// valid: finite, with the correct sign, one for each node of the mesh, and no triangle with a mass
+/// or stiffness out of range.
 void checkBody(const TriangleMesh& mesh, const BodySpec& spec);
 
 }  // namespace yadefrag

@@ -1,5 +1,5 @@
 #pragma once
-// Where every body is, so that one that is to be added looks only at those it comes near.
+// Positions of all bodies: a new body is checked only against those near it.
 
 #include <vector>
 
@@ -9,16 +9,16 @@
 
 namespace yadefrag {
 
-/// Boxes and boundary segments by component. They hold as long as nothing moves: many bodies are
-/// mostly added in a row, and each then costs no more than itself.
+/// Boxes and boundary segments by component. They are valid as long as nothing moves: bodies are
+/// usually added in sequence, and each one then causes only its own cost.
 class BodyPlaces {
  public:
-  /// Learns what has come since the last call.
+  /// Adds the bodies that were added since the last call.
   void update(const Model& model, const ContactSurfaces& surfaces);
-  /// Bodies move or go.
-  void forget() { *this = {}; }
+  /// Must be called when bodies move or are removed.
+  void clear() { *this = {}; }
 
-  /// Absent for one that has gone.
+  /// Absent for a removed body.
   [[nodiscard]] const Box& box(ComponentId body) const { return boxes_[body.value]; }
   [[nodiscard]] const std::vector<SegmentId>& segments(ComponentId body) const {
     return segments_[body.value];
@@ -30,7 +30,7 @@ class BodyPlaces {
   std::size_t knownNodes_ = 0, knownSegments_ = 0;
 };
 
-/// Grows the box by a point.
+/// Extends the box to contain a point.
 void include(Box& box, Vec2 point);
 
 }  // namespace yadefrag

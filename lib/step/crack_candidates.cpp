@@ -14,7 +14,7 @@ void sortUnique(std::vector<EntryId>& entries) {
   entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
 }
 
-/// Nodes that were one before, `original` among them.
+/// Nodes that were one node before, including `original`.
 struct Twin {
   NodeId original, node;
   friend auto operator<=>(const Twin&, const Twin&) = default;
@@ -40,7 +40,7 @@ std::pair<std::uint32_t, std::uint32_t> rowOf(const Candidates& candidates, Entr
   return {candidates.offsets[row], candidates.offsets[row + 1]};
 }
 
-/// Raises the flags of `to` that are raised in `from`.
+/// Sets the flags of `to` that are set in `from`.
 void takeFlags(Candidates& candidates, EntryId from, EntryId to, std::vector<SlaveMaster>& raised) {
   auto [a, aEnd] = rowOf(candidates, from);
   for (auto [b, bEnd] = rowOf(candidates, to); b < bEnd; ++b) {
@@ -61,7 +61,7 @@ std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, const Candid
   std::vector<EntryId> own;
   for (const SurfaceSide& side : sides) {
     const EntryId entry = surfaces.segmentEntry[surfaces.nodeSegment[side.first.value].value];
-    // A segment has two entries at most; so far the neighbours' are reached as well.
+    // A segment has two entries at most; with two steps back the previous segment is included.
     EntryId at = surfaces.prev[surfaces.prev[entry.value].value];
     for (int k = 0; k < 6; ++k, at = surfaces.next[at.value]) own.push_back(at);
   }
@@ -126,12 +126,12 @@ void inheritTouches(std::vector<Touch>& touches, const ContactSurfaces& surfaces
         for (std::size_t k = begin; k < end; ++k) {
           const EntryId to = slaveAt(twins[k].node);
           if (k != i && to != touch.pair.master && surfaces.prev[to.value] != touch.pair.master)
-            more.push_back({{to, touch.pair.master}, 0, 0, touch.allowed});
+            more.push_back({{to, touch.pair.master}, 0, 0, touch.toleratedGap});
         }
     }
   }
   const auto byPair = [](const Touch& a, const Touch& b) { return a.pair < b.pair; };
-  // Those that are there come first: they know their forces.
+  // Existing contacts come first: they have their forces.
   touches.insert(touches.end(), more.begin(), more.end());
   std::stable_sort(touches.begin(), touches.end(), byPair);
   touches.erase(std::unique(touches.begin(), touches.end(),

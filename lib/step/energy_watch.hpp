@@ -1,10 +1,10 @@
 #pragma once
-// Contact, cracks and the time integration can only take energy from bodies, and contact keeps them
-// apart. Where they give energy, or bodies sink into one another, a sentence says so, and again for
-// every doubling.
+// Contact, cracks and the time integration can only reduce the energy of bodies, and contact
+// prevents overlaps. If they create energy, or if bodies penetrate each other, a message is given,
+// and again for every doubling.
 //
-// All bounds are in joules: a warning about a small energy of bodies at rest does not hide a larger
-// one once they move.
+// All limits are in joules: a message about a small energy of bodies at rest does not suppress a
+// message about a larger one after they have started to move.
 
 #include <cstdint>
 #include <string>
@@ -13,56 +13,59 @@
 
 namespace yadefrag {
 
-/// What the watch looks at, after a step.
+/// Input of the check after a step.
 struct WatchedStep {
   std::uint64_t step;
   double time;      ///< s
   double dt;        ///< s
-  bool isPenalty;   ///< contact stores energy, and gives it back
-  double depth;     ///< m, deepest penetration that was left
+  bool isPenalty;   ///< contact stores energy, and releases it
+  double depth;     ///< m, deepest remaining penetration
   double shortest;  ///< m, shortest segment
-  double halo;      ///< m, a smooth master loses what is deeper
+  double halo;      ///< m, a smooth master loses deeper contacts
   const EnergyLedger& ledger;
 };
 
-/// All members are state: a run that goes on from a saved one says the same.
+/// All members are part of the saved state: a loaded run gives the same messages.
 class EnergyWatch {
  public:
-  /// Bodies have `energy` (J) now, whatever was before.
+  /// Starts the balance: the bodies have `energy` (J) at present.
   void begin(double energy, const EnergyLedger& ledger);
-  /// A body with `energy` (J) has come.
+  /// A body with `energy` (J) was added.
   void join(double energy) { expected += energy; }
-  /// After every step, before all that follows.
+  /// Must be called after every step, before all other functions.
   void count(const WatchedStep& step);
 
-  /// Does contact, or do cracks, seem to have given more than they may.
+  /// True if contact or cracks may have created more energy than tolerated.
   bool mayHaveCreated(const WatchedStep& step);
-  /// The sentence; empty if there is none to say. `noise` (J): what rounding makes.
-  std::string complainOfContact(const WatchedStep& step, double noise);
+  /// The message; empty if there is none. `noise` (J): energy of rounding errors.
+  std::string contactMessage(const WatchedStep& step, double noise);
 
-  /// Is this a step to look at the kinetic energy, or at all energies?
+  /// True if the kinetic energy, or all energies, must be evaluated in this step.
   [[nodiscard]] static bool isDue(std::uint64_t step);
-  /// Do the bodies seem to have more than there is. That they move with more proves nothing, for at
-  /// half a step the fastest modes lend some from their strain, but is a reason to sum up strain.
+  /// True if the bodies may have more energy than supplied. A kinetic energy above that is no
+  /// proof, since at the half step the highest modes temporarily have energy of their strain; it is
+  /// a reason to compute the strain energy.
   bool mayHaveGrown(const WatchedStep& step, double kinetic);
-  /// The same, of their kinetic and strain energy (J).
-  std::string complainOfGrowth(const WatchedStep& step, double energy, double noise);
+  /// The message for the kinetic plus strain energy (J).
+  std::string growthMessage(const WatchedStep& step, double energy, double noise);
 
-  std::string complainOfDepth(const WatchedStep& step);
+  std::string depthMessage(const WatchedStep& step);
 
-  double expected = 0;               ///< J, what the ledger's total should be
-  double gone = 0;                   ///< J, of what came in: what bodies that left took along
-  double most = 0;                   ///< J, the largest energy that the bodies could have
-  double contact = 0, friction = 0;  ///< J, of the ledger: what they gave is what it is below these
-  double split = 0;                  ///< J, of the ledger's fracture: strains no longer averaged
-  double lookedCreated = 0, lookedGrown = 0;             ///< J, when last looked at
-  double toldCreated = 0, toldGrown = 0, toldDepth = 0;  ///< J, J, m; 0: never
-  double lastStep = 0, leastStep = 0, mostStep = 0;      ///< s; 0: none so far
-  std::uint64_t changes = 0;                             ///< steps of another length than the last
+  double expected = 0;  ///< J, expected total of the ledger
+  double gone = 0;      ///< J, part of the supplied energy that left with removed bodies
+  double most = 0;      ///< J, the largest energy that the bodies could have
+  double contact = 0,
+         friction = 0;  ///< J, largest values in the ledger: a decrease is created energy
+  double split = 0;     ///< J, part of the ledger's fracture: separated averages of strains
+  double evaluatedCreated = 0, evaluatedGrown = 0;  ///< J, at the last evaluation
+  double reportedCreated = 0, reportedGrown = 0,
+         reportedDepth = 0;                          ///< J, J, m, in the last message; 0: none
+  double lastStep = 0, leastStep = 0, mostStep = 0;  ///< s; 0: none so far
+  std::uint64_t changes = 0;  ///< number of steps with another length than the previous one
 
  private:
   [[nodiscard]] double created(const EnergyLedger& ledger) const;
-  [[nodiscard]] double tolerated(double told) const;
+  [[nodiscard]] double tolerated(double reported) const;
   [[nodiscard]] std::string stepAdvice(const WatchedStep& step) const;
 };
 

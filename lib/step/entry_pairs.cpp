@@ -9,7 +9,8 @@ namespace yadefrag {
 
 namespace {
 
-/// Is a point in the strip of width δ around a piece; around an arc's control points at least.
+/// True if a point is in the strip of width δ around a piece; for an arc, around its control
+/// points.
 bool isInHalo(const PieceGeometry& geometry, const ContactSurfaces& surfaces,
               std::span<const Vec2> positions, EntryId master, Vec2 point, double halo) {
   const PieceEnds ends = geometry.ends(master);
@@ -40,7 +41,7 @@ void selectPairs(const Model& model, const ContactSurfaces& surfaces, const Pass
                  std::vector<SlaveMaster>& pairs) {
   const PieceGeometry geometry(surfaces, positions);
   const auto consider = [&](EntryId slave, EntryId master) {
-    if (surfaces.prev[slave.value] == master) return;  // its own end
+    if (surfaces.prev[slave.value] == master) return;  // the slave is the master's end
     if (!rule.mayBeSlave(model, surfaces, slave, master)) return;
     if (isInHalo(geometry, surfaces, positions, master, geometry.slave(slave), halo))
       pairs.push_back({slave, master});

@@ -1,6 +1,6 @@
 #pragma once
-// Between the global search, which knows boxes, and contact, which knows slaves and masters: the
-// halo (paper §4.1, §4.4).
+// Between the global search, which uses boxes, and contact, which uses slaves and masters: the halo
+// (paper §4.1, §4.4).
 
 #include <span>
 #include <vector>
@@ -14,19 +14,19 @@
 
 namespace yadefrag {
 
-/// An entry's piece and half the halo around it: two entries whose points move by less than δ/2
-/// each before they touch have boxes that overlap.
+/// Box of an entry's piece, enlarged by half the halo. If the points of two entries move by less
+/// than δ/2 each before the entries touch, their boxes overlap.
 Box entryBox(const ContactSurfaces& surfaces, std::span<const Vec2> positions, EntryId entry,
              double halo);
 
-/// Can a slave of one of the two components touch the other at all.
+/// True if slaves of one of the two components may touch the other one.
 inline bool mayTouch(const Model& model, ComponentId a, ComponentId b) {
   if (a == b) return model.components[a.value].selfContact;
   return !model.components[a.value].rigid || !model.components[b.value].rigid;
 }
 
-/// Of pairs of entries with overlapping boxes, each way round: slaves in their masters' halo at
-/// `positions`, as far as `rule` lets them be slaves.
+/// From pairs of entries with overlapping boxes, in both directions: slaves in their masters' halo
+/// at `positions`, if `rule` permits them as slaves.
 void selectPairs(const Model& model, const ContactSurfaces& surfaces, const PassRule& rule,
                  std::span<const Vec2> positions, double halo, std::span<const BoxPair> overlapping,
                  std::vector<SlaveMaster>& pairs);

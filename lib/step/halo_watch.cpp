@@ -48,12 +48,12 @@ void HaloWatch::rebuild(const Scene& scene) {
     // A loaded state may crack before its first search.
     passRule_.update(scene.surfaces, scene.reference, scene.settings.passes, scene.hasRigid);
   }
-  scene.dynamics.watchSpeed(scene.canTouch ? 0 : tolerance::kAnySpeed);
+  scene.dynamics.setSpeedLimit(scene.canTouch ? 0 : tolerance::kMostSpeed);
   search_.reset();
   motion_.farthest = INFINITY;
 }
 
-void HaloWatch::forget() {
+void HaloWatch::invalidate() {
   nodes.clear();
   positions.clear();
   isVoid = true;
@@ -66,7 +66,7 @@ void HaloWatch::begin() {
   former_.candidates.clear();
 }
 
-/// Before the step chooses other nodes to watch, or other candidates.
+/// Stores the state before the step changes the checked nodes or the candidates.
 void HaloWatch::keep(const Scene& scene) {
   if (former_.hasSearched) return;
   former_.search = *this;
@@ -76,7 +76,7 @@ void HaloWatch::keep(const Scene& scene) {
 }
 
 void HaloWatch::takeBack(const Scene& scene) {
-  if (former_.hasSearched && !former_.hasCandidates) search_.reset();  // it may have broken off
+  if (former_.hasSearched && !former_.hasCandidates) search_.reset();  // it may be incomplete
   if (former_.hasCandidates) scene.contact.candidates = std::move(former_.candidates);
   if (former_.hasSearched) {
     std::swap(static_cast<SearchState&>(*this), former_.search);
@@ -94,7 +94,7 @@ void HaloWatch::watchAll(const Scene& scene) {
   std::sort(nodes.begin(), nodes.end());
 }
 
-/// Before the step moves anything.
+/// Bounds of the displacements, before the step moves nodes.
 void HaloWatch::foreseeMotion(const Scene& scene, double dt) {
   if (!scene.canTouch) return;
   const StageTimer timer(scene.times, &StageTimes::search);
@@ -105,11 +105,11 @@ void HaloWatch::foreseeMotion(const Scene& scene, double dt) {
                     !(apart_.any() && apart_.spare() < 2 * most);
 }
 
-/// From x*. Where no node is faster than foreseen, a quiet step needs no look at the nodes.
+/// Uses x*. If no node is faster than predicted, a quiet step needs no check of the nodes.
 void HaloWatch::measureMove(const Scene& scene, double dt) {
   const StageTimer timer(scene.times, &StageTimes::search);
-  if (scene.dynamics.anyFaster()) {
-    watchSpeed(scene, dt);
+  if (scene.dynamics.anyAboveSpeedLimit()) {
+    updateSpeedLimit(scene, dt);
     motion_.isQuiet = false;
   } else {
     motion_.most = scene.dynamics.speedLimit() * dt;
@@ -129,23 +129,23 @@ void HaloWatch::measureMove(const Scene& scene, double dt) {
   motion_.farthest += motion_.largest;
 }
 
-/// How fast all nodes are now, and what the next steps are to tell.
-void HaloWatch::watchSpeed(const Scene& scene, double dt) {
+/// Determines the largest speed of all nodes, and sets the limit that the next steps check.
+void HaloWatch::updateSpeedLimit(const Scene& scene, double dt) {
   double most = 0;
   for (const Vec2 velocity : scene.model.nodes.velocity)
     most = std::max(most, dot(velocity, velocity));
   most = std::sqrt(most);
   motion_.most = most * dt;
-  scene.dynamics.watchSpeed(std::min(tolerance::kSpeedSpare * most, tolerance::kAnySpeed));
+  scene.dynamics.setSpeedLimit(std::min(tolerance::kSpeedSpare * most, tolerance::kMostSpeed));
 }
 
-/// (m) No other body comes so near to one that is apart. Two bodies that meet in a step are not
-/// farther than twice its largest move at the end.
+/// (m) The reach of isolated bodies: no other body is nearer. Two bodies that touch in a step are,
+/// at its end, no farther from each other than twice its largest displacement.
 double HaloWatch::apartReach() const {
   return std::max(halo, tolerance::kApartMoves * motion_.most);
 }
 
-/// Bodies that are not apart any more are watched from this very step on.
+/// Bodies that are no longer isolated are checked from this step on.
 void HaloWatch::watchApart(const Scene& scene) {
   if (!apart_.any()) return;
   apart_.comeNearer(2 * motion_.most);
@@ -166,12 +166,12 @@ void HaloWatch::chooseWatched(const Scene& scene) {
   isVoid = true;
 }
 
-/// May the next step leave the halo, or bring a body near one that was apart?
+/// Predicts whether the next step may leave the halo, or bring a body near an isolated one.
 void HaloWatch::foreseeSearch(const Scene& scene, double dt) {
   if (isDue) return;
   const StageTimer timer(scene.times, &StageTimes::search);
   if (apart_.any() && apart_.spare() < 2 * scene.dynamics.speedLimit() * dt) {
-    watchSpeed(scene, dt);
+    updateSpeedLimit(scene, dt);
     apart_.look(scene.model, scene.surfaces, apartReach());
     isDue = apart_.spare() < 2 * scene.dynamics.speedLimit() * dt;
     if (isDue) return;
@@ -197,8 +197,9 @@ Box HaloWatch::boxOf(const Model& model, const ContactSurfaces& surfaces, EntryI
   return entryBox(surfaces, model.nodes.position, entry, halo);
 }
 
-/// (m) δ for the next kHaloSteps steps of `move` (m), at most half the shortest segment (§4.1), or
-/// as set; only bodies so fast that they would leave it at once get a wider one.
+/// (m) δ for the next kHaloSteps steps with displacements of `move` (m), at most half the shortest
+/// segment (§4.1), or the given value; wider only for bodies so fast that they would leave it at
+/// once.
 double HaloWatch::wideHalo(const ContactSettings& settings, double move) const {
   const double wanted = settings.halo > 0 ? settings.halo * shortest
                                           : std::clamp(tolerance::kHaloSteps * move,
@@ -215,7 +216,7 @@ void HaloWatch::chooseHalo(const Scene& scene, double dt, SegmentId first) {
                         ? fastest(scene.model, scene.surfaces, first)
                         : std::max(motion_.fastest, fastest(scene.model, scene.surfaces, first));
   const double fast = wideHalo(scene.settings, 2 * tolerance::kHaloSpare * motion_.fastest * dt);
-  // A step that needs more is refused; until then not all pairs shall become candidates.
+  // A step that needs more is refused; until then not all pairs should become candidates.
   const double most = 4 * tolerance::kHaloSpare * tolerance::kFarthestMove * shortest;
   halo = std::min(fast, most);
 }
@@ -225,7 +226,7 @@ void HaloWatch::takePairs(const Scene& scene, std::span<const BoxPair> overlappi
     isDue = isVoid = false;
     return;
   }
-  watchSpeed(scene, lastDt);
+  updateSpeedLimit(scene, lastDt);
   chooseWatched(scene);
   considerPairs(scene, overlapping, scene.model.nodes.position);
 }
@@ -246,12 +247,12 @@ void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overl
   motion_.farthest = 0;
   isDue = isVoid = false;
   ++scene.numSearches;
-  // Where all nodes are watched in every step, no bound on their speed is needed.
+  // If all nodes are checked in every step, no bound of their speed is needed.
   if (!apart_.any() && scene.contact.candidates.size() > 0)
-    scene.dynamics.watchSpeed(tolerance::kAnySpeed);
+    scene.dynamics.setSpeedLimit(tolerance::kMostSpeed);
 }
 
-/// Nothing is missed: whatever was foreseen, x* itself decides.
+/// No contact is missed: independently of predictions, x* is decisive.
 void HaloWatch::searchIfLeft(const Scene& scene, double dt) {
   const StageTimer timer(scene.times, &StageTimes::search);
   if (isDue || isVoid) return searchNow(scene, dt);
@@ -265,18 +266,18 @@ void HaloWatch::searchIfLeft(const Scene& scene, double dt) {
   if (!(motion_.farthest <= halo / 2)) searchNow(scene, dt);
 }
 
-/// The world's own search, at x*: all boxes but of bodies that are apart, position codes moved,
-/// pairs.
+/// The world's own search, at x*: boxes of all entries except those of isolated bodies, update of
+/// the position codes, pairs.
 void HaloWatch::searchNow(const Scene& scene, double dt) {
   keep(scene);
-  // As wide as the collider's would be, and at least as wide as this step's own motion.
+  // As wide as the collider's halo would be, and at least as wide as this step's own displacement.
   if (apart_.any()) {
     chooseHalo(scene, dt);
   } else {
     shortest = shortestSegment(scene.model, scene.surfaces, scene.model.nodes.position);
     halo = wideHalo(scene.settings, 2 * tolerance::kHaloSpare * motion_.largest);
   }
-  watchSpeed(scene, dt);
+  updateSpeedLimit(scene, dt);
   chooseWatched(scene);
   if (!search_) search_ = makeSearch(SearchMethod::kLebesgue);
   boxes_.resize(scene.surfaces.entries());
@@ -301,7 +302,7 @@ void HaloWatch::appear(NodeId node, Vec2 place) {
   positions.push_back(place);
 }
 
-void HaloWatch::forgetDropped(const Model& model) {
+void HaloWatch::removeDropped(const Model& model) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (model.nodes.mass[nodes[i].value] == 0) continue;

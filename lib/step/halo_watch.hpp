@@ -1,8 +1,9 @@
 #pragma once
-// When to search for contact again (paper §4.1), and the search itself: the halo, the nodes that
-// may have left it, and the bodies so far apart from all others that theirs are not watched. Most
-// steps between two searches look at no node, since the sum of the largest moves is bound enough.
-// Whatever was foreseen, x* decides: a search comes in the same step.
+// The time of the next search for contact (paper §4.1), and the search itself: the halo, the nodes
+// that may have left it, and the isolated bodies, whose nodes are not checked. Most steps between
+// two searches check no node, since the sum of the largest displacements is a sufficient bound.
+// Independently of predictions x* is decisive: if a node has left the halo, a search is done in the
+// same step.
 
 #include <cmath>
 #include <cstdint>
@@ -18,21 +19,21 @@
 
 namespace yadefrag {
 
-/// The state of the global search: what it covers, and until when.
+/// The state of the global search: its validity.
 struct SearchState {
   double halo = 0;      ///< m, δ of the last search
   double shortest = 0;  ///< m, shortest boundary segment then
   bool isDue = true;    ///< the next step may leave the halo
-  bool isVoid = true;   ///< entries came or went: there are no candidates to go on with
-  /// Of the surfaces of bodies that are not apart from all others; those that came by cracks are
+  bool isVoid = true;   ///< entries were added or removed: there are no valid candidates
+  /// The checked nodes: of the surfaces of all bodies that are not isolated; those from cracks are
   /// the last ones.
   std::vector<NodeId> nodes;
-  std::vector<Vec2> positions;  ///< m, of those nodes at the last search, or when they came
+  std::vector<Vec2> positions;  ///< m, of those nodes at the last search, or when they were added
 };
 
 class HaloWatch : public SearchState {
  public:
-  /// What is watched, and what a search changes.
+  /// The data that are checked, and those that a search changes.
   struct Scene {
     const Model& model;
     const ContactSurfaces& surfaces;
@@ -47,59 +48,61 @@ class HaloWatch : public SearchState {
     std::uint64_t& numSearches;
   };
 
-  /// After bodies came or went, and after loading.
+  /// Must be called after bodies were added or removed, and after loading.
   void rebuild(const Scene& scene);
-  /// After nodes have changed their numbers: the next step searches.
-  void forget();
+  /// Must be called after nodes have changed their numbers: the next step does a search.
+  void invalidate();
 
   // --- in the order of a step
   void begin();
-  /// Before the step moves anything.
+  /// Before the step moves nodes.
   void foreseeMotion(const Scene& scene, double dt);
-  /// From x*.
+  /// Uses x*.
   void measureMove(const Scene& scene, double dt);
   /// At x*, if a node has left the halo.
   void searchIfLeft(const Scene& scene, double dt);
-  /// Contact has moved nodes by no more than that (m).
+  /// Upper bound (m) of the displacement of nodes by contact.
   void addCorrection(double most);
-  /// Of xⁿ⁺¹: may the next step leave the halo, or bring a body near one that was apart.
+  /// With xⁿ⁺¹: predicts whether the next step may leave the halo, or bring a body near an isolated
+  /// one.
   void foreseeSearch(const Scene& scene, double dt);
-  /// Back to `begin`, of a step that is refused. Needs no memory.
+  /// Restores the state at `begin`, for a refused step. Allocates no memory.
   void takeBack(const Scene& scene);
 
-  // --- for a search from outside
-  /// `first`: the segments before it are where, and as fast as, they were at the last call.
+  // --- for a search by a collider
+  /// `first`: earlier segments have the same positions and velocities as at the last call.
   void chooseHalo(const Scene& scene, double dt, SegmentId first = SegmentId(0));
-  /// Half the halo around an entry's piece.
+  /// Box of an entry's piece, enlarged by half the halo.
   [[nodiscard]] Box boxOf(const Model& model, const ContactSurfaces& surfaces, EntryId entry) const;
-  /// `lastDt`: s, of the last step.
+  /// `lastDt`: s, length of the last step.
   void takePairs(const Scene& scene, std::span<const BoxPair> overlapping, double lastDt);
 
   // --- at a crack
-  /// Nodes of dropped triangles are watched no more.
-  void forgetDropped(const Model& model);
-  /// A node is on the surface from now on, at `place` (m).
+  /// Nodes of removed triangles are no longer checked.
+  void removeDropped(const Model& model);
+  /// A node, at `place` (m), is on the surface from now on.
   void appear(NodeId node, Vec2 place);
-  /// Candidates among entries that lie around a crack.
+  /// Adds candidates among entries around a crack.
   void addCandidatesAround(const Scene& scene, std::span<const EntryId> around);
 
-  /// (m) From xⁿ to x*, of a watched node; a bound.
+  /// (m) Upper bound of the displacement of checked nodes from xⁿ to x*.
   [[nodiscard]] double largestMove() const { return motion_.largest; }
   void addTo(Footprint& footprint) const;
 
  private:
-  /// How far and how fast nodes are, and may be until the next search.
+  /// Bounds of positions and speeds of nodes until the next search.
   struct MotionBounds {
-    double largest = 0;          // m, of a watched node from xⁿ to x*; a bound
-    double most = 0;             // m, of any node; a bound
+    double largest = 0;          // m, bound for checked nodes, from xⁿ to x*
+    double most = 0;             // m, bound for any node
     bool isQuiet = false;        // no body can come near another in this step
-    double farthest = INFINITY;  // m, no surface node is farther from its place at the last search
+    double farthest = INFINITY;  // m, bound of the distance of surface nodes from their positions
+                                 // at the last search
     double fastest = 0;          // m/s, of all nodes when the halo was chosen
   };
-  /// As it was when the step began; the second part only of a step that searches.
+  /// The state at the begin of the step; the second part only for a step with a search.
   struct Former {
     MotionBounds motion;
-    double spare = 0;  // m, of bodies that are apart
+    double spare = 0;  // m, of isolated bodies
 
     bool hasSearched = false, hasCandidates = false;
     SearchState search;
@@ -109,7 +112,7 @@ class HaloWatch : public SearchState {
   };
 
   void watchAll(const Scene& scene);
-  void watchSpeed(const Scene& scene, double dt);
+  void updateSpeedLimit(const Scene& scene, double dt);
   void watchApart(const Scene& scene);
   void chooseWatched(const Scene& scene);
   [[nodiscard]] double apartReach() const;
@@ -129,7 +132,7 @@ class HaloWatch : public SearchState {
   std::vector<Box> boxes_;
 };
 
-/// (m) Shortest segment from `first` on that is no rigid boundary's; 0 without any.
+/// (m) Shortest segment from `first` on, without rigid boundaries; 0 if there is none.
 double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
                        std::span<const Vec2> positions, SegmentId first = SegmentId(0));
 

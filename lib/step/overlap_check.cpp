@@ -15,8 +15,8 @@ namespace {
 
 using Corners = std::array<Vec2, 3>;
 
-/// A boundary segment, or a triangle, of any body; `held`: all its nodes are, in both directions;
-/// `isLine`: of a rigid boundary that may have nothing on either side.
+/// A boundary segment, or a triangle, of any body. `held`: all its nodes are held in both
+/// directions. `isLine`: of a rigid boundary whose material may be on either side.
 struct Side {
   Vec2 from, to;
   bool held;
@@ -60,7 +60,8 @@ Part partInside(Vec2 from, Vec2 to, const Corners& triangle, double margin) {
   return part;
 }
 
-/// (m) What contact counts as touching, for the shortest piece there may be on these edges.
+/// (m) Depth up to which contact counts as touching, for the shortest possible piece on these
+/// edges.
 double margin(const Corners& triangle, Vec2 from, Vec2 to) {
   double shortest = norm(to - from), farthest = 0;
   for (int i = 0; i < 3; ++i) {
@@ -70,28 +71,29 @@ double margin(const Corners& triangle, Vec2 from, Vec2 to) {
   return std::max(.5 * tolerance::kTouching * shortest, tolerance::kTouchRounding * farthest);
 }
 
-/// A place inside both.
+/// A point inside both.
 std::optional<Vec2> meet(const Side& side, const Facet& facet) {
   if (side.held && facet.held) return std::nullopt;
   const Vec2 along = side.to - side.from;
   const double touching = margin(facet.corners, side.from, side.to);
   const Part part = partInside(side.from, side.to, facet.corners, touching);
   if (!part.isEmpty()) return side.from + (part.begin + part.end) / 2 * along;
-  // Of two bodies with the same outline, no side is inside the other one; what is beside it is.
+  // If two bodies have the same outline, no side is inside the other one; the material beside it
+  // is.
   const Vec2 beside = .5 * (side.from + side.to) - (touching / norm(along)) * rightOf(along);
   if (partInside(beside, beside, facet.corners, .5 * touching).isEmpty()) return std::nullopt;
   return beside;
 }
 
-/// Where a triangle lies along the left side of a line.
+/// A triangle beside the left side of a line.
 struct Along {
   Side side;
   Part part;
   ComponentId body;
 };
 
-/// The same for lines, which may touch triangles with either side: a place where those of one body
-/// lie along both. `known`: all so far.
+/// The same for lines, which may touch triangles with either side: a point at which triangles of
+/// one body lie on both sides of the line. `known`: all triangles so far.
 std::optional<Vec2> meetLine(const Side& side, const Facet& facet, std::vector<Along>& known) {
   if (side.held && facet.held) return std::nullopt;
   const Vec2 along = side.to - side.from;
@@ -112,13 +114,13 @@ std::optional<Vec2> meetLine(const Side& side, const Facet& facet, std::vector<A
   return std::nullopt;
 }
 
-/// Sides and triangles of the bodies that may meet, as far as they are in a common box.
+/// Sides and triangles of the bodies that may overlap, within a common box.
 class OverlapSearch {
  public:
   void add(const Side& side) { add(sides_, side); }
   void add(const Facet& facet) { add(facets_, facet); }
-  /// Only what meets this box is taken.
-  void lookIn(const Box& box) { within_ = box; }
+  /// Limits the search to this box.
+  void limitTo(const Box& box) { within_ = box; }
 
   [[nodiscard]] std::optional<Overlap> find(ComponentId newBody) const {
     std::vector<Along> known;
@@ -126,7 +128,7 @@ class OverlapSearch {
     for (const Side& side : sides_) boxes.push_back(boxOf(side));
     for (const Facet& facet : facets_) boxes.push_back(boxOf(facet));
     for (const BoxPair& pair :
-         overlappingPairs(boxes)) {  // first < second: a side comes before a triangle
+         overlappingPairs(boxes)) {  // first < second: sides come before triangles
       const std::size_t a = pair.first.value, b = pair.second.value;
       if (a >= sides_.size() || b < sides_.size()) continue;
       const Side& side = sides_[a];
@@ -149,7 +151,7 @@ class OverlapSearch {
   Box within_ = Box::absent();
 };
 
-/// What of a body that is there already comes near.
+/// Adds the parts of an existing body that are near.
 void addBody(OverlapSearch& search, const Model& model, const ContactSurfaces& surfaces,
              const std::vector<SegmentId>& segments, ComponentId body) {
   const Nodes& nodes = model.nodes;
@@ -192,7 +194,7 @@ std::optional<Overlap> findOverlap(const Model& model, const ContactSurfaces& su
   const Box own = boxAround(positions);
   const ComponentId newBody(model.components.size());
   OverlapSearch search;
-  search.lookIn(own);
+  search.limitTo(own);
   Box near = Box::absent();
   for (std::size_t c = 0; c < model.components.size(); ++c) {
     const ComponentId body(c);
@@ -203,7 +205,7 @@ std::optional<Overlap> findOverlap(const Model& model, const ContactSurfaces& su
     include(near, {box.max[0], box.max[1]});
   }
   if (near.isAbsent()) return std::nullopt;
-  search.lookIn(near);
+  search.limitTo(near);
   addNew(search, mesh, positions, spec.held, newBody, spec.rigid && mesh.triangles.empty());
   return search.find(newBody);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Does a body that is to be added overlap others? Contact keeps apart what was apart, and would not
-// see it.
+// Checks whether a new body overlaps others. Contact only prevents new overlaps, and would not
+// detect existing ones.
 
 #include <optional>
 
@@ -11,14 +11,14 @@
 namespace yadefrag {
 
 struct Overlap {
-  ComponentId body;  ///< the one that is there already
+  ComponentId body;  ///< the existing body
   Vec2 place;        ///< m, inside both
 };
 
 struct BodySpec;
 
-/// Some place where the new body and one that is there overlap by more than rounding, at present
-/// positions. Bodies that are held altogether there may overlap one another.
+/// A point at which the new body and an existing one overlap by more than rounding, at present
+/// positions. Bodies whose nodes are all held there may overlap each other.
 std::optional<Overlap> findOverlap(const Model& model, const ContactSurfaces& surfaces,
                                    const BodyPlaces& places, const TriangleMesh& mesh,
                                    const BodySpec& spec);

@@ -1,7 +1,7 @@
 #pragma once
-// How deep bodies are in each other, by their triangles alone: a check of contact that knows
-// nothing of surfaces, slaves, masters or flags. Tips that pass each other overlap without a node
-// of either inside the other. Costs nothing unless it is asked for.
+// Depth of overlaps between bodies, from their triangles only: a check of contact that is
+// independent of surfaces, slaves, masters and flags. Tips that pass each other overlap without a
+// node of one inside the other. No cost unless it is called.
 
 #include <array>
 
@@ -9,12 +9,12 @@
 
 namespace yadefrag {
 
-/// (m) The shortest way that gets two triangles (counter-clockwise) apart; 0 if they are. It is
-/// along the normal of one of their sides.
+/// (m) The shortest translation that separates two triangles (counter-clockwise); 0 if they do not
+/// overlap. It is along the normal of one of their sides.
 [[nodiscard]] double overlapOf(const std::array<Vec2, 3>& a, const std::array<Vec2, 3>& b);
 
-/// (m) The deepest overlap of any two triangles that share no node; no more than a triangle's
-/// height, since it is the triangles that are pushed apart.
+/// (m) The deepest overlap of any two triangles without a common node; at most a triangle's height,
+/// since the triangles are separated one by one.
 [[nodiscard]] double deepestOverlap(const Model& model, int threads = 1);
 
 }  // namespace yadefrag

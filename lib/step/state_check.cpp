@@ -14,7 +14,7 @@ bool allBelow(const std::vector<Id>& ids, std::size_t count) {
   return std::ranges::all_of(ids, [&](Id id) { return id.value < count; });
 }
 
-/// The same, where some may point nowhere.
+/// The same, where entries may be none().
 template <class Id>
 bool allBelowOrNone(const std::vector<Id>& ids, std::size_t count) {
   return std::ranges::all_of(ids, [&](Id id) { return id == Id::none() || id.value < count; });
@@ -24,7 +24,7 @@ bool allFinite(const std::vector<Vec2>& values) { return std::ranges::all_of(val
 
 bool isPositive(double value) { return value > 0 && std::isfinite(value); }
 
-/// Are `next` and `prev` a permutation and its inverse?
+/// True if `next` and `prev` are a permutation and its inverse.
 template <class Id>
 bool areLinks(const std::vector<Id>& next, const std::vector<Id>& prev) {
   const std::size_t count = next.size();
@@ -34,7 +34,7 @@ bool areLinks(const std::vector<Id>& next, const std::vector<Id>& prev) {
   return true;
 }
 
-bool materialIsRight(const BodyMaterial& one) {
+bool materialIsValid(const BodyMaterial& one) {
   const ElasticMaterial& m = one.material;
   return isPositive(m.young) && m.poisson > -1 && m.poisson < .5 && isPositive(m.density) &&
          one.friction >= 0 && std::isfinite(one.friction) && one.brittle.tensileStrength >= 0 &&
@@ -42,8 +42,8 @@ bool materialIsRight(const BodyMaterial& one) {
          one.brittle.shearEnergyFactor > 0 && one.brittle.referenceVolume >= 0;
 }
 
-bool isRight(const Component& c, const Model& model) {
-  return materialIsRight(c) && isPositive(c.thickness) && c.element <= ElementKind::kSmoothed &&
+bool isValid(const Component& c, const Model& model) {
+  return materialIsValid(c) && isPositive(c.thickness) && c.element <= ElementKind::kSmoothed &&
          !(c.isMixed() && c.element == ElementKind::kSmoothed) &&
          !(c.rigid && c.firstTriangle != c.lastTriangle) && c.firstTriangle <= c.lastTriangle &&
          c.lastTriangle <= model.triangles.size() && c.firstMaterial <= c.lastMaterial &&
@@ -51,20 +51,20 @@ bool isRight(const Component& c, const Model& model) {
          !(c.isMixed() && model.triangles.material.empty());
 }
 
-bool componentsAreRight(const Model& model) {
+bool componentsAreValid(const Model& model) {
   return std::ranges::all_of(model.components,
-                             [&](const Component& c) { return isRight(c, model); }) &&
-         std::ranges::all_of(model.materials, materialIsRight);
+                             [&](const Component& c) { return isValid(c, model); }) &&
+         std::ranges::all_of(model.materials, materialIsValid);
 }
 
-bool motionsAreRight(const Model& model) {
+bool motionsAreValid(const Model& model) {
   const Nodes& n = model.nodes;
   return (n.motion.empty() || n.motion.size() == n.size()) && n.arm.size() == n.motion.size() &&
          allFinite(n.arm) &&
          std::ranges::all_of(n.motion, [&](std::uint32_t m) { return m <= model.motions.size(); });
 }
 
-bool nodesAreRight(const World& world) {
+bool nodesAreValid(const World& world) {
   const Nodes& n = world.model.nodes;
   const std::size_t count = n.size();
   return n.velocity.size() == count && n.mass.size() == count && n.held.size() == count &&
@@ -73,11 +73,11 @@ bool nodesAreRight(const World& world) {
          allFinite(n.load) && allFinite(world.reference) &&
          std::ranges::all_of(n.mass, [](double m) { return m >= 0 && std::isfinite(m); }) &&
          std::ranges::all_of(n.held, [](std::uint8_t h) { return h <= kHeldXY; }) &&
-         allBelow(n.component, world.model.components.size()) && motionsAreRight(world.model);
+         allBelow(n.component, world.model.components.size()) && motionsAreValid(world.model);
 }
 
-/// Nodes of triangles that count have a mass.
-bool triangleIsRight(const Model& model, std::size_t element) {
+/// Nodes of triangles that were not removed have a mass.
+bool triangleIsValid(const Model& model, std::size_t element) {
   const Triangles& t = model.triangles;
   const auto& components = model.components;
   for (const NodeId node : t.nodes[element])
@@ -93,18 +93,18 @@ bool triangleIsRight(const Model& model, std::size_t element) {
          std::ranges::all_of(t.inverseEdges[element], [](double v) { return std::isfinite(v); });
 }
 
-bool trianglesAreRight(const Model& model) {
+bool trianglesAreValid(const Model& model) {
   const Triangles& t = model.triangles;
   const std::size_t count = t.size();
   if (t.inverseEdges.size() != count || t.area.size() != count || t.component.size() != count ||
       (!t.material.empty() && t.material.size() != count))
     return false;
   for (std::size_t e = 0; e < count; ++e)
-    if (!triangleIsRight(model, e)) return false;
+    if (!triangleIsValid(model, e)) return false;
   return true;
 }
 
-bool segmentsAreRight(const World& world) {
+bool segmentsAreValid(const World& world) {
   const ContactSurfaces& s = world.surfaces;
   const std::size_t count = s.segments();
   return s.segmentNext.size() == count && areLinks(s.segmentNext, s.segmentPrev) &&
@@ -114,7 +114,7 @@ bool segmentsAreRight(const World& world) {
          allBelow(s.segmentNode, s.nodeSegment.size());
 }
 
-bool entriesAreRight(const World& world) {
+bool entriesAreValid(const World& world) {
   const ContactSurfaces& s = world.surfaces;
   const std::size_t count = s.entries();
   return s.next.size() == count && areLinks(s.next, s.prev) && s.piece.size() == count &&
@@ -125,7 +125,7 @@ bool entriesAreRight(const World& world) {
          std::ranges::all_of(s.loop, [&](std::uint32_t l) { return l <= count; });
 }
 
-bool loadsAreRight(const World& world) {
+bool loadsAreValid(const World& world) {
   const std::size_t count = world.surfaces.segments();
   return allBelow(world.absorbing.segments, count) &&
          std::ranges::all_of(world.pressures, [&](const Pressure& p) {
@@ -134,7 +134,7 @@ bool loadsAreRight(const World& world) {
          });
 }
 
-bool contactIsRight(const World& world) {
+bool contactIsValid(const World& world) {
   const Candidates& c = world.contact.candidates;
   const std::size_t entries = world.surfaces.entries();
   const bool offsetsFit = c.offsets.empty()
@@ -149,13 +149,13 @@ bool contactIsRight(const World& world) {
          });
 }
 
-bool searchIsRight(const World& world) {
+bool searchIsValid(const World& world) {
   const SearchState& s = world.search;
   return s.halo >= 0 && std::isfinite(s.halo) && allBelow(s.nodes, world.model.nodes.size()) &&
          (s.isVoid || s.positions.size() == s.nodes.size()) && allFinite(s.positions);
 }
 
-bool edgesAreRight(const World& world) {
+bool edgesAreValid(const World& world) {
   const CrackEdges& e = world.fracture.edges;
   const std::size_t count = e.size(), triangles = world.model.triangles.size();
   if (e.corner.size() != count || e.strength.size() != count || e.fractureEnergy.size() != count ||
@@ -178,9 +178,9 @@ bool edgesAreRight(const World& world) {
   });
 }
 
-bool fractureIsRight(const World& world) {
+bool fractureIsValid(const World& world) {
   const Cohesion& c = world.fracture.cohesion;
-  return edgesAreRight(world) && world.fracture.started.size() <= world.fracture.edges.size() &&
+  return edgesAreValid(world) && world.fracture.started.size() <= world.fracture.edges.size() &&
          std::ranges::none_of(world.fracture.started, [](double t) { return std::isnan(t); }) &&
          c.largest.size() == c.edge.size() && c.traction.size() == c.edge.size() &&
          c.area.size() == c.edge.size() && allBelow(c.edge, world.fracture.edges.size());
@@ -188,15 +188,15 @@ bool fractureIsRight(const World& world) {
 
 }  // namespace
 
-std::string whatIsWrong(const World& world) {
-  if (!componentsAreRight(world.model)) return "a body's values";
-  if (!nodesAreRight(world)) return "its nodes";
-  if (!trianglesAreRight(world.model)) return "its triangles";
-  if (!segmentsAreRight(world) || !entriesAreRight(world)) return "its boundaries";
-  if (!loadsAreRight(world)) return "its loads";
-  if (!contactIsRight(world)) return "its contacts";
-  if (!searchIsRight(world)) return "its search";
-  if (!fractureIsRight(world)) return "its cracks";
+std::string findInvalidPart(const World& world) {
+  if (!componentsAreValid(world.model)) return "a body's values";
+  if (!nodesAreValid(world)) return "its nodes";
+  if (!trianglesAreValid(world.model)) return "its triangles";
+  if (!segmentsAreValid(world) || !entriesAreValid(world)) return "its boundaries";
+  if (!loadsAreValid(world)) return "its loads";
+  if (!contactIsValid(world)) return "its contacts";
+  if (!searchIsValid(world)) return "its search data";
+  if (!fractureIsValid(world)) return "its cracks";
   return {};
 }
 

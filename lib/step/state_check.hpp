@@ -1,5 +1,5 @@
 #pragma once
-// Can a world's state be one that a run has left?
+// Checks whether a world's state can be the result of a run.
 
 #include <string>
 
@@ -7,9 +7,9 @@ namespace yadefrag {
 
 class World;
 
-/// Empty if every array has its length, every index something to point to, every list its links
-/// back, and every value that a step divides by is positive and finite; else what is not so. For
-/// states that come from a file.
-[[nodiscard]] std::string whatIsWrong(const World& world);
+/// Returns an empty string if every array has its length, every index is in range, every list is
+/// consistently linked, and every divisor is positive and finite; otherwise the invalid part. For
+/// states from files.
+[[nodiscard]] std::string findInvalidPart(const World& world);
 
 }  // namespace yadefrag

@@ -1,10 +1,10 @@
 #pragma once
-// A step that is refused changes nothing. What it has changed by then is put back: positions and
-// velocities by ExplicitDynamics::takeBack, contact by Contact::takeBack, the search by
-// HaloWatch::takeBack, the rest from here.
+// A refused step changes nothing. All changes until then are undone: positions and velocities by
+// ExplicitDynamics::takeBack, contact by Contact::takeBack, the search by HaloWatch::takeBack, all
+// other data from here.
 //
-// Rejected: to copy the world. Large arrays are exchanged with what the step writes anyway, or kept
-// when a search replaces them, so that a step that is not refused pays for some numbers alone.
+// Rejected: a copy of the world. Large arrays are swapped with those that the step writes in any
+// case, or kept when a search replaces them, so that a successful step only copies some numbers.
 
 #include <vector>
 
@@ -15,16 +15,16 @@
 namespace yadefrag {
 
 struct StepUndo {
-  // --- how far the step has come
+  // --- completed stages of the step
   bool hasMoved = false, hasCorrected = false;
 
-  // --- as it was when the step began
+  // --- state at the begin of the step
   EnergyLedger ledger;
   EnergyWatch watch;
   double stableStep = 0;  ///< s
   BulkViscosity stableViscosity;
   double speedLimit = 0;     ///< m/s
-  std::vector<Vec2> driven;  ///< m/s, of nodes that have a motion; empty until the step sets them
+  std::vector<Vec2> driven;  ///< m/s, of nodes with a motion; empty until the step sets them
 };
 
 }  // namespace yadefrag

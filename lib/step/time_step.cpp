@@ -7,7 +7,7 @@
 
 namespace yadefrag {
 
-/// All or nothing: whatever is thrown before the step is certain, it has not been.
+/// All or nothing: after an exception during the step the state is that before the step.
 void World::step(double dt) {
   if (!broken_.empty()) throw RunError(broken_);
   buildIfChanged();
@@ -27,8 +27,8 @@ void World::step(double dt) {
   try {
     conclude(dt);
   } catch (...) {
-    // What has split in part cannot be mended: mostly there was no memory.
-    broken_ = "A step broke off while cracks opened; load a saved state.";
+    // A partial split of nodes cannot be undone; its usual cause is a lack of memory.
+    broken_ = "A step ended while cracks opened, and the state is incomplete; load a saved state.";
     throw;
   }
 }
@@ -36,39 +36,39 @@ void World::step(double dt) {
 /// From xⁿ, vⁿ⁻½ to xⁿ⁺¹, vⁿ⁺½.
 void World::advance(double dt) {
   const StepLength length(dt, lastDt);
-  // The leapfrog's energy is that of a step: before the first one there is none.
+  // The leapfrog's energy is that of a step: it is not defined before the first one.
   if (steps == 0) watch.begin(kineticEnergy() + yadefrag::strainEnergy(model, dt), ledger);
   drive(dt);
   sumOuterForces();
   search.foreseeMotion(searchScene(), dt);
 
-  // Internal forces, then v* and x*, as if there were no contact.
+  // Internal forces, then v* and x*, without contact.
   predict(length);
   absorb(length);
 
-  // What still holds cracks together.
+  // Tractions of cohesive cracks.
   cohere(length);
   requireBoundedMotion(dt);
 
-  // Global search, only if a node left the halo of the last one: mostly a collider has searched, or
-  // the last candidates still hold.
+  // Global search, only if a node left the halo of the last one: usually a collider has searched,
+  // or the last candidates are still valid.
   if (canTouch()) {
     search.measureMove(searchScene(), dt);
     search.searchIfLeft(searchScene(), dt);
     requireResolvedMotion(dt);
     // Local search and correction, from x*, v* to xⁿ⁺¹, vⁿ⁺½. Contact forces act at xⁿ.
     correctContact(length);
-    bookContact(length);
+    countContactWork(length);
   }
   requireUpright(dt);
 
-  // Works of everything but contact, with the mean of both velocities.
+  // Work of all forces except contact, with the mean of both velocities.
   finish(length);
-  bookFracture(length);
+  countFractureWork(length);
   requireFiniteEnergy();
 }
 
-/// What follows from the new state, which stands.
+/// Consequences of the new state, which is final.
 void World::conclude(double dt) {
   measureReactions(StepLength(dt, lastDt));
   ++steps;
@@ -80,8 +80,8 @@ void World::conclude(double dt) {
   givenPressures.clear();
   watchEnergy();
 
-  // Cracks at xⁿ⁺¹: nodes split, surfaces are linked anew, and the new faces are candidates. What
-  // is too small to be followed goes.
+  // Cracks at xⁿ⁺¹: nodes split, surfaces are linked again, and the new faces become candidates.
+  // Fragments that are too small are removed.
   const bool split = crack();
   dropFragments(split);
 
@@ -89,19 +89,19 @@ void World::conclude(double dt) {
 }
 
 void World::predict(const StepLength& length) {
-  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
+  const StageTimer timer(timesIfRequested(), &StageTimes::forces);
   dynamics_.predict(model, length, dynamicsSettings, allOuterForces(), threads);
   undo_.hasMoved = true;
 }
 
 void World::requireUpright(double dt) {
-  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
+  const StageTimer timer(timesIfRequested(), &StageTimes::forces);
   dynamics_.requireUpright(model, dt, canTouch() ? contact.largestCorrection() : 0);
 }
 
 void World::finish(const StepLength& length) {
-  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
-  // Held nodes push back against contact and against cracks that still hold.
+  const StageTimer timer(timesIfRequested(), &StageTimes::forces);
+  // Reactions of held nodes include contact and cohesive cracks.
   pushes_ = contact.forces().known;
   if (!fracture.cohesion.edge.empty()) {
     surfaceForces_.assign(pushes_.begin(), pushes_.end());
@@ -111,12 +111,12 @@ void World::finish(const StepLength& length) {
   }
   dynamics_.finish(model, length, dynamicsSettings, allOuterForces(), pushes_, ledger, threads);
   if (!absorbing.segments.empty())
-    absorbing.book(ledger, model, dynamics_.previousVelocity(), length);
+    absorbing.addWork(ledger, model, dynamics_.previousVelocity(), length);
 }
 
 void World::measureReactions(const StepLength& length) {
   if (dynamics_.holdsNone()) return reactions.clear();
-  const StageTimer timer(timesIfAsked(), &StageTimes::forces);
+  const StageTimer timer(timesIfRequested(), &StageTimes::forces);
   dynamics_.measureReactions(model, length, dynamicsSettings, allOuterForces(), pushes_, reactions);
 }
 

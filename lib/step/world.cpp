@@ -24,7 +24,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   component.brittleByPlace = !spec.places.empty() || !spec.materials.empty();
   component.name = spec.name;
   component.thickness = spec.thickness;
-  // What comes off a body touches what is left of it.
+  // A fragment has contact with the rest of its body.
   component.selfContact = spec.selfContact || component.brittle.cracks();
   component.element = spec.element;
   const std::size_t first = model.nodes.size();
@@ -47,12 +47,12 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   openJoints(fracture.addBody(model, id, spec.places));
   watch.join(energyOf(id, NodeId(first), lastDt));
   stableStep = 0;
-  search.forget();
+  search.invalidate();
   rebuild();
   return id;
 }
 
-/// `purpose`: what is to be done with it.
+/// `purpose`: the intended operation, for the message.
 void World::requireBody(ComponentId component, const char* purpose) const {
   if (component.value < model.components.size()) {
     const Component& body = model.components[component.value];
@@ -74,19 +74,19 @@ void World::removeBody(ComponentId component) {
   stableStep = 0;
 }
 
-/// What components that have left the model leave behind. Returns the new numbers of entries.
+/// Removes the data of removed components. Returns the new numbers of entries.
 std::vector<EntryId> World::takeOff(const std::vector<std::uint8_t>& gone,
                                     std::span<const NodeId> renumbered) {
-  search.forget();
-  places_.forget();
+  search.invalidate();
+  places_.clear();
   for (std::size_t i = 0; i < renumbered.size(); ++i)
     if (renumbered[i] != NodeId::none()) reference[renumbered[i].value] = reference[i];
   reference.resize(model.nodes.size());
-  takeLoadsOff(gone);
+  removeLoads(gone);
   reactions.clear();
   std::vector<EntryId> entries = surfaces.removeComponents(gone);
   surfaces.renumberNodes(renumbered, model.nodes.size());
-  forgetUnusedMotions();
+  removeUnusedMotions();
   contact.renumber(entries);
   rebuild();
   return entries;
@@ -113,7 +113,7 @@ void World::rebuild() {
 
 void World::buildIfChanged() {
   if (isBuilt_) return;
-  places_.forget();
+  places_.clear();
   dynamics_.rebuild(model);
   absorbing.findTriangles(model, surfaces);
   reactions.clear();
@@ -129,14 +129,15 @@ void World::buildIfChanged() {
     contact.reserve(room);
   }
   search.rebuild(searchScene());
-  watchStrengths();
+  updateStressLimits();
   finest_ = finestSegment();
   droppedBelow_ = 0;
   isBuilt_ = true;
 }
 
-/// Only what may crack is looked at, and only where it is stressed nearly up to its weakest edge.
-void World::watchStrengths() {
+/// Only elements that can crack are checked, and only if their stress is near the strength of their
+/// weakest edge.
+void World::updateStressLimits() {
   std::vector<double>& least = fracture.leastStrength;
   least.assign(fracture.isOn() ? model.components.size() : 0, INFINITY);
   const CrackEdges& edges = fracture.edges;
@@ -145,15 +146,16 @@ void World::watchStrengths() {
     const ComponentId body = model.triangles.component[edges.element[i][0].value];
     least[body.value] = std::min(least[body.value], edges.strength[i]);
   }
-  dynamics_.watchStress(least);
+  dynamics_.setStressLimits(least);
 }
 
 double World::criticalTimeStep() const {
   return yadefrag::criticalTimeStep(model, dynamicsSettings.viscosity, threads);
 }
 
-/// Only before the first step, and when the step or the viscosity has changed or bodies came or
-/// went: a mesh that is compressed so far that this matters is the user's to watch.
+/// Checked only before the first step, and when the step or the viscosity has changed or bodies
+/// were added or removed. The reduction of the critical step in a very compressed mesh must be
+/// checked by the user.
 void World::requireStableStep(double dt) {
   const BulkViscosity& viscosity = dynamicsSettings.viscosity;
   if (dt > 0 && dt <= stableStep && viscosity == stableViscosity) return;

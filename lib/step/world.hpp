@@ -1,5 +1,6 @@
 #pragma once
-// All state of the finite-element bodies of a scene, and the step that moves them (time_step.cpp).
+// Complete state of the finite-element bodies of a scene, and the step that moves them
+// (time_step.cpp).
 
 #include <array>
 #include <cmath>
@@ -29,21 +30,21 @@
 
 namespace yadefrag {
 
-/// What a body is beside its mesh. Arrays are by node of the mesh; empty ones stand for zeros.
+/// Properties of a body besides its mesh. Arrays are by node of the mesh; empty ones mean zeros.
 struct BodySpec : BodyMaterial {
-  MaterialPlaces materials;  ///< in place of the one above, if there are several
+  MaterialPlaces materials;  ///< replace the one above, if there are several
   BrittlePlaces places;
   double thickness = 1;  ///< m
   bool selfContact = true;
-  bool rigid = false;  ///< only to see what it overlaps
+  bool rigid = false;  ///< only for the check of overlaps
   ElementKind element = ElementKind::kLinear;
   std::vector<Vec2> velocity;      ///< m/s
   std::vector<Vec2> displacement;  ///< m, from the stress-free shape
   /// Pa (Cauchy; xx, yy, xy), by triangle, in the shape of the mesh; empty: none.
   std::vector<std::array<double, 3>> stress;
   std::vector<std::uint8_t> held;         ///< Held
-  std::vector<std::uint8_t> smoothNodes;  ///< is a boundary node on a C¹-smooth part
-  std::string name = {};  ///< one that no other body has, without line breaks; may be empty
+  std::vector<std::uint8_t> smoothNodes;  ///< true for boundary nodes on a C¹-smooth part
+  std::string name = {};                  ///< unique, without line breaks; may be empty
 };
 
 /// Its material, or the bound of several.
@@ -52,20 +53,20 @@ struct BodySpec : BodyMaterial {
   return boundOf(spec.materials, spec.places);
 }
 
-/// Fragments that were taken out because they were too small; their energy is in the ledger.
+/// Fragments that were removed because they were too small; their energy is in the ledger.
 struct Dropped {
   double mass = 0;          ///< kg
-  Vec2 momentum = {};       ///< kg m/s, when they went
-  std::uint64_t count = 0;  ///< fragments
+  Vec2 momentum = {};       ///< kg m/s, at their removal
+  std::uint64_t count = 0;  ///< number of fragments
 };
 
-/// A boundary without mass that touches bodies, and moves as World::rigidVelocities says: the
-/// outline of something that is not made of elements.
+/// A boundary without mass for contact with bodies, which moves by World::rigidVelocities: the
+/// outline of an object without elements.
 struct RigidSpec {
-  TriangleMesh shape;   ///< nodes and loops; triangles where it is solid, to see what overlaps it
+  TriangleMesh shape;   ///< nodes and loops; triangles inside, for the check of overlaps
   double friction = 0;  ///< coefficient
-  std::string name;     ///< for sentences
-  bool isNew = true;    ///< false: it touches bodies already, and may be in them by what is left
+  std::string name;     ///< for messages
+  bool isNew = true;    ///< false: it has contacts already, and may have remaining penetrations
 };
 
 class World {
@@ -73,73 +74,73 @@ class World {
   /// Both throw InputError before anything is changed.
   ComponentId addBody(const TriangleMesh& mesh, const BodySpec& spec);
   void removeBody(ComponentId component);
-  /// InputError before anything is changed where it overlaps a body.
+  /// Throws InputError, before anything is changed, if it overlaps a body.
   ComponentId addRigid(const RigidSpec& spec);
-  /// Takes all rigid boundaries out and these in. `former`: by place in `rigidNodes` after that,
-  /// the place before of the corner that it stands for, `kNoCorner` for a new one; what touched the
-  /// side that begins there still does. InputError as above: there is no boundary then.
+  /// Replaces all rigid boundaries by these. `former`: by index in `rigidNodes` afterwards, the
+  /// former index of the corner, `kNoCorner` for a new one; contacts of the side that begins there
+  /// are kept. InputError as above: there is then no boundary.
   void replaceRigid(std::span<const RigidSpec> specs, std::span<const std::uint32_t> former);
   static constexpr std::uint32_t kNoCorner = ~std::uint32_t{0};
-  /// Of all rigid boundaries, ascending.
+  /// Nodes of all rigid boundaries, ascending.
   [[nodiscard]] const std::vector<NodeId>& rigidNodes() const { return rigidNodes_; }
   [[nodiscard]] bool hasRigid() const { return !rigidNodes_.empty(); }
-  /// Shifts nodes of rigid boundaries along their own lines, which changes nothing but where these
-  /// end: `places` (m) by place in `rigidNodes`.
+  /// Shifts nodes of rigid boundaries along their own lines, which changes only the ends of these:
+  /// `places` (m) by index in `rigidNodes`.
   void slideRigid(std::span<const Vec2> places);
-  /// From the next step on the bodies hang together along all sides that they have in common now,
-  /// as a crack that holds does, of this strength (Pa) and energy (J/m²). Returns how many sides
-  /// these are. InputError before anything is changed.
+  /// Bonds the bodies from the next step on along all their present common sides, by cohesive
+  /// cracks of this strength (Pa) and energy (J/m²). Returns the number of these sides. Throws
+  /// InputError before anything is changed.
   std::size_t bond(ComponentId a, ComponentId b, double strength, double energy);
 
-  /// (N) Constant outer forces by node; empty: none. InputError unless one per node, all finite.
+  /// (N) Constant external forces by node; empty: none. InputError unless one per node, all finite.
   void setLoads(std::vector<Vec2> loads);
-  /// From now on a pressure (Pa, over the simulated time) acts on the sides of the boundary that
-  /// have both ends among the nodes, in place of an earlier one; 0: none. It follows them as they
-  /// turn, and as nodes split. `intoCracks`: it comes to faces of cracks that open after this call,
-  /// as soon as they hang together with sides that have it; else these have none. InputError before
-  /// anything is changed.
+  /// Applies a pressure (Pa, as a function of the simulated time), from now on, to the sides of the
+  /// boundary whose two ends are among the nodes, in place of an earlier one; 0: none. It follows
+  /// the sides' rotation and the split of nodes. `intoCracks`: it also acts on faces of cracks that
+  /// open after this call, as soon as they are connected with sides under this pressure; otherwise
+  /// these have none. Throws InputError before anything is changed.
   void setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function = 0,
                    bool intoCracks = false);
-  /// From now on waves leave by these sides.
+  /// These sides absorb waves from now on.
   void setAbsorbing(std::span<const NodeId> nodes);
   /// From now on the nodes move at `velocity` (m/s) in the directions `held`, and freely in the
-  /// others. InputError before anything is changed.
+  /// others. Throws InputError before anything is changed.
   void prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 velocity);
   /// The same with a velocity for each of the nodes.
   void prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
                      std::span<const Vec2> velocity);
-  /// The same as a motion, which begins now, has it; one that turns holds both directions.
+  /// The same with a motion that begins now; one with a rotation holds both directions.
   void prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Motion motion);
 
-  /// One step of Δt (s), which may differ from the last one's. Throws TimeStepError for a step
-  /// above the critical one, InputError where it does not resolve a crack's opening, RunError where
-  /// an element or a value gives out. All state is then as it was before, to the last bit: the next
-  /// step is what it would have been.
+  /// One step of Δt (s), which may differ from the previous one. Throws TimeStepError for a step
+  /// above the critical one, InputError if it does not resolve a crack's opening, RunError if an
+  /// element is inverted or a value is not finite. The state is then unchanged to the last bit: the
+  /// next step has the same result as without the refused one.
   void step(double dt);
 
-  /// (s) From the present mesh; infinite without elements.
+  /// (s) Of the present mesh; infinite without elements.
   [[nodiscard]] double criticalTimeStep() const;
 
-  /// Half the halo around an entry's piece, for a search from outside (a collider). To be asked
-  /// before that search, if one is due: the halo's width follows the velocities.
+  /// Box of an entry's piece, enlarged by half the halo, for a search by a collider. If a search is
+  /// due, `chooseHalo` must be called before: the halo's width depends on the velocities.
   [[nodiscard]] Box boxOf(EntryId entry) const;
-  /// `first`: the segments before it are where, and as fast as, they were at the last call.
+  /// `first`: earlier segments have the same positions and velocities as at the last call.
   void chooseHalo(double dt, SegmentId first = SegmentId(0));
-  /// Takes pairs of entries whose boxes overlap at the present positions in place of the world's
-  /// own search.
+  /// Uses pairs of entries whose boxes overlap at the present positions instead of the world's own
+  /// search.
   void takePairs(std::span<const BoxPair> overlapping);
 
   /// (J) At the last half step.
   [[nodiscard]] double kineticEnergy() const { return yadefrag::kineticEnergy(model.nodes); }
   [[nodiscard]] double strainEnergy() const { return yadefrag::strainEnergy(model, lastDt); }
 
-  /// (J) What rounding of the coordinates has made of the bodies' energy so far, or less.
+  /// (J) Estimate of the energy that rounding of the coordinates has added to the bodies so far.
   [[nodiscard]] double roundingEnergy() const;
 
-  /// What all arrays are for, and how long they are.
+  /// Memory of all arrays, by use.
   [[nodiscard]] Footprint footprint() const;
 
-  /// What does not follow from the saved state, after it has been loaded.
+  /// Computes all derived data after loading.
   void rebuild();
 
   // --- settings
@@ -151,9 +152,9 @@ class World {
   std::vector<Vec2> outerForces;
   /// (m/s) By node, for the next step only: of nodes whose motion has a function.
   std::vector<Vec2> givenVelocities;
-  /// (m/s) By place in `rigidNodes`, for the next step only; empty: they stand still.
+  /// (m/s) By index in `rigidNodes`, for the next step only; empty: they do not move.
   std::vector<Vec2> rigidVelocities;
-  /// Of pressures that have a function, for the next step only.
+  /// Values of pressures with a function, for the next step only.
   struct GivenPressure {
     std::uint32_t function;
     double value;  ///< Pa
@@ -170,17 +171,17 @@ class World {
   Fracture fracture;
   EnergyLedger ledger;
   EnergyWatch watch;
-  std::vector<std::string> complaints;  ///< of the watch, all so far
+  std::vector<std::string> warnings;  ///< all messages of the watch so far
   Dropped dropped;
   std::vector<Vec2> reference;  ///< m, stress-free positions by node
-  /// (N) Of the last step, by node, in held directions: what the node needs to move as it does,
-  /// over its weight, loads and all forces of bodies. Not saved; empty before the first step.
+  /// (N) Reactions in the last step, by node, in held directions: the force that the prescribed
+  /// motion requires, besides weight, loads and all forces of bodies. Not saved; empty before the
+  /// first step.
   std::vector<Vec2> reactions;
   std::uint64_t steps = 0;
   double time = 0;    ///< s
   double lastDt = 0;  ///< s
-  /// (s) The longest step that has been found stable since bodies came or went, with this
-  /// viscosity.
+  /// (s) The longest step found stable since bodies were added or removed, with this viscosity.
   double stableStep = 0;
   BulkViscosity stableViscosity;
 
@@ -191,21 +192,21 @@ class World {
 
  private:
   [[nodiscard]] std::vector<SegmentId> segmentsAmong(std::span<const NodeId> nodes) const;
-  void forgetUnusedPressures();
+  void removeUnusedPressures();
   void spreadPressures();
-  void takeLoadsOff(const std::vector<std::uint8_t>& gone);
+  void removeLoads(const std::vector<std::uint8_t>& gone);
   void sumOuterForces();
   [[nodiscard]] const std::vector<Vec2>& allOuterForces() const {
     return pressures.empty() ? outerForces : allOuterForces_;
   }
   void absorb(const StepLength& length);
   void requireNodes(std::span<const NodeId> nodes) const;
-  void forgetUnusedMotions();
+  void removeUnusedMotions();
   void drive(double dt);
-  void letDrivenGo();
+  void undoDrive();
   void buildIfChanged();
   void requireStableStep(double dt);
-  void watchStrengths();
+  void updateStressLimits();
   void advance(double dt);
   void beginUndo();
   void takeBack();
@@ -223,9 +224,9 @@ class World {
   void requireResolvedMotion(double dt);
   void requireFiniteEnergy() const;
   void correctContact(const StepLength& length);
-  void bookContact(const StepLength& length);
+  void countContactWork(const StepLength& length);
   void cohere(const StepLength& length);
-  void bookFracture(const StepLength& length);
+  void countFractureWork(const StepLength& length);
   void watchEnergy();
   [[nodiscard]] double energyOf(ComponentId body, NodeId first, double dt) const;
   bool crack();
@@ -240,7 +241,7 @@ class World {
   void requireUpright(double dt);
   void finish(const StepLength& length);
   void measureReactions(const StepLength& length);
-  [[nodiscard]] StageTimes* timesIfAsked() { return timing ? &times : nullptr; }
+  [[nodiscard]] StageTimes* timesIfRequested() { return timing ? &times : nullptr; }
 
   ExplicitDynamics dynamics_;
   SplitResult split_;
@@ -249,14 +250,14 @@ class World {
   std::vector<NodeId> rigidNodes_;
   std::vector<Vec2> allOuterForces_;  // N, by node, with pressures; empty without any
   std::vector<Vec2> surfaceForces_;   // N, by node, of contact and cohesion
-  std::span<const Vec2> pushes_;      // N, the same or those of contact alone, of the present step
+  std::span<const Vec2> pushes_;      // N, the same or those of contact only, in the present step
   bool isBuilt_ =
       false;  // do the arrays below fit the model: many bodies join, then one step comes
   bool severalBodies_ = false;
   StepUndo undo_;
-  double finest_ = 0;  // m, shortest stress-free segment: does not depend on the time of the search
-  double droppedBelow_ = 0;  // m², no loose fragment is smaller; 0: unknown
-  std::string broken_;       // why there is no state to go on with; empty: there is
+  double finest_ = 0;  // m, shortest stress-free segment: independent of the time of the search
+  double droppedBelow_ = 0;  // m², no detached fragment is smaller; 0: unknown
+  std::string broken_;       // reason why the state is invalid; empty: it is valid
 };
 
 }  // namespace yadefrag

@@ -1,4 +1,4 @@
-// The world's part in bonds between bodies.
+// World: bonds between bodies.
 
 #include "core/errors.hpp"
 #include "fracture/bonds.hpp"

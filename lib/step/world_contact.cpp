@@ -1,4 +1,4 @@
-// The world's part in contact: what the search and the correction work on, and what to book.
+// World: contact; data of the search and of the correction, and energies.
 
 #include "core/tolerances/contact.hpp"
 #include "core/tolerances/step.hpp"
@@ -8,7 +8,7 @@ namespace yadefrag {
 
 double World::finestSegment() const { return shortestSegment(model, surfaces, reference); }
 
-/// One body that cannot touch itself needs neither search nor candidates.
+/// A single body that cannot touch itself needs neither search nor candidates.
 bool World::canTouch() const {
   const std::vector<ComponentId>& owners = surfaces.component;
   if (owners.empty()) return false;
@@ -16,9 +16,9 @@ bool World::canTouch() const {
 }
 
 HaloWatch::Scene World::searchScene() {
-  return {model,      surfaces,       contactSettings, reference,
-          finest_,    canTouch(),     hasRigid(),      !fracture.cohesion.edge.empty(),
-          threads,    timesIfAsked(), dynamics_,       contact,
+  return {model,      surfaces,           contactSettings, reference,
+          finest_,    canTouch(),         hasRigid(),      !fracture.cohesion.edge.empty(),
+          threads,    timesIfRequested(), dynamics_,       contact,
           numSearches};
 }
 
@@ -42,14 +42,14 @@ void World::correctContact(const StepLength& length) {
                         dynamics_.previousPosition(),
                         threads,
                         fracture.numCracks() > 0,
-                        timesIfAsked()};
+                        timesIfRequested()};
   undo_.hasCorrected = true;
   contact.correct(model, surfaces, contactSettings, now);
   search.addCorrection(contact.largestCorrection());
 }
 
-void World::bookContact(const StepLength& length) {
-  const StageTimer timer(timesIfAsked(), &StageTimes::correction);
+void World::countContactWork(const StepLength& length) {
+  const StageTimer timer(timesIfRequested(), &StageTimes::correction);
   const std::span<const Vec2> former = dynamics_.previousVelocity();
   for (const ContactRow& row : contact.rows()) {
     const Vec2 mean = .5 * (relative(row, former) + relative(row, model.nodes.velocity));

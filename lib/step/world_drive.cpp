@@ -1,4 +1,4 @@
-// The world's part in prescribed motion.
+// World: prescribed motion.
 
 #include <algorithm>
 #include <cmath>
@@ -26,24 +26,25 @@ void World::prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
                           std::span<const Vec2> velocity) {
   requireNodes(nodes);
   for (const Vec2 v : velocity)
-    if (!(std::max(std::abs(v.x), std::abs(v.y)) <= tolerance::kAnySpeed))
+    if (!(std::max(std::abs(v.x), std::abs(v.y)) <= tolerance::kMostSpeed))
       throw InputError("The prescribed velocity must be finite and at most 1e100 m/s.");
   const auto isNew = [&](NodeId node) { return model.nodes.held[node.value] != held; };
   const bool changed = std::any_of(nodes.begin(), nodes.end(), isNew);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const std::uint32_t node = nodes[i].value;
-    if (model.nodes.mass[node] == 0) continue;  // of a dropped triangle
+    if (model.nodes.mass[node] == 0) continue;  // of a removed triangle
     Vec2& present = model.nodes.velocity[node];
     const Vec2 former = present;
     model.nodes.held[node] = held;
     if (!model.nodes.motion.empty()) model.nodes.motion[node] = 0;
     if ((held & kHeldX) != 0) present.x = velocity[i].x;
     if ((held & kHeldY) != 0) present.y = velocity[i].y;
-    // The dynamics book a jump of nodes that were held before; after a rebuild they know of none.
+    // The dynamics counts the work of a velocity jump of nodes that were held before; after a
+    // rebuild it has no such nodes.
     if (changed)
       ledger.external += model.nodes.mass[node] / 2 * (dot(present, present) - dot(former, former));
   }
-  forgetUnusedMotions();
+  removeUnusedMotions();
   if (changed) isBuilt_ = false;
 }
 
@@ -51,7 +52,7 @@ void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Mo
   requireNodes(nodes);
   if (!isFinite(motion.centre)) throw InputError("The centre of a motion must be finite.");
   for (const TimeTable* table : {&motion.speedX, &motion.speedY, &motion.turn})
-    if (!table->times().empty() && !TimeTable::isRight(table->times(), table->values()))
+    if (!table->times().empty() && !TimeTable::isValid(table->times(), table->values()))
       throw InputError("The times of a motion must ascend, and its values be finite.");
   if (!motion.turn.times().empty() && held != kHeldXY)
     throw InputError("A motion that turns must hold both directions.");
@@ -61,17 +62,17 @@ void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Mo
   model.motions.push_back(std::move(motion));
   const Motion& added = model.motions.back();
   for (const NodeId node : nodes) {
-    if (all.mass[node.value] == 0) continue;  // of a dropped triangle
+    if (all.mass[node.value] == 0) continue;  // of a removed triangle
     if (all.held[node.value] != held) isBuilt_ = false;
     all.held[node.value] = held;
     all.motion[node.value] = static_cast<std::uint32_t>(model.motions.size());
     all.arm[node.value] = all.position[node.value] - added.centre;
   }
-  forgetUnusedMotions();
+  removeUnusedMotions();
 }
 
-/// Those that no node has any more, as a script that changes its motion in every step leaves them.
-void World::forgetUnusedMotions() {
+/// Removes motions without nodes, e.g. those of a script that changes its motion in every step.
+void World::removeUnusedMotions() {
   if (model.motions.empty()) return;
   std::vector<std::uint32_t> numbers(model.motions.size() + 1);
   for (const std::uint32_t motion : model.nodes.motion) numbers[motion] = 1;
@@ -87,7 +88,8 @@ void World::forgetUnusedMotions() {
   if (kept == 0) model.nodes.motion = {}, model.nodes.arm = {};
 }
 
-/// Nodes that have a motion get the velocity that takes them to their place at the end of the step.
+/// Sets the velocity of nodes with a motion such that they reach their prescribed position at the
+/// end of the step.
 void World::drive(double dt) {
   Nodes& nodes = model.nodes;
   if (nodes.motion.empty()) return;
@@ -115,7 +117,7 @@ void World::drive(double dt) {
 }
 
 /// Undoes `drive`.
-void World::letDrivenGo() {
+void World::undoDrive() {
   std::size_t next = 0;
   for (std::size_t n = 0; next < undo_.driven.size() && n < model.nodes.size(); ++n)
     if (model.nodes.motion[n] != 0) model.nodes.velocity[n] = undo_.driven[next++];

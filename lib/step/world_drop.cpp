@@ -1,4 +1,4 @@
-// The world's part in small fragments: what comes loose below a given area is taken out.
+// World: removal of detached fragments below a given area.
 
 #include <algorithm>
 
@@ -6,15 +6,15 @@
 
 namespace yadefrag {
 
-/// After the cracks of a step; `split`: have nodes split. Looks only where something came loose,
-/// and at everything after a body came or the area changed.
+/// Must be called after the cracks of a step; `split`: nodes have split. Checks only the
+/// surroundings of splits, and everything after a body was added or the area changed.
 void World::dropFragments(bool split) {
   const double area = fracture.minFragmentArea;
   if (area <= 0 || !fracture.isOn()) {
     droppedBelow_ = 0;
     return;
   }
-  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
   std::vector<ElementId> around;
   if (droppedBelow_ != area) {
     for (std::size_t e = 0; e < fracture.edges.ofElement.size(); ++e)
@@ -37,8 +37,8 @@ void World::dropFragments(bool split) {
   if (!loose_.triangles.empty()) takeOut(loose_.triangles);
 }
 
-/// Triangles, nodes and entries keep their numbers. The triangles stand where and as they were
-/// without stress, so that nothing of them ever moves or cracks again.
+/// Triangles, nodes and entries keep their numbers. The triangles get their stress-free shape at
+/// rest, so that they never move or crack again.
 void World::takeOut(std::span<const ElementId> triangles) {
   std::vector<NodeId> nodes;
   for (const ElementId element : triangles) {
@@ -66,7 +66,7 @@ void World::takeOut(std::span<const ElementId> triangles) {
   fracture.cohesion.removeDropped(model.triangles, fracture.edges);
   surfaces.drop(nodes);
   contact.removeGone(surfaces);
-  search.forgetDropped(model);
+  search.removeDropped(model);
   finest_ = finestSegment();
 }
 

@@ -1,4 +1,4 @@
-// The world's part in the watch over energy and depth.
+// World: check of energies and depths.
 
 #include <string>
 #include <utility>
@@ -10,8 +10,8 @@
 
 namespace yadefrag {
 
-/// (J) Every step rounds all coordinates; that sets free the energy of springs as stiff as the
-/// critical step allows. Errors of single steps are independent, so energies add up.
+/// (J) Every step rounds all coordinates, which releases energy of springs as stiff as the critical
+/// step permits. The errors of single steps are independent, so that their energies add up.
 double World::roundingEnergy() const {
   double moment = 0;  // kg m²
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
@@ -20,7 +20,7 @@ double World::roundingEnergy() const {
   return static_cast<double>(steps) * moment / 2 * rate * rate;
 }
 
-/// (J) Of the nodes from `first` on that are the body's, and its elements, in a step of `dt` (s).
+/// (J) Energy of a body's nodes, from `first` on, and of its elements, in a step of `dt` (s).
 double World::energyOf(ComponentId body, NodeId first, double dt) const {
   double twice = 0;
   for (std::size_t n = first.value; n < model.nodes.size(); ++n)
@@ -33,7 +33,7 @@ double World::energyOf(ComponentId body, NodeId first, double dt) const {
   return twice / 2 + yadefrag::strainEnergy(model, dt, elements);
 }
 
-/// To be told, not to be stopped: the user knows what the run is for.
+/// Gives messages, but does not stop the run: only the user knows its purpose.
 void World::watchEnergy() {
   const WatchedStep now{steps,
                         time,
@@ -43,22 +43,22 @@ void World::watchEnergy() {
                         finest_,
                         search.halo,
                         ledger};
-  const auto tell = [this](std::string sentence) {
-    if (!sentence.empty()) complaints.push_back(std::move(sentence));
+  const auto report = [this](std::string sentence) {
+    if (!sentence.empty()) warnings.push_back(std::move(sentence));
   };
   watch.count(now);
-  if (watch.mayHaveCreated(now)) tell(watch.complainOfContact(now, roundingEnergy()));
+  if (watch.mayHaveCreated(now)) report(watch.contactMessage(now, roundingEnergy()));
   if (EnergyWatch::isDue(steps)) {
     const double kinetic = kineticEnergy();
     if (watch.mayHaveGrown(now, kinetic)) {
       const double energy = kinetic + strainEnergy();
       const double grown = ledger.total(energy, 0) - watch.expected;
-      // What rounding makes takes long to find, and matters only where there is too much.
+      // The energy of rounding takes long to compute; it is needed only if the excess is large.
       const bool isMuch = grown > tolerance::kGivenEnergy * watch.most;
-      tell(watch.complainOfGrowth(now, energy, isMuch ? roundingEnergy() : 0));
+      report(watch.growthMessage(now, energy, isMuch ? roundingEnergy() : 0));
     }
   }
-  tell(watch.complainOfDepth(now));
+  report(watch.depthMessage(now));
 }
 
 }  // namespace yadefrag

@@ -1,4 +1,4 @@
-// What the arrays of a world are for: that what a scene does not use has none can be seen.
+// World: memory by use of the arrays. It shows that unused features have no arrays.
 
 #include "step/world.hpp"
 

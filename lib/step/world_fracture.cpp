@@ -1,4 +1,4 @@
-// The world's part in fracture: what has to follow when nodes split.
+// World: updates after a split of nodes.
 
 #include <algorithm>
 
@@ -10,21 +10,21 @@ namespace yadefrag {
 
 void World::cohere(const StepLength& length) {
   if (fracture.cohesion.edge.empty()) return;
-  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
   fracture.cohesion.correct(model, fracture.edges, dynamics_.previousPosition(), length,
                             dynamicsSettings.drag(length));
 }
 
-void World::bookFracture(const StepLength& length) {
+void World::countFractureWork(const StepLength& length) {
   if (fracture.cohesion.edge.empty()) return;
-  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
-  fracture.cohesion.book(ledger, model, dynamics_.previousVelocity(), length);
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
+  fracture.cohesion.addWork(ledger, model, dynamics_.previousVelocity(), length);
 }
 
-/// True if nodes have split.
+/// Returns true if nodes have split.
 bool World::crack() {
   if (!fracture.isOn()) return false;
-  const StageTimer timer(timesIfAsked(), &StageTimes::fracture);
+  const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
   fracture.cohesion.settle(model, fracture.edges);
   const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), split_);
   fracture.noteStart(time);
@@ -39,7 +39,7 @@ bool World::crack() {
   return opened;
 }
 
-/// Of a body that has just joined, before anything else knows of it.
+/// For a new body, before other data depend on it.
 void World::openJoints(std::span<const EdgeId> joints) {
   if (joints.empty()) return;
   fracture.open(model, surfaces, joints, split_);
@@ -48,7 +48,7 @@ void World::openJoints(std::span<const EdgeId> joints) {
   (void)relink(surfaces, split_.sides);
 }
 
-/// All arrays by node, triangle or entry.
+/// Updates all arrays by node, triangle or entry.
 void World::followSplit() {
   for (const NodeId original : split_.originals)
     reference.push_back(Vec2(reference[original.value]));
@@ -62,8 +62,8 @@ void World::followSplit() {
   for (const SurfaceSide& side : split_.sides)
     if (side.segment == SegmentId::none())
       finest_ = std::min(finest_, norm(reference[side.last.value] - reference[side.first.value]));
-  // New faces, and all that came near them: what is within the halo of an old piece beside the
-  // crack now may be in that of a new one.
+  // New faces, and all entries near them: a slave within the halo of an old piece beside the crack
+  // may be in the halo of a new one.
   search.addCandidatesAround(searchScene(),
                              entriesAround(surfaces, contact.candidates, split_.sides));
   std::vector<SlaveMaster> inherited;

@@ -1,4 +1,4 @@
-// The world's part in loads on pieces of the boundary.
+// World: loads on pieces of the boundary.
 
 #include <algorithm>
 #include <utility>
@@ -8,7 +8,7 @@
 
 namespace yadefrag {
 
-/// All segments whose two ends are among the nodes, ascending; InputError where there are none.
+/// All segments whose two ends are among the nodes, ascending; InputError if there are none.
 std::vector<SegmentId> World::segmentsAmong(std::span<const NodeId> nodes) const {
   requireNodes(nodes);
   std::vector<bool> chosen(model.nodes.size());
@@ -26,15 +26,15 @@ std::vector<SegmentId> World::segmentsAmong(std::span<const NodeId> nodes) const
 void World::setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function,
                         bool intoCracks) {
   std::vector<SegmentId> segments = segmentsAmong(nodes);
-  if (!value.times().empty() && !TimeTable::isRight(value.times(), value.values()))
+  if (!value.times().empty() && !TimeTable::isValid(value.times(), value.values()))
     throw InputError("The times of a pressure must ascend, and its values be finite.");
-  // In place of what was there.
+  // The new pressure replaces earlier ones on these segments.
   for (Pressure& other : pressures)
     std::erase_if(other.segments, [&](SegmentId s) { return std::ranges::count(segments, s) > 0; });
   const auto firstNew = static_cast<std::uint32_t>(surfaces.segments());
   pressures.push_back(
       {std::move(segments), std::move(value), function, intoCracks ? firstNew : Pressure::kNever});
-  forgetUnusedPressures();
+  removeUnusedPressures();
 }
 
 void World::setAbsorbing(std::span<const NodeId> nodes) {
@@ -46,15 +46,16 @@ void World::setAbsorbing(std::span<const NodeId> nodes) {
   absorbing.findTriangles(model, surfaces);
 }
 
-/// Those on nothing, or of 0 for ever.
-void World::forgetUnusedPressures() {
+/// Removes pressures without segments, or with a constant value of 0.
+void World::removeUnusedPressures() {
   std::erase_if(pressures, [](const Pressure& p) {
     return p.segments.empty() || (p.function == 0 && p.value.values() == std::vector<double>{0});
   });
 }
 
-/// Before the component leaves the surfaces: segments behind its own get lower numbers.
-void World::takeLoadsOff(const std::vector<std::uint8_t>& gone) {
+/// Must be called before the component is removed from the surfaces: later segments get lower
+/// numbers.
+void World::removeLoads(const std::vector<std::uint8_t>& gone) {
   std::vector<SegmentId> numbers(surfaces.segments(), SegmentId::none());
   std::size_t kept = 0;
   for (std::size_t s = 0; s < numbers.size(); ++s)
@@ -71,10 +72,11 @@ void World::takeLoadsOff(const std::vector<std::uint8_t>& gone) {
           std::count(numbers.begin(), numbers.begin() + pressure.firstNew, SegmentId::none()));
   }
   renumber(absorbing.segments);
-  forgetUnusedPressures();
+  removeUnusedPressures();
 }
 
-/// After cracks have opened or let go. Faces that cohesion still holds have no pressure.
+/// Must be called after cracks have opened or lost their cohesion. Faces of cohesive cracks have no
+/// pressure.
 void World::spreadPressures() {
   const auto spreads = [](const Pressure& p) { return p.firstNew != Pressure::kNever; };
   if (std::ranges::none_of(pressures, spreads)) return;
@@ -98,7 +100,7 @@ void World::spreadPressures() {
   }
 }
 
-/// Outer forces and pressures together.
+/// External forces and pressures together.
 void World::sumOuterForces() {
   allOuterForces_.clear();
   if (pressures.empty()) return;

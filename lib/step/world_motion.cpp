@@ -1,5 +1,5 @@
-// Where contact could be missed or mistaken, the body or the step is refused: bodies that overlap
-// from the start, or move too far at once.
+// Refuses bodies and steps for which contact could be missed or wrong: bodies that overlap
+// initially, or displacements that are too large.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace yadefrag {
 
 namespace {
 
-/// What a point or a piece covers in the step.
+/// The region that a point or a piece covers in the step.
 struct Swept {
   Vec2 low, high;
   explicit Swept(Vec2 point) : low(point), high(point) {}
@@ -29,7 +29,7 @@ struct Swept {
   }
 };
 
-/// (m) How far a slave and its master move against each other; 0 if their ways do not cross.
+/// (m) Relative displacement of a slave and its master; 0 if their paths do not cross.
 double relativeMotion(const PieceGeometry& before, const PieceGeometry& now, EntryId slave,
                       EntryId master) {
   const Vec2 from = before.slave(slave), to = now.slave(slave);
@@ -46,7 +46,7 @@ double chord(const PieceEnds& ends) { return norm(ends.end - ends.begin); }
 
 }  // namespace
 
-/// Contact keeps apart what was apart, and would let bodies through each other that overlap.
+/// Contact prevents new overlaps only; bodies that overlap initially would pass through each other.
 void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec,
                          const std::string& subject) {
   places_.update(model, surfaces);
@@ -65,9 +65,9 @@ void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec,
   throw InputError(text.str());
 }
 
-/// No search would come of it, and no good shape.
+/// With larger displacements neither the search nor the deformation would be meaningful.
 void World::requireBoundedMotion(double dt) {
-  if (!dynamics_.anySwift()) return;
+  if (!dynamics_.anyLargeMove()) return;
   const std::span<const Vec2> before = dynamics_.previousPosition();
   double most = 0;
   for (std::size_t n = 0; n < before.size(); ++n)
@@ -85,7 +85,7 @@ void World::requireBoundedMotion(double dt) {
 }
 
 void World::requireResolvedMotion(double dt) {
-  // Two nodes come nearer by twice the largest move at most.
+  // The distance of two nodes decreases by at most twice the largest displacement.
   if (2 * search.largestMove() <= tolerance::kMostMotion * finest_) return;
   const PieceGeometry before(surfaces, dynamics_.previousPosition()),
       now(surfaces, model.nodes.position), free(surfaces, reference);
@@ -104,12 +104,12 @@ void World::requireResolvedMotion(double dt) {
   std::ostringstream text;
   text << "at (" << at.x << ", " << at.y << ") m a body moves against another by " << most
        << " of a segment in one step, but may not by more than " << tolerance::kMostMotion
-       << ", lest contact be missed; take a step of at most " << dt * tolerance::kMostMotion / most
-       << " s.";
+       << "; otherwise contact could be missed; take a step of at most "
+       << dt * tolerance::kMostMotion / most << " s.";
   throw RunError(text.str());
 }
 
-/// Forces so large that their works leave the range of numbers.
+/// Forces so large that their work exceeds the range of numbers.
 void World::requireFiniteEnergy() const {
   if (std::isfinite(ledger.total(0, 0))) return;
   throw RunError("the works of forces on the bodies are not finite; take smaller forces.");

@@ -1,4 +1,4 @@
-// The world's part in rigid boundaries: outlines of bodies that are not made of elements.
+// World: rigid boundaries, which are outlines of objects without elements.
 
 #include <algorithm>
 #include <utility>
@@ -9,7 +9,7 @@
 
 namespace yadefrag {
 
-/// The motion of all their nodes.
+/// The common motion of all their nodes.
 std::uint32_t World::rigidMotion() {
   std::vector<Motion>& motions = model.motions;
   const auto known = std::ranges::find(motions, Motion::kRigid, &Motion::function);
@@ -28,7 +28,7 @@ ComponentId World::addRigid(const RigidSpec& spec) {
   return id;
 }
 
-/// All but what follows from the state.
+/// Adds a rigid boundary; derived data are not updated.
 ComponentId World::appendRigid(const RigidSpec& spec) {
   BodySpec held;
   held.held.assign(spec.shape.nodes.size(), kHeldXY);
@@ -57,7 +57,7 @@ ComponentId World::appendRigid(const RigidSpec& spec) {
     for (const std::uint32_t node : loop) nodes.emplace_back(first + node);
     surfaces.addLoop(nodes, std::vector<std::uint8_t>(nodes.size()), id);
   }
-  search.forget();
+  search.invalidate();
   return id;
 }
 
@@ -73,8 +73,8 @@ std::vector<EntryId> World::removeAllRigid() {
   return entries;
 }
 
-/// By entry: the place in `rigidNodes` of the corner at which it begins; kNoCorner: it is of a
-/// body.
+/// By entry: index in `rigidNodes` of the corner at which it begins; kNoCorner for entries of
+/// bodies.
 std::vector<std::uint32_t> World::rigidEntries() const {
   std::vector<std::uint32_t> corners(surfaces.entries(), kNoCorner);
   for (std::uint32_t i = 0; i < rigidNodes_.size(); ++i) {
@@ -109,7 +109,7 @@ void World::replaceRigid(std::span<const RigidSpec> specs, std::span<const std::
 void World::slideRigid(std::span<const Vec2> places) {
   for (std::size_t i = 0; i < places.size(); ++i)
     model.nodes.position[rigidNodes_[i].value] = reference[rigidNodes_[i].value] = places[i];
-  places_.forget();
+  places_.clear();
   search.isVoid = true;
 }
 

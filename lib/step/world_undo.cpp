@@ -1,4 +1,4 @@
-// Back to where a step began that is refused.
+// Restores the state before a refused step.
 
 #include "step/world.hpp"
 
@@ -14,16 +14,16 @@ void World::beginUndo() {
   search.begin();
 }
 
-/// Needs no memory.
+/// Allocates no memory.
 void World::takeBack() {
   if (undo_.hasCorrected) contact.takeBack();
   search.takeBack(searchScene());
   if (undo_.hasMoved) dynamics_.takeBack(model);
-  letDrivenGo();
+  undoDrive();
   ledger = undo_.ledger;
   watch = undo_.watch;
   stableStep = undo_.stableStep, stableViscosity = undo_.stableViscosity;
-  dynamics_.watchSpeed(undo_.speedLimit);
+  dynamics_.setSpeedLimit(undo_.speedLimit);
 }
 
 }  // namespace yadefrag

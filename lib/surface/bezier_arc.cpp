@@ -9,7 +9,7 @@
 namespace yadefrag {
 namespace {
 
-/// Seen from node b, which keeps digits where coordinates are large.
+/// Coordinates relative to node b: differences keep their digits where coordinates are large.
 struct LocalArc {
   Vec2 toB, fromB;  ///< b − a, c − b
   Vec2 point;       ///< the point − b
@@ -24,8 +24,8 @@ struct LocalArc {
   [[nodiscard]] Vec2 bend(double xi) const { return 1.5 * ((1 - xi) * fromB - xi * toB); }
 };
 
-/// Bernstein coefficients of (x(ξ) − point)·x′(ξ)·⁴⁄₃ on a part of the arc: half the slope of the
-/// squared distance.
+/// Bernstein coefficients of (x(ξ) − point)·x′(ξ)·⁴⁄₃ on a part of the arc: half the derivative of
+/// the squared distance.
 using Slope = std::array<double, 6>;
 
 Slope slopeOfDistance(const LocalArc& arc) {
@@ -40,14 +40,14 @@ Slope slopeOfDistance(const LocalArc& arc) {
           dot(x[3], t[2])};
 }
 
-/// Zero counts as positive, so that a root on the cut between two parts belongs to the left one.
+/// Zero counts as positive, so that a root at the cut between two parts belongs to the left one.
 int signChanges(const Slope& f) {
   int changes = 0;
   for (std::size_t i = 1; i < f.size(); ++i) changes += (f[i - 1] < 0) != (f[i] < 0);
   return changes;
 }
 
-/// De Casteljau: left half in place, returns the right half.
+/// De Casteljau's algorithm: replaces the slope by its left half and returns the right half.
 Slope cutInHalf(Slope& f) {
   Slope right;
   for (std::size_t level = f.size() - 1;; --level) {
@@ -67,7 +67,7 @@ struct Nearest {
   }
 };
 
-/// The slope is negative at `low`, not at `high`, and has one root between.
+/// The slope is negative at `low`, not negative at `high`, and has one root between.
 double refineFoot(const LocalArc& arc, double low, double high) {
   double xi = .5 * (low + high);
   double lastStep = high - low;
@@ -78,7 +78,7 @@ double refineFoot(const LocalArc& arc, double low, double high) {
     (slope < 0 ? low : high) = xi;
     const double curvature = dot(tangent, tangent) + dot(away, arc.bend(xi));
     double other = xi - slope / curvature;
-    // A Newton step must stay in the bracket and be at most half as long as the one before.
+    // A Newton step must stay in the bracket and be at most half as long as the previous one.
     if (!(other >= low && other <= high && 2 * std::abs(other - xi) <= lastStep))
       other = .5 * (low + high);
     lastStep = std::abs(other - xi);
@@ -88,7 +88,7 @@ double refineFoot(const LocalArc& arc, double low, double high) {
   return xi;
 }
 
-/// Offers every local minimum of the distance inside [low, high].
+/// Reports every local minimum of the distance inside [low, high].
 void offerFeet(const LocalArc& arc, Slope slope, double low, double high, int depth,
                Nearest& nearest) {
   const int changes = signChanges(slope);
@@ -109,7 +109,7 @@ Vec2 unit(Vec2 a) {
   return length > 0 ? (1 / length) * a : Vec2{};
 }
 
-/// The tangent, or where it vanishes (nodes that coincide, a fold by 180°) the chord.
+/// The tangent; where it vanishes (coincident nodes, a fold by 180°), the chord.
 Vec2 safeTangent(const LocalArc& arc, double xi) {
   const Vec2 tangent = arc.tangent(xi);
   if (dot(tangent, tangent) > 0) return tangent;

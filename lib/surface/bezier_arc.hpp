@@ -2,7 +2,8 @@
 // The smooth boundary around a node b between its neighbours a and c (paper eq. 2, fig. 1): the
 // cubic Bézier curve from the halfpoint of ab (ξ = 0) to that of bc (ξ = 1) whose inner control
 // points are the quarterpoints (a+3b)/4 and (3b+c)/4. Its tangent ¾[(1−ξ²)(b−a) + (2ξ−ξ²)(c−b)]
-// only turns between the two segments, and always the same way: an arc has no inflection.
+// rotates in one direction only, from the first segment's to the second's: an arc has no
+// inflection.
 
 #include <array>
 
@@ -30,23 +31,25 @@ inline Vec2 combine(const ArcWeights& h, Vec2 a, Vec2 b, Vec2 c) {
 }
 
 /// The quick test of §5.3: false only if the point cannot be on the material side of the arc with
-/// an orthogonal foot on it. The line goes through the halfpoints where the boundary is concave
-/// (turns right at b, since material is on the left), through the quarterpoints where it is convex;
-/// both lines are parallel to ac. At a corner so sharp that a normal of the arc points backwards
-/// against the line's, a deep point can be beyond the line, and the test says true to everything.
+/// an orthogonal foot on it. At a concave node (the boundary turns right at b, with material on the
+/// left) the test line goes through the halfpoints, at a convex node through the quarterpoints;
+/// both lines are parallel to ac. At a very sharp corner a normal of the arc may point against the
+/// normal of the line. A deep point can then be beyond the line, and the test returns true for
+/// every point.
 bool mayPenetrateArc(Vec2 a, Vec2 b, Vec2 c, Vec2 point);
 
-/// Where a point projects onto a boundary piece.
+/// The projection of a point on a boundary piece.
 struct Foot {
-  double xi = 0;   ///< past an end the piece goes on along its tangent: ξ < 0 or ξ > 1 on an arc
-  double gap = 0;  ///< m, along the normal: positive on the void side
-  Vec2 normal;     ///< unit, outward
-  bool inside = false;  ///< is ξ in the piece's range: the foot is orthogonal and on the piece
+  /// Beyond an end the piece is extended along its tangent: ξ < 0 or ξ > 1 on an arc.
+  double xi = 0;
+  double gap = 0;       ///< m, along the normal: positive on the void side
+  Vec2 normal;          ///< unit, outward
+  bool inside = false;  ///< ξ is in the piece's range: the foot is orthogonal and on the piece
 };
 
-/// The orthogonal foot nearest to the point (a point deep inside a sharp arc has up to three);
-/// Newton–Raphson inside a bracket that holds exactly one root. Without an orthogonal foot: the
-/// nearer end, `inside` false, and ξ and gap those of the tangent there.
+/// The orthogonal foot nearest to the point (a point deep inside a sharp arc has up to three), by
+/// Newton–Raphson iteration in a bracket with exactly one root. Without an orthogonal foot: the
+/// nearer end, `inside` false, and ξ and gap relative to the tangent there.
 Foot nearestOnArc(Vec2 a, Vec2 b, Vec2 c, Vec2 point);
 
 }  // namespace yadefrag

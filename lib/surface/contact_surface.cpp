@@ -8,7 +8,7 @@
 namespace yadefrag {
 namespace {
 
-/// New numbers of the rows that stay, in order; none() for those that go.
+/// New numbers of the rows that are kept, in order; none() for removed rows.
 template <class IdType, class Stays>
 std::vector<IdType> compactNumbers(std::size_t count, Stays stays) {
   std::vector<IdType> numbers(count, IdType::none());
@@ -33,7 +33,7 @@ void translate(std::vector<IdType>& links, const std::vector<IdType>& numbers) {
 
 Stencil onSegment(NodeId a, NodeId b, double xi) { return {{a, b, {}}, {1 - xi, xi, 0}, 2}; }
 
-/// The segments of a closed loop; their entries are still missing.
+/// Appends the segments of a closed loop, without entries.
 void appendSegments(ContactSurfaces& s, std::span<const NodeId> nodes,
                     std::span<const std::uint8_t> smooth) {
   const std::size_t first = s.segments();
@@ -124,13 +124,13 @@ std::vector<EntryId> ContactSurfaces::removeComponents(const std::vector<std::ui
   translate(next, entryNumbers);
   translate(prev, entryNumbers);
 
-  // Numbers of loops stay without gaps, too.
-  std::vector<std::uint32_t> left(loop);
-  std::sort(left.begin(), left.end());
-  left.erase(std::unique(left.begin(), left.end()), left.end());
+  // Numbers of loops are kept without gaps, too.
+  std::vector<std::uint32_t> remaining(loop);
+  std::sort(remaining.begin(), remaining.end());
+  remaining.erase(std::unique(remaining.begin(), remaining.end()), remaining.end());
   for (std::uint32_t& number : loop)
-    number = static_cast<std::uint32_t>(std::lower_bound(left.begin(), left.end(), number) -
-                                        left.begin());
+    number = static_cast<std::uint32_t>(
+        std::lower_bound(remaining.begin(), remaining.end(), number) - remaining.begin());
   return entryNumbers;
 }
 
@@ -148,7 +148,7 @@ void ContactSurfaces::renumberNodes(std::span<const NodeId> renumbered, std::siz
   nodeSegment.assign(nodeCount, SegmentId::none());
   for (std::size_t s = 0; s < segments(); ++s) {
     segmentNode[s] = renumbered[segmentNode[s].value];
-    assert(segmentNode[s].value < nodeCount);  // a node of a loop cannot be gone
+    assert(segmentNode[s].value < nodeCount);  // a node of a loop must not be removed
     nodeSegment[segmentNode[s].value] = SegmentId(s);
   }
 }

@@ -23,14 +23,14 @@
 namespace yadefrag {
 
 enum class Piece : std::uint8_t {
-  kSegment,     ///< nodes a, b; whole: 0 ≤ ξ ≤ 1
-  kFirstHalf,   ///< of a segment that leaves a corner: 0 ≤ ξ ≤ ½
-  kSecondHalf,  ///< of a segment that reaches a corner: ½ ≤ ξ ≤ 1
+  kSegment,     ///< nodes a, b; whole segment: 0 ≤ ξ ≤ 1
+  kFirstHalf,   ///< of a segment that begins at a corner: 0 ≤ ξ ≤ ½
+  kSecondHalf,  ///< of a segment that ends at a corner: ½ ≤ ξ ≤ 1
   kArc,         ///< nodes a, b, c; from the halfpoint of ab (ξ = 0) to that of bc (ξ = 1)
-  kGone,        ///< of a dropped fragment: it keeps its number, and touches nothing
+  kGone,        ///< of a removed fragment: it keeps its number, and has no contact
 };
 
-/// A point of the boundary as a combination of up to three nodes; unused ones have weight 0.
+/// A point of the boundary as a linear combination of up to three nodes; unused ones have weight 0.
 struct Stencil {
   NodeId node[3];
   double weight[3] = {1, 0, 0};
@@ -39,33 +39,35 @@ struct Stencil {
 
 class ContactSurfaces {
  public:
-  /// Adds a closed loop, material on the left; one flag per node. Returns its number. Two nodes are
-  /// a line with both sides.
+  /// Adds a closed loop, material on the left, with one `smooth` flag per node. Returns the number
+  /// of the loop. Two nodes are a line with two sides.
   std::uint32_t addLoop(std::span<const NodeId> nodes, std::span<const std::uint8_t> smooth,
                         ComponentId component);
-  /// Takes away all loops of a component; entries after them move up, in order.
+  /// Removes all loops of a component; later entries move up, in order.
   void removeComponent(ComponentId component);
-  /// The same for all that are `gone` (by component). Returns the new number of each entry, none()
-  /// for those that are gone.
+  /// The same for all components with a mark in `gone`. Returns the new number of each entry,
+  /// none() for removed ones.
   std::vector<EntryId> removeComponents(const std::vector<std::uint8_t>& gone);
-  /// All pieces that begin at or behind these nodes, which are whole loops, are gone.
+  /// Marks all pieces that begin at or after these nodes as removed; the nodes must be whole loops.
   void drop(std::span<const NodeId> nodes);
-  /// A node is known by a new number (`renumbered[old]`), none() if it is gone.
+  /// Changes node numbers: `renumbered[old]` is the new number, none() for a removed node.
   void renumberNodes(std::span<const NodeId> renumbered, std::size_t nodeCount);
 
   // First layer: segment s runs from segmentNode[s] to that of the next one.
   std::vector<NodeId> segmentNode;
   std::vector<SegmentId> segmentNext, segmentPrev;
-  std::vector<std::uint8_t> segmentSmooth;  ///< is its first node smooth; empty: none ever was
-  std::vector<EntryId> segmentEntry;   ///< its first entry: the one on its first node or halfpoint
-  std::vector<SegmentId> nodeSegment;  ///< by node: the segment that leaves it, or none()
+  /// True if its first node is smooth; empty: no smooth node so far.
+  std::vector<std::uint8_t> segmentSmooth;
+  std::vector<EntryId> segmentEntry;   ///< its first entry: at its first node or halfpoint
+  std::vector<SegmentId> nodeSegment;  ///< by node: the segment that begins there, or none()
 
   // Second layer.
   std::vector<SegmentId> entrySegment;  ///< the segment in which it begins
   std::vector<Piece> piece;
   std::vector<EntryId> next, prev;
-  /// Number of the loop in which it was made, by which single passing tells surfaces apart. Once
-  /// something has cracked the closed lists are others: those of `next` and `segmentNext`.
+  /// Number of the loop in which the entry was created; single passing distinguishes surfaces by
+  /// it. After a crack the closed lists differ from these loops: they are given by `next` and
+  /// `segmentNext`.
   std::vector<std::uint32_t> loop;
   std::vector<ComponentId> component;
 
@@ -78,7 +80,7 @@ class ContactSurfaces {
   [[nodiscard]] bool isGone(SegmentId segment) const { return isGone(segmentEntry[segment.value]); }
   [[nodiscard]] std::size_t entries() const { return entrySegment.size(); }
 
-  /// Up to three nodes a, b, c of a piece; returns how many.
+  /// Up to three nodes a, b, c of a piece; returns their number.
   int pieceNodes(EntryId entry, NodeId (&nodes)[3]) const;
   /// The sampling point of an entry: a node or a halfpoint.
   [[nodiscard]] Stencil slave(EntryId entry) const;

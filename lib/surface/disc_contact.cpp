@@ -16,12 +16,12 @@ bool isNone(Vec2 tangent) { return tangent == Vec2{}; }
 
 enum class Owner { kBefore, kCorner, kAfter, kBoth };
 
-/// A joint of two pieces as seen from a point. Both pieces ask with the same numbers, so that they
-/// agree to the last bit.
+/// A joint of two pieces relative to a point. It is computed from the same numbers for both pieces,
+/// so that their results agree to the last bit.
 struct Joint {
   Vec2 from;           ///< from the corner to the point
   Vec2 arrive, leave;  ///< tangents
-  double past, ahead;  ///< how far the point is past the end of one, and along the other
+  double past, ahead;  ///< distance of the point beyond the end of one, and along the other
 
   Joint(Vec2 corner, Vec2 t0, Vec2 t1, Vec2 point)
       : from(point - corner), arrive(t0), leave(t1), past(dot(from, t0)), ahead(dot(from, t1)) {}
@@ -32,12 +32,12 @@ struct Joint {
     if (past >= 0) return ahead < 0 ? Owner::kCorner : Owner::kAfter;
     if (ahead < 0) return Owner::kBefore;
     if (isConcave()) return Owner::kBoth;
-    // Inside a convex corner, or rounding on a flat joint: the side that is nearer to the void.
+    // Inside a convex corner, or with rounding at a flat joint: the side nearer to the void.
     return dot(from, rightOf(arrive)) >= dot(from, rightOf(leave)) ? Owner::kBefore : Owner::kAfter;
   }
 
-  /// Part of the overlap with the corner itself that the piece before gives up where both push. It
-  /// goes from nothing to all of it as the point moves out of that piece's reach.
+  /// The part of the overlap with the corner itself that the preceding piece does not count if both
+  /// sides push. It increases from zero to all of it as the point moves out of that piece's range.
   [[nodiscard]] double sharedByBefore(double radius) const {
     return overlap(radius) * ahead / (ahead - past);
   }
@@ -64,7 +64,7 @@ DiscContact freeEnd(Vec2 at, Vec2 outward, Vec2 centre, double radius) {
   return {radius - distance, distance > 0 ? (1 / distance) * from : outward};
 }
 
-/// The foot of a point on a piece that it is alongside of.
+/// The foot of a point that lies beside the piece.
 Foot footOn(const BoundaryPiece& piece, Vec2 point) {
   if (piece.isArc) {
     const Vec2 before = 2 * piece.start - piece.middle, after = 2 * piece.end - piece.middle;

@@ -1,5 +1,6 @@
 #pragma once
-// A disc against one piece of a boundary, so that all pieces together push it as one curve does.
+// Contact of a disc with one piece of a boundary. The contacts of all pieces together act as that
+// of one continuous curve.
 
 #include <optional>
 
@@ -8,8 +9,8 @@
 namespace yadefrag {
 
 struct BoundaryPiece {
-  Vec2 start, middle, end;  ///< m; `middle` of an arc only: the node that it goes around
-  Vec2 before, after;       ///< unit tangents of the neighbours at the joints; zero: a free end
+  Vec2 start, middle, end;  ///< m; `middle`, of an arc only: its central node
+  Vec2 before, after;  ///< unit tangents of the adjacent pieces at the joints; zero: a free end
   bool isArc = false;
 
   [[nodiscard]] Vec2 tangentAtStart() const;
@@ -21,11 +22,11 @@ struct DiscContact {
   Vec2 normal;         ///< unit, out of the material
 };
 
-/// The contact that this piece has with a disc; none where it does not touch or where the place
-/// belongs to a neighbour. Every place along a flat or convex boundary belongs to one piece: a
-/// corner to the piece that starts there. In a concave corner both sides push, less what they have
-/// in common, so that the force stays continuous as the corner becomes flat. A disc whose centre is
-/// inside the material, by less than its radius, is pushed out by the nearest side.
+/// The contact of this piece with a disc. No value if they do not touch, or if the contact point
+/// belongs to an adjacent piece. Every point along a flat or convex boundary belongs to one piece:
+/// a corner belongs to the piece that starts there. In a concave corner both sides push, minus
+/// their common part, so that the force stays continuous as the corner becomes flat. If the disc's
+/// centre is inside the material, by less than the radius, the nearest side pushes the disc out.
 std::optional<DiscContact> discContact(const BoundaryPiece& piece, Vec2 centre, double radius);
 
 }  // namespace yadefrag

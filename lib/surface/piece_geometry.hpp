@@ -1,5 +1,5 @@
 #pragma once
-// What a contact surface's entry looks like at given node positions (m).
+// The geometry of a contact surface's entries at given node positions (m).
 
 #include <span>
 
@@ -10,7 +10,7 @@
 
 namespace yadefrag {
 
-/// ξ at which a piece begins and ends.
+/// Values of ξ at which a piece begins and ends.
 struct PieceRange {
   double begin = 0;
   double end = 1;
@@ -20,7 +20,7 @@ inline PieceRange pieceRange(Piece piece) {
   return {piece == Piece::kSecondHalf ? .5 : 0., piece == Piece::kFirstHalf ? .5 : 1.};
 }
 
-/// The point, or the displacement or velocity, that a stencil stands for.
+/// The point, displacement or velocity that a stencil defines.
 inline Vec2 combine(const Stencil& stencil, std::span<const Vec2> values) {
   Vec2 sum = stencil.weight[0] * values[stencil.node[0].value];
   for (int i = 1; i < stencil.count; ++i) sum += stencil.weight[i] * values[stencil.node[i].value];
@@ -31,13 +31,14 @@ struct PieceEnds {
   Vec2 begin, end;
 };
 
-/// Not smooth: of surfaces without any smooth part, whose pieces are all whole segments; what arcs
-/// need is not even asked for.
+/// `kSmooth` false: for surfaces without any smooth part, whose pieces are all whole segments; the
+/// arrays for arcs are then not accessed.
 template <bool kSmooth>
 class PieceGeometryOf {
  public:
-  /// All must outlive this object, which keeps no copy. `points`: m, by entry, what `slave` gives
-  /// at these positions, if it is known already; two indirections less for each.
+  /// This object stores references only: all arguments must outlive it. `points`: m, by entry, the
+  /// results of `slave` at these positions, if they are known already; this saves two indirections
+  /// each.
   PieceGeometryOf(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
                   std::span<const Vec2> points = {})
       : surfaces_(surfaces), positions_(positions), points_(points) {}
@@ -52,16 +53,17 @@ class PieceGeometryOf {
   [[nodiscard]] PieceEnds ends(EntryId entry) const {
     return {slave(entry), slave(surfaces_.next[entry.value])};
   }
-  /// Smallest box around a straight piece; of an arc, around its four control points. z = 0.
+  /// Smallest box around a straight piece; for an arc, around its four control points. z = 0.
   [[nodiscard]] Box box(EntryId entry) const;
-  /// (m) How far an arc bulges over its chord: near an arc is near its chord by that much more.
+  /// (m) Height of an arc over its chord: a point near the arc is near the chord up to this height.
   [[nodiscard]] double bulge(EntryId arc, const PieceEnds& ends) const {
     return norm(corners(arc).b - .5 * (ends.begin + ends.end));
   }
-  /// m, along the piece; an arc's by quadrature, to a thousandth even where it is sharp.
+  /// m, length of the piece; that of an arc by quadrature, with an error of a thousandth even at a
+  /// sharp node.
   [[nodiscard]] double length(EntryId entry) const;
   [[nodiscard]] Vec2 point(EntryId entry, double xi) const;
-  /// dx/dξ (m); of a straight piece the whole segment's.
+  /// dx/dξ (m); for a straight piece that of the whole segment.
   [[nodiscard]] Vec2 tangent(EntryId entry, double xi) const {
     if (!isWhole(entry)) return tangentOfOther(entry, xi);
     const PieceEnds e = ends(entry);
@@ -72,7 +74,7 @@ class PieceGeometryOf {
     return unitOrZero(rightOf(tangent(entry, xi)));
   }
 
-  /// The entry's sampling point: what `ContactSurfaces::slave` stands for, without the stencil.
+  /// The entry's sampling point: that of `ContactSurfaces::slave`, without computing the stencil.
   [[nodiscard]] Vec2 slave(EntryId entry) const {
     if (!points_.empty()) return points_[entry.value];
     const SegmentId segment = surfaces_.entrySegment[entry.value];
@@ -84,7 +86,7 @@ class PieceGeometryOf {
     return .5 * a + .5 * positions_[surfaces_.segmentNode[following.value].value];
   }
 
-  /// The foot of a point: on a straight piece with ξ of the whole segment, unclamped.
+  /// The foot of a point. On a straight piece ξ is that of the whole segment, without limits.
   [[nodiscard]] Foot foot(EntryId entry, Vec2 point) const {
     if (!isWhole(entry)) return footOnOther(entry, point);
     const PieceEnds e = ends(entry);
@@ -98,7 +100,8 @@ class PieceGeometryOf {
   }
 
  private:
-  /// A segment between two corners, as most are: then the ends say all.
+  /// True for a segment between two corners. Most entries are of this kind and need their ends
+  /// only.
   [[nodiscard]] bool isWhole(EntryId entry) const {
     return !kSmooth || surfaces_.piece[entry.value] == Piece::kSegment;
   }
@@ -145,10 +148,10 @@ class PieceGeometryOf {
 
 extern template class PieceGeometryOf<true>;
 extern template class PieceGeometryOf<false>;
-/// Of any surface.
+/// For any surface.
 using PieceGeometry = PieceGeometryOf<true>;
 
-/// Calls `work` with the geometry that these surfaces need.
+/// Calls `work` with the geometry class for these surfaces.
 template <class Work>
 auto withGeometry(const ContactSurfaces& surfaces, std::span<const Vec2> positions, Work work,
                   std::span<const Vec2> points = {}) {

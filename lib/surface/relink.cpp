@@ -21,7 +21,7 @@ class Relinking {
     takeSegments();
     placeSegments();
     makeCorners();
-    // Only now is it known at which ends a segment still is smooth.
+    // The smoothness of both ends of a segment is known only now.
     for (std::size_t i = 0; i < sides_.size(); ++i)
       sides_[i].segment == SegmentId::none() ? appendFace(i) : divide(ends_[i]);
     for (const Ends& ends : ends_)
@@ -31,14 +31,14 @@ class Relinking {
   }
 
  private:
-  /// A listed segment, and what its ends were before.
+  /// A listed segment, and its former ends.
   struct Ends {
     SegmentId segment;
     bool fromSmooth = false;
     bool toSmooth = false;
   };
 
-  /// Reads all that is about to change, and takes the listed segments off their nodes.
+  /// Stores the data that are about to change, and detaches the listed segments from their nodes.
   void takeSegments() {
     ends_.reserve(sides_.size());
     std::size_t appended = s_.segments();
@@ -76,7 +76,7 @@ class Relinking {
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       const SegmentId segment = ends_[i].segment;
       const NodeId first = sides_[i].first;
-      assert(s_.nodeSegment[first.value] == SegmentId::none());  // one side leaves a node
+      assert(s_.nodeSegment[first.value] == SegmentId::none());  // one side begins at a node
       s_.segmentNode[segment.value] = first;
       s_.nodeSegment[first.value] = segment;
     }
@@ -110,8 +110,8 @@ class Relinking {
     append(ends_[side].segment, Piece::kSegment, sides_[side].component, kNoLoop);
   }
 
-  /// At a node that is smooth no more: the arc around it ends where it began, and the piece from
-  /// the node to the halfpoint after it is missing.
+  /// At a node that is no longer smooth the arc around it becomes a half segment with the same
+  /// begin, and the piece from the node to the next halfpoint is missing.
   void divide(const Ends& before) {
     const SegmentId segment = before.segment;
     const bool fromSmooth = s_.isSmooth(segment);
@@ -137,7 +137,8 @@ class Relinking {
   }
 
   void numberLoops() {
-    // The segment before a row of new faces ends where one begins, so it is listed.
+    // The segment before a row of new faces ends at the begin of a listed side, so it is listed,
+    // too.
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       const EntryId last = lastEntry(ends_[i].segment);
       if (s_.loop[last.value] != kNoLoop) numberAfter(last, s_.loop[last.value]);
@@ -155,18 +156,18 @@ class Relinking {
       s_.loop[entry.value] = number;
   }
 
-  /// That of its first entry: addLoop numbers loops in ascending order.
+  /// The loop of its first entry: addLoop numbers loops in ascending order.
   [[nodiscard]] std::uint32_t lowestLoop(ComponentId component) const {
     const auto first = std::ranges::find(s_.component, component);
     const std::uint32_t number = s_.loop[static_cast<std::size_t>(first - s_.component.begin())];
-    assert(number != kNoLoop);  // a crack is inside a body that has an outline
+    assert(number != kNoLoop);  // a crack is inside a body with an outline
     return number == kNoLoop ? 0 : number;
   }
 
   ContactSurfaces& s_;
   std::span<const SurfaceSide> sides_;
   std::vector<Ends> ends_;       ///< by side
-  std::vector<NodeId> corners_;  ///< some repeatedly
+  std::vector<NodeId> corners_;  ///< with repetitions
   std::vector<EntryId> straightened_;
 };
 

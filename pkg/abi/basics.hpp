@@ -1,5 +1,5 @@
 #pragma once
-// Types that every YADE class declared here is made of.
+// Types used by all YADE classes declared here.
 
 #include <Eigen/Dense>
 #include <boost/python.hpp>

@@ -72,7 +72,7 @@ class BodyContainer : public Serializable {
   shared_ptr<Body>& operator[](unsigned int id);
   const shared_ptr<Body>& operator[](unsigned int id) const;
   bool exists(Body::id_t id) const;
-  // Both act on the scene that `O` stands for.
+  // Both act on the scene of `O`.
   Body::id_t insert(shared_ptr<Body> body);
   bool erase(Body::id_t id, bool eraseClumpMembers);
   void updateRealBodies();

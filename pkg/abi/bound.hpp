@@ -1,5 +1,5 @@
 #pragma once
-// Boxes around bodies; corners are in the unsheared coordinates of a periodic cell.
+// Bounding boxes of bodies; their corners are in the unsheared coordinates of a periodic cell.
 
 #include "abi/indexable.hpp"
 #include "abi/serializable.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// The geometry of a contact, as YADE's laws for spheres take it.
+// The geometry of a contact, as YADE's contact laws for spheres use it.
 
 #include "abi/indexable.hpp"
 #include "abi/interaction.hpp"

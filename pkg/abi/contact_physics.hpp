@@ -1,5 +1,5 @@
 #pragma once
-// Forces of a contact, as YADE's laws with a normal and a shear part leave them behind.
+// Forces of a contact, as computed by YADE's laws with a normal and a shear part.
 
 #include "abi/indexable.hpp"
 #include "abi/serializable.hpp"
@@ -21,7 +21,7 @@ class NormPhys : public IPhys {
   ~NormPhys() override;
 };
 
-// On the second body; the first one gets the opposite.
+// Force on the second body; the first one gets the opposite force.
 class NormShearPhys : public NormPhys {
  public:
   Real ks;

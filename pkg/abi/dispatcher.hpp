@@ -1,5 +1,5 @@
 #pragma once
-// The dispatcher that keeps bounds up to date.
+// The dispatcher that updates the bounds of bodies.
 
 #include "abi/engine.hpp"
 #include "abi/functor.hpp"
@@ -17,7 +17,7 @@ class Dispatcher : public Engine {
 
 template <class FunctorType>
 class Dispatcher1D : public Dispatcher {
-  alignas(8) unsigned char callTable_[48];  // YADE's second base, without virtual functions
+  alignas(8) unsigned char callTable_[48];  // YADE's second base class, without virtual functions
 
  public:
   Dispatcher1D() = delete;

@@ -1,5 +1,5 @@
 #pragma once
-// The table behind O.energy.
+// The energy table of O.energy.
 
 #include "abi/serializable.hpp"
 

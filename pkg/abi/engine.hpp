@@ -1,5 +1,5 @@
 #pragma once
-// Steps of the simulation loop.
+// Engines: the parts of the simulation loop.
 
 #include "abi/serializable.hpp"
 #include "abi/timing.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// YADE's class factory, and the object behind `O` in Python.
+// YADE's class factory, and the class of `O` in Python.
 
 #include <list>
 
@@ -11,7 +11,7 @@ class Singleton {
   static T* self;
 
  public:
-  static T& instance();  // YADE's library holds the two instantiations used
+  static T& instance();  // YADE's library contains the two instantiations used
 };
 
 namespace yade {

@@ -1,5 +1,5 @@
 #pragma once
-// Forces and torques per body and thread: a member of Scene whose data stay hidden.
+// Forces and torques per body and thread: a member of Scene whose data are not declared here.
 
 #include "abi/basics.hpp"
 
@@ -15,7 +15,7 @@ class ForceContainer {
   void addMaxId(int id);
   void addForce(int id, const Vector3r& force);
   void addTorque(int id, const Vector3r& torque);
-  // Sums up what the threads have added; to be called before reading.
+  // Sums the contributions of the threads; must be called before reading.
   void sync();
   const Vector3r& getForce(int id);
   const Vector3r& getTorque(int id);

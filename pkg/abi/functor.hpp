@@ -1,5 +1,5 @@
 #pragma once
-// Functors that make the bounds of shapes, and those that make the geometry of contacts.
+// Functors that compute the bounds of shapes, and functors that compute the geometry of contacts.
 
 #include <stdexcept>
 
@@ -22,8 +22,8 @@ class Functor : public Serializable {
   Functor() = default;
 };
 
-// YADE puts a template in between, which brings the call table at byte 80 and the names of the
-// types that a functor takes.
+// YADE has a template between these classes. It adds the call table at byte 80 and the names of the
+// types that a functor accepts.
 class BoundFunctor : public Functor, public BoundCalls {
  public:
   ~BoundFunctor() override;

@@ -1,6 +1,6 @@
 #pragma once
-// Second base, at byte 80, of the functors: the table through which dispatchers call them. It has
-// a slot for every number of arguments from one to seven; all but one stay unused.
+// Second base class, at byte 80, of the functors: the table through which dispatchers call them. It
+// has a slot for every number of arguments from one to seven; only one slot is used.
 
 #include <stdexcept>
 
@@ -10,7 +10,7 @@ namespace yade {
 
 class Interaction;
 
-// Of functors that take one shape, whose call has four arguments.
+// For functors with one shape, whose call has four arguments.
 template <class... Arguments>
 class OneShapeCalls {
  public:

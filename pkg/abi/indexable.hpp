@@ -1,7 +1,7 @@
 #pragma once
-// Second base, at byte 24, of the classes YADE dispatches on. The order of the virtual functions is
-// that of YADE's table; the classes that override them have them in their own table too, in another
-// order: modifyClassIndex first, incrementMaxCurrentlyUsedClassIndexOfKin last.
+// Second base class, at byte 24, of the classes on which YADE dispatches. The order of the virtual
+// functions is that of YADE's table. Classes that override them also have them in their own table,
+// in another order: modifyClassIndex first, incrementMaxCurrentlyUsedClassIndexOfKin last.
 
 namespace yade {
 

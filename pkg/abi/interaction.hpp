@@ -72,7 +72,7 @@ class InteractionContainer : public Serializable {
 
   bool insert(Body::id_t id1, Body::id_t id2);
   bool insert(const shared_ptr<Interaction>& interaction);
-  // linPos must be the interaction's linIx: the package is built with assertions that ask for it.
+  // linPos must be the interaction's linIx: the package is built with assertions that require it.
   bool erase(Body::id_t id1, Body::id_t id2, int linPos = -1);
   const shared_ptr<Interaction>& find(Body::id_t id1, Body::id_t id2);
   void clear();
@@ -80,7 +80,7 @@ class InteractionContainer : public Serializable {
   void requestErase(Body::id_t id1, Body::id_t id2);
 
  private:
-  friend struct LayoutProbe;  // layout_checks.cpp measures the private members too
+  friend struct LayoutProbe;  // layout_checks.cpp checks the private members, too
 };
 
 }  // namespace yade

@@ -1,4 +1,4 @@
-// Compiles only if every declaration of pkg/abi has the layout of YADE's own class.
+// This file compiles only if every declaration in pkg/abi has the layout of YADE's own class.
 
 #include "abi/layout.hpp"
 
@@ -7,8 +7,8 @@
 
 #include "abi/yade.hpp"
 
-// These classes have virtual functions; GCC lays them out as YADE's build did, and can measure
-// them.
+// These classes have virtual functions. GCC lays them out as YADE's build did, and can measure
+// their offsets.
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"
 
 #define CHECK_SIZE(Type) static_assert(sizeof(Type) == yadefrag::layoutBytes(#Type, ""))
@@ -264,12 +264,12 @@ CHECK_MEMBER(Scene, miscParams);
 CHECK_SIZE(ClassFactory);
 CHECK_MEMBER(ClassFactory, pluginClasses);
 
-// The two reference members of State cannot be measured: they fill the room between the base and
+// The offsets of State's two reference members cannot be measured: the two are between the base and
 // the mutex, in this order.
 static_assert(offsetof(State, updateMutex) == 24 + sizeof(Indexable) + 2 * sizeof(void*));
 static_assert(sizeof(Se3r) == 56 && offsetof(Se3r, orientation) == 24);
 
-// Likewise the two of ScGeom.
+// The same for the two reference members of ScGeom.
 static_assert(offsetof(ScGeom, penetrationDepth) ==
               yadefrag::layoutBytes("ScGeom", "orthonormal_axis") + sizeof(Vector3r) +
                   2 * sizeof(void*));

@@ -19,7 +19,7 @@ class Material : public Serializable, public Indexable {
   virtual shared_ptr<State> newAssocState() const;
   virtual bool stateTypeOk(State* state) const;
 
-  // Both throw std::runtime_error for a material that the scene does not have.
+  // Both throw std::runtime_error for a material that is not in the scene.
   static const shared_ptr<Material> byId(int id, Scene* scene = nullptr);
   static const shared_ptr<Material> byLabel(const string& label, Scene* scene = nullptr);
 

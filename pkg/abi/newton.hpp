@@ -1,5 +1,5 @@
 #pragma once
-// The integrator, whose record of the fastest body drives the stride of a collider.
+// The integrator. Its record of the fastest body determines when a collider must search.
 
 #include "abi/engine.hpp"
 #include "abi/layout.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// What draws the scene in YADE's 3D view; there is one only in a yade with a window.
+// Draws the scene in YADE's 3D view; it exists only in a yade with a window.
 
 #include "abi/serializable.hpp"
 
@@ -9,7 +9,7 @@ class OpenGLRenderer : public Serializable {
  public:
   OpenGLRenderer() = delete;
   ~OpenGLRenderer() override;
-  // Makes a functor of every class that draws.
+  // Creates a functor of every class that draws.
   void init();
 };
 

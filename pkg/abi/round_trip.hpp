@@ -1,5 +1,6 @@
 #pragma once
-// Write an attribute through Python, read it through a declaration of pkg/abi.
+// Checks a declaration of pkg/abi: writes an attribute through Python and reads it through the
+// declaration.
 
 #include <string>
 #include <utility>
@@ -9,7 +10,7 @@
 
 namespace yadefrag {
 
-// "Body.groupMask is not where ..." as UnsupportedYade.
+// Throws UnsupportedYade: "Body.groupMask is not where ...".
 [[noreturn]] void throwMisplaced(const std::string& typeAndMember);
 
 inline bool otherThan(bool value) { return !value; }
@@ -23,7 +24,7 @@ boost::shared_ptr<Type> otherThan(const boost::shared_ptr<Type>& value) {
   return value;
 }
 
-// A scratch object of a class of yade.wrapper, seen from both sides.
+// A scratch object of a class of yade.wrapper, accessible from Python and through the declaration.
 template <class Type>
 class Scratch {
  public:
@@ -32,7 +33,7 @@ class Scratch {
         object_(yade::py::import("yade.wrapper").attr(pythonClass)()),
         seen_(yade::py::extract<boost::shared_ptr<Type>>(object_)()) {}
 
-  // For an object that YADE keeps inside another one.
+  // For an object that YADE stores inside another one.
   Scratch(const char* name, boost::shared_ptr<Type> seen)
       : name_(name), object_(), seen_(std::move(seen)) {}
 
@@ -41,7 +42,7 @@ class Scratch {
   const boost::shared_ptr<Type>& pointer() const { return seen_; }
   const yade::py::object& object() const { return object_; }
 
-  // By YADE's attribute list; read-only and hidden attributes are on it too.
+  // Uses YADE's attribute list, which also contains read-only and hidden attributes.
   template <class Slot, class Value>
   void check(const char* attr, const Slot& slot, const Value& value) const {
     writeTwice(attr, slot, Slot(value), [&](const yade::py::object& written) {
@@ -51,7 +52,7 @@ class Scratch {
     });
   }
 
-  // By Python's own assignment, for properties that are not on that list.
+  // Uses Python's assignment, for properties that are not in that list.
   template <class Slot, class Value>
   void checkProperty(const char* attr, const Slot& slot, const Value& value) const {
     writeTwice(attr, slot, Slot(value),
@@ -63,7 +64,7 @@ class Scratch {
   }
 
  private:
-  // Two values, because memory that YADE leaves unset may hold one of them from an earlier check.
+  // Two values, because uninitialised memory may still contain one of them from an earlier check.
   template <class Slot, class Write>
   void writeTwice(const char* attr, const Slot& slot, const Slot& wanted, Write&& write) const {
     for (const Slot& value : {otherThan(wanted), wanted}) {

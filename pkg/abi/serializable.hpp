@@ -1,6 +1,6 @@
 #pragma once
-// The two roots of YADE's classes. Virtual functions are declared and never defined here, so
-// vtables and type information come from YADE's own libraries.
+// The two root classes of YADE. Their virtual functions are declared but not defined here: vtables
+// and type information are those of YADE's libraries.
 
 #include <boost/enable_shared_from_this.hpp>
 #include <boost/serialization/access.hpp>

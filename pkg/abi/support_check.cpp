@@ -29,7 +29,7 @@ void throwMisplaced(const std::string& typeAndMember) {
 
 namespace {
 
-// Each value is used once per class, so that one member cannot stand in for another.
+// Each value is used once per class: if two members were mixed up, their values would differ.
 
 void checkBound() {
   const Scratch<yade::Aabb> box("Aabb");
@@ -87,7 +87,7 @@ void checkMaterial() {
   friction.check("young", friction->young, 3.5);
   friction.check("poisson", friction->poisson, .25);
   friction.check("frictionAngle", friction->frictionAngle, .75);
-  // Its own index, that of ElastMat, and none for Material: what a new material goes on from.
+  // Its own index, that of ElastMat, and none for Material: a new material class starts from these.
   const yade::Material& base = *friction;
   friction.refuse("classIndex", base.getClassIndex() < 0 || base.getBaseClassIndex(1) < 0 ||
                                     base.getBaseClassIndex(2) != -1);
@@ -251,7 +251,7 @@ void checkIds(const Scratch<yade::BodyContainer>& bodies, const char* attr,
   bodies.refuse(attr, slot != std::vector<int>{first, first + 1});
 }
 
-// Two bodies and a contact between them, in containers that belong to no simulation.
+// Two bodies and a contact between them, in containers outside any simulation.
 void checkContainers(const Scratch<yade::Scene>& scene) {
   const Scratch<yade::BodyContainer> bodies("BodyContainer", scene->bodies);
   bodies.check("dirty", bodies->dirty, false);
@@ -285,7 +285,7 @@ void checkContainers(const Scratch<yade::Scene>& scene) {
   contacts.refuse("erase", contacts->size() != 0 || !first->intrs.empty());
 }
 
-// Reads only: the simulation that `O` stands for, and the list of classes to publish.
+// Read only: the simulation of `O`, and the list of classes to publish.
 void checkSingletons() {
   const auto& known = yade::ClassFactory::instance().pluginClasses;
   if (std::find(known.begin(), known.end(), "Collider") == known.end()) {
@@ -317,7 +317,7 @@ void checkAll() {
   checkSingletons();
 }
 
-// The text of the pending Python error, which is taken off.
+// Returns the text of the pending Python error, and clears that error.
 std::string takePythonError() {
   PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
   PyErr_Fetch(&type, &value, &trace);

@@ -1,5 +1,5 @@
 #pragma once
-// What yade.timing reads.
+// The data that yade.timing reads.
 
 namespace yade {
 
@@ -10,6 +10,6 @@ struct TimingInfo {
   static bool enabled;
 };
 
-class TimingDeltas;  // only ever held by pointer
+class TimingDeltas;  // used by pointer only
 
 }  // namespace yade

@@ -1,5 +1,6 @@
-# Which YADE is built for: that of YADEFRAG_YADE_LIBDIR, if pkg/abi/versions has a file for it. Makes
-# the table of its layout and sets YADEFRAG_YADE_VERSION, which stays empty for an unknown one.
+# YADE version of the build: that of YADEFRAG_YADE_LIBDIR, if pkg/abi/versions has a file for it.
+# Makes the table of its layout and sets YADEFRAG_YADE_VERSION, which stays empty for an unknown
+# one.
 
 set(YADEFRAG_YADE_VERSION "")
 set(generated_dir ${CMAKE_CURRENT_BINARY_DIR}/generated)
@@ -25,14 +26,14 @@ else()
   set(YADEFRAG_YADE_VERSION ${found_version})
 endif()
 
-# The target yadefrag_abi: are the virtual functions of pkg/abi in YADE's order? The compiler tells
-# how it lays out the declarations; no code is made.
+# The target yadefrag_abi checks that the virtual functions of pkg/abi are in YADE's order, from the
+# compiler's dump of the declarations; no code is generated.
 function(yadefrag_check_virtuals)
   set(dump ${CMAKE_CURRENT_BINARY_DIR}/abi_classes.txt)
   set(stamp ${CMAKE_CURRENT_BINARY_DIR}/abi_checked)
   file(GLOB declarations CONFIGURE_DEPENDS ${abi_dir}/*.hpp)
   set(folders ${eigen_dirs} ${Boost_INCLUDE_DIRS} ${Python3_INCLUDE_DIRS})
-  list(REMOVE_ITEM folders /usr/include)  # the compiler's own, in an order of its own
+  list(REMOVE_ITEM folders /usr/include)  # the compiler's own folder, with its own position in the search order
   list(TRANSFORM folders PREPEND -isystem)
   add_custom_command(
     OUTPUT ${stamp}

@@ -1,7 +1,7 @@
 #pragma once
-// YADE as this project sees it: the one include of everything in pkg/ that touches YADE.
-// Names, namespace, members and access are YADE's own, so this file may be replaced by one that
-// includes YADE's real headers (pkg/README.md says how).
+// YADE's declarations for this project: the one include for all files in pkg/ that use YADE. Names,
+// namespace, members and access are those of YADE. This file may therefore be replaced by one that
+// includes YADE's real headers (pkg/README.md explains how).
 
 #include "abi/body.hpp"
 #include "abi/bound.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// The colliders' attributes as Python sees them.
+// Python attributes of the colliders.
 
 #include <boost/mpl/vector.hpp>
 
@@ -13,50 +13,49 @@ constexpr auto SearchCollider::attributes() {
   using yade::Attr::readonly;
   return std::tuple(
       attribute("verletDist", &C::verletDist,
-                "Longest length (m) by which a bound is enlarged, so that not every step needs a "
-                "search; 0: search at every step; negative: that many times the smallest sphere's "
-                "radius, set at the first search that sees a sphere. Paper section 4.1."),
+                "Longest enlargement (m) of a bound, so that not every step needs a "
+                "search; 0: search at every step; negative: that multiple of the smallest sphere's "
+                "radius, set at the first search with a sphere. Paper section 4.1."),
       attribute("minSweepDistFactor", &C::minSweepDistFactor,
-                "Shortest enlargement of a bound, as a share of verletDist."),
+                "Shortest enlargement of a bound, as a fraction of verletDist."),
       attribute("targetInterv", &C::targetInterv,
                 "Steps for which a bound should hold at its body's present speed; 0 or less: every "
                 "bound is enlarged by verletDist. See adaptInterval."),
-      attribute(
-          "adaptInterval", &C::adaptInterval,
-          "Let the interval leave targetInterv for one that balances searches against potential "
-          "interactions, by counts (never by times: runs stay reproducible); False: keep it."),
-      attribute("interval", &C::interval, "Steps for which bounds are made now.", readonly),
+      attribute("adaptInterval", &C::adaptInterval,
+                "Adapt the interval, starting from targetInterv, to balance searches and potential "
+                "interactions, by counts (never by times: runs are reproducible); False: constant "
+                "interval."),
+      attribute("interval", &C::interval, "Steps for which bounds are made at present.", readonly),
       attribute("trueHalo", &C::trueHalo,
-                "Keep two spheres apart whose boxes overlap while they themselves cannot touch "
-                "before the next search; False: potential interactions as from boxes alone."),
+                "Exclude pairs of spheres whose boxes overlap but that cannot touch "
+                "before the next search; False: potential interactions from boxes only."),
       attribute(
           "allowBiggerThanPeriod", &C::allowBiggerThanPeriod,
-          "In a periodic scene, let bodies longer than half the cell overlap everything along "
+          "In a periodic scene, let bodies longer than half the cell overlap all others along "
           "that axis instead of raising RuntimeError."),
       attribute("overlapTolerance", &C::overlapTolerance,
                 "Tolerance of overlap in a periodic scene, in cell sizes."),
-      attribute("doSort", &C::doSort, "At the next search, forget all and begin from nothing."),
+      attribute("doSort", &C::doSort, "Delete all data of the search; the next one starts anew."),
       attribute("numAction", &C::numAction, "Number of searches so far."),
-      attribute("numReinit", &C::numReinit, "Number of searches that began from nothing.",
-                readonly),
+      attribute("numReinit", &C::numReinit, "Number of searches that started anew.", readonly),
       attribute("fastestBodyMaxDist", &C::fastestBodyMaxDist,
                 "The integrator's record of displacement: at 1 or more a search is due."),
       attribute("countComparisons", &C::countComparisons,
-                "Count comparisons as the paper does (section 6); costs nothing when off."),
+                "Count comparisons as the paper does (section 6); no cost if False."),
       attribute("comparisons", &C::comparisons, "Comparisons of the last search.", readonly),
       attribute("comparisonsTotal", &C::comparisonsTotal, "Comparisons of all searches.", readonly),
       attribute("searched", &C::searched,
-                "Bodies that the last search gave new bounds and looked up neighbours for; all "
+                "Number of bodies with new bounds and new neighbours in the last search; all "
                 "others kept theirs.",
                 readonly),
-      attribute("searchedTotal", &C::searchedTotal, "The same, of all searches.", readonly),
+      attribute("searchedTotal", &C::searchedTotal, "The same, for all searches.", readonly),
       attribute("sortAxis", &C::sortAxis, "Accepted for InsertionSortCollider; no effect."),
       attribute("sortThenCollide", &C::sortThenCollide,
                 "Accepted for InsertionSortCollider; no effect."),
       attribute("updatingDispFactor", &C::updatingDispFactor,
                 "Accepted for InsertionSortCollider; no effect: every bound is updated."),
       attribute("keepListsShort", &C::keepListsShort,
-                "Accepted for InsertionSortCollider; no effect: erased bodies cost nothing."),
+                "Accepted for InsertionSortCollider; no effect: erased bodies cause no cost."),
       attribute("smartInsertErase", &C::smartInsertErase,
                 "Accepted for InsertionSortCollider; no effect."));
 }
@@ -92,7 +91,7 @@ void SearchCollider::pyExtra(PyClass& pyClass) {
           },
           py::default_call_policies(),
           boost::mpl::vector<void, Self&, const yade::shared_ptr<yade::NewtonIntegrator>&>()),
-      "The integrator that calls for searches; found among O.engines at every step.");
+      "The integrator that requests searches; found in O.engines at every step.");
 }
 
 }  // namespace yadefrag

@@ -3,7 +3,7 @@
 #include <optional>
 #include <typeinfo>
 
-#include "collider/complaints.hpp"
+#include "collider/error_messages.hpp"
 #include "core/parallel.hpp"
 #include "fe/surface_segment.hpp"
 
@@ -18,8 +18,8 @@ Box toBox(const Vector3r& low, const Vector3r& high) {
   return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
 }
 
-/// The functor that makes bounds of exact spheres, if it is exactly YADE's. The last one named for
-/// a type is the one that a dispatcher calls.
+/// The functor for bounds of spheres, if it is exactly YADE's. If several functors are registered
+/// for a type, a dispatcher calls the last one.
 const yade::Bo1_Sphere_Aabb* findSphereFunctor(const yade::BoundDispatcher& dispatcher) {
   const yade::Bo1_Sphere_Aabb* found = nullptr;
   for (const auto& functor : dispatcher.functors) {
@@ -32,7 +32,7 @@ const yade::Bo1_Sphere_Aabb* findSphereFunctor(const yade::BoundDispatcher& disp
   return found;
 }
 
-/// Written so that a NaN is no good box either.
+/// Written so that NaN counts as invalid, too.
 bool isGood(const Box& box) {
   return box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];
 }
@@ -72,8 +72,8 @@ void BodyBoxes::takeRule(yade::Scene& scene, const yade::BoundDispatcher& dispat
   rule_ = rule;
   cell_ = scene.isPeriodic ? scene.cell.get() : nullptr;
   cellSlack_ = cellSlack;
-  // A length r in space is r·‖row‖ at most along an unsheared axis, a cube of half-width s is
-  // s·Σ|row|. (YADE enlarges by cosines instead, which falls short at large shear.)
+  // A length r in space is r·‖row‖ at most along an unsheared axis; for a cube of half-width s it
+  // is s·Σ|row|. (YADE enlarges by cosines instead, which is too small at large shear.)
   radiusFactor_ = sweepFactor_ = Vector3r::Ones();
   if (cell_ && cell_->hasShear()) {
     radiusFactor_ = cell_->getUnshearTrsf().rowwise().norm();
@@ -102,7 +102,7 @@ void BodyBoxes::gatherSpheres(yade::Scene& scene, int threads) {
 }
 
 /// Radius of the bound of a body that is exactly a sphere and gets its bound from exactly YADE's
-/// functor; none for all others. A shape remembers a functor that was found for it before.
+/// functor; no value for all others. A shape caches the functor that was found for it before.
 std::optional<Real> BodyBoxes::boundRadius(const yade::Body& body) const {
   if (!body.shape || !body.isBounded()) return {};
   const yade::Shape& shape = *body.shape;
@@ -127,7 +127,7 @@ auto BodyBoxes::take(const yade::Body* body, std::size_t id) -> Kind {
   return takeSphere(*body, id);
 }
 
-/// Without a call to their functor.
+/// Computes the box without calling the functor.
 auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
   if (!body.bound && !(body.shape && body.isBounded())) return Kind::kNone;
   const std::optional<Real> radius = boundRadius(body);
@@ -144,16 +144,16 @@ auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
 
 void BodyBoxes::checkPosition(const yade::Scene& scene, std::size_t id) const {
   if (kinds_[id] == Kind::kSphere) {
-    if (!balls_[id].centre.allFinite()) complainOfPosition(id, balls_[id].centre);
-    if (!(balls_[id].radius >= 0)) complainOfRadius(id, balls_[id].radius);
+    if (!balls_[id].centre.allFinite()) throwBadPosition(id, balls_[id].centre);
+    if (!(balls_[id].radius >= 0)) throwBadRadius(id, balls_[id].radius);
   } else if (kinds_[id] == Kind::kOther) {
     const yade::Body& body = *scene.bodies->body[id];
     if (body.shape && body.isBounded() && !body.state->se3.position.allFinite())
-      complainOfPosition(id, body.state->se3.position);
+      throwBadPosition(id, body.state->se3.position);
   }
 }
 
-/// The functors make bare boxes: each is enlarged here by a sweep of its own.
+/// The functors compute boxes without sweep: each is then enlarged by an individual sweep.
 void BodyBoxes::startDispatcher(yade::Scene& scene, yade::BoundDispatcher& dispatcher) {
   dispatcher.scene = &scene;
   for (const auto& functor : dispatcher.functors) functor->scene = &scene;
@@ -181,8 +181,8 @@ void BodyBoxes::updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatch
 void BodyBoxes::takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene) {
   const auto id = static_cast<std::size_t>(body->id);
   Bound& bound = *body->bound;
-  if (!isGood(toBox(bound.min, bound.max))) complainOfBound(id, bound);
-  // A body that no longer asks for a bound keeps the one it has, as in YADE.
+  if (!isGood(toBox(bound.min, bound.max))) throwBadBound(id, bound);
+  // A body that no longer requests a bound keeps its present one, as in YADE.
   if (body->shape && body->isBounded()) {
     if (shapeKinds_.of(*body->shape) == ShapeKind::kSegment) {
       takeSegment(*body);
@@ -199,7 +199,7 @@ void BodyBoxes::takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene&
   boxes_[id] = toBox(bound.min, bound.max);
 }
 
-/// The halo is in the bound already, and what the piece may move by.
+/// The bound already includes the halo and the permitted displacement of the piece.
 void BodyBoxes::takeSegment(const yade::Body& body) {
   if (segments_.empty()) segments_.resize(kinds_.size(), nullptr);
   const auto& segment = static_cast<const SurfaceSegment&>(*body.shape);
@@ -227,7 +227,7 @@ double BodyBoxes::sweepOfOther(const yade::Body& body, bool hadBound) {
       (body.bound->max - at).cwiseAbs().cwiseMax((body.bound->min - at).cwiseAbs());
   const double reach = far.norm() * (cell_ ? cell_->getShearTrsf().norm() : 1);
   turning_.push_back({body.id, state.se3.orientation, reach});
-  // As in YADE, a first bound is enlarged by the whole of verletDist. Spheres have no need of that.
+  // As in YADE, a first bound is enlarged by the whole of verletDist. Spheres do not need that.
   if (!hadBound) return rule_.most;
   const double turn = state.angVel.norm();
   return rule_.lengthFor(speed + (turn > 0 ? turn * reach : 0));

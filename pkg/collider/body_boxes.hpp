@@ -1,5 +1,5 @@
 #pragma once
-// From YADE's bodies to the boxes that a search takes, and back into their bounds.
+// Converts YADE's bodies to the boxes of a search, and writes the boxes back into their bounds.
 
 #include <cmath>
 #include <optional>
@@ -15,21 +15,21 @@ namespace yadefrag {
 
 class SurfaceSegment;
 
-/// Centre and radius of a body that is exactly a sphere, for the test of the true halo.
+/// Centre and radius of a body that is exactly a sphere, for the true-halo test.
 struct Ball {
   yade::Vector3r centre;
-  double radius;  ///< m, that of its bound (with aabbEnlargeFactor); negative: not a sphere
-  double sweep;   ///< m, how far it may move in any direction
+  double radius;  ///< m, radius of its bound (with aabbEnlargeFactor); negative: not a sphere
+  double sweep;   ///< m, permitted displacement in any direction
 };
 
-/// What has to be watched between searches in bodies whose orientation matters.
+/// Data for checking, between searches, bodies whose orientation affects their bound.
 struct Turning {
   yade::Body::id_t id;
   yade::Quaternionr orientation;
-  double reach;  ///< m, farthest point from the centre
+  double reach;  ///< m, distance of the farthest point from the centre
 
-  /// How far (m) any of its points may have moved at most by the change of orientation: a point at
-  /// distance R moves by up to 2R‖q − q₀‖.
+  /// Upper bound (m) of the displacement of any of its points by the change of orientation: a point
+  /// at distance R moves by up to 2R‖q − q₀‖.
   [[nodiscard]] double turnedBy(const yade::Quaternionr& now) const {
     const auto& q = now.coeffs();
     const auto& before = orientation.coeffs();
@@ -40,40 +40,41 @@ struct Turning {
 
 class BodyBoxes {
  public:
-  /// Computes all boxes, for `commit` to write into the bounds. Throws InputError for a position
-  /// that is not finite or a bound that is turned inside out; `rollBack` then restores every bound.
+  /// Computes all boxes, which `commit` then writes into the bounds. Throws InputError for a
+  /// position that is not finite or an inverted bound (min > max); `rollBack` then restores every
+  /// bound.
   void prepare(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
                double cellSlack, int threads);
-  /// The same, but only for bodies that came, went or changed since the last `commit`, and for
-  /// those that have left their box, will have left it `rule.lookAhead` from now at their present
-  /// speed, or have become so slow that it is far too large. All others keep their boxes and
-  /// bounds. `quick`: only for those that came or went. Returns false if it is not worth while or
-  /// not possible: more than `most` have changed, or boxes follow other bodies. `rollBack` and
-  /// `prepare` have to be called then.
+  /// The same, but only for bodies that were added, removed or changed since the last `commit`, and
+  /// for those that have left their box, will have left it `rule.lookAhead` from now at their
+  /// present speed, or have become so slow that the box is far too large. All others keep their
+  /// boxes and bounds. `quick`: only for added or removed bodies. Returns false if this is too
+  /// costly or impossible: more than `most` have changed, or boxes follow other bodies. The caller
+  /// must then call `rollBack` and `prepare`.
   bool prepareChanged(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
                       std::size_t most, bool quick, int threads);
   void commit(yade::Scene& scene, int threads);
-  /// Instead of `commit`: all bounds as before `prepare`.
+  /// Instead of `commit`: restores all bounds to their state before `prepare`.
   void rollBack();
 
-  /// Bodies whose boxes are new since the last `commit`, ascending; after `prepareChanged` only.
+  /// Bodies with new boxes since the last `commit`, ascending; valid after `prepareChanged` only.
   [[nodiscard]] const std::vector<BoxId>& changed() const { return changed_; }
 
-  /// By body id; absent where a body takes no part.
+  /// By body id; absent for a body without contact.
   [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
   [[nodiscard]] const std::vector<Ball>& balls() const { return balls_; }
   [[nodiscard]] const std::vector<Turning>& turning() const { return turning_; }
-  /// By body id, null where the body is no surface segment; empty if none is.
+  /// By body id, null for a body that is not a surface segment; empty if there is none.
   [[nodiscard]] const std::vector<const SurfaceSegment*>& segments() const { return segments_; }
-  /// How far (m) nodes without a bound may move before a box that follows them is left; infinite if
-  /// there is none.
+  /// Displacement (m) of nodes without a bound up to which the boxes that follow them are valid;
+  /// infinite if there are no such boxes.
   [[nodiscard]] double followerSweep() const { return hasFollowers_ ? rule_.most : INFINITY; }
-  /// True if surface segments are all there is.
+  /// True if all bodies with a bound are surface segments.
   [[nodiscard]] bool onlySegments() const { return segmentCount_ > 0 && !hasOthers_; }
 
  private:
   enum class Kind : unsigned char { kNone, kSphere, kOther };
-  /// A bound as it was before `prepare`: YADE's functors write into the bound itself.
+  /// A bound before `prepare`: YADE's functors write into the bound itself.
   struct OldBound {
     yade::Body* body;
     bool existed;
@@ -85,7 +86,8 @@ class BodyBoxes {
     void restore() const;
   };
 
-  /// What a box depends on beside place and size, to see whether it is still the same body.
+  /// Properties of a body, besides position and size, that determine its box: they show whether the
+  /// body is still the same.
   struct Known {
     const yade::Body* body = nullptr;
     yade::mask_t mask = 0;
@@ -119,9 +121,9 @@ class BodyBoxes {
   std::vector<Kind> kinds_;
   std::vector<Known> known_;
   std::vector<BoxId> changed_;
-  std::vector<BoxId> others_;  // to be looked at by their functors
+  std::vector<BoxId> others_;  // bodies whose boxes their functors must compute
   std::vector<std::vector<BoxId>> changedByPart_, othersByPart_;
-  bool onlyChanged_ = false;  // `commit` is about `changed_`
+  bool onlyChanged_ = false;  // `commit` writes the boxes of `changed_` only
   std::vector<Turning> turning_;
   std::vector<const SurfaceSegment*> segments_;
   std::size_t segmentCount_ = 0;
@@ -130,11 +132,11 @@ class BodyBoxes {
   std::vector<OldBound> undo_;
   ShapeKinds shapeKinds_;
 
-  // The same for all bodies of one update:
+  // Common to all bodies of one update:
   SweepRule rule_{0, 0, 0, 0};
-  const yade::Bo1_Sphere_Aabb* sphereFunctor_ = nullptr;  // null if spheres' bounds are not YADE's
+  const yade::Bo1_Sphere_Aabb* sphereFunctor_ = nullptr;  // null if it is not YADE's own
   const yade::Cell* cell_ = nullptr;                      // null if the scene is not periodic
-  yade::Vector3r radiusFactor_, sweepFactor_;  // of lengths in space, in unsheared coordinates
+  yade::Vector3r radiusFactor_, sweepFactor_;  // from lengths in space to unsheared coordinates
   double cellSlack_ = 0;
 };
 

@@ -1,9 +1,9 @@
-// Second part of body_boxes: boxes of those bodies only that changed.
+// Second part of body_boxes: boxes of changed bodies only.
 
 #include <algorithm>
 
 #include "collider/body_boxes.hpp"
-#include "collider/complaints.hpp"
+#include "collider/error_messages.hpp"
 #include "core/parallel.hpp"
 
 namespace yadefrag {
@@ -23,7 +23,8 @@ bool BodyBoxes::prepareChanged(yade::Scene& scene, yade::BoundDispatcher& dispat
   return updateChangedOthers(scene, dispatcher);
 }
 
-/// Bodies lie in the order of their ids, each with a state and a shape of its own somewhere.
+/// The pointers to bodies are in the order of their ids; each body's state and shape are elsewhere
+/// in memory.
 void BodyBoxes::prefetch(const std::vector<yade::shared_ptr<Body>>& bodies, std::size_t id) {
   constexpr std::size_t farAhead = 16, ahead = 8;
   if (id + farAhead < bodies.size() && bodies[id + farAhead]) {
@@ -72,7 +73,8 @@ bool BodyBoxes::gatherChanged(yade::Scene& scene, std::size_t most, bool quick, 
   return changed_.size() <= most;
 }
 
-/// Looks at one body; one that has changed gets its box here, unless its functor has to make it.
+/// Checks one body. If it has changed, its box is computed here, except if its functor must do
+/// that.
 BodyBoxes::Seen BodyBoxes::look(const Body* body, std::size_t id) {
   Known& known = known_[id];
   if (!body && !known.body) return Seen::kSame;
@@ -95,8 +97,8 @@ bool BodyBoxes::keepsBall(const Body& body, const Ball& ball) const {
   return rule_.lasts(ball.sweep, moved, SweepRule::speedOf(state.vel));
 }
 
-/// Bodies that are no spheres are all asked for their bare box: nothing else tells whether a shape
-/// has changed. False if a new one has a box that follows something else.
+/// Computes the box without sweep of all bodies that are no spheres: only this shows whether a
+/// shape has changed. Returns false if a new body has a box that follows another body.
 bool BodyBoxes::updateChangedOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher) {
   startDispatcher(scene, dispatcher);
   undo_.clear();
@@ -130,14 +132,14 @@ bool BodyBoxes::updateChangedOthers(yade::Scene& scene, yade::BoundDispatcher& d
   return true;
 }
 
-/// That of a body which was not looked at, unless it has gone.
+/// Keeps the entry of a body that was not checked, unless the body was removed.
 void BodyBoxes::keepTurning(const yade::Scene& scene, const Turning& turning) {
   const auto id = static_cast<std::size_t>(turning.id);
   if (scene.bodies->body[id] && kinds_[id] == Kind::kOther) turning_.push_back(turning);
 }
 
-/// True if the box of the body's functor, in `body.bound` now, lies within the box that the body
-/// has, and will for a while.
+/// True if the box of the body's functor, in `body.bound` at present, lies within the body's stored
+/// box, and will for a while.
 bool BodyBoxes::keepsBox(const Body& body, const Turning* was) {
   const OldBound& old = undo_.back();
   const Box& kept = boxes_[static_cast<std::size_t>(body.id)];

@@ -1,5 +1,5 @@
 #pragma once
-// The three colliders: one search each.
+// The three colliders, one for each search.
 
 #include "collider/search_collider.hpp"
 #include "publish/published.hpp"
@@ -16,7 +16,7 @@ class LebesgueCollider final : public Published<LebesgueCollider, SearchCollider
       "Hungershoefer, Lux, Taenzer, Wierum, Efficient contact search for finite element analysis, "
       "ECCOMAS 2000, section 4. Raises RuntimeError naming the body if a position is not finite or "
       "a "
-      "bound is turned inside out; the scene is then as it was.";
+      "bound is inverted; the scene is then unchanged.";
   LebesgueCollider() : Published(SearchMethod::kLebesgue) {}
 };
 

@@ -13,7 +13,7 @@
 namespace yadefrag {
 namespace {
 
-/// The number behind `name` in a file of the system; infinite where there is none.
+/// The number after `name` in a file of the system; infinite if there is none.
 double numberIn(const char* path, const std::string& name) {
   std::ifstream file(path);
   std::string word;
@@ -22,7 +22,7 @@ double numberIn(const char* path, const std::string& name) {
   return INFINITY;
 }
 
-/// The only number of a file; infinite where there is none ("max").
+/// The only number in a file; infinite if there is none ("max").
 double numberIn(const char* path) {
   std::ifstream file(path);
   double value = 0;

@@ -1,30 +1,30 @@
 #pragma once
-// How many interactions there is memory for.
+// Number of interactions that fit into the free memory.
 
 #include <cstddef>
 #include <limits>
 
 namespace yadefrag {
 
-/// Bytes that this process can still get: what the machine has free, and no more than limits of
-/// address space and of its control group leave.
+/// Bytes that this process can still allocate: the machine's free memory, within the limits of the
+/// address space and of the control group.
 double freeMemory();
 
-/// Remembers the answer while the scene stays of about the same size: to look it up takes as long
+/// Caches the free memory while the size of the scene is about constant: reading it takes as long
 /// as a search among a thousand bodies.
 class MemoryForPairs {
  public:
-  /// Pairs that fit, with the interactions that there are.
+  /// Number of pairs that fit, including the present interactions.
   std::size_t most(std::size_t bodies, std::size_t interactions);
 
-  /// What was free (bytes) when it was looked up.
+  /// Free memory (bytes) when it was last read.
   [[nodiscard]] double free() const { return free_; }
 
  private:
   static constexpr int kSearchesPerLookUp = 100;
   double free_ = 0;
-  std::size_t interactions_ = 0, bodies_ = 0;  // when it was looked up
-  int searches_ = kSearchesPerLookUp;          // since then
+  std::size_t interactions_ = 0, bodies_ = 0;  // when it was last read
+  int searches_ = kSearchesPerLookUp;          // searches since then
 };
 
 }  // namespace yadefrag

@@ -1,6 +1,6 @@
 #pragma once
-// The true halo (paper §4.4: a node found by its code is tested against the slanted halo): of two
-// balls whose boxes overlap, more than half cannot meet before the next search.
+// The true-halo test (paper §4.4: a node found by its code is tested against the oriented halo):
+// more than half of the spheres whose boxes overlap cannot touch before the next search.
 
 #include <algorithm>
 #include <vector>
@@ -12,25 +12,27 @@
 
 namespace yadefrag {
 
-/// A pair that goes on to YADE, with the cells by which the second body is shifted.
+/// A pair for YADE, with the shift of the second body in cells.
 struct Neighbours {
   yade::Body::id_t first, second;  // first < second
   yade::Vector3i cellDist;
-  bool nearByHalf;  // would be near with sweeps half as long
+  bool nearByHalf;  // true if they are near also with sweeps half as long
 };
 
 class Halo {
  public:
-  /// `slack` (m) is what the cell's deformation may add to a distance before the next search.
+  /// `slack` (m): the largest reduction of a distance by the cell's deformation before the next
+  /// search.
   Halo(const std::vector<Ball>& balls, double slack) : balls_(balls), slack_(slack) {}
 
   [[nodiscard]] bool areBalls(const BoxPair& pair) const {
     return balls_[pair.first.value].radius >= 0 && balls_[pair.second.value].radius >= 0;
   }
 
-  /// False if the bodies are balls that cannot touch while both stay within their sweeps. The
-  /// integrator watches each component of a displacement by itself, so the relative displacement
-  /// fills a cube of half-width s₁ + s₂, and a ball of that radius would be too small.
+  /// False if the bodies are spheres that cannot touch while both stay within their sweeps. The
+  /// integrator checks each component of a displacement separately, so that the relative
+  /// displacement may be anywhere in a cube of half-width s₁ + s₂: a sphere of that radius would be
+  /// too small.
   [[nodiscard]] bool mayTouch(const BoxPair& pair, const yade::Vector3r& shift,
                               bool& byHalf) const {
     const Ball& a = balls_[pair.first.value];

@@ -10,12 +10,12 @@ using yade::Body;
 using yade::Interaction;
 using yade::InteractionContainer;
 
-/// True if the searches know where the body is: it has a box that is kept up to date.
+/// True if the searches include the body: it has a box that is updated.
 static bool isSearched(const Body* body) { return !body || (body->bound && body->isBounded()); }
 
-/// Functors of grids and PFacets insert potential interactions by themselves, between nodes and
-/// connections that have no bound. No box tells that these are far apart, so they stay, wherever
-/// they are. (YADE takes the origin for the box of a body without one.)
+/// Functors of grids and PFacets insert potential interactions between nodes and connections
+/// without a bound. Without boxes their distance is unknown, so that these interactions are always
+/// kept. (YADE uses the origin as the box of a body without one.)
 bool InteractionUpdate::mayErase(const Interaction& is, const Bodies& bodies) {
   const auto bodyOf = [&](Body::id_t id) {
     const auto slot = static_cast<std::size_t>(id);
@@ -31,7 +31,8 @@ void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> ne
   toErase_.clear();
   held_.clear();
   if (interactions.size() > 0) markKnown(interactions, near, scene.bodies->body);
-  // Backwards: erasing moves the last one into the gap, which must not be one still to be erased.
+  // In reverse order: erasing moves the last interaction into the gap, and that one must not be
+  // among those still to be erased.
   for (auto place = toErase_.rbegin(); place != toErase_.rend(); ++place) {
     const Interaction& gone = *interactions[static_cast<std::size_t>(*place)];
     interactions.erase(gone.getId1(), gone.getId2(), *place);
@@ -45,7 +46,7 @@ void InteractionUpdate::markKnown(InteractionContainer& interactions,
   partners_.build(
       bodies.size(), near.size(), [&](std::size_t i) { return near[i].first; },
       [&](std::size_t i) { return near[i].second; });
-  constexpr std::size_t ahead = 12;  // interactions lie where they were made: ask for them early
+  constexpr std::size_t ahead = 12;  // interactions are scattered in memory: prefetch
   const std::size_t count = interactions.size();
   for (std::size_t place = 0; place < count; ++place) {
     if (place + ahead < count) {
@@ -62,8 +63,8 @@ void InteractionUpdate::markKnown(InteractionContainer& interactions,
                       [&](std::uint32_t index) {
                         isNear = true;
                         known_[index] = 1;
-                        // A pair that is not in contact may have come near across another face of
-                        // the cell.
+                        // A pair without contact may have come near across another face of the
+                        // cell.
                         if (is.isReal()) return;
                         const yade::Vector3i& cells = near[index].cellDist;
                         is.cellDist = swapped ? yade::Vector3i(-cells) : cells;
@@ -84,7 +85,7 @@ void InteractionUpdate::makeNew(yade::Scene& scene, std::span<const Neighbours> 
     __builtin_prefetch(body + offsetof(Body, groupMask));
     __builtin_prefetch(body + offsetof(Body, intrs) + sizeof(Body::MapId2IntrT) - 1);
   };
-  constexpr std::size_t ahead = 8;  // bodies lie in the order of their ids, not of the curve
+  constexpr std::size_t ahead = 8;  // bodies are in the order of their ids, not of the curve
   for (std::size_t i = 0; i < near.size(); ++i) {
     if (i + ahead < near.size() && !known_[i + ahead]) {
       prefetch(near[i + ahead].first);

@@ -1,5 +1,5 @@
 #pragma once
-// Brings YADE's interactions into line with what the search has found.
+// Updates YADE's interactions to the result of the search.
 
 #include <functional>
 #include <span>
@@ -18,20 +18,20 @@ class InteractionUpdate {
   using MayCollide = std::function<bool(const yade::Body*, const yade::Body*)>;
   using IsNear = std::function<bool(yade::Body::id_t, yade::Body::id_t)>;
 
-  /// Erases interactions that are neither near nor real, and makes those that are new, in the order
-  /// of `near`: neighbours on the curve are then neighbours in memory, which is what the
-  /// interaction loop's time depends on. One pass over what there is replaces a look-up per pair.
+  /// Erases interactions that are neither near nor real, and creates new ones in the order of
+  /// `near`: neighbours on the curve are then neighbours in memory, which determines the time of
+  /// the interaction loop. One pass over the existing interactions replaces a look-up per pair.
   void apply(yade::Scene& scene, std::span<const Neighbours> near, const MayCollide& mayCollide);
 
-  /// The same where only the boxes of `changed` (ascending) are new; `near` are the pairs with one
-  /// of these at least. Only their interactions are looked at, and those that were kept because
-  /// they were in contact: `isNear(id1, id2)`, id1 < id2, is asked about these.
+  /// The same if only the boxes of `changed` (ascending) are new; `near` are the pairs with at
+  /// least one of these bodies. Only their interactions are checked, and those kept because of a
+  /// contact: for these `isNear(id1, id2)`, id1 < id2, is called.
   void applyChanged(yade::Scene& scene, std::span<const Neighbours> near,
                     std::span<const BoxId> changed, const MayCollide& mayCollide,
                     const IsNear& isNear);
 
-  /// How many interactions something else has made, less those erased, since the last call of
-  /// either.
+  /// Number of interactions created elsewhere, minus those erased, since the last call of either
+  /// function.
   [[nodiscard]] long madeByOthers(const yade::Scene& scene) const {
     return static_cast<long>(scene.interactions->size()) - static_cast<long>(sizeAfter_);
   }
@@ -43,17 +43,17 @@ class InteractionUpdate {
   void markKnown(yade::InteractionContainer& interactions, std::span<const Neighbours> near,
                  const Bodies& bodies);
   void makeNew(yade::Scene& scene, std::span<const Neighbours> near, const MayCollide& mayCollide);
-  void lookAtBodies(yade::Scene& scene, std::span<const Neighbours> near,
-                    std::span<const BoxId> changed);
-  void lookAtHeld(yade::Scene& scene, const IsNear& isNear);
+  void checkBodies(yade::Scene& scene, std::span<const Neighbours> near,
+                   std::span<const BoxId> changed);
+  void checkHeld(yade::Scene& scene, const IsNear& isNear);
 
   PartnerTable partners_;
-  std::vector<char> known_;          // by index: this interaction exists
-  std::vector<int> toErase_;         // places in YADE's list, ascending
-  Csr<std::uint32_t> nearOf_;        // indices of pairs, by place in `changed`
-  std::vector<std::uint32_t> mark_;  // by body id, while one body is looked at: index of pair + 1
+  std::vector<char> known_;          // by index: true if this interaction exists
+  std::vector<int> toErase_;         // indices in YADE's list, ascending
+  Csr<std::uint32_t> nearOf_;        // indices of pairs, by index in `changed`
+  std::vector<std::uint32_t> mark_;  // by body id, while one body is checked: index of pair + 1
   std::vector<yade::Interaction*> gone_;
-  /// In contact although their boxes do not overlap: to go when the contact ends.
+  /// In contact although their boxes do not overlap: erased when the contact ends.
   std::vector<std::pair<yade::Body::id_t, yade::Body::id_t>> held_;
   std::size_t sizeAfter_ = 0;
 };

@@ -1,4 +1,4 @@
-// Second part of interaction_update: only bodies that changed are looked at.
+// Second part of interaction_update: checks only bodies that changed.
 
 #include <algorithm>
 
@@ -14,8 +14,8 @@ void InteractionUpdate::applyChanged(yade::Scene& scene, std::span<const Neighbo
                                      const IsNear& isNear) {
   known_.assign(near.size(), 0);
   gone_.clear();
-  lookAtHeld(scene, isNear);
-  lookAtBodies(scene, near, changed);
+  checkHeld(scene, isNear);
+  checkBodies(scene, near, changed);
   std::sort(gone_.begin(), gone_.end(),
             [](const Interaction* a, const Interaction* b) { return a->linIx > b->linIx; });
   gone_.erase(std::unique(gone_.begin(), gone_.end()), gone_.end());
@@ -25,7 +25,7 @@ void InteractionUpdate::applyChanged(yade::Scene& scene, std::span<const Neighbo
   sizeAfter_ = scene.interactions->size();
 }
 
-void InteractionUpdate::lookAtHeld(yade::Scene& scene, const IsNear& isNear) {
+void InteractionUpdate::checkHeld(yade::Scene& scene, const IsNear& isNear) {
   const auto& bodies = scene.bodies->body;
   std::erase_if(held_, [&](const auto& ids) {
     const yade::shared_ptr<Interaction>& is = scene.interactions->find(ids.first, ids.second);
@@ -36,15 +36,15 @@ void InteractionUpdate::lookAtHeld(yade::Scene& scene, const IsNear& isNear) {
   });
 }
 
-void InteractionUpdate::lookAtBodies(yade::Scene& scene, std::span<const Neighbours> near,
-                                     std::span<const BoxId> changed) {
+void InteractionUpdate::checkBodies(yade::Scene& scene, std::span<const Neighbours> near,
+                                    std::span<const BoxId> changed) {
   const auto& bodies = scene.bodies->body;
   const auto placeOf = [&](Body::id_t id) {
     return std::lower_bound(changed.begin(), changed.end(), BoxId(static_cast<std::size_t>(id))) -
            changed.begin();
   };
-  // Every pair stands in the rows of both its bodies; that of a body that has not changed is the
-  // last one, which is not looked at.
+  // Every pair is in the rows of both its bodies. Bodies that have not changed share the last row,
+  // which is ignored.
   const auto rowOf = [&](std::size_t i) {
     const Body::id_t id = i % 2 ? near[i / 2].second : near[i / 2].first;
     const auto place = static_cast<std::size_t>(placeOf(id));

@@ -42,8 +42,8 @@ yade::shared_ptr<NewtonIntegrator> MotionWatch::findIntegrator(const Scene& scen
   return {};
 }
 
-/// Not `maxVelocitySq`: in a periodic scene that also holds the cell's speed in m/s, so that it
-/// depends on the unit whether a search is called for. The cell is watched here.
+/// `maxVelocitySq` is not used: in a periodic scene it also contains the cell's speed in m/s, so
+/// that the next search would depend on the unit of length. The cell is checked here.
 double MotionWatch::fastestBody(const NewtonIntegrator& newton) {
   const auto& byThread = newton.threadMaxVelocitySq;
   return byThread.empty() ? 0 : *std::max_element(byThread.begin(), byThread.end());
@@ -59,7 +59,7 @@ bool MotionWatch::someMovedOut(const Scene& scene) {
   return false;
 }
 
-/// Which nodes a shape follows is not known here: any body without a bound may be one.
+/// The nodes that a shape follows are unknown here: any body without a bound may be one.
 bool MotionWatch::someNodeMovedOut(const Scene& scene) const {
   const auto& bodies = scene.bodies->body;
   return std::any_of(nodes_.begin(), nodes_.end(), [&](const Node& was) {
@@ -85,8 +85,8 @@ bool MotionWatch::someTurnedOut(const Scene& scene) const {
   return false;
 }
 
-/// Two neighbours that are k cells apart come closer by up to ‖ΔH k‖ when the cell goes from H to
-/// H + ΔH, whatever they do themselves.
+/// Two neighbours that are k cells apart approach each other by up to ‖ΔH k‖ when the cell changes
+/// from H to H + ΔH, in addition to their own motion.
 bool MotionWatch::cellMoved(const Scene& scene) const {
   const yade::Matrix3r change = (scene.cell->hSize - cellBefore_).cwiseAbs();
   if (change.isZero(0)) return false;

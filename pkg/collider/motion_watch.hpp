@@ -1,5 +1,5 @@
 #pragma once
-// Tells whether the bounds of the last search still hold: if not, a search is due.
+// Checks whether the bounds of the last search are still valid; if not, a search is due.
 
 #include <vector>
 
@@ -8,14 +8,14 @@
 
 namespace yadefrag {
 
-/// Positions are watched by YADE's integrator where it moves every body, and here where it does not
-/// (no integrator, a dead one, one with a mask). Turning bodies, a deforming cell, and nodes
-/// without a bound that grid connections and PFacets follow, which the integrator does not see, are
-/// always watched here.
+/// YADE's integrator checks the positions if it moves every body. Otherwise (no integrator, a dead
+/// one, one with a mask) they are checked here. Always checked here: rotating bodies, a deforming
+/// cell, and nodes without a bound that grid connections and PFacets follow; the integrator does
+/// not check these.
 class MotionWatch {
  public:
-  /// Starts the watch over bounds that were just brought up to date. `cellSpan`: by how many cells
-  /// two neighbours can be apart, per axis.
+  /// Starts the check for bounds that were just updated. `cellSpan`: largest distance of two
+  /// neighbours in cells, per axis.
   void start(const yade::Scene& scene, const BodyBoxes& boxes, double cellSlack,
              const yade::Vector3r& cellSpan);
 
@@ -24,7 +24,8 @@ class MotionWatch {
   /// The integrator that moves the scene's bodies; null if there is none or it is dead.
   static yade::shared_ptr<yade::NewtonIntegrator> findIntegrator(const yade::Scene& scene);
 
-  /// Displacement record of the integrator: 0 not run yet, below 1 within bounds, else out of them.
+  /// Displacement record of the integrator: 0 before its first step, below 1 within bounds,
+  /// otherwise outside.
   static double fastestBody(const yade::NewtonIntegrator& newton);
 
  private:

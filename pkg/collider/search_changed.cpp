@@ -1,4 +1,4 @@
-// Second part of search_collider: a search of those bodies only that changed.
+// Second part of search_collider: a search of changed bodies only.
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace yadefrag {
 using yade::Body;
 using yade::Vector3r;
 
-/// True if what the last search found still stands for bodies that stayed where they were.
+/// True if the results of the last search are still valid for bodies that did not move.
 bool SearchCollider::mayKeep() const {
   return keptWith_ == choices() && search_ && strideActive_ && !doSort &&
          !scene->interactions->dirty && !scene->isPeriodic && !periodic_ && verletDist > 0 &&
@@ -18,17 +18,18 @@ bool SearchCollider::mayKeep() const {
          interactions_.madeByOthers(*scene) <= 0;
 }
 
-/// False if so many have changed that all have to be searched.
+/// Returns false if so many bodies have changed that all must be searched.
 bool SearchCollider::searchChanged(int threads) {
   SweepRule rule = chooseSweeps();
   const double soon = tolerance::kLookAhead * interval;
   rule.lookAhead = soon * scene->dt;
-  // Where bodies come at every step, the others are looked at now and then only.
-  const bool quick = quickLook_ && static_cast<double>(scene->iter - lastLook_) < soon;
-  const auto most = static_cast<std::size_t>(std::max(workLeft() / tolerance::kChangeWork, 0.));
+  // If bodies are added at every step, the others are checked only now and then.
+  const bool quick = quickCheck_ && static_cast<double>(scene->iter - lastCheck_) < soon;
+  const auto most =
+      static_cast<std::size_t>(std::max(remainingWork() / tolerance::kChangeWork, 0.));
   if (!boxes_.prepareChanged(*scene, *boundDispatcher, rule, most, quick, threads)) return false;
-  // Bodies that were erased took their interactions with them. Any other that is gone would have to
-  // be made again.
+  // The interactions of erased bodies were erased with them. If any other interaction was erased,
+  // it may have to be created again by a full search.
   if (interactions_.madeByOthers(*scene) < 0 && !someErased()) return false;
   const Comparisons before = search_->comparisons();
   search_->setThreads(threads);
@@ -39,27 +40,27 @@ bool SearchCollider::searchChanged(int threads) {
   const std::size_t pairsOfHalf = pairsOfHalf_;
   searched = static_cast<long>(boxes_.changed().size());
   findNeighbours(threads);
-  pairsOfHalf_ = pairsOfHalf;  // that of all
+  pairsOfHalf_ = pairsOfHalf;  // that of the last full search
   boxes_.commit(*scene, threads);
   interactions_.applyChanged(
       *scene, near_, boxes_.changed(),
       [this](const Body* a, const Body* b) { return mayCollide(a, b, scene->subdomain); },
       [this](Body::id_t id1, Body::id_t id2) { return isStillNear(id1, id2); });
-  if (!quick) lastLook_ = scene->iter;
+  if (!quick) lastCheck_ = scene->iter;
   searchedSinceAll_ += boxes_.changed().size();
   countWork(quick ? 0 : static_cast<double>(boxes_.boxes().size()),
             static_cast<double>(boxes_.changed().size()), halvesOfChanged());
   return true;
 }
 
-/// When those that changed have cost as much work as a search of all, all are searched: no order of
-/// events can make this cost more than twice the cheaper of the two.
-double SearchCollider::workLeft() const {
+/// All bodies are searched when the searches of changed bodies have cost as much as a full search.
+/// For any sequence of events the cost is then at most twice that of the cheaper method.
+double SearchCollider::remainingWork() const {
   return static_cast<double>(scene->bodies->body.size()) -
          tolerance::kChangeWork * static_cast<double>(searchedSinceAll_);
 }
 
-/// How often a searched body has a neighbour that is near only because sweeps are not half as long.
+/// Number of neighbours of searched bodies that are near only because sweeps are not half as long.
 double SearchCollider::halvesOfChanged() const {
   const auto& changed = boxes_.changed();
   const auto isChanged = [&](Body::id_t id) {

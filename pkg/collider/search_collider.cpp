@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "collider/complaints.hpp"
+#include "collider/error_messages.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
 #include "fe/surface_segment.hpp"
@@ -28,7 +28,7 @@ std::array<Lattice::Vector, 3> periodsOf(const yade::Cell& cell) {
 
 }  // namespace
 
-/// One search. Nothing in the scene changes before every body has been found sound.
+/// One search. The scene is not changed before every body has been checked.
 void SearchCollider::action() {
   const int threads = threadsToUse();
   const auto before = std::tuple(verletDist, interval, lastIter_);
@@ -42,8 +42,8 @@ void SearchCollider::action() {
   } catch (...) {
     std::tie(verletDist, interval, lastIter_) = before;
     boxes_.rollBack();
-    search_.reset();  // it looks at boxes that are no longer those of the last search
-    pairs_ = {};      // which may be too many
+    search_.reset();  // its boxes are no longer those of the last search
+    pairs_ = {};      // there may be too many
     keptWith_.reset();
     strideActive_ = onlySegments_ = false;
     throw;
@@ -52,7 +52,7 @@ void SearchCollider::action() {
 }
 
 void SearchCollider::searchAll(int threads) {
-  const SweepRule rule = chooseSweeps();  // sets slack_, too
+  const SweepRule rule = chooseSweeps();  // also sets slack_
   boxes_.prepare(*scene, *boundDispatcher, rule, slack_, threads);
   startSearchIfNeeded();
   updateSearch(threads);
@@ -63,7 +63,7 @@ void SearchCollider::searchAll(int threads) {
     return mayCollide(a, b, scene->subdomain);
   });
   keptWith_ = choices();
-  lastLook_ = scene->iter;
+  lastCheck_ = scene->iter;
   searchedSinceAll_ = 0;
   const auto bodies = static_cast<double>(scene->bodies->body.size());
   countWork(bodies, bodies, 2 * static_cast<double>(pairsOfHalf_));
@@ -74,11 +74,11 @@ int SearchCollider::threadsToUse() const {
   return ompThreads > 0 ? std::min(ompThreads, most) : most;
 }
 
-/// A negative verletDist stands for a multiple of the smallest radius. Without any sphere it is
-/// kept for later (YADE would set it to 0 for good, and a scene that a factory fills would never
-/// stride).
+/// A negative verletDist is a multiple of the smallest radius. Without any sphere it is kept for
+/// later. (YADE would set it to 0 permanently; a scene that a factory fills would then be searched
+/// at every step.)
 void SearchCollider::chooseVerletDist() {
-  if (!std::isfinite(verletDist)) complainOfVerletDist(getClassName(), verletDist);
+  if (!std::isfinite(verletDist)) throwBadVerletDist(getClassName(), verletDist);
   if (verletDist >= 0) return;
   double least = INFINITY;
   for (const auto& body : scene->bodies->body) {
@@ -104,10 +104,11 @@ void SearchCollider::countWork(double looked, double searchedNow, double halves)
   searched = static_cast<long>(searchedNow);
   searchedTotal += searched;
   if (sweepsEnded_) counts_.add(looked, searchedNow, halves);
-  sweepsEnded_ = quickLook_ = false;
+  sweepsEnded_ = quickCheck_ = false;
 }
 
-/// How far bodies, and neighbours by the cell's deformation, may move before the next search.
+/// Permitted displacements of bodies, and of neighbours by the cell's deformation, before the next
+/// search.
 SweepRule SearchCollider::chooseSweeps() {
   lattice_.reset();
   if (scene->isPeriodic) lattice_.emplace(periodsOf(*scene->cell));
@@ -117,7 +118,7 @@ SweepRule SearchCollider::chooseSweeps() {
   return rule;
 }
 
-/// Room for the cell's deformation within the interval for which the bodies' sweeps are made.
+/// Margin for the cell's deformation within the interval for which the bodies' sweeps are made.
 double SearchCollider::cellSlack() const {
   if (!scene->isPeriodic || !(verletDist > 0) || targetInterv <= 0) return 0;
   const yade::Cell& cell = *scene->cell;
@@ -127,7 +128,7 @@ double SearchCollider::cellSlack() const {
   return std::min(wanted < verletDist ? wanted : verletDist, lattice_->shortest() / 16);
 }
 
-/// By how many cells two neighbours may be apart: in a sheared cell by more than their boxes.
+/// Largest distance of two neighbours in cells: in a sheared cell it exceeds that of their boxes.
 Vector3r SearchCollider::cellSpan() const {
   Vector3r span;
   for (int axis = 0; axis < 3; ++axis)
@@ -152,7 +153,7 @@ void SearchCollider::updateSearch(int threads) {
   search_->setThreads(threads);
   if (scene->isPeriodic) {
     const Vector3r& size = scene->cell->getSize();
-    // Twice the tolerance: the exact test that follows must not be the stricter one.
+    // Twice the tolerance: the exact test below must not be stricter than this one.
     images_.build(boxes_.boxes(), {size[0], size[1], size[2]}, 2 * overlapTolerance);
     search_->update(images_.boxes());
     findPairs([this] { search_->findPairs(pairs_); });
@@ -165,7 +166,7 @@ void SearchCollider::updateSearch(int threads) {
   comparisonsTotal += comparisons;
 }
 
-/// Pairs of surface segments leave `pairs_` for a list of their own.
+/// Moves pairs of surface segments from `pairs_` into a separate list.
 void SearchCollider::takeEntryPairs() {
   entryPairs_.clear();
   const auto& segments = boxes_.segments();
@@ -198,7 +199,8 @@ void SearchCollider::findNeighbours(int threads) {
       ofHalf[static_cast<std::size_t>(part)] += !found.nearByHalf;
     }
   };
-  // One part in a periodic cell: a complaint about a body's size must not leave a parallel region.
+  // In a periodic cell one part only: the exception about a body's size must not leave a parallel
+  // region.
   const int parts = forEachPart(pairs_.size(), scene->isPeriodic ? 1 : threads, work);
   pairsOfHalf_ = 0;
   for (int part = 0; part < parts; ++part) {
@@ -223,15 +225,15 @@ bool SearchCollider::isNear(const BoxPair& pair, const Halo& halo, Neighbours& o
   const PeriodicOverlap meets =
       periodicOverlap(boxes_.boxes()[pair.first.value], boxes_.boxes()[pair.second.value], rules);
   if (meets.kind == PeriodicOverlap::kTooLarge)
-    complainOfSize(meets.secondTooLarge ? pair.second.value : pair.first.value, meets.axis,
-                   rules.size[static_cast<std::size_t>(meets.axis)]);
+    throwTooLarge(meets.secondTooLarge ? pair.second.value : pair.first.value, meets.axis,
+                  rules.size[static_cast<std::size_t>(meets.axis)]);
   out.cellDist = yade::Vector3i(meets.shift[0], meets.shift[1], meets.shift[2]);
   return meets.kind == PeriodicOverlap::kOverlap;
 }
 
-/// Balls of up to half the shortest period meet one copy of each other at most, and it is the
-/// nearest. (YADE takes the box for the body's size, and refuses small ones in a cell that is
-/// strongly sheared.)
+/// A sphere with a radius of up to half the shortest period meets at most one copy of another, the
+/// nearest one. (YADE uses the box as the body's size, and refuses small bodies in a strongly
+/// sheared cell.)
 bool SearchCollider::ballsFit(const BoxPair& pair) const {
   const double longest = 2 * std::max(boxes_.balls()[pair.first.value].radius,
                                       boxes_.balls()[pair.second.value].radius);
@@ -245,7 +247,7 @@ yade::Vector3i SearchCollider::nearestImage(const Vector3r& a, const Vector3r& b
   return {cells[0], cells[1], cells[2]};
 }
 
-/// What YADE expects of a collider that has run.
+/// Sets the state that YADE expects after a run of a collider.
 void SearchCollider::sceneIsSearched() {
   ++numAction;
   doSort = false;
@@ -266,7 +268,7 @@ void SearchCollider::sceneIsSearched() {
   watch_.start(*scene, boxes_, slack_, span);
 }
 
-/// Faces of cracks do not count where segments are all there is: FESolver knows them already.
+/// Faces of cracks are ignored if all bodies are segments: FESolver already handles them.
 bool SearchCollider::bodiesCame() const {
   const auto& bodies = scene->bodies->body;
   if (!onlySegments_ || bodies.size() < numBodies_) return bodies.size() != numBodies_;
@@ -287,13 +289,13 @@ bool SearchCollider::isActivated() {
   newton = MotionWatch::findIntegrator(*scene);
   if (newton) fastestBodyMaxDist = MotionWatch::fastestBody(*newton);
   sweepsEnded_ = watch_.boundsBroken(*scene);
-  quickLook_ = came && !sweepsEnded_;
+  quickCheck_ = came && !sweepsEnded_;
   return came || scene->doSort || sweepsEnded_;
 }
 
 void SearchCollider::invalidatePersistentData() { doSort = true; }
 
-/// Bodies whose bounds, without their sweeps and where the bodies are now, overlap `bound`.
+/// Bodies whose present bounds, without sweeps, overlap `bound`.
 yade::vector<Body::id_t> SearchCollider::probeBoundingVolume(const yade::Bound& bound) {
   if (periodic_)
     throw std::invalid_argument(getClassName() +

@@ -1,5 +1,5 @@
 #pragma once
-// What the three colliders share: YADE's side of a contact search.
+// Common base of the three colliders: the interface between YADE and a contact search.
 
 #include <memory>
 #include <optional>
@@ -7,7 +7,7 @@
 
 #include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"
-#include "collider/complaints.hpp"
+#include "collider/error_messages.hpp"
 #include "collider/free_memory.hpp"
 #include "collider/halo.hpp"
 #include "collider/interaction_update.hpp"
@@ -20,8 +20,8 @@
 
 namespace yadefrag {
 
-/// Takes the place of YADE's InsertionSortCollider. Attributes of that name have its meaning; those
-/// that belong to its sorting only are accepted and do nothing.
+/// Replaces YADE's InsertionSortCollider. Attributes with the same name have the same meaning;
+/// those that concern its sorting only are accepted and have no effect.
 class SearchCollider : public yade::Collider {
  public:
   explicit SearchCollider(SearchMethod method) : method_(method) {}
@@ -57,10 +57,10 @@ class SearchCollider : public yade::Collider {
   long searchedTotal = 0;
   yade::shared_ptr<yade::NewtonIntegrator> newton;
 
-  /// Pairs of surface segments whose bounds overlapped at the last search, by body id and in the
-  /// order of the search. They are no interactions: FESolver takes them from here.
+  /// Pairs of surface segments whose bounds overlapped at the last search, by body id, in the order
+  /// of the search. They are not interactions: FESolver reads them here.
   [[nodiscard]] const std::vector<BoxPair>& entryPairs() const { return entryPairs_; }
-  /// Step of the last search; -1: none since the collider was made or loaded.
+  /// Step of the last search; -1: none since the collider was created or loaded.
   [[nodiscard]] long lastSearch() const { return lastIter_; }
   [[nodiscard]] bool strideActive() const { return strideActive_; }
   [[nodiscard]] bool periodic() const { return periodic_; }
@@ -73,7 +73,7 @@ class SearchCollider : public yade::Collider {
   void searchAll(int threads);
   bool searchChanged(int threads);
   [[nodiscard]] bool mayKeep() const;
-  [[nodiscard]] double workLeft() const;
+  [[nodiscard]] double remainingWork() const;
   [[nodiscard]] double halvesOfChanged() const;
   [[nodiscard]] bool someErased() const;
   [[nodiscard]] bool isStillNear(yade::Body::id_t id1, yade::Body::id_t id2) const;
@@ -99,7 +99,7 @@ class SearchCollider : public yade::Collider {
   SearchMethod method_;
   std::unique_ptr<IncrementalSearch> search_;
   bool searchCounts_ = false;
-  /// Settings with which the kept interactions were found.
+  /// Settings with which the stored interactions were found.
   struct Choices {
     bool trueHalo;
     yade::mask_t avoided;
@@ -109,10 +109,10 @@ class SearchCollider : public yade::Collider {
   [[nodiscard]] Choices choices() const {
     return {trueHalo, avoidSelfInteractionMask, scene->subdomain};
   }
-  std::optional<Choices> keptWith_;  // none: all bodies have to be searched
+  std::optional<Choices> keptWith_;  // no value: all bodies must be searched
   BodyBoxes boxes_;
   PeriodicImages images_;
-  std::optional<Lattice> lattice_;  // of a periodic cell
+  std::optional<Lattice> lattice_;  // lattice of a periodic cell
   MemoryForPairs memory_;
   MotionWatch watch_;
   InteractionUpdate interactions_;
@@ -120,21 +120,22 @@ class SearchCollider : public yade::Collider {
   std::vector<BoxPair> entryPairs_;
   std::vector<Neighbours> near_;
   std::vector<std::vector<Neighbours>> nearByPart_;
-  std::size_t pairsOfHalf_ = 0;       // near only because the sweeps are not half as long
-  Interval counts_;                   // since the interval was chosen
-  bool quickLook_ = false;            // this search is due only because there are further bodies
-  std::size_t searchedSinceAll_ = 0;  // bodies, since all were searched
-  long lastLook_ = -1;                // step at which all bodies were looked at
+  std::size_t pairsOfHalf_ = 0;       // pairs near only because the sweeps are not half as long
+  Interval counts_;                   // counts since the interval was chosen
+  bool quickCheck_ = false;           // this search is due only because bodies were added
+  std::size_t searchedSinceAll_ = 0;  // bodies searched since the last full search
+  long lastCheck_ = -1;               // step at which all bodies were checked
   long lastIter_ = -1;                // step of the last search
   bool sweepsEnded_ = false;          // this search is due because a body left its bound
-  double slack_ = 0;                  // m, room for the cell's deformation in every box
+  double slack_ = 0;                  // m, margin for the cell's deformation in every box
   std::size_t numBodies_ = 0;         // at the last search
   bool periodic_ = false;
   bool strideActive_ = false;
-  bool onlySegments_ = false;  // FESolver alone says when a search is due
+  bool onlySegments_ = false;  // only FESolver requests searches
 };
 
-/// An interaction takes far more memory than a pair: the scene is refused before there are any.
+/// An interaction takes far more memory than a pair: too many pairs are refused before interactions
+/// are created.
 template <class Find>
 void SearchCollider::findPairs(Find find) {
   const std::size_t bodies = scene->bodies->body.size();
@@ -144,7 +145,7 @@ void SearchCollider::findPairs(Find find) {
   try {
     find();
   } catch (const TooManyPairs&) {
-    complainOfPairs(bodies, most, memory_.free());
+    throwTooManyPairs(bodies, most, memory_.free());
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// What a collider must know of a shape beyond its bound: does it move as one with its body?
+// Properties of a shape, besides its bound, that a collider needs: whether it moves rigidly with
+// its body.
 
 #include <vector>
 
@@ -9,14 +10,14 @@ namespace yadefrag {
 
 enum class ShapeKind : signed char {
   kUnknown,
-  kSphere,   ///< exactly YADE's Sphere: turning does not change its bound
+  kSphere,   ///< exactly YADE's Sphere: rotation does not change its bound
   kRigid,    ///< its points move only with its own body's position and orientation
-  kSegment,  ///< SurfaceSegment: FESolver moves it, and says when a search is due
+  kSegment,  ///< SurfaceSegment: FESolver moves it, and requests searches
   kFollower  ///< anything else: grid connections and facets, chained cylinders, other plugins'
              ///< shapes
 };
 
-/// Remembers the kind by class index, which is cheaper to ask for than the name.
+/// Caches the kind by class index, which is cheaper to read than the class name.
 class ShapeKinds {
  public:
   ShapeKind of(const yade::Shape& shape) {

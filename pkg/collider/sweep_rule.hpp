@@ -1,5 +1,5 @@
 #pragma once
-// How far a body may move before the next search must take place.
+// Permitted displacement of a body before the next search.
 
 #include <algorithm>
 #include <cmath>
@@ -9,15 +9,15 @@
 
 namespace yadefrag {
 
-/// Every bound is enlarged by a length of its own, so that it holds for about `targetInterv` steps
-/// at the body's present speed: fast bodies do not call for a search at every step, and slow ones
-/// do not have neighbours they will not reach.
+/// Every bound is enlarged by an individual length, so that it is valid for about `targetInterv`
+/// steps at the body's present speed. Fast bodies then do not require a search at every step, and
+/// slow ones do not have neighbours out of their reach.
 struct SweepRule {
-  double most;                       ///< m, verletDist
-  double least;                      ///< m, minSweepDistFactor · verletDist
-  double ahead;                      ///< s, the time to be covered; not finite: always `most`
+  double most;   ///< m, verletDist
+  double least;  ///< m, minSweepDistFactor · verletDist
+  double ahead;  ///< s, time for which the bound must be valid; not finite: always `most`
   double shortestPeriod = INFINITY;  ///< m, of a periodic cell
-  double lookAhead = 0;              ///< s, for which a body's room should last if it is to be kept
+  double lookAhead = 0;              ///< s, remaining validity with which a swept box is kept
 
   SweepRule(double verletDist, double minFactor, double dt, double interval)
       : most(verletDist),
@@ -26,25 +26,25 @@ struct SweepRule {
 
   [[nodiscard]] double lengthFor(double speed) const {
     const double wanted = speed * ahead;
-    // A product that is not a number (0 · ∞, a broken velocity) gets the longest sweep.
+    // A product that is NaN (0 · ∞, an invalid velocity) gives the longest sweep.
     return wanted < most ? std::max(wanted, least) : most;
   }
 
-  /// Length for a ball. In a small periodic cell two copies of one ball could come into contact
-  /// with another before the next search, if it were longer.
+  /// Length for a sphere. In a small periodic cell a longer one would allow two copies of one
+  /// sphere to touch the same sphere before the next search.
   [[nodiscard]] double lengthForBall(double radius, double speed) const {
     const double room = (.25 * shortestPeriod - radius) / std::sqrt(3.);
     return std::min(lengthFor(speed), std::max(room, 0.));
   }
 
-  /// False if a body that has moved by `moved` (m) within a room for `sweep` has left it or is
-  /// about to, or is now so slow that the room costs needless neighbours.
+  /// False if a body that has moved by `moved` (m) within a swept box for `sweep` has left it or is
+  /// about to, or is so slow that the box causes needless neighbours.
   [[nodiscard]] bool lasts(double sweep, double moved, double speed) const {
     const double soon = moved + speed * lookAhead;
     return (soon < sweep || soon == 0) && sweep <= tolerance::kLooseSweep * lengthFor(speed);
   }
 
-  /// The integrator asks for a search when the largest component has reached the sweep.
+  /// The integrator requests a search when the largest component has reached the sweep.
   static double speedOf(const yade::Vector3r& velocity) { return velocity.cwiseAbs().maxCoeff(); }
 };
 

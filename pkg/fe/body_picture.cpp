@@ -10,7 +10,7 @@
 namespace yadefrag {
 namespace {
 
-/// Of full saturation and brightness; `turn`: 0 red, 1/3 green, 2/3 blue.
+/// A colour with full saturation and brightness; `turn`: 0 red, 1/3 green, 2/3 blue.
 Colour hue(double turn) {
   Colour colour;
   for (int k = 0; k < 3; ++k) {
@@ -20,7 +20,7 @@ Colour hue(double turn) {
   return colour;
 }
 
-/// Of plane stress in the plane.
+/// Von Mises stress of each triangle, from the plane-stress components in the plane.
 std::vector<double> misesOf(const Model& model) {
   std::vector<double> values;
   for (const auto& [xx, yy, xy] : stresses(model))
@@ -58,7 +58,7 @@ void addHeld(const FESolver& solver, std::vector<BodyPicture>& pictures) {
 
 }  // namespace
 
-/// Hues a golden section apart, the brightness in three steps.
+/// Hues at golden-section distances, with three steps of brightness.
 Colour colourOf(std::uint32_t number) {
   Colour colour = hue(std::fmod(.6 + .6180339887498949 * number, 1.));
   const float bright = 1 - .2F * static_cast<float>(number % 3);

@@ -1,6 +1,6 @@
 #pragma once
-// What the 3D view shows of finite-element bodies: a copy, for the thread that draws must not wait
-// for a step.
+// Data for drawing finite-element bodies in the 3D view. They are a copy: the thread that draws
+// must not wait for a step.
 
 #include <array>
 #include <string>
@@ -20,18 +20,19 @@ struct PictureTriangle {
   Colour colour;
 };
 
-/// Of one body.
+/// Picture of one body.
 struct BodyPicture {
-  int entry = -1;  ///< the surface entry that stands for it: it is drawn with that one
+  int entry = -1;  ///< the surface entry with which the body is drawn
   std::vector<PictureTriangle> triangles;
   std::vector<std::array<Vec2, 2>> outline;  ///< m, all sides of its boundary
-  std::vector<std::array<Vec2, 2>> held;     ///< m, cracked edges that cohesion still holds
+  std::vector<std::array<Vec2, 2>> held;     ///< m, cohesive cracks
 };
 
-/// By component. `field`: 'component', 'fragment' or 'mises', blue at 0 and red at the largest.
+/// Pictures by component. `field`: 'component', 'fragment' or 'mises', blue at 0 and red at the
+/// largest value.
 [[nodiscard]] std::vector<BodyPicture> picturesOf(const FESolver& solver, const std::string& field);
 
-/// Colours that tell numbers apart.
+/// A distinct colour for each number.
 [[nodiscard]] Colour colourOf(std::uint32_t number);
 
 }  // namespace yadefrag

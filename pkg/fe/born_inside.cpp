@@ -18,7 +18,7 @@ bool isHeldSince(const yade::Body& sphere, const yade::Scene& scene, const Entry
 double springEnergy(const yade::Interaction& contact, double travel) {
   const auto* geom = dynamic_cast<const yade::ScGeom*>(contact.geom.get());
   const auto* phys = dynamic_cast<const yade::NormShearPhys*>(contact.phys.get());
-  // Twice, since a step of another length may have brought the two together.
+  // Factor 2, since a step of another length may have brought the two together.
   if (!geom || !phys || !(geom->penetrationDepth > 2 * travel)) return 0;
   return .5 * phys->kn * geom->penetrationDepth * geom->penetrationDepth;
 }

@@ -14,16 +14,16 @@ using Engines = std::vector<const yade::Engine*>;
 
 bool isA(const yade::Engine* engine, const char* name) { return engine->getClassName() == name; }
 
-/// Engines follow one another in a circle: from the one at `from` on, which puts forces on bodies,
-/// `user` must come before a reset.
+/// Engines run in a cycle: after the engine at `from`, which adds forces to bodies, `user` must run
+/// before a reset of forces.
 void requireForces(const Engines& engines, std::size_t from, const yade::Engine* user) {
   for (std::size_t i = 1; i < engines.size(); ++i) {
     const yade::Engine* const next = engines[(from + i) % engines.size()];
     if (next == user) return;
     if (isA(next, "ForceResetter"))
-      throw std::invalid_argument("O.engines: ForceResetter takes the forces of " +
-                                  engines[from]->getClassName() + " away before " +
-                                  user->getClassName() + " can use them" + kOrder);
+      throw std::invalid_argument("O.engines: ForceResetter deletes the forces of " +
+                                  engines[from]->getClassName() + " before " +
+                                  user->getClassName() + " has used them" + kOrder);
   }
 }
 
@@ -60,7 +60,8 @@ bool EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) 
   }
   const auto count = std::count(alive.begin(), alive.end(), &solver);
   if (count > 1)
-    throw std::invalid_argument("O.engines has the same FESolver more than once; once is right.");
+    throw std::invalid_argument(
+        "O.engines has the same FESolver more than once; it must be there once.");
   const auto has = [&](const char* name) {
     return std::any_of(alive.begin(), alive.end(), [&](auto* one) { return isA(one, name); });
   };

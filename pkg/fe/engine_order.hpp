@@ -1,5 +1,5 @@
 #pragma once
-// Do the engines of a scene stand in an order in which all forces reach the bodies they act on.
+// Checks the order of a scene's engines: all forces must act on their bodies before they are reset.
 
 #include <typeinfo>
 #include <vector>
@@ -10,12 +10,12 @@ namespace yadefrag {
 
 class EngineOrder {
  public:
-  /// Throws std::invalid_argument if `solver` is there twice, or if contact forces are reset before
-  /// `solver` or NewtonIntegrator has used them: momentum would be lost. Looks only where engines
-  /// have changed since the last call; true if they have.
+  /// Throws std::invalid_argument if `solver` is in O.engines twice, or if contact forces are reset
+  /// before `solver` or NewtonIntegrator has used them: momentum would be lost. Checks only if
+  /// engines have changed since the last call; returns true in that case.
   bool require(const yade::Scene& scene, const yade::Engine& solver);
 
-  /// Throws std::invalid_argument if the forces that `solver` puts on bodies are reset before
+  /// Throws std::invalid_argument if the forces of `solver` on bodies are reset before
   /// NewtonIntegrator has used them.
   static void requireReturn(const yade::Scene& scene, const yade::Engine& solver);
 

@@ -16,7 +16,7 @@ using yade::Vector3r;
 Vector3r inSpace(Vec2 v) { return {v.x, v.y, 0}; }
 Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
 
-/// The middle of a piece, and the two nodes whose distance tells how it turns.
+/// The middle of a piece, and the two nodes that determine its rotation.
 struct Frame {
   Stencil middle;
   NodeId first, last;
@@ -38,9 +38,9 @@ void setState(yade::State& state, const Frame& frame, const Nodes& nodes, double
   state.se3.position = inSpace(combine(frame.middle, nodes.position)) - dt * state.vel;
 }
 
-/// Moment about `about` of the forces on a body. YADE's laws may take both bodies of a contact for
-/// spheres, and then put a force that acts at the contact point on the body's own position: where
-/// there are contacts, their points are taken.
+/// Moment about `about` of the forces on a body. YADE's laws may treat both bodies of a contact as
+/// spheres; a force at the contact point is then applied at the body's position. If there are
+/// contacts, the moment is therefore computed from their contact points.
 double momentAbout(Vec2 about, const yade::Body& body, Vec2 force, double torque) {
   Vec2 explained, points;
   double moment = 0;
@@ -62,8 +62,8 @@ double momentAbout(Vec2 about, const yade::Body& body, Vec2 force, double torque
   return moment + cross((1. / count) * points - about, force - explained);
 }
 
-/// By node of the last body, if it has several materials: that of the triangle whose side on the
-/// boundary begins there; else empty.
+/// By node of the last body, if it has several materials: that of the triangle with the boundary
+/// side that begins at the node; otherwise empty.
 std::vector<std::uint32_t> materialsAlong(const World& world) {
   const Model& model = world.model;
   const Component& body = model.components.back();
@@ -91,15 +91,15 @@ bool isPresent(const yade::Scene& scene, yade::Body::id_t id) {
          dynamic_cast<const SurfaceSegment*>(scene.bodies->body[place]->shape.get());
 }
 
-[[noreturn]] void complainOfMissing(const yade::Scene& scene,
-                                    const std::vector<yade::Body::id_t>& ids, yade::Body::id_t id) {
+[[noreturn]] void throwMissing(const yade::Scene& scene, const std::vector<yade::Body::id_t>& ids,
+                               yade::Body::id_t id) {
   if (std::none_of(ids.begin(), ids.end(), [&](auto one) { return isPresent(scene, one); }))
     throw RunError(
         "The bodies of this FESolver are not in the scene any more (O.reset, O.load, O.switchScene "
         "or O.bodies.clear left them behind); this scene needs a new FESolver.");
   std::ostringstream text;
-  text << "Body #" << id << " is not in the scene any more, but it is part of the boundary of a "
-       << "body of FESolver: take away whole ones, by FESolver.removeBody.";
+  text << "Body #" << id << " is no longer in the scene, but it is part of the boundary of a "
+       << "body of FESolver: remove whole bodies only, with FESolver.removeBody.";
   throw RunError(text.str());
 }
 
@@ -163,8 +163,8 @@ void EntryBodies::follow(yade::Scene& scene, const World& world) {
   mapEntries(first);
 }
 
-/// What a script must leave as it is: FESolver's own shape, and a state and a material of some
-/// kind.
+/// A script must not change these: the shape of FESolver, and the existence of a state and a
+/// material.
 void EntryBodies::requireWhole(std::size_t entry) const {
   const yade::Body& body = *bodies_[entry];
   const char* const wrong = body.shape != shapes_[entry]   ? "shape"
@@ -183,7 +183,7 @@ void EntryBodies::requireWhole() const {
     if (hasBody(EntryId(e))) requireWhole(e);
 }
 
-/// The entry that stands for its component: never one that came by a crack, for those are last.
+/// The entry that represents its component. It is never an entry of a crack, since those are last.
 EntryId EntryBodies::firstOf(const World& world, ComponentId component) {
   if (firstOf_.size() != world.model.components.size()) {
     firstOf_.assign(world.model.components.size(), EntryId::none());
@@ -250,7 +250,7 @@ void EntryBodies::requireAll(const yade::Scene& scene) {
   for (std::size_t e = 0; e < ids_.size(); ++e) {
     if (!hasBody(EntryId(e))) continue;
     const auto id = static_cast<std::size_t>(ids_[e]);
-    if (id >= present.size() || present[id] != bodies_[e]) complainOfMissing(scene, ids_, ids_[e]);
+    if (id >= present.size() || present[id] != bodies_[e]) throwMissing(scene, ids_, ids_[e]);
   }
 }
 
@@ -267,18 +267,19 @@ void EntryBodies::findBodies(const yade::Scene& scene) {
       continue;
     }
     const auto place = static_cast<std::size_t>(id);
-    if (place >= present.size() || !present[place]) complainOfMissing(scene, ids_, id);
+    if (place >= present.size() || !present[place]) throwMissing(scene, ids_, id);
     bodies.push_back(present[place]);
     shapes.push_back(boost::dynamic_pointer_cast<SurfaceSegment>(present[place]->shape));
     states.push_back(present[place]->state);
-    if (!shapes.back()) complainOfMissing(scene, ids_, id);
+    if (!shapes.back()) throwMissing(scene, ids_, id);
   }
   bodies_.swap(bodies);
   shapes_.swap(shapes);
   states_.swap(states);
 }
 
-/// In two passes: a neighbour's tangent must be the very number that the neighbour computes itself.
+/// In two passes: the tangent of an adjacent piece must be exactly the number that is computed for
+/// that piece.
 void EntryBodies::update(const World& world, double dt, int threads, std::size_t first) {
   const ContactSurfaces& surfaces = world.surfaces;
   const Nodes& nodes = world.model.nodes;
@@ -303,7 +304,7 @@ void EntryBodies::update(const World& world, double dt, int threads, std::size_t
     }
   });
   inParts([&](std::size_t e) {
-    // Bodies lie anywhere in memory: ask for them early.
+    // Bodies are scattered in memory: prefetch.
     constexpr std::size_t ahead = 6;
     if (e + ahead < shapes_.size()) {
       const auto prefetch = [](const void* object) {
@@ -368,7 +369,7 @@ void EntryBodies::restore(std::vector<yade::Body::id_t> ids) {
   mapEntries(0);
 }
 
-/// `first`: those before it are where they were.
+/// `first`: earlier entries have not changed.
 void EntryBodies::mapEntries(std::size_t first) {
   if (first == 0) {
     entries_.clear();

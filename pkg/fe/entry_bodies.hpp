@@ -1,5 +1,5 @@
 #pragma once
-// The YADE bodies of surface entries: made, moved, asked for the forces on them, and taken away.
+// The YADE bodies of surface entries: creation, motion, forces, removal.
 
 #include <vector>
 
@@ -10,43 +10,43 @@
 
 namespace yadefrag {
 
-/// One body per entry, in the order of the entries; none for those that are gone. Its state says
-/// where the middle of the piece is and how it moves and turns there, so that contacts with spheres
-/// see the right velocities.
+/// One body per entry, in the order of the entries; none for removed entries. Its state has the
+/// position of the piece's middle and the translation and rotation there, so that contacts with
+/// spheres use the right velocities.
 class EntryBodies {
  public:
-  /// Bodies of all entries that have none yet, into the scene that `O` stands for: those of the
-  /// last component, whose materials are given by number.
+  /// Adds bodies for all entries without one to the scene of `O`: those of the last component,
+  /// whose materials are given by number.
   void add(yade::Scene& scene, const World& world,
            const std::vector<yade::shared_ptr<FEMat>>& materials);
-  /// Cracks have brought further entries, at the end: they get bodies that are like those that
-  /// their component has already (material, mask, colour). Does nothing, at no cost, if there are
-  /// none.
+  /// Adds bodies for the entries that cracks have appended; these bodies get the material, mask and
+  /// colour of their component's existing bodies. No cost if there are no new entries.
   void follow(yade::Scene& scene, const World& world);
-  /// Entries of rigid boundaries have come, at the end: they have no bodies of their own.
+  /// Registers appended entries of rigid boundaries, which have no bodies.
   void addNone(const World& world);
-  /// Takes the bodies of entries that are gone out of the scene; the entries keep their numbers.
+  /// Removes the bodies of removed entries from the scene; the entries keep their numbers.
   void drop(yade::Scene& scene, const World& world);
-  /// Takes the bodies of a component out of the scene. To be called before the world forgets it.
+  /// Removes the bodies of a component from the scene. Must be called before the component is
+  /// removed from the world.
   void remove(yade::Scene& scene, const World& world, ComponentId component);
-  /// Forgets all entries of rigid boundaries, likewise.
+  /// Removes all entries of rigid boundaries, likewise.
   void removeRigid(yade::Scene& scene, const World& world);
 
-  /// Throws RunError if a body is not in this scene any more.
+  /// Throws RunError if a body is no longer in this scene.
   void requireAll(const yade::Scene& scene);
-  /// Throws RunError if a body has lost its shape, its state or its material.
+  /// Throws RunError if a body has no shape, state or material any more.
   void requireWhole() const;
-  /// Shapes and states as of now. `dt`: what an integrator will still move the bodies by (s), 0:
-  /// nothing will. `first`: of the entries from there on.
+  /// Updates shapes and states. `dt`: time (s) for which an integrator will still move the bodies;
+  /// 0: none. `first`: only entries from this one on.
   void update(const World& world, double dt, int threads, std::size_t first = 0);
   void setHalo(double halfHalo, std::size_t first = 0);
-  /// (m) What setHalo was told; NaN without bodies.
+  /// (m) The last value of setHalo; NaN without bodies.
   [[nodiscard]] double halo() const;
-  /// Forces and torques on the bodies, as forces on the nodes: their sum, their moment and their
-  /// power are kept. Leaves `forces` empty if there are none. Throws as requireWhole.
+  /// Converts forces and torques on the bodies to forces on the nodes, with the same resultant,
+  /// moment and power. `forces` stays empty if there are none. Throws as requireWhole.
   void collectForces(yade::Scene& scene, const World& world, std::vector<Vec2>& forces) const;
 
-  /// none() for a body that is not one of these.
+  /// Returns none() for any other body.
   [[nodiscard]] EntryId entryOf(yade::Body::id_t id) const {
     const auto place = static_cast<std::size_t>(id);
     return place < entries_.size() ? entries_[place] : EntryId::none();
@@ -55,11 +55,11 @@ class EntryBodies {
   [[nodiscard]] bool hasBody(EntryId entry) const {
     return ids_[entry.value] != yade::Body::ID_NONE;
   }
-  /// The first; null if there is none.
+  /// The first body; null if there is none.
   [[nodiscard]] const yade::Body* anyBody() const;
   [[nodiscard]] const yade::Body& body(EntryId entry) const { return *bodies_[entry.value]; }
 
-  /// For archives: the bodies are found in the scene again when they are asked for.
+  /// For archives: the bodies are searched in the scene when they are needed.
   void restore(std::vector<yade::Body::id_t> ids);
 
  private:
@@ -75,11 +75,11 @@ class EntryBodies {
 
   std::vector<yade::Body::id_t> ids_;
   std::vector<yade::shared_ptr<yade::Body>> bodies_;
-  std::vector<yade::shared_ptr<SurfaceSegment>> shapes_;  // of the bodies
+  std::vector<yade::shared_ptr<SurfaceSegment>> shapes_;  // shapes of the bodies
   std::vector<yade::shared_ptr<yade::State>> states_;
   std::vector<BoundaryPiece> pieces_;
   std::vector<EntryId> entries_;  // by body id
-  std::vector<EntryId> firstOf_;  // by component, of those that were asked for; empty: none yet
+  std::vector<EntryId> firstOf_;  // by component, computed on demand; empty: none yet
 };
 
 }  // namespace yadefrag

@@ -1,7 +1,8 @@
 #pragma once
-// All of a world's state in YADE's archives, as columns of plain numbers: the run continues with
-// the same bits from binary files and from XML, which has all of a number's digits. A damaged state
-// is refused: a checksum goes over all of it, and every index is looked at before it is used.
+// Saves and loads the complete state of a world in YADE's archives, as columns of plain numbers.
+// The run continues with the same bits from binary files and from XML, which contains all digits of
+// a number. Damaged data are refused: a checksum covers all values, and every index is checked
+// before use.
 
 #include <boost/archive/archive_exception.hpp>
 #include <boost/serialization/array_wrapper.hpp>
@@ -21,7 +22,7 @@
 
 namespace yadefrag {
 
-/// A fuzzer would find nothing behind a checksum.
+/// With the checksum a fuzzer would never reach the code behind it.
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
 inline constexpr bool kIgnoreChecksum = true;
 #else
@@ -33,8 +34,8 @@ class WorldArchive {
  public:
   explicit WorldArchive(Archive& archive) : archive_(archive) {}
 
-  /// `entryBodies`: YADE's number of each entry's body. Throws InputError for a state that is
-  /// damaged, or that another version saved; RunError where it cannot be written.
+  /// `entryBodies`: YADE's body id of each entry. Throws InputError for data that are damaged or of
+  /// another version, RunError if they cannot be written.
   void run(World& world, std::vector<int>& entryBodies) {
     try {
       all(world, entryBodies);
@@ -50,8 +51,8 @@ class WorldArchive {
 
  private:
   static constexpr std::uint64_t kFormat = 9;
-  /// (count) A damaged length must not take all memory: values are read in parts as large as this,
-  /// and the archive ends before the memory does.
+  /// (count) A damaged length must not exhaust the memory: values are read in parts of this size,
+  /// and the archive ends before the memory is full.
   static constexpr std::uint64_t kPart = 1 << 16;
 
   [[noreturn]] static void refuse(const std::string& what) {
@@ -69,9 +70,9 @@ class WorldArchive {
     archive_& boost::serialization::make_nvp("checksum", checksum);
     if constexpr (Archive::is_loading::value) {
       if (checksum != sum_.value() && !kIgnoreChecksum) refuse("its checksum is wrong");
-      const std::string wrong = whatIsWrong(world);
-      if (!wrong.empty()) refuse(wrong + " cannot be");
-      if (entryBodies.size() != world.surfaces.entries()) refuse("its bodies cannot be");
+      const std::string wrong = findInvalidPart(world);
+      if (!wrong.empty()) refuse(wrong + " are invalid");
+      if (entryBodies.size() != world.surfaces.entries()) refuse("its bodies are invalid");
       world.rebuild();
     }
   }
@@ -109,12 +110,12 @@ class WorldArchive {
     value("mostEnergy", watch.most);
     value("watchedContact", watch.contact), value("watchedFriction", watch.friction);
     value("watchedSplit", watch.split);
-    value("lookedCreated", watch.lookedCreated), value("lookedGrown", watch.lookedGrown);
-    value("toldCreated", watch.toldCreated), value("toldGrown", watch.toldGrown);
-    value("toldDepth", watch.toldDepth), value("lastStep", watch.lastStep);
+    value("lookedCreated", watch.evaluatedCreated), value("lookedGrown", watch.evaluatedGrown);
+    value("toldCreated", watch.reportedCreated), value("toldGrown", watch.reportedGrown);
+    value("toldDepth", watch.reportedDepth), value("lastStep", watch.lastStep);
     value("leastStep", watch.leastStep), value("mostStep", watch.mostStep);
     value("stepChanges", watch.changes);
-    lines("complaints", world.complaints);
+    lines("complaints", world.warnings);
   }
 
   void lines(const char* name, std::vector<std::string>& all) {
@@ -137,7 +138,7 @@ class WorldArchive {
     archive_& boost::serialization::make_nvp(name, value);
     sum_.add(&value, sizeof value);
   }
-  /// In a damaged file a bool could be neither.
+  /// In a damaged file a bool could have any value.
   void value(const char* name, bool& value) {
     std::uint8_t flag = value ? 1 : 0;
     this->value(name, flag);
@@ -157,10 +158,10 @@ class WorldArchive {
     if (count > 0) sum_.add(values.data(), count * sizeof(Scalar));
   }
 
-  /// A column of structures that are made of `Scalar` alone.
+  /// A column of structures that consist of `Scalar` only.
   template <class Scalar, class Element>
   void column(const char* name, std::vector<Element>& column) {
-    // NOLINTNEXTLINE(bugprone-sizeof-expression): true also where the column holds plain numbers
+    // NOLINTNEXTLINE(bugprone-sizeof-expression): also correct for a column of plain numbers
     constexpr std::size_t each = sizeof(Element) / sizeof(Scalar);
     static_assert(std::is_trivially_copyable_v<Element> &&
                   sizeof(Element) == each * sizeof(Scalar));
@@ -173,14 +174,14 @@ class WorldArchive {
       std::memcpy(static_cast<void*>(column.data()), flat.data(), flat.size() * sizeof(Scalar));
   }
 
-  /// One member of structures of several kinds.
+  /// One member of structures with several types of members.
   template <class Element, class Read>
   void member(const char* name, std::vector<Element>& rows, Read read) {
     using Value = std::remove_cvref_t<decltype(read(rows.front()))>;
     std::vector<Value> flat(rows.size());
     for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = read(rows[i]);
     value(name, flat);
-    // The first member decides how many there are.
+    // The first member determines the number of rows.
     if (rows.empty()) rows.resize(flat.size());
     if (rows.size() != flat.size()) refuse(std::string(name) + " has a wrong length");
     for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i];
@@ -198,7 +199,7 @@ class WorldArchive {
     FlatMotions flat = flatten(motions);
     value("motionCounts", flat.counts), value("motionNumbers", flat.numbers);
     if constexpr (Archive::is_loading::value)
-      if (!unflatten(flat, motions)) refuse("its motions cannot be");
+      if (!unflatten(flat, motions)) refuse("its motions are invalid");
   }
 
   void triangles(Triangles& triangles) {
@@ -248,7 +249,7 @@ class WorldArchive {
     flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
   }
 
-  /// Of rows that are there already: a vector of bool has no elements to refer to.
+  /// For existing rows: the elements of a vector of bool cannot be referenced.
   template <class Element, class Read>
   void flags(const char* name, std::vector<Element>& rows, Read read) {
     std::vector<std::uint8_t> flat(rows.size());
@@ -272,7 +273,7 @@ class WorldArchive {
   void loads(World& world) {
     std::uint64_t count = world.pressures.size();
     value("pressures", count);
-    if (count > world.surfaces.segments()) refuse("its pressures cannot be");
+    if (count > world.surfaces.segments()) refuse("its pressures are invalid");
     world.pressures.resize(count);
     for (Pressure& one : world.pressures) {
       column<std::uint32_t>("pressureSegments", one.segments);
@@ -288,7 +289,7 @@ class WorldArchive {
     value(name, times), value(name, values);
     if constexpr (Archive::is_loading::value) {
       if (!times.empty() || !values.empty())
-        if (!TimeTable::isRight(times, values)) refuse(std::string(name) + " cannot be");
+        if (!TimeTable::isValid(times, values)) refuse(std::string(name) + " is invalid");
       table = TimeTable(std::move(times), std::move(values));
     }
   }
@@ -304,7 +305,7 @@ class WorldArchive {
     member("touchMaster", rows, [](Touch& t) -> Index& { return t.pair.master.value; });
     member("touchNormal", rows, [](Touch& t) -> double& { return t.normalForce; });
     member("touchTangent", rows, [](Touch& t) -> double& { return t.tangentForce; });
-    member("touchAllowed", rows, [](Touch& t) -> double& { return t.allowed; });
+    member("touchAllowed", rows, [](Touch& t) -> double& { return t.toleratedGap; });
   }
 
   void search(SearchState& search) {

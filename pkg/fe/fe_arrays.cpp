@@ -15,7 +15,7 @@ namespace py = yade::py;
 
 py::object toArray(const void* data, std::size_t bytes, const char* dtype, std::size_t rows,
                    int columns) {
-  // An array over a bytearray of its own can be written to, like any other.
+  // An array over its own bytearray is writable, like any other array.
   const py::object buffer{py::handle<>(PyByteArray_FromStringAndSize(
       static_cast<const char*>(data), static_cast<Py_ssize_t>(bytes)))};
   const py::object numpy = py::import("numpy");
@@ -40,7 +40,7 @@ auto change(const FESolver& solver, const Work& work) {
   return asValueError(work);
 }
 
-/// A column by node, as a script has it.
+/// A column by node, in the numbering of scripts.
 template <class Value>
 py::object nodeArray(const FESolver& solver, const std::vector<Value>& column, int columns) {
   if (!solver.world().hasRigid()) return toArray(column, kReal, columns);
@@ -219,20 +219,20 @@ py::object displacementsOf(const FESolver& solver) {
 py::object contactForcesOf(const FESolver& solver) {
   const std::span<const Vec2> known = solver.world().contact.forces().known;
   std::vector<Vec2> forces(known.begin(), known.end());
-  forces.resize(solver.world().model.nodes.size());  // before the first contact there are none
+  forces.resize(solver.world().model.nodes.size());  // empty before the first contact
   return nodeArray(solver, forces, 2);
 }
 
 py::object reactionsOf(const FESolver& solver) {
   std::vector<Vec2> forces = solver.world().reactions;
-  forces.resize(solver.world().model.nodes.size());  // before the first step there are none
+  forces.resize(solver.world().model.nodes.size());  // empty before the first step
   return nodeArray(solver, forces, 2);
 }
 
 py::object fragmentOf(const FESolver& solver) {
   std::vector<std::uint32_t> numbers;
   findFragments(solver.world().model, &numbers);
-  return toArray(numbers, "int32", 0);  // −1: dropped
+  return toArray(numbers, "int32", 0);  // −1: removed
 }
 
 py::object referenceOf(const FESolver& solver) {
@@ -241,7 +241,7 @@ py::object referenceOf(const FESolver& solver) {
 
 namespace {
 
-/// Of a rigid boundary, or of a dropped fragment.
+/// True for a segment of a rigid boundary or of a removed fragment.
 bool isHidden(const World& world, SegmentId segment) {
   const ContactSurfaces& surfaces = world.surfaces;
   const EntryId entry = surfaces.segmentEntry[segment.value];
@@ -297,7 +297,7 @@ py::tuple energyBalanceOf(const FESolver& solver) {
 
 py::list warningsOf(const FESolver& solver) {
   py::list result;
-  for (const std::string& sentence : solver.world().complaints) result.append(sentence);
+  for (const std::string& sentence : solver.world().warnings) result.append(sentence);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Arrays between C++ and Python: NumPy arrays out, as copies, and bytes of such arrays in.
+// Arrays between C++ and Python: results are NumPy arrays (copies), input is the bytes of such
+// arrays.
 
 #include <cstring>
 #include <stdexcept>
@@ -21,7 +22,7 @@ yade::py::object toArray(const std::vector<Element>& column, const char* dtype, 
   return toArray(column.data(), column.size() * sizeof(Element), dtype, column.size(), columns);
 }
 
-/// What is in a Python `bytes`, as elements.
+/// The contents of a Python `bytes`, as elements.
 template <class Element>
 std::vector<Element> fromBytes(const yade::py::object& bytes) {
   char* data = nullptr;
@@ -38,15 +39,16 @@ int addMesh(FESolver& solver, const yade::py::dict& input);
 
 void takeBody(FESolver& solver, int component);
 
-/// `FESolver._bond`, likewise: how many sides, and a sentence about the mesh, or an empty one.
+/// `FESolver._bond`, likewise; returns the number of sides and a message about the mesh, or an
+/// empty one.
 yade::py::tuple bond(FESolver& solver, int a, int b, double strength, double energy);
 
-/// `FESolver._setLoads` and `_prescribe`, likewise; a velocity for each of the nodes.
+/// `FESolver._setLoads` and `_prescribe`, likewise; one velocity for each node.
 void setLoads(FESolver& solver, const yade::py::object& loads);
 void prescribe(FESolver& solver, const yade::py::object& nodes, int held,
                const yade::py::object& velocities);
 /// `FESolver._move`: `motion` is a dict of centre (a pair, m), speedX, speedY, turn (pairs of bytes
-/// of times and values, empty for none) and function (None where the tables are all).
+/// of times and values, empty for none) and function (None for tables only).
 void prescribeMotion(FESolver& solver, const yade::py::object& nodes, int held,
                      const yade::py::dict& motion);
 
@@ -58,10 +60,10 @@ void setAbsorbing(FESolver& solver, const yade::py::object& nodes);
 yade::py::object reactionsOf(const FESolver& solver);
 yade::py::object loadsOf(const FESolver& solver);
 yade::py::object nodesOf(const FESolver& solver);
-/// `component`: one that there is.
+/// `component` must exist.
 yade::py::object nodesOfBody(const FESolver& solver, int component);
 bool isGone(const FESolver& solver, int component);
-/// By component, '' for those without a name.
+/// Names by component, '' for those without a name.
 yade::py::list namesOf(const FESolver& solver);
 yade::py::object velocitiesOf(const FESolver& solver);
 yade::py::object displacementsOf(const FESolver& solver);
@@ -74,7 +76,7 @@ yade::py::object fragmentOf(const FESolver& solver);
 yade::py::object referenceOf(const FESolver& solver);
 yade::py::object contactForcesOf(const FESolver& solver);
 yade::py::list surfacesOf(const FESolver& solver);
-/// Segments that are there.
+/// Number of segments, without removed ones.
 std::size_t segmentsOf(const FESolver& solver);
 yade::py::dict droppedOf(const FESolver& solver);
 yade::py::dict energyOf(const FESolver& solver);
@@ -84,7 +86,7 @@ yade::py::tuple energyBalanceOf(const FESolver& solver);
 yade::py::list warningsOf(const FESolver& solver);
 yade::py::list fragmentsOf(const FESolver& solver, bool held);
 
-/// Runs `work`, and turns an InputError into Python's ValueError.
+/// Runs `work`, and converts an InputError to Python's ValueError.
 template <class Work>
 auto asValueError(Work&& work) {
   try {

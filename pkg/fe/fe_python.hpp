@@ -1,5 +1,5 @@
 #pragma once
-// FESolver's values and methods as Python sees them; addPolygon and the like are Python
+// Python values and methods of FESolver; addPolygon and others are written in Python
 // (python/yadefrag/solver.py).
 
 #include <mutex>
@@ -13,7 +13,7 @@
 
 namespace yadefrag {
 
-/// A call that is made between two steps, if another thread runs the scene.
+/// A call that waits for the end of a step if another thread runs the scene.
 template <auto call>
 struct Locked;
 template <class Value, class Solver, class... Rest, Value (*function)(Solver&, Rest...)>
@@ -47,23 +47,26 @@ inline std::uint64_t numCracksOf(const FESolver& solver) {
 template <class PyClass>
 void FESolver::pyExtra(PyClass& pyClass) {
   pyClass.def("_addMesh", &addMesh)
-      .def("removeBody", &takeBody, yade::py::args("component"),
-           "Takes a whole body, and its surface's bodies, out of the scene; the numbers of the "
-           "others stay.")
-      .def("criticalTimeStep", &Locked<criticalTimeStepOf>::call,
-           "Longest stable time step (s) of the present mesh, of a body that cracks also when all "
-           "its triangles have come apart; infinite without bodies. An O.dt that changes all the "
-           "time should stay below a third of it. It knows of no spheres: see README.md, Limits.")
       .def(
-          "deepestOverlap", &Locked<deepestOverlapOf>::call,
-          "Deepest overlap (m) of any two triangles that share no node: the shortest way that gets "
-          "them apart, at most a triangle's height. Looks at all triangles at each call, whatever "
-          "contact knows of them; maxPenetration knows only points in contact. 0 where bodies "
-          "touch, but for rounding.")
+          "removeBody", &takeBody, yade::py::args("component"),
+          "Removes a whole body, and the bodies of its surface, from the scene; the numbers of the "
+          "other bodies do not change.")
+      .def("criticalTimeStep", &Locked<criticalTimeStepOf>::call,
+           "Critical time step (s) of the present mesh; of a body that can crack also when all "
+           "its triangles are separated; infinite without bodies. An O.dt that changes all the "
+           "time should stay below a third of it. Spheres are not considered: see README.md, "
+           "Limits.")
+      .def("deepestOverlap", &Locked<deepestOverlapOf>::call,
+           "Deepest overlap (m) of any two triangles without a common node: the shortest "
+           "translation "
+           "that separates them, at most a triangle's height. Checks all triangles at each call, "
+           "independently of contact; maxPenetration considers only points in contact. 0, except "
+           "for "
+           "rounding, where bodies touch.")
       .def("fragments", &Locked<fragmentsOf>::call, (yade::py::arg("held") = false),
-           "List of dicts, one per part that hangs together: component, triangles (how many), mass "
+           "List of dicts, one per connected part: component, triangles (their number), mass "
            "(kg), area (m²), centroid (m), velocity (m/s), spin (rad/s). With held=True, parts "
-           "that a crack with fracture energy still holds together count as one.")
+           "that are connected by cohesive cracks count as one.")
       .def("_zoneWarning", &Locked<zoneWarningOf>::call)
       .def(
           "_lock", +[](const FESolver& self) { self.betweenSteps().lock(); })
@@ -113,51 +116,50 @@ void FESolver::valuesOf(PyClass& pyClass) {
                     "Number of each triangle's fragment, its place in fragments(), array (m); -1: "
                     "dropped.")
       .add_property("_reference", &Locked<referenceOf>::call)
-      .add_property("contactForces", &Locked<contactForcesOf>::call,
-                    "Of contact between bodies of this engine, on the nodes, in the last step (N), "
-                    "array (n, 2).")
       .add_property(
-          "reactions", &Locked<reactionsOf>::call,
-          "At held nodes, in the last step (N), array (n, 2): what the support gives, over "
-          "the node's own weight, its loads and all forces of bodies; 0 in free "
-          "directions, and before the first step and after O.load.")
+          "contactForces", &Locked<contactForcesOf>::call,
+          "Contact forces between bodies of this engine, on the nodes, in the last step (N), "
+          "array (n, 2).")
+      .add_property("reactions", &Locked<reactionsOf>::call,
+                    "Reactions at held nodes in the last step (N), array (n, 2): the support's "
+                    "force, besides "
+                    "the node's own weight, its loads and all forces of bodies; 0 in free "
+                    "directions, and before the first step and after O.load.")
       .add_property("time", &Locked<timeOf>::call,
-                    "Time that the bodies have been stepped for (s); motions and loads that change "
-                    "in time go by it.")
+                    "Simulated time of the bodies (s); motions and loads that vary "
+                    "with time are functions of it.")
       .add_property("surfaces", &Locked<surfacesOf>::call,
                     "List of closed loops, each an array of node numbers, material on the left.")
-      .add_property(
-          "numSegments", &Locked<segmentsOf>::call,
-          "Segments of all surfaces: each crack that opens adds two, and those of dropped "
-          "fragments do not count.")
+      .add_property("numSegments", &Locked<segmentsOf>::call,
+                    "Segments of all surfaces: each crack that opens adds two; those of removed "
+                    "fragments do not count.")
       .add_property("dropped", &Locked<droppedOf>::call,
-                    "Fragments that were smaller than minFragmentArea and are gone, a dict: mass "
-                    "(kg), momentum (kg m/s, a pair), energy (J) they had when they went, count.")
+                    "Removed fragments (smaller than minFragmentArea), a dict: mass "
+                    "(kg), momentum (kg m/s, a pair), energy (J) at their removal, count.")
       .add_property(
           "energy", &Locked<energyOf>::call,
-          "Dict of J: kinetic, strain, contact, friction, fracture, damping, outside (what went "
-          "outside: negative where work was done on the bodies); with minFragmentArea, dropped "
-          "(went with fragments); total, their sum, is constant, but for what impacts of soft "
-          "bodies "
-          "that turn take from it, of second order in O.dt: 5e-4 of the work in a drum of rubber, "
-          "1.3e-4 with half the step. O.energy has the same, with the "
-          "same signs, as feKinetic, feStrain ... feOutside, if O.trackEnergy. Besides, external "
-          "is -outside.");
+          "Dict of J: kinetic, strain, contact, friction, fracture, damping, outside (energy that "
+          "left: negative where work was done on the bodies); with minFragmentArea, dropped "
+          "(energy of removed fragments); total, their sum, is constant, except for impacts of "
+          "soft bodies that rotate, which reduce it by second order in O.dt: 5e-4 of the work in a "
+          "drum of rubber, 1.3e-4 with half the step. O.energy has the same values, with the same "
+          "signs, as feKinetic, feStrain ... feOutside, if O.trackEnergy. In addition, external is "
+          "-outside.");
 }
 
 template <class PyClass>
 void FESolver::countersOf(PyClass& pyClass) {
   pyClass.add_property("_energyBalance", &Locked<energyBalanceOf>::call)
       .add_property("warnings", &Locked<warningsOf>::call,
-                    "Sentences that warn of numerical errors: energy that contact, cracks or the "
+                    "Warnings of numerical errors: energy that contact, cracks or the "
                     "time integration have created, above 1 % of the bodies' energy and above "
                     "rounding, and penetration above a tenth of the shortest segment. One per "
-                    "doubling, each also on stderr when it comes up.")
+                    "doubling, each also written to stderr when it occurs.")
       .add_property("numSearches", &Locked<searchesOf>::call, "Contact searches so far.")
       .add_property("numActives", &Locked<activesOf>::call, "Points in contact in the last step.")
       .add_property("maxPenetration", &Locked<penetrationOf>::call,
-                    "Deepest penetration (m) that was left at points in contact in the last step; "
-                    "deepestOverlap() looks at everything.")
+                    "Deepest remaining penetration (m) at points in contact in the last step; "
+                    "deepestOverlap() checks all triangles.")
       .add_property("numCracks", &Locked<numCracksOf>::call, "Cracked edges so far.");
 }
 

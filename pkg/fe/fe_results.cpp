@@ -43,7 +43,7 @@ py::object strainArrayOf(const FESolver& solver) {
 
 namespace {
 
-/// By edge: its place among the cracks that hold, or none.
+/// By edge: index among the cohesive cracks, or kLoose.
 constexpr std::uint32_t kLoose = std::numeric_limits<std::uint32_t>::max();
 
 std::vector<std::uint32_t> holdsByEdge(const Fracture& fracture) {
@@ -54,7 +54,7 @@ std::vector<std::uint32_t> holdsByEdge(const Fracture& fracture) {
   return holds;
 }
 
-/// How much of the fracture energy is spent: the mean of both ends; 1 where nothing holds.
+/// Dissipated fraction of the fracture energy: the mean of both ends; 1 without cohesion.
 double damageOf(const Fracture& fracture, EdgeId edge, std::uint32_t hold) {
   if (hold == kLoose) return 1;
   const double strength = fracture.edges.strength[edge.value];
@@ -67,7 +67,7 @@ double damageOf(const Fracture& fracture, EdgeId edge, std::uint32_t hold) {
 
 struct CrackColumns {
   std::vector<std::uint32_t> component, other, triangle;
-  std::vector<std::array<NodeId, 4>> nodes;  // of both sides, opposite each other
+  std::vector<std::array<NodeId, 4>> nodes;  // nodes of both sides, in opposite pairs
   std::vector<double> x, y, nx, ny, opening, slip, damage, start;
   std::vector<std::uint8_t> held;
 
@@ -83,7 +83,7 @@ struct CrackColumns {
       const Vec2 end = model.nodes.position[last[k].value];
       middle[k] = .5 * (begin + end), along[k] = end - begin;
     }
-    // The second side runs the other way.
+    // The second side runs in the opposite direction.
     const Vec2 face = along[0] - along[1];
     const Vec2 tangent = (1 / norm(face)) * face, normal = rightOf(tangent);
     const Vec2 apart = middle[1] - middle[0], place = .5 * (middle[0] + middle[1]);

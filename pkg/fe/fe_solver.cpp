@@ -22,29 +22,29 @@
 
 namespace yadefrag {
 
-/// One step: from the forces that spheres and others have put on the boundary in this step to the
-/// boundary's new place.
+/// One step: from the forces of spheres and other engines on the boundary in this step to the new
+/// position of the boundary.
 void FESolver::action() try {
   const std::lock_guard guard(betweenSteps_);
   if (bodies_.ids().empty()) return;
   surveyed_ = 0;
   if (scene->isPeriodic)
-    throw std::invalid_argument("FESolver: the scene is periodic, which its bodies cannot be.");
+    throw std::invalid_argument("FESolver: the scene is periodic, but FE bodies cannot be.");
   const bool enginesAreNew = order_.require(*scene, *this);
   bodies_.requireAll(*scene);
   giveSettings();
-  lookAround(enginesAreNew);
+  checkScene(enginesAreNew);
   followRigid(enginesAreNew);
   if (world_.search.isDue || world_.search.isVoid) {
     bodies_.requireWhole();
-    // After a step that was refused the halo is that of its own search, not that of the bounds.
+    // After a refused step the halo is that of the world's own search, not that of the bounds.
     const bool isSearched = bodies_.halo() == .5 * world_.search.halo;
     // Rigid boundaries have no bodies of their own that a collider could find.
     if (isSearched && !rigid_.any() && pairsOfCollider(*scene, *this, bodies_, pairs_))
       world_.takePairs(pairs_);
   }
   const std::uint64_t dropped = world_.dropped.count;
-  const std::size_t complaints = world_.complaints.size();
+  const std::size_t known = world_.warnings.size();
   collectForces();
   const bool mayBeBorn = world_.fracture.numCracks() > 0 && !world_.outerForces.empty();
   const double born = mayBeBorn ? energyBornInside(*scene, bodies_) : 0;
@@ -58,11 +58,11 @@ void FESolver::action() try {
   } catch (const InputError& error) {
     throw std::invalid_argument(error.what());
   }
-  bookSpheres(born);
-  warn(complaints);
+  countSphereEnergy(born);
+  warn(known);
   if (rigid_.any()) {
     rigid_.giveForces(*scene, world_, length);
-    tell(rigid_.takeSentences());
+    report(rigid_.takeSentences());
   }
   followCracks(dropped);
   bodies_.update(world_, timeToIntegrate(), world_.threads);
@@ -73,7 +73,7 @@ void FESolver::action() try {
   throw;
 }
 
-/// Of spheres and others on the boundary.
+/// Of spheres and other bodies on the boundary.
 void FESolver::collectForces() {
   bodies_.collectForces(*scene, world_, world_.outerForces);
   if (world_.outerForces.empty()) return rolling_.forget();
@@ -81,9 +81,9 @@ void FESolver::collectForces() {
     bodies_.collectForces(*scene, world_, world_.outerForces);
 }
 
-/// `born`: J, what contacts with spheres have begun with. Told above 1 % of the bodies' energy and
-/// once per doubling.
-void FESolver::bookSpheres(double born) {
+/// `born`: J, initial energy of contacts with spheres. A message is given above 1 % of the bodies'
+/// energy, and once per doubling.
+void FESolver::countSphereEnergy(double born) {
   if (born == 0) return;
   const double least = tolerance::kGivenEnergy * world_.watch.most;
   const auto doublings = [&](double energy) {
@@ -95,56 +95,57 @@ void FESolver::bookSpheres(double born) {
   std::ostringstream text;
   text.precision(3);
   text << "Step " << world_.steps << ", time " << world_.time
-       << " s: where cracks opened under spheres, contacts began with " << energyFromSpheres
-       << " J out of nothing, " << 100 * energyFromSpheres / world_.watch.most
-       << " % of the bodies' energy; stiffer spheres are less deep in a wall that cracks.";
-  world_.complaints.push_back(text.str());
+       << " s: where cracks opened under spheres, new contacts have created " << energyFromSpheres
+       << " J, " << 100 * energyFromSpheres / world_.watch.most
+       << " % of the bodies' energy; stiffer spheres overlap the new corners less.";
+  world_.warnings.push_back(text.str());
 }
 
-/// Of those complaints that are new.
+/// Writes the new warnings.
 void FESolver::warn(std::size_t known) const {
-  for (std::size_t i = known; i < world_.complaints.size(); ++i)
-    std::cerr << "WARN  FESolver: " << world_.complaints[i] << std::endl;
+  for (std::size_t i = known; i < world_.warnings.size(); ++i)
+    std::cerr << "WARN  FESolver: " << world_.warnings[i] << std::endl;
 }
 
-/// Takes over the gravity of the scene, and says what the bodies will not touch or feel.
-void FESolver::lookAround(bool enginesAreNew) {
+/// Takes over the gravity of the scene, and reports contacts and forces that the bodies will not
+/// have.
+void FESolver::checkScene(bool enginesAreNew) {
   const yade::NewtonIntegrator* newton = integrator(false);
   const yade::Vector3r theirs = newton ? newton->gravity : yade::Vector3r::Zero();
   if (takesOver()) world_.dynamicsSettings.gravity = {theirs[0], theirs[1]};
   const bool bodiesAreNew = around_.look(*scene);
-  const bool rigidChanged = std::exchange(toldRigid_, rigidBodies) != rigidBodies;
+  const bool rigidChanged = std::exchange(checkedRigid_, rigidBodies) != rigidBodies;
   if (!bodiesAreNew && !enginesAreNew && !rigidChanged) return;
-  tell(around_.sentences(theirs, rigidBodies));
+  report(around_.sentences(theirs, rigidBodies));
 }
 
-/// Those that have not been told yet.
-void FESolver::tell(std::vector<std::string> sentences) {
-  const std::size_t known = world_.complaints.size();
-  std::vector<std::string>& told = world_.complaints;
+/// Reports those messages that have not been reported yet.
+void FESolver::report(std::vector<std::string> sentences) {
+  const std::size_t known = world_.warnings.size();
+  std::vector<std::string>& warnings = world_.warnings;
   for (std::string& sentence : sentences)
-    if (std::find(told.begin(), told.end(), sentence) == told.end())
-      told.push_back(std::move(sentence));
+    if (std::find(warnings.begin(), warnings.end(), sentence) == warnings.end())
+      warnings.push_back(std::move(sentence));
   warn(known);
 }
 
-/// YADE's walls, boxes and facets that the bodies touch.
+/// Updates the boundaries of YADE's walls, boxes and facets that the bodies touch.
 void FESolver::followRigid(bool enginesAreNew) {
   bool areNew = false;
   try {
     areNew = rigid_.follow(*scene, world_, bodies_, rigidBodies, timeToIntegrate());
   } catch (const InputError& error) {
     throw std::invalid_argument(std::string(error.what()) +
-                                " FESolver(rigidBodies=False) lets bodies go through it.");
+                                " FESolver(rigidBodies=False) disables contact with it.");
   }
-  tell(rigid_.takeSentences());
+  report(rigid_.takeSentences());
   if ((enginesAreNew || areNew) && rigid_.anyMovable(*scene))
     EngineOrder::requireReturn(*scene, *this);
 }
 
-/// New faces get bodies, those of dropped fragments lose theirs. Among themselves and with the rest
-/// of the boundary they are in contact already; only where there is something else in the scene
-/// must the collider find it now.
+/// Adds bodies for new faces, and removes those of removed fragments. FESolver already handles the
+/// contact of new faces with each other and with its other boundaries; a new search of the collider
+/// is needed only if the scene has other bodies.
 void FESolver::followCracks(std::uint64_t dropped) {
   const bool wasDue = scene->doSort;
   bodies_.follow(*scene, world_);
@@ -152,7 +153,7 @@ void FESolver::followCracks(std::uint64_t dropped) {
   if (!rigid_.any() && scene->bodies->body.size() == bodies_.ids().size()) scene->doSort = wasDue;
 }
 
-/// Where the collider is to search in the next step, it must find bounds that hold for long enough.
+/// If the collider is to search in the next step, the bounds must be valid for long enough.
 void FESolver::prepareSearch(double dt) {
   if (!world_.search.isDue && !world_.search.isVoid) return;
   world_.chooseHalo(dt);
@@ -160,8 +161,8 @@ void FESolver::prepareSearch(double dt) {
   scene->doSort = true;
 }
 
-/// The same for the last body, whose entries begin at `first`. Many bodies are mostly added in a
-/// row: as long as nothing moves, each costs no more than itself.
+/// The same for the last body, whose entries begin at `first`. Bodies are usually added in
+/// sequence: as long as nothing moves, each one causes only its own cost.
 void FESolver::prepareNewcomer(std::size_t first) {
   world_.chooseHalo(world_.lastDt, SegmentId(surveyed_));  // O.dt may not be set yet
   surveyed_ = world_.surfaces.segments();
@@ -170,11 +171,11 @@ void FESolver::prepareNewcomer(std::size_t first) {
   scene->doSort = true;
 }
 
-/// What an integrator behind this engine moves the bodies by: it moves those that obey no forces
-/// too, by velocity times step.
+/// Time for which an integrator after this engine moves the bodies: it also moves bodies that obey
+/// no forces, by velocity times step.
 double FESolver::timeToIntegrate() const { return integrator(true) ? scene->dt : 0; }
 
-/// The first one that moves the bodies, null for none; `behind`: this engine.
+/// The first integrator that moves the bodies, null for none; `behind`: only one after this engine.
 const yade::NewtonIntegrator* FESolver::integrator(bool behind) const {
   const yade::Body* any = bodies_.anyBody();
   if (!any) return nullptr;
@@ -200,10 +201,10 @@ void FESolver::trackEnergy() const {
   set("feFracture", ledger.fracture);
   set("feDamping", ledger.damping);
   if (minFragmentArea > 0) set("feDropped", ledger.dropped);
-  set("feOutside", -ledger.external);  // what went outside: the sum of all is constant
+  set("feOutside", -ledger.external);  // energy that left: the sum of all is constant
 }
 
-/// Bodies of two solvers would not see each other.
+/// Bodies of two solvers would have no contact with each other.
 void FESolver::requireAlone(const yade::Scene& here) const {
   const auto& present = here.bodies->body;
   for (std::size_t id = 0; id < present.size(); ++id) {
@@ -219,7 +220,7 @@ void FESolver::requireAlone(const yade::Scene& here) const {
 
 namespace {
 
-/// InputError for one that cannot crack though it is meant to.
+/// Throws InputError for a brittle material that cannot crack.
 BodyMaterial bodyMaterialOf(const FEMat& material) {
   BodyMaterial one;
   one.material = {material.young, material.poisson, material.density, material.planeStress};
@@ -243,7 +244,7 @@ BodyMaterial bodyMaterialOf(const FEMat& material) {
 int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
                       const std::vector<yade::shared_ptr<FEMat>>& materials) {
   yade::Scene& here = *yade::Omega::instance().getScene();
-  if (here.isPeriodic) throw InputError("The scene is periodic, which FESolver cannot be.");
+  if (here.isPeriodic) throw InputError("The scene is periodic, but FE bodies cannot be.");
   bodies_.requireAll(here);
   requireAlone(here);
   if (spec.materials.ofTriangle.empty())
@@ -302,9 +303,9 @@ void FESolver::checkSettings() const {
   if (!(penaltyFactor > 0 && penaltyFactor <= 1))
     refuse("penaltyFactor", penaltyFactor, "above 0 and at most 1");
   if (!(halo >= 0 && halo <= tolerance::kWidestHalo))
-    refuse("halo", halo, "positive and at most 0.5, or 0 for a width that follows the speed");
+    refuse("halo", halo, "positive and at most 0.5, or 0 for a width that depends on the speed");
   if (!(damping >= 0 && std::isfinite(damping))) refuse("damping", damping, "0 or positive");
-  if (maxCracks < -1) refuse("maxCracks", maxCracks, "0 or positive, or -1 for no bound");
+  if (maxCracks < -1) refuse("maxCracks", maxCracks, "0 or positive, or -1 for no limit");
   if (!(minFragmentArea >= 0 && std::isfinite(minFragmentArea)))
     refuse("minFragmentArea", minFragmentArea, "positive (m²), or 0 to keep all fragments");
   if (!gravity.allFinite() || gravity[2] != 0) {
@@ -322,7 +323,7 @@ void FESolver::postLoad(FESolver& /*self*/) {
   try {
     checkSettings();
   } catch (const std::invalid_argument&) {
-    // What was there before is still in the world.
+    // The world still has the previous values.
     const StepSettings& step = world_.dynamicsSettings;
     correction = world_.contactSettings.correction == Correction::kPenalty ? "penalty" : "lagrange";
     entry = world_.contactSettings.entry == Entry::kFlags ? "flags" : "path";
@@ -351,7 +352,7 @@ void FESolver::giveSettings() {
   world_.dynamicsSettings.damping = damping;
   formerGravity_ = gravity;
   formerView_ = view;
-  // What is taken over stays until the next step takes it over anew.
+  // Gravity that was taken over is kept until the next step takes it over again.
   if (!takesOver()) world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
   world_.dynamicsSettings.viscosity = {linearViscosity, quadraticViscosity};
   world_.fracture.maxCracks =

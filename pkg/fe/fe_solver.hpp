@@ -1,5 +1,5 @@
 #pragma once
-// The engine that moves finite-element bodies.
+// The engine for finite-element bodies.
 
 #include <string>
 #include <tuple>
@@ -25,16 +25,16 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   static constexpr const char* kName = "FESolver";
   static constexpr const char* kDoc =
       "Finite-element bodies in the plane z = 0: explicit dynamics, and contact without "
-      "interpenetration between them. Stands behind the collider and the InteractionLoop in "
-      "O.engines, and before NewtonIntegrator. Raises ValueError for a time step above "
-      "criticalTimeStep(), RuntimeError naming the element or node where a run cannot go on.";
+      "interpenetration between them. Its place in O.engines is after the collider and the "
+      "InteractionLoop and before NewtonIntegrator. Raises ValueError for a time step above "
+      "criticalTimeStep(), RuntimeError naming the element or node if a run cannot continue.";
 
   void action() override;
   void postLoad(FESolver& self);
 
-  /// Adds a body, and its entries' bodies to the scene that `O` stands for; InputError before
-  /// anything is changed. `materials`: one, or those that `spec.materials.ofTriangle` has by
-  /// number.
+  /// Adds a body, and the bodies of its entries to the scene of `O`. Throws InputError before
+  /// anything is changed. `materials`: one, or those to whose numbers `spec.materials.ofTriangle`
+  /// refers.
   int addBody(const TriangleMesh& mesh, BodySpec spec,
               const std::vector<yade::shared_ptr<FEMat>>& materials);
   void removeBody(int component);
@@ -47,7 +47,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   }
   [[nodiscard]] const EntryBodies& entryBodies() const { return bodies_; }
   [[nodiscard]] ScriptFunctions& scriptFunctions() { return functions_; }
-  /// Held by each step, and by each read and change from Python.
+  /// Locked during each step, and during each read and change from Python.
   [[nodiscard]] StepLock& betweenSteps() const { return betweenSteps_; }
 
   std::string correction = "lagrange";
@@ -82,11 +82,11 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void checkSettings() const;
   void giveSettings();
   void collectForces();
-  void bookSpheres(double born);
+  void countSphereEnergy(double born);
   void warn(std::size_t known) const;
-  void lookAround(bool enginesAreNew);
+  void checkScene(bool enginesAreNew);
   void followRigid(bool enginesAreNew);
-  void tell(std::vector<std::string> sentences);
+  void report(std::vector<std::string> sentences);
   [[nodiscard]] const yade::NewtonIntegrator* integrator(bool behind) const;
   [[nodiscard]] bool takesOver() const { return takesGravity && gravity.isZero(0); }
   void followCracks(std::uint64_t dropped);
@@ -102,12 +102,12 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   SceneWatch around_;
   RigidBodies rigid_;
   RollingSpheres rolling_;
-  bool toldRigid_ = true;  // `rigidBodies` when the scene was last looked at
+  bool checkedRigid_ = true;  // `rigidBodies` when the scene was last checked
   ScriptFunctions functions_;
   std::vector<BoxPair> pairs_;
-  /// Segments that the halo was chosen for, and that have not moved since.
+  /// Number of segments for which the halo was chosen, and that have not moved since.
   std::size_t surveyed_ = 0;
-  yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // what `gravity` was before it was set
+  yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // value of `gravity` before it was set
   std::string formerView_ = view;
   mutable StepLock betweenSteps_;
 };
@@ -118,29 +118,31 @@ constexpr auto FESolver::contactAttributes() {
   return std::tuple(
       attribute("correction", &C::correction,
                 "'lagrange': contact by forces that just prevent interpenetration; 'penalty': by "
-                "forces in proportion to it, to compare with.",
+                "forces in proportion to it, for comparison.",
                 triggerPostLoad),
       attribute("entry", &C::entry,
-                "How a point becomes active on a surface. 'path': its path through the step "
+                "Criterion for a point to become active on a surface. 'path': its path in the step "
                 "crosses the moving surface; 'flags': a flag says that it was outside the line of "
-                "the surface's segment (Diekmann et al. 2000, section 5), to compare with; where "
+                "the surface's segment (Diekmann et al. 2000, section 5), for comparison; if "
                 "bodies crack, fragments then overlap by up to 0.004 of a segment, seldom 0.1.",
                 triggerPostLoad),
-      attribute(
-          "passes", &C::passes,
-          "1: of two surfaces the finer one's points and the sharp corners of the other must not "
-          "penetrate; 2: the points of both. Where a body can crack, it is 2 in any case.",
-          triggerPostLoad),
-      attribute("penaltyFactor", &C::penaltyFactor,
-                "Of correction='penalty': the stiffness, as a share of the one that would undo a "
-                "penetration within a step.",
+      attribute("passes", &C::passes,
+                "1: of two surfaces the points of the finer one and the sharp corners of the other "
+                "must not "
+                "penetrate; 2: the points of both. Where a body can crack, it is 2 in any case.",
                 triggerPostLoad),
-      attribute("halo", &C::halo,
-                "Width of the strip around a boundary in which contact is expected, over the "
-                "shortest segment, at most 0.5; 0: as wide as the bodies' speed asks for. Results "
-                "do not depend on it, the number of searches does; but with "
-                "correction='penalty' nothing is held that is deeper than the halo.",
-                triggerPostLoad));
+      attribute(
+          "penaltyFactor", &C::penaltyFactor,
+          "For correction='penalty': the stiffness, as a fraction of the one that would remove a "
+          "penetration within a step.",
+          triggerPostLoad),
+      attribute(
+          "halo", &C::halo,
+          "Width of the strip around a boundary in which contact is expected, relative to the "
+          "shortest segment, at most 0.5; 0: as wide as the bodies' speed requires. Results "
+          "do not depend on it, but the number of searches does; with "
+          "correction='penalty' points deeper than the halo have no contact.",
+          triggerPostLoad));
 }
 
 constexpr auto FESolver::attributes() {
@@ -150,11 +152,11 @@ constexpr auto FESolver::attributes() {
       attribute("damping", &C::damping, "Mass-proportional damping (1/s).", triggerPostLoad),
       attribute("gravity", &C::gravity,
                 "Acceleration of all bodies of this engine (m/s²), a pair, or three numbers with "
-                "z = 0. Until it is set, that of a NewtonIntegrator in O.engines is taken over.",
+                "z = 0. Until it is set, that of a NewtonIntegrator in O.engines is used.",
                 triggerPostLoad),
       attribute("takesGravity", &C::takesGravity,
-                "As long as `gravity` is zero, are the x and y of NewtonIntegrator's gravity taken "
-                "over? Setting `gravity` sets this to False; to True again, it undoes that."),
+                "As long as `gravity` is zero, use x and y of NewtonIntegrator's gravity. "
+                "Setting `gravity` sets this to False; setting this to True undoes that."),
       attribute("linearViscosity", &C::linearViscosity,
                 "Coefficient of the linear bulk viscosity; 0: none, .06 is usual.",
                 triggerPostLoad),
@@ -163,10 +165,10 @@ constexpr auto FESolver::attributes() {
                 "usual.",
                 triggerPostLoad),
       attribute("maxCracks", &C::maxCracks,
-                "No more edges than this crack, all in all; -1: no bound.", triggerPostLoad),
+                "Maximum total number of edges that crack; -1: no limit.", triggerPostLoad),
       attribute("minFragmentArea", &C::minFragmentArea,
-                "Fragments that come loose with a smaller area (m², stress-free) are taken out of "
-                "the scene, and booked in `dropped`; none that is held is. 0: all stay.",
+                "Detached fragments with a smaller area (m², stress-free) are removed from "
+                "the scene, and counted in `dropped`, except held ones. 0: none is removed.",
                 triggerPostLoad),
       attribute(
           "energyFromSpheres", &C::energyFromSpheres,
@@ -175,14 +177,13 @@ constexpr auto FESolver::attributes() {
           "with a compressed spring.",
           yade::Attr::readonly),
       attribute("rigidBodies", &C::rigidBodies,
-                "Do the bodies touch YADE's Wall, Box and Facet, also in clumps: their sections "
-                "with the plane z = 0, rigid, with the friction of their FrictMat? They move as "
+                "Contact with YADE's Wall, Box and Facet, also in clumps: their sections "
+                "with the plane z = 0, rigid, with the friction of their FrictMat. They move as "
                 "YADE moves them, and get the forces of contact (O.forces.f, O.forces.t)."),
-      attribute(
-          "view", &C::view,
-          "What the colours of the bodies in YADE's 3D view tell: 'component', 'fragment', or "
-          "'mises', from blue at 0 to red at the largest.",
-          triggerPostLoad));
+      attribute("view", &C::view,
+                "Meaning of the bodies' colours in YADE's 3D view: 'component', 'fragment', or "
+                "'mises', from blue at 0 to red at the largest.",
+                triggerPostLoad));
   return std::tuple_cat(contactAttributes(), others);
 }
 

@@ -11,7 +11,7 @@ void joinHeld(const Model& model, const Fracture& fracture, DisjointSets& sets) 
               firstNode(model, fracture.edges.side(edge, 1)).value);
 }
 
-/// All that follows from the nodes, once their fragments are known.
+/// Computes all properties that follow from the nodes, after their fragments are known.
 template <class ForNodes>
 void sumNodes(const Nodes& nodes, const ForNodes& forNodes, std::vector<Fragment>& fragments) {
   forNodes([&](Fragment& f, std::size_t i) {

@@ -11,7 +11,8 @@
 namespace yadefrag {
 namespace {
 
-/// OpenGL's own functions, which only a yade with a 3D view has loaded: nothing is linked.
+/// OpenGL functions, which are loaded only in a yade with a 3D view: the plugin is not linked to
+/// them.
 struct OpenGL {
   decltype(&glBegin) begin;
   decltype(&glEnd) end;
@@ -49,7 +50,7 @@ const OpenGL& openGL() {
   return functions;
 }
 
-/// Lines about a place that YADE has moved the origin to.
+/// Draws lines relative to the position to which YADE has moved the origin.
 struct Pen {
   const OpenGL& gl;
   Vec2 origin;
@@ -83,7 +84,8 @@ struct Pen {
 
 }  // namespace
 
-/// Not where a step is under way: that may wait for what YADE holds while it draws.
+/// Updates the pictures, except during a step: the step may be waiting for a lock that YADE holds
+/// while drawing.
 void Gl1_SurfaceSegment::look() {
   if (!scene) return;
   for (const auto& engine : scene->engines) {
@@ -102,21 +104,21 @@ void Gl1_SurfaceSegment::go(const yade::shared_ptr<yade::Shape>& shape,
   const auto& gl = openGL();
   if (segment.entry < 0 || !gl.isComplete) return;
   const auto stands = [&](const BodyPicture& picture) { return picture.entry == segment.entry; };
-  // All bodies once a frame, which the first of them begins.
+  // All bodies once per frame; the first segment starts it.
   if (segment.entry == 0 || pictures_.empty()) look();
   const auto picture = std::ranges::find_if(pictures_, stands);
   if (picture == pictures_.end()) return;
   const Pen pen{gl, {state->se3.position[0], state->se3.position[1]}};
   gl.push(GL_ENABLE_BIT | GL_CURRENT_BIT | GL_LINE_BIT | GL_POLYGON_BIT | GL_VIEWPORT_BIT);
   gl.disable(GL_LIGHTING), gl.disable(GL_CULL_FACE);
-  // Lines in the same plane are in front.
+  // Lines in the same plane are drawn in front.
   gl.enable(GL_POLYGON_OFFSET_FILL), gl.offset(1, 1);
   if (wire)
     pen.edges(picture->triangles);
   else
     pen.filled(picture->triangles);
   pen.lines(picture->outline, {0, 0, 0}, 1.5F);
-  // In front of the boundaries of both its sides, whichever is drawn first.
+  // In front of the boundaries on both sides, in any order of drawing.
   gl.depth(0, .9999);
   pen.lines(picture->held, {1, 0, 0}, 2);
   gl.pop();

@@ -13,9 +13,10 @@ class Gl1_SurfaceSegment final : public Published<Gl1_SurfaceSegment, yade::GlSh
  public:
   static constexpr const char* kName = "Gl1_SurfaceSegment";
   static constexpr const char* kDoc =
-      "Draws the bodies of FESolver in the 3D view: their triangles, filled as FESolver.view says, "
+      "Draws the bodies of FESolver in the 3D view: their triangles, filled according to "
+      "FESolver.view, "
       "or, where the SurfaceSegment or the view is drawn in wire, their edges; in black their "
-      "boundaries and open cracks, in red cracks that cohesion still holds.";
+      "boundaries and open cracks, in red cohesive cracks.";
   static constexpr auto attributes() { return std::tuple(); }
 
   void go(const yade::shared_ptr<yade::Shape>& shape, const yade::shared_ptr<yade::State>& state,
@@ -27,7 +28,7 @@ class Gl1_SurfaceSegment final : public Published<Gl1_SurfaceSegment, yade::GlSh
  private:
   void look();
 
-  std::vector<BodyPicture> pictures_;  // as of the last look that did not have to wait
+  std::vector<BodyPicture> pictures_;  // of the last update that did not have to wait
 };
 
 }  // namespace yadefrag

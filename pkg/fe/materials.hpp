@@ -1,5 +1,5 @@
 #pragma once
-// Materials of finite-element bodies. YADE's own Ip2 functors take them for FrictMat.
+// Materials of finite-element bodies. YADE's own Ip2 functors treat them as FrictMat.
 
 #include <tuple>
 
@@ -14,15 +14,17 @@ class FEMat : public Published<FEMat, Indexed<FEMat, yade::FrictMat>, yade::Fric
   static constexpr const char* kName = "FEMat";
   static constexpr const char* kDoc =
       "Elastic material of a finite-element body. Young's modulus, Poisson's ratio and density are "
-      "the body's; a sphere that touches it sees them, and the friction angle, as those of any "
+      "the body's; for contact with spheres they are used, with the friction angle, as those of "
+      "any "
       "FrictMat.";
 
   bool planeStress = false;
 
   static constexpr auto attributes() {
-    return std::tuple(attribute("planeStress", &FEMat::planeStress,
-                                "Free to change its thickness (thin plate), instead of held at "
-                                "both faces (plane strain)."));
+    return std::tuple(
+        attribute("planeStress", &FEMat::planeStress,
+                  "Plane stress (thin plate, free to change its thickness) instead of "
+                  "plane strain (held at both faces)."));
   }
 };
 
@@ -51,27 +53,28 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
                   "J. Solids Struct. 33, 2899); beta is shearFactor, phi frictionAngle. So the "
                   "cohesion of Mohr and Coulomb is c = beta*ft."),
         attribute("fractureEnergy", &C::fractureEnergy,
-                  "Work (J/m²) that opens a crack by tension; 0: it opens at once."),
+                  "Energy (J/m²) that opens a crack in tension; 0: it opens at once."),
         attribute("shearFactor", &C::shearFactor,
                   "beta: shear strength over tensile strength. The shear strength is "
-                  "beta*tensileStrength + tan(frictionAngle)*pressure: the larger beta, the harder "
-                  "it is to crack by shear."),
-        attribute("shearEnergyFactor", &C::shearEnergyFactor,
-                  "kappa: work per area that a crack takes by shear alone, over fractureEnergy, "
-                  "which it takes by tension alone (Snozzi and Molinari 2013, Int. J. Numer. Meth. "
-                  "Eng. 93, 510). Friction between the faces takes its own work beside it. Without "
-                  "fractureEnergy it has no effect."),
+                  "beta*tensileStrength + tan(frictionAngle)*pressure: a larger beta makes it "
+                  "harder to crack in shear."),
+        attribute(
+            "shearEnergyFactor", &C::shearEnergyFactor,
+            "kappa: energy per area that a crack dissipates in pure shear, relative to "
+            "fractureEnergy, that in pure tension (Snozzi and Molinari 2013, Int. J. Numer. Meth. "
+            "Eng. 93, 510). Friction between the faces dissipates additional energy. Without "
+            "fractureEnergy it has no effect."),
         attribute(
             "weibullModulus", &C::weibullModulus,
             "Modulus m of a Weibull scatter of the strength (Weibull 1951, J. Appl. Mech. 18, "
             "293): a part 1 - exp(-(s/scale)**m) of the edges is weaker than s. The scale is "
-            "tensileStrength, or as referenceVolume says; 0: none."),
+            "tensileStrength, or depends on referenceVolume; 0: none."),
         attribute("strengthScatter", &C::strengthScatter,
-                  "Relative half-width of an even scatter of the strength; 0: none."),
-        attribute("seed", &C::seed, "Of the scatter's random numbers."),
+                  "Relative half-width of a uniform scatter of the strength; 0: none."),
+        attribute("seed", &C::seed, "Seed of the scatter's random numbers."),
         attribute("referenceVolume", &C::referenceVolume,
                   "V0 (m³) for which tensileStrength is the scale of the Weibull scatter: an edge "
-                  "that stands for a volume V has the scale tensileStrength*(V0/V)**(1/m), so that "
+                  "with a volume V has the scale tensileStrength*(V0/V)**(1/m), so that "
                   "a finer mesh is not weaker. V is thickness times a third of the areas of the "
                   "edge's two triangles, so all edges together have the body's volume. 0: the "
                   "scale is tensileStrength for edges of any size, and the more edges, the weaker "

@@ -17,7 +17,7 @@ namespace py = yade::py;
 
 namespace {
 
-/// (bytes) Of which all the rest takes some, too.
+/// (bytes) Total memory; other data need a part of it, too.
 double memoryOfMachine() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes of polygons and rectangles for Python, and how good a body's mesh is.
+// Meshes of polygons and rectangles for Python, and the quality of a body's mesh.
 
 #include <cstdint>
 #include <string>
@@ -17,7 +17,7 @@ class FESolver;
 yade::py::dict meshOfPolygon(const yade::py::object& outline, const yade::py::list& holes,
                              const yade::py::tuple& size, bool irregular, std::uint64_t seed,
                              const yade::py::object& joints);
-/// Numbers of the vertices that stay, of the outline and of each hole: a list of arrays
+/// Numbers of the vertices to keep, of the outline and of each hole: a list of arrays
 /// (mesh/simplify.hpp). `pinned` has a byte for each point of the outline, or is empty.
 yade::py::list keptVertices(const yade::py::object& outline, const yade::py::list& holes,
                             double tolerance, const yade::py::object& pinned);
@@ -27,7 +27,7 @@ yade::py::dict meshOfRectangle(double left, double bottom, double right, double 
 
 /// `FESolver._meshQuality` of yadefrag/meshing.py, which has checked the component.
 yade::py::dict meshQualityOf(const FESolver& solver, int component);
-/// A sentence where the component's mesh makes steps far shorter than triangles of `size` (m).
+/// A message if the component's mesh needs far shorter steps than triangles of `size` (m).
 std::string costlyStepWarningOf(const FESolver& solver, int component, double size);
 /// (s) Critical step of equilateral triangles of edges `side` (m), with a material's constants.
 double latticeTimeStepOf(double young, double poisson, double density, bool planeStress,

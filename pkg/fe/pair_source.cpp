@@ -22,7 +22,8 @@ Found findCollider(const yade::Scene& scene, const yade::Engine& solver) {
   return {};
 }
 
-/// Bodies have not moved since the bounds were made: in this step, or at the end of the last one.
+/// True if bodies have not moved since the bounds were made: in this step, or at the end of the
+/// last one.
 bool boundsAreFresh(const EntryBodies& bodies, long searchedAt) {
   for (std::size_t e = 0; e < bodies.ids().size(); ++e) {
     if (!bodies.hasBody(EntryId(e))) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Where pairs of surface entries come from: a collider that has searched in this step.
+// Source of the pairs of surface entries: a collider that has searched in this step.
 
 #include <vector>
 
@@ -9,9 +9,10 @@
 
 namespace yadefrag {
 
-/// Pairs of entries whose bounds overlap, from the scene's collider: our own hands them over, from
-/// any other they are potential interactions. Returns false, and no pairs, if no collider has made
-/// all of the entries' bounds at the present positions: the world then searches by itself.
+/// Pairs of entries whose bounds overlap, from the scene's collider. Colliders of this project
+/// return them directly; those of other colliders are potential interactions. Returns false, and no
+/// pairs, if no collider has made the bounds of all entries at the present positions: the world
+/// then does its own search.
 bool pairsOfCollider(const yade::Scene& scene, const yade::Engine& solver,
                      const EntryBodies& bodies, std::vector<BoxPair>& pairs);
 

@@ -19,7 +19,7 @@ using yade::Vector3r;
 Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
 Vector3r inSpace(Vec2 v) { return {v.x, v.y, 0}; }
 
-/// Of all finite-element bodies.
+/// Extent of all finite-element bodies.
 struct Extent {
   Vec2 middle;
   double size = 0;  // m
@@ -35,7 +35,7 @@ struct Extent {
   }
 };
 
-/// (m) What is elsewhere by more is new there.
+/// (m) A side displaced by more than this counts as new.
 double farthestOf(const World& world) { return tolerance::kMostMotion * world.search.shortest; }
 
 double frictionOf(const yade::Body& body) {
@@ -48,7 +48,7 @@ const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
   return place < scene.bodies->body.size() ? scene.bodies->body[place].get() : nullptr;
 }
 
-/// Of what moves it: a clump for its members.
+/// State of the body that moves it: that of the clump for its members.
 const yade::State& mover(const yade::Scene& scene, const yade::Body& body) {
   const yade::Body* clump = body.isClumpMember() ? bodyAt(scene, body.clumpId) : nullptr;
   return clump ? *clump->state : *body.state;
@@ -77,7 +77,7 @@ bool RigidBodies::follow(yade::Scene& scene, World& world, EntryBodies& entries,
   return isBuilt;
 }
 
-/// After loading.
+/// Must be called after loading.
 void RigidBodies::findBodies(const yade::Scene& scene) {
   for (std::uint32_t m = 0; m < members_.size(); ++m) {
     Member& member = members_[m];
@@ -88,7 +88,7 @@ void RigidBodies::findBodies(const yade::Scene& scene) {
   }
 }
 
-/// True if there is one that has a section. `mask`: of the finite-element bodies.
+/// True if there is a new body with a section. `mask`: of the finite-element bodies.
 bool RigidBodies::takeNew(const yade::Scene& scene, int mask) {
   const auto& bodies = scene.bodies->body;
   bool anyNew = false;
@@ -98,7 +98,7 @@ bool RigidBodies::takeNew(const yade::Scene& scene, int mask) {
     if (!body || !body->shape || !mayHaveSection(*body) || (body->groupMask & mask) == 0) continue;
     const auto isKnown = [&](const Member& member) { return member.id == body->id; };
     if (std::ranges::any_of(members_, isKnown)) continue;
-    if (isFlat(*body) && !std::exchange(toldFlat_, true))
+    if (isFlat(*body) && !std::exchange(reportedFlat_, true))
       sentences_.push_back("FE bodies go through facets that lie in their plane z = 0, such as #" +
                            std::to_string(body->id) + ": a facet must cut the plane.");
     members_.push_back({body->id, body, formOf(*body->shape)});
@@ -108,7 +108,7 @@ bool RigidBodies::takeNew(const yade::Scene& scene, int mask) {
   return anyNew;
 }
 
-/// Has it come into the plane, since it was looked at last.
+/// True if it has entered the plane since it was last checked.
 bool RigidBodies::comesBack(Member& member) {
   const auto& place = member.body->state->se3;
   const bool isThere = place.position == member.position &&
@@ -118,8 +118,8 @@ bool RigidBodies::comesBack(Member& member) {
   return sectionOf(*member.body).has_value();
 }
 
-/// Are all still there, in the plane, of the same shape and where they would have moved to, and do
-/// facets that meet end to end still meet?
+/// True if all bodies are still in the scene and in the plane, with the same shape, at the
+/// positions to which they would have moved, and if connected facets are still connected.
 bool RigidBodies::holds(const yade::Scene& scene, const World& world, double dt) {
   for (Member& member : members_) {
     const yade::Body* body = bodyAt(scene, member.id);
@@ -174,7 +174,7 @@ FormerCorners RigidBodies::formerCorners(const yade::Scene& scene, const World& 
   return {corners_, bodies, places};
 }
 
-/// Of members in the plane, without those that are gone.
+/// Parts of the members in the plane, without removed bodies.
 std::vector<RigidPart> RigidBodies::parts(std::vector<std::uint32_t>& memberOf, double dt) {
   std::vector<RigidPart> all;
   for (Member& member : members_) {
@@ -196,7 +196,7 @@ std::vector<RigidPart> RigidBodies::parts(std::vector<std::uint32_t>& memberOf, 
   return all;
 }
 
-/// What was there before begins its motion where it was.
+/// Sides that existed before begin their motion at their previous position.
 void RigidBodies::build(yade::Scene& scene, World& world, EntryBodies& entries, double dt) {
   FormerCorners former = formerCorners(scene, world);
   std::erase_if(members_, [&](const Member& member) {
@@ -254,8 +254,8 @@ void RigidBodies::addCorners(const RigidOutline& outline,
     }
 }
 
-/// Walls have no ends: bodies must not come near those of the line that stands for one. It is
-/// shifted along itself; false where it is too short for that, since bodies have spread.
+/// Walls are infinite: bodies must not come near the ends of the line that represents one. The line
+/// is shifted along itself. Returns false if it is too short because the bodies have spread.
 bool RigidBodies::slideWalls(World& world) {
   const auto isOfWall = [&](const RigidCorner& corner) {
     return isWall(*members_[corner.member].body);
@@ -265,7 +265,7 @@ bool RigidBodies::slideWalls(World& world) {
   for (const NodeId node : world.rigidNodes())
     places.push_back(world.model.nodes.position[node.value]);
   const Extent extent(world);
-  const double left = tolerance::kWallLeft * extent.size;
+  const double margin = tolerance::kWallMargin * extent.size;
   bool anyShort = false;
   for (std::size_t i = 0, end = 0; i < corners_.size(); i = end) {
     while (end < corners_.size() && corners_[end].member == corners_[i].member) ++end;
@@ -273,8 +273,8 @@ bool RigidBodies::slideWalls(World& world) {
     const double length = norm(places[i + 1] - places[i]);
     const Vec2 along = (1 / length) * (places[i + 1] - places[i]);
     const double off = dot(extent.middle - .5 * (places[i] + places[i + 1]), along);
-    if (length / 2 - std::abs(off) >= left) continue;
-    if (length < 4 * left) return false;
+    if (length / 2 - std::abs(off) >= margin) continue;
+    if (length < 4 * margin) return false;
     anyShort = true;
     const Vec2 by = off * along;
     for (std::size_t k = i; k < end; ++k) {
@@ -296,7 +296,7 @@ void RigidBodies::giveVelocities(World& world, double stepDt, double dt) const {
   if (dt == 0) warnOfUnmoved();
 }
 
-/// A script that sets velocities means bodies to move.
+/// A script that sets a velocity expects the body to move.
 void RigidBodies::warnOfUnmoved() const {
   for (const RigidCorner& corner : corners_) {
     const yade::Body& body = *members_[corner.member].body;
@@ -324,7 +324,7 @@ void RigidBodies::giveForces(yade::Scene& scene, const World& world,
     const RigidCorner& own = corners_[static_cast<std::size_t>(at - world.rigidNodes().begin())];
     const yade::Body& body = *members_[own.member].body;
     const double sign = ofSlave ? 1 : -1;
-    // Forces act where the step began.
+    // The forces act at the positions at the begin of the step.
     Vec2 point;
     for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
       const std::uint32_t node = row.node[k].value;
@@ -337,11 +337,11 @@ void RigidBodies::giveForces(yade::Scene& scene, const World& world,
     scene.forces.addForce(body.id, inSpace(force));
     scene.forces.addTorque(body.id, Vector3r(0, 0, cross(arm, force)));
   }
-  if (!toldLight_) warnOfLight(scene, world);
+  if (!reportedLight_) warnOfLight(scene, world);
 }
 
-/// A boundary goes on at its velocity through the step, as if nothing could stop it: a body lighter
-/// than the nodes that it stops would be thrown back faster than it came.
+/// A boundary keeps its velocity during a step, independently of forces. A body lighter than the
+/// nodes that it stops would therefore rebound faster than it came.
 void RigidBodies::warnOfLight(const yade::Scene& scene, const World& world) const {
   const Nodes& nodes = world.model.nodes;
   const auto isRigid = [&](NodeId node) {
@@ -370,7 +370,7 @@ void RigidBodies::warnOfLight(const yade::Scene& scene, const World& world) cons
          << " kg, less than the nodes of FE bodies that it touches, " << touched[m]
          << " kg: it bounces back faster than it came; make it heavier, or the elements smaller.";
     sentences_.push_back(text.str());
-    toldLight_ = true;
+    reportedLight_ = true;
     return;
   }
 }

@@ -1,10 +1,10 @@
 #pragma once
-// YADE's Wall, Box and Facet as rigid boundaries that finite-element bodies touch. They move as
-// YADE's bodies do, and the forces of contact go back to these.
+// YADE's Wall, Box and Facet as rigid boundaries for contact with finite-element bodies. They move
+// as YADE's bodies do, and contact forces are applied to these.
 //
-// In a step the boundary goes from where it was to where YADE's body will be if it keeps its
-// velocity. What the forces of this step change about that, NewtonIntegrator does afterwards, and
-// the boundary makes up for it in the next step: momentum is kept exactly.
+// In a step the boundary moves from its position to the position that YADE's body will reach at
+// constant velocity. NewtonIntegrator then applies the forces of this step, and the boundary
+// follows that change in the next step: momentum is conserved exactly.
 
 #include <cstdint>
 #include <string>
@@ -24,21 +24,22 @@ namespace yadefrag {
 
 class RigidBodies {
  public:
-  /// Takes bodies in that are new, and leaves out those that are gone; makes all boundaries anew
-  /// where one has another shape, comes into the plane or leaves it, is elsewhere than it would
-  /// have moved to, or parts from the next. `wanted`: false takes all out. `dt`: what an integrator
-  /// will move the bodies by (s). Returns whether any were made anew. Throws InputError where one
-  /// that was not there overlaps a finite-element body: there is none then.
+  /// Adds new bodies and removes those no longer in the scene. Makes all boundaries again if one of
+  /// them has another shape, enters or leaves the plane, is displaced from the position to which it
+  /// would have moved, or separates from the next one. `wanted`: false removes all. `dt`: time (s)
+  /// for which an integrator will move the bodies. Returns true if boundaries were made. Throws
+  /// InputError if a new one overlaps a finite-element body: there are then no boundaries.
   bool follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted, double dt);
-  /// For the next step. `dt`: what an integrator will move the bodies by (s).
+  /// Sets the velocities for the next step. `dt`: time (s) for which an integrator will move the
+  /// bodies.
   void giveVelocities(World& world, double stepDt, double dt) const;
-  /// Forces of the last step on YADE's bodies, with their moments.
+  /// Adds the forces of the last step to YADE's bodies, with their moments.
   void giveForces(yade::Scene& scene, const World& world, const StepLength& length) const;
 
   [[nodiscard]] bool any() const { return !corners_.empty(); }
-  /// Does any obey forces.
+  /// True if any of them obeys forces.
   [[nodiscard]] bool anyMovable(const yade::Scene& scene) const;
-  /// What is to be said about them once, since the last call.
+  /// Messages about them since the last call; each is given once.
   [[nodiscard]] std::vector<std::string> takeSentences();
 
   template <class Archive>
@@ -50,8 +51,8 @@ class RigidBodies {
     yade::Body::id_t id;
     yade::shared_ptr<yade::Body> body = {};  // null after loading, until it has been found
     std::vector<double> form = {};
-    bool isNew = true;  // or has another shape than it had: it must not overlap a body
-    /// Out of the plane when it was here: it may come back.
+    bool isNew = true;  // or its shape changed: it must not overlap a body
+    /// It was out of the plane when it was last checked; it may come back.
     bool isOut = false;
     Vector3r position = Vector3r::Zero();  // m
     yade::Quaternionr orientation = yade::Quaternionr::Identity();
@@ -73,10 +74,10 @@ class RigidBodies {
 
   std::vector<Member> members_;
   std::vector<RigidCorner> corners_;
-  std::size_t seen_ = 0;  // bodies of the scene
+  std::size_t seen_ = 0;  // number of the scene's bodies at the last check
   mutable std::vector<std::string> sentences_;
-  mutable bool toldLight_ = false;
-  bool toldFlat_ = false;
+  mutable bool reportedLight_ = false;
+  bool reportedFlat_ = false;
 };
 
 template <class Archive>
@@ -96,16 +97,16 @@ void RigidBodies::archive(Archive& archive, const World& world) {
   if constexpr (Archive::is_loading::value) {
     *this = {};
     const std::size_t count = world.rigidNodes().size();
-    bool isRight = numbers.size() == 2 * count && places.size() == 6 * count;
-    for (std::size_t i = 0; isRight && i < count; ++i) {
+    bool isValid = numbers.size() == 2 * count && places.size() == 6 * count;
+    for (std::size_t i = 0; isValid && i < count; ++i) {
       const double* at = places.data() + 6 * i;
       corners_.push_back(
           {numbers[2 * i], numbers[2 * i + 1], {at[0], at[1], at[2]}, {at[3], at[4], at[5]}});
-      isRight = numbers[2 * i] < ids.size() && numbers[2 * i + 1] < count;
+      isValid = numbers[2 * i] < ids.size() && numbers[2 * i + 1] < count;
     }
-    if (!isRight)
+    if (!isValid)
       throw InputError(
-          "The saved state of FESolver is damaged (its rigid boundaries cannot be); "
+          "The saved state of FESolver is damaged (its rigid boundaries are invalid); "
           "load another save.");
     for (const int id : ids) {
       members_.push_back({id});

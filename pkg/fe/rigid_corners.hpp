@@ -1,5 +1,6 @@
 #pragma once
-// Corners of rigid boundaries: where they are, and which is which when boundaries are made anew.
+// Corners of rigid boundaries: their positions, and their identification when boundaries are made
+// again.
 
 #include <cstdint>
 #include <span>
@@ -12,7 +13,8 @@
 
 namespace yadefrag {
 
-/// Where a body is, now or after `dt` (s) at its velocity. Walls do not turn.
+/// Position and orientation of a body, at present or after `dt` (s) at its velocity. Walls do not
+/// rotate.
 struct RigidPose {
   yade::Vector3r position;
   yade::Quaternionr orientation = yade::Quaternionr::Identity();
@@ -28,35 +30,36 @@ struct RigidPose {
 
 [[nodiscard]] bool isWall(const yade::Body& body);
 
-/// In the order of the world's rigid nodes. Places are the member's own, in its frame.
+/// In the order of the world's rigid nodes. Positions are in the frame of the member.
 struct RigidCorner {
   std::uint32_t member;
-  std::uint32_t following;    // corner to which its side leads
-  yade::Vector3r place, end;  // m, of the corner, and of the end of its side
+  std::uint32_t following;    // corner at the end of its side
+  yade::Vector3r place, end;  // m, position of the corner and of the end of its side
 };
 
-/// What has been there, when boundaries are made anew. A side that is the same begins its motion
-/// where it was, and keeps what touches it.
+/// The former corners, for making boundaries again. An unchanged side begins its motion at its
+/// former position, and keeps its contacts.
 class FormerCorners {
  public:
-  /// `bodies`: by member, null for one that is gone or has another shape; `places`: m, by corner.
+  /// `bodies`: by member, null if the body was removed or its shape changed; `places`: m, by
+  /// corner.
   FormerCorners(std::span<const RigidCorner> corners, std::span<const yade::Body* const> bodies,
                 std::span<const Vec2> places);
 
   struct Found {
-    std::uint32_t number;  ///< of the corner; World::kNoCorner: there is none
+    std::uint32_t number;  ///< number of the corner; World::kNoCorner: none
     Vec2 place;            ///< m
   };
-  /// Of a body's sides that have not been found yet the one nearest to that from `begin` to `end`
-  /// (m), if both its ends are at most `farthest` (m) away. Of a wall, which is as long as it needs
-  /// to be, the next.
+  /// Finds, out of a body's sides not found yet, the one nearest to the side from `begin` to `end`
+  /// (m), if both its ends are at most `farthest` (m) away. For a wall, whose length is arbitrary,
+  /// the next side.
   [[nodiscard]] Found take(const yade::Body& body, Vec2 begin, Vec2 end, double farthest);
 
  private:
   struct Side {
     std::uint32_t number;
     Vec2 begin, end;  // m
-    Vec2 lag;         // m, from where the body has it
+    Vec2 lag;         // m, distance from the position given by the body
   };
   std::unordered_map<const yade::Body*, std::vector<Side>> sides_;
 };

@@ -17,7 +17,7 @@ struct Ends {
 
   [[nodiscard]] Vec2 at(Number end) const { return parts[end / 2].section.points[end % 2]; }
   [[nodiscard]] Vec2 after(Number end) const { return parts[end / 2].after[end % 2]; }
-  /// Now and after the step.
+  /// True if the ends coincide at present and after the step.
   [[nodiscard]] bool meet(Number a, Number b) const {
     const double shorter = std::min(norm(at(a) - at(a ^ 1)), norm(at(b) - at(b ^ 1)));
     const double apart = std::max(norm(at(a) - at(b)), norm(after(a) - after(b)));
@@ -25,7 +25,7 @@ struct Ends {
   }
 };
 
-/// By end: the only other end that is there, of a line with the same friction; or none.
+/// By end: the only other end at the same position, of a line with the same friction; or none.
 std::vector<Number> partnersOf(const std::vector<RigidPart>& parts) {
   const Ends ends{parts};
   std::vector<Number> sorted, partner(2 * parts.size(), kNone);
@@ -50,20 +50,20 @@ std::vector<Number> partnersOf(const std::vector<RigidPart>& parts) {
     const bool same = parts[end / 2].friction == parts[partner[end] / 2].friction;
     if (count[end] > 1 || count[partner[end]] > 1 || !same) partner[end] = kNone;
   }
-  // Both ways or none.
+  // Keep only mutual partners.
   for (Number end = 0; end < partner.size(); ++end)
     if (partner[end] != kNone && partner[partner[end]] != end) partner[end] = kNone;
   return partner;
 }
 
-/// Lines in their order, each by the end at which it begins.
+/// Lines in sequence, each given by the end at which it begins.
 struct Chain {
   std::vector<Number> first;
   bool isClosed = false;
 };
 
 Chain chainFrom(Number part, const std::vector<Number>& partner) {
-  // Back to where it begins, or once around.
+  // Backwards to the begin of the chain, or once around.
   Number first = 2 * part;
   while (partner[first] != kNone) {
     first = partner[first] ^ 1;
@@ -91,7 +91,8 @@ void addLoop(RigidOutline& outline, const std::vector<Vec2>& points,
   outline.part.insert(outline.part.end(), parts.begin(), parts.end());
 }
 
-/// There and back: both sides of a line touch. An end is one node, all others are two.
+/// Outline along both sides of a chain, since both sides of a line have contact. The end of the
+/// chain is one node, every other point two.
 RigidOutline outlineOf(const Chain& chain, const std::vector<RigidPart>& parts) {
   const Ends ends{parts};
   RigidOutline outline;
@@ -126,7 +127,7 @@ RigidOutline wallOf(const Section& wall, Number part, Vec2 middle, double reach)
   const Vec2 foot = wall.points[0] + dot(middle - wall.points[0], along) * along;
   const double sign = wall.sense < 0 ? -1 : 1;
   std::vector<Vec2> points{foot - sign * reach * along, foot + sign * reach * along};
-  // Of one side: all behind it is inside, and what is inside touches nothing.
+  // A one-sided wall: its back is the inside of a body, where there is no contact.
   if (wall.sense != 0) points.push_back(foot - sign * reach * rightOf(along));
   addLoop(outline, points, std::vector<Number>(points.size(), part));
   return outline;

@@ -1,6 +1,6 @@
 #pragma once
-// Sections of YADE's bodies as boundaries that finite-element bodies touch: facets that meet end to
-// end are one line.
+// Sections of YADE's bodies as boundaries for contact with finite-element bodies. Facets that meet
+// end to end are joined to one line.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace yadefrag {
 
-/// `after`: m, of a line, its ends after the step.
+/// `after`: m, ends of a line after the step.
 struct RigidPart {
   Section section;
   std::vector<Vec2> after;
@@ -17,14 +17,14 @@ struct RigidPart {
   std::string name;
 };
 
-/// `part`, by node: the number of the part whose side leaves the node.
+/// `part`, by node: the number of the part whose side begins at the node.
 struct RigidOutline {
   RigidSpec spec;
   std::vector<std::uint32_t> part;
 };
 
-/// In the order of their first parts. Where more than two lines meet, or lines of different
-/// friction, each has an end. Walls are `reach` (m) long on both sides of the place on them that is
+/// Outlines in the order of their first parts. Where more than two lines meet, or lines of
+/// different friction, each line has an end. Walls extend `reach` (m) on both sides of their point
 /// nearest to `middle`.
 [[nodiscard]] std::vector<RigidOutline> outlinesOf(const std::vector<RigidPart>& parts, Vec2 middle,
                                                    double reach);

@@ -24,8 +24,7 @@ double largest(const std::vector<Vector3r>& corners) {
   return most;
 }
 
-/// Ends of straight edges, and where they go through the plane. A corner that is off it by rounding
-/// is in it.
+/// Intersections of a straight edge with the plane: an end in the plane, up to rounding, counts.
 void cut(const Vector3r& a, const Vector3r& b, double rounding, std::vector<Vec2>& points) {
   const bool aIn = std::abs(a[2]) <= rounding, bIn = std::abs(b[2]) <= rounding;
   if (aIn) points.push_back(inPlane(a));
@@ -34,7 +33,7 @@ void cut(const Vector3r& a, const Vector3r& b, double rounding, std::vector<Vec2
   points.push_back(inPlane(a + a[2] / (a[2] - b[2]) * (b - a)));
 }
 
-/// Counter-clockwise, without points that are on a line or in one place by rounding.
+/// Convex hull, counter-clockwise, without collinear or coincident points up to rounding.
 std::vector<Vec2> hullOf(std::vector<Vec2> points, double rounding) {
   std::ranges::sort(points, [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   std::vector<Vec2> hull;
@@ -91,7 +90,7 @@ std::optional<Section> cutFacet(const yade::Body& body, const yade::Facet& facet
   std::vector<Vec2> points;
   for (std::size_t i = 0; i < 3; ++i) cut(corners[i], corners[(i + 1) % 3], rounding, points);
   if (points.empty() || isFlat(body)) return std::nullopt;
-  // The two farthest from each other; the others are the same by rounding.
+  // The two points farthest from each other; the others coincide with these up to rounding.
   Section section{Section::Kind::kLine, {points.front(), points.front()}};
   for (const Vec2 point : points)
     if (norm(point - section.points[0]) > norm(section.points[1] - section.points[0]))

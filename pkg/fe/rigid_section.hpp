@@ -1,5 +1,5 @@
 #pragma once
-// What YADE's Wall, Box and Facet are in the plane z = 0 of the finite-element bodies.
+// Sections of YADE's Wall, Box and Facet with the plane z = 0 of the finite-element bodies.
 
 #include <optional>
 #include <vector>
@@ -12,18 +12,18 @@ namespace yadefrag {
 struct Section {
   enum class Kind { kOutline, kLine, kWall };
   Kind kind;
-  /// m; of an outline counter-clockwise, of a line its ends; of a wall one of its points, and the
-  /// same 1 m further along it: it has no ends, and what is on its right is its positive side.
+  /// m. Outline: its points, counter-clockwise. Line: its two ends. Wall, which is infinite: one of
+  /// its points and a second one 1 m further along it, with the positive side on the right.
   std::vector<Vec2> points;
-  int sense = 0;  ///< of a wall: the one side that touches, 1 or -1; 0: both
+  int sense = 0;  ///< of a wall: the side with contact, 1 or -1; 0: both
 };
 
-/// Is it of a shape that may have a section.
+/// True for a shape that can have a section.
 [[nodiscard]] bool mayHaveSection(const yade::Body& body);
-/// Nothing for a body that does not cut the plane, and for a facet that lies in it (`isFlat`).
+/// No value for a body that does not intersect the plane, and for a facet in the plane (`isFlat`).
 [[nodiscard]] std::optional<Section> sectionOf(const yade::Body& body);
 [[nodiscard]] bool isFlat(const yade::Body& body);
-/// Numbers that tell whether the shape has changed.
+/// Numbers that change if the shape changes.
 [[nodiscard]] std::vector<double> formOf(const yade::Shape& shape);
 
 }  // namespace yadefrag

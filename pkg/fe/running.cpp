@@ -16,10 +16,10 @@
 namespace yadefrag {
 namespace {
 
-/// A look costs a few microseconds, and comes late by a sixteenth of the run at most.
+/// A check takes a few microseconds; it delays the end by a sixteenth of the run at most.
 constexpr int kRestsPerRun = 16;
 
-/// The address of a member function that is not virtual.
+/// The address of a non-virtual member function.
 template <class Member>
 _Unwind_Ptr addressOf(Member member) {
   _Unwind_Ptr address = 0;
@@ -34,7 +34,7 @@ _Unwind_Reason_Code lookForStep(_Unwind_Context* context, void* found) {
   return _URC_NORMAL_STOP;
 }
 
-/// A new loop in place of the old one: YADE destroys the old one only when its last step is over.
+/// Replaces the loop by a new one: YADE destroys the old loop only after its last step.
 void replaceLoop() {
   const WithoutGil free;
   yade::Omega::instance().createSimulationLoop();
@@ -63,8 +63,8 @@ void waitForStart(long iter, int subStep) {
     const volatile yade::Scene& scene = *omega.getScene();
     return !omega.isRunning() || scene.iter != iter || scene.subStep != subStep;
   };
-  // No other thread may pause the run meanwhile, so the GIL is kept. The rest of a step that failed
-  // may need it.
+  // No other thread may pause the run meanwhile, so the GIL is kept. The rest of a failed step may
+  // need it.
   if (subStep != -1) {
     const WithoutGil free;
     while (!hasBegun()) std::this_thread::yield();
@@ -92,7 +92,7 @@ void stopRun() {
 namespace {
 
 std::mutex stopLock;
-std::string stopReason;  // the scene's own thread writes it
+std::string stopReason;  // written by the scene's thread
 
 }  // namespace
 

@@ -1,31 +1,31 @@
 #pragma once
-// Does the scene run, in which thread, and when is its last step over.
+// State of the simulation loop: whether it runs, in which thread, and the end of its last step.
 
 #include <string>
 
 namespace yadefrag {
 
-/// Is this thread within a step of the scene, as a PyRunner's command is.
+/// True if this thread is within a step of the scene, e.g. in a PyRunner's command.
 bool isInStep();
 
-/// To be called before the scene changes. Waits until the last step of a run that was paused is
-/// over: YADE's O.wait() does not. Throws std::runtime_error if another thread runs the scene.
+/// Must be called before the scene changes. Waits for the end of the last step of a paused run,
+/// which YADE's O.wait() does not. Throws std::runtime_error if another thread runs the scene.
 void requirePaused();
 
-/// To be called after a run was begun: returns once its thread is in its first step. Until then
-/// YADE must not be told to stop or reset, for its thread would find its own loop destroyed. `iter`
-/// and `subStep` are those of the scene before.
+/// Must be called after a run was started: returns when its thread is in its first step. Before
+/// that, YADE must not stop or reset the run, since its thread would find its loop destroyed.
+/// `iter` and `subStep` are the scene's values before the start.
 void waitForStart(long iter, int subStep);
 
-/// Stops a run of another thread; returns after its last step. Python's lock is given up meanwhile.
+/// Stops a run of another thread; returns after its last step. Python's lock is released meanwhile.
 void stopRun();
-/// Why an engine has stopped the run: kept for the sentence that a script gets, for YADE writes it
-/// to stderr only.
+/// Stores the reason why an engine has stopped the run, for the message to the script: YADE writes
+/// the reason to stderr only.
 void noteStop(const char* why);
-/// What has been noted since the last call; empty: nothing.
+/// The reason stored since the last call; empty: none.
 [[nodiscard]] std::string whyStopped();
 
-/// Waits for the end of a run, if there is one, with Python's lock given up; does nothing in a
+/// Waits for the end of a run, if there is one, with Python's lock released; does nothing within a
 /// step.
 void waitForEnd();
 

@@ -63,7 +63,7 @@ std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity,
     for (py::ssize_t i = 0; i < py::len(found); ++i)
       result.push_back(py::extract<std::string>(found[i]));
   } catch (const py::error_already_set&) {
-    PyErr_Clear();  // a warning is not worth a run
+    PyErr_Clear();  // a failed warning must not stop a run
   }
   return result;
 }

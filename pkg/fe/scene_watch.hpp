@@ -1,6 +1,6 @@
 #pragma once
-// What else is in the scene that the bodies of FESolver should touch, or be touched by: found when
-// it first appears, so that a sentence can say what will not.
+// Finds other bodies in the scene that should have contact with the bodies of FESolver, when they
+// first appear, so that a message can report contacts that are not computed.
 
 #include <cstddef>
 #include <string>
@@ -13,11 +13,11 @@ namespace yadefrag {
 
 class SceneWatch {
  public:
-  /// Looks at the bodies that came since the last call. True where there is something to say.
+  /// Checks the bodies that were added since the last call. Returns true if there is a message.
   bool look(const yade::Scene& scene);
-  /// Sentences about what has been seen so far, of yadefrag/scene_check.py; none where that fails.
-  /// `gravity`: m/s², of NewtonIntegrator; `rigidBodies`: do bodies touch YADE's walls, boxes and
-  /// facets. Takes Python's lock.
+  /// Messages about these bodies, from yadefrag/scene_check.py; none if that fails. `gravity`:
+  /// m/s², of NewtonIntegrator; `rigidBodies`: contact with YADE's walls, boxes and facets is on.
+  /// Acquires Python's lock.
   [[nodiscard]] std::vector<std::string> sentences(const yade::Vector3r& gravity,
                                                    bool rigidBodies) const;
 
@@ -32,7 +32,7 @@ class SceneWatch {
 
   std::size_t looked_ = 0;
   std::vector<Kind> kinds_;
-  // Of spheres: one beside the plane of the bodies, one that leaves it, one that is free to.
+  // Spheres: one beside the plane of the bodies, one that leaves it, one that may leave it.
   yade::Body::id_t beside_ = -1, leaving_ = -1, loose_ = -1;
 };
 

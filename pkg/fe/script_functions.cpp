@@ -13,7 +13,7 @@ namespace {
 
 namespace py = yade::py;
 
-/// What Python has raised, as "ValueError: what"; nothing is raised any more.
+/// The pending Python exception as "ValueError: what"; clears it.
 std::string takeRaised() {
   PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
   PyErr_Fetch(&type, &value, &trace);
@@ -31,7 +31,7 @@ std::string takeRaised() {
   }
 }
 
-/// Of the nodes that the function moves.
+/// Calls the function of a motion for the nodes that it moves.
 void callOne(const py::object& function, const World& world, std::uint32_t motion, double middle,
              std::vector<Vec2>& velocities) {
   std::vector<std::uint32_t> nodes;
@@ -55,7 +55,7 @@ ScriptFunctions::~ScriptFunctions() {
     functions_.clear();
     return;
   }
-  // Python is gone, and its objects with it: they must not be given back any more.
+  // Python has been finalised, and its objects with it: they must not be released any more.
   new std::map<std::uint32_t, py::object>(std::move(functions_));  // NOLINT
 }
 
@@ -71,7 +71,7 @@ void ScriptFunctions::keep(const World& world) {
     return std::ranges::none_of(world.model.motions, isOf) &&
            std::ranges::none_of(world.pressures, isOf);
   });
-  // After loading, numbers are named whose functions are missing: no other function gets them.
+  // After loading, motions may have numbers of missing functions: no other function gets these.
   for (const Motion& motion : world.model.motions)
     if (motion.isScripted()) functions_.try_emplace(motion.function);
   for (const Pressure& pressure : world.pressures)

@@ -1,5 +1,5 @@
 #pragma once
-// Functions of a script that the steps call: they are Python objects, and no file keeps them.
+// Functions of a script that the steps call. They are Python objects, and are not saved to files.
 
 #include <cstdint>
 #include <map>
@@ -16,15 +16,15 @@ class ScriptFunctions {
   ScriptFunctions(const ScriptFunctions&) = delete;
   ScriptFunctions& operator=(const ScriptFunctions&) = delete;
 
-  /// Its number, which is never 0. To be called with Python's lock, as `keep`.
+  /// Returns the function's number, which is never 0. Requires Python's lock, as `keep` does.
   std::uint32_t add(const yade::py::object& function);
-  /// Forgets those that nothing in the world names.
+  /// Removes functions that are not used in the world.
   void keep(const World& world);
 
-  /// Calls the functions of motions and pressures for the step of `dt` (s) that comes: (places of
-  /// the nodes, the middle of the step in s) → bytes of a velocity (m/s) for each; time (s) → Pa.
-  /// Gives nothing where there are none, or one is missing. Throws std::runtime_error with what a
-  /// function raised.
+  /// Calls the functions of motions and pressures for the next step of `dt` (s): (positions of the
+  /// nodes, middle of the step in s) → bytes of a velocity (m/s) for each; time (s) → Pa. Does
+  /// nothing if there are none or one is missing. Throws std::runtime_error with the message of a
+  /// function's exception.
   void giveValues(World& world, double dt) const;
 
  private:

@@ -37,7 +37,7 @@ bool Ig2_Sphere_SurfaceSegment_ScGeom::go(const yade::shared_ptr<yade::Shape>& s
                                  {centre[0], centre[1]}, radius);
   if (!touch) {
     if (!contact->isReal() && !force) return false;
-    // The law ends a contact, and it does so where there is no overlap.
+    // Contacts without overlap are ended by the law, not here.
     if (!contact->geom) contact->geom.reset(new yade::ScGeom);
     static_cast<yade::ScGeom&>(*contact->geom).penetrationDepth = -radius;
     return true;
@@ -48,7 +48,7 @@ bool Ig2_Sphere_SurfaceSegment_ScGeom::go(const yade::shared_ptr<yade::Shape>& s
   geom.radius1 = geom.radius2 = radius;
   geom.penetrationDepth = touch->penetration;
   const Vector3r normal(-touch->normal.x, -touch->normal.y, 0);
-  // Halfway into the overlap, where laws for spheres take it to be.
+  // In the middle of the overlap, where laws for spheres expect it.
   geom.contactPoint = state1.se3.position + (radius - .5 * touch->penetration) * normal;
   geom.precompute(state1, state2, scene, contact, normal, isNew, shift2, false);
   return true;

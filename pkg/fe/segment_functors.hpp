@@ -13,9 +13,9 @@ class Bo1_SurfaceSegment_Aabb final
  public:
   static constexpr const char* kName = "Bo1_SurfaceSegment_Aabb";
   static constexpr const char* kDoc =
-      "Makes the bound of a SurfaceSegment: the box of the segment, or of the arc's control "
+      "Computes the bound of a SurfaceSegment: the box of the segment, or of the arc's control "
       "points, "
-      "larger by `halo` on every side (also along z).";
+      "enlarged by `halo` on every side (also along z).";
   static constexpr auto attributes() { return std::tuple(); }
 
   void go(const yade::shared_ptr<yade::Shape>& shape, yade::shared_ptr<yade::Bound>& bound,
@@ -28,10 +28,10 @@ class Ig2_Sphere_SurfaceSegment_ScGeom final
  public:
   static constexpr const char* kName = "Ig2_Sphere_SurfaceSegment_ScGeom";
   static constexpr const char* kDoc =
-      "Makes the ScGeom of a Sphere and a SurfaceSegment. Distances are those in the plane: the "
-      "boundary is a prism along z. As with Ig2_Wall_Sphere_ScGeom the boundary counts with the "
-      "sphere's own radius, so that a flat one is as stiff as a Wall. Along a chain of segments "
-      "every place belongs to one of them: no double force at "
+      "Computes the ScGeom of a Sphere and a SurfaceSegment. Distances are in the plane: the "
+      "boundary is a prism along z. As with Ig2_Wall_Sphere_ScGeom the boundary has the "
+      "sphere's radius, so that a flat one is as stiff as a Wall. Along a chain of segments "
+      "every point belongs to one of them: no double force at "
       "a flat or convex joint, two forces in a concave corner.";
   static constexpr auto attributes() { return std::tuple(); }
 

@@ -1,6 +1,5 @@
 #pragma once
-// What a script sees of the nodes: those of rigid boundaries are left out, and the others counted
-// without them.
+// The nodes that a script can access: all except those of rigid boundaries, numbered without these.
 
 #include <algorithm>
 #include <span>
@@ -17,7 +16,7 @@ class ShownNodes {
 
   [[nodiscard]] std::size_t size() const { return count_; }
 
-  /// Rows of the nodes that are shown, of a column by node.
+  /// Rows of the nodes that are shown, from a column by node.
   template <class Value>
   [[nodiscard]] std::vector<Value> rows(std::vector<Value> column) const {
     auto next = hidden_.begin();
@@ -32,10 +31,10 @@ class ShownNodes {
     column.resize(kept);
     return column;
   }
-  /// A column by node, of one of the nodes that are shown; the others' rows are `Value()`.
+  /// A column by node from one by shown node; other nodes have `Value()`.
   template <class Value>
   [[nodiscard]] std::vector<Value> column(std::vector<Value> rows) const {
-    if (rows.size() != count_) return rows;  // it is refused
+    if (rows.size() != count_) return rows;  // wrong length: refused later
     for (const NodeId node : hidden_) rows.insert(rows.begin() + node.value, Value());
     return rows;
   }
@@ -44,7 +43,7 @@ class ShownNodes {
     const auto before = std::ranges::lower_bound(hidden_, node) - hidden_.begin();
     return NodeId(node.value - static_cast<std::size_t>(before));
   }
-  /// Of numbers as a script has them.
+  /// Node numbers as used in scripts.
   [[nodiscard]] std::vector<NodeId> nodes(std::vector<NodeId> numbers) const {
     if (hidden_.empty()) return numbers;
     for (NodeId& node : numbers)

@@ -1,5 +1,5 @@
 #pragma once
-// Keeps the steps of an engine and all that other threads read or change of it apart.
+// A lock between the steps of an engine and other threads that read or change its data.
 
 #include <condition_variable>
 #include <cstdint>
@@ -8,25 +8,25 @@
 
 namespace yadefrag {
 
-/// A recursive lock that threads get in the order in which they ask: the thread that runs the steps
-/// would hold a plain mutex nearly all the time. A thread that has to wait gives Python's lock (the
-/// GIL) up meanwhile: the thread that it waits for may need it.
+/// A recursive lock that serves threads in the order of their requests: with a plain mutex the
+/// thread that runs the steps would have it nearly all the time. A waiting thread releases Python's
+/// lock (the GIL), which the thread that has this lock may need.
 class StepLock {
  public:
   void lock();
   void unlock();
-  /// False where another thread has it: for those who must not wait.
+  /// Returns false if another thread has the lock; for threads that must not wait.
   bool try_lock();
 
  private:
   void wait(std::uint64_t ticket);
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // protects the following members
   std::condition_variable turn_;
   std::uint64_t given_ = 0;   // tickets so far
-  std::uint64_t served_ = 0;  // the ticket whose turn it is
+  std::uint64_t served_ = 0;  // the ticket that is served
   std::thread::id owner_;
-  int depth_ = 0;  // how often the owner has locked it
+  int depth_ = 0;  // number of locks of the owner
 };
 
 }  // namespace yadefrag

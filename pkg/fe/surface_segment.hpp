@@ -11,8 +11,8 @@
 
 namespace yadefrag {
 
-/// Coordinates are those of the world: the body's own position and orientation say nothing about
-/// where the piece is. FESolver keeps all members up to date.
+/// Coordinates are those of the world: the body's position and orientation do not define the
+/// position of the piece. FESolver updates all members.
 class SurfaceSegment final
     : public Published<SurfaceSegment, Indexed<SurfaceSegment, yade::Shape>, yade::Shape> {
  public:
@@ -21,7 +21,7 @@ class SurfaceSegment final
       "One piece of the boundary of a finite-element body, in the plane z = const: a straight "
       "segment or a Bezier arc, with the material on its left. Its coordinates are those of the "
       "world; the position of its body does not matter. FESolver makes these and moves them; one "
-      "made by hand is a rigid wall.";
+      "created by a script is a rigid wall.";
 
   using Vector3r = yade::Vector3r;
   Vector3r start = Vector3r::Zero(), end = Vector3r::Zero(), middle = Vector3r::Zero();
@@ -32,7 +32,7 @@ class SurfaceSegment final
   bool selfContact = true;
 
   [[nodiscard]] bool isArc() const { return kind == static_cast<int>(Piece::kArc); }
-  /// Could these two touch each other? Pieces made by hand are one rigid body.
+  /// True if these two may touch each other. Pieces created by scripts are one rigid body.
   [[nodiscard]] bool mayTouch(const SurfaceSegment& other) const {
     return component != other.component || (component >= 0 && selfContact);
   }
@@ -47,28 +47,28 @@ class SurfaceSegment final
 constexpr auto SurfaceSegment::attributes() {
   using C = SurfaceSegment;
   return std::tuple(
-      attribute("start", &C::start, "Where the piece begins (m)."),
-      attribute("end", &C::end, "Where it ends (m)."),
+      attribute("start", &C::start, "Begin of the piece (m)."),
+      attribute("end", &C::end, "End of the piece (m)."),
       attribute("middle", &C::middle,
-                "Of an arc: the node it goes around (m), at which the tangents of its two ends "
+                "Of an arc: its central node (m), at which the tangents of its two ends "
                 "meet."),
-      attribute(
-          "before", &C::before,
-          "Direction of travel (unit vector) in which the piece before reaches `start`; zero: "
-          "there is none, `start` is a free end."),
+      attribute("before", &C::before,
+                "Direction (unit vector) of the previous piece at `start`; zero: "
+                "there is none, `start` is a free end."),
       attribute("after", &C::after,
-                "Direction of travel (unit vector) in which the piece after leaves `end`; zero: "
+                "Direction (unit vector) of the next piece at `end`; zero: "
                 "there is none."),
       attribute("kind", &C::kind,
                 "0: a segment between two nodes, 1 and 2: its first and second half, 3: an arc "
                 "around a node."),
-      attribute("halo", &C::halo,
-                "Length (m) by which the bound is larger than the piece, on every side: how far "
-                "the piece may move before the next search."),
+      attribute(
+          "halo", &C::halo,
+          "Length (m) by which the bound is larger than the piece, on every side: the distance "
+          "that the piece may move before the next search."),
       attribute("entry", &C::entry, "Number of the surface entry in its FESolver; -1: none."),
       attribute("component", &C::component, "Number of the finite-element body; -1: none."),
       attribute("selfContact", &C::selfContact,
-                "May this piece touch other pieces of its own body."));
+                "True if this piece may touch other pieces of its own body."));
 }
 
 }  // namespace yadefrag

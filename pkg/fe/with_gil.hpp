@@ -1,11 +1,11 @@
 #pragma once
-// Python's lock (the GIL), taken for a while.
+// Acquires Python's lock (the GIL) temporarily.
 
 #include "abi/basics.hpp"
 
 namespace yadefrag {
 
-/// Holds the GIL as long as it lives, whether the thread had it or not.
+/// Holds the GIL during its lifetime, whether the thread had it before or not.
 class WithGil {
  public:
   WithGil() : state_(PyGILState_Ensure()) {}

@@ -1,11 +1,11 @@
 #pragma once
-// Python's lock (the GIL), given up for a while.
+// Releases Python's lock (the GIL) temporarily.
 
 #include "abi/basics.hpp"
 
 namespace yadefrag {
 
-/// Gives the GIL up as long as it lives; does nothing in a thread that does not hold it.
+/// Releases the GIL during its lifetime; does nothing in a thread that does not have it.
 class WithoutGil {
  public:
   WithoutGil() : state_(PyGILState_Check() != 0 ? PyEval_SaveThread() : nullptr) {}

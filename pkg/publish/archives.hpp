@@ -1,6 +1,7 @@
 #pragma once
-// Archives that YADE saves to, and types whose archive code YADE's libraries hold: none is made
-// here for those, so that files stay YADE's. A base to publish from must be listed.
+// Archives to which YADE saves, and types whose archive code is in YADE's libraries: this project
+// generates none for those, so that files stay compatible with YADE. A base class of a published
+// class must be listed here.
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-// One attribute of a published class: a name for Python and archives, and where it is kept.
+// One attribute of a published class: its name in Python and archives, and its storage.
 
 #include <boost/mpl/vector.hpp>
 #include <mutex>
@@ -15,7 +15,7 @@ struct Attribute {
   const char* name;
   Value Class::*member;
   const char* doc;
-  int flags;  // of yade::Attr
+  int flags;  // flags of yade::Attr
 
   constexpr bool has(int flag) const { return (flags & flag) != 0; }
 };
@@ -26,12 +26,12 @@ constexpr Attribute<Class, Value> attribute(const char* name, Value Class::*memb
   return {name, member, doc, flags};
 }
 
-// Vectors and matrices are handed to Python as references, so that `o.v[0] = 1` reaches the object.
+// Vectors and matrices are passed to Python as references, so that `o.v[0] = 1` changes the object.
 template <class Value>
 inline constexpr bool kByReference = std::is_base_of_v<Eigen::MatrixBase<Value>, Value>;
 
-/// Keeps a step of another thread off while attributes are read or set. A class that steps in a
-/// thread of its own has a `betweenSteps()` that can be locked; for all others this is nothing.
+/// Prevents a step of another thread while attributes are read or set. A class that steps in its
+/// own thread has a `betweenSteps()` that can be locked; for all others nothing happens.
 template <class Self>
 auto guardOf(const Self& self) {
   if constexpr (requires { self.betweenSteps(); })
@@ -40,7 +40,8 @@ auto guardOf(const Self& self) {
     return std::monostate();
 }
 
-// Both take Self, which Python knows, where the member may belong to a base that it does not.
+// Both take Self, which is registered in Python, since the member may belong to an unregistered
+// base.
 template <class Self, class Class, class Value>
 yade::py::object attributeGetter(Value Class::*member) {
   namespace py = yade::py;
@@ -72,7 +73,7 @@ yade::py::object attributeSetter(const Attribute<Class, Value>& attr) {
       py::default_call_policies(), boost::mpl::vector<void, Self&, const Value&>());
 }
 
-// Adds the attribute to a Python class; what is hidden stays out of Python, as in YADE.
+// Adds the attribute to a Python class; hidden attributes are left out, as in YADE.
 template <class Self, class PyClass, class Class, class Value>
 void defineAttribute(PyClass& pyClass, const Attribute<Class, Value>& attr) {
   if (attr.has(yade::Attr::hidden)) return;

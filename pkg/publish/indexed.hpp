@@ -1,12 +1,12 @@
 #pragma once
-// The class index by which YADE's dispatchers know shapes and materials.
+// The class index by which YADE's dispatchers identify shapes and materials.
 
 #include "abi/yade.hpp"
 
 namespace yadefrag {
 
 /// Between a new class and its base: `class Self : public Published<Self, Indexed<Self, Base>,
-/// Base>`. A dispatcher that knows no functor for Self goes on to Base.
+/// Base>`. A dispatcher without a functor for Self uses that of Base.
 template <class Self, class Base>
 class Indexed : public Base {
  public:

@@ -1,7 +1,7 @@
 #pragma once
-// publish<A, B>(file): makes classes derived from Published known to YADE's factory, to Python (in
-// yade.wrapper) and to the archives of O.save and O.load. Include it where the classes are
-// published only: archive code is made where it is included.
+// publish<A, B>(file) registers classes derived from Published with YADE's factory, with Python (in
+// yade.wrapper) and with the archives of O.save and O.load. Include it only where the classes are
+// published: archive code is generated where it is included.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ concept PublishedClass = std::derived_from<T, yade::Serializable> && requires {
   std::string_view(T::kName);
 };
 
-// "yade::" and the name: what an archive calls the class, as for YADE's own.
+// "yade::" and the name: the class name in archives, as for YADE's own classes.
 template <class T>
 struct ArchiveName {
   static constexpr std::string_view kPrefix = "yade::";
@@ -37,7 +37,7 @@ struct ArchiveName {
 
 }  // namespace yadefrag
 
-// What BOOST_CLASS_EXPORT would spell out for each class.
+// The expansion of BOOST_CLASS_EXPORT, for each class.
 namespace boost::serialization {
 
 template <yadefrag::PublishedClass T>
@@ -54,7 +54,8 @@ struct guid_impl<T> {
 
 namespace yadefrag {
 
-// YADE publishes every class on its list anew; this keeps its own off the list for a while.
+// YADE publishes every class in its list again; this hides its own classes from the list
+// temporarily.
 class OnlyNewClasses {
  public:
   explicit OnlyNewClasses(std::list<std::string>& classes) : classes_(classes) {

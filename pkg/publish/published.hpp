@@ -1,5 +1,5 @@
 #pragma once
-// What a class needs to be known to YADE (names, Python, archives), written once for all classes.
+// Registration of a class with YADE (names, Python, archives), written once for all classes.
 
 #include <boost/python/raw_function.hpp>
 #include <boost/serialization/nvp.hpp>
@@ -15,7 +15,7 @@ namespace yadefrag {
 
 namespace py = yade::py;
 
-// `new Self(args, **kw)` as YADE's own classes are made from Python.
+// `new Self(args, **kw)`, as Python constructs YADE's own classes.
 template <class Self>
 boost::shared_ptr<Self> makeFromPython(py::tuple args, py::dict kw) {
   boost::shared_ptr<Self> made(new Self);
@@ -30,14 +30,13 @@ boost::shared_ptr<Self> makeFromPython(py::tuple args, py::dict kw) {
 }
 
 // class Self final : public Published<Self, Base, YadeBase>
-//   kName, kDoc          what Python calls the class, and its docstring
-//   attributes()         static constexpr: a tuple of attribute(...); a Base may supply it
-//   postLoad(Self&)      optional, public: called after attributes changed or were loaded
-//   archiveMore(archive) optional, public, template: state that is no attribute, both ways
+//   kName, kDoc          name of the class in Python, and its docstring
+//   attributes()         static constexpr: a tuple of attribute(...); a Base may define it
+//   postLoad(Self&)      optional, public: called after attributes were changed or loaded
+//   archiveMore(archive) optional, public, template: saves and loads state that is no attribute
 //   pyExtra(pyClass)     optional, public, static template: more definitions for Python
-//   betweenSteps()       optional, public: a lock that is held while attributes are read, set or
-//   saved
-// Base may be a class that YADE does not know; YadeBase is the nearest one that it does.
+//   betweenSteps()       optional, public: a lock held while attributes are read, set or saved
+// Base may be a class that YADE does not register; YadeBase is its nearest registered base.
 template <class Self, class Base, class YadeBase = Base>
 class Published : public Base {
  public:

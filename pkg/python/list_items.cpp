@@ -12,7 +12,7 @@ namespace {
 namespace py = boost::python;
 namespace converter = py::converter;
 
-/// The one conversion to this vector that YADE has registered; null if there is another, too.
+/// The only conversion to this vector that YADE has registered; null if there is also another one.
 template <class Item>
 converter::rvalue_from_python_chain* conversion() {
   const converter::registration* known =
@@ -21,7 +21,7 @@ converter::rvalue_from_python_chain* conversion() {
   return known->rvalue_chain->next == nullptr ? known->rvalue_chain : nullptr;
 }
 
-/// True if a conversion leaves a list's item with one reference more than before.
+/// True if a conversion leaves a list's item with one additional reference.
 bool keepsReferences() {
   const py::object item(boost::shared_ptr<yade::Body>(new yade::Body));
   py::list list;
@@ -34,7 +34,7 @@ bool keepsReferences() {
   return Py_REFCNT(item.ptr()) == before + 1;
 }
 
-/// References that YADE has lost, by item. Guarded by Python's lock.
+/// Number of references that YADE never releases, by item. Protected by Python's lock.
 std::unordered_map<PyObject*, Py_ssize_t>& lostReferences() {
   static std::unordered_map<PyObject*, Py_ssize_t> lost;
   return lost;
@@ -44,7 +44,7 @@ template <class Item>
 struct Watching {
   static inline converter::constructor_function yades = nullptr;
 
-  /// Other sequences may make an item anew each time it is asked for: theirs are left alone.
+  /// Other sequences may create an item at each access: they are left unchanged.
   static void construct(PyObject* sequence, converter::rvalue_from_python_stage1_data* data) {
     yades(sequence, data);
     if (!PyList_Check(sequence) && !PyTuple_Check(sequence)) return;
@@ -77,7 +77,7 @@ void watchListItems() {
 std::size_t freeListItems() {
   std::size_t freed = 0;
   auto& lost = lostReferences();
-  // An engine that goes lets go of its functors, which may be in the list, too.
+  // A removed engine releases its functors, which may also be in the list: repeat.
   for (bool again = true; again;) {
     std::vector<PyObject*> alone;
     for (const auto& [item, count] : lost)

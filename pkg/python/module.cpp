@@ -1,6 +1,6 @@
-// The extension behind `import yadefrag`. Loading it touches nothing: yadefrag/__init__.py calls
-// the check first and publishes after it. (An error thrown while Boost.Python initializes a module
-// is lost, so the work is not done there.)
+// The extension behind `import yadefrag`. Loading it changes nothing: yadefrag/__init__.py first
+// calls the check and then publishes the classes. (An exception while Boost.Python initialises a
+// module is lost, so that this is not done there.)
 
 #include "abi/support_check.hpp"
 #include "collider/colliders.hpp"
@@ -32,7 +32,7 @@ using NewClasses = ClassList<LebesgueCollider, LinearCodeCollider, HierarchyColl
                              BrittleFEMat, SurfaceSegment, Bo1_SurfaceSegment_Aabb,
                              Ig2_Sphere_SurfaceSegment_ScGeom, Gl1_SurfaceSegment, FESolver>;
 
-/// That elements are computed with on this processor.
+/// The instruction set for the elements on this processor.
 std::string instructionSet() {
   return bestInstructionSet() == InstructionSet::kAvx2 ? "AVX2" : "SSE2";
 }
@@ -41,8 +41,8 @@ void toImportError(const UnsupportedYade& error) {
   PyErr_SetString(PyExc_ImportError, error.what());
 }
 
-/// One that was there before the classes of this module does not know those that draw, and has no
-/// room for the new shapes: YADE would end the process.
+/// A renderer that was created before the classes of this module has no functors and no table
+/// entries for the new shapes: YADE would end the process.
 void renewRenderer(const py::object& renderer) {
   yade::Serializable& object = py::extract<yade::Serializable&>(renderer);
   if (object.getClassName() == "OpenGLRenderer") static_cast<yade::OpenGLRenderer&>(object).init();
@@ -54,7 +54,7 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   namespace py = boost::python;
   py::register_exception_translator<yadefrag::UnsupportedYade>(&yadefrag::toImportError);
   py::def("checkRunningYade", &yadefrag::checkRunningYade,
-          "Raises ImportError unless YADE's classes are laid out as this extension declares them.");
+          "Raises ImportError unless YADE's classes have the layout that this extension declares.");
   py::def("instructionSet", &yadefrag::instructionSet);
   py::def("meshOfPolygon", &yadefrag::meshOfPolygon);
   py::def("keptVertices", &yadefrag::keptVertices);
@@ -67,15 +67,16 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("requirePaused", &yadefrag::requirePaused,
           "Raises RuntimeError if another thread runs the scene.");
   py::def("waitForStart", &yadefrag::waitForStart);
-  py::def("waitForEnd", &yadefrag::waitForEnd,
-          "Waits until a run is over, looking as often as the run's own length asks for: O.wait() "
-          "looks every 40 ms.");
+  py::def(
+      "waitForEnd", &yadefrag::waitForEnd,
+      "Waits for the end of a run, with checks at intervals in proportion to its length: O.wait() "
+      "checks every 40 ms.");
   py::def("stopRun", &yadefrag::stopRun);
   py::def("whyStopped", &yadefrag::whyStopped,
-          "What FESolver has refused a step for since the last call; '' for nothing.");
+          "Reason why FESolver has refused a step since the last call; '' for none.");
   py::def("watchListItems", &yadefrag::watchListItems);
   py::def("freeListItems", &yadefrag::freeListItems,
-          "Frees engines, functors and bodies that only YADE's lost references keep.");
+          "Frees engines, functors and bodies to which only YADE's unreleased references remain.");
   py::def("renewRenderer", &yadefrag::renewRenderer);
   py::def("publish", &yadefrag::NewClasses::publishAll,
           "Adds the new classes to YADE, once; returns their names.");

@@ -1,5 +1,5 @@
 #pragma once
-// The scenes of the paper's figures 11 to 13 as far as a search sees them: outlines of segments,
+// The scenes of the paper's figures 11 to 13 as input of a search: outlines of segments,
 // and a motion that stands for the mechanics. Lengths are in lengths of a square's or bar's
 // segment.
 

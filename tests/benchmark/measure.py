@@ -47,7 +47,7 @@ def main(arguments):
                       settings.pop('budget', 10), settings.pop('steps', 0), settings)
     except LookupError as error:
         row = dict(error=str(error))
-    except Exception as error:  # the caller wants one line of JSON whatever happens
+    except Exception as error:  # the caller needs one line of JSON in any case
         row = dict(error=f'{type(error).__name__}: {error}')
     print(json.dumps(row), flush=True)
 

@@ -159,7 +159,7 @@ def _labels(good):
     return [label for label in NAMES if any(k[2] == label for k in good)]
 
 
-TALLEST = 2.2  # a bar that would be taller is cut; its number tells
+TALLEST = 2.2  # taller bars are cut; their number is written
 
 
 def _bars(file, good, n, machine):

@@ -71,8 +71,8 @@ TEST(Contact, ARowThatContradictsAnotherCarriesNoFriction) {
 }
 
 /// A light corner that one row throws far and the next one brings back, and a needle that comes
-/// down on the side of it. The second scan sees that side far away; the needle must be seen all the
-/// same when it arrives, in the step in which it would be without any row asleep.
+/// down on the side of it. In the second scan that side is far away; the needle must be detected
+/// all the same when it arrives, in the step in which it would be without any row asleep.
 int stepsUntilTouch(bool sleeps) {
   ContactScene s;
   const EntryId body = s.scene.addBody({{0, 0}, {9, -1}, {10, 0}});
@@ -87,7 +87,7 @@ int stepsUntilTouch(bool sleeps) {
   s.model.nodes.mass[s.nodeOf(coming)] = 1e-9;
   for (std::size_t k = 0; k < 3; ++k) s.model.nodes.position[s.nodeOf(pressing + k)].y -= .1;
   for (int step = 0; step < 40; ++step) {
-    if (!sleeps) s.contact.candidates.asleep.clear();
+    if (!sleeps) s.contact.candidates.idleDistance.clear();
     s.correct();
     if (s.rowOf(arrival)) return step;
     for (std::size_t k = 0; k < 3; ++k) s.model.nodes.position[s.nodeOf(coming + k)].y -= s.move;

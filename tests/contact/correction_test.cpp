@@ -92,10 +92,10 @@ TEST(Correction, NothingPullsAndAnOldOverlapIsLeft) {
   solveAll(lagrange, rows, nodes, 0);
   EXPECT_EQ(rows[0].normalForce, 0);
   rows[0].gap = -1e-4;
-  rows[0].allowed = -9e-5;
+  rows[0].toleratedGap = -9e-5;
   solveAll(lagrange, rows, nodes, 0);
   EXPECT_NEAR(gapAfter(rows[0], displacements(rows, nodes)), -9e-5, 1e-18);
-  rows[0].allowed = -2e-4;
+  rows[0].toleratedGap = -2e-4;
   solveAll(lagrange, rows, nodes, 0);
   EXPECT_EQ(rows[0].normalForce, 0);
 }

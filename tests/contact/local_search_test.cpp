@@ -270,7 +270,7 @@ INSTANTIATE_TEST_SUITE_P(Joints, SlidingOverAJoint,
                                           testing::Values(0., 1e-17, -1e-17, 1e-12, -1e-12),
                                           testing::Values(1, -1)));
 
-/// Over a joint too far from a step's motion: let go behind the corner, nothing pulls it back.
+/// Over a joint too far from a step's motion: released behind the corner, it is not pulled back.
 TEST(LocalSearch, SlidesOffACorner) {
   Chase chase(kSquare, {}, {0, -1}, {.05, 1});
   for (int i = 1; i < 10; ++i) {

@@ -58,7 +58,7 @@ TEST(RowBuilder, WeightsSumToZeroOnAnyPiece) {
       EXPECT_NEAR(sum, 0, 1e-15 * 8);
       EXPECT_LE(largest, 1.25 + 1e-9) << "shape functions go on by a quarter of a piece at most";
       EXPECT_NEAR(norm(row.normal), 1, 1e-14);
-      EXPECT_EQ(row.allowed, 0);
+      EXPECT_EQ(row.toleratedGap, 0);
       EXPECT_EQ(row.gap, gapOf(row, a.scene.geometry()));
     }
   }

@@ -30,12 +30,12 @@ TEST(TimeTable, WithoutValuesIsZero) {
 }
 
 TEST(TimeTable, TellsWhatIsNoTable) {
-  EXPECT_TRUE(TimeTable::isRight({0, 1}, {5, 5}));
-  EXPECT_FALSE(TimeTable::isRight({}, {}));
-  EXPECT_FALSE(TimeTable::isRight({0, 1}, {5}));
-  EXPECT_FALSE(TimeTable::isRight({1, 1}, {5, 5}));
-  EXPECT_FALSE(TimeTable::isRight({0, INFINITY}, {5, 5}));
-  EXPECT_FALSE(TimeTable::isRight({0, 1}, {5, NAN}));
+  EXPECT_TRUE(TimeTable::isValid({0, 1}, {5, 5}));
+  EXPECT_FALSE(TimeTable::isValid({}, {}));
+  EXPECT_FALSE(TimeTable::isValid({0, 1}, {5}));
+  EXPECT_FALSE(TimeTable::isValid({1, 1}, {5, 5}));
+  EXPECT_FALSE(TimeTable::isValid({0, INFINITY}, {5, 5}));
+  EXPECT_FALSE(TimeTable::isValid({0, 1}, {5, NAN}));
 }
 
 }  // namespace

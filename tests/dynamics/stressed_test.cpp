@@ -91,7 +91,7 @@ void check(const Model& model, const std::vector<double>& strength,
   const std::vector<bool> isTold = told(model, ranges);
   const auto look = [&](std::size_t e) {
     const std::size_t c = model.triangles.component[e].value;
-    return model.components[c].brittle.cracks() ? tolerance::kStrengthLook * strength[c]
+    return model.components[c].brittle.cracks() ? tolerance::kStrengthCheck * strength[c]
                                                 : kInfinite;
   };
   // Rounding of angles and of F − R: 1e-9 is far above.
@@ -115,7 +115,7 @@ struct Found {
 Found lookAt(Model model, const std::vector<double>& strength, int threads,
              InstructionSet set = bestInstructionSet()) {
   ExplicitDynamics dynamics(set);
-  dynamics.watchStress(strength);
+  dynamics.setStressLimits(strength);
   dynamics.rebuild(model);
   dynamics.predict(model, 0, {}, {}, threads);
   return {{dynamics.stressed().begin(), dynamics.stressed().end()},
@@ -157,11 +157,11 @@ TEST(Stressed, OnlyWhatIsWatchedIsToldAndItMayChange) {
   EXPECT_TRUE(lookAt(model, {0, 0, none, none, 0, 0, 1, none}, 1).ranges.empty());
   ExplicitDynamics dynamics;
   dynamics.rebuild(model);
-  dynamics.watchStress({none, none, none, none, none, none, none, 2e8});
+  dynamics.setStressLimits({none, none, none, none, none, none, none, 2e8});
   dynamics.predict(model, 0, {}, {}, 1);
   ASSERT_FALSE(dynamics.stressed().empty());
   EXPECT_EQ(dynamics.stressed().front().firstElement, model.components[7].firstTriangle);
-  dynamics.watchStress({});
+  dynamics.setStressLimits({});
   dynamics.predict(model, 0, {}, {}, 1);
   EXPECT_TRUE(dynamics.stressed().empty());
 }
@@ -180,7 +180,7 @@ TEST(Stressed, AreLookedForAfterSplitsToo) {
   const std::vector<double> strength = {3e8, 2e8, 2e8, 2e8, 2e8, 2e8, 1, 2e8};
   Model model = bodies();
   ExplicitDynamics dynamics;
-  dynamics.watchStress(strength);
+  dynamics.setStressLimits(strength);
   dynamics.rebuild(model);
   std::vector<ElementId> changed;
   std::vector<NodeId> originals;
@@ -209,7 +209,7 @@ TEST(Stressed, TheMeasureBoundsTheEffectiveTractionInEveryDirection) {
     const double rounding = 1e-9 * std::abs(stress[0] + stress[1]);
     const auto reaches = [&](double look) {
       return isStressed(f, kSteel.lame(), kSteel.shearModulus(),
-                        StressLook(brittle.shearFactor, friction, look * look));
+                        StressLimit(brittle.shearFactor, friction, look * look));
     };
     // Pressed evenly, nothing is stressed.
     if (measure > 2 * rounding) {

@@ -38,7 +38,7 @@ class Chance {
   std::mt19937_64 random_;
 };
 
-/// A scene and its changes, all from one seed. What it asks for is refused at times.
+/// A scene and its changes, all from one seed. Some of its changes are refused.
 class AnyWorld {
  public:
   explicit AnyWorld(std::uint64_t seed) : chance_(seed) {

@@ -138,7 +138,7 @@ class SceneRun {
       EXPECT_EQ(sentenceOf([&] { loaded.step(dt); }), sentence);
       EXPECT_TRUE(sameBits(world.model.nodes.position, loaded.model.nodes.position));
       EXPECT_TRUE(sameBits(world.model.nodes.velocity, loaded.model.nodes.velocity));
-      EXPECT_EQ(world.complaints, loaded.complaints);
+      EXPECT_EQ(world.warnings, loaded.warnings);
     }
     world = std::move(loaded);
     return sentence.empty();
@@ -152,8 +152,8 @@ class SceneRun {
            (isPenalty ? std::max(0., world.ledger.contact) : 0);
   }
 
-  /// In a complaint, or at the end of the run, mostly of an element turned inside out.
-  [[nodiscard]] bool hasSaidSo() const { return !goesOn_ || !any_.world.complaints.empty(); }
+  /// In a complaint, or at the end of the run, mostly about an inverted element.
+  [[nodiscard]] bool hasSaidSo() const { return !goesOn_ || !any_.world.warnings.empty(); }
 
   void look() {
     const World& world = any_.world;

@@ -20,7 +20,7 @@ struct Blow {
   double ofCritical = .8;  ///< time step
   double until = 6;        ///< times that a wave takes through the slower block
   int parts = 3, passes = 2;
-  bool shorten = false;  ///< take the shorter steps that are asked for
+  bool shorten = false;  ///< use the shorter steps that messages request
 };
 
 struct Outcome {

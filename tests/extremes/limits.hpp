@@ -19,7 +19,7 @@ inline constexpr double kNone = NAN;
 void limit(const std::string& name, double smallest, double largest, const std::string& beyond,
            double factor = 1.06);
 
-/// Are the long parts asked for (YADEFRAG_LONG)?
+/// True if the long parts are requested (YADEFRAG_LONG).
 bool longRun();
 
 /// Fails the test unless `text` is one a user can read: words, one line, a full stop.

@@ -115,7 +115,7 @@ TEST(ExtremeCorner, AWedgeIsDrivenIn) {
   record("deepest_in_segments", worst.deepest), record("growth", worst.growth);
   record("drift", worst.drift);
   limit("wedge driven into a corner of 60 degrees: deepest overlap, of a segment", kNone,
-        worst.deepest, "let out slowly", 3);
+        worst.deepest, "reduced slowly", 3);
 }
 
 /// Three rhombs whose blunt corners meet at a point, in the middle of which there may be a light

@@ -138,7 +138,7 @@ TEST(ExtremeFractureEnergy, TooLittleIsRefusedAndNoneOpensAtOnce) {
   EXPECT_GT(sudden.fracture.numCracks(), 0U);
   EXPECT_EQ(sudden.ledger.fracture, 0);
   limit("fracture energy, J/m² (1 MPa, elements of 2 mm, half the critical step)", least, kNone,
-        "refused: asks for a shorter step or smaller elements; 0 opens at once");
+        "refused: a shorter step or smaller elements are needed; 0 opens at once");
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(ExtremeRatio, OfStiffnesses) {
   }
   if (longRun())
     limit("stiffness over stiffness of two bodies that touch", least, most,
-          "works, with as many steps as the stiffer one asks for");
+          "works, with as many steps as the stiffer one needs");
 }
 
 /// A triangle as light as a feather is between two heavy blocks that come together, and holds them

@@ -42,7 +42,7 @@ TEST_F(ExtremeSave, GoesOnWithTheSameBits) {
   EXPECT_EQ(world_.fracture.numCracks(), loaded.fracture.numCracks());
 }
 
-/// The critical step is asked for when bodies come or the step grows, not after loading.
+/// The critical step is computed when bodies are added or the step grows, not after loading.
 TEST(ExtremeSaveOf, ARunGoesOnWithTheStepItHas) {
   World world;
   const TriangleMesh mesh = structuredRectangle({}, {1, 1}, 2, 2);

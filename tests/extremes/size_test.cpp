@@ -26,7 +26,7 @@ TEST(ExtremeSize, OutcomeIsTheSameButForRounding) {
     blow.size = size;
     EXPECT_NE(strike(blow).refusal, "") << size;
   }
-  limit("size of a body, m", least, most, "refused where masses leave the range of numbers");
+  limit("size of a body, m", least, most, "refused if masses exceed the range of numbers");
 }
 
 TEST(ExtremeSize, TurnsChangeRoundingOnly) {

@@ -26,12 +26,12 @@ TEST(ExtremeSpeed, FromANanometrePerSecondToTheWaveSpeed) {
   EXPECT_EQ(least, 1e-9);
   for (const double part : {2., 5., 30., 1000.}) {
     const std::string beyond = at(part * wave).refusal;
-    EXPECT_TRUE(beyond.find("is turned inside out") != std::string::npos ||
+    EXPECT_TRUE(beyond.find("is inverted") != std::string::npos ||
                 beyond.find("take a shorter step") != std::string::npos)
         << part << ": " << beyond;
   }
   limit("closing speed of two elastic blocks, of the wave speed", kNone, most,
-        "works by shorter steps, or stops: a shorter step is asked for, or an element is inverted");
+        "works by shorter steps, or stops: a shorter step is needed, or an element is inverted");
   limit("closing speed, m/s", least, kNone,
         "body too slow for its coordinates' rounding: refused when added");
 }
@@ -175,9 +175,9 @@ TEST(ExtremeSpeed, LimitsOfAStep) {
     if (sentenceOf([&] { world.step(dt); }).empty()) mostAlone = part;
   }
   limit("motion of bodies about to touch in one step, of a segment", kNone, most,
-        "refused: a shorter step is asked for");
+        "refused: a shorter step is needed");
   limit("motion of any surface node in one step, of the shortest segment", kNone, mostAlone,
-        "refused: a shorter step is asked for");
+        "refused: a shorter step is needed");
 }
 
 }  // namespace

@@ -92,8 +92,9 @@ Split press(double size, double speed, double shearFactor) {
 
 class Brazilian : public testing::TestWithParam<double> {};
 
-// Edges of an irregular mesh lie some degrees beside the diameter, where they feel cos² of it; the
-// others are what a node's mean stress and the plates' width leave. +0.1 to +1.4 % measured.
+// Edges of an irregular mesh lie some degrees beside the diameter, where their traction is cos² of
+// it; the others are what a node's mean stress and the plates' width leave. +0.1 to +1.4 %
+// measured.
 TEST_P(Brazilian, SplitsAlongTheLoadedDiameter) {
   const Split split = press(GetParam(), .1, 20);
   ASSERT_TRUE(split.cracked);

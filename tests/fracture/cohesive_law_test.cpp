@@ -94,8 +94,8 @@ TEST(CohesiveTraction, IsTheLimitOfEverSmallerOpenings) {
                 1e-8 * kStrength);
 }
 
-// Nothing jumps when an edge gives way, in no direction: what held it goes on, and the opening that
-// follows has the law's direction for just these tractions.
+// The tractions do not jump when an edge opens, in no direction: they continue, and the opening
+// that follows has the law's direction for just these tractions.
 TEST(CohesiveTraction, GoesOnFromWhatHeldTheEdgeInBothDirections) {
   for (const double beta : {.5, 1., 3.})
     for (const double kappa : {.5, 1., 4.})

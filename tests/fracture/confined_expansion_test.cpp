@@ -76,7 +76,7 @@ TEST_P(ConfinedExpansion, KeepsItsEnergy) {
     EXPECT_GT(world.ledger.contact, 0);
     EXPECT_GT(world.ledger.friction, 0);
     figure("given_by_contact" + name, balance.given, 0, 1e-4);
-    EXPECT_TRUE(world.complaints.empty());
+    EXPECT_TRUE(world.warnings.empty());
   }
 }
 

@@ -78,13 +78,13 @@ TEST(CrackFlags, AllPartsOfASlaveAreWhereItWas) {
   ASSERT_EQ(told.size(), 1U) << "the other was outside before";
   EXPECT_EQ(told.front().master, master);
 
-  // Entry by the path remembers touches only; the one that was there keeps its force.
+  // Entry by the path stores contacts only; the existing one keeps its force.
   std::vector<Touch> touches{{{before, master}, 7, 1, -kLeft}};
   inheritTouches(touches, world.surfaces, split.originals, world.model.nodes.size());
   ASSERT_EQ(touches.size(), 2U);
   for (const Touch& touch : touches) {
     EXPECT_EQ(touch.pair.master, master);
-    EXPECT_EQ(touch.allowed, -kLeft);
+    EXPECT_EQ(touch.toleratedGap, -kLeft);
     EXPECT_EQ(touch.normalForce, touch.pair.slave == before ? 7 : 0);
     EXPECT_EQ(std::ranges::count(slaves, touch.pair.slave), 1);
   }

@@ -69,7 +69,7 @@ class Pair {
   }
 
   World world;
-  Vec2 traction;           ///< Pa, on the left half, as its momentum tells
+  Vec2 traction;           ///< Pa, on the left half, from its momentum
   double worstEnergy = 0;  ///< J
 
  private:

@@ -145,9 +145,9 @@ TEST(Impact, EntryByFlags) {
 
 TEST(Impact, CohesionTakesItsEnergy) {
   const Course course = run({.fractureEnergy = 500});
-  // What keeps the faces of a crack apart knows nothing of what contact does afterwards in the same
-  // step: one gives what the other takes. 0.013 measured, a third and a ninth of it with half and a
-  // quarter of the step.
+  // The tractions that keep the faces of a crack apart do not include what contact does afterwards
+  // in the same step: one gives what the other takes. 0.013 measured, a third and a ninth of it
+  // with half and a quarter of the step.
   expectSound(course, .02);
   EXPECT_GT(course.growth, 2);
   EXPECT_GT(course.fracture, 0);

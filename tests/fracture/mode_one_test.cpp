@@ -41,7 +41,7 @@ class TwoTriangles {
       }
   }
 
-  /// (Pa) One step; the traction on the left half that its momentum tells of.
+  /// (Pa) One step; the traction on the left half, from its momentum.
   double step(double dt) {
     double push = 0;
     for (const NodeId node : world.model.triangles.nodes[0])
@@ -113,10 +113,11 @@ Course run(std::initializer_list<double> turns, int steps) {
   return course;
 }
 
-// The traction that momentum tells of is the law's to rounding (3e-13; momenta are 10⁴ times what
-// a step changes). So is the energy: 10⁻⁹ leaves room for strains of 10⁻⁵, of which the leapfrog's
-// invariant neglects the square. The work is the sum of trapezoids below a straight line, exact but
-// for the last step, which ends beyond δc: a triangle of at most ½σc Δδ²/δc, (Δδ/δc)² of Gc.
+// The traction computed from the momentum is the law's to rounding (3e-13; momenta are 10⁴ times
+// what a step changes). So is the energy: 10⁻⁹ leaves room for strains of 10⁻⁵, of which the
+// leapfrog's invariant neglects the square. The work is the sum of trapezoids below a straight
+// line, exact but for the last step, which ends beyond δc: a triangle of at most ½σc Δδ²/δc,
+// (Δδ/δc)² of Gc.
 TEST(ModeOne, OpeningSpendsTheFractureEnergy) {
   for (const int steps : {40, 100, 400}) {
     const Course course = run({1.2}, steps);

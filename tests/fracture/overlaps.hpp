@@ -1,6 +1,6 @@
 #pragma once
 // How deep the deepest node is inside another piece or its own, and the deepest triangle inside
-// another: everything against everything, which knows nothing of surfaces, slaves, masters or
+// another: everything against everything, independently of surfaces, slaves, masters or
 // flags. Tips that pass each other may overlap without a node of either inside the other.
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace yadefrag::test {
 
-/// By triangle: the lowest of those that hang together with it by nodes.
+/// By triangle: the lowest triangle that is connected with it by nodes.
 inline std::vector<std::uint32_t> piecesOf(const Model& model) {
   Groups groups(model.triangles.size());
   std::vector<std::uint32_t> first(model.nodes.size(), ~0U), piece;
@@ -77,7 +77,7 @@ class Overlaps {
     return worst;
   }
 
-  /// (m) Of any two triangles. Those that hang together overlap by nothing.
+  /// (m) Of any two triangles. Connected triangles do not overlap.
   [[nodiscard]] double deepestTriangles() const {
     std::vector<std::pair<double, Corners>> byLowest;
     for (const auto& nodes : model_.triangles.nodes) {

@@ -147,7 +147,7 @@ inline void checkFans(const Model& model, const CrackEdges& edges) {
   }
 }
 
-/// Edges know their triangles and the other way round; what has not cracked hangs together.
+/// Edges and triangles refer to each other; triangles are connected where no edge has cracked.
 inline void checkEdges(const Model& model, const CrackEdges& edges) {
   std::size_t known = 0;
   for (std::size_t e = 0; e < edges.ofElement.size(); ++e)
@@ -233,7 +233,7 @@ inline std::size_t countLists(const std::vector<SegmentId>& next) {
   return lists;
 }
 
-/// An edge is a face if it cracked and an end of it parted; pieces hang together by nodes exactly
+/// An edge is a face if it cracked and an end of it parted; pieces are connected by nodes exactly
 /// as they do by edges, and V − E + F = 2 − lists for each.
 inline void checkPieces(const Model& model, const CrackEdges& edges, const ContactSurfaces& s,
                         const std::vector<Side>& boundary) {
@@ -266,7 +266,8 @@ inline void checkPieces(const Model& model, const CrackEdges& edges, const Conta
   const std::size_t doubled = 3 * model.triangles.size() + boundary.size();
   ASSERT_EQ(model.nodes.size() + model.triangles.size() + countLists(s.segmentNext),
             doubled / 2 + 2 * byNode.groups());
-  // What hangs together by edges does so by nodes: the same number makes them the same pieces.
+  // Triangles connected by edges are connected by nodes: with the same number the pieces are the
+  // same.
   ASSERT_EQ(byNode.groups(), byEdge.groups());
 }
 

@@ -176,7 +176,7 @@ double piecesOverTheory(double rate, double width, int rows, double scatter, std
   world.addBody(mesh, ringSpec(mesh, rate, scatter, seed));
   const double dt = .8 * world.criticalTimeStep(), duration = .7e-6 * std::pow(1e4 / rate, .4);
   while (world.time < duration) world.step(dt);
-  EXPECT_TRUE(world.complaints.empty());
+  EXPECT_TRUE(world.warnings.empty());
   return static_cast<double>(countPieces(world)) * expectedSize(rate) / kCircumference;
 }
 

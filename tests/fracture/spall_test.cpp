@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(SizesFlyersStrengths, SpallOf,
 class SpallOfAnyMesh : public testing::TestWithParam<std::tuple<double, double, double>> {};
 
 // Lone elements are faster than the whole: with the critical step of the whole one of the shards
-// was turned inside out.
+// was inverted.
 TEST_P(SpallOfAnyMesh, OpensWhereTheWavesPart) {
   const auto [size, flyer, relative] = GetParam();
   expectAsWavesPart(strike(size, flyer, relative, .2), size, flyer);

@@ -1,4 +1,5 @@
-// For tests/benchmark/unused_spheres.py, which loads it into yade: tells callgrind what to count.
+// For tests/benchmark/unused_spheres.py, which loads it into yade: it starts and stops the counting
+// of callgrind.
 
 #if __has_include(<valgrind/callgrind.h>)
 #include <valgrind/callgrind.h>

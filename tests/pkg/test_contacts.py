@@ -1,4 +1,4 @@
-"""No true contact missing at any step, against an oracle that knows no collider."""
+"""No true contact missing at any step, compared with a reference without a collider."""
 import numpy as np
 import pytest
 

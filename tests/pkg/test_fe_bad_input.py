@@ -71,8 +71,8 @@ kSquare = [(0, 0), (1, 0), (1, 1), (0, 1)]
     (dict(velocity=(1, 2, 3)), r'velocity is \(1, 2, 3\), it must be a pair'),
     (dict(velocity=(1, math.nan)), 'both numbers must be finite'),
     (dict(spin=math.inf), 'spin is inf'),
-    (dict(displacement=lambda x, y: (-2 * x, 0)), 'displacement turns the triangle at .* inside'),
-    (dict(displacement=lambda x, y: (-x, 0)), 'displacement turns the triangle at .* inside'),
+    (dict(displacement=lambda x, y: (-2 * x, 0)), 'displacement inverts the triangle at .* every'),
+    (dict(displacement=lambda x, y: (-x, 0)), 'displacement inverts the triangle at .* every'),
     (dict(fixed='x'), "fixed is 'x', it must be a function"),
     (dict(thickness=0), 'thickness is 0'),
     (dict(thickness=math.nan), 'thickness is nan'),
@@ -315,7 +315,7 @@ def test_namesThatDoNotExistAreTold():
 def test_prescribeForNoNodeIsTold():
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-    with pytest.warns(UserWarning, match='^prescribe: nodes chooses none of the %d nodes.$' % len(solver.nodes)):
+    with pytest.warns(UserWarning, match='^prescribe: nodes selects none of the %d nodes.$' % len(solver.nodes)):
         solver.prescribe(lambda x, y: x > 2, vx=0)
 
 

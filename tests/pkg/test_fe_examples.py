@@ -79,7 +79,7 @@ def test_physicsOfTheExample(name, passes):
     for report in reports:
         atEnd, atMost = numbers(report['energy drift'])
         assert abs(atEnd) < 5e-3 and atMost < 5e-3
-        assert numbers(report['lost at touch'])[0] > -.5
+        assert numbers(report['dissipated by contact'])[0] > -.5
         assert numbers(report['actives, last and most'])[1] > 0
         assert 0 < numbers(report['searches'])[0] < numbers(report['steps'])[0]
         if passes == '2':
@@ -118,7 +118,7 @@ def test_impactShatters(energy, folder):
     assert .4 < first < 1.5
     assert numbers(report['fragments'])[0] > 50
     assert abs(numbers(report['mass'])[0]) < 1e-12
-    assert (numbers(report['spent in cracks'])[0] > 0) == (energy > 0)
+    assert (numbers(report['dissipated by cracks'])[0] > 0) == (energy > 0)
     course = np.genfromtxt(os.path.join(folder, 'course.csv'), delimiter=',', skip_header=1)
     assert course[0, 3] == before and course[-1, 2:4].tolist() == [cracks, after]
     assert (np.diff(course[:, 2:4], axis=0) >= 0).all()
@@ -207,7 +207,7 @@ def test_wrongOptions(name, options, sentence):
 
 
 def test_interruptedRunStillReports(folder):
-    # On a terminal a bar tells that the run goes on: an interrupt before that ends the script. It
+    # On a terminal a bar shows that the run has started: an interrupt before that ends the script. It
     # has to be read, too, and one that Python loses while it writes the bar has to be sent again.
     terminal, its = pty.openpty()
     running = start('squares', '--n', '4', '--steps', '10000000', '--out', folder, stderr=its)

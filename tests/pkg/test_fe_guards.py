@@ -47,7 +47,7 @@ def test_piecesAreNoMembersOfClumps():
         with pytest.raises(ValueError, match='part of the boundary of body 0 .* in a clump'):
             call()
     for id in (0, np.int64(0)):
-        with pytest.raises(ValueError, match='no other can take its place'):
+        with pytest.raises(ValueError, match='another one cannot replace it'):
             O.bodies.insertAtId(utils.sphere((9, 5, 0), 1), id)
         with pytest.raises(ValueError, match='cannot be erased alone'):
             O.bodies.erase(id)

@@ -192,7 +192,7 @@ def test_holeThatIsDugHasKirschsStresses(lateral, element, off):
     (dict(stress=np.zeros((2, 3))), r'^stress has the shape \(2, 3\), it must be \(\d+, 3\)'),
     (dict(stress=lambda x, y: (x, y)), r'^stress\(.*three finite numbers'),
     (dict(stress=(9e7, 0, 0)), r'^stress at \(.* m is \(9e\+07, 0, 0\) Pa, .*strained by more than half'),
-    (dict(stress=(1, 0, 0), displacement=lambda x, y: (0, 0)), 'only one can be'),
+    (dict(stress=(1, 0, 0), displacement=lambda x, y: (0, 0)), 'only one of them can be'),
 ])
 def test_wrongStressesAreRefused(wrong, sentence):
     solver = fe()

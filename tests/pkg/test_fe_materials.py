@@ -241,7 +241,7 @@ def test_wrongBondsAreRefused(given, sentence):
 
 
 def test_meshesThatDoNotMatchAreRefused():
-    with pytest.raises(ValueError, match='without the same ends'):
+    with pytest.raises(ValueError, match='different ends'):
         pair(sizes=(.002, .003)).bond(0, 1, 1e6, 100)
     O.reset()
     with pytest.raises(ValueError, match='No sides of the bodies 0 and 1'):

@@ -64,7 +64,7 @@ def test_masksHoldForPairs(collider):
 
 
 def test_segmentsAloneAreSearchedOnDemand(collider):
-    """FESolver knows when: not every step, though verletDist has no sphere to be set by."""
+    """FESolver requests searches: not every step, though verletDist has no sphere to be set by."""
     finder = scene(collider)
     for b in O.bodies:
         b.state.vel = (.1, 0, 0)

@@ -1,4 +1,4 @@
-"""YADE's Wall, Box and Facet are rigid bodies to FE bodies: both touch, and both feel it."""
+"""YADE's Wall, Box and Facet are rigid bodies to FE bodies: contact forces act on both."""
 import builtins
 import math
 import os
@@ -245,7 +245,7 @@ def test_surfacesComeAndGo():
     solver.rigidBodies = False
     steps(100)
     assert solver.nodes[:, 1].min() < fallen - .0002
-    # A script sees nodes of FE bodies only.
+    # Scripts can access nodes of FE bodies only.
     assert len(solver.nodes) == len(nodes) and (solver.triangles == triangles).all()
 
 
@@ -326,7 +326,7 @@ def test_forcesThatAreTakenAwayAreRefused():
     O.bodies[-1].state.blockedDOFs = 'zXY'
     run(solver)
     O.engines = [w.ForceResetter(), w.NewtonIntegrator(damping=0), solver]
-    with pytest.raises(ValueError, match='takes the forces of FESolver away before NewtonIntegrator'):
+    with pytest.raises(ValueError, match='deletes the forces of FESolver before NewtonIntegrator'):
         O.step()
 
 

@@ -100,7 +100,7 @@ def test_memorySaveAndReload():
 @pytest.mark.parametrize('ending', ['.xml', '.yade'])
 @pytest.mark.parametrize('damage', ['edited', 'cut off'])
 def test_damagedFileIsRefused(ending, damage, folder):
-    """Whoever moves a body in the file would have it overlap others unseen."""
+    """A body that is moved in the file must not overlap others undetected."""
     solver = impact('LebesgueCollider')
     steps(20)
     path = os.path.join(folder, 'scene' + ending)

@@ -129,7 +129,7 @@ def test_energyIsTracked():
 
 
 def test_pieceBodiesFollow():
-    """Shapes lie on the nodes, states move as the pieces do, whoever moves the bodies."""
+    """Shapes lie on the nodes, states move as the pieces do, with any integrator."""
     for newton in (True, False):
         O.reset()
         solver = fe()

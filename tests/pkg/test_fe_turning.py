@@ -144,7 +144,7 @@ def test_velocitiesByNodeTablesAndFunctions():
     way = 1.5 * (end - begin) + 3 * (solver.time - end)
     assert solver.nodes[low] - from_[low] == pytest.approx(
         np.tile([way, begin - solver.time], (len(low), 1)), abs=1e-12)
-    # A function sees places and the middle of the step.
+    # The arguments of a function are positions and the middle of the step.
     seen = []
     from_, begin = solver.nodes, solver.time
     solver.prescribe(low, vx=lambda x, y, t: seen.append((x, y, t)) or 100 * t, vy=[(0, 0), (1, 0)])

@@ -38,7 +38,7 @@ def test_softPenaltyIsToldOncePerDoubling(capfd, tmp_path):
     O.run(400, True)
     told = solver.warnings
     assert 0 < len(told) < 8
-    assert 'bodies are in one another by' in told[0] and 'larger penalty factor' in told[0]
+    assert 'bodies overlap by' in told[0] and 'larger penalty factor' in told[0]
     err = capfd.readouterr().err
     assert [line for line in err.splitlines() if line.startswith('WARN')] == \
         ['WARN  FESolver: ' + sentence for sentence in told]

@@ -177,7 +177,7 @@ def test_aFileOfOtherColumnsIsNoRecord(text, folder):
     name = folder + '/run.csv'
     with open(name, 'w', encoding='latin-1' if text == '\xff\xfe' else 'utf-8') as file:
         file.write(text)
-    with pytest.raises(ValueError, match='run.csv has no lines as recordFracture writes them'):
+    with pytest.raises(ValueError, match='run.csv has no lines of recordFracture'):
         yadefrag.plotFracture(name)
     with pytest.raises(ValueError, match='does not end with the columns'):
         yadefrag.TradeoffTable.read(name)
@@ -191,7 +191,7 @@ def test_damagedRecordsAndTablesAreRefused(folder):
     for bad in (good + '1,2,3\n', good.replace('0.0', 'x'), good.splitlines()[0] + '\n'):
         with open(name, 'w') as file:
             file.write(bad)
-        with pytest.raises(ValueError, match='no lines as recordFracture|damaged one'):
+        with pytest.raises(ValueError, match='no lines of recordFracture|damaged one'):
             yadefrag.plotFracture(name)
     table().csv(name)
     with open(name) as file:

@@ -180,7 +180,7 @@ def test_missingFile(folder):
     ('a.png', 'skimage.measure', 'python3-skimage'), ('a.png', 'PIL.Image', 'python3-pil')])
 def test_missingLibraryIsNamed(folder, monkeypatch, name, module, package):
     monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises(ImportError, match="only with the Python library %s, which is missing here "
+    with pytest.raises(ImportError, match="only with the Python library %s, which is missing "
                        ".*install Debian's package %s[.]" % (module, package)):
         readOutline(written(folder, name, ''), 1)
 

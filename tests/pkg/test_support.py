@@ -43,7 +43,7 @@ def test_versionOfAnotherBuildIsNamedAsSuch():
     assert others
     for version in others:
         sentence = support.describeMismatch(version, 'PrecisionDouble', STOCK)
-        assert sentence.endswith('for which yadefrag has to be built or installed anew.')
+        assert sentence.endswith('for which yadefrag must be built or installed again.')
 
 
 def test_untriedVersionIsRefusedInOneSentence(monkeypatch):

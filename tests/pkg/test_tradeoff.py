@@ -98,7 +98,7 @@ def test_energyOutOfNothingIsABlowUp():
         FESolver._energyBalance = balance
         sanity.check()
     for balance, sentence in (((1.1, 1., 0.), 'grew by 1.1 J'), ((float('nan'), 1., 0.), 'nan J'),
-                              ((1e-3, 0., 1e-18), 'of 0 J there were')):
+                              ((1e-3, 0., 1e-18), 'the bodies had 0 J')):
         FESolver._energyBalance = balance
         with pytest.raises(tradeoff_run.BlewUp, match=sentence):
             sanity.check()
@@ -121,7 +121,7 @@ def test_refusedRows():
     ('step', 'refused', 'O.dt is 0'),
     ('bug', 'failed', "NameError: name 'nowhere' is not defined"),
     ('crash', 'failed', 'yade ended with status -6'),
-    ('nan', 'blew up', 'what was measured is not finite.'),
+    ('nan', 'blew up', 'the measured value is not finite.'),
 ])
 def test_faultsAreRows(fault, result, sentence):
     table = trade(scenes.odd, {'fault': [fault]}, scenes.oddWay, repeats=2)

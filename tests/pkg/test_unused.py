@@ -61,7 +61,7 @@ def testSpheresDoNotPayForThePlugin(folder):
     for library in ('libyade.so', 'libpkg_dem.so'):
         assert imported[library] == absent[library] > 0
     assert abs(sum(imported.values()) / sum(absent.values()) - 1) <= kMost
-    # The collider knows nothing of finite elements.
+    # The collider is independent of finite elements.
     assert not {cost.function for cost in costs['used'] if any(
         name in cost.function for name in ('FESolver', 'EntryBodies', 'World', 'ContactSurfaces'))}
 

@@ -28,7 +28,7 @@ def isOurs(frame):
 def isOfCompression(functions):
     """True for what a compressor finds in its buffer: YADE's uninitialised bytes, which it meets
     whenever the buffer is full, be it in a write of ours. A value of ours that is not initialised
-    shows where it is formatted for XML, which no compressor sees."""
+    shows where it is formatted for XML, without a compressor."""
     return any('boost::iostreams::' in name or name == 'deflate' for name in functions[:8])
 
 

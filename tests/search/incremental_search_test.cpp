@@ -1,4 +1,4 @@
-// A search that is told which boxes changed has, after every change, the pairs of brute force.
+// A search with a list of the changed boxes gives, after every change, the pairs of brute force.
 // YADEFRAG_SCENES sets the number of scenes (default 100,000, of which a hundredth is run here).
 #include "search/incremental_search.hpp"
 

@@ -62,7 +62,7 @@ TEST_P(Apart, NothingIsMissed) {
 
 INSTANTIATE_TEST_SUITE_P(Speeds, Apart, testing::Values(3., 15., 30.));
 
-/// While two blocks hit each other, nobody looks at the nodes of the one that is far away.
+/// While two blocks hit each other, the nodes of a distant one are not checked.
 TEST(ApartBodies, OnlyThoseThatAreNearAreWatched) {
   World world = row(.02, 10, false);
   const TriangleMesh mesh = structuredRectangle({0, 40}, {1, 41}, 6, 6);

@@ -38,7 +38,7 @@ TEST_P(TouchingBlocks, AreSolvedInFewSweeps) {
     most = std::max(most, world_.contact.sweeps());
     sum += static_cast<std::uint64_t>(world_.contact.sweeps());
     rows = std::max(rows, world_.contact.rows().size());
-    // What is left is told, and is no more than what the linearisation leaves.
+    // The remaining penetration is reported, and is no more than the error of the linearisation.
     ASSERT_LE(world_.contact.residual(), 1e-7) << "step " << i;
   }
   EXPECT_GE(rows, 300U);
@@ -49,7 +49,7 @@ TEST_P(TouchingBlocks, AreSolvedInFewSweeps) {
   // anew.
   EXPECT_LE(most, 6 * tolerance::kGroupSweeps);
   EXPECT_LT(double(sum) / kSteps, 150);
-  EXPECT_TRUE(world_.complaints.empty());
+  EXPECT_TRUE(world_.warnings.empty());
 }
 
 /// The floor carries what the blocks weigh, once damping has brought them to rest.

@@ -1,5 +1,5 @@
 #pragma once
-// A run that is watched: what was on the wrong side, what energy came out of nothing.
+// A run with a record: points on the wrong side, and energy created.
 
 #include <algorithm>
 

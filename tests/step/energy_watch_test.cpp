@@ -29,7 +29,7 @@ EnergyWatch watchOf(double energy) {
 /// What the watch says of contact and cracks.
 std::string said(EnergyWatch& watch, const WatchedStep& step, double noise = 0) {
   watch.count(step);
-  return watch.mayHaveCreated(step) ? watch.complainOfContact(step, noise) : "";
+  return watch.mayHaveCreated(step) ? watch.contactMessage(step, noise) : "";
 }
 
 /// What the watch says of the motion of bodies that have so much energy (J).
@@ -38,7 +38,7 @@ std::string saidOf(EnergyWatch& watch, double kinetic, double strain,
   const WatchedStep step = stepOf(ledger);
   watch.count(step);
   if (!watch.mayHaveGrown(step, kinetic)) return {};
-  return watch.complainOfGrowth(step, kinetic + strain, noise);
+  return watch.growthMessage(step, kinetic + strain, noise);
 }
 
 TEST(EnergyWatch, TellsOncePerDoubling) {
@@ -85,7 +85,7 @@ TEST(EnergyWatch, CracksAreToldApart) {
   EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   ledger.fracture = -3;
-  EXPECT_TRUE(said(watch, stepOf(ledger)).find("cracks that still hold have created 3 J") !=
+  EXPECT_TRUE(said(watch, stepOf(ledger)).find("cohesive cracks have created 3 J") !=
               std::string::npos);
   watch.split = 7;
   ledger.fracture = -7;
@@ -125,7 +125,7 @@ TEST(EnergyWatch, SumsUpWhereBodiesMoveWithMoreThanThereIs) {
   EXPECT_EQ(saidOf(watch, 110.5, 50), "") << "looked at already";
   EXPECT_EQ(saidOf(watch, 112, -10),
             "Step 7, time 0.5 s: the time integration has created 2 J, 2 % of the bodies' energy; "
-            "take a shorter step: in one of 0.1 s the bodies turn or deform too much.");
+            "take a shorter step: in one of 0.1 s the bodies rotate or deform too much.");
   EXPECT_EQ(saidOf(watch, 130, -26.1), "");
   EXPECT_NE(saidOf(watch, 150, -45.5), "") << "doubled";
 }
@@ -147,7 +147,7 @@ TEST(EnergyWatch, WhatWasSpentIsThereNoMore) {
   EXPECT_EQ(saidOf(watch, 52, 0, {.friction = 99, .external = 50}), "") << "of all that came in";
 }
 
-/// What was told of bodies at rest is told in joules, and hides nothing once they move.
+/// A message about bodies at rest is in joules, and does not suppress messages once they move.
 TEST(EnergyWatch, WhatWasToldAtRestHidesNothingLater) {
   EnergyWatch watch = watchOf(1e-20);
   EXPECT_NE(saidOf(watch, 7e-18, 0), "");
@@ -160,7 +160,7 @@ TEST(EnergyWatch, BlamesAStepThatChangesOften) {
   const EnergyLedger ledger;
   WatchedStep step = stepOf(ledger);
   for (const double dt : {.1, .2, .05, .1}) step.dt = dt, watch.count(step);
-  const std::string sentence = watch.complainOfGrowth(step, 110, 0);
+  const std::string sentence = watch.growthMessage(step, 110, 0);
   EXPECT_NE(
       sentence.find("keep the time step constant, or below a third of the critical one: changing "
                     "often between 0.05 and 0.2 s"),
@@ -168,7 +168,7 @@ TEST(EnergyWatch, BlamesAStepThatChangesOften) {
       << sentence;
   EXPECT_LT(sentence.size(), 300U);
   step.step = 10000;
-  EXPECT_NE(watch.complainOfGrowth(step, 130, 0).find("take a shorter step"), std::string::npos)
+  EXPECT_NE(watch.growthMessage(step, 130, 0).find("take a shorter step"), std::string::npos)
       << "that was long ago";
 }
 
@@ -178,15 +178,15 @@ TEST(EnergyWatch, TellsOfDepth) {
   WatchedStep step = stepOf(ledger, true);
   const auto deep = [&](double depth) {
     step.depth = depth;
-    return watch.complainOfDepth(step);
+    return watch.depthMessage(step);
   };
   EXPECT_EQ(deep(.09), "");
   EXPECT_EQ(deep(.2),
-            "Step 7, time 0.5 s: bodies are in one another by 0.2 m, 0.2 of the shortest segment; "
+            "Step 7, time 0.5 s: bodies overlap by 0.2 m, 0.2 of the shortest segment; "
             "take the Lagrangian correction, or a larger penalty factor.");
   EXPECT_EQ(deep(.3), "");
   EXPECT_NE(deep(.5), "");
-  watch.toldDepth = 0, step.halo = .06;
+  watch.reportedDepth = 0, step.halo = .06;
   EXPECT_EQ(deep(.02), "");
   EXPECT_NE(deep(.04), "") << "soon lost by a smooth surface";
 }
@@ -212,17 +212,17 @@ TEST(EnergyWatch, HealthyBlowsAreQuiet) {
     for (const Correction correction : {Correction::kLagrange, Correction::kPenalty}) {
       const World world = blow({correction, passes}, 400);
       EXPECT_GT(world.ledger.contact, 0);
-      EXPECT_TRUE(world.complaints.empty()) << world.complaints.front();
+      EXPECT_TRUE(world.warnings.empty()) << world.warnings.front();
     }
 }
 
 /// A ten-thousandth of the stiffness that would undo a penetration in a step: they sink.
 TEST(EnergyWatch, ASoftPenaltyIsTold) {
   const World world = blow({Correction::kPenalty, 1, 1e-4}, 400);
-  ASSERT_FALSE(world.complaints.empty());
-  EXPECT_TRUE(world.complaints.front().find("bodies are in one another by") != std::string::npos)
-      << world.complaints.front();
-  EXPECT_LT(world.complaints.size(), 8U);
+  ASSERT_FALSE(world.warnings.empty());
+  EXPECT_TRUE(world.warnings.front().find("bodies overlap by") != std::string::npos)
+      << world.warnings.front();
+  EXPECT_LT(world.warnings.size(), 8U);
 }
 
 /// A square of four triangles that spins and spreads, its corners at `part` of the wave speed, in
@@ -246,13 +246,13 @@ World spreading(double part) {
 TEST(EnergyWatch, TellsOfAStepThatCannotFollow) {
   for (const double part : {1e-3, .01, .05}) {
     const World world = spreading(part);
-    EXPECT_TRUE(world.complaints.empty()) << part << ": " << world.complaints.front();
+    EXPECT_TRUE(world.warnings.empty()) << part << ": " << world.warnings.front();
   }
   const World fast = spreading(1.5);
-  ASSERT_FALSE(fast.complaints.empty());
-  EXPECT_NE(fast.complaints.front().find("% of the bodies' energy; take a shorter step"),
+  ASSERT_FALSE(fast.warnings.empty());
+  EXPECT_NE(fast.warnings.front().find("% of the bodies' energy; take a shorter step"),
             std::string::npos)
-      << fast.complaints.front();
+      << fast.warnings.front();
 }
 
 /// A square that shakes by rounding and `speed` (m/s) without any pattern.
@@ -286,12 +286,12 @@ void vary(World& world, double least, double most, int steps, double growth) {
 TEST(EnergyWatch, TellsOfStepsThatChangeAllTheTime) {
   World world = shaking(.01, {}, .01);
   vary(world, .27, .9, 4000, 50);
-  ASSERT_FALSE(world.complaints.empty());
-  EXPECT_NE(world.complaints.front().find("keep the time step constant"), std::string::npos);
-  EXPECT_LT(world.complaints.size(), 14U);
+  ASSERT_FALSE(world.warnings.empty());
+  EXPECT_NE(world.warnings.front().find("keep the time step constant"), std::string::npos);
+  EXPECT_LT(world.warnings.size(), 14U);
   World slow = shaking(.01, {}, .01);
   vary(slow, .05, .2, 4000, 50);
-  EXPECT_TRUE(slow.complaints.empty()) << slow.complaints.front();
+  EXPECT_TRUE(slow.warnings.empty()) << slow.warnings.front();
 }
 
 /// Rounding shakes a body at rest, more and more.
@@ -301,7 +301,7 @@ TEST(EnergyWatch, BodiesAtRestAreQuiet) {
       World world = shaking(0, low, .7);
       const double dt = ofCritical * world.criticalTimeStep();
       for (int i = 0; i < 10000; ++i) world.step(dt);
-      EXPECT_TRUE(world.complaints.empty()) << world.complaints.front();
+      EXPECT_TRUE(world.warnings.empty()) << world.warnings.front();
       EXPECT_LT(energyOf(world), .1 * world.roundingEnergy()) << low.x << ' ' << ofCritical;
       if (low.x < 1 && ofCritical > .5) {
         EXPECT_GT(energyOf(world), .01 * world.roundingEnergy()) << low.x;
@@ -320,9 +320,9 @@ TEST(EnergyWatch, GrowthIsToldAfterALongRest) {
     world.outerForces = push;
     world.step(dt);
   }
-  EXPECT_TRUE(world.complaints.empty()) << world.complaints.front();
+  EXPECT_TRUE(world.warnings.empty()) << world.warnings.front();
   vary(world, .27, .9, 4000, 2);
-  EXPECT_FALSE(world.complaints.empty());
+  EXPECT_FALSE(world.warnings.empty());
 }
 
 /// Bodies that come all the time, with steps of `least` to `most` of the critical one.
@@ -331,7 +331,7 @@ World joined(double least, double most, Vec2 velocity) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> part(least, most);
   const double critical = world.criticalTimeStep();
-  for (int i = 0; i < 1000 && world.complaints.empty(); ++i) {
+  for (int i = 0; i < 1000 && world.warnings.empty(); ++i) {
     world.step(part(random) * critical);
     if (i % 50 != 0) continue;
     const int number = i / 50 + 1;
@@ -344,9 +344,9 @@ World joined(double least, double most, Vec2 velocity) {
 
 /// Each body that comes brings its energy along; the sum goes on.
 TEST(EnergyWatch, NewcomersDoNotBeginTheSumAnew) {
-  EXPECT_FALSE(joined(.27, .9, {}).complaints.empty());
+  EXPECT_FALSE(joined(.27, .9, {}).warnings.empty());
   const World quiet = joined(.8, .8, {0, 1});
-  EXPECT_TRUE(quiet.complaints.empty()) << quiet.complaints.front();
+  EXPECT_TRUE(quiet.warnings.empty()) << quiet.warnings.front();
   EXPECT_GT(energyOf(quiet), 5);
   EXPECT_NEAR(quiet.watch.expected / energyOf(quiet), 1, 1e-8);
 }
@@ -358,7 +358,7 @@ TEST(EnergyWatch, BodiesThatGoTakeTheirEnergyAlong) {
   EXPECT_LT(world.watch.expected, .96 * before);
   for (int i = 0; i < 2000; ++i) world.step(dt);
   EXPECT_NEAR(world.watch.expected / energyOf(world), 1, 1e-8);
-  EXPECT_TRUE(world.complaints.empty());
+  EXPECT_TRUE(world.warnings.empty());
 }
 
 }  // namespace

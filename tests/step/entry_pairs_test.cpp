@@ -111,9 +111,9 @@ TEST_P(EntryPairs, AllSlavesInTheHaloForEverySearch) {
   EXPECT_GT(found, 1000U);
 }
 
-/// The halo's promise: whoever touches after no node has moved by more than δ/2 was a pair.
-/// Backwards: a point is put on a master, then all nodes go away from each other by up to δ/2 at
-/// random.
+/// The guarantee of the halo: if no node has moved by more than δ/2, everything that touches was a
+/// pair. Backwards: a point is put on a master, then all nodes go away from each other by up to δ/2
+/// at random.
 TEST_P(EntryPairs, WhoeverTouchesWithinTheHaloWasAPair) {
   Random random(90 + GetParam());
   int far = 0;

@@ -1,5 +1,5 @@
 // A block on an incline: gravity is turned instead of the plane. It settles at the angle under
-// damping, at rest or at the slow speed at which damping balances it, and is then let go without:
+// damping, at rest or at the slow speed at which damping balances it, and is then released without:
 // in both cases the stresses before and after are the same, and nothing rings.
 
 #include <gtest/gtest.h>

@@ -74,7 +74,7 @@ TEST(Pressure, StaysWithItsBodyWhenAnotherLeaves) {
   EXPECT_TRUE(world.absorbing.segments.empty());
 }
 
-// Sides that come after the call, and hang together with one that has it, from either end.
+// Sides that come after the call, and are connected with one that has it, from either end.
 TEST(Pressure, SpreadsAlongNewSides) {
   World world = oneBlock();
   ContactSurfaces& surfaces = world.surfaces;

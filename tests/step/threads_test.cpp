@@ -135,7 +135,7 @@ End runWithSearches(bool forced, double speed, int passes, int count) {
 }
 
 // The same pairs are active in each step, and the runs have the same bits: nothing but the
-// candidates hangs on when was searched.
+// candidates depends on the time of the search.
 class Searches : public ::testing::TestWithParam<std::pair<double, int>> {};
 
 TEST_P(Searches, NothingIsMissedBetweenTwo) {

@@ -166,7 +166,7 @@ std::size_t heapInUse() {
   return heap.uordblks + heap.hblkhd;
 }
 
-/// No array is forgotten: what the heap has grown by is what the footprint tells of.
+/// No array is missing: the growth of the heap equals the footprint.
 TEST(Footprint, TellsOfNearlyAllMemory) {
   for (const char* used : {"", "fracture", "smooth", "viscosity"}) {
     Uses uses;

@@ -51,7 +51,7 @@ TEST(WorldBodies, ArraysOfAnotherLengthAreRefused) {
   BodySpec mirrored = moving(mesh, rubber(), {0, 0});
   for (const Vec2 node : mesh.nodes) mirrored.displacement.push_back({-2 * node.x, 0});
   const std::string inside = sentence<InputError>([&] { world.addBody(mesh, mirrored); });
-  EXPECT_TRUE(contains(inside, "displacement turns the triangle at (")) << inside;
+  EXPECT_TRUE(contains(inside, "displacement inverts the triangle at (")) << inside;
   TriangleMesh turned = mesh;
   std::swap(turned.triangles[2][0], turned.triangles[2][1]);
   const std::string text = sentence<InputError>([&] {
@@ -236,7 +236,7 @@ TEST(WorldStep, AnElementTurnedInsideOutStopsTheRun) {
     }
   ASSERT_FALSE(text.empty());
   EXPECT_TRUE(contains(text, "Step " + std::to_string(world.steps))) << text;
-  EXPECT_TRUE(contains(text, "element ") && contains(text, "inside out")) << text;
+  EXPECT_TRUE(contains(text, "element ") && contains(text, "is inverted")) << text;
   std::ostringstream when;
   when << "time " << world.time << " s";
   EXPECT_TRUE(contains(text, when.str())) << text;

@@ -1,5 +1,5 @@
 #pragma once
-// Is any boundary node inside another body? By point in polygon, which knows nothing of masters,
+// Is any boundary node inside another body? By point in polygon, independently of masters,
 // slaves or flags.
 
 #include <algorithm>

@@ -102,7 +102,7 @@ class CutMesh {
     return found;
   }
 
-  /// Cracks edges, doubles nodes, and lists what `relink` wants to know. The new segments' numbers
+  /// Cracks edges, doubles nodes, and lists the input of `relink`. The new segments' numbers
   /// are foreseen.
   std::vector<SurfaceSide> crack(const std::vector<Side>& edges) {
     std::vector<Row> ends;
@@ -157,7 +157,7 @@ class CutMesh {
     return static_cast<Row>(std::ranges::find(corners, node) - corners.begin());
   }
 
-  /// The part of a node's fan that hangs together with a triangle.
+  /// The part of a node's fan that is connected with a triangle.
   [[nodiscard]] std::vector<Row> groupOf(Row triangle, Row node) const {
     std::vector<Row> group{triangle};
     for (std::size_t i = 0; i < group.size(); ++i) {

@@ -54,7 +54,7 @@ std::size_t countLists(const std::vector<IdType>& links) {
   return countCycles(next);
 }
 
-/// Parts that hang together by edges.
+/// Parts that are connected by edges.
 inline std::size_t countPieces(const CutMesh& mesh) {
   std::vector<CutMesh::Row> top(mesh.triangles.size());
   std::iota(top.begin(), top.end(), 0);

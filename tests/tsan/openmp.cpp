@@ -1,5 +1,5 @@
 // The part of GCC's OpenMP runtime that lib/ uses, on std::thread and std::barrier. The thread
-// sanitizer knows these; the waiting inside libgomp it takes for races.
+// sanitizer recognises these; the waiting inside libgomp it reports as races.
 
 #include <barrier>
 #include <thread>

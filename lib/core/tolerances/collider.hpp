@@ -5,58 +5,59 @@
 
 namespace yadefrag::tolerance {
 
-/// (relative to coordinates) Covers the rounding of the test of the true halo and of YADE's
-/// geometry functors, so that balls that touch to the last bit are not lost where there is no
-/// sweep.
+/// (relative to coordinates) Covers the rounding of the true-halo test and of YADE's geometry
+/// functors: spheres that touch exactly, in the last bit, are found also without a sweep.
 inline constexpr double kHaloRounding = 2e-15;
 
-/// (bytes) Memory of a potential interaction with its pair in the search, and what contact adds to
-/// it (measured: 417; 380 to 660).
+/// (bytes) Memory of a potential interaction with its pair in the search, and additional memory of
+/// a contact (measured: 417; 380 to 660).
 inline constexpr double kPairBytes = 420, kContactBytes = 650;
 
-/// (count) Pairs per body of which few are contacts; where there are more, bodies lie on one
-/// another and all of them may be.
+/// (count) Pairs per body up to which few pairs are contacts. Above it, bodies overlap massively,
+/// and all pairs may be contacts.
 inline constexpr double kUsualPairs = 20;
 
-/// (count; ratio) Bodies below which all pairs fit any memory, and how much their number may grow
-/// before the free memory is looked up again.
+/// (count; ratio) Below this number of bodies all pairs fit into any memory. The free memory is
+/// read again when the number of bodies has grown by this ratio.
 inline constexpr std::size_t kFewBodies = 4000;
 inline constexpr double kMemoryLookUp = 1.1;
 
-/// (ratio) Spare in the length of a sweep for acceleration: without it a body at constant speed
-/// calls for a search one step early.
+/// (ratio) The sweep is this much longer than the speed requires, for acceleration. Without this
+/// margin a body at constant speed requires a search one step early.
 inline constexpr double kSweepSpare = 1.02;
 
-/// (ratio) A body whose room is longer than this many times what its present speed asks for gets a
-/// new one: bodies that come to rest would otherwise keep neighbours that they cannot reach.
+/// (ratio) A body whose swept box is this many times longer than its present speed requires gets a
+/// new one. Otherwise bodies that come to rest would keep neighbours out of their reach.
 inline constexpr double kLooseSweep = 4;
 
-/// (of the interval) For how long a body's room must last to be kept when others are searched: less
-/// means more searches, more means that rooms are given up early.
+/// (of the interval) When other bodies are searched, a body keeps its swept box only if that lasts
+/// for at least this part of the interval. A smaller value causes more searches; a larger one
+/// discards swept boxes too early.
 inline constexpr double kLookAhead = .25;
 
-/// (of a body's share in a search of all) Work of the look whether a body has left its room, which
-/// is to fetch it from memory, and of the search of one that has (measured: 0.05 and 1.8 of 0.33
-/// µs).
-inline constexpr double kLookWork = .15, kChangeWork = 6;
+/// (of a body's share in a full search) Cost of the test whether a body has left its swept box,
+/// which is mostly memory access, and cost of searching one body that has (measured: 0.05 and 1.8
+/// of 0.33 µs).
+inline constexpr double kCheckWork = .15, kChangeWork = 6;
 
-/// (steps) Shortest and longest interval between searches that is aimed at.
+/// (steps) Target range of the interval between two searches.
 inline constexpr double kLeastInterval = 3, kMostInterval = 200;
 
-/// (ratio) Growth of the interval from one search to the next. Growth is blind: in a dense block a
-/// whole shell of further neighbours comes near at once. Small steps overshoot little.
+/// (ratio) Growth of the interval from one search to the next. The next interval's number of pairs
+/// is not known in advance: in a dense block a whole shell of further neighbours comes within reach
+/// at once. Small growth steps overshoot little.
 inline constexpr double kIntervalGrowth = 1.25;
 
-/// (of its radius) A sphere that is farther from the plane of the bodies is meant to be beside it:
-/// rounding of a place gives a billionth.
+/// (of its radius) A sphere farther from the plane of the bodies than this is deliberately out of
+/// plane: rounding of a position is about 1e-9.
 inline constexpr double kInPlane = 1e-6;
 
-/// (of the shorter one) Ends of two facets this near to each other are one place: vertices that a
-/// file gives with six digits.
+/// (of the shorter one) Ends of two facets nearer to each other than this coincide: files give
+/// vertices with six digits.
 inline constexpr double kMeet = 1e-6;
 
-/// (of the bodies' extent) Half the length of a wall, which has no ends, and how much of it must be
-/// left past any body: it then need not be shifted for long.
-inline constexpr double kWallReach = 20, kWallLeft = 2;
+/// (of the bodies' extent) Half the length that represents a wall, which is infinite, and the
+/// minimum length beyond any body. With these values the represented part is rarely shifted.
+inline constexpr double kWallReach = 20, kWallMargin = 2;
 
 }  // namespace yadefrag::tolerance

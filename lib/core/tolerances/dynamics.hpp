@@ -8,35 +8,37 @@
 
 namespace yadefrag::tolerance {
 
-/// (m/s) Speed limit of the motion watch where no lower one is set: its square, and the way in a
-/// step, are finite. No velocity may be prescribed above it.
-inline constexpr double kAnySpeed = 1e100;
+/// (m/s) Highest speed that a velocity may have or be prescribed: the speed squared and the
+/// displacement in a step stay finite numbers.
+inline constexpr double kMostSpeed = 1e100;
 
-/// (1) Largest coefficients of bulk viscosity: usual ones are 0.06 and 1.2, and the critical step
+/// (1) Largest coefficients of bulk viscosity. Usual ones are 0.06 and 1.2; the critical time step
 /// falls in proportion.
 inline constexpr double kMostViscosity = 1e6;
 
-/// (det F; of the least stress-free height) An element that is compressed to `kFlat` of its area is
-/// flat. Only a flat element, or one whose nodes move by `kSwift` or more, can be turned inside out
-/// in one step; elements that were stretched as well are the exception.
-inline constexpr double kFlat = .2, kSwift = .1;
+/// (det F; of the least stress-free height) An element compressed to `kFlat` of its area is flat.
+/// An element can be inverted in one step only if it is flat or if one of its nodes moves by
+/// `kLargeMove` or more; elements that are also stretched in one direction are the exception.
+inline constexpr double kFlat = .2, kLargeMove = .1;
 
-/// (count) Elements whose forces are summed in one go: their nodes stay in the first-level cache,
-/// and few of them belong to another chunk too.
+/// (count) Elements per block in the sum of forces. The nodes of a block stay in the first-level
+/// cache, and few of them belong to another block.
 inline constexpr std::size_t kChunkElements = 512;
 
-/// (ratio) Elements stressed to this part of their body's lowest strength are looked at more
-/// closely: the stress is that of the step before.
-inline constexpr double kStrengthLook = .9;
+/// (ratio) Elements stressed to this part of their body's lowest strength are checked in detail.
+/// The margin is needed since the stress is that of the previous step.
+inline constexpr double kStrengthCheck = .9;
 
-/// (ratio) Elements of a thread's part, at least, to other items: the threads meet twice a step.
+/// (ratio) Minimum number of elements per thread, as a multiple of the minimum for other items:
+/// threads wait for each other twice a step.
 inline constexpr std::size_t kElementsPerItem = 4;
 
-/// (count) Nodes whose works are summed in one go: sums do not depend on the number of threads.
+/// (count) Nodes per block in sums over nodes. The blocks are fixed, so that sums do not depend on
+/// the number of threads.
 inline constexpr std::size_t kNodesPerSum = 2048;
 
-/// (kg) Of a node of a rigid boundary, which moves as it is given: above 0, for nodes of dropped
-/// triangles have 0, and so little that no sum over masses changes by it.
+/// (kg) Mass of a node of a rigid boundary, whose motion is prescribed. It is above 0, because mass
+/// 0 marks nodes of removed triangles, and so small that it changes no sum of masses.
 inline constexpr double kRigidMass = 1e-300;
 
 }  // namespace yadefrag::tolerance

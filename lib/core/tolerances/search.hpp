@@ -7,73 +7,76 @@
 
 namespace yadefrag::tolerance {
 
-/// (relative) Added to the largest box of a level before it is subtracted from a coordinate: covers
-/// the rounding of the two subtractions (2⁻⁵³ each) with a factor of eight to spare.
+/// (relative) Margin of the largest box of a level, which is subtracted from a coordinate. It
+/// covers the rounding of the two subtractions (2⁻⁵³ each) eight times.
 inline constexpr double kExtentRounding = 8.9e-16;
 
 /// (ratio) Edge of a position-code box over the longest body box of its level. Above 1, a box that
-/// overlaps another starts in the same position-code box or the next, which the search relies on.
-/// The greater, the fewer ranges and the more candidates: see tests/benchmark.
+/// overlaps another starts in the same position-code box or in the next one; the search depends on
+/// that. A larger ratio gives fewer ranges and more candidates: see tests/benchmark.
 inline constexpr double kEdgeOverExtent = 2;
 
-/// (count) Boxes from whose sizes the levels are planned.
+/// (count) Size of the sample of boxes from which the levels are planned.
 inline constexpr std::size_t kSample = 1024;
 
-/// (ratio) The longest side of a level is planned by this much above the longest of the sample, so
-/// that bodies of one size, which differ by rounding and by their sweeps, do not straddle two
-/// levels.
+/// (ratio) The longest side of a level is planned this much longer than the longest side of the
+/// sample. Bodies of one size differ by rounding and by their sweeps; the margin keeps them on one
+/// level.
 inline constexpr double kSpareSide = 1.1;
 
-/// (count) Levels with no more boxes than this are not put on the curve but tested against
-/// everything: a floor and four walls would otherwise cost every body a range search each.
+/// (count) Levels with no more boxes than this are not put on the curve; their boxes are tested
+/// against all others. Otherwise a floor and four walls would cost every body a range search each.
 inline constexpr std::size_t kWideLevelCount = 8;
 
-/// (count) Codes in one bucket of the directory above which the bucket gets a directory of its own.
+/// (count) A directory slot with more codes than this gets a directory of its own.
 inline constexpr std::size_t kBucketCodes = 16;
 
-/// (boxes) Up to this width on every axis a rectangle is cut once an axis (paper §4.4); a larger
-/// one is cut until its ranges hold little else.
+/// (boxes) A rectangle up to this width on every axis is cut once per axis (paper §4.4). A larger
+/// one is cut until its ranges contain few other boxes.
 inline constexpr double kSmallRectangle = 3;
 
-/// (boxes) Up to this many per occupied position-code box of twice the edge, a level is joined to
-/// the next coarser one.
+/// (boxes) A level is merged into the next coarser one if it has at most this many boxes per
+/// occupied position-code box of twice the edge.
 inline constexpr double kThinLevel = 1.5;
 
-/// (ratio) From this many boxes on a finer level per box on a coarser one, the coarse ones search.
+/// (ratio) With at least this many boxes on a finer level per box on a coarser one, the boxes of
+/// the coarser level search the finer one.
 inline constexpr std::size_t kFinePerCoarse = 4;
 
-/// (boxes) An axis along which all boxes start within this many median box lengths is left out of
-/// the position code: a plane scene is searched with 2D codes.
+/// (boxes) An axis is left out of the position code if all boxes start within this many median box
+/// lengths on it: a plane scene is searched with 2D codes.
 inline constexpr double kFlatAxis = 1.0;
 
-/// (ratio) Codes that a range of a large rectangle may hold for each of its boxes: a sliver's two
-/// end codes can have the whole scene between them.
+/// (ratio) Maximum number of codes in a range of a large rectangle per box of the rectangle:
+/// between the two end codes of a thin rectangle may lie the whole scene.
 inline constexpr std::uint64_t kCodesPerBox = 4;
 
-/// (count) From this length on a list is sorted by digits; a shorter one has fewer entries than
-/// there are counters.
-inline constexpr std::size_t kRadixPays = 256;
+/// (count) Lists of at least this length are sorted by digits (radix sort); shorter ones have fewer
+/// entries than the sort has counters.
+inline constexpr std::size_t kRadixLength = 256;
 
-/// (ratio) The hierarchy is rebuilt when the summed half-perimeter of its refitted nodes exceeds
-/// this many times what it was when built.
+/// (ratio) The hierarchy is rebuilt when the total half-perimeter of its refitted nodes exceeds
+/// this multiple of its value after building.
 inline constexpr double kHierarchyDecay = 1.5;
 
 /// (count) Boxes in a leaf of the hierarchy.
 inline constexpr std::uint32_t kHierarchyLeaf = 4;
 
-/// (count) Rows of a table of pairs that are longer are sorted and halved to find a pair: below
-/// that a look at each is as fast. Few bodies of an even packing have as many neighbours.
+/// (count) Rows of a pair table longer than this are sorted and searched by bisection; for shorter
+/// ones a linear search is as fast. Few bodies of an even packing have so many neighbours.
 inline constexpr std::size_t kLongRow = 16;
 
-/// (looks per box) Boxes that changed are sorted in when those that wait were looked at this many
-/// times the number of all: to sort in costs one look at each.
+/// (box tests per box) Changed boxes are kept in a separate search. They are sorted into the main
+/// one when the tests in the separate search exceed this multiple of the number of all boxes:
+/// sorting in costs one access per box.
 inline constexpr std::size_t kAsideWork = 1;
 
-/// (relative to squared lengths) A period vector is taken for shorter than another only beyond
-/// rounding, so that equal ones do not take turns.
+/// (relative to squared lengths) A period vector counts as shorter than another only if the
+/// difference exceeds rounding. Vectors of equal length are therefore not swapped repeatedly.
 inline constexpr double kShorterPeriod = 1e-12;
 
-/// (cells) Largest shear of a periodic cell. Reduced vectors lose as many digits as it has.
+/// (cells) Largest shear of a periodic cell. Reducing the vectors loses as many digits as the shear
+/// has.
 inline constexpr double kMostShear = 1e6;
 
 }  // namespace yadefrag::tolerance

@@ -5,73 +5,80 @@
 
 namespace yadefrag::tolerance {
 
-/// (relative to the largest bound) Change of the friction bounds at which their iteration ends, and
-/// how often it may go round.
+/// (relative to the largest bound; count) The iteration of the friction bounds ends at this change,
+/// or after this number of rounds.
 inline constexpr double kFrictionBound = 1e-4;
 inline constexpr int kFrictionRounds = 8;
 
-/// (count; of the largest displacement in the step) Contact in rubble is solved by so many sweeps
-/// at each of so many detections, until they change so little. What is left is to be less than
-/// kEntryDepth. With 2 detections and ten times the change an impact takes 0.9 of the time, and
-/// pieces overlap by up to 4e-4 of a segment; with 10 detections of 400 sweeps and a hundredth of
-/// the change, 4 times the time, and overlaps are below 2e-5.
+/// (count; of the largest displacement in the step) Contact in rubble is solved by this number of
+/// sweeps at each of this number of detections, or until the change in a sweep is below the third
+/// value. The remaining penetration must stay below kEntryDepth. With 2 detections and ten times
+/// the change an impact takes 0.9 of the time, and pieces overlap by up to 4e-4 of a segment; with
+/// 10 detections of 400 sweeps and a hundredth of the change, 4 times the time, and overlaps are
+/// below 2e-5.
 inline constexpr int kRowSweeps = 20, kRubbleDetections = 4;
 inline constexpr double kRubbleRemainder = 1e-4;
 
-/// (rows; of the penetration that is worth another solve; count) A group with friction and more
-/// rows than the first is solved by sweeps, until no gap or slip changes by more than the second,
-/// or for so many sweeps.
+/// (rows; of the penetration that needs another solution; count) A group with friction and more
+/// rows than the first value is solved by sweeps, until no gap or slip changes by more than the
+/// second, or after this number of sweeps.
 inline constexpr std::size_t kPivotedRows = 8;
 inline constexpr double kSweptChange = .1;
 inline constexpr int kGroupSweeps = 200;
 
-/// (ratio) Normal forces above this many times the largest that one row of their group needs by
-/// itself are a jam's, and bound friction no further.
+/// (ratio) Normal forces above this multiple of the largest force that one row of their group needs
+/// alone result from a jam. They are not used to increase friction bounds.
 inline constexpr double kJam = 100;
 
-/// (relative to max |g|) Error of the forces of a contact group, besides rounding: below what the
-/// linearisation leaves. Smaller ones cost Gauss–Seidel sweeps in two-pass systems with friction.
+/// (relative to max |g|) Residual of the forces of a contact group, besides rounding; it is below
+/// the error of the linearisation. A smaller value costs Gauss–Seidel sweeps in two-pass systems
+/// with friction.
 inline constexpr double kBoxResidual = 1e-9;
 
-/// (of the sum of the parts of a gap) What rounding may make of a gap of a group.
+/// (of the sum of the absolute parts of a gap) Rounding error of a gap of a group.
 inline constexpr double kGapRounding = 0x1p-48;
 
-/// (of the product of their diagonals) Two rows with a determinant above this are solved in closed
+/// (of the product of their diagonals) Two rows whose determinant exceeds this are solved in closed
 /// form.
 inline constexpr double kIndependentRows = 1e-6;
 
-/// (relative to the diagonal) Proximal regularisation of a group's matrix; the next where pivoting
-/// cycles with the one before.
+/// (relative to the diagonal) Proximal regularisations of a group's matrix; the next larger one is
+/// used if pivoting cycles with the one before.
 inline constexpr double kProximal[] = {1e-7, 1e-5, 1e-3};
 
-/// (relative to the diagonal; count) The same for a group that has no solution, and how often it is
-/// taken out again: a force grows by 1/(2ε) of what would close the gap each time.
+/// (relative to the diagonal; count) Proximal regularisation of a group without a solution, and
+/// number of refinements that reduce its effect: each increases a force by 1/(2ε) of what would
+/// close the gap.
 inline constexpr double kCompromise = 1e-2;
 inline constexpr int kCompromiseSteps = 5;
 
-/// (relative to max |g|) A bound or a sign violated by less than this is no reason for a pivot.
+/// (relative to max |g|) A violation of a bound or of a sign below this does not cause a pivot.
 inline constexpr double kPivotSlack = 1e-15;
 
-/// (count) Pivots of all contradicted rows at once that may fail to reduce their number.
+/// (count) Number of block pivots (all contradicted rows at once) that may fail to reduce the
+/// number of contradicted rows.
 inline constexpr int kBlocksWithoutGain = 3;
 
-/// (part of a Newton step) Below this a step that lowers the energy is lost in rounding.
+/// (part of a Newton step) A descent step below this is smaller than rounding.
 inline constexpr double kLeastDescent = 1e-9;
 
-/// (ratio) Part of the fall that the slope promises, with which a step is content.
+/// (ratio) Armijo's condition: a step must reach at least this part of the decrease that the slope
+/// predicts.
 inline constexpr double kArmijo = 1e-4;
 
-/// (count) Factors of one solve after which the next regularisation is tried.
+/// (count) Factorisations per solution; after these the next regularisation is tried.
 inline constexpr int kMostPivots = 300;
 
-/// (count) Proximal iterations, and how many of them must at least halve the error.
+/// (count) Maximum number of proximal iterations, and number of iterations in which the error must
+/// at least be halved.
 inline constexpr int kMostRefinements = 200, kRefinementsToHalve = 10;
 
-/// (count) Gauss–Seidel sweeps where all else fails, and between two looks at the error.
+/// (count) Gauss–Seidel sweeps if all other methods fail, and sweeps between two computations of
+/// the error.
 inline constexpr int kMostSweeps = 100, kSweepsToCheck = 10;
 
-/// (rows) Up to the first a group's matrix is factored by plain loops, up to the second as a dense
-/// one; up to the third if more than a quarter of its entries are there.
+/// (rows) A group's matrix is factorised by plain loops up to the first size, as a dense matrix up
+/// to the second, and also up to the third if more than a quarter of its entries are not zero.
 inline constexpr std::size_t kPlainCholesky = 16, kDenseRows = 32, kMostDenseRows = 1500;
 
 }  // namespace yadefrag::tolerance

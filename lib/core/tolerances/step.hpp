@@ -7,60 +7,63 @@
 
 namespace yadefrag::tolerance {
 
-/// (of the shorter of the two segments) Farthest that bodies about to touch may move against each
-/// other in one step: halos of adjacent segments must not overlap, for the same reason (§4.1).
+/// (of the shorter of the two segments) Largest relative displacement in one step of two bodies
+/// about to touch. The reason is that of kWidestHalo: halos of adjacent segments must not overlap
+/// (§4.1).
 inline constexpr double kMostMotion = .5;
 
-/// (of the shortest segment) Farthest that any surface node may move in one step: with a halo for
-/// more, everything would be a candidate of everything. Ten wave speeds and more.
+/// (of the shortest segment) Largest displacement of any surface node in one step: with a wider
+/// halo every entry would be a candidate of every other. The value corresponds to more than ten
+/// wave speeds.
 inline constexpr double kFarthestMove = 10;
 
-/// (of the bodies' largest energy; ratio) What contact or cracks may have given before a sentence
-/// says so, and growth of it for which energies are looked at again.
-inline constexpr double kGivenEnergy = .01, kLookAgain = 1.1;
+/// (of the bodies' largest energy; ratio) A message is given if contact or cracks have added more
+/// than this energy. Energies are evaluated again when that amount has grown by the second value.
+inline constexpr double kGivenEnergy = .01, kEvaluateAgain = 1.1;
 
-/// (steps) From one look at the kinetic energy to the next: half a per cent of a step's work each.
-inline constexpr std::uint64_t kStepsToLook = 8;
+/// (steps) Interval between two evaluations of the kinetic energy: each costs half a per cent of a
+/// step.
+inline constexpr std::uint64_t kStepsToCheck = 8;
 
-/// (steps) From one sum over all energies to the next: it takes as long as four steps.
+/// (steps) Interval between two sums over all energies: each takes as long as four steps.
 inline constexpr std::uint64_t kStepsToSumUp = 1024;
 
-/// (count; steps) A step that has changed more often than this, and more than once in so many
-/// steps, may feed vibrations.
+/// (count; steps) A time step that has changed more often than the first value, and more than once
+/// in the second, may excite vibrations.
 inline constexpr std::uint64_t kFewChanges = 2, kStepsPerChange = 1000;
 
-/// (relative) Rounding of a coordinate in a step. Energies of bodies at rest are a twentieth of
-/// what it gives, at any distance from the origin and any step.
+/// (relative) Rounding of a coordinate in a step. Measured energies of bodies at rest are a
+/// twentieth of the estimate from it, at any distance from the origin and any time step.
 inline constexpr double kRounding = 0x1p-53;
 
-/// (of the shortest segment) Penetration left in a step above which a sentence says so; half a halo
-/// if that is less, for beyond the halo smooth surfaces hold nothing.
+/// (of the shortest segment) A message is given if the penetration at the end of a step exceeds
+/// this, or half a halo if that is less: beyond the halo, smooth surfaces have no contact.
 inline constexpr double kDeep = .1;
 
-/// (of the shortest segment) The halo's width: at most half, so that three adjacent halos do not
-/// overlap (paper §4.1); at least a twentieth, below which nothing is saved.
+/// (of the shortest segment) Limits of the halo's width. At most half, so that three adjacent halos
+/// do not overlap (paper §4.1); at least a twentieth, below which no search is saved.
 inline constexpr double kWidestHalo = .5, kNarrowestHalo = .05;
 
-/// (steps) For how many a halo is made wide enough at the present largest velocity.
+/// (steps) Number of steps for which a halo is wide enough at the present largest velocity.
 inline constexpr double kHaloSteps = 40;
 
-/// (ratio) Spare for acceleration when it is foreseen whether the next step leaves the halo.
+/// (ratio) Margin for acceleration in the prediction whether the next step leaves the halo.
 inline constexpr double kHaloSpare = 1.1;
 
 /// (of the reach) A body is isolated if all others are farther away than `kApart` times the reach.
-/// The margin keeps the choice the same from one check to the next. Gaps up to `kApartLook` times
-/// the reach are computed; a body covers such a gap in some hundred steps.
-inline constexpr double kApart = 2, kApartLook = 8;
+/// With this margin the classification does not alternate between checks. Gaps up to `kApartSearch`
+/// times the reach are computed; a body covers such a gap in some hundred steps.
+inline constexpr double kApart = 2, kApartSearch = 8;
 
-/// (of the largest move in a step) Reach of bodies that are apart, if that is more than the halo:
-/// even two that fly towards each other are seen well before they could meet.
+/// (of the largest displacement in a step) Reach of isolated bodies, if that is more than the halo:
+/// two bodies that approach each other are detected well before they could touch.
 inline constexpr double kApartMoves = 8;
 
-/// (ratio) Margin for acceleration until all velocities are checked again. As long as no node is
-/// faster than this, a step needs no check of the nodes.
+/// (ratio) Margin for acceleration until all velocities are checked again. While no node is faster
+/// than that, a step needs no check of the nodes.
 inline constexpr double kSpeedSpare = 1.25;
 
-/// (count) Boxes that are sooner compared with each other than sorted.
+/// (count) Up to this number boxes are compared with each other without sorting.
 inline constexpr std::size_t kFewBoxes = 12;
 
 }  // namespace yadefrag::tolerance

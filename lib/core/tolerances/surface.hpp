@@ -3,18 +3,19 @@
 
 namespace yadefrag::tolerance {
 
-/// (ξ) A Newton step of the foot on an arc that is as short as this was the last: ξ itself is known
-/// to a few roundings only.
+/// (ξ) The Newton iteration for the foot on an arc ends with a step below this: ξ itself is
+/// accurate to a few roundings only.
 inline constexpr double kFootStep = 1e-15;
 
-/// (count) Steps for the foot on an arc: halving alone gets from 1 to `kFootStep` in 50.
+/// (count) Maximum number of iterations for the foot on an arc: bisection alone reaches `kFootStep`
+/// from 1 in 50.
 inline constexpr int kMostFootSteps = 100;
 
-/// (count) Halvings of an arc that isolate its orthogonal feet; two that are nearer than 2⁻²⁰ are
+/// (count) Bisections of an arc that separate its orthogonal feet; two feet nearer than 2⁻²⁰ are
 /// one.
 inline constexpr int kMostArcCuts = 20;
 
-/// (relative to the chord) Rounding that the quick line test of a boundary piece forgives.
+/// (relative to the chord) Margin for rounding in the quick line test of a boundary piece.
 inline constexpr double kQuickLine = 1e-14;
 
 }  // namespace yadefrag::tolerance

@@ -5,7 +5,7 @@
 
 namespace yadefrag::tolerance {
 
-/// (count) Fewer items than this are not worth waking a second thread for.
+/// (count) With fewer items than this a second thread costs more than it saves.
 inline constexpr std::size_t kMinItemsPerThread = 512;
 
 }  // namespace yadefrag::tolerance

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""check_virtuals.py VERSION DUMP STAMP: are the virtual functions of pkg/abi in YADE's order?
+"""check_virtuals.py VERSION DUMP STAMP: checks the order of the virtual functions in pkg/abi.
 
-DUMP is what g++ -fdump-lang-class writes of the declarations. The functions of each class have to be
-the first of YADE's, in its order; of a class that this project derives from, all of them. Writes
-STAMP if so, else prints one line per difference and exits with 1.
+DUMP is the output of g++ -fdump-lang-class for the declarations. The functions of each class must be
+the first ones of YADE's class, in its order; for a class from which this project derives, all of
+them. Writes STAMP if so; otherwise prints one line per difference and exits with 1.
 """
 
 import pathlib
@@ -17,23 +17,25 @@ ARCHIVES = versions.FOLDER.parent.parent / 'publish' / 'archives.hpp'
 
 
 def derivedFrom():
-    """YADE's classes that classes of this project are published from."""
+    """YADE's classes from which classes of this project are derived."""
     return set(re.findall(r'ARCHIVES\(yade::(\w+)\)', ARCHIVES.read_text()))
 
 
 def isSame(declared, measured):
-    """A pure function has no name in the dump; classes that override it show its place."""
+    """A pure function has no name in the dump; its place follows from the classes that override
+    it."""
     return declared in (measured, '__cxa_pure_virtual')
 
 
 def firstDifference(functions, there):
-    """Index of the first function that is not the measured one; None if there is none."""
+    """Index of the first function that differs from the measured one; None if there is none."""
     return next((i for i, function in enumerate(functions)
                  if i >= len(there) or not isSame(function, there[i])), None)
 
 
 def differences(declared, measured, complete):
-    """One line for each table of `declared` that is not the beginning of the measured one."""
+    """One line for each table of `declared` that does not agree with the begin of the measured
+    one."""
     for name, tables in sorted(declared.items()):
         wanted = measured.get(name, {}).get('virtuals', {})
         for at, functions in tables.items():

@@ -1,8 +1,8 @@
-"""Reads what g++ -fdump-lang-class writes: the tables of virtual functions, by class.
+"""Reads the output of g++ -fdump-lang-class: the tables of virtual functions, by class.
 
 A table is a list of function names in YADE's order, without classes and arguments; '~' is a
-destructor, which takes two places. A class with a second base has a second table; tables are named
-by the byte at which their base begins: {'0': [...], '24': [...]}.
+destructor, which has two entries. A class with a second base class has a second table; tables are
+named by the byte at which their base begins: {'0': [...], '24': [...]}.
 """
 
 import re
@@ -28,7 +28,7 @@ def readTables(dump):
 
 def addSlot(table, text):
     text = re.sub(r'^\(int \(\*\)\(\.\.\.\)\)', '', text)
-    if re.fullmatch(r'-?\d+', text):  # how far the object begins before this base, unsigned
+    if re.fullmatch(r'-?\d+', text):  # offset of the object's begin from this base, unsigned
         number = int(text)
         offset = 2**64 - number if number >= 2**63 else -number
         table[str(offset)] = []
@@ -47,7 +47,7 @@ def functionName(text):
     name = text.rsplit('::', 1)[-1]
     if '~' in name:
         return '~'
-    # A call table has one function for each number of arguments, which pkg/abi names by it.
+    # A call table has one function for each number of arguments; pkg/abi names them by that number.
     return re.sub(r'^(go|goReverse)\d$', r'\1', name)
 
 

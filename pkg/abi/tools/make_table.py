@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""make_table.py VERSION OWN HEADER MODULE: what the build needs of pkg/abi/versions/VERSION.json.
+"""make_table.py VERSION OWN HEADER MODULE: generates files of the build from
+pkg/abi/versions/VERSION.json.
 
-HEADER gets sizes and offsets, for the compiler; MODULE which YADE the extension is built for, and
-OWN, the version of yadefrag, for Python. Exit code 2, and one sentence: that YADE is not known.
+HEADER: sizes and offsets, for the compiler. MODULE, for Python: the YADE version of this build and
+the version of yadefrag, OWN. Exit code 2 and one sentence: this version of YADE is unknown.
 """
 
 import pathlib
@@ -29,12 +30,12 @@ inline constexpr LayoutEntry kLayout[] = {
 }  // namespace yadefrag
 '''
 
-MODULE = '''"""What this build of yadefrag is, and which YADE it is for. Made by pkg/abi/tools/make_table.py."""
+MODULE = '''"""This build of yadefrag and its version of YADE. Made by pkg/abi/tools/make_table.py."""
 
 YADEFRAG = %(own)r
 VERSION = %(version)r
 SYSTEM = %(system)r
-# Was this project run with it?
+# True if this project has been tested with it.
 RUN = %(run)r
 # Every version that a build can be for.
 ACCEPTED = %(accepted)r
@@ -58,8 +59,8 @@ def writeIfNew(path, text):
 def main(version, own, header, module):
     known = versions.known()
     if version not in known:
-        print('yadefrag knows YADE %s, and not %s; "How to move to another YADE" in pkg/README.md '
-              'says what to do.' % (', '.join(known), version or 'an unknown version'))
+        print('yadefrag supports YADE %s, and not %s; see "How to move to another YADE" in '
+              'pkg/README.md.' % (', '.join(known), version or 'an unknown version'))
         return 2
     facts = known[version]
     writeIfNew(header, HEADER % {**facts, 'number': versions.number(version),

@@ -3,15 +3,15 @@
 
     measure.py SOURCE SYSTEM [--libraries FOLDER] [--flags FLAGS]
 
-SOURCE is a YADE source tree; nothing of it is built but one file that includes the headers which
-define the classes. Run it on the system whose package is measured: compiler, Boost, Eigen and MPI
-are that system's. SYSTEM is its name, say 'Debian 13'. It needs g++, gdb (with Python) and the -dev
-packages of what the headers include: Python, Boost, Eigen, and, by feature, CGAL, MPI, mpi4py, Qt 5,
+SOURCE is a YADE source tree. Only one file is compiled, which includes the headers that define the
+classes. Run it on the system whose package is measured: compiler, Boost, Eigen and MPI must be those
+of that system. SYSTEM is its name, e.g. 'Debian 13'. Needed: g++, gdb (with Python) and the -dev
+packages of the included headers: Python, Boost, Eigen, and, by feature, CGAL, MPI, mpi4py, Qt 5,
 GL, MPFR, MPC.
 
 The options that change layouts are read from the installed package: yade/config.py below the folder
-of the libraries lists its features. --flags adds to them (say, -I of headers elsewhere). The new file
-says `"run": false`: change that once the tests have passed with this YADE.
+of the libraries lists its features. --flags adds compiler flags (e.g. -I for headers elsewhere). The
+new file has `"run": false`: change that after the tests have passed with this YADE.
 """
 
 import argparse
@@ -29,7 +29,8 @@ import versions
 
 LIBRARIES = '/usr/lib/x86_64-linux-gnu/yade-double'
 
-# What YADE's CMakeLists.txt defines for a feature; others leave the headers as they are.
+# Macros that YADE's CMakeLists.txt defines for a feature; other features do not change the
+# headers.
 DEFINES = {
     'LOGGER': ['YADE_BOOST_LOG', 'BOOST_LOG_DYN_LINK'], 'COMPLEX_MP': ['YADE_COMPLEX_MP'],
     'MPFR': ['YADE_MPFR'], 'VTK': ['YADE_VTK'], 'OPENMP': ['YADE_OPENMP'], 'GTS': ['YADE_GTS'],
@@ -58,7 +59,7 @@ def spell(kind):
     plain = kind.unqualified()
     name = plain.name or 'structure_type'
     depth, start = 0, 0
-    for at, sign in enumerate(name):  # the name without what it is in
+    for at, sign in enumerate(name):  # the name without its enclosing scopes
         depth += {'<': 1, '>': -1}.get(sign, 0)
         if sign == ':' and depth == 0: start = at + 1
     name = re.sub(r'\bunsigned long\b(?! long)', 'long unsigned int', name[start:])
@@ -91,7 +92,7 @@ def run(*command, **options):
 
 
 def readConfig(libraries):
-    """The package's features, version and the size of its numbers."""
+    """The package's features and version, and the size of its floating-point numbers."""
     text = (libraries / 'py' / 'yade' / 'config.py').read_text()
 
     def value(name):
@@ -121,7 +122,7 @@ def compilerFlags(config):
 
 
 def definingHeaders(source, classes):
-    """The header of each class, as it is included; complete, or an error."""
+    """The header of each class, with its include path; complete, or an error."""
     texts = {path: path.read_text(errors='replace')
              for folder in ('core', 'lib', 'pkg') for path in sorted((source / folder).rglob('*.hpp'))}
     headers, missing = [], []
@@ -137,7 +138,7 @@ def definingHeaders(source, classes):
 
 
 def shortType(spelled):
-    """A type without the allocators and orders that are the standard ones."""
+    """A type without the default allocators and orders."""
     spelled = re.sub(r'std::__cxx11::basic_string<char, std::char_traits<char>, '
                      r'std::allocator<char> >', 'string', spelled)
     before = None
@@ -148,12 +149,12 @@ def shortType(spelled):
 
 
 def measure(source, classes, flags):
-    """{class: size, members, virtuals}, and the classes that are not in the headers."""
+    """{class: size, members, virtuals}, and the classes that were not found in the headers."""
     headers, missing = definingHeaders(source, classes)
     names = [name for name in classes if name not in missing]
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        # Classes are laid out where they are complete; a use puts them into the debug information.
+        # A class must be used to be in the debug information.
         uses = ['extern const unsigned long sizes[];', 'const unsigned long sizes[] = {']
         uses += ['sizeof(yade::%s),' % name for name in names] + ['};']
         uses += ['yade::%s* use_%s;' % (name, name) for name in names]
@@ -181,7 +182,7 @@ def main():
     parser.add_argument('--libraries', type=pathlib.Path, default=pathlib.Path(LIBRARIES))
     parser.add_argument('--flags', default='', help='more options for g++')
     given = parser.parse_args()
-    # The classes that pkg/abi declares: those that every file has.
+    # The classes that pkg/abi declares: those of every existing file.
     classes = sorted(next(iter(versions.known().values()))['classes'])
     config = readConfig(given.libraries)
     found, missing = measure(given.source.resolve(), classes,

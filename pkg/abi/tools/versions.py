@@ -1,10 +1,10 @@
-"""The files of pkg/abi/versions: what is known of a YADE's classes, one file per version.
+"""The files of pkg/abi/versions: layouts of YADE's classes, one file per version.
 
-version     as yade.config has it
-system      whose package it is
-run         was this project run with it? If not, `import yadefrag` refuses it
-classes     name: size and offsets in bytes, members as [name, type, offset], virtual functions as
-            class_dump.py says
+version     as in yade.config
+system      the distribution of the package
+run         true if this project has been tested with it; otherwise `import yadefrag` refuses it
+classes     name: size and offsets in bytes, members as [name, type, offset], virtual functions as in
+            class_dump.py
 """
 
 import json
@@ -24,20 +24,20 @@ def known():
 
 
 def versionOf(libraries):
-    """Version of the YADE whose libraries are in a folder; '' if it says none."""
+    """Version of the YADE whose libraries are in a folder; '' if it is not given there."""
     config = pathlib.Path(libraries) / 'py' / 'yade' / 'config.py'
     found = re.search(r"^version\s*=\s*'([^']*)'", config.read_text(), re.M)
     return found.group(1) if found else ''
 
 
 def number(version):
-    """202302 of '2023.02a': what the preprocessor compares."""
+    """202302 of '2023.02a': the number for the preprocessor."""
     year, month = re.match(r'(\d+)\.(\d+)', version).groups()
     return 100 * int(year) + int(month)
 
 
 def write(facts):
-    """One line per member and table, so that two versions are compared by diff."""
+    """One line per member and table, so that diff compares two versions."""
     blocks = []
     for name, entry in sorted(facts['classes'].items()):
         members = ',\n'.join('   ' + json.dumps(row) for row in entry['members'])

@@ -1,7 +1,8 @@
 """Contact search and finite-element bodies for YADE.
 
 `import yadefrag` in a script run by `yade` adds the classes to yade.wrapper, as YADE does with its
-own, and to the names that every script sees. ImportError, in one sentence, in any other YADE.
+own classes, and to the names that every script can use. In any other YADE it raises ImportError
+with one sentence.
 """
 
 import builtins
@@ -9,20 +10,20 @@ import sys
 
 from yadefrag import support
 
-if support.isReportAsked():  # python3 -m yadefrag: in a Python without YADE nothing else can follow
+if support.isReportAsked():  # python3 -m yadefrag: in a Python without YADE nothing else can be imported
     from yadefrag import about_run
     sys.exit(about_run.main())
 
 support.require()
 
-# Only after the check: without the right YADE these may not exist, or not load.
+# Only after the check: without the right YADE these may not exist, or may not load.
 from yade import wrapper  # noqa: E402
 from yadefrag import _yadefrag  # noqa: E402
 
 _yadefrag.checkRunningYade()
 __all__ = list(_yadefrag.publish())
 
-# Only now: FESolver is there.
+# Only now, because these need FESolver.
 from yadefrag import attributes, lifecycle, solver  # noqa: E402
 from yadefrag.about import about  # noqa: E402
 from yadefrag.engines import engines  # noqa: E402
@@ -47,7 +48,7 @@ from yadefrag.tradeoff_table import TradeoffTable  # noqa: E402
 
 
 def _renewDispatchers():
-    """Dispatchers made before now have no room for the new shapes and materials."""
+    """Dispatchers created before the import have no entries for the new shapes and materials."""
     for engine in wrapper.Omega().engines:
         for holder in ('boundDispatcher', 'geomDispatcher', 'physDispatcher', 'lawDispatcher'):
             dispatcher = getattr(engine, holder, None)

@@ -1,4 +1,4 @@
-"""`python3 -m yadefrag`, should the package be there already: see about_run.py."""
+"""`python3 -m yadefrag`, if the package is already imported: see about_run.py."""
 
 import sys
 

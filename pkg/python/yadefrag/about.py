@@ -1,4 +1,4 @@
-"""What is installed, and does it work here?"""
+"""Report on the installation: versions, interface checks, folders."""
 
 import os
 import pathlib
@@ -10,16 +10,18 @@ from yadefrag import _built, _yadefrag, support
 from yadefrag.values import refuse
 
 _OWN = pathlib.Path(__file__).resolve().parent
-# Of a source tree, whose build folder has links to it; of what was installed below /usr, /usr/local.
+# Folders of a source tree (by links in its build folder) and of installations below /usr,
+# /usr/local.
 _PLACES = (_OWN.parents[2], _OWN.parents[3] / 'share' / 'doc' / 'yadefrag')
 
 
 def about(show=print):
-    """Prints what is installed and whether it works here; returns True if all is well.
+    """Prints what is installed and whether it works; returns True if all checks succeed.
 
-    Versions of yadefrag, YADE and Python; whether YADE's classes are where the extension takes them
-    to be; instruction set and threads of the finite elements; folders of examples and manual.
-    `python3 -m yadefrag`, outside YADE, prints the same and exits with 0 if all is well, else 1.
+    Versions of yadefrag, YADE and Python; whether YADE's classes have the layout for which the
+    extension was built; instruction set and threads of the finite elements; folders of examples and
+    manual. `python3 -m yadefrag`, outside YADE, prints the same; its exit code is 0 if all checks
+    succeed, else 1.
 
     show  called with each line (default: print)
     """
@@ -34,13 +36,13 @@ def about(show=print):
 
 
 def _rows():
-    """(what, text, whether it is as it should be), line by line."""
+    """(name, text, True if it is correct), line by line."""
     yield 'yadefrag', '%s in %s' % (support.YADEFRAG, _OWN), True
     yield 'YADE', '%s; built for %s of %s' % (config.version, _built.VERSION, _built.SYSTEM), (
         config.version == _built.VERSION)
     yield 'Python', platform.python_version(), True
     problem = support.describeSurroundings() or _problemOfInterface()
-    yield 'interface', problem or "YADE's classes are as they were measured", not problem
+    yield 'interface', problem or "YADE's classes have the expected layout", not problem
     yield 'instructions', _yadefrag.instructionSet(), True
     yield 'threads', _threads(), True
     examples, manual = _place('examples'), _place('docs') or _place('README.md')
@@ -62,5 +64,5 @@ def _threads():
 
 
 def _place(name):
-    """The first of the folders that has it, as a path; None if none has."""
+    """Path of the first of the folders that contains `name`; None if none does."""
     return next((place / name for place in _PLACES if (place / name).exists()), None)

@@ -1,4 +1,4 @@
-"""`python3 -m yadefrag`: asks a yade of its own, since this Python has none."""
+"""`python3 -m yadefrag`: runs a separate yade, since this Python does not have YADE."""
 
 import os
 import pathlib
@@ -17,10 +17,11 @@ sys.exit(0 if well else 1)
 
 
 def main():
-    """Prints the report of yadefrag.about() in a fresh yade; 0 if all is well, else 1."""
+    """Prints the report of yadefrag.about() in a new yade; returns 0 if all checks succeed, else
+    1."""
     yade = shutil.which('yade') or '/usr/bin/yade'
     if not os.path.exists(yade):
-        print('yadefrag: there is no command `yade` here; install the package yade.', file=sys.stderr)
+        print('yadefrag: there is no command `yade` on this system; install the package yade.', file=sys.stderr)
         return 1
     package = str(pathlib.Path(__file__).absolute().parent.parent)
     path = os.pathsep.join(filter(None, [package, os.environ.get('PYTHONPATH')]))

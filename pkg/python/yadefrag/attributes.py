@@ -1,5 +1,5 @@
-"""Attributes of the new classes, as a script sets them: NumPy's numbers are taken, and a value of a
-wrong kind is refused in a sentence; both for the attributes that come from YADE, too.
+"""Setting attributes of the new classes from scripts: numbers of NumPy are accepted, and a value of a
+wrong type is refused with one sentence; also for attributes of YADE's base classes.
 """
 
 import difflib
@@ -17,7 +17,7 @@ _WRONG_KIND = (TypeError, OverflowError, UnicodeError)  # as Boost.Python refuse
 
 
 def install(cls):
-    """Guards all that sets attributes of `cls`: assignment, the constructor and updateAttrs."""
+    """Checks every way to set attributes of `cls`: assignment, the constructor and updateAttrs."""
     cls.__setattr__ = __setattr__
     cls.__init__ = _guardConstructor(cls.__init__)
     cls.updateAttrs = updateAttrs
@@ -35,15 +35,15 @@ def __setattr__(self, name, value):
     except _WRONG_KIND:
         right = 'two or three numbers' if _isGravity(self, name) else _right(getattr(self, name), value)
         refuse('%s.%s' % (type(self).__name__, name), value, right,
-               TypeError)  # as YADE's own classes
+               TypeError)  # as for YADE's own classes
 
 
 def _warnOfUnknown(self, name):
-    """Objects take any name: one that is misspelt would be set and do nothing."""
+    """Python objects accept any name: a misspelt attribute would be set without effect."""
     kind = type(self)
     known = [one for one in dir(kind) if not one.startswith('_') and not callable(getattr(kind, one))]
     near = difflib.get_close_matches(name, known, 1)
-    warnings.warn("%s has no attribute '%s'%s: it is kept, but has no effect." %
+    warnings.warn("%s has no attribute '%s'%s: it is stored, but has no effect." %
                   (kind.__name__, name[:40], ', but %s' % near[0] if near else ''), stacklevel=3)
 
 
@@ -52,7 +52,7 @@ def _isGravity(self, name):
 
 
 def _inSpace(self, name, value):
-    """FESolver's gravity of two numbers as three."""
+    """FESolver's gravity: two numbers are extended to three."""
     if not _isGravity(self, name):
         return value
     pair = numbersOf(value, 2)
@@ -72,7 +72,7 @@ def _guardConstructor(make):
 
 
 def updateAttrs(self, attributes):
-    """Sets all attributes of a dict, or none of them where one is refused."""
+    """Sets all attributes of a dict, or none if one of them is refused."""
     if not isinstance(attributes, dict):
         refuse('attributes', attributes, 'a dict {name: value}')
     attributes = {name: _inSpace(self, name, value) for name, value in attributes.items()}
@@ -90,7 +90,8 @@ def updateAttrs(self, attributes):
 
 
 def _findWrong(scratch, settings):
-    """TypeError for the first of the settings that an object of this kind cannot have."""
+    """Raises TypeError for the first of the settings that is invalid for an object of this
+    class."""
     known = scratch.dict()
     for name, value in settings.items():
         if name in known:
@@ -98,15 +99,15 @@ def _findWrong(scratch, settings):
 
 
 def _requireFunctors(functors):
-    """YADE ends the process for a functor that is None."""
+    """YADE would end the process for a functor that is None."""
     if not isinstance(functors, (list, tuple)) \
             or not all(isinstance(one, wrapper.BoundFunctor) for one in functors):
         refuse('the first argument', functors, 'a list of bound functors')
 
 
 def _fitting(present, value):
-    """`value` for an attribute that has the value `present`: NumPy's numbers as Python's. TypeError
-    for what Boost.Python would take as well: 7 for a flag, bytes for a text, no dispatcher."""
+    """`value` for an attribute with the value `present`: NumPy's numbers become Python's. TypeError
+    for values that Boost.Python would accept, too: 7 for a flag, bytes for a text, no dispatcher."""
     value = plain(value)
     if isinstance(value, numpy.ndarray) and value.ndim == 1:
         return tuple(value.tolist())
@@ -121,10 +122,10 @@ def _fitting(present, value):
 
 
 def _right(present, wrong):
-    """What an attribute that has the value `present` must be."""
+    """The valid kind of values for an attribute with the value `present`, for messages."""
     if isinstance(present, bool):
         return 'True or False'
     if isinstance(present, int):
-        return 'nearer to 0' if isWhole(wrong) else 'a whole number'
+        return 'closer to 0' if isWhole(wrong) else 'a whole number'
     rest = ((float, 'a number'), (str, 'a text'), (Vector3, 'three numbers'))
     return next((right for kind, right in rest if isinstance(present, kind)), 'of another class')

@@ -8,20 +8,20 @@ from yadefrag.values import positive
 
 
 def bond(self, a, b, strength, energy):
-    """From the next step on bodies a and b hang together along all sides that they have in common
-    now; returns how many these are (int).
+    """Bonds bodies a and b, from the next step on, along all sides that they have in common at
+    present; returns the number of these sides (int).
 
-    a, b      numbers or names of two bodies that touch, with nodes at the same places along what they have
-              in common, to 1e-9 of a side: give both outlines the same points there, and the same
+    a, b      numbers or names of two bodies that touch, with nodes at the same positions along their
+              common sides, to 1e-9 of a side: give both outlines the same points there, and the same
               size
-    strength  Pa, tensile; the shear strength is shearFactor times that, shearFactor and
-              shearEnergyFactor being those of the body with the smaller tensileStrength, 1 of FEMat
-    energy    J/m², that opens the bond by tension; positive
-    A bond holds as a crack does whose faces have not parted yet, by the cohesive law: an opening
-    spends `energy`, and after that, or where it is shut, the faces touch like any others.
-    fragments(held=True) counts what it holds as one; numCracks does not count it. ValueError before
-    anything changes where no sides match, or sides run along each other without the same ends; a
-    warning where sides are too long for the energy.
+    strength  Pa, tensile; the shear strength is shearFactor times that. shearFactor and
+              shearEnergyFactor are those of the body with the smaller tensileStrength; 1 for FEMat
+    energy    J/m², that opens the bond in tension; positive
+    A bond acts like a crack that has not opened yet, by the cohesive law. An opening dissipates
+    `energy`; after that, or where the bond is closed, the faces have contact like any others.
+    fragments(held=True) counts bonded bodies as one; numCracks does not count bonds. ValueError,
+    before any change, if no sides match or if sides coincide with different ends; a warning if
+    sides are too long for the energy.
     """
     requirePaused()
     first, second = (bodyNumber(self, one, name, least=0)

@@ -1,7 +1,7 @@
-"""The choices between speed and accuracy that tradeoff() knows by name, and what a scene asks for.
+"""The choices between speed and accuracy that tradeoff() varies by name.
 
-KNOWN names them; a scene function gets a `Choices` and builds with its helpers, so that it does not
-depend on which of them are varied.
+KNOWN lists them. A scene function gets a `Choices` and builds the scene with its helpers, so that it
+does not depend on which choices are varied.
 """
 
 import math
@@ -37,7 +37,7 @@ def _isOneOf(*allowed):
                              type(value) is type(a) and value == a for a in allowed)
 
 
-# name: (is a value right, what is right)
+# name: (function that checks a value, description of valid values)
 KNOWN = {
     'correction': (lambda v: v == 'lagrange' or _isPenalty(v),
                    "'lagrange', 'penalty', or 'penalty:F' with a factor F above 0 and at most 1"),
@@ -48,7 +48,7 @@ KNOWN = {
     'timeStep': (lambda v: _isNumber(v) and v > 0,
                  'a positive fraction of the critical time step'),
     'halo': (lambda v: _isNumber(v) and 0 <= v <= .5,
-             'a share of the shortest segment, at most 0.5, or 0 for one that follows the speed'),
+             'a fraction of the shortest segment, at most 0.5, or 0 for one that depends on the speed'),
     'collider': (lambda v: v == 'none' or v in COLLIDERS,
                  "'none' or one of " + ', '.join(map(repr, COLLIDERS))),
     'verletDist': (_isNumber, 'a length (m), or a negative multiple of the smallest radius'),
@@ -64,58 +64,60 @@ KNOWN = {
 
 
 def check(name, value):
-    """ValueError, one sentence, for a value that a known choice cannot have; others are free."""
+    """ValueError, with one sentence, for an invalid value of a known choice; other names are not
+    checked."""
     if name in KNOWN and not KNOWN[name][0](value):
         raise ValueError('vary has the choice %s=%s, it must be %s.' %
                          (name, values.shown(value), KNOWN[name][1]))
 
 
 class Choices:
-    """One setting, as a scene function sees it.
+    """One setting, as the argument of a scene function.
 
-    Helpers build what the known choices are about, each with the scene's own value where the
-    setting says nothing; `choices[name]` and `choices.get(name, default)` give any other choice.
-    What was asked for is remembered: a setting of which the scene never asked something is refused.
+    Helpers apply the known choices; where the setting does not have a choice, the scene's own value is
+    used. `choices[name]` and `choices.get(name, default)` return any other choice. All choices that
+    the scene used are recorded: a setting with a choice that the scene never used is refused.
     """
 
     def __init__(self, settings):
         if not isinstance(settings, dict):
             values.refuse('settings', settings, 'a dict {name: value}')
         self._settings = dict(settings)
-        self.used = {}  # name: value, of all choices that were asked for
+        self.used = {}  # name: value, of all choices that were used
 
     def get(self, name, default=None):
-        """The value of the choice `name`, or `default` where the setting has none."""
+        """The value of the choice `name`, or `default` if the setting does not have it."""
         value = self._settings.get(name, default)
         self.used[name] = value
         return value
 
     def __getitem__(self, name):
         if name not in self._settings:
-            raise ValueError('the scene needs the choice %s, which vary does not have.' %
+            raise ValueError('the scene needs the choice %s, which is not in vary.' %
                              values.shown(name))
         return self.get(name)
 
     def neverAsked(self):
-        """Names of the setting that the scene did not ask for; `threads` needs no asking."""
+        """Names in the setting that the scene did not use; `threads` is used in any case."""
         return [n for n in self._settings if n not in self.used and n != 'threads']
 
     def size(self, default):
-        """Length of the elements' edges (m); `default` where the setting has no `size`."""
+        """Length of the elements' edges (m); `default` if the setting does not have `size`."""
         return self.get('size', default)
 
     def smooth(self, default=False):
-        """Is the boundary to be smooth, for addPolygon(smooth=...)."""
+        """True if the boundary is to be smooth, for addPolygon(smooth=...)."""
         return self.get('smooth', default)
 
     def timeStep(self, critical, default=.8):
-        """(s) The setting's fraction `timeStep` of the step `critical` (s)."""
+        """(s) The setting's fraction `timeStep` of the critical time step `critical` (s)."""
         critical = values.number('critical', critical, lambda v: v > 0, 'a positive number (s)')
         return critical * values.number('timeStep', self.get('timeStep', default), lambda v: v > 0,
                                         KNOWN['timeStep'][1])
 
     def solver(self, **settings):
-        """An FESolver with `settings`, and correction, entry, passes, halo and bulk viscosity as chosen.
+        """An FESolver with `settings`; correction, entry, passes, halo and bulk viscosity as in the
+        setting.
 
         'penalty:F' is correction='penalty' with penaltyFactor=F. ValueError as FESolver.
         """
@@ -136,11 +138,11 @@ class Choices:
         return wrapper.FESolver(**settings)
 
     def material(self, **attributes):
-        """An FEMat, put into O.materials; a BrittleFEMat if there is a `tensileStrength`.
+        """An FEMat, added to O.materials; a BrittleFEMat if there is a `tensileStrength`.
 
-        plane 'stress' or 'strain' is planeStress; fracture 'none' leaves tensileStrength and the
-        like out, 'instant' sets fractureEnergy to 0, 'cohesive' keeps the scene's, which must be
-        positive: else ValueError.
+        plane 'stress' or 'strain' sets planeStress; fracture 'none' omits tensileStrength and the
+        other constants of fracture, 'instant' sets fractureEnergy to 0, 'cohesive' keeps the
+        scene's value, which must be positive: otherwise ValueError.
         """
         isBrittle = attributes.get('tensileStrength', 0) > 0
         plane = self.get('plane', 'stress' if attributes.get('planeStress') else 'strain')
@@ -177,7 +179,7 @@ class Choices:
     def engines(self, fe, spheres=False):
         """Sets O.engines and O.dt for bodies of the FESolver `fe`, with `spheres` also for those.
 
-        The step is the setting's fraction of fe.criticalTimeStep(), .8 where it has none.
+        The step is the setting's fraction of fe.criticalTimeStep(), or .8 of it.
         """
         requireSolver(fe)
         w, dt = wrapper, self.timeStep(fe.criticalTimeStep())

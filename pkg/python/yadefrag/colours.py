@@ -1,24 +1,24 @@
-"""Colours that tell things apart: curves, and fragments from those beside them."""
+"""Distinct colours: for curves, and for adjacent fragments."""
 
 import numpy
 
-# Twelve of curves in one picture. Any two differ by at least 0.25 in red, green and blue together.
+# Twelve for curves in one picture. Any two differ by at least 0.25 in red, green and blue together.
 DISTINCT = ('#1f77b4', '#d62728', '#2ca02c', '#ff7f0e', '#9467bd', '#17becf', '#8c564b', '#e377c2',
             '#000000', '#bcbd22', '#7f7f7f', '#005a1e')
 
 
 def palette():
-    """Twenty colours, the ten strong ones first."""
+    """Twenty colours, the ten saturated ones first."""
     from matplotlib import colormaps
     pairs = colormaps['tab20'].colors
     return [*pairs[::2], *pairs[1::2]]
 
 
 def fragmentColours(fe, former=None):
-    """(m) a small number for each triangle: the same within a fragment, different beside it; 0 for
-    dropped ones. To be called between two steps.
+    """(m) a small number for each triangle: the same within a fragment, different in adjacent ones;
+    0 for removed triangles. Must be called between two steps.
 
-    former  those of an earlier call: a fragment keeps its colour where it can
+    former  result of an earlier call: a fragment keeps its colour if possible
     """
     ofAll = numpy.asarray(fe.fragmentOf, dtype=int)
     shown = numpy.nonzero(ofAll >= 0)[0]
@@ -41,8 +41,8 @@ def fragmentColours(fe, former=None):
 
 
 def _neighbours(fe, shown, of, count):
-    """For each fragment a set of those that share a place of the stress-free shape with it, or that
-    have come as near to it as an edge is long."""
+    """For each fragment the set of fragments that share a point of the stress-free shape with it,
+    or that are at a distance of at most one edge length."""
     triangles = numpy.asarray(fe.triangles, dtype=int)[shown]
     used, places = numpy.unique(triangles, return_inverse=True)
     triangles = places.reshape(-1, 3)

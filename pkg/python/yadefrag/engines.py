@@ -1,4 +1,4 @@
-"""A set of engines that is ready to run."""
+"""A complete list of engines."""
 
 import math
 
@@ -7,20 +7,20 @@ from yadefrag.values import flag, number, numbersOf, refuse
 
 
 def engines(fe, gravity=None, spheres=False, damping=0., collider=None, moving=False):
-    """List of engines for O.engines, in the order in which they must stand.
+    """List of engines for O.engines, in the correct order.
 
     fe        an FESolver
-    gravity   m/s², of its bodies and of spheres: a pair, or three numbers with z = 0; None: that of
+    gravity   m/s², for the FE bodies and spheres: a pair, or three numbers with z = 0; None: that of
               fe.gravity
-    spheres   are there YADE's spheres? False: [ForceResetter, fe], for FESolver searches by itself.
-              True: a collider, InteractionLoop with Cundall and Strack's law among spheres and between
-              spheres and bodies, and NewtonIntegrator, too
-    moving    without spheres: do YADE's walls, boxes or facets move? True: NewtonIntegrator behind fe,
-              which moves them
-    damping   of NewtonIntegrator: that of spheres only
-    collider  a class of colliders for spheres=True, None: LebesgueCollider
-    Engines of one's own go behind: O.engines = engines(fe) + [PyRunner(...)]. ValueError before
-    anything changes.
+    spheres   False: no YADE spheres; the engines are [ForceResetter, fe], since FESolver does its own
+              search. True: also a collider, an InteractionLoop with Cundall and Strack's law among
+              spheres and between spheres and bodies, and NewtonIntegrator
+    moving    without spheres: True if YADE's walls, boxes or facets move; adds NewtonIntegrator after
+              fe, which moves them
+    damping   of NewtonIntegrator; acts on spheres only
+    collider  a collider class for spheres=True; None: LebesgueCollider
+    Add other engines at the end: O.engines = engines(fe) + [PyRunner(...)]. ValueError before any
+    change.
     """
     if not isinstance(fe, wrapper.FESolver):
         refuse('fe', fe, 'an FESolver')

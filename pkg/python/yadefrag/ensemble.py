@@ -1,4 +1,4 @@
-"""Many runs of one scene, by seeds or by a table: what is measured, with confidence bands."""
+"""Many runs of one scene, by seeds or by a table, and statistics of a measured value."""
 
 import math
 import os
@@ -17,32 +17,32 @@ _MOST_RUNS = 10**6
 
 def ensemble(scene, runs, measure, *, duration, watch=None, every=0., limit=600., executor=None,
              workers=None, resume=None, files=None, title=''):
-    """Runs `scene` once for each row of a table; returns an EnsembleTable of what was measured.
+    """Runs `scene` once for each row of a table; returns an EnsembleTable of the measured values.
 
-    scene     function (choices) that builds the scene in O and sets O.engines and O.dt, as of
-              tradeoff: choices['seed'] is the run's seed, choices['strength'] what the table has
-    runs      how many, with the seeds 0, 1, ...; a list of seeds; or a table, as a list of dicts
-              {name: value} or a dict {name: list of values}, all of one length. The names that
-              tradeoff knows are checked as there, others are handed on
-    measure   function (built) of what scene returned → a number or numbers (n), after the run: n may
-              differ from run to run, as of the sizes of fragments
+    scene     function (choices) that builds the scene in O and sets O.engines and O.dt, as for
+              tradeoff: choices['seed'] is the run's seed, choices['strength'] a value from the table
+    runs      number of runs, with the seeds 0, 1, ...; a list of seeds; or a table, as a list of dicts
+              {name: value} or a dict {name: list of values}, all of one length. Names that tradeoff
+              knows are checked as there; others are passed on
+    measure   function (built) → a number or numbers (n), called after the run with the scene's return
+              value; n may differ from run to run, e.g. for sizes of fragments
     duration, watch, every, limit  as in tradeoff
-    executor  None: processes on this machine, `workers` at once (None: as many as it has cores); or
-              an executor as of concurrent.futures. Of mpi4py: MPIPoolExecutor(main=False); of Dask:
-              Client(...).get_executor(pure=False). Its workers need Python alone; they start yade
-              on their machines, and see the same files. It is not shut down
-    resume    None, or a file .jsonl of the runs that have been done: a call that was interrupted
-              goes on where it stopped, if it is called with the same again, or with more runs.
-              Remove it where the scene has changed
-    files     path without ending: writes .csv and, where a run has a value, .png there
+    executor  None: processes on this machine, `workers` at a time (None: as many as processors); or an
+              executor as in concurrent.futures. With mpi4py: MPIPoolExecutor(main=False); with Dask:
+              Client(...).get_executor(pure=False). Its workers only need Python; they start yade on
+              their machines, and must access the same files. It is not shut down
+    resume    None, or a file .jsonl of finished runs: an interrupted call continues where it stopped
+              if it is repeated with the same arguments, or with more runs. Remove the file if the
+              scene has changed
+    files     path without ending: writes .csv and, if a run has a value, .png
     title     of the plot
 
-    Each run is a `yade -n -x` of its own. One that the scene or an engine refuses, that blows up,
-    fails or takes too long is a row that says so. Ctrl-C ends the runs; the table has what was done.
-    Functions must be at the top level of a file, and the call in a script behind
+    Each run is a separate `yade -n -x`. A run that the scene or an engine refuses, that blows up,
+    fails or takes too long is a row with that result. Ctrl-C ends the runs; the table then has the
+    finished ones. Functions must be at the top level of a file, and the call in a script after
     `if __name__ == '__main__':`, since each run loads the file again.
     ValueError, before anything runs, for bad arguments, OSError for files that cannot be written;
-    RuntimeError where the file cannot be loaded again.
+    RuntimeError if the file cannot be loaded again.
     """
     requireOutside('ensemble')
     settings = _settings(runs)
@@ -96,8 +96,8 @@ def _listOf(values):
 
 
 def _run(rows, job, finished, executor, workers):
-    """Fills the rows."""
-    import tqdm  # only where something runs
+    """Runs all rows and stores their results."""
+    import tqdm  # only if something runs
     due = []
     for place, row in enumerate(rows):
         key = _keyOf(rows, place)
@@ -128,6 +128,6 @@ def _run(rows, job, finished, executor, workers):
 
 
 def _keyOf(rows, place):
-    """Of a run in the file of finished ones; the same row may be there several times."""
+    """Key of a run in the file of finished runs; the same row may occur several times."""
     settings = rows[place].settings
     return dict(setting=settings, turn=sum(row.settings == settings for row in rows[:place]))

@@ -11,17 +11,18 @@ from yadefrag.tradeoff_table import describe, tableText
 from yadefrag.values import array, number, path, refuse, text
 
 COLUMNS = ('result', 'value', 'steps', 'wall', 'message')
-_PLACES = 200  # of a curve
+_PLACES = 200  # points of a curve
 
 
 @dataclasses.dataclass
 class EnsembleRow:
-    """One run and what came of it.
+    """One run and its result.
 
-    settings  dict of what the scene was given
-    result    'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or 'not run'
-    value     what was measured, a number or a list; None without
-    steps     of the run; wall: wall-clock time over simulated time (s/s)
+    settings  dict of the scene's choices
+    result    'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or 'not
+              run'
+    value     the measured value, a number or a list; None without
+    steps     number of steps; wall: wall-clock time over simulated time (s/s)
     """
 
     settings: dict
@@ -32,7 +33,7 @@ class EnsembleRow:
     message: str = ''
 
     def take(self, found):
-        """Puts in what a run gave."""
+        """Stores the result of a run."""
         if found['result'] == 'unloadable':
             raise RuntimeError('a run cannot load the scene: %s' % found['message'])
         self.result = 'failed' if found['result'] == 'lost' else found['result']
@@ -41,11 +42,11 @@ class EnsembleRow:
 
 
 class EnsembleTable:
-    """rows (list of EnsembleRow), title; those without a value count for no mean.
+    """rows (list of EnsembleRow), title; rows without a value are not part of means.
 
-    A band is that of the mean at each place by itself: with as many runs as there were, whose values
-    are about normal, the mean of all possible runs is within it with the stated confidence (Student's
-    t distribution). Numbers measured in one run may depend on each other; runs do not.
+    A band is the confidence band of the mean at each point separately: if the values of the runs are
+    approximately normal, it contains the mean of all possible runs with the stated confidence
+    (Student's t distribution). Numbers measured in one run may depend on each other; runs do not.
     """
 
     def __init__(self, rows, title=''):
@@ -65,12 +66,14 @@ class EnsembleTable:
         return [row for row in self.rows if row.result == 'ok']
 
     def statistics(self, by=None, reduce=numpy.mean, confidence=.95):
-        """Mean of what was measured, with its confidence, as a NumPy array with named columns (k).
+        """Mean of the measured values, with its confidence band, as a NumPy array with named
+        columns (k).
 
-        by      None, or the name of a setting: a line for each of its values, in their order
-        reduce  function of a run's numbers (n) → its number, default their mean; numpy.median, len, ...
-        Columns: by (nan without), runs, failed (how many), mean, deviation (of single runs), low,
-        high (band of the mean; nan of less than two runs). ValueError for a name that is none.
+        by      None, or the name of a setting: one row for each of its values, ascending
+        reduce  function of a run's numbers (n) → one number; default: their mean; numpy.median,
+        len, ... Columns: by (nan without), runs, failed (their number), mean, deviation (of single
+        runs), low, high (band of the mean; nan for less than two runs). ValueError for an unknown
+        name.
         """
         confidence = _share(confidence)
         if not callable(reduce):
@@ -95,12 +98,13 @@ class EnsembleTable:
                 for value in sorted(set(numbers))}
 
     def shares(self, places=None, confidence=.95):
-        """How many of a run's numbers are at least as large as a place, over all runs.
+        """Fraction of a run's numbers that are at least as large as a given value, over all runs.
 
-        places  numbers (k), or None: 200 from the least that was measured to the largest, by even
-                factors where all are positive
-        Returns a NumPy array with named columns (k): place, mean (share of a run's numbers, averaged over the runs),
-        low, high (band of that mean, within 0 and 1). ValueError without a run that has numbers.
+        places  values (k), or None: 200 from the smallest measured number to the largest, in equal
+                ratios if all are positive
+        Returns a NumPy array with named columns (k): place, mean (fraction of a run's numbers,
+        averaged over the runs), low, high (band of that mean, within 0 and 1). ValueError without a
+        run that has numbers.
         """
         confidence = _share(confidence)
         runs = [numpy.sort(numpy.atleast_1d(row.value)) for row in self.good()]
@@ -111,7 +115,7 @@ class EnsembleTable:
             refuse('places', places, 'a list of finite numbers')
         table = numpy.array([1 - numpy.searchsorted(run, places, 'left') / len(run) for run in runs])
         mean, _, half = _meanOf(table, confidence)
-        half = numpy.nan_to_num(half, nan=1)  # of a single run nothing is known
+        half = numpy.nan_to_num(half, nan=1)  # unknown for a single run
         columns = places, mean, numpy.clip(mean - half, 0, 1), numpy.clip(mean + half, 0, 1)
         names = ('place', 'mean', 'low', 'high')
         return numpy.array(list(zip(*columns)), dtype=[(name, float) for name in names])
@@ -123,12 +127,13 @@ class EnsembleTable:
                  for row in self.rows]
         writeText(path('file', file), tableText(names + list(COLUMNS), lines))
 
-    def plot(self, file=None, ax=None, by=None, confidence=.95, label='what was measured'):
+    def plot(self, file=None, ax=None, by=None, confidence=.95, label='measured value'):
         """Draws the table; returns Matplotlib's axes.
 
-        by     None: the share of numbers at least as large as a place, each run in grey, and the mean with
-               its band; or the name of a setting: each run's mean over it, and their mean with its band
-        label  of the axis of what was measured
+        by     None: the fraction of numbers at least as large as a value, each run in grey, and the
+               mean with its band; or the name of a setting: each run's mean over it, and their mean
+               with its band
+        label  of the axis of the measured value
         """
         from yadefrag.axes import newAxes, requireAxes
         label = text('label', label)
@@ -150,7 +155,7 @@ class EnsembleTable:
         _drawBand(ax, band['place'], band, len(self.good()), confidence)
         if band['place'][0] > 0:
             ax.set_xscale('log')
-        ax.set(xlabel=label, ylabel='share at least as large', ylim=(0, 1.02))
+        ax.set(xlabel=label, ylabel='fraction at least as large', ylim=(0, 1.02))
 
     def _plotBy(self, ax, by, confidence, label):
         table = self.statistics(by, confidence=confidence)
@@ -160,7 +165,7 @@ class EnsembleTable:
         ax.set(xlabel=by, ylabel=label)
 
     def write(self, files):
-        """files.csv and, where a run has a value, files.png."""
+        """Writes files.csv and, if a run has a value, files.png."""
         table, picture = self.namesOfFiles(files)
         self.csv(table)
         if self.good():
@@ -168,7 +173,7 @@ class EnsembleTable:
 
     @staticmethod
     def namesOfFiles(files):
-        """Those that `write` writes."""
+        """Names of the files that `write` writes."""
         return [path('files', files) + ending for ending in ('.csv', '.png')]
 
 
@@ -201,7 +206,8 @@ def _share(confidence):
 
 
 def _meanOf(table, confidence):
-    """(mean, deviation, half of the band) of each column of an array (runs, k); nan for too few."""
+    """(mean, deviation, half of the band) of each column of an array (runs, k); nan for too few
+    runs."""
     count = len(table)
     if count == 0:
         return (numpy.full(1, numpy.nan),) * 3

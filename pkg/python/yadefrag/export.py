@@ -14,7 +14,7 @@ FIELDS = (*_OF_NODES, *_OF_TRIANGLES)
 
 
 def _spatial(values):
-    """(n, 2) as (n, 3) with z = 0, which ParaView takes for vectors."""
+    """(n, 2) as (n, 3) with z = 0: ParaView then recognises vectors."""
     values = numpy.asarray(values, dtype=float).reshape(-1, 2)
     return numpy.column_stack([values, numpy.zeros(len(values))])
 
@@ -22,13 +22,13 @@ def _spatial(values):
 def exportVTK(fe, file, fields=None):
     """Writes the bodies of an FESolver to `file` for ParaView, as an unstructured grid (.vtu).
 
-    Points are the nodes where they are now (m); at points: displacement from the stress-free shape
-    (m), velocity (m/s), contact force and reaction (N); in triangles: stress (xx, yy, xy in Pa),
-    strain (xx, yy, xy), component and fragment (int). Dropped fragments are left out.
-    Cracks that cohesion still holds are lines along their first side, with the values of the triangle
-    beside it, and 'damage' (spent part of the fracture energy; 0 in triangles).
-    fields  list of the names of those to write, None: all
-    ValueError for another ending than .vtu, for a solver without bodies and for other fields.
+    Points are the nodes at their present positions (m); at points: displacement from the stress-free
+    shape (m), velocity (m/s), contact force and reaction (N); in triangles: stress (xx, yy, xy in Pa),
+    strain (xx, yy, xy), component and fragment (int). Removed fragments are left out. Cohesive
+    cracks are lines along their first side, with the values of the adjacent triangle, and 'damage'
+    (dissipated fraction of the fracture energy; 0 in triangles).
+    fields  list of the names of fields to write; None: all
+    ValueError for another ending than .vtu, for a solver without bodies and for unknown fields.
     """
     import meshio
 
@@ -44,7 +44,8 @@ def exportVTK(fe, file, fields=None):
 
 
 def fieldNames(fields):
-    """A tuple of names from a list of some of FIELDS, or None for all; ValueError for others."""
+    """A tuple of names from a list of some of FIELDS, or None for all; ValueError for other
+    names."""
     if fields is None:
         return FIELDS
     chosen = (fields,) if isinstance(fields, str) else fields
@@ -58,7 +59,7 @@ def fieldNames(fields):
 
 
 def _state(fe, fields):
-    """(nodes' positions, blocks of cells, values at nodes, values in cells) of one step."""
+    """(positions of nodes, blocks of cells, values at nodes, values in cells) of one step."""
     with betweenSteps(fe):
         nodes, triangles, corners = shownMesh(fe)
         sides, beside, damage = heldCracks(fe)

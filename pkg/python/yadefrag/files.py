@@ -1,4 +1,5 @@
-"""Files that this package writes: beside the old file first, which a failure leaves as it is."""
+"""Files of this package: each is written as a new file next to the old one, so that a failure does
+not change the old file."""
 
 import contextlib
 import os
@@ -10,11 +11,11 @@ from yadefrag.values import path
 
 @contextlib.contextmanager
 def replacing(name):
-    """For `with`: the name of a file to write, with the ending of `name`; it takes the place of the
-    file `name` once all is written.
+    """For `with`: the name of a file to write, with the ending of `name`; it replaces the file `name`
+    after everything was written.
 
-    After an exception it is removed, and the old file stays. OSError names `name`. A device or a
-    pipe is written directly, and a symbolic link stays one.
+    After an exception it is removed, and the old file is unchanged. OSError names `name`. A device
+    or a pipe is written directly, and a symbolic link is kept.
     """
     target = os.path.realpath(name)
     if os.path.exists(target) and not os.path.isfile(target):
@@ -34,7 +35,7 @@ def replacing(name):
 
 
 def requireWritable(name):
-    """OSError that names `name` if it cannot be written; nothing is left behind."""
+    """OSError that names `name` if it cannot be written; no file is left over."""
     with _named(name):
         target = os.path.realpath(name)
         if os.path.exists(target) and not os.path.isfile(target):
@@ -46,13 +47,13 @@ def requireWritable(name):
 
 
 def writeText(name, text):
-    """`text` as the whole of the file `name`, in UTF-8."""
+    """Writes `text` as the whole contents of the file `name`, in UTF-8."""
     with replacing(name) as part, open(part, 'w', encoding='utf-8', newline='') as out:
         out.write(text)
 
 
 def appendText(name, text):
-    """`text` at the end of the file `name`: all of it, or nothing with an OSError."""
+    """Appends `text` to the file `name`: all of it, or nothing with an OSError."""
     with open(name, 'ab', buffering=0) as out:
         size = os.fstat(out.fileno()).st_size
         try:
@@ -66,7 +67,8 @@ def appendText(name, text):
 
 
 def savePicture(figure, file, dpi):
-    """Matplotlib's `figure` into `file`, a path whose ending says as what, or an open file."""
+    """Saves Matplotlib's `figure` in `file`: a path, whose ending determines the format, or an open
+    file."""
     if hasattr(file, 'write'):
         figure.savefig(file, dpi=dpi)
         return
@@ -75,8 +77,8 @@ def savePicture(figure, file, dpi):
 
 
 def pictureName(figure, file):
-    """The path of a picture, with Matplotlib's ending where there is none; ValueError for an ending
-    that it does not know."""
+    """The path of a picture, with Matplotlib's ending if there is none; ValueError for an unknown
+    ending."""
     name = path('file', file)
     ending = os.path.splitext(name)[1]
     known = sorted(figure.canvas.get_supported_filetypes())
@@ -93,7 +95,7 @@ def _beside(target):
 
 
 def _special(target):
-    """A device or a pipe; IsADirectoryError for a folder."""
+    """True for a device or a pipe; IsADirectoryError for a folder."""
     if stat.S_ISDIR(os.stat(target).st_mode):
         raise IsADirectoryError(21, os.strerror(21), target)
     return target
@@ -101,7 +103,7 @@ def _special(target):
 
 @contextlib.contextmanager
 def _named(name):
-    """OSErrors name the file that was asked for, not the one beside it."""
+    """OSErrors name the requested file, not the temporary one next to it."""
     try:
         yield
     except OSError as error:

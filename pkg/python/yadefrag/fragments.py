@@ -27,10 +27,10 @@ def _heading(name, unit):
 def fragmentTable(fe, file=None):
     """All fragments, the largest area first, as a NumPy array with named columns (k).
 
-    Columns: fragment (its place in fe.fragments(), the number in fe.fragmentOf), component,
-    triangles (how many), mass (kg), area (m², in the plane), size (√area, m), x, y (centroid, m),
+    Columns: fragment (its index in fe.fragments(), the number in fe.fragmentOf), component,
+    triangles (their number), mass (kg), area (m², in the plane), size (√area, m), x, y (centroid, m),
     vx, vy (m/s), spin (rad/s).
-    file  where to write it besides, a .csv with the units in its first line
+    file  path of a .csv to write as well, with the units in its first line
     ValueError for another ending, before anything is written.
     """
     requireSolver(fe)
@@ -48,13 +48,14 @@ def fragmentTable(fe, file=None):
 
 
 def plotFragmentSizes(fe, file=None, ax=None, components=None):
-    """Draws how many fragments are at least as large as a size, both on logarithmic scales; returns
+    """Draws the number of fragments that are at least as large as a size, with logarithmic axes;
+    returns
     Matplotlib's axes.
 
-    file        where to write the picture; its ending says as what (.png, .pdf, .svg ...)
-    ax          axes to draw in, default new ones
-    components  numbers or names of the bodies whose fragments count, default those that are in pieces
-    ValueError where there is no such body.
+    file        path of the picture; its ending determines the format (.png, .pdf, .svg ...)
+    ax          axes to draw in; default: new ones
+    components  numbers or names of the bodies whose fragments are counted; default: all broken ones
+    ValueError if there is no such body.
     """
     table = fragmentTable(fe)
     if components is not None:
@@ -64,9 +65,9 @@ def plotFragmentSizes(fe, file=None, ax=None, components=None):
         components = numbers[pieces > 1]
     chosen = table[numpy.isin(table['component'], components)]
     if len(chosen) == 0:
-        raise ValueError('fe has no body that is in pieces: there are no sizes to draw.')
+        raise ValueError('fe has no broken body: there are no sizes to draw.')
     ax = newAxes() if ax is None else requireAxes(ax)
-    # A step down behind each size: the point (size, number) is the last one on its level.
+    # The curve falls after each size: the point (size, number) is the last one on its level.
     sizes = chosen['size'][::-1]
     ax.step(sizes, numpy.arange(len(sizes), 0, -1), where='pre', marker='.', markersize=4,
             linewidth=1)
@@ -91,21 +92,22 @@ def _componentNumbers(fe, components):
 
 
 def recordFracture(fe, file, append=False):
-    """A function that writes a line to `file` (.csv) each time it is called, and has done so once.
+    """Returns a function that appends a line to `file` (.csv) at each call; writes a first line at
+    once.
 
     For runSteps, `runSteps(5000, every=100, call=recordFracture(fe, 'run.csv'))`, and for a
     PyRunner, `record = recordFracture(fe, 'run.csv')` and
     `PyRunner(command='record()', iterPeriod=100)`. A line has the step, the time (s), the numbers
     of cracks, surface segments and fragments, and all of fe.energy (J). It is in the file when the
-    call returns. append=True goes on with the lines that are there, for a run that was loaded.
-    ValueError for another ending and for a file to go on with that has other columns.
+    call returns. append=True continues an existing file, for a run that was loaded. ValueError for
+    another ending, and for an existing file with other columns.
     """
     requireSolver(fe)
     name = path('file', file, '.csv')
     if flag('append', append) and os.path.exists(name) and os.path.getsize(name):
         if not _linesOf(name):
-            raise ValueError('%s has other columns than recordFracture writes: take another '
-                             'file, or append=False to write it anew.' % shownPath(name))
+            raise ValueError('%s has other columns than those of recordFracture: use another '
+                             'file, or append=False to overwrite it.' % shownPath(name))
     else:
         writeText(name, _RECORDED + '\n')
 
@@ -123,7 +125,8 @@ def recordFracture(fe, file, append=False):
 
 
 def _linesOf(name):
-    """The lines of a file of recordFracture, with the heading; none if it is no such file."""
+    """The lines of a file of recordFracture, with the heading; none if the file is of another
+    kind."""
     with open(name, encoding='utf-8-sig', errors='replace') as file:
         lines = file.read().splitlines()
     return lines if lines[:1] == [_RECORDED] else []
@@ -138,7 +141,7 @@ def _recorded(file):
     except ValueError:
         data = numpy.empty(0)
     if data.ndim != 2 or data.shape[1] != _RECORDED.count(',') + 1:
-        raise ValueError('%s has no lines as recordFracture writes them, or a damaged one.' %
+        raise ValueError('%s has no lines of recordFracture, or a damaged one.' %
                          shownPath(name))
     return data.T
 
@@ -146,7 +149,7 @@ def _recorded(file):
 def plotFracture(file, picture=None):
     """Draws a file of recordFracture: counts and energies over time; returns both axes.
 
-    picture  where to write it; its ending says as what (.png, .pdf, .svg ...)
+    picture  path of the picture; its ending determines the format (.png, .pdf, .svg ...)
     ValueError for a file with other columns or without a line.
     """
     data = _recorded(file)

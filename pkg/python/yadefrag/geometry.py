@@ -6,7 +6,7 @@ from yadefrag import _yadefrag, values
 
 CIRCLE_POINTS = 64
 MOST_GRAINS = 10**5
-MOST_POINTS = 10**7  # a list of more pairs takes gigabytes
+MOST_POINTS = 10**7  # a longer list needs gigabytes
 
 
 def _pair(name, value):
@@ -30,7 +30,8 @@ def _count(n):
 
 
 def rectangle(low, high):
-    """The four corners of an upright rectangle from its lower left and upper right one (m).
+    """The four corners of an axis-parallel rectangle from its lower left and upper right corner
+    (m).
 
     ValueError unless `high` is above and to the right of `low`.
     """
@@ -45,10 +46,10 @@ def rectangle(low, high):
 def circle(centre, radius, n=None):
     """`n` points (default 64) on a circle of `radius` (m), the first to the right of the centre.
 
-    With `smooth=True`, addPolygon needs no more points than there are to be boundary nodes. A
-    straight-sided circle is a polygon of n sides, whose long sides addPolygon divides without
-    bulging them: take n of about 2π·radius/size or more. The polygon's area is less than the
-    circle's, by 0.16 % for 64 points. Points closer than `size` make smaller triangles.
+    With `smooth=True`, addPolygon needs only as many points as there will be boundary nodes. A
+    straight-sided circle is a polygon of n sides; addPolygon divides long sides into straight parts:
+    use n of about 2π·radius/size or more. The polygon's area is less than the circle's, by 0.16 % for
+    64 points. Points closer than `size` make smaller triangles.
     ValueError for a radius that is not positive or fewer than 3 points.
     """
     x, y = _pair('centre', centre)
@@ -61,7 +62,7 @@ def circle(centre, radius, n=None):
 def ring(centre, inner, outer, n=None):
     """(outline, holes) of a ring with the radii `inner` < `outer` (m), `n` points on each circle.
 
-    As `circle` in all else: `fe.addPolygon(*ring((0, 0), .8, 1), size=.05, ...)`.
+    Otherwise as `circle`: `fe.addPolygon(*ring((0, 0), .8, 1), size=.05, ...)`.
     """
     inner = _length('inner', inner)
     outer = _length('outer', outer)
@@ -72,20 +73,20 @@ def ring(centre, inner, outer, n=None):
 
 
 def voronoi(outline, n, seed=0, rounds=0, shortest=0):
-    """`n` grains that fill an outline, as a list of outlines: Voronoi cells of random places.
+    """`n` grains that fill an outline, as a list of outlines: Voronoi cells of random points.
 
     outline  list of points (x, y) in m
-    n        grains, at most 10⁵; where the outline is not convex a cell may fall apart, and there
-             are more
+    n        number of grains, at most 10⁵; if the outline is not convex a cell may consist of several
+             parts, which gives more grains
     seed     the same seed gives the same grains
-    rounds   of Lloyd (1982, IEEE Trans. Inf. Theory 28, 129), at most 100: each moves the places to
-             the middles of their cells, and makes the grains more even
-    shortest (m) sides that are shorter, and are none of the outline's, shrink to a point: else the
-             shortest of a few hundred makes the time step a hundred times as short; 0: none.
+    rounds   of Lloyd's iteration (1982, IEEE Trans. Inf. Theory 28, 129), at most 100: each moves the
+             points to the centroids of their cells, and makes the grains more even
+    shortest (m) shorter sides that are not on the outline are shrunk to points. Otherwise the shortest
+             side of a few hundred grains would make the time step a hundred times shorter; 0: none.
              A third of addPolygon's `size` is a good choice
-    Neighbours share their corners to the last bit. Each may become a body, or all of them one body
-    with `joints=grainJoints(grains)`. ValueError for an outline that addPolygon would refuse, or
-    without room for so many places; and where `shortest` is too long for such grains.
+    Corners of neighbours are equal to the last bit. Each grain may become a body, or all of them
+    one body with `joints=grainJoints(grains)`. ValueError for an outline that addPolygon would
+    refuse, or without room for so many points; and if `shortest` is too long for such grains.
     """
     points = values.pointsOf('outline', outline, 3)
     n = values.whole('n', n, most=MOST_GRAINS)
@@ -97,10 +98,10 @@ def voronoi(outline, n, seed=0, rounds=0, shortest=0):
 
 
 def grainJoints(grains):
-    """The sides that two of the grains share, each once, for addPolygon's `joints`.
+    """The common sides of two grains, each once, for addPolygon's `joints`.
 
-    grains  list of outlines, as `voronoi` returns them. A side counts as shared where both its ends
-    are the same points in both grains. ValueError for anything else than outlines.
+    grains  list of outlines, as `voronoi` returns them. A side is common if both its ends are the same
+    points in both grains. ValueError for anything else than outlines.
     """
     if isinstance(grains, (str, bytes, dict, set, type)) or not hasattr(grains, '__iter__'):
         values.refuse('grains', grains, 'a list of outlines')
@@ -117,9 +118,9 @@ def grainJoints(grains):
 def readPolygon(file):
     """(outline, holes) from a text file: `x y` (m) on each line, an empty line between two loops.
 
-    The first loop is the outline. `#` begins a comment, and a line with nothing but a comment is
-    skipped. `file` is a path. ValueError with the file and the line for anything else; OSError with
-    the path for a file that cannot be read.
+    The first loop is the outline. `#` begins a comment, and a line with only a comment is skipped.
+    `file` is a path. ValueError with the file and the line for anything else; OSError with the path
+    for a file that cannot be read.
     """
     name = values.path('file', file)
     with open(name, 'rb') as data:

@@ -1,4 +1,4 @@
-"""What must not happen to the bodies of an FESolver: refused in one sentence."""
+"""Forbidden operations on the bodies of an FESolver, each refused with one sentence."""
 
 import functools
 import numbers
@@ -9,7 +9,8 @@ from yadefrag.names import bodyNumber
 
 
 def requireNoStep(what):
-    """A run within a step would wait for the end of that step, which waits for the run."""
+    """A run within a step would wait for the end of that step, which waits for the run:
+    RuntimeError."""
     if _yadefrag.isInStep():
         raise RuntimeError('%s runs the scene: it cannot be called within a step, as from a '
                            'PyRunner.' % what)
@@ -28,27 +29,27 @@ def _pieceAt(container, id):
 
 
 def _guardErase(erase):
-    """O.bodies.erase that leaves single pieces of a boundary alone."""
+    """O.bodies.erase that does not erase single pieces of a boundary."""
     @functools.wraps(erase)
     def guarded(self, id, eraseClumpMembers=False):
         piece = _pieceAt(self, id)
         if piece:
             raise ValueError(
                 'body #%d is part of the boundary of body %d of FESolver, it cannot be erased '
-                'alone; FESolver.removeBody(%d) takes the whole away.' %
+                'alone; FESolver.removeBody(%d) removes the whole body.' %
                 (id, piece.component, piece.component))
         return erase(self, id, eraseClumpMembers)
     return guarded
 
 
 def _guardInsert(insert):
-    """O.bodies.insertAtId that puts nothing in the place of a piece of a boundary."""
+    """O.bodies.insertAtId that does not replace a piece of a boundary."""
     @functools.wraps(insert)
     def guarded(self, body, id):
         piece = _pieceAt(self, id)
         if piece:
-            raise ValueError('body #%d is part of the boundary of body %d of FESolver, no other '
-                             'can take its place.' % (id, piece.component))
+            raise ValueError('body #%d is part of the boundary of body %d of FESolver, another one '
+                             'cannot replace it.' % (id, piece.component))
         return insert(self, body, id)
     return guarded
 
@@ -61,14 +62,14 @@ def _requireNoPiece(container, id):
 
 
 def _guardClump(clump):
-    """A function of O.bodies whose first argument is numbers of bodies: without pieces of a
-    boundary, for which YADE would end the process."""
+    """A function of O.bodies whose first argument is numbers of bodies: refuses pieces of a boundary,
+    for which YADE would end the process."""
     @functools.wraps(clump)
     def guarded(self, ids, *others, **settings):
         try:
             ids = list(ids)
         except TypeError:
-            pass  # no list: YADE says so
+            pass  # no list: YADE raises the exception
         else:
             for id in ids:
                 _requireNoPiece(self, id)
@@ -88,7 +89,8 @@ def _guardBodies(function):
 
 
 def _guardPart(name):
-    """Body.state or Body.shape of a piece: without its own, other engines would end the process."""
+    """Body.state or Body.shape of a piece must not be replaced: other engines would end the
+    process."""
     part = getattr(wrapper.Body, name)
 
     def guarded(self, value):
@@ -101,7 +103,7 @@ def _guardPart(name):
 
 
 def _guardRemove(remove):
-    """FESolver.removeBody that says what is wrong with a number."""
+    """FESolver.removeBody with a message for an invalid number."""
     @functools.wraps(remove)
     def guarded(self, component):
         return remove(self, bodyNumber(self, component))
@@ -109,11 +111,12 @@ def _guardRemove(remove):
 
 
 def _guardCopy(reduce):
-    """What copy and pickle call, for a solver without bodies: a copy would have none of them."""
+    """For copy and pickle: allowed only for a solver without bodies, since a copy would have none
+    of them."""
     def guarded(self, protocol):
         if len(self.masses) > 0:
-            raise TypeError('an FESolver that has bodies cannot be copied or pickled, for its '
-                            'bodies belong to the scene; O.save keeps them, or make a new one.')
+            raise TypeError('an FESolver with bodies cannot be copied or pickled, since its '
+                            'bodies belong to the scene; O.save keeps them, or create a new one.')
         return reduce(self, protocol)
 
     return guarded

@@ -1,4 +1,5 @@
-"""What YADE's O does around a run in the background: it stops whole, is saved whole and freed whole."""
+"""Replaces functions of YADE's O for runs in the background: stop, save and reset act between
+steps."""
 
 import atexit
 import contextlib
@@ -9,24 +10,24 @@ from yade import wrapper
 from yadefrag import _yadefrag
 
 _Omega = wrapper.Omega
-_saving = threading.RLock()  # held as long as a run rests for a save
+_saving = threading.RLock()  # held while a run is interrupted for a save
 _pauses = 0
-_stepsBefore = 0  # O.resetTime(), all calls together
+_stepsBefore = 0  # sum over all calls of O.resetTime()
 
 
 def pauses():
-    """How often O.pause() has been called."""
+    """Number of calls of O.pause()."""
     return _pauses
 
 
 def stepsDone():
-    """Steps so far: O.iter, but for what O.resetTime() has set back."""
+    """Steps so far: O.iter, corrected for O.resetTime()."""
     return _Omega().iter + _stepsBefore
 
 
 @contextlib.contextmanager
 def _resting():
-    """A run of another thread rests between two steps, and goes on afterwards."""
+    """Interrupts a run of another thread between two steps, and continues it afterwards."""
     omega = _Omega()
     if _yadefrag.isInStep() or not omega.running or \
             not any(isinstance(e, wrapper.FESolver) for e in omega.engines):
@@ -35,7 +36,7 @@ def _resting():
     with _saving:
         before = omega.stopAtIter, omega.stopAtTime, _pauses
         _yadefrag.stopRun()
-        # A step that failed, the end of the run and O.pause() are final.
+        # A failed step, the end of the run and O.pause() are final.
         isToGoOn = omega.subStep == -1 and \
             before == (omega.stopAtIter, omega.stopAtTime, _pauses)
         try:
@@ -63,7 +64,7 @@ def _countPauses(pause):
 
 
 def _countSteps(resetTime):
-    """O.resetTime() after which a run that is under way still ends after its number of steps."""
+    """O.resetTime() after which a run in progress still ends after its number of steps."""
     @functools.wraps(resetTime)
     def counted(self):
         global _stepsBefore
@@ -76,7 +77,7 @@ def _countSteps(resetTime):
 
 
 def _waitForAll(wait):
-    """O.wait() that does not take the rest for a save for the end of the run."""
+    """O.wait() that does not end during the interruption for a save."""
     @functools.wraps(wait)
     def waited(self):
         while True:
@@ -88,7 +89,7 @@ def _waitForAll(wait):
 
 
 def waitForEnd():
-    """O.wait() that is not late by up to 40 ms; what a step raised is not raised again."""
+    """O.wait() without its delay of up to 40 ms; an exception of a step is not raised again."""
     while True:
         _yadefrag.waitForEnd()
         with _saving:
@@ -97,7 +98,7 @@ def waitForEnd():
 
 
 def _runBegun(run):
-    """O.run() that returns once the run has begun: YADE's may crash if it is stopped before."""
+    """O.run() that returns after the run has begun: YADE may crash if a run is stopped before."""
     @functools.wraps(run)
     def runs(self, nSteps=-1, wait=False):
         before = self.iter, self.subStep
@@ -109,8 +110,8 @@ def _runBegun(run):
 
 
 def _resetStopped(reset):
-    """YADE's O.reset() waits for the last step with Python's lock, which a PyRunner would need; and
-    what was in lists that it was given is never freed."""
+    """YADE's O.reset() waits for the last step with Python's lock held, which a PyRunner would
+    need; and objects in lists that were passed to it are never freed."""
     @functools.wraps(reset)
     def stopped(self):
         if _yadefrag.isInStep():
@@ -122,7 +123,7 @@ def _resetStopped(reset):
 
 
 def _underOldName(get):
-    """O.energy['feExternal'], which is 'feOutside' now."""
+    """O.energy['feExternal'], whose present name is 'feOutside'."""
     @functools.wraps(get)
     def item(self, name):
         return get(self, 'feOutside' if name == 'feExternal' else name)

@@ -1,4 +1,4 @@
-"""Loads on the boundary that change with it, and the way to rest."""
+"""Loads on the boundary that depend on its shape, and relaxation to a state of rest."""
 
 import math
 import warnings
@@ -12,11 +12,12 @@ from yadefrag.progress import runSteps
 from yadefrag.shown import betweenSteps
 from yadefrag.values import array, flag, number, positive, refuse, shown, whole
 
-_LOOK = 25  # steps from one look at the motion to the next
+_LOOK = 25  # steps from one evaluation of the motion to the next
 
 
 def getLoads(self):
-    """Constant outer forces on the nodes (N), array (n, 2); to be set as a whole, or None for none.
+    """Constant external forces on the nodes (N), array (n, 2); set the whole array, or None for no
+    forces.
 
     A copy: `loads = fe.loads; loads[top] = (0, -1); fe.loads = loads`. ValueError unless there is
     one finite pair for each node.
@@ -35,21 +36,22 @@ def setLoads(self, loads):
 
 
 def pressure(self, nodes, p, intoCracks=False):
-    """From now on a pressure acts on the sides of the boundary that have both ends among `nodes`.
+    """Applies a pressure, from now on, to the sides of the boundary whose two ends are among
+    `nodes`.
 
     nodes  as in `prescribe`: node numbers, flags, a function (x, y) of the present positions, or a
            body's name for all of its boundary
     p      Pa, towards the body: a number, a table [(s, Pa), …] linear between its times and constant
-           outside, or a function (t) → Pa; the times are fe.time. 0 ends it
-    intoCracks  False: new faces of cracks have none; True: it acts, in full, on faces of cracks that
-           open after this call, too, from the moment on in which they hang together with a side that
-           has it and no fractureEnergy holds them any more: the gas of a blast
-    It is along the present normal, on the present length, half at both ends of a side: it turns with
-    the surface, and follows it where nodes split. A later pressure on
-    the same side takes the place of an earlier one. Its work is in `energy['external']`. A saved scene
-    keeps numbers and tables; with a function the first step after O.load raises RuntimeError until
-    pressure has been called for these nodes again. ValueError before anything changes, also where no
-    side has both ends among the nodes.
+           outside, or a function (t) → Pa; times are fe.time. 0 ends it
+    intoCracks  False: no pressure on new faces of cracks; True: full pressure also on faces of cracks
+           that open after this call, as soon as they are connected with a side under this pressure
+           and are not cohesive any more: the gas of a blast
+    The pressure acts along the present normal, on the present length, half at both ends of a side: it
+    turns with the surface, and follows it where nodes split. A later pressure on the same side
+    replaces an earlier one. Its work is in `energy['external']`. A saved scene contains numbers and
+    tables; with a function the first step after O.load raises RuntimeError until pressure has been
+    called for these nodes again. ValueError before any change, also if no side has both ends among
+    the nodes.
     """
     requirePaused()
     intoCracks = flag('intoCracks', intoCracks)
@@ -64,14 +66,14 @@ def pressure(self, nodes, p, intoCracks=False):
 
 
 def absorb(self, nodes):
-    """From now on waves leave by the sides of the boundary that have both ends among `nodes`.
+    """Absorbs waves, from now on, at the sides of the boundary whose two ends are among `nodes`.
 
     nodes  as in `prescribe`
     Dashpots ρc at the nodes (Lysmer and Kuhlemeyer 1969, J. Eng. Mech. Div. 95, 859), with the speed
-    of compression waves across the boundary and that of shear waves along it: waves that come
-    straight at it leave wholly, of others a part comes back. They hold no static load: a body that
-    is pushed drifts through them. What they take is in `energy['damping']`. Each side
-    has the density and speeds of the triangle behind it. ValueError before anything changes.
+    of compression waves across the boundary and that of shear waves along it: waves at normal
+    incidence are absorbed completely, oblique ones are partly reflected. Dashpots carry no static
+    load: a body that is pushed drifts. Their dissipated energy is in `energy['damping']`. Each side
+    has the density and speeds of the triangle behind it. ValueError before any change.
     """
     requirePaused()
     self._absorb(chosenNodes(self, nodes).tobytes())
@@ -80,12 +82,12 @@ def absorb(self, nodes):
 def relax(self, tolerance=1e-6, most=10**6):
     """Runs the scene until its bodies are at rest; returns the number of steps (int).
 
-    tolerance  at rest is: the kinetic energy is below this part of the strain energy, at two looks
-               one after the other, 25 steps apart
-    most       steps; after so many a warning says how far it got
-    Damping is chosen anew at each look, so that the slowest vibration that moves the bodies is
-    critically damped, by its Rayleigh quotient (Underwood 1983, Computational Methods for Transient
-    Analysis, p. 245). `damping` is what it was afterwards. To be called between runs, with O.dt set.
+    tolerance  criterion of rest: the kinetic energy is below this fraction of the strain energy, at
+               two successive evaluations, 25 steps apart
+    most       maximum number of steps; after these a warning reports the ratio of energies
+    Damping is set anew at each evaluation, so that the slowest vibration in the motion is critically
+    damped, by its Rayleigh quotient (Underwood 1983, Computational Methods for Transient Analysis,
+    p. 245). Afterwards `damping` has its previous value. Call it between runs, with O.dt set.
     RuntimeError as from runSteps.
     """
     tolerance = positive('tolerance', tolerance, 'a ratio of energies')
@@ -106,14 +108,14 @@ def relax(self, tolerance=1e-6, most=10**6):
     finally:
         self.damping = before
     if calm < 2:
-        warnings.warn('relax: after %d steps the kinetic energy still is %.3g of the strain energy.' %
+        warnings.warn('relax: after %d steps the kinetic energy is still %.3g of the strain energy.' %
                       (done, ratio), stacklevel=2)
     return done
 
 
 def _critical(fe):
-    """(damping (1/s), number of steps): critical for what moves now, found from three steps: twice
-    the angular frequency of the motion's Rayleigh quotient. What it was where that is none."""
+    """(damping (1/s), number of steps): critical for the present motion, from three steps: twice the
+    angular frequency of the motion's Rayleigh quotient. The present damping if there is no motion."""
     present, speeds = fe.damping, []
     for step in range(3):
         if runSteps(1) == 0:
@@ -122,12 +124,12 @@ def _critical(fe):
             speeds.append(fe.velocities)
             free, masses = ~fe.reactions.any(axis=1), fe.masses
     if len(speeds[0]) != len(speeds[2]):
-        return present, 3  # cracks opened
+        return present, 3  # cracks opened meanwhile
     dt = wrapper.Omega().dt
     first, middle, last = (numpy.where(free[:, None], v, 0) for v in speeds)
     moving = (masses * (middle**2).sum(axis=1)).sum()
-    # M j = -K v - αM a: what is left of the jerk without damping is the stiffness's.
+    # M j = -K v - αM a: without the damping term, the jerk is due to the stiffness.
     pull = (last - 2 * middle + first) / dt**2 + present * (last - first) / (2 * dt)
     squared = -(masses * (middle * pull).sum(axis=1)).sum()
-    # Above 1/Δt there is nothing that one step could not stop.
+    # Above 1/Δt one step would already stop all motion.
     return (min(2 * math.sqrt(squared / moving), 1 / dt) if moving > 0 < squared else present), 3

@@ -1,4 +1,4 @@
-"""Materials of a body's triangles: one, or several by place, and what is where two of them meet."""
+"""Materials of a body's triangles: one, or several by place, and the interfaces between them."""
 
 import math
 
@@ -15,7 +15,7 @@ _INTERFACE = {'interfaceStrength': 'Pa', 'interfaceEnergy': 'J/m²'}
 
 
 def oneMaterial(material, name='material', right=_RIGHT):
-    """The FEMat that `material` names: the object, its label or its number in O.materials."""
+    """The FEMat that `material` refers to: the object, its label or its number in O.materials."""
     found = plain(material)
     if isinstance(found, str) or isWhole(found):
         try:
@@ -35,7 +35,7 @@ def oneMaterial(material, name='material', right=_RIGHT):
 
 
 def isField(material):
-    """Is it given by place: a function, or a list."""
+    """True if it is given by place: a function, or a list."""
     if isinstance(material, type) or isinstance(material, (str, bytes, dict, set)):
         return False
     return callable(material) or isinstance(material, (list, tuple)) \
@@ -43,8 +43,8 @@ def isField(material):
 
 
 class Materials:
-    """Those of a body: `of`, the FEMats in the order of their first triangles, and `numbers`, (m)
-    which of them each triangle has; empty for a body of one."""
+    """Materials of a body: `of`, the FEMats in the order of their first triangles, and `numbers`,
+    (m) the index of each triangle's material in it; empty for a body of one material."""
 
     def __init__(self, mesh, material):
         self.of, self._places = [], {}
@@ -58,11 +58,11 @@ class Materials:
 
     @property
     def crack(self):
-        """Does any of them."""
+        """True if any of them can crack."""
         return any(isinstance(one, wrapper.BrittleFEMat) for one in self.of)
 
     def find(self, material, name):
-        """Its number; None for one that no triangle has."""
+        """Its number; None if no triangle has it."""
         return self._places.get(_key(oneMaterial(material, name)))
 
     def _number(self, material, name, right=_RIGHT):
@@ -94,12 +94,14 @@ class Materials:
 
 
 def _key(material):
-    """Equal for one material: those in O.materials come as new objects each time."""
+    """Equal keys for the same material: objects from O.materials are created anew at each
+    access."""
     return ('number', material.id) if material.id >= 0 else ('object', id(material))
 
 
 def sidesBetween(triangles, numbers):
-    """(k, 2) nodes of the sides between triangles with different numbers, and (k, 2) these."""
+    """(k, 2) nodes of the sides between triangles with different numbers, and (k, 2) these
+    numbers."""
     sides = numpy.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)])
     sides = numpy.sort(sides.astype(numpy.int64), axis=1)
     owner = numpy.tile(numbers, 3)
@@ -114,7 +116,7 @@ def _isValue(value):
 
 
 def _values(name, value, mesh, sides, both, materials):
-    """(k) floats of the sides; not a number where the materials decide."""
+    """(k) floats for the sides; NaN where the materials determine the value."""
     right = '0 or a positive number (%s)' % _INTERFACE[name]
     if value is None:
         return numpy.full(len(sides), math.nan)
@@ -137,8 +139,8 @@ def _values(name, value, mesh, sides, both, materials):
 
 
 def interfaces(mesh, materials, strength, energy):
-    """(k, 2) nodes of the sides with a strength (Pa) or an energy (J/m²) of their own, and (k) of
-    both, not a number where the materials decide: addPolygon's interfaceStrength and -Energy."""
+    """(k, 2) nodes of the sides with an individual strength (Pa) or energy (J/m²), and (k) of both,
+    NaN where the materials determine the value: addPolygon's interfaceStrength and -Energy."""
     nothing = numpy.empty((0, 2), dtype=numpy.uint32), numpy.empty(0), numpy.empty(0)
     given = [name for name, value in zip(_INTERFACE, (strength, energy)) if value is not None]
     if not given:
@@ -147,7 +149,7 @@ def interfaces(mesh, materials, strength, energy):
         raise ValueError('%s is given, but the body has one material; it must have several.' %
                          given[0])
     if strength is None and not materials.crack:
-        raise ValueError('interfaceEnergy is given, but nothing cracks; it must come with an '
+        raise ValueError('interfaceEnergy is given, but no material can crack; it needs an '
                          'interfaceStrength or a BrittleFEMat.')
     sides, both = sidesBetween(mesh['triangles'], materials.numbers)
     strengths = _values('interfaceStrength', strength, mesh, sides, both, materials)

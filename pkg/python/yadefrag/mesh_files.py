@@ -8,16 +8,16 @@ from yadefrag.readers import needed, refuseFile
 from yadefrag.values import path, positive, shownPath
 
 _PACKAGE = 'python3-meshio'
-_FLAT = 1e-9  # of the longer side: by how much points may be off a plane
+_FLAT = 1e-9  # of the longer side: permitted distance of points from a plane
 _MIDDLE = {'triangle6': 'triangle', 'triangle7': 'triangle', 'quad8': 'quad', 'quad9': 'quad'}
-_OTHER = ('vertex', 'line', 'line3', 'line4')  # of a plane mesh: marks of its boundary
+_OTHER = ('vertex', 'line', 'line3', 'line4')  # in a plane mesh: they mark its boundary
 
 
 @dataclasses.dataclass
 class MeshFile:
-    """What readMesh found: `fe.addTriangles(mesh.nodes, mesh.triangles, material=mesh.material)`.
+    """Result of readMesh: `fe.addTriangles(mesh.nodes, mesh.triangles, material=mesh.material)`.
 
-    nodes      (n, 2) in m, those that triangles use
+    nodes      (n, 2) in m, those used by triangles
     triangles  (m, 3) numbers of nodes, counter-clockwise
     groups     {name: numbers of triangles}: physical groups of gmsh, sets of cells of other formats
     nodeSets   {name: numbers of nodes}: those of groups of lines, points and triangles, and sets of
@@ -31,8 +31,8 @@ class MeshFile:
 
     @property
     def material(self):
-        """(names, (m) numbers among them): addTriangles' `material` where O.materials has one with
-        the label of each group. ValueError where a triangle is in no group, or in two."""
+        """(names, (m) numbers among them): addTriangles' `material`, if O.materials has a material
+        with the label of each group. ValueError if a triangle is in no group, or in two."""
         names = list(self.groups)
         count = numpy.zeros(len(self.triangles), dtype=int)
         of = numpy.zeros(len(self.triangles), dtype=int)
@@ -47,19 +47,20 @@ class MeshFile:
 
 
 def readMesh(file, scale=1):
-    """A MeshFile from whatever meshio reads: gmsh (.msh), Abaqus (.inp), VTK (.vtk, .vtu), Medit ...
+    """A MeshFile from any format that meshio reads: gmsh (.msh), Abaqus (.inp), VTK (.vtk, .vtu),
+    Medit ...
 
-    file   by its ending
+    file   its ending determines the format
     scale  m for one unit of the file
-    Points of three columns are accepted where z is the same for all. Of elements with nodes at the
-    middles of their sides the corners count; quads are cut along their shorter diagonal; what is
-    clockwise is turned round, and points that no triangle uses are left out.
-    ValueError with the file for one that meshio does not read, with bodies, or without triangles;
-    ImportError where meshio is missing; OSError for a file that cannot be read.
+    Points of three columns are accepted if z is the same for all. Of elements with nodes at the
+    middles of their sides only the corners are used; quads are divided along their shorter
+    diagonal; clockwise elements are reversed, and unused points are left out. ValueError with the
+    file if meshio cannot read it, for 3D elements, or without triangles; ImportError if meshio is
+    missing; OSError for a file that cannot be read.
     """
     name = path('file', file)
     scale = positive('scale', scale, 'm per unit of the file')
-    with open(name, 'rb'):  # OSError before a library finds its own words
+    with open(name, 'rb'):  # OSError, before a library raises another exception
         pass
     meshio = needed('meshio', _PACKAGE, name)
     try:
@@ -89,7 +90,7 @@ def _plane(points, name):
 
 
 def _triangles(mesh, points, name):
-    """(m, 3) numbers of points, and (m, 2): of which block of cells and which cell there."""
+    """(m, 3) numbers of points, and (m, 2): number of the block of cells and of the cell in it."""
     found, source = [], []
     for block, cells in enumerate(mesh.cells):
         kind = _MIDDLE.get(cells.type, cells.type)
@@ -118,7 +119,7 @@ def _cross(a, b):
 
 
 def _cut(points, quads):
-    """(2m, 3): each quad along its shorter diagonal."""
+    """(2m, 3): each quad divided along its shorter diagonal."""
     corners = points[quads]
     first = numpy.linalg.norm(corners[:, 2] - corners[:, 0], axis=1)
     second = numpy.linalg.norm(corners[:, 3] - corners[:, 1], axis=1)

@@ -1,4 +1,4 @@
-"""How addPolygon fills an outline: kind of mesh, seed, size of the triangles by place."""
+"""Meshing options of addPolygon: kind of mesh, seed, size of the triangles by place."""
 
 import math
 
@@ -30,10 +30,10 @@ def _sampledSize(function, points):
 
 def simplified(points, holes, tolerance, flags):
     """Outline, holes and the outline's flags (None or an array) without the points that a
-    simplification within `tolerance` (m) leaves out: addPolygon's `simplify`."""
+    simplification within `tolerance` (m) removes: addPolygon's `simplify`."""
     tolerance = positive('simplify', tolerance, 'm')
     pinned = numpy.zeros(0, dtype=bool)
-    if flags is not None:  # a straight corner in a smooth part is meant
+    if flags is not None:  # a straight corner in a smooth part is intentional
         pinned = ~flags & (numpy.roll(flags, 1) | numpy.roll(flags, -1))
     kept = _yadefrag.keptVertices(points.tobytes(), [h.tobytes() for h in holes], tolerance,
                                   pinned.astype(numpy.uint8).tobytes())
@@ -42,8 +42,8 @@ def simplified(points, holes, tolerance, flags):
 
 
 def isIrregular(mesh, material):
-    """The kind of mesh that `mesh` asks for; None: irregular for a body that can crack, or whose
-    materials are known only when it is meshed."""
+    """True for an irregular mesh, by the argument `mesh`; None: irregular for a body that can
+    crack, or whose materials are known only after meshing."""
     if mesh is None:
         return isField(material) or isinstance(material, wrapper.BrittleFEMat)
     if not isinstance(mesh, str) or mesh not in ('regular', 'irregular'):
@@ -66,7 +66,7 @@ def jointLines(joints):
 
 
 def _listOf(value):
-    """A list; None for what is none, and for what has no order."""
+    """A list; None for other types, and for unordered ones."""
     try:
         return None if isinstance(value, (str, bytes, dict, set)) else list(value)
     except TypeError:

@@ -1,4 +1,5 @@
-"""Prescribed motions of nodes: constant, by node, by tables in time, by functions, and turns."""
+"""Prescribed motions of nodes: constant, by node, by tables in time, by functions, and
+rotations."""
 
 import math
 import warnings
@@ -12,11 +13,12 @@ from yadefrag.values import array, flag, number, pair, real, refuse
 _RIGHT = ('a finite number (m/s), an array of one for each of the nodes, a table of pairs (s, m/s), '
           'a function (x, y, t) or None')
 _NONE = (b'', b'')
-_ROUNDING = 1e-9  # of velocities that a script computes
+_ROUNDING = 1e-9  # rounding of velocities that a script computes
 
 
 def chosenNodes(fe, nodes):
-    """(k) node numbers, of `nodes` as FESolver.prescribe takes it; ValueError for what is not."""
+    """(k) node numbers from the argument `nodes` of FESolver.prescribe; ValueError if it is
+    invalid."""
     places = fe.nodes
     if callable(nodes):
         chosen = numpy.array([flag('nodes(%g, %g)' % (x, y), nodes(x, y)) for x, y in places],
@@ -41,8 +43,8 @@ def chosenNodes(fe, nodes):
 
 
 def timeTable(name, value, unit):
-    """(times (k), values (k)) of a table of pairs; None for what has another form. ValueError for
-    times that do not ascend and values that are not finite."""
+    """(times (k), values (k)) of a table of pairs; None for other types. ValueError for times that
+    do not ascend and values that are not finite."""
     if callable(value) or isinstance(value, (str, bytes, dict, set)) or real(value) is not None:
         return None
     rows = array(value)
@@ -60,7 +62,7 @@ def timeTable(name, value, unit):
 
 
 def tableOrNumber(name, value, unit):
-    """The same, where a number is a table of one row."""
+    """The same; a number is a table of one row."""
     if real(value) is not None:
         one = number(name, value, math.isfinite, 'a finite number (%s)' % unit)
         return numpy.zeros(1), numpy.full(1, one)
@@ -71,12 +73,12 @@ def tableOrNumber(name, value, unit):
 
 
 def packed(table):
-    """A table as FESolver's own functions take it."""
+    """A table in the form for FESolver's internal functions."""
     return _NONE if table is None else tuple(column.tobytes() for column in table)
 
 
 def _kind(name, value, count):
-    """('none' | 'each' | 'table' | 'function', what it is)."""
+    """('none' | 'each' | 'table' | 'function', the converted value)."""
     if value is None:
         return 'none', numpy.zeros(count)
     if callable(value):
@@ -98,24 +100,25 @@ def _kind(name, value, count):
 
 
 def prescribe(self, nodes, vx=None, vy=None):
-    """From now on the nodes move at vx, vy (m/s); None: free in that direction.
+    """Prescribes the nodes' velocities vx, vy (m/s) from now on; None: free in that direction.
 
     nodes   node numbers, a flag for each node, a function (x, y) → bool of the present positions,
             or a body's name
     vx, vy  a number; an array with one for each of `nodes`, in their order; a table [(s, m/s), …],
-            linear between its times and constant outside: the nodes' way is its exact integral; or a
-            function (x, y, t) of the nodes' present places (m) and the middle of the step (s), called
-            for each node in each step
-    Times are fe.time. New nodes of cracks move as the nodes they came from. Call it again to change
-    the motion; the forces that it takes are in `reactions`, their work in `energy['external']`. A
-    saved scene keeps all but functions: the first step after O.load raises RuntimeError until
-    prescribe has been called for their nodes again. ValueError before anything changes, also for an
-    array with a table or a function in the other direction; a warning where no node is chosen.
+            linear between its times and constant outside, whose exact integral is the nodes'
+            displacement; or a function (x, y, t) of the nodes' present positions (m) and the middle of
+            the step (s), called for each node in each step
+    Times are fe.time. New nodes of cracks move as the nodes from which they were split. Call it
+    again to change the motion; the required forces are in `reactions`, their work in
+    `energy['external']`. A saved scene contains everything except functions: the first step after
+    O.load raises RuntimeError until prescribe has been called for their nodes again. ValueError
+    before any change, also for an array with a table or a function in the other direction; a
+    warning if no node is chosen.
     """
     requirePaused()
     chosen = chosenNodes(self, nodes)
     if not len(chosen):
-        warnings.warn('prescribe: nodes chooses none of the %d nodes.' % len(self.nodes), stacklevel=2)
+        warnings.warn('prescribe: nodes selects none of the %d nodes.' % len(self.nodes), stacklevel=2)
     kinds, values = zip(*[_kind(name, value, len(chosen))
                           for name, value in (('vx', vx), ('vy', vy))])
     held = sum(axis for axis, kind in ((1, kinds[0]), (2, kinds[1])) if kind != 'none')
@@ -142,7 +145,8 @@ def _move(fe, chosen, held, centre, kinds, values, turn=None):
 
 
 def _velocities(kinds, values):
-    """What FESolver calls in each step: (places (k, 2), time) → bytes of (k, 2) m/s."""
+    """The function that FESolver calls in each step: (positions (k, 2), time) → bytes of (k, 2)
+    m/s."""
     def column(name, kind, value, places, time):
         if kind == 'function':
             return [number('%s(%g, %g, %g)' % (name, x, y, time), value(float(x), float(y), time),
@@ -159,13 +163,13 @@ def _velocities(kinds, values):
 
 
 def rotate(self, nodes, omega, centre):
-    """From now on the nodes turn at `omega` about `centre`, exactly: after any number of steps they
-    are on their circles, but for rounding.
+    """Rotates the nodes at `omega` about `centre` from now on, exactly: after any number of steps
+    they are on their circles, except for rounding.
 
-    nodes   as in `prescribe`, or a body's number or name: all of it
+    nodes   as in `prescribe`, or a body's number or name: the whole body
     omega   rad/s, counter-clockwise, or a table [(s, rad/s), …] as in `prescribe`
     centre  (x, y) in m
-    ValueError before anything changes. A saved scene keeps it; a further `prescribe` or `rotate`
+    ValueError before any change. A saved scene contains the motion; a later `prescribe` or `rotate`
     ends it.
     """
     requirePaused()
@@ -175,7 +179,7 @@ def rotate(self, nodes, omega, centre):
 
 
 def keepTurning(fe, component, held, velocity, spin, places, centroid):
-    """Held nodes of a new body whose velocities are those of a rigid body that turns: they turn on.
+    """Held nodes of a new body with the velocities of a rotating rigid body continue to rotate.
 
     velocity  without that of `spin` about `centroid`
     """
@@ -183,7 +187,7 @@ def keepTurning(fe, component, held, velocity, spin, places, centroid):
     if not len(fixed):
         return
     rigid = _rigidMotion(places[fixed], velocity[fixed])
-    if rigid is None or _areInLine(places[fixed]):  # a line may turn in a body that is sheared
+    if rigid is None or _areInLine(places[fixed]):  # the nodes of a line may rotate in a sheared body
         rigid = _rigidMotion(places, velocity)
     if rigid is None:
         return
@@ -192,13 +196,13 @@ def keepTurning(fe, component, held, velocity, spin, places, centroid):
     if not total:
         return
     if not turn:
-        centre, drift = centroid, speed  # a body that is thrown, and turns about its centroid
+        centre, drift = centroid, speed  # a moving body that rotates about its centroid
     else:
-        # The velocity at a place p is `origin` + total × p: 0 at the centre.
+        # The velocity at a position p is `origin` + total × p: 0 at the centre.
         x, y = turn * middle + spin * centroid
         origin = speed + numpy.array([y, -x])
         centre, drift = numpy.array([-origin[1], origin[0]]) / total, numpy.zeros(2)
-    # Open joints have doubled nodes, which are behind all others.
+    # Open joints have doubled nodes, which come after all others.
     own = fe.nodesOf(component)
     present = fe.nodes[own]
     held = set(map(tuple, present[fixed].tolist()))
@@ -216,7 +220,7 @@ def _areInLine(places):
 
 
 def _rigidMotion(places, velocity):
-    """(middle (m), its velocity (m/s), rad/s) of a rigid body that moves so; None for no such."""
+    """(centre (m), its velocity (m/s), rad/s) of a rigid-body motion; None if it is none."""
     middle, speed = places.mean(axis=0), velocity.mean(axis=0)
     arms = places - middle
     moment = (arms**2).sum()

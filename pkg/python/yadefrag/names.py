@@ -6,12 +6,12 @@ _LONGEST = 80  # characters of a name
 
 
 def isBody(value):
-    """Is it a number or a name of one body, or meant to be?"""
+    """True for a number or a name of one body, also for an invalid one."""
     return isinstance(value, str) or isWhole(value)
 
 
 def newName(fe, name):
-    """The name of a body that is to be added: '' for None; ValueError for one that is taken."""
+    """The name of a body to be added: '' for None; ValueError for a name in use."""
     if name is None:
         return ''
     name = text('name', name)
@@ -24,7 +24,7 @@ def newName(fe, name):
 
 
 def bodyNumber(fe, value, argument='component', least=-2**31):
-    """The number of the body that `value`, a number or a name, means; ValueError for none."""
+    """The number of the body that `value`, a number or a name, refers to; ValueError for none."""
     names = fe._names
     if isinstance(value, str):
         known = [name for name in names if name]
@@ -36,7 +36,7 @@ def bodyNumber(fe, value, argument='component', least=-2**31):
 
 
 def existingBody(fe, value, argument='component'):
-    """The same for a body that is there."""
+    """The same for an existing body."""
     number = bodyNumber(fe, value, argument)
     if not 0 <= number < len(fe._names) or fe._isGone(number):
         raise ValueError('%s is %s, which is no body of this FESolver.' % (argument, shown(value)))
@@ -44,13 +44,13 @@ def existingBody(fe, value, argument='component'):
 
 
 def nodesOf(self, component):
-    """Numbers of a body's nodes, array (k); those of dropped fragments are left out.
+    """Numbers of a body's nodes, array (k), without those of removed fragments.
 
-    component  the body's number, or its name. ValueError for none.
+    component  the body's number, or its name. ValueError if there is no such body.
     """
     return self._nodesOf(existingBody(self, component))
 
 
 def componentOf(self, name):
-    """The number of the body that has this name; ValueError for none."""
+    """The number of the body with this name; ValueError if there is none."""
     return existingBody(self, text('name', name), 'name')

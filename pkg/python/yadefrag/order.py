@@ -1,23 +1,23 @@
-"""Bodies in an order in which neighbours in space are neighbours in memory."""
+"""Sorts bodies so that neighbours in space are neighbours in memory."""
 
 import numpy as np
 
 from yadefrag.values import refuse
 
-_BITS = 21  # per axis: three fit 64 bits
+_BITS = 21  # per axis: three axes fit into 64 bits
 
 
 def inCurveOrder(bodies):
-    """The same bodies in the order of their places along the Lebesgue (Morton) curve.
+    """The same bodies in the order of their positions along the Lebesgue (Morton) curve.
 
-    bodies  a sequence of Body that are not in O.bodies yet; or of places, (x, y, z) or (place,
-            radius), of spheres that are still to be made. Lengths in any one unit.
+    bodies  a sequence of Body that are not in O.bodies yet; or of positions, (x, y, z) or (position,
+            radius), of spheres to be created. Lengths in any one unit.
 
-    Returns a list; bodies of one position code keep their order. ValueError for what has no finite
-    place. Memory is laid out as bodies are made, and YADE's loops go through it by the bodies'
-    numbers: order the places, and then make and append the bodies. Bodies that were made in another
-    order gain in the interaction loop what they lose in the integrator. Paper section 4.2 (Diekmann
-    et al. 2000).
+    Returns a list; bodies with the same position code keep their order. ValueError for an element
+    without a finite position. Memory is allocated in the order of creation, and YADE's loops use
+    the order of the bodies' numbers: therefore sort the positions first, then create and append the
+    bodies. For bodies created in another order, the interaction loop gains as much time as the
+    integrator loses. Paper section 4.2 (Diekmann et al. 2000).
     """
     try:
         bodies = list(bodies)
@@ -31,7 +31,7 @@ def inCurveOrder(bodies):
 
 
 def _place(body, number):
-    """Three finite coordinates of a body, a place, or a place with a radius."""
+    """Three finite coordinates of a body, a position, or a position with a radius."""
     state = getattr(body, 'state', None)
     try:
         at = body if state is None else state.pos
@@ -47,7 +47,7 @@ def _place(body, number):
 
 
 def _codes(places):
-    """Position codes of places (n, 3), in cubes of 2^-21 of the longest side of all."""
+    """Position codes of positions (n, 3), in cubes of 2^-21 of the longest side of all."""
     low = places.min(axis=0)
     longest = (places.max(axis=0) - low).max()
     cells = (places - low) * ((2**_BITS - 1) / longest) if longest > 0 else 0 * places

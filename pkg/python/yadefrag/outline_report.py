@@ -1,4 +1,4 @@
-"""What an outline's finest feature costs in time step, before a mesh is made."""
+"""Effect of an outline's finest feature on the time step, before a mesh is made."""
 
 import math
 
@@ -9,25 +9,25 @@ from yadefrag.materials import oneMaterial
 from yadefrag.meshing import simplified
 from yadefrag.values import pointsOf, positive, refuse
 
-_CHUNK = 2 * 10**6  # pairs of a point and an edge that are looked at together
+_CHUNK = 2 * 10**6  # pairs of a point and an edge per block
 
 
 def outlineReport(outline, holes=(), *, size, material, simplify=None):
-    """A dict of what the finest features of an outline cost in time step; no mesh is made.
+    """A dict with the effect of an outline's finest features on the time step; no mesh is made.
 
     outline, holes, simplify  as in addPolygon
-    size      m, which the triangles' edges are to have
+    size      m, desired length of the triangles' edges
     material  an FEMat, its label or its number in O.materials
-    points        of the outline and the holes, after `simplify`
+    points        number of points of the outline and the holes, after `simplify`
     shortestEdge  m; shortestEdgeAt: its middle (x, y)
-    narrowest     m, between a corner and a side that it is no end of, through the body or across a
-                  gap; narrowestAt: that corner
-    finest        m, the least of `size` and both
-    timeStep      s, critical step of equilateral triangles of edges `finest`
-    ratio         by which it is shorter than that of the size; steps of a run are as many times more
-    words         all that in one sentence
-    A mesh has triangles of such edges there, of other shapes: its own critical step is between a
-    half and three times timeStep. ValueError as addPolygon.
+    narrowest     m, least distance between a corner and a side that does not end there, through the
+                  body or across a gap; narrowestAt: that corner
+    finest        m, the smallest of `size` and both
+    timeStep      s, critical time step of equilateral triangles with edges `finest`
+    ratio         critical time step for `size` over timeStep: factor of the number of steps
+    words         all this in one sentence
+    A mesh has triangles with such edges there, but of other shapes: its critical time step is
+    between half and three times timeStep. ValueError as addPolygon.
     """
     points = pointsOf('outline', outline, 3)
     size = positive('size', size, 'm')
@@ -58,7 +58,7 @@ def outlineReport(outline, holes=(), *, size, material, simplify=None):
 
 
 def _narrowest(starts, ends):
-    """(least distance of a corner to a side that it is no end of, number of the corner)."""
+    """(least distance of a corner to a side that does not end there, number of the corner)."""
     sides = ends - starts
     squares = (sides**2).sum(axis=1)
     least, corner = math.inf, 0

@@ -9,7 +9,7 @@ from yadefrag.meshing import simplified
 from yadefrag.readers import dxf, loops, picture, plain, svg
 from yadefrag.values import flag, number, path, positive, refuse, shown, shownPath
 
-_GAP = 1e-6  # of the longer side of all: drawings have six digits
+_GAP = 1e-6  # of the longer side of the drawing: drawings have six digits
 _LINES = {'.svg': svg.lines, '.dxf': dxf.lines, '.csv': plain.csvLines, '.wkt': plain.wktLines,
           '.json': plain.geoJsonLines, '.geojson': plain.geoJsonLines,
           **{ending: picture.lines for ending in picture.ENDINGS}}
@@ -17,34 +17,34 @@ _LINES = {'.svg': svg.lines, '.dxf': dxf.lines, '.csv': plain.csvLines, '.wkt': 
 
 def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None, leastArea=0., layers=None,
                 byLayer=False):
-    """Outlines from a drawing, a map or a picture: list of (outline, holes), as addPolygon has them.
+    """Outlines from a drawing, a map or a picture: list of (outline, holes), as for addPolygon.
 
     `for shape in readOutline('plate.svg', 1e-5, scale=1e-3): fe.addPolygon(*shape, size=...)`.
-    file       by its ending
-               .svg      paths and basic shapes with their transforms, those that are not hidden, in
-                         units of the viewBox; y upwards, so that the page is below the origin
+    file       its ending determines the format:
+               .svg      visible paths and basic shapes with their transforms, in units of the viewBox;
+                         y upwards, so that the page is below the origin
                .dxf      lines, polylines with bulges, arcs, circles, ellipses, splines, also in
                          blocks, seen from above; layers may be chosen
-               .geojson, .json, .wkt  polygons, and lines that close
-               .csv      `x, y` on each line, an empty one between two loops, # before comments
-               .png, .jpg, .jpeg, .bmp, .tif, .tiff  what is darker than middle grey, transparent
-                         places being white; in pixels from the lower left corner of the picture
-    tolerance  m, by which outlines may be off: points on curves are so many that chords are within
-               it (those of splines in .dxf at their middles), and those of a picture's contour are
-               left out as by `simplify`. Files without curves need none
+               .geojson, .json, .wkt  polygons, and closed lines
+               .csv      `x, y` on each line, an empty line between two loops, # before comments
+               .png, .jpg, .jpeg, .bmp, .tif, .tiff  areas darker than middle grey; transparent areas
+                         count as white; in pixels from the lower left corner of the picture
+    tolerance  m, permitted deviation of outlines: curves get so many points that the chords are
+               within it (for splines in .dxf: at the chords' middles), and the contour of a picture
+               is reduced as by `simplify`. Not needed for files without curves
     scale      m for one unit of the file
-    gap        m, below which two points count as one, and two ends of lines as joined; None: 10⁻⁶ of
-               the longer side of what is drawn
+    gap        m, distance below which two points coincide and two ends of lines are joined; None: 10⁻⁶
+               of the longer side of the drawing
     simplify   None, or m: as in addPolygon, on what has been read
-    leastArea  m²: loops around less, as specks in a picture are, are left out
-    layers     of a .dxf: None, all of them; or the name of one or a list of names: those only
-    byLayer    of a .dxf: True returns a dict {layer: list of (outline, holes)} in place of the list;
-               lines close, and loops are holes, within their own layer only
-    What an odd number of loops is around is inside: a loop within an outline is a hole, one within
-    a hole an outline of its own. All are counter-clockwise lists of (x, y) in m.
-    ValueError with the file for one that is none of these, for lines that do not close and for a
-    missing tolerance; ImportError with Debian's package where a library is missing (svgelements,
-    ezdxf, shapely, scikit-image); OSError for a file that cannot be read.
+    leastArea  m²: smaller loops, e.g. specks in a picture, are left out
+    layers     of a .dxf: None: all of them; or the name of one or a list of names: only those
+    byLayer    of a .dxf: True returns a dict {layer: list of (outline, holes)} instead of the list;
+               lines are joined, and loops are holes, within their own layer only
+    Points inside an odd number of loops are inside: a loop within an outline is a hole, one within
+    a hole is a separate outline. All are counter-clockwise lists of (x, y) in m. ValueError with
+    the file for an unknown format, for lines that are not closed and for a missing tolerance;
+    ImportError with the name of Debian's package if a library is missing (svgelements, ezdxf,
+    shapely, scikit-image); OSError for a file that cannot be read.
     """
     name = path('file', file)
     ending = os.path.splitext(name)[1].lower()
@@ -62,7 +62,7 @@ def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None, leastAre
         raise ValueError('layers or byLayer is given, but %s has no layers: only a .dxf file has.' %
                          shownPath(name))
     wanted = None if layers is None else _names(layers)
-    with open(name, 'rb'):  # OSError before a library finds its own words
+    with open(name, 'rb'):  # OSError, before a library raises another exception
         pass
     units = None if tolerance is None else tolerance / scale
     parts = _chosen(name, dxf.linesByLayer(name, units), wanted) if ending == '.dxf' else \
@@ -93,7 +93,7 @@ def _names(layers):
 
 
 def _chosen(file, parts, wanted):
-    """Of {layer: lines} those wanted; names are the same in capitals, as in the format."""
+    """The chosen layers of {layer: lines}; names are case-insensitive, as in the format."""
     if wanted is None:
         return parts
     known = {layer.casefold(): layer for layer in parts}

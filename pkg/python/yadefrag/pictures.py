@@ -1,4 +1,4 @@
-"""Pictures of the bodies of an FESolver, by Matplotlib."""
+"""Pictures of the bodies of an FESolver, with Matplotlib."""
 
 import math
 
@@ -17,7 +17,7 @@ _UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)'
           'fragment': 'fragment'}
 
 
-HELD = 'red'  # of cracks that cohesion still holds
+HELD = 'red'  # colour of cohesive cracks
 
 
 def _stress(fe, field):
@@ -29,7 +29,7 @@ def _stress(fe, field):
 
 
 def _values(fe, field):
-    """(values, are they one per node) of a field but 'fragment', both None for no field."""
+    """(values, True for one per node) of a field except 'fragment', both None for no field."""
     if field is None:
         return None, None
     if isinstance(field, str):
@@ -55,26 +55,24 @@ def _values(fe, field):
 
 def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xlim=None, ylim=None,
              spheres=True, rigidBodies=True):
-    """Draws the triangles of an FESolver where they are now, but not those of dropped fragments, in
-    red the cracks that cohesion still holds, and YADE's spheres, walls, boxes and facets; returns
-    Matplotlib's axes.
+    """Draws the triangles of an FESolver at their present positions, without removed fragments;
+    cohesive cracks in red; and YADE's spheres, walls, boxes and facets. Returns Matplotlib's axes.
 
-    field   None (no colours), 'xx', 'yy', 'xy' (Pa), 'mises' (Pa, of these three: with the stress
-            zz left out), 'speed' (m/s), 'component', 'fragment' (colours without a meaning, of
-            which neighbours have different ones), or an array with one number for each triangle or
-            each node
-    file    where to write the picture; its ending says as what (.png, .pdf, .svg ...)
-    ax      axes to draw in, default new ones
-    limits  (lowest, highest) value of the colour scale, default those of the field
-    fields  in place of `field`, a list of several: drawn side by side, or below each other where
-            what is drawn is more than twice as wide as high, of the same moment; `limits` is then
-            one pair for all, or a list with a pair or None for each. Returns a list of axes
-    xlim    (left, right) in m of what is drawn, default all
+    field   None (no colours), 'xx', 'yy', 'xy' (Pa), 'mises' (Pa, from these three, without the stress
+            zz), 'speed' (m/s), 'component', 'fragment' (arbitrary colours, different for adjacent
+            fragments), or an array with one number for each triangle or each node
+    file    path of the picture; its ending determines the format (.png, .pdf, .svg ...)
+    ax      axes to draw in; default: new ones
+    limits  (lowest, highest) value of the colour scale; default: those of the field
+    fields  instead of `field`, a list of several: drawn for the same moment, side by side, or below
+            each other if the contents are more than twice as wide as high; `limits` is then one
+            pair for all, or a list with a pair or None for each. Returns a list of axes
+    xlim    (left, right) in m of the drawn region; default: all
     ylim    (bottom, top) in m, likewise
-    spheres are YADE's spheres drawn, the members of clumps among them: in their colours, with their
-            whole radius, wherever they are beside the plane
-    rigidBodies are the sections of YADE's Wall, Box and Facet with the plane z = 0 drawn, in their
-            colours. They widen what is drawn by at most half of what the bodies and spheres take up
+    spheres True: draws YADE's spheres, also members of clumps, in their colours, with their full
+            radius at any distance from the plane
+    rigidBodies True: draws the sections of YADE's Wall, Box and Facet with the plane z = 0, in their
+            colours. They widen the drawn region by at most half of the size of bodies and spheres
     ValueError for any other field or limits, and for a solver without bodies.
     """
     _requireBodies(fe)
@@ -102,7 +100,7 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xl
 
 
 def _severalFields(field, fields, ax):
-    """A list of fields, checked as far as this goes without the solver."""
+    """A list of fields, checked as far as possible without the solver."""
     if field is not None or ax is not None:
         raise ValueError('fields comes with field or ax, it must be given without them.')
     if not isinstance(fields, (list, tuple)) or not 0 < len(fields) <= MOST_PANELS:
@@ -131,15 +129,15 @@ def _range(name, value):
 
 
 def _extent(picture, others, window):
-    """(width, height) in m of what is drawn."""
+    """(width, height) in m of the drawn region."""
     low, high = others.extent(*picture.box())
     return [ends[1] - ends[0] if ends else side for ends, side in zip(window, high - low)]
 
 
 class _Picture:
-    """What there is to draw of one step: x, y of the nodes, triangles, their or the nodes' values.
+    """Data of one picture: x, y of the nodes, triangles, values of triangles or nodes.
 
-    former  as in fragmentColours, which gives the colours
+    former  as in fragmentColours, which determines the colours
     """
 
     def __init__(self, fe, field, former=None):
@@ -153,7 +151,7 @@ class _Picture:
             nodes, shown, self.triangles = shownMesh(fe)
             places = numpy.asarray(fe.nodes, dtype=float)
             sides = heldCracks(fe)[0]
-            # A held crack has hardly a width: one line between its two sides.
+            # A cohesive crack has hardly any width: one line between its two sides.
             self.held = (places[sides[:, :2]] + places[sides[:, 2:]]) / 2
             self.x, self.y = places[nodes].T
         self.perNode = perNode
@@ -174,7 +172,7 @@ def _requireBodies(fe):
 
 
 def _limits(limits):
-    """A pair of floats; of None for no limits."""
+    """A pair of floats; a pair of None for no limits."""
     if limits is None:
         return None, None
     if not _isFinitePair(limits) or numbersOf(limits, 2) != tuple(sorted(numbersOf(limits, 2))):
@@ -238,15 +236,14 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
     """Runs the scene for `steps` steps and writes a GIF with a frame at the start and after each
     `every` steps; returns the number of frames.
 
-    field, limits  as in plotMesh, but no arrays; without limits the colours of each frame have
-                   their own scale
-    window         ((left, bottom), (right, top)) in m, default all nodes of the first frame and a
+    field, limits  as in plotMesh, but no arrays; without limits each frame has its own colour scale
+    window         ((left, bottom), (right, top)) in m; default: all nodes of the first frame and a
                    quarter more on each side
-    rate           frames per second of the film
+    rate           frames per second
     spheres, rigidBodies  as in plotMesh
-    When the run is interrupted, paused or fails, the frames until then are written. ValueError,
-    before any step, for counts that are not positive, a field or limits as in plotMesh, a file that is no
-    .gif, a window that is none; OSError for a file that cannot be written.
+    If the run is interrupted, paused or fails, the frames so far are written. ValueError, before any
+    step, for counts that are not positive, a field or limits as in plotMesh, a file that is no
+    .gif, an invalid window; OSError for a file that cannot be written.
     """
     from matplotlib.animation import PillowWriter
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -289,7 +286,7 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
 
 def _checkFilm(fe, field):
     if field is not None and not isinstance(field, str):
-        raise ValueError('field is an array, which does not change with the film; it must be a '
+        raise ValueError('field is an array, which does not change during the run; it must be a '
                          'name or None.')
     _Picture(fe, field)
 
@@ -303,7 +300,7 @@ def _windowOf(fe):
 
 
 def _runInParts(steps, every):
-    """Runs YADE's scene; yields its step before the first part and after each."""
+    """Runs YADE's scene in parts; yields its step number before the first part and after each."""
     from yade.wrapper import Omega
 
     from yadefrag.progress import runPart

@@ -1,4 +1,4 @@
-"""Values by place that bodies take from a script: functions of (x, y), or arrays by triangle."""
+"""Values by place from a script: functions of (x, y), or arrays by triangle."""
 
 import math
 
@@ -6,7 +6,7 @@ import numpy
 
 from yadefrag.values import array, number, real, refuse, shown
 
-# name: (unit, is a value right, what is right)
+# name: (unit, function that checks a value, description of valid values)
 _BRITTLE = {
     'strength': ('Pa', lambda v: math.isfinite(v) and v > 0, 'a positive number (Pa)'),
     'fractureEnergy': ('J/m²', lambda v: math.isfinite(v) and v >= 0,
@@ -18,7 +18,8 @@ _BRITTLE = {
 
 
 def _ofTriangles(name, value, mesh):
-    """(m) floats of the mesh's triangles, a function's at their centroids; empty for None."""
+    """(m) floats of the mesh's triangles; a function is evaluated at their centroids; empty for
+    None."""
     if value is None:
         return numpy.empty(0)
     unit, isRight, right = _BRITTLE[name]
@@ -59,9 +60,9 @@ def _ofJoints(name, value, mesh, count):
 
 def brittlePlaces(mesh, materials, interfaces, strength, fractureEnergy, joints=(),
                   jointStrength=None, jointEnergy=None):
-    """{name: (array, dtype)} that FESolver._addMesh takes. `interfaces` as materials.interfaces
-    returns them; joints count more. ValueError for a material that does not crack, and for values
-    that cannot be."""
+    """{name: (array, dtype)} for FESolver._addMesh. `interfaces`: result of materials.interfaces;
+    values of joints have priority. ValueError for a material that does not crack, and for invalid
+    values."""
     areOwn = len(joints) and (jointStrength is not None or jointEnergy is not None)
     given = dict(strength=strength, fractureEnergy=fractureEnergy,
                  joints=joints if areOwn else None)

@@ -1,4 +1,4 @@
-"""Long runs: a bar of progress on a terminal, and Ctrl-C between two steps."""
+"""Long runs: a progress bar on a terminal, and Ctrl-C between two steps."""
 
 import sys
 import time
@@ -9,23 +9,23 @@ from yadefrag import _yadefrag, lifecycle
 from yadefrag.guards import requireNoStep
 from yadefrag.values import shown, whole
 
-MOST_STEPS = 2**62  # that YADE can count
+MOST_STEPS = 2**62  # the largest number that YADE can count
 
 
 def runSteps(steps, every=None, call=None):
-    """Runs `steps` steps of the scene; returns how many were done.
+    """Runs `steps` steps of the scene; returns the number of steps done.
 
     every, call  if given, call() is called after each `every` steps
-    On a terminal a bar shows steps, simulated time and time left. Ctrl-C stops after a whole step,
-    with the scene as it is then, and so does O.pause() from a PyRunner; the run can be taken up
-    again. RuntimeError where an engine stopped the run, with what FESolver said; what other engines say
-    is in YADE's own message.
+    On a terminal a bar shows steps, simulated time and remaining time. Ctrl-C stops after a whole step
+    and leaves the scene in that state, and so does O.pause() from a PyRunner; the run can be
+    continued. RuntimeError if an engine stopped the run, with the message of FESolver; messages of
+    other engines are written by YADE.
     """
     steps = whole('steps', steps, most=MOST_STEPS)
     every = None if every is None else whole('every', every, most=MOST_STEPS)
     if call is not None and (every is None or not callable(call)):
-        raise ValueError('call is %s with every=%s: give a function and after how many steps it is '
-                         'to be called.' % (shown(call), shown(every)))
+        raise ValueError('call is %s with every=%s: give a function and the number of steps between its '
+                         'calls.' % (shown(call), shown(every)))
     requireNoStep('runSteps')
     warnOfNoSolver()
     omega = wrapper.Omega()
@@ -43,7 +43,7 @@ def runSteps(steps, every=None, call=None):
                 call()
             if isPaused:
                 break
-            # Portions of about a tenth of a second: Ctrl-C is heard between them.
+            # Portions of about a tenth of a second: Ctrl-C takes effect between them.
             portion = _portion(now, time.perf_counter() - start)
     except KeyboardInterrupt:
         _yadefrag.stopRun()
@@ -70,9 +70,10 @@ def warnOfNoSolver():
 
 
 def runPart(steps):
-    """Runs `steps` steps; returns how many were done, and whether the run was paused meanwhile.
+    """Runs `steps` steps; returns the number of steps done, and whether the run was paused
+    meanwhile.
 
-    RuntimeError where an engine stopped the run.
+    RuntimeError if an engine stopped the run.
     """
     omega = wrapper.Omega()
     begin, pauses = lifecycle.stepsDone(), lifecycle.pauses()
@@ -81,10 +82,10 @@ def runPart(steps):
     lifecycle.waitForEnd()
     if lifecycle.stepsDone() - begin == steps and pauses == lifecycle.pauses():
         return steps, False
-    _yadefrag.stopRun()  # O.wait() does not wait for the end of the step that was paused
+    _yadefrag.stopRun()  # O.wait() does not wait for the end of a paused run's last step
     done = lifecycle.stepsDone() - begin
     if done < steps:
-        omega.stopAtIter = -1  # or the next O.run() would stop there
+        omega.stopAtIter = -1  # otherwise the next O.run() would stop there
     if omega.subStep != -1:
         why = _yadefrag.whyStopped()
         raise RuntimeError('The run stopped in step %d%s' % (omega.iter, ': ' + why if why else '.'))
@@ -96,12 +97,12 @@ def _portion(steps, seconds):
 
 
 class _Bar:
-    """Nothing unless standard error is a terminal."""
+    """Does nothing unless standard error is a terminal."""
 
     def __init__(self, steps):
         self.bar = None
         if sys.stderr is not None and sys.stderr.isatty():
-            import tqdm  # only where it is seen
+            import tqdm  # only if it is visible
             self.bar = tqdm.tqdm(total=steps, unit='step', file=sys.stderr)
 
     def show(self, done, seconds):

@@ -1,4 +1,4 @@
-"""How good the mesh of a body is, in numbers and in a picture."""
+"""Quality of a body's mesh, in numbers and in a picture."""
 
 import math
 
@@ -11,7 +11,7 @@ from yadefrag.values import isWhole, plain, refuse
 
 
 def _component(fe, component):
-    """The number of the body that `component` means; None: the only one."""
+    """The number of the body that `component` refers to; None: the only one."""
     there = sorted(set(int(c) for c in fe.components))
     if isinstance(component, str):
         return existingBody(fe, component)
@@ -26,24 +26,24 @@ def _component(fe, component):
 
 
 def meshQuality(self, component=None, plot=None):
-    """How much the stress-free mesh of a body prefers directions, and how good its triangles are.
+    """Directional bias of the stress-free mesh of a body, and the shape of its triangles.
 
-    component  the body's number or name; None where there is only one
-    plot       file for a picture of edges and paths by direction; its ending says as what
+    component  the body's number or name; None if there is only one
+    plot       file for a picture of edges and paths by direction; its ending determines the format
     A dict:
     pathRatio             mean length of the shortest path along edges, over the straight line
     pathSpread            largest minus smallest of pathRatioByDirection
     pathRatioByDirection  array (36): the mean for lines of each 5° from 0 to 180°
     edgeDeviation         largest |edgesByDirection - 1|
-    edgesByDirection      array (36): inner edges in each 5°, over an even distribution
+    edgesByDirection      array (36): inner edges in each 5°, relative to a uniform distribution
     minAngle              smallest angle of a triangle (rad)
     size                  edges of an even lattice with as many triangles in the area (m)
     timeStepRatio         critical time step, over that of this lattice
     shortestEdge          m
-    numTriangles          that are there; those of dropped fragments are not
-    Paths join 200 nodes with those that 30 to 50 edges would reach (or 0.3 to 0.5 of √area if that
-    is less), along lines that stay in the body; NaN where there are none. Cracks count as closed.
-    ValueError for a component that is not there.
+    numTriangles          without those of removed fragments
+    Paths connect 200 nodes with nodes at a distance of 30 to 50 edges (or of 0.3 to 0.5 of √area if
+    that is less), along lines that stay inside the body; NaN if there are none. Cracks count as
+    closed. ValueError for a component that does not exist.
     """
     requireSolver(self)
     with betweenSteps(self):
@@ -62,7 +62,7 @@ def _plot(quality, number, file):
     figure.suptitle('body %d: %d triangles of %.4g m, smallest angle %.1f°, time step %.2f of the '
                     "lattice's" % (number, quality['numTriangles'], quality['size'],
                                    math.degrees(quality['minAngle']), quality['timeStepRatio']))
-    panels = (('edgesByDirection', 'inner edges over an even distribution', 1, 0,
+    panels = (('edgesByDirection', 'inner edges over a uniform distribution', 1, 0,
                'largest deviation %.3f' % quality['edgeDeviation']),
               ('pathRatioByDirection', 'path along edges over straight line', quality['pathRatio'],
                1, 'mean %.4f, spread %.4f' % (quality['pathRatio'], quality['pathSpread'])))

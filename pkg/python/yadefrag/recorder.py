@@ -1,4 +1,4 @@
-"""A record of a run: pictures for ParaView and a table, which go on after a restart."""
+"""A record of a run: pictures for ParaView and a table, which continue after a restart."""
 
 import math
 import os
@@ -17,31 +17,31 @@ _ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 
 _FIRST = ('step', 'time (s)', 'cracks', 'fragments') + tuple('%s (J)' % e for e in _ENERGIES) + \
     ('reaction x (N)', 'reaction y (N)')
 _NAMED = 'reaction %s of %s (N)'
-_complained = set()  # files that a sentence has been said of
+_complained = set()  # files for which a message was given
 
 
 def FERecorder(iterPeriod=0, file='run', fields=None, **settings):
     """An engine, a PyRunner for the end of O.engines, that records the scene's FESolver.
 
-    iterPeriod  steps from one record to the next; or virtPeriod (s), realPeriod (s) and all else that
-                a PyRunner has, as further arguments
-    file        path without an ending: file.csv has a line for each record, with the step, fe.time (s),
-                the numbers of cracks and fragments, the energies (J), and the reactions (N) of all held
-                nodes and of each body that has a name; file.pvd, for ParaView, is the series of the
-                pictures file_000000.vtu, …, which are as exportVTK writes them
-    fields      which of exportVTK's fields the pictures have, None: all; (): there are no pictures
-    O.save keeps it. It goes on with the files that are there: records of the present fe.time and later,
-    which a run made that was taken up again from an earlier save, are taken out. Where a file cannot
-    be written, as on a full disk, a sentence on stderr says so, once for each file, and the run goes on;
-    what was written before stays whole. OSError if file.csv cannot be written now, ValueError for
-    fields that there are not.
+    iterPeriod  steps between two records; or virtPeriod (s), realPeriod (s) and all other settings
+                of a PyRunner, as further arguments
+    file        path without an ending: file.csv has a line for each record, with the step, fe.time
+                (s), the numbers of cracks and fragments, the energies (J), and the reactions (N) of
+                all held nodes and of each body with a name; file.pvd, for ParaView, is the series
+                of the pictures file_000000.vtu, …, which have the format of exportVTK
+    fields      fields of exportVTK in the pictures; None: all; (): no pictures
+    O.save keeps it. Existing files are continued: records of the present fe.time and later, which
+    belong to a run that is now repeated from an earlier save, are removed. If a file cannot be
+    written, e.g. on a full disk, a message is written to stderr, once for each file, and the run
+    continues; earlier records are unchanged. OSError if file.csv cannot be written now, ValueError
+    for unknown fields.
     """
     name = path('file', file)
     chosen = fieldNames(fields)
     every = whole('iterPeriod', iterPeriod, 0, 'a whole number of steps', MOST_STEPS)
     requireWritable(name + '.csv')
     if not every and not any(settings.get(one) for one in ('virtPeriod', 'realPeriod')):
-        warnings.warn('FERecorder: of iterPeriod, virtPeriod and realPeriod none is given; there will '
+        warnings.warn('FERecorder: none of iterPeriod, virtPeriod and realPeriod is given; there will '
                       'be one record, of the first step.', stacklevel=2)
     command = '__import__("yadefrag.recorder").recorder.record(%r, %r)' % (os.path.abspath(name), chosen)
     try:
@@ -51,7 +51,7 @@ def FERecorder(iterPeriod=0, file='run', fields=None, **settings):
 
 
 def record(name, fields):
-    """What the engine does."""
+    """The action of the engine."""
     solvers = [one for one in wrapper.Omega().engines if isinstance(one, wrapper.FESolver)]
     if not solvers:
         return
@@ -63,12 +63,12 @@ def record(name, fields):
             except OSError as error:
                 if file not in _complained:
                     _complained.add(file)
-                    print('WARN  FERecorder: %s cannot be written (%s); the run goes on without it.' %
+                    print('WARN  FERecorder: %s cannot be written (%s); the run continues without it.' %
                           (shownPath(file), error.strerror or error), file=sys.stderr)
 
 
 def _before(time, now):
-    """Times of one step may be off by the rounding of a sum."""
+    """True if `time` is before `now`; times of one step may differ by rounding."""
     return time < now * (1 - 1e-12)
 
 
@@ -148,7 +148,7 @@ def _number(picture):
 
 
 def _entries(file):
-    """List of (time, name of a picture) of a file of this recorder; none if it is no such file."""
+    """List of (time, name of a picture) in a file of this recorder; none if it is another file."""
     import xml.etree.ElementTree as tree
     try:
         root = tree.parse(file).getroot()

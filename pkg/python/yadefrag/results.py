@@ -1,4 +1,4 @@
-"""What FESolver's bodies feel: reactions, forces of contact, principal stresses, cracks."""
+"""Results of FESolver's bodies: reactions, contact forces, principal stresses, cracks."""
 
 import numpy
 
@@ -16,7 +16,7 @@ _CRACKS = (('component', '', int), ('other', '', int), ('x', 'm', float), ('y', 
 def reaction(self, nodes):
     """(x, y) in N: the sum of `reactions` over nodes, in the last step.
 
-    nodes  as in `prescribe`, or a body's number or name: all of it
+    nodes  as in `prescribe`, or a body's number or name: the whole body
     """
     with betweenSteps(self):
         chosen = self.nodesOf(nodes) if isBody(nodes) else chosenNodes(self, nodes)
@@ -24,10 +24,10 @@ def reaction(self, nodes):
 
 
 def contactForce(self, a, b=None):
-    """(x, y) in N: what contact did to body a in the last step, by body b, or by all bodies.
+    """(x, y) in N: contact force on body a in the last step, of body b, or of all bodies.
 
-    a, b  numbers or names of bodies of this engine; spheres do not count. 0 after O.load, until the
-          next step. ValueError for no such body.
+    a, b  numbers or names of bodies of this engine; spheres are not included. 0 after O.load, until
+          the next step. ValueError if there is no such body.
     """
     with betweenSteps(self):
         first = existingBody(self, a, 'a')
@@ -38,8 +38,8 @@ def contactForce(self, a, b=None):
 
 
 def principalStress(self):
-    """Larger and smaller principal stress in the plane (Pa), and the angle of the larger one's
-    direction from the x axis (rad, above -π/2 and up to π/2), of the triangles, array (m, 3)."""
+    """Larger and smaller principal stress in the plane (Pa), and the angle of the direction of the
+    larger one from the x axis (rad, above -π/2 and up to π/2), of the triangles, array (m, 3)."""
     xx, yy, xy = self.stress.T
     mean, half = (xx + yy) / 2, (xx - yy) / 2
     radius = numpy.hypot(half, xy)
@@ -49,12 +49,13 @@ def principalStress(self):
 def crackTable(fe, file=None):
     """All cracked edges, as a NumPy array with named columns (k); bonds and open joints, too.
 
-    Columns: component, other (the bodies on both sides), x, y (m, its middle now), nx, ny (normal,
-    from the first side to the other), opening, slip (m, of the middles of both sides, across and along,
-    the other one's along (-ny, nx) positive), damage (part of its fracture energy that is spent, 1 where
-    nothing holds any more), held (does cohesion still hold it), start (s of fe.time; nan: there from
-    the beginning). Those of dropped fragments are left out.
-    file  where to write it besides, a .csv with the units in its first line
+    Columns: component, other (the bodies on both sides), x, y (m, present position of its middle),
+    nx, ny (normal, from the first side to the other), opening, slip (m, of the middles of both
+    sides, across and along; slip is positive if the other side moves along (-ny, nx)), damage
+    (dissipated fraction of its fracture energy, 1 without cohesion), held (True if the crack is
+    cohesive), start (s of fe.time; nan: cracked from the start). Cracks of removed fragments are
+    left out.
+    file  path of a .csv to write as well, with the units in its first line
     ValueError for another ending, before anything is written.
     """
     requireSolver(fe)

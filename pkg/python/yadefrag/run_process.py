@@ -1,6 +1,7 @@
-"""One run of tradeoff() or ensemble() as a process: a fresh yade.
+"""One run of tradeoff() or ensemble() as a process: a new yade.
 
-Needs Python's own library alone: workers of an executor, which are no yade, load this file by its path.
+This file needs only Python's standard library: workers of an executor, which have no YADE, load it
+by its path.
 """
 
 import json
@@ -9,15 +10,15 @@ import signal
 import subprocess
 import tempfile
 
-_live = set()  # processes that are under way here
-# Of a worker that MPI has started: the yade below it is no part of that job.
+_live = set()  # running processes
+# Environment variables of a worker started by MPI: its yade is not part of that MPI job.
 _OF_MPI = ('OMPI_', 'PMIX_', 'PMI_', 'MPI_', 'HYDRA_', 'PRTE_')
 
 
 def perform(job):
     """The result of a run, a dict as tradeoff_run.perform returns it.
 
-    job  JSON of what tradeoff_run.py reads, and `yade`, `program`, `package` (paths), `inside` (name
+    job  JSON of the input of tradeoff_run.py, and `yade`, `program`, `package` (paths), `inside` (name
          of a variable), `limit` (s)
     """
     with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
@@ -51,7 +52,7 @@ def _performIn(folder, job):
 
 
 def endAll():
-    """Ends the runs that are under way in this process."""
+    """Ends the runs of this process."""
     for process in list(_live):
         _end(process)
 

@@ -1,4 +1,4 @@
-"""Many runs of a scene, each in a yade of its own, on this machine or by an executor."""
+"""Many runs of a scene, each in a separate yade, on this machine or by an executor."""
 
 import concurrent.futures
 import contextlib
@@ -13,20 +13,20 @@ from yadefrag.values import path, refuse, shown, shownPath
 
 INSIDE = 'YADEFRAG_TRADEOFF'  # set in the environment of a run
 _HERE = os.path.dirname(os.path.realpath(run_process.__file__))
-_POLL = .02  # s between two looks at an executor's runs
-# Workers are plain Python, which cannot import this package: it needs a yade around it.
+_POLL = .02  # s between two checks of an executor's runs
+# Workers are plain Python, which cannot import this package without YADE.
 _BY_PATH = "__import__('runpy').run_path(program)['perform'](job)"
 
 
 def requireOutside(name):
     """RuntimeError in a run that loads the script again."""
     if os.environ.get(INSIDE):
-        raise RuntimeError('%s is called while a run of it loads the script; put the call '
-                           "behind `if __name__ == '__main__':`." % name)
+        raise RuntimeError('%s is called while one of its runs loads the script; put the call '
+                           "after `if __name__ == '__main__':`." % name)
 
 
 def jobOf(scene, measure, watch):
-    """What every run gets: which functions of which file. ValueError for functions of no file."""
+    """The job of every run: functions and their file. ValueError for functions without a file."""
     functions = [scene, measure] + [watch] * (watch is not None)
     for name, function in zip(('scene', 'measure', 'watch'), functions):
         module = sys.modules.get(getattr(function, '__module__', None))
@@ -39,7 +39,7 @@ def jobOf(scene, measure, watch):
                          'file.' % ', '.join(sorted(modules)))
     file = os.path.abspath(scene.__code__.co_filename)
     if not os.path.isfile(file):
-        raise ValueError('scene is of %s, which is no file that a run could load.' %
+        raise ValueError('scene is of %s, which is not a file that a run can load.' %
                          shown(scene.__code__.co_filename))
     names = [function.__name__ for function in functions]
     package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -50,18 +50,18 @@ def jobOf(scene, measure, watch):
 
 
 def requireExecutor(executor):
-    """`executor`; ValueError for what takes no calls."""
+    """`executor`; ValueError if it has no method submit."""
     if executor is not None and not callable(getattr(executor, 'submit', None)):
         refuse('executor', executor, 'None, or an executor with a method submit')
     return executor
 
 
 def runAll(jobs, take, executor=None, one=run_process.perform):
-    """Does the runs of `jobs`, and calls take(number in jobs, result) as each ends.
+    """Does the runs of `jobs`, and calls take(number in jobs, result) at the end of each.
 
     executor  None: one after the other, here, by `one`; or one with `submit`, whose futures have
-              `done`, `result` and `cancel`. A worker that is lost gives a result 'lost' with the
-              reason. KeyboardInterrupt cancels those that have not begun
+              `done`, `result` and `cancel`. For a lost worker the result is 'lost', with the reason.
+              KeyboardInterrupt cancels the runs that have not begun
     """
     if executor is None:
         for number, job in enumerate(jobs):
@@ -86,16 +86,16 @@ def runAll(jobs, take, executor=None, one=run_process.perform):
 def _resultOf(future):
     try:
         return future.result()
-    except Exception as error:  # of the executor, or of a worker that is gone
+    except Exception as error:  # of the executor, or of a lost worker
         return dict(result='lost', message='%s: %s' % (type(error).__name__,
                                                        ' '.join(str(error).split())[:200]))
 
 
 class Processes(concurrent.futures.ThreadPoolExecutor):
-    """So many runs at once on this machine, each a process; they end where the block is left."""
+    """Parallel runs on this machine, each a process; they end at the end of the `with` block."""
 
     def submit(self, function, *args):
-        program = args[1]  # of eval: run_process of this process ends its runs
+        program = args[1]  # run_process, which ends the runs of this process
         return super().submit(run_process.perform, program['job'])
 
     def __exit__(self, *problem):
@@ -106,10 +106,10 @@ class Processes(concurrent.futures.ThreadPoolExecutor):
 
 
 class Finished:
-    """Results of runs in a file, a line of JSON each, that a later call need not do again."""
+    """Results of runs in a file, one line of JSON each: a later call need not repeat these runs."""
 
     def __init__(self, file, of):
-        """file: a path that ends with .jsonl, or None; of: what the runs are of, a dict."""
+        """file: a path that ends with .jsonl, or None; of: identification of the runs, a dict."""
         self.name = None if file is None else path('resume', file, '.jsonl')
         self._known, of = {}, json.loads(json.dumps(of))
         if self.name is None:
@@ -117,11 +117,11 @@ class Finished:
         requireWritable(self.name)
         lines = self._lines()
         if lines and lines[0] != of:
-            raise ValueError('%s has runs of another scene, file, duration or measure; take another '
+            raise ValueError('%s has runs of another scene, file, duration or measure; use another '
                              'file, or remove it.' % shownPath(self.name))
         for line in lines[1:]:
             self._known[_key(line['of'])] = line['result']
-        # A line that an interrupt has cut is left out.
+        # An incomplete line, written during an interrupt, is left out.
         writeText(self.name, ''.join(json.dumps(line) + '\n' for line in lines or [of]))
 
     def _lines(self):
@@ -136,11 +136,11 @@ class Finished:
                 if isinstance(line, dict) and (not lines or {'of', 'result'} <= set(line)):
                     lines.append(line)
         if texts and not lines:
-            raise ValueError('%s has no runs that could be gone on with.' % shownPath(self.name))
+            raise ValueError('%s has no runs that can be continued.' % shownPath(self.name))
         return lines
 
     def get(self, of):
-        """The result of a run; None for one that has not been done."""
+        """The result of a run; None if it has not been done."""
         return self._known.get(_key(of))
 
     def add(self, of, result):

@@ -1,16 +1,16 @@
-"""What FE bodies of a scene will not touch or feel, in a sentence each."""
+"""Messages about contacts and forces that FE bodies of a scene will not have, one sentence each."""
 
 from yade import wrapper
 
-# They put no forces on bodies, or put them on afresh in each step by themselves.
+# These engines apply no forces to bodies, or apply them anew in each step.
 _WITHOUT_FORCES = (wrapper.FESolver, wrapper.Collider, wrapper.PeriodicEngine, wrapper.NewtonIntegrator)
 
 
-_RIGID = ('Wall', 'Box', 'Facet')  # what FE bodies touch as rigid bodies
+_RIGID = ('Wall', 'Box', 'Facet')  # shapes that FE bodies touch as rigid bodies
 
 
 def _functors(engines, kind, holder):
-    """All functors of the live engines of a kind."""
+    """All functors of the engines of one kind that are not dead."""
     return [functor for engine in engines if isinstance(engine, kind)
             for functor in getattr(engine, holder).functors]
 
@@ -20,13 +20,13 @@ def _takes(functor, *shapes):
 
 
 def sentences(kinds, beside, leaving, loose, gravityZ, rigidBodies):
-    """List of sentences about the scene; FESolver calls it when something new is there.
+    """List of sentences about the scene; FESolver calls it when bodies or engines are new.
 
-    kinds                   {name of a shape: a body that has it}, without surface segments; spheres
-                            of all kinds are 'Sphere'
+    kinds                   {name of a shape: a body with it}, without surface segments; spheres of all
+                            kinds are 'Sphere'
     beside, leaving, loose  a sphere that is beside the plane z = 0, leaves it, may leave it; -1: none
-    gravityZ                m/s², that NewtonIntegrator has
-    rigidBodies             does FESolver let its bodies touch those of _RIGID
+    gravityZ                m/s², of NewtonIntegrator
+    rigidBodies             True: FESolver's bodies have contact with those of _RIGID
     """
     engines = [engine for engine in wrapper.Omega().engines if not engine.dead]
     geometry = _functors(engines, wrapper.InteractionLoop, 'geomDispatcher')
@@ -43,7 +43,7 @@ def sentences(kinds, beside, leaving, loose, gravityZ, rigidBodies):
             found.append('Spheres go through FE bodies: the collider has no Bo1_SurfaceSegment_Aabb.')
         found += _outOfPlane(beside, leaving, loose, gravityZ)
     if gravityZ and loose < 0:
-        found.append('FE bodies do not feel the gravity along z of NewtonIntegrator: they move in '
+        found.append('The gravity of NewtonIntegrator along z does not act on FE bodies: they move in '
                      'the plane z = 0 only.')
     if not any(isinstance(one, wrapper.ForceResetter) for one in engines):
         other = [one for one in engines if not isinstance(one, _WITHOUT_FORCES)
@@ -70,9 +70,9 @@ def _outOfPlane(beside, leaving, loose, gravityZ):
     if beside >= 0:
         return ['Sphere #%d is beside the plane z = 0 of the FE bodies, and does not touch them.' % beside]
     if leaving >= 0:
-        return ['Sphere #%d leaves the plane z = 0, and passes FE bodies then: its center must be in it, '
+        return ['Sphere #%d leaves the plane z = 0, and then passes FE bodies: its centre must be in it, '
                 "and 'z' among its blockedDOFs." % leaving]
     if loose >= 0 and gravityZ:
-        return ['Gravity along z takes sphere #%d out of the plane z = 0 of the FE bodies; block its z, '
-                'or let gravity be along y.' % loose]
+        return ['Gravity along z moves sphere #%d out of the plane z = 0 of the FE bodies; block its z, '
+                'or use gravity along y.' % loose]
     return []

@@ -1,4 +1,4 @@
-"""What there is to draw and to write of an FESolver: all but dropped fragments."""
+"""Contents of an FESolver for pictures and files: everything except removed fragments."""
 
 import contextlib
 
@@ -9,9 +9,9 @@ from yadefrag.values import refuse
 
 @contextlib.contextmanager
 def betweenSteps(fe):
-    """Keeps the steps of a run in another thread off: all reads in the block see one state.
+    """Prevents steps of another thread: all reads in the block are of one state.
 
-    A block within a block of the same thread is fine. It must not wait for the run.
+    Blocks of one thread may be nested. The block must not wait for the run.
     """
     fe._lock()
     try:
@@ -21,29 +21,29 @@ def betweenSteps(fe):
 
 
 def requireSolver(fe):
-    """ValueError for what has no triangles to show: not an FESolver."""
+    """ValueError unless `fe` is an FESolver."""
     if not hasattr(fe, 'triangles'):
         refuse('fe', fe, 'an FESolver')
 
 
 def shownTriangles(fe):
-    """Numbers (k) of the triangles that were not dropped. To be called between two steps."""
+    """Numbers (k) of the triangles that were not removed. Must be called between two steps."""
     if fe.dropped['count'] == 0:
         return numpy.arange(len(fe.triangles))
     return numpy.nonzero(fe.fragmentOf >= 0)[0]
 
 
 def heldCracks(fe):
-    """(nodes (k, 4), triangles (k), damage (k)) of the cracks that cohesion holds: the two nodes of
-    the first side, then those opposite; the triangle beside it. To be called between two steps."""
+    """(nodes (k, 4), triangles (k), damage (k)) of the cohesive cracks: the two nodes of the first
+    side, then the opposite ones; the adjacent triangle. Must be called between two steps."""
     cracks = fe._cracks()
     held = cracks['held']
     return cracks['nodes'][held], cracks['triangle'][held], cracks['damage'][held]
 
 
 def shownMesh(fe):
-    """(nodes (n), triangles (k), corners (k, 3)): which nodes and triangles there are, and the
-    triangles' corners as places among these nodes. To be called between two steps."""
+    """(nodes (n), triangles (k), corners (k, 3)): numbers of the existing nodes and triangles, and the
+    triangles' corners as indices of these nodes. Must be called between two steps."""
     corners = numpy.asarray(fe.triangles)
     triangles = shownTriangles(fe)
     if len(triangles) == len(corners):

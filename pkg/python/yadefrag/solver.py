@@ -1,7 +1,7 @@
-"""What FESolver takes from a script: outlines, meshes, materials, functions of (x, y).
+"""Methods of FESolver in Python: outlines, meshes, materials, functions of (x, y).
 
-Everything is checked before anything in the scene changes; ValueError says in one sentence what was
-given and what would be right.
+All arguments are checked before anything in the scene changes; ValueError states in one sentence what
+was given and what is valid.
 """
 
 import functools
@@ -56,7 +56,7 @@ def _heldNodes(fixed, nodes):
 
 
 def _smoothFlags(smooth, count):
-    """True, False, or an array of a flag for each of the outline's `count` points."""
+    """True, False, or an array with a flag for each of the outline's `count` points."""
     smooth = plain(smooth)
     if isinstance(smooth, bool):
         return smooth
@@ -70,17 +70,17 @@ def _smoothFlags(smooth, count):
 
 
 def _smoothNodes(smooth, mesh, outline=()):
-    """(n) of 0 or 1: is the node on a smooth part of the boundary; empty for none at all."""
+    """(n) of 0 or 1: 1 for a node on a smooth part of the boundary; empty if there are none."""
     if isinstance(smooth, bool):
         if not smooth:
             return numpy.empty(0, dtype=numpy.uint8)
         chosen = [(loop, numpy.ones(len(loop), dtype=bool)) for loop in mesh['loops']]
     else:
         flags, count = smooth, len(outline)
-        if _isClockwise(outline):  # the mesh has it the other way round, with the same first point
+        if _isClockwise(outline):  # the mesh has it reversed, with the same first point
             flags = flags[-numpy.arange(count) % count]
         loop, vertices = mesh['loops'][0], mesh['loopVertices'][0]
-        # A node within an edge is smooth where the edge's two ends are.
+        # A node within an edge is smooth if both ends of the edge are.
         isVertex = vertices != numpy.roll(vertices, 1)
         ends = flags[vertices] & flags[(vertices.astype(int) + 1) % count]
         chosen = [(loop, numpy.where(isVertex, flags[vertices], ends))]
@@ -91,7 +91,7 @@ def _smoothNodes(smooth, mesh, outline=()):
 
 
 def _flags(values):
-    """(n) of bool; None for what is no list of True and False, or 1 and 0."""
+    """(n) of bool; None if it is not a list of True and False, or of 1 and 0."""
     try:
         flags = [plain(value) for value in values]
     except TypeError:
@@ -160,80 +160,78 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     size            length of the triangles' edges (m), or a function (x, y) → m. The function is
                     sampled on a grid of at least 128 and at most 1024 cells along the longer side.
                     Where it grows by more than 0.25 m per metre, it is lowered to that.
-    material        an FEMat, its label or its number in O.materials; as it is now: later changes of
-                    it have no effect on the body. Or several: a function (x, y) that returns one,
+    material        an FEMat, its label or its number in O.materials, with its present values: later
+                    changes have no effect on the body. Or several: a function (x, y) that returns one,
                     called at the triangles' centroids; a list with one for each triangle; or a pair
                     of a list of materials and an array of numbers in it, one for each triangle.
-                    Sides of triangles lie along places where they meet if `joints` has lines there.
-                    An edge between two materials cracks as the one with the smaller
-                    tensileStrength, with the smaller energy and friction; surfaces have the least
-                    friction of all. Of several materials `element` must be 'linear'
+                    If `joints` has lines along the interfaces, sides of triangles lie on these. An
+                    edge between two materials has the fracture properties of the one with the smaller
+                    tensileStrength, with the smaller energy and friction; surfaces have the smallest
+                    friction of all. With several materials `element` must be 'linear'
     smooth          False: straight boundary; True: C¹-smooth everywhere, inside the outline; or
-                    one flag per point of the outline (then the holes are straight): is the corner
-                    there smoothed
+                    one flag per point of the outline (the holes are then straight): True: the corner
+                    there is smoothed
     velocity        (x, y) in m/s, or a function (x, y) → pair
     spin            rad/s about the centroid, added to `velocity`
     displacement    None, or a function (x, y) → pair: the start's displacement from the stress-free
                     shape, which is the outline (m)
-    stress          None, or the stress that the body has where it is drawn (Pa; xx, yy, xy; tension
-                    positive, as fe.stress has it): one triple, a function (x, y) → triple, called
-                    at the triangles' centroids, or an array (m, 3) by triangle: the state of a rock
-                    before it is dug. The outline is the stressed shape, the stress-free one follows
+    stress          None, or the initial stress of the body in its given shape (Pa; xx, yy, xy; tension
+                    positive, as in fe.stress): one triple, a function (x, y) → triple, called at the
+                    triangles' centroids, or an array (m, 3) by triangle; e.g. the state of rock before
+                    an excavation. The outline is the stressed shape; the stress-free one is computed
                     from it, triangle by triangle; density is that of the stress-free material. The
-                    body stays as it is where stresses and loads are in equilibrium: hold its
-                    boundary with `fixed`, or load it with `pressure` or `loads`. Not together with
-                    displacement
+                    body is at rest if stresses and loads are in equilibrium: hold its boundary with
+                    `fixed`, or load it with `pressure` or `loads`. Not together with displacement
     fixed           None, or a function (x, y) that returns False, True, 'x' or 'y': the directions
-                    in which a node there keeps its velocity whatever forces act. Where the nodes
-                    held in both directions start with the velocities of a rigid body that turns, by
-                    `spin` or a function, they turn on, exactly as with `rotate`: about the centroid,
-                    which moves at `velocity`, or about the place where the function is 0
+                    in which a node there keeps its velocity, independently of forces. If the nodes
+                    held in both directions start with the velocities of a rotating rigid body, by
+                    `spin` or a function, they continue to rotate, exactly as with `rotate`: about the
+                    centroid, which moves at `velocity`, or about the point where the function is 0
     thickness       m
-    selfContact     may the body's surfaces touch each other; those of a BrittleFEMat, whose
-                    fragments have to, always do: False is refused
+    selfContact     True: the body's surfaces may touch each other. A BrittleFEMat needs this for its
+                    fragments: False is refused
     element         'linear': triangles of constant strain, too stiff in bending and for a poisson
-                    near 0.5 where there are few of them; 'smoothed': the same triangles and nodes,
+                    near 0.5 if there are few of them; 'smoothed': the same triangles and nodes,
                     with the volume strain and 0.4 of the shear strains averaged at the nodes
                     (after Dohrmann et al. 2000, Int. J. Numer. Meth. Eng. 47, 1549, and Liu et al.
-                    2008, Comput. Methods Appl. Mech. Eng. 197, 3883), for bodies that bend. A
-                    crack parts averages, and the strain energy grows by what they left out: 1 % of
-                    the energy in impacts with hundreds of cracks, in energy['fracture']
+                    2008, Comput. Methods Appl. Mech. Eng. 197, 3883), for bodies that bend. A crack
+                    separates averages, and the strain energy increases by the difference: 1 % of the
+                    energy in impacts with hundreds of cracks, in energy['fracture']
     mesh            'regular': rows of nearly equilateral triangles, whose edges have few
                     directions; 'irregular': edges in all directions, for cracks that do not
                     follow the mesh; None: 'irregular' for a BrittleFEMat or several materials,
                     otherwise 'regular'
-    meshSeed        of an irregular mesh: the same outline, size and seed give the same mesh
-    simplify        None: the outline as given; or the distance (m) by which its points, and those
-                    of the holes, may be off the mesh's: points that this leaves out are taken out
-                    before meshing, as of a contour of pixels. No edges cross by it, corners between
-                    edges that are long against the distance stay, and so do straight corners that
-                    `smooth` has next to smooth ones. It must be less than the area over the
-                    length of the outline and of each hole. By squared distances (Dyken, Dæhlen and
-                    Sevaldrud 2009, J. Geogr. Syst. 11, 273)
+    meshSeed        seed of an irregular mesh: the same outline, size and seed give the same mesh
+    simplify        None: the outline as given; or the permitted distance (m) of its points, and those
+                    of the holes, from the meshed outline: redundant points are removed before meshing,
+                    e.g. those of a contour of pixels. No edges cross by it; corners between edges much
+                    longer than the distance are kept, and so are straight corners that are next to
+                    smooth ones in `smooth`. It must be less than the area over the length of the
+                    outline and of each hole. By squared distances (Dyken, Dæhlen and Sevaldrud 2009,
+                    J. Geogr. Syst. 11, 273)
     strength        None: the tensileStrength of the BrittleFEMat; or a function (x, y) → Pa, or an
-                    array of one for each triangle, in place of it. The function is called at the
+                    array with one value for each triangle, instead. The function is called at the
                     triangles' centroids. An edge has the smaller of its two triangles' strengths,
-                    and the material's scatter is about that
+                    and the material's scatter is about that value
     fractureEnergy  None: that of the BrittleFEMat; or a function (x, y) → J/m², or an array,
                     likewise; where it is 0, cracks open at once
-    joints          list of pairs of points ((x, y), (x, y)) in m: sides of triangles lie along
-                    these lines. Lines may cross each other and the outline; what is outside is left
-                    out
-    jointStrength   Pa, of all joints or one for each, of a BrittleFEMat, without scatter; 0: open
-                    from the start, as a crack that is there already, and not counted by numCracks;
-                    None: as the triangles beside the joint have it, which then only shapes the mesh
-    jointEnergy     J/m², likewise; None: as the triangles beside the joint have it
+    joints          list of pairs of points ((x, y), (x, y)) in m: sides of triangles lie on these
+                    lines. Lines may cross each other and the outline; parts outside are ignored
+    jointStrength   Pa, for all joints or one for each, of a BrittleFEMat, without scatter; 0: open
+                    from the start, an existing crack, not counted by numCracks; None: that of the
+                    adjacent triangles; the joint then only shapes the mesh
+    jointEnergy     J/m², likewise; None: that of the adjacent triangles
     interfaceStrength  Pa, of edges between two materials, without scatter: a number, a function
                     (x, y) called at their middles, or a dict {(material, material): number}; 0:
-                    open from the start; None, and pairs that are not in the dict: as the weaker of
-                    both. Materials that do not crack by themselves crack there. A joint's own
-                    strength goes before
+                    open from the start; None, and pairs that are not in the dict: that of the weaker
+                    material. Materials without fracture can crack there. The strength of a joint
+                    has priority
     interfaceEnergy J/m², likewise
-    name            None, or a text by which the body is known wherever its number is
-    Other functions are called at the nodes of the stress-free shape. ValueError before anything
-    changes, also where the body would overlap another one; RuntimeError while O.run goes on in the
-    background; a warning where the mesh is too coarse for the energy of a BrittleFEMat's cracks,
-    and one where short edges of the outline cost much of the time step.
+    name            None, or a text that may replace the body's number in all functions
+    Other functions are called at the nodes of the stress-free shape. ValueError before any change,
+    also if the body would overlap another one; RuntimeError while O.run is running in the
+    background; a warning if the mesh is too coarse for the energy of a BrittleFEMat's cracks, and
+    one if short edges of the outline reduce the time step much.
     """
     points = pointsOf('outline', outline, 3)
     try:
@@ -268,11 +266,11 @@ def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0,
                  displacement=None, stress=None, fixed=None, thickness=1, selfContact=True,
                  element='linear', strength=None, fractureEnergy=None, interfaceStrength=None,
                  interfaceEnergy=None, name=None):
-    """Adds a body of triangles of one's own; returns its number (int).
+    """Adds a body with a given mesh; returns its number (int).
 
-    nodes (n, 2) in m, or (n, 3) of one z, which is left out, all of them used; triangles (m, 3) node numbers, counter-clockwise. `smooth`
-    is True or False; the rest, materials by triangle too, is as in addPolygon. ValueError before
-    anything changes.
+    nodes (n, 2) in m, or (n, 3) of one z, which is ignored, all of them used; triangles (m, 3) node
+    numbers, counter-clockwise. `smooth` is True or False; all other arguments, including materials by
+    triangle, as in addPolygon. ValueError before any change.
     """
     points = pointsOf('nodes', _withoutHeight(nodes), 3)
     corners = array(triangles)
@@ -300,7 +298,7 @@ def _withoutHeight(nodes):
 
 
 def _boundaryLoops(count, triangles):
-    """The closed loops of edges that belong to one triangle, material on the left."""
+    """The closed loops of edges that belong to one triangle only, material on the left."""
     used = numpy.zeros(count, dtype=bool)
     used[triangles] = True
     if not used.all():
@@ -308,7 +306,7 @@ def _boundaryLoops(count, triangles):
     edges = [(int(t[i]), int(t[(i + 1) % 3])) for t in triangles for i in range(3)]
     known = set(edges)
     if len(known) != len(edges):
-        raise ValueError('two triangles run along the same edge in the same direction: all must be '
+        raise ValueError('two triangles have the same edge in the same direction: all must be '
                          'counter-clockwise, and no edge can have three.')
     after = {}
     for a, b in edges:
@@ -338,7 +336,7 @@ def _guardFragments(fragments):
 
 
 def _minAngle(self):
-    """Smallest angle (rad) of any triangle now; inf without bodies."""
+    """Smallest angle (rad) of any triangle at present; inf without bodies."""
     with betweenSteps(self):
         corners = self.nodes[self.triangles[shownTriangles(self)]]
     if not len(corners):
@@ -346,7 +344,7 @@ def _minAngle(self):
     edges = numpy.roll(corners, -1, axis=1) - corners
     lengths = numpy.linalg.norm(edges, axis=2)
     a, b, c = lengths.T
-    # Opposite the shortest edge; by the law of cosines.
+    # The smallest angle is opposite to the shortest edge; by the law of cosines.
     short, middle, long = numpy.sort(numpy.stack([a, b, c]), axis=0)
     cosine = (middle**2 + long**2 - short**2) / (2 * middle * long)
     return float(numpy.arccos(numpy.clip(cosine, -1, 1)).min())
@@ -355,7 +353,8 @@ def _minAngle(self):
 def rectangleMesh(low, high, nx, ny, crossed=False):
     """A regular mesh for addTriangles: (nodes (n, 2), triangles (m, 3)) of nx × ny quads.
 
-    Each is cut in two, the diagonals of neighbours mirrored, or in four (`crossed`).
+    Each quad is divided in two triangles, with diagonals of neighbours mirrored, or in four
+    (`crossed`).
     """
     low, high = pair('low', low), pair('high', high)
     nx, ny, crossed = whole('nx', nx), whole('ny', ny), flag('crossed', crossed)
@@ -367,7 +366,8 @@ def rectangleMesh(low, high, nx, ny, crossed=False):
 
 
 def install():
-    """Gives FESolver its methods, and keeps O.bodies.erase and clumps off its bodies."""
+    """Adds the methods to FESolver, and prevents O.bodies.erase and clumps from using its
+    bodies."""
     wrapper.FESolver.addPolygon = addPolygon
     wrapper.FESolver.addTriangles = addTriangles
     wrapper.FESolver.bond = bond

@@ -17,8 +17,9 @@ def within(t, freedom):
 
 
 def quantile(confidence, freedom):
-    """t from within: a value is from -t to t with this probability (0 < confidence < 1)."""
-    if freedom > 1000:  # the normal distribution is as near as 10⁻³ by then
+    """Inverse of `within`: the t for which a value is from -t to t with probability 0 < confidence
+    < 1."""
+    if freedom > 1000:  # then the normal distribution differs by less than 10⁻³
         from statistics import NormalDist
         return NormalDist().inv_cdf((1 + confidence) / 2)
     low, high = 0., 1.

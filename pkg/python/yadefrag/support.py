@@ -1,6 +1,6 @@
-"""Is the YADE around us the one that this build of yadefrag is for?
+"""Checks that the running YADE is the one for which this build of yadefrag was made.
 
-Asked in Python, before the extension is loaded: another YADE may lack what it links to.
+The check is in Python, before the extension is loaded: another YADE may lack symbols that it needs.
 """
 
 import sys
@@ -8,19 +8,20 @@ import sys
 from yadefrag import _built
 
 YADEFRAG = _built.YADEFRAG
-# The extension holds the layout of one version: that of the YADE that was installed when it was built.
+# The extension is built for the layout of one version: that of the YADE that was installed at the
+# build.
 VERSION = _built.VERSION
-# Every version that a build can be for, with the system whose package it is.
+# Every version for which a build can be made, with the system of its package.
 ACCEPTED = _built.ACCEPTED
 PRECISION = 'PrecisionDouble'
-# Features that move members of YADE's classes: these make members that the extension knows ...
+# Features that move members of YADE's classes: these add members that the extension expects ...
 NEEDED = ('OPENMP', 'MPI', 'QT5', 'FEMLIKE')
-# ... and these make, widen or align some that it does not.
+# ... and these add, widen or align members that it does not expect.
 REFUSED = ('VECTORIZE', 'MASK_ARBITRARY', 'SPH', 'LIQMIGRATION', 'DEFORM', 'BODY_CALLBACK')
 
 
 def describeMismatch(version, precision, features):
-    """'' for the supported YADE, else one sentence with what was found and what is needed.
+    """'' for the supported YADE, else one sentence with the found and the needed configuration.
 
     All three as in yade.config: `version`, `highPrecisionName`, `features` (strings, list of str).
     """
@@ -47,17 +48,17 @@ def describeMismatch(version, precision, features):
 
 
 def describeRemedy(version):
-    """What else is to be done about a version: for the end of a sentence."""
+    """The remedy for a version: for the end of a sentence."""
     if version == VERSION:
         return ''
     if version in ACCEPTED:
-        return ', for which yadefrag has to be built or installed anew'
+        return ', for which yadefrag must be built or installed again'
     return '; builds can be for %s' % ' and '.join(
         'YADE %s (%s)' % item for item in sorted(ACCEPTED.items()))
 
 
 def describeUntried(version):
-    """'' unless the layout of `version` is known, but no test was ever run with it."""
+    """'' unless the layout of `version` is known, but was never tested."""
     if version in ACCEPTED:
         return ''
     return ('yadefrag is prepared for YADE %s, but was never tested with it and therefore refuses it; '
@@ -77,14 +78,14 @@ def describeSurroundings(modules=None):
 
 
 def isReportAsked():
-    """Is this `python3 -m yadefrag`?"""
+    """True for `python3 -m yadefrag`."""
     begin = getattr(sys, 'orig_argv', [])
     return 'yade' not in sys.modules and '-m' in begin[:-1] and (
         begin[begin.index('-m') + 1] == 'yadefrag')
 
 
 def require():
-    """Raises ImportError with one sentence unless the YADE around us is supported."""
+    """Raises ImportError with one sentence unless the running YADE is supported."""
     problem = describeSurroundings()
     if problem:
         raise ImportError(problem)

@@ -1,6 +1,6 @@
-"""What speed costs in accuracy: one scene, run over a grid of choices (tradeoff).
+"""Speed against accuracy: one scene, run over a grid of choices (tradeoff).
 
-choices.py has the choices known by name, runs.py the runs, tradeoff_run.py one of them in its yade,
+choices.py contains the known choices, runs.py the runs, tradeoff_run.py a single run in its yade,
 tradeoff_table.py the table.
 """
 
@@ -21,7 +21,7 @@ from yadefrag.runs import Finished, jobOf, requireExecutor, requireOutside, runA
 from yadefrag.tradeoff_table import COLUMNS, TradeoffRow, TradeoffTable, describe
 from yadefrag.values import (number, path, plain, positive, refuse, shown, shownPath, text, whole)
 
-MOST_SECONDS = 1e9  # that a process can be waited for
+MOST_SECONDS = 1e9  # longest time limit of a process
 _REPEATABLE = ('not run', 'ok')
 
 
@@ -29,40 +29,40 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
              limit=60., files=None, title='', executor=None, resume=None):
     """Runs `scene` over a grid of choices; returns a TradeoffTable of times and errors.
 
-    scene      function (choices) that builds the scene in O and sets O.engines and O.dt, by the
-               helpers of yadefrag.choices.Choices where they apply; returns what `measure` needs
+    scene      function (choices) that builds the scene in O and sets O.engines and O.dt, with the
+               helpers of yadefrag.choices.Choices where they apply; its return value is passed to
+               `measure`
     vary       dict {name: [values]}: all combinations are run; or a list of such dicts, whose grids
                are run one after the other ([{}, {'passes': [1, 2]}]: the scene's own choices,
-               then those varied). Known names: correction, entry, passes, smooth, size, timeStep, halo,
-               collider, verletDist, plane, bulkViscosity, fracture, threads; others are handed on.
-    measure    function (built) of what scene returned → number or numbers (n), after the run
+               then the varied ones). Known names: correction, entry, passes, smooth, size, timeStep,
+               halo, collider, verletDist, plane, bulkViscosity, fracture, threads; others are
+               passed on.
+    measure    function (built) of the scene's return value → number or numbers (n), after the run
     duration   s, simulated
-    reference  what is right: a number or numbers (n), in the unit of `measure`; a file of numbers
-               that numpy.loadtxt reads; 'finest': the setting of the smallest size, then the
-               smallest time step, then the one that took longest; or a dict of choices, a setting
-               that is run too. The error is relative to it (root mean square for several numbers),
-               and absolute where it is 0.
+    reference  the correct result: a number or numbers (n), in the unit of `measure`; a file of numbers
+               for numpy.loadtxt; 'finest': the setting with the smallest size, then the smallest time
+               step, then the longest time; or a dict of choices, a setting that is run as well. The
+               error is relative to it (root mean square for several numbers), and absolute if it is 0.
     watch      function (built), called after each `every` s of simulated time (0: each step, for at
-               least one step); then `measure` is called with what it returned, a list, as well
-    repeats    runs of each setting, in turns with the others; times are their medians
-    limit      s, wall-clock time of a run with all its set-up
-    files      path without ending: writes .csv, .md and .png there
+               least one step); the list of its return values is then passed to `measure` as well
+    repeats    runs of each setting, alternating with the others; times are their medians
+    limit      s, wall-clock time of a run including its set-up
+    files      path without ending: writes .csv, .md and .png
     title      of the plot
-    executor   None: one run after the other, here; or an executor as of concurrent.futures, mpi4py
-               or Dask, whose workers start yade on their machines and see the same files. Times are
-               of use only where each run has a core of its own
-    resume     None, or a file .jsonl of the runs that have been done: a call that was interrupted
-               goes on where it stopped, if it is called with the same again. Remove it where the
-               scene has changed
+    executor   None: one run after the other, here; or an executor as in concurrent.futures, mpi4py or
+               Dask, whose workers start yade on their machines and access the same files. Times are
+               meaningful only if each run has a separate core
+    resume     None, or a file .jsonl of finished runs: an interrupted call continues where it
+               stopped if it is repeated with the same arguments. Remove the file if the scene has
+               changed
 
-    Each run is a `yade -n -x` of its own. Clocks count steps alone: wall-clock
-    and processor time over simulated time. A setting that the scene or an engine refuses, that
-    blows up, fails or takes too long is a row that says so. Ctrl-C ends the runs; the table has
-    what was done. Functions must be at the top level of a file, and the call of tradeoff in a
-    script behind `if __name__ == '__main__':`, since each run loads the file again.
-    ValueError, before anything runs, for bad arguments, OSError for files that cannot be written;
-    RuntimeError where the file cannot be
-    loaded again.
+    Each run is a separate `yade -n -x`. Times are those of steps only: wall-clock and processor
+    time over simulated time. A setting that the scene or an engine refuses, that blows up, fails or
+    takes too long is a row with that result. Ctrl-C ends the runs; the table then has the finished
+    ones. Functions must be at the top level of a file, and the call of tradeoff in a script after
+    `if __name__ == '__main__':`, since each run loads the file again. ValueError, before anything
+    runs, for bad arguments, OSError for files that cannot be written; RuntimeError if the file
+    cannot be loaded again.
     """
     requireOutside('tradeoff')
     settings = _grid(vary)
@@ -91,7 +91,7 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
 
 
 def writeTable(table, files):
-    """A disk that is full by now must not cost the runs: the table is returned all the same."""
+    """A full disk must not cost the results of the runs: the table is returned in any case."""
     try:
         table.write(files)
     except OSError as error:
@@ -99,7 +99,7 @@ def writeTable(table, files):
 
 
 def checkChoice(name, value, argument='vary', columns=COLUMNS):
-    """`value`, as a plain number or text; ValueError with the argument where it is none."""
+    """`value`, as a plain number or text; ValueError with the argument if it is neither."""
     if not isinstance(name, str) or name in columns:
         raise ValueError('%s has the choice %s, a name must be a text that is no other column of '
                          'the table.' % (argument, shown(name)))
@@ -124,13 +124,13 @@ def _grid(vary):
         lists = [_values(name, values) for name, values in grid.items()]
         for combination in itertools.product(*lists):
             setting = dict(zip(grid, combination))
-            if _key(setting) not in map(_key, settings):  # True is not 1 here
+            if _key(setting) not in map(_key, settings):  # with the type: True is not 1
                 settings.append(setting)
     return settings
 
 
 def _values(name, values):
-    """The checked values of a choice, NumPy's numbers as Python's."""
+    """The checked values of a choice; NumPy's numbers become Python's."""
     if isinstance(values, numpy.ndarray):
         values = list(values.flat)
     if not isinstance(values, (list, tuple)) or not values:
@@ -152,10 +152,10 @@ def _reference(reference):
     if isinstance(reference, (str, os.PathLike)):
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter('ignore')  # of a file without numbers, which is refused below
+                warnings.simplefilter('ignore')  # about a file without numbers, which is refused below
                 numbersRead = numpy.loadtxt(path('reference', reference), encoding='utf-8-sig')
         except (OSError, ValueError) as error:
-            raise ValueError('reference is %s, which is no file of numbers: %s.' %
+            raise ValueError('reference is %s, which is not a file of numbers: %s.' %
                              (shown(str(reference)), str(error).rstrip('.')[:120])) from None
     else:
         try:
@@ -169,8 +169,9 @@ def _reference(reference):
 
 
 def _runAll(rows, settings, job, repeats, executor, finished):
-    """Fills the rows; settings take turns, so that a slow minute of the machine falls on all."""
-    import tqdm  # only where something runs
+    """Runs all rows. The settings alternate, so that a slow minute of the machine affects all of
+    them."""
+    import tqdm  # only if something runs
     bar = tqdm.tqdm(total=repeats * len(rows), unit='run', disable=None)
     try:
         with bar:
@@ -204,17 +205,17 @@ def _runTurn(turn, rows, settings, job, executor, finished, bar):
 
 
 def _runOne(job):
-    """The result of one run in a fresh yade, a dict as tradeoff_run.perform returns it."""
+    """The result of one run in a new yade, a dict as tradeoff_run.perform returns it."""
     return run_process.perform(job)
 
 
 def _take(row, found):
-    """Puts what one run gave into its row."""
+    """Stores the result of one run in its row."""
     if found['result'] == 'unloadable':
         raise RuntimeError('a run cannot load the scene: %s' % found['message'])
-    lost = found['result'] == 'lost'  # by the executor: no fault of the scene
+    lost = found['result'] == 'lost'  # by the executor, not by the scene
     row.result, row.message = 'failed' if lost else found['result'], found['message']
-    for name, value in found.get('used', {}).items():  # the scene's own, where nothing else is said
+    for name, value in found.get('used', {}).items():  # the scene's own choices, unless varied
         if value is not None:
             row.settings.setdefault(name, value)
     if row.result != 'ok':
@@ -227,7 +228,7 @@ def _take(row, found):
 
 
 def _setErrors(table, right, settings):
-    """Errors of all rows that have a value, against the reference."""
+    """Computes the errors of all rows with a value, relative to the reference."""
     good = [row for row in table.rows if row.result == 'ok']
     if isinstance(right, str):
         right = _finest(good)
@@ -245,7 +246,7 @@ def _setErrors(table, right, settings):
 
 
 def _finest(rows):
-    """The row that stands for the truth where nothing else does; None without rows."""
+    """The row that is the reference if no other is given; None without rows."""
     if not rows:
         return None
     return min(rows, key=lambda row: (row.settings.get('size', 0), row.settings.get('timeStep', 0),
@@ -253,7 +254,7 @@ def _finest(rows):
 
 
 def _error(value, right):
-    """(error or None, sentence)."""
+    """(error or None, message)."""
     if value.shape != right.shape:
         return None, 'measured are %d numbers, the reference has %d.' % (value.size, right.size)
     scale = numpy.linalg.norm(right)

@@ -9,7 +9,7 @@ from yadefrag.files import savePicture
 from yadefrag.axes import newAxes, requireAxes
 
 _FRONT, _OTHER = '#d1495b', '#3d8fb5'
-# Of a point, where its text may stand: offset in points, alignment.
+# Possible positions of a point's text: offset in points, alignment.
 _SIDES = [(6, 0, 'left', 'center'), (0, 6, 'center', 'bottom'), (0, -6, 'center', 'top'),
           (-6, 0, 'right', 'center'), (5, 5, 'left', 'bottom'), (-5, 5, 'right', 'bottom'),
           (5, -5, 'left', 'top'), (-5, -5, 'right', 'top'), (0, 16, 'center', 'bottom'),
@@ -28,7 +28,8 @@ def plot(table, file, ax, time, label, names):
         ax = newAxes()
         lines = max(len(table.rows), 12)
         ax.figure.set_size_inches(11, max(4.8, .235 * lines + 1.2))
-    # An error of 0 has no place on a logarithmic axis: at a tenth of the least other one.
+    # An error of 0 cannot be shown on a logarithmic axis: it is drawn at a tenth of the smallest
+    # other one.
     floor = min((row.error for row in shown if row.error > 0), default=1e-16) / 10
     at = {id(row): (getattr(row, time), max(row.error, floor)) for row in shown}
     x, y = zip(*(at[id(row)] for row in front))
@@ -43,7 +44,7 @@ def plot(table, file, ax, time, label, names):
     ax.grid(color='.9', lw=.6, zorder=0)
     ax.spines[['top', 'right']].set_visible(False)
     ax.set_title(table.title, loc='left', fontsize=11)
-    # What matters most takes its place first.
+    # The most important texts are placed first.
     shown.sort(key=lambda row: (row not in front, row is not table.rows[0]))
     if names:
         _legend(ax, table, front)
@@ -58,9 +59,9 @@ def plot(table, file, ax, time, label, names):
 
 
 def _marks(ax, points, isNeeded):
-    """Texts beside the points (place, text, bold), where they cover nothing.
+    """Texts beside the points (position, text, bold), where they cover nothing.
 
-    One that finds no such place is left out, or if it `isNeeded` put there all the same.
+    A text without such a position is left out; if it `isNeeded`, it is drawn anyway.
     """
     ax.figure.canvas.draw()
     bounds = ax.get_window_extent()
@@ -96,7 +97,7 @@ def _plainTicks(axis):
 
 
 def _legend(ax, table, front):
-    """All rows at the side, with what became of those that are no point."""
+    """All rows at the side, with the result of those that are not points."""
     height = 1 / max(len(table.rows), 12)
     for i, row in enumerate(table.rows):
         note = '' if row.result == 'ok' else ': ' + row.result

@@ -1,7 +1,7 @@
-"""One run of tradeoff(), in a yade of its own: `yade -n -x tradeoff_run.py JOB RESULT`.
+"""One run of tradeoff(), in a separate yade: `yade -n -x tradeoff_run.py JOB RESULT`.
 
 JOB and RESULT are JSON files. The result has `result`: 'ok', 'refused', 'blew up', 'failed' or
-'unloadable' (no run of this scene can succeed), a `message`, and where it is ok the figures.
+'unloadable' (no run of this scene can succeed), a `message`, and, if it is 'ok', the figures.
 """
 
 import importlib
@@ -18,21 +18,21 @@ from yade.wrapper import Omega
 from yadefrag import values
 from yadefrag.choices import Choices
 
-NAME = '__tradeoff__'  # of the script that is loaded for a run: not '__main__'
-CHECK_EVERY = .5  # s of run between two looks at whether it has blown up
-MOST_RADII = 10  # that a sphere may move in one step
+NAME = '__tradeoff__'  # module name of the loaded script: not '__main__'
+CHECK_EVERY = .5  # s of run between two checks for a blow-up
+MOST_RADII = 10  # largest displacement of a sphere in one step
 
 
 class BlewUp(Exception):
-    """The run left the numbers, or physics."""
+    """The run's results are not finite or not physical."""
 
 
 def load(job):
-    """[function] that the job names, with sys.path and sys.argv as the script's own."""
+    """[function] of the job, with sys.path and sys.argv as for the script itself."""
     sys.path[:0] = [p for p in job['path'] if p not in sys.path]
     sys.argv[:] = [job['file']]
     if job['module'] == '__main__':
-        # As yade runs a script: with its own names at hand.
+        # As yade runs a script: with YADE's names defined.
         names = dict(vars(sys.modules['__main__']), __name__=NAME)
         with open(job['file'], encoding='utf-8') as script:
             exec(compile(script.read(), job['file'], 'exec'), names)
@@ -42,7 +42,7 @@ def load(job):
 
 
 class Clock:
-    """Wall-clock and processor time (s) of the steps alone."""
+    """Wall-clock and processor time (s) of the steps only."""
 
     def __init__(self):
         self.wall = self.cpu = 0.
@@ -56,20 +56,20 @@ class Clock:
 
 
 class Sanity:
-    """Is this still a run: all finite, no energy created, no sphere at an absurd speed."""
+    """Checks a run: all values are finite, no energy is created, no sphere has an absurd speed."""
 
     def __init__(self, omega):
         self.omega = omega
         self.solvers = [e for e in omega.engines if type(e).__name__ == 'FESolver']
 
     def check(self):
-        """BlewUp with a sentence."""
+        """Raises BlewUp with a sentence."""
         for fe in self.solvers:
             excess, most, rounding = fe._energyBalance
             if not math.isfinite(excess):
                 raise BlewUp('the energy is %r J.' % excess)
             if excess > max(most, rounding):
-                raise BlewUp('the energy grew by %.3g J out of nothing, of %.3g J there were.' %
+                raise BlewUp('the energy grew by %.3g J by numerical errors; the bodies had %.3g J.' %
                              (excess, most))
         for body in self.omega.bodies:
             radius = getattr(body.shape, 'radius', None)
@@ -84,7 +84,8 @@ class Sanity:
 
 
 def run(omega, duration, watch, every, built):
-    """Steps for `duration` (s simulated); (clock, steps, simulated s, what watch returned)."""
+    """Runs `duration` (s simulated); returns (clock, steps, simulated s, list of watch's
+    results)."""
     if not (math.isfinite(omega.dt) and omega.dt > 0):
         raise ValueError('O.dt is %r s, the scene must set a positive one.' % omega.dt)
     if duration <= omega.dt / 2:
@@ -93,7 +94,7 @@ def run(omega, duration, watch, every, built):
     clock, sanity, seen = Clock(), Sanity(omega), []
     begin, first, checked = omega.time, omega.iter, 0.
     end = begin + duration - omega.dt / 2
-    moment = begin + every if watch else end  # the next to be watched
+    moment = begin + every if watch else end  # next call of watch
     while omega.time < end:
         with clock:
             advance(omega, min(moment, end))
@@ -108,9 +109,9 @@ def run(omega, duration, watch, every, built):
 
 
 def advance(omega, until):
-    """Steps until `until` (s), at least one and for no longer than CHECK_EVERY.
+    """Runs until `until` (s), at least one step and for no longer than CHECK_EVERY.
 
-    By O.step, not O.run, which waits in units of 40 ms.
+    With O.step, since O.run waits in units of 40 ms.
     """
     limit = time.perf_counter() + CHECK_EVERY
     omega.step()
@@ -126,19 +127,19 @@ def measured(measure, watch, built, seen):
         raise TypeError('measure returned the shape %s, it must be a number or an array (n).' %
                         values.shown(array.shape))
     if not numpy.isfinite(array).all():
-        raise BlewUp('what was measured is not finite.')
+        raise BlewUp('the measured value is not finite.')
     return array.tolist()
 
 
 def perform(job):
-    """The result of a job, a dict; never raises what a scene may raise."""
+    """The result of a job, a dict; never raises exceptions of the scene."""
     choices = Choices(job['settings'])
     result = attempt(job, choices)
     return dict(result, used=dict(choices.used, threads=Omega().numThreads))
 
 
 def attempt(job, choices):
-    """The result but for the choices that were used."""
+    """The result without the choices that were used."""
     try:
         scene, measure, watch = load(job)
     except Exception as error:  # a script may raise anything
@@ -147,7 +148,7 @@ def attempt(job, choices):
     try:
         built = scene(choices)
         for name in choices.neverAsked():
-            raise ValueError('the scene never asked for the choice %s.' % values.shown(name))
+            raise ValueError('the scene never used the choice %s.' % values.shown(name))
         stage = 'blew up'
         clock, steps, simulated, seen = run(Omega(), job['duration'], watch, job['every'], built)
         stage = 'failed'
@@ -158,7 +159,7 @@ def attempt(job, choices):
         return dict(result='failed' if stage == 'failed' else 'refused', message=str(error))
     except RuntimeError as error:
         return dict(result=stage, message=str(error))
-    except Exception as error:  # a bug in the scene: the other runs go on
+    except Exception as error:  # a bug in the scene: the other runs continue
         return dict(result='failed', message='%s: %s' % (type(error).__name__, error))
     return dict(result='ok', message='', wall=clock.wall / simulated, cpu=clock.cpu / simulated,
                 steps=steps, value=value)
@@ -170,7 +171,7 @@ def main(jobFile, resultFile):
     result = perform(job)
     with open(resultFile + '.part', 'w', encoding='utf-8') as f:
         json.dump(result, f, default=repr)
-    os.replace(resultFile + '.part', resultFile)  # whole, or not there
+    os.replace(resultFile + '.part', resultFile)  # a complete file, or none
 
 
 if __name__ == '__main__':

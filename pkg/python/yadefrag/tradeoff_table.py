@@ -16,16 +16,16 @@ _TIMES = {'wall': 'wall-clock time over simulated time (s/s)',
 
 @dataclasses.dataclass
 class TradeoffRow:
-    """One setting and what came of it.
+    """One setting and its result.
 
-    settings    dict of choices: those varied, and the scene's own where it asked for others
+    settings    dict of choices: those varied, and the scene's own ones that it used
     result      'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or
                 'not run'
     wall, cpu   wall-clock and processor time over simulated time (s/s), medians; None without any
-    error       against the reference, relative unless that is 0; None without any
-    value       what was measured, a number or a list
+    error       relative to the reference (absolute if that is 0); None without any
+    value       the measured value, a number or a list
     steps       of one run
-    walls, cpus of the single runs (s/s), in the order in which settings took turns
+    walls, cpus of the single runs (s/s), in their order
     """
 
     settings: dict
@@ -50,9 +50,9 @@ def _text(value):
 
 
 class TradeoffTable:
-    """rows (list of TradeoffRow), title, reference (a row, where one is the truth for the others).
+    """rows (list of TradeoffRow), title, reference (a row, if one is the reference for the others).
 
-    `read` takes back what `csv` wrote; the reference's row is not marked there.
+    `read` reads a file written by `csv`; the reference's row is not marked there.
     """
 
     def __init__(self, rows, title=''):
@@ -65,11 +65,11 @@ class TradeoffTable:
         self.title, self.reference = text('title', title), None
 
     def names(self):
-        """Of all choices, in the order in which they first occur."""
+        """Names of all choices, in the order in which they first occur."""
         return list(dict.fromkeys(name for row in self.rows for name in row.settings))
 
     def label(self, row):
-        """What sets a row off from the first: 'passes=2'; 'row 1' for that one."""
+        """Difference of a row from the first: 'passes=2'; 'row 1' for that one."""
         _requireRow(row)
         if not self.rows:
             raise ValueError('the table has no rows.')
@@ -79,9 +79,10 @@ class TradeoffTable:
         return describe(other) if other else 'row 1'
 
     def front(self, time='wall'):
-        """Rows that no other one beats: none is as fast and as right, and better in one of both.
+        """The Pareto front: rows for which no other row is at least as fast and as accurate and
+        better in one of both.
 
-        `time` is 'wall' or 'cpu'. In order of time; the reference's row is not among them.
+        `time` is 'wall' or 'cpu'. In order of time; without the reference's row.
         """
         rows = [row for row in self.rows if row.error is not None and row is not self.reference]
 
@@ -97,7 +98,7 @@ class TradeoffTable:
         return best
 
     def ratio(self, row, time='wall'):
-        """Time over the first row's, the median of the runs next to each other; None without."""
+        """Time over that of the first row, the median of adjacent runs; None without."""
         _requireRow(row)
         _requireTime(time)
         pairs = [(a, b) for a, b in zip(getattr(row, time + 's'),
@@ -113,14 +114,14 @@ class TradeoffTable:
 
     @classmethod
     def read(cls, file, title=''):
-        """The table of a file that `csv` wrote. ValueError where a column is missing, or a value is
-        none that it wrote."""
+        """The table from a file written by `csv`. ValueError if a column is missing, or for a value
+        that `csv` cannot have written."""
         name = path('file', file)
         with open(name, newline='', encoding='utf-8-sig', errors='replace') as f:
             try:
                 lines = list(csv.reader(f))
             except csv.Error as error:
-                raise ValueError('%s is no table: %s.' % (shownPath(name), error)) from None
+                raise ValueError('%s is not a table: %s.' % (shownPath(name), error)) from None
         head = lines[0] if lines else []
         if tuple(head[-len(COLUMNS):]) != COLUMNS:
             raise ValueError('%s does not end with the columns %s.' %
@@ -136,15 +137,15 @@ class TradeoffTable:
         return self.markdown() if self.rows else 'no rows'
 
     def markdown(self, file=None, time='wall'):
-        """The table as Markdown text, rows of the front in bold; written to `file` if there is one.
+        """The table as Markdown text, rows of the front in bold; written to `file` if it is given.
 
-        Times are shown over that of the first row too (ratio), settings by `label`.
+        Times are also shown relative to the first row (ratio), settings by `label`.
         """
         front = self.front(time)
         if not self.rows:
             raise ValueError('the table has no rows.')
         out = ['# %s\n' % self.title] * bool(self.title)
-        out += ['Row 1: %s. The others as row 1, but for what they say.\n' %
+        out += ['Row 1: %s. The others differ from row 1 as stated.\n' %
                 describe(self.rows[0].settings),
                 '| # | setting | wall, s/s | cpu, s/s | %s × | steps | error |' % time,
                 '|--:|---|--:|--:|--:|--:|--:|']
@@ -168,17 +169,17 @@ class TradeoffTable:
         return whole
 
     def plot(self, file=None, ax=None, time='wall', names=True):
-        """Error over time, the Pareto front as a line; returns Matplotlib's axes.
+        """Draws error over time, with the Pareto front as a line; returns Matplotlib's axes.
 
         Points have the numbers of the Markdown table, explained at the side; without `names` at the
-        side, all that have room have their names. `file` is a picture, its ending says as what.
-        ValueError where no row has an error to show.
+        side, all points with enough room have names. `file` is the path of a picture; its ending
+        determines the format. ValueError if no row has an error to show.
         """
-        from yadefrag import tradeoff_plot  # Matplotlib only where something is drawn
+        from yadefrag import tradeoff_plot  # Matplotlib only if it is needed
         return tradeoff_plot.plot(self, file, ax, time, _TIMES.get(str(time)), names)
 
     def write(self, files, time='wall'):
-        """files.csv, files.md and, where there is something to show, files.png."""
+        """files.csv, files.md and, if there is something to show, files.png."""
         table, readable, picture = self.namesOfFiles(files)
         self.csv(table)
         self.markdown(readable, time)
@@ -187,7 +188,7 @@ class TradeoffTable:
 
     @staticmethod
     def namesOfFiles(files):
-        """Those that `write` writes."""
+        """Names of the files that `write` writes."""
         return [path('files', files) + ending for ending in ('.csv', '.md', '.png')]
 
 
@@ -229,7 +230,7 @@ def _row(head, line):
 
 
 def _encode(value):
-    """A cell: JSON, but texts as they are where that cannot be mistaken."""
+    """A cell: JSON, except for texts that cannot be mistaken for JSON."""
     if value is None:
         return ''
     if isinstance(value, str) and value and _decode(value) is value:

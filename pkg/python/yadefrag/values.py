@@ -1,6 +1,6 @@
-"""Values from a script: which numbers are accepted, and how a sentence shows a refused value.
+"""Values from a script: accepted numbers, and the text of a refused value in messages.
 
-NumPy's numbers are numbers: scalars of any width, and arrays without a dimension.
+NumPy's numbers are accepted: scalars of any width, and arrays of dimension 0.
 """
 
 import itertools
@@ -18,7 +18,7 @@ MOST_BYTES = 255  # of a file's name without its folder, on Linux
 
 
 class _Short(reprlib.Repr):
-    """repr, cut at every level; arrays by their shape."""
+    """repr, shortened at every level; arrays by their shape."""
 
     def __init__(self):
         super().__init__()
@@ -36,7 +36,7 @@ _SHORT = _Short()
 
 
 def shown(value):
-    """`value` for a sentence: one line of at most LONGEST characters, whatever it is."""
+    """`value` for a message: one line of at most LONGEST characters, for any value."""
     try:
         text = ' '.join(_SHORT.repr(value).split())
     except Exception:  # the repr of any class, or an integer of too many digits for one
@@ -45,20 +45,20 @@ def shown(value):
 
 
 def plain(value):
-    """A NumPy number as Python's; any other value as it is."""
+    """A NumPy number as Python's; any other value unchanged."""
     if isinstance(value, numpy.generic) or isinstance(value, numpy.ndarray) and value.ndim == 0:
         item = value.item()
-        return float(item) if isinstance(item, numpy.floating) else item  # a long double stays one
+        return float(item) if isinstance(item, numpy.floating) else item  # a long double is kept
     return value
 
 
 def refuse(name, value, right, error=ValueError):
-    """Raises `error`: what the argument `name` is, and what it must be."""
+    """Raises `error` with the value of the argument `name` and the valid values."""
     raise error('%s is %s, it must be %s.' % (name, shown(value), right)) from None
 
 
 def real(value):
-    """A float, or None for what is no real number; an integer beyond all floats is infinite."""
+    """A float, or None if it is not a real number; an integer above all floats is infinite."""
     value = plain(value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         return None
@@ -69,7 +69,8 @@ def real(value):
 
 
 def number(name, value, isRight, right):
-    """A float for which isRight holds; ValueError with `right`, what it must be, for all else."""
+    """A float for which isRight is true; ValueError with `right`, a description of valid values,
+    otherwise."""
     result = real(value)
     if result is None or not isRight(result):
         refuse(name, value, right)
@@ -104,7 +105,7 @@ def flag(name, value):
 
 
 def numbersOf(value, count):
-    """A tuple of `count` floats, finite or not; None if `value` is not that."""
+    """A tuple of `count` floats, finite or not; None for other values."""
     if isinstance(value, (str, bytes, dict, set)):
         return None
     try:
@@ -125,7 +126,7 @@ def pair(name, value, right='a pair of numbers'):
 
 
 def pointsOf(name, value, least):
-    """(n, 2) floats, finite, of at least `least` points."""
+    """(n, 2) finite floats, for at least `least` points."""
     found = _pairs(value)
     if found is None:
         raise ValueError('%s must be a list of points (x, y) in m.' % name)
@@ -140,17 +141,17 @@ def pointsOf(name, value, least):
 
 
 def array(value, dtype=None):
-    """A NumPy array; None for what is none, as rows of different lengths."""
+    """A NumPy array; None if that is impossible, e.g. for rows of different lengths."""
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter('error')  # NumPy's, about rows of different lengths
+            warnings.simplefilter('error')  # NumPy's warning about rows of different lengths
             return numpy.asarray(value, dtype=dtype)
     except (TypeError, ValueError, OverflowError, Warning):
         return None
 
 
 def _pairs(value):
-    """(n, 2) floats; None for what is no list of pairs of numbers."""
+    """(n, 2) floats; None if it is not a list of pairs of numbers."""
     if isinstance(value, numpy.ndarray) and value.dtype.kind in 'iuf':
         return value.astype(float) if value.ndim == 2 and value.shape[1] == 2 else None
     if isinstance(value, (str, bytes, dict, set)):
@@ -163,7 +164,7 @@ def _pairs(value):
 
 
 def text(name, value):
-    """A text that a file in UTF-8 can hold."""
+    """A text that can be saved in UTF-8."""
     value = plain(value)
     try:
         value.encode()
@@ -173,12 +174,12 @@ def text(name, value):
 
 
 def shownPath(name):
-    """A file's name for a sentence: its end, where it is long."""
+    """A file's name for a message: the end of a long one."""
     return name if len(name) <= LONGEST else '...' + name[3 - LONGEST:]
 
 
 def path(name, value, ending=''):
-    """A file's name as text; ValueError for what is none, or has another ending."""
+    """A file's name as text; ValueError for other values, or for another ending."""
     try:
         file = os.fspath(value)
         base = os.path.basename(os.fsencode(file))

@@ -1,4 +1,4 @@
-// Our own searches, as the comparison sees them.
+// Our own searches, in the form for the comparison.
 #include <algorithm>
 
 #include "benchmark/rivals/rival.hpp"
@@ -25,7 +25,7 @@ class Whole final : public Rival {
   std::span<const Box> boxes_;
 };
 
-/// The search that is told what changed, and the list of pairs that its user keeps.
+/// The search with a list of changed boxes, and the list of pairs that its caller keeps.
 class Told final : public Rival {
  public:
   explicit Told(int threads) : search_(SearchMethod::kLebesgue) { search_.setThreads(threads); }

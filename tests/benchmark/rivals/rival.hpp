@@ -25,7 +25,7 @@ class Rival {
 
 struct RivalName {
   const char* name;
-  int dimensions;  ///< 2 or 3 if it knows that number only, 0 otherwise
+  int dimensions;  ///< 2 or 3 if it supports that number only, 0 otherwise
   bool uneven;     ///< false if boxes of very different size take it too long
 };
 

@@ -1,6 +1,6 @@
 """Lines, polylines with bulges, arcs, circles, ellipses and splines of a DXF file, by ezdxf.
 
-Those of blocks, too. Seen from above: z is left out, as is what is no line.
+Also from blocks. Seen from above: z is ignored, and entities that are not lines are ignored.
 """
 
 import math
@@ -10,8 +10,8 @@ import numpy
 from yadefrag.readers import flatten, needed, refuseFile, requireTolerance
 
 _PACKAGE = 'python3-ezdxf'
-_SPLINE_PIECES = 16  # between two knots, at least: ezdxf looks at the middle of a piece only
-_DEEPEST = 20  # blocks within blocks
+_SPLINE_PIECES = 16  # minimum between two knots: ezdxf checks the middle of a piece only
+_DEEPEST = 20  # nested blocks
 
 
 def lines(name, tolerance):
@@ -19,7 +19,7 @@ def lines(name, tolerance):
 
 
 def linesByLayer(name, tolerance):
-    """{layer: lines}, those of layers that have some, in the order of the file."""
+    """{layer: lines}, of layers with lines, in the order of the file."""
     ezdxf = needed('ezdxf', _PACKAGE, name)
     try:
         entities = list(_entities(ezdxf.readfile(name).modelspace()))
@@ -35,7 +35,7 @@ def linesByLayer(name, tolerance):
 
 
 def _entities(layout, depth=0, around='0'):
-    """(layer, entity): on layer 0 of a block is what is on the layer of the block's insert."""
+    """(layer, entity): entities on layer 0 of a block are on the layer of the block's insert."""
     for entity in layout:
         layer = entity.dxf.get('layer', '0')
         layer = around if layer == '0' else layer
@@ -46,7 +46,7 @@ def _entities(layout, depth=0, around='0'):
 
 
 def _plane(points):
-    """(n, 2) of points of two or three coordinates."""
+    """(n, 2) from points with two or three coordinates."""
     return numpy.array([(p[0], p[1]) for p in points], dtype=float).reshape(-1, 2)
 
 
@@ -104,7 +104,7 @@ def _polyline(entity, tolerance, name):
             requireTolerance(tolerance, name, 'has curves')
         points.append(flatten.bulge((x, y), after[:2], bend, tolerance))
     points = numpy.concatenate(points)
-    # Mirrored ones are in a system of their own.
+    # Mirrored entities have a coordinate system of their own.
     return [list(entity.ocs().points_to_wcs([(x, y, height) for x, y in points.tolist()]))]
 
 

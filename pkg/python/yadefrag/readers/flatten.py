@@ -1,25 +1,27 @@
-"""Points on curves, so many that the polyline is nowhere farther off than a tolerance.
+"""Points on curves, so many that the deviation of the polyline is within a tolerance.
 
-A polyline through n even parameters of a curve r(t), 0 ≤ t ≤ 1, is off by at most max|r''|/(8n²).
+The deviation of a polyline through n uniform parameters of a curve r(t), 0 ≤ t ≤ 1, is at most
+max|r''|/(8n²).
 """
 
 import math
 
 import numpy
 
-MOST_POINTS = 10**6  # of one curve: a tolerance that asks for more is a slip
+MOST_POINTS = 10**6  # on one curve: a tolerance that needs more is a mistake
 
 
 def count(bend, tolerance, least=1):
-    """Pieces (int) for a curve whose second derivative is at most `bend`; ValueError for too many."""
+    """Number of pieces for a curve whose second derivative is at most `bend`; ValueError for too
+    many."""
     wanted = math.sqrt(bend / (8 * tolerance))
     if not wanted < MOST_POINTS:
-        raise ValueError('tolerance asks for more than %d points on one curve.' % MOST_POINTS)
+        raise ValueError('tolerance needs more than %d points on one curve.' % MOST_POINTS)
     return max(least, math.ceil(wanted))
 
 
 def bezier(points, tolerance):
-    """(n, 2) of a Bézier curve of 3 or 4 control points, its first point left out."""
+    """(n, 2) points of a Bézier curve with 3 or 4 control points, without its first point."""
     points = numpy.asarray(points, dtype=float)
     degree = len(points) - 1
     bends = degree * (degree - 1) * numpy.linalg.norm(numpy.diff(points, n=2, axis=0), axis=1)
@@ -31,11 +33,11 @@ def bezier(points, tolerance):
 
 
 def ellipticArc(centre, axes, start, sweep, tolerance):
-    """(n + 1, 2) from the angle `start` over `sweep` (rad) on centre + a·cos + b·sin; `axes` are
-    the vectors (a, b). At least eight pieces a turn."""
+    """(n + 1, 2) points from the angle `start` over `sweep` (rad) on centre + a·cos + b·sin; `axes`
+    are the vectors (a, b). At least eight pieces per turn."""
     a, b = numpy.asarray(axes, dtype=float)
     reach = math.hypot(numpy.linalg.norm(a), numpy.linalg.norm(b))
-    if abs(a @ b) <= 1e-12 * (a @ a + b @ b):  # perpendicular, as of circles: exact
+    if abs(a @ b) <= 1e-12 * (a @ a + b @ b):  # perpendicular, e.g. for circles: exact
         reach = max(numpy.linalg.norm(a), numpy.linalg.norm(b))
     pieces = count(reach * sweep**2, tolerance, math.ceil(abs(sweep) / (math.pi / 4)))
     angles = start + sweep * numpy.arange(pieces + 1)[:, None] / max(pieces, 1)
@@ -43,7 +45,8 @@ def ellipticArc(centre, axes, start, sweep, tolerance):
 
 
 def bulge(start, end, value, tolerance):
-    """(n, 2) of the arc of a DXF bulge, tan(angle / 4), from `start` to `end`; the first left out."""
+    """(n, 2) points of the arc of a DXF bulge, tan(angle / 4), from `start` to `end`, without the
+    first."""
     start, end = numpy.asarray(start, dtype=float), numpy.asarray(end, dtype=float)
     chord = end - start
     if value == 0 or not chord.any():

@@ -1,4 +1,4 @@
-"""Lines to loops, loops to outlines with holes."""
+"""Joins lines to loops, and loops to outlines with holes."""
 
 import math
 
@@ -8,10 +8,11 @@ from yadefrag.values import shown
 
 
 def joined(lines, gap):
-    """[(n, 2)] closed loops without the first point at their end, of lines whose ends meet.
+    """[(n, 2)] closed loops, without the first point repeated at the end, from lines whose ends
+    meet.
 
-    gap  points that are nearer to each other along a line, and ends that are, count as one.
-    ValueError, with the place, where ends are left or more than two of them meet.
+    gap  distance below which successive points of a line, and ends of lines, coincide. ValueError,
+    with the position, for an end without partner or more than two ends that meet.
     """
     loops, chains = [], []
     for line in lines:
@@ -28,7 +29,7 @@ def joined(lines, gap):
 
 
 def _withoutDoubles(line, gap):
-    """The line without points that are as near as `gap` to the one before; its last point stays."""
+    """The line without points within `gap` of the previous one; its last point is kept."""
     kept = [0]
     for i in range(1, len(line)):
         if math.dist(line[i], line[kept[-1]]) > gap:
@@ -39,7 +40,7 @@ def _withoutDoubles(line, gap):
 
 
 def _partners(chains, gap):
-    """{(chain, 0 or -1): (chain, 0 or -1)}: which ends meet."""
+    """{(chain, 0 or -1): (chain, 0 or -1)}: pairs of ends that meet."""
     ends = [(i, side) for i in range(len(chains)) for side in (0, -1)]
     cells = {}
     for end in ends:
@@ -65,7 +66,8 @@ def _cell(chains, end, gap):
 
 
 def _walk(chains, partner, left):
-    """One loop of the chains in `left`, which it takes out; its first point is at its end again."""
+    """One loop of the chains in `left`, which are removed from it; its first point is repeated at
+    its end."""
     first = end = (min(left), 0)
     parts = []
     while True:
@@ -80,15 +82,15 @@ def _walk(chains, partner, left):
 
 
 def area(loop):
-    """Signed, positive for counter-clockwise loops."""
+    """Signed area, positive for counter-clockwise loops."""
     x, y = (loop - loop[0]).T
     return float(x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1)) / 2
 
 
 def nested(loops):
-    """[(outline, [holes])], all counter-clockwise: inside is what an odd number of loops is around.
+    """[(outline, [holes])], all counter-clockwise: points inside an odd number of loops are inside.
 
-    In the order of the loops that are outlines.
+    In the order of those loops that are outlines.
     """
     loops = [loop if area(loop) >= 0 else loop[::-1] for loop in loops]
     areas = [area(loop) for loop in loops]
@@ -109,7 +111,7 @@ def nested(loops):
 
 
 def _inside(loop):
-    """A point in the inside of a loop, in the middle of the first widest gap on a horizontal line."""
+    """A point inside a loop: the middle of the first widest interval on a horizontal line."""
     heights = numpy.unique(loop[:, 1])
     steps = numpy.diff(heights)
     if not len(steps):
@@ -123,7 +125,7 @@ def _inside(loop):
 
 
 def _crossings(loop, y):
-    """x of the places where the loop crosses a height."""
+    """x of the points where the loop crosses the height y."""
     after = numpy.roll(loop, -1, axis=0)
     crosses = (loop[:, 1] > y) != (after[:, 1] > y)
     a, b = loop[crosses], after[crosses]

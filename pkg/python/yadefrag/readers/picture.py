@@ -11,7 +11,7 @@ ENDINGS = ('.png', '.jpg', '.jpeg', '.bmp', '.tif', '.tiff')
 
 
 def lines(name, tolerance):
-    """Around all that is darker than middle grey, on white where the picture is transparent."""
+    """Contours of the areas darker than middle grey; transparent areas count as white."""
     requireTolerance(tolerance, name, 'is a picture')
     image = needed('PIL.Image', 'python3-pil', name)
     measure = needed('skimage.measure', _PACKAGE, name)
@@ -28,10 +28,10 @@ def lines(name, tolerance):
 
 def _darkness(image, picture):
     """(rows, columns) from 0, white, to 1, black."""
-    if picture.mode.startswith(('I', 'F')):  # grey of more than eight bits, which PIL would cut off
+    if picture.mode.startswith(('I', 'F')):  # more than eight bits, which PIL would clip
         grey = numpy.asarray(picture).astype(float)
         if picture.mode == 'F' or grey.min() < 0 or grey.max() > _SIXTEEN_BITS:
-            raise ValueError('its greys are not of 8 or 16 bits')
+            raise ValueError('its grey values do not have 8 or 16 bits')
         return 1 - grey / _SIXTEEN_BITS
     colours = picture.convert('RGBA')
     paper = image.new('RGBA', colours.size, 'white')

@@ -1,4 +1,4 @@
-"""Lines from files that have no curves: CSV, GeoJSON, WKT."""
+"""Lines from files without curves: CSV, GeoJSON, WKT."""
 
 import json
 import re
@@ -53,7 +53,7 @@ def geoJsonLines(name, tolerance):
 
 
 def _geometries(data):
-    """The geometries of a collection of features, of one, or of itself."""
+    """The geometries of a collection of features, of one feature, or of a geometry itself."""
     kind = data['type']
     if kind == 'FeatureCollection':
         return [one for feature in data['features'] for one in _geometries(feature)]
@@ -73,7 +73,7 @@ def wktLines(name, tolerance):
 
 
 def _linesOf(shape):
-    """[(n, 2)] of shapely's shapes; points have no lines."""
+    """[(n, 2)] of shapely's shapes; points give no lines."""
     if hasattr(shape, 'geoms'):
         return [line for part in shape.geoms for line in _linesOf(part)]
     if shape.geom_type == 'Polygon':

@@ -18,7 +18,7 @@ def lines(name, tolerance):
     found = []
     for shape in shapes:
         matrix, shift = _product(page, _affine(shape.transform))
-        most = numpy.linalg.norm(matrix, 2)  # by which the longest length grows
+        most = numpy.linalg.norm(matrix, 2)  # largest factor of a length
         own = None if tolerance is None else tolerance / most if most else numpy.inf
         for line in _subpaths(svg, shape, own, name):
             found.append((line @ matrix.T + shift) * (1, -1))
@@ -38,7 +38,7 @@ def _affine(matrix):
 
 
 def _inverse(matrix):
-    """Takes the transform of the page back: to the units of the viewBox."""
+    """Inverts the transform of the page: back to the units of the viewBox."""
     linear, shift = _affine(matrix)
     inverse = numpy.linalg.inv(linear)
     return inverse, -inverse @ shift
@@ -65,7 +65,7 @@ def _subpaths(svg, shape, tolerance, name):
 
 
 def _isFlat(svg, segment):
-    """An arc without a radius is a line, as SVG has it."""
+    """True for an arc without a radius, which is a line in SVG."""
     return isinstance(segment, svg.Arc) and not (segment.rx and segment.ry)
 
 
