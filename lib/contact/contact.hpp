@@ -54,8 +54,8 @@ class Contact {
   /// Must be called after nodes or entries were renumbered or added: deletes candidates and stored
   /// contacts.
   void reset();
-  /// After entries were renumbered: `numbers` by former number; none() of removed ones. Contacts are
-  /// kept: a contact that is deep, such as with a penalty, would be lost otherwise.
+  /// After entries were renumbered: `numbers` by former number; none() of removed ones. Contacts
+  /// are kept: a contact that is deep, such as with a penalty, would be lost otherwise.
   void renumber(std::span<const EntryId> numbers);
   /// Must be called after nodes were added.
   void resize(std::size_t nodes);
