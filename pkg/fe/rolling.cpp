@@ -90,11 +90,12 @@ void RollingSpheres::carryEnded(Contacts& contacts, const yade::Scene& scene,
     const EntryId entry = bodies.entryOf(held.piece);
     if (held.shear == 0 || entry == EntryId::none()) continue;
     if (std::ranges::binary_search(contacts, pairOf(held), {}, pairOf)) continue;
-    const auto its = std::ranges::equal_range(contacts, held.sphere, {}, &Contact::sphere);
-    const auto heir = std::ranges::find_if(its, [&](const Contact& one) {
+    const auto begin = std::ranges::lower_bound(contacts, held.sphere, {}, &Contact::sphere);
+    const auto end = std::ranges::upper_bound(contacts, held.sphere, {}, &Contact::sphere);
+    const auto heir = std::find_if(begin, end, [&](const Contact& one) {
       return areNeighbours(surfaces, one.entry, entry) && areOneFace(one.direction, held.direction);
     });
-    if (heir == its.end()) continue;
+    if (heir == end) continue;
     const double ratio =
         std::max({heir->ratio(), std::abs(held.shear) / held.normal, heir->friction(scene)});
     const double most = ratio * heir->normal;
