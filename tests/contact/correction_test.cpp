@@ -15,7 +15,7 @@ constexpr double kDt = 1e-3;
 constexpr double kLeft = 4 * tolerance::kBoxResidual + 1e-11;
 
 double solveAll(Lagrange& lagrange, std::span<ContactRow> rows, const Nodes& nodes, double drag) {
-  for (ContactRow& row : rows) row.left = INFINITY;
+  for (ContactRow& row : rows) row.excess = INFINITY;
   lagrange.setRows(rows, nodes, kDt, drag);
   return lagrange.solve(rows, nodes, kDt, drag, 0).residual;
 }

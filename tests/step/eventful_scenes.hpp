@@ -21,7 +21,7 @@ inline State stateOf(World& world) {
   };
   for (const ContactRow& row : world.contact.rows()) {
     add("rows", row.slave), add("rows", row.master), add("normals", row.normal);
-    add("gaps", row.gap), add("gaps", row.toleratedGap), add("gaps", row.left);
+    add("gaps", row.gap), add("gaps", row.toleratedGap), add("gaps", row.excess);
     add("slips", row.slip), add("slips", row.friction);
     add("rows' forces", row.normalForce), add("rows' forces", row.tangentForce);
   }
