@@ -147,7 +147,7 @@ def test_badInput(wrong, sentence):
 def test_fileThatHoldsNoRuns(folder):
     with open(folder + '/a.jsonl', 'w') as out:
         out.write('nothing\n')
-    with pytest.raises(ValueError, match='a.jsonl has no runs that could be gone on with'):
+    with pytest.raises(ValueError, match='a.jsonl has no runs that can be continued'):
         together(scenes.flight, 1, resume=folder + '/a.jsonl')
 
 

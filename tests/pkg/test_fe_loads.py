@@ -313,7 +313,7 @@ def test_bodyThatFallsIsNotAtRest():
     solver = fe(gravity=(0, -9.81))
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
     run(solver)
-    with pytest.warns(UserWarning, match='after [0-9]+ steps the kinetic energy still is'):
+    with pytest.warns(UserWarning, match='after [0-9]+ steps the kinetic energy is still'):
         assert solver.relax(1e-6, most=100) >= 100
 
 

@@ -109,7 +109,7 @@ def test_missingPartsAreTold(spoil, sentence, capfd):
 
 @pytest.mark.parametrize('place, blocked, speed, gravity, sentence', [
     ((.5, 3, .2), 'zXY', 0, 0, 'is beside the plane'), ((.5, 3, .01), 'XY', 0, 0, 'leaves the plane'),
-    ((.5, 3, 0), '', .1, 0, 'leaves the plane'), ((.5, 3, 0), '', 0, -9.81, 'Gravity along z takes sphere #'),
+    ((.5, 3, 0), '', .1, 0, 'leaves the plane'), ((.5, 3, 0), '', 0, -9.81, 'Gravity along z moves sphere #'),
     ((.5, 3, 0), 'zXY', 0, -9.81, 'NewtonIntegrator along z does not act'), ((.5, 3, 0), '', 0, 0, None)])
 def test_spheresBesideThePlaneAreTold(place, blocked, speed, gravity, sentence, capfd):
     solver = scene()

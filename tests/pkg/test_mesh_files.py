@@ -126,8 +126,8 @@ def test_trianglesOfSecondOrderCountByTheirCorners(folder):
     ('a.msh', kGmsh.replace('6 2 1.5 5', '6 2 1.5 6'), 'a.msh is no plane mesh: z goes from 5 to 6'),
     ('a.msh', kGmsh.replace('4 3 2 2 2 2 3 6 5', '4 4 2 2 2 2 3 6 5'),
      "a.msh has elements of the kind 'tetra'"),
-    ('a.msh', 'nothing', 'a.msh is no mesh that can be read'),
-    ('a.abc', '', 'a.abc is no mesh that can be read'),
+    ('a.msh', 'nothing', 'a.msh is not a readable mesh'),
+    ('a.abc', '', 'a.abc is not a readable mesh'),
     ('a.inp', '*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n', 'a.inp has no triangles'),
 ])
 def test_wrongFilesAreRefusedInOneSentence(folder, name, text, sentence):

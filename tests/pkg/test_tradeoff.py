@@ -113,7 +113,7 @@ def test_refusedRows():
     table = trade(scenes.block, [{'timeStep': [1.5]}, {'nonsense': [1]}])
     assert [row.result for row in table.rows] == ['refused', 'refused']
     assert 'at most' in table.rows[0].message and 'critical step' in table.rows[0].message
-    assert table.rows[1].message == "the scene never asked for the choice 'nonsense'."
+    assert table.rows[1].message == "the scene never used the choice 'nonsense'."
 
 
 @pytest.mark.parametrize('fault, result, sentence', [
@@ -290,7 +290,7 @@ local.__name__ = 'elsewhere'
     (dict(vary={'smooth': [1]}), 'smooth=1, it must be True or False'),
     (dict(vary={'size': [0.]}), r'size=0.0, it must be a positive length'),
     (dict(vary={'timeStep': [-1]}), 'timeStep=-1, it must be a positive fraction'),
-    (dict(vary={'halo': [.6]}), 'halo=0.6, it must be a share'),
+    (dict(vary={'halo': [.6]}), 'halo=0.6, it must be a fraction'),
     (dict(vary={'collider': ['Sweep']}), "collider='Sweep', it must be 'none' or one of 'Leb"),
     (dict(vary={'verletDist': ['far']}), "verletDist='far', it must be a length"),
     (dict(vary={'plane': ['strained']}), "plane='strained', it must be 'strain' or 'stress'"),
@@ -310,7 +310,7 @@ local.__name__ = 'elsewhere'
     (dict(every=-1.), 'every is -1.0, it must be'),
     (dict(repeats=0), 'repeats is 0, it must be a positive whole number'),
     (dict(limit=True), 'limit is True, it must be a positive number'),
-    (dict(reference='nowhere.txt'), "reference is 'nowhere.txt', which is no file of numbers"),
+    (dict(reference='nowhere.txt'), "reference is 'nowhere.txt', which is not a file of numbers"),
     (dict(reference=float('nan')), 'reference is nan, it must be finite numbers'),
     (dict(reference={'passes': 3}), 'passes=3, it must be 1 or 2'),
 ])
@@ -374,4 +374,4 @@ def test_inAScript(folder, guard):
     if guard:
         assert '@@@ [1.0]' in done.stdout, done.stdout
     else:
-        assert 'cannot load the scene' in done.stdout and 'put the call behind' in done.stdout
+        assert 'cannot load the scene' in done.stdout and 'put the call after' in done.stdout

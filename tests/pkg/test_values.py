@@ -99,7 +99,7 @@ def test_aBrokenReprIsNoReasonToFail():
 
 @pytest.mark.parametrize('name, value, sentence', [
     ('passes', 2.5, 'FESolver.passes is 2.5, it must be a whole number.'),
-    ('passes', 10**30, 'FESolver.passes is 1000000000...00000000000, it must be nearer to 0.'),
+    ('passes', 10**30, 'FESolver.passes is 1000000000...00000000000, it must be closer to 0.'),
     ('halo', 'wide', "FESolver.halo is 'wide', it must be a number."),
     ('halo', 10**400, 'FESolver.halo is 1000000000...00000000000, it must be a number.'),
     ('dead', 'no', "FESolver.dead is 'no', it must be True or False."),
