@@ -140,14 +140,14 @@ def test_whatIsReadGoesIntoAddPolygon(folder):
 @pytest.mark.parametrize('name, text, more, sentence', [
     ('a.pdf', '', {}, "file ends with '.pdf', an outline can be read from one of .svg, .dxf"),
     ('a.svg', '<svg xmlns="http://www.w3.org/2000/svg"><circle r="3"/></svg>', {},
-     'tolerance is None, but .*a.svg has curves: give the distance'),
+     'tolerance is None, but .*a.svg has curves: give the permitted deviation'),
     ('a.svg', '<svg xmlns="http://www.w3.org/2000/svg"><circle r="3"/></svg>',
-     dict(tolerance=1e-18), 'tolerance asks for more than 1000000 points on one curve'),
-    ('a.svg', '<svg', {}, 'a.svg is no SVG file that can be read'),
+     dict(tolerance=1e-18), 'tolerance needs more than 1000000 points on one curve'),
+    ('a.svg', '<svg', {}, 'a.svg is not a readable SVG file'),
     ('a.svg', '<svg xmlns="http://www.w3.org/2000/svg"/>', {}, 'a.svg has no lines that could'),
-    ('a.dxf', 'nothing', {}, 'a.dxf is no DXF file that can be read'),
-    ('a.json', '{"type": "Polygon"}', {}, 'a.json is no GeoJSON file that can be read'),
-    ('a.wkt', 'POLYGON((0 0', {}, 'a.wkt is no WKT file that can be read'),
+    ('a.dxf', 'nothing', {}, 'a.dxf is not a readable DXF file'),
+    ('a.json', '{"type": "Polygon"}', {}, 'a.json is not a readable GeoJSON file'),
+    ('a.wkt', 'POLYGON((0 0', {}, 'a.wkt is not a readable WKT file'),
     ('a.wkt', 'LINESTRING(0 0, 4 0, 4 4)', {}, r'a.wkt: a line ends at \(0.0, 0.0\) where no other'),
     ('a.wkt', 'MULTILINESTRING((0 0, 4 0, 4 4, 0 0.1), (0 0, 0 0.1), (0 0, 1 1))', {},
      r'a line ends at \(0.0, 0.0\) together with more than one other'),
@@ -159,7 +159,7 @@ def test_whatIsReadGoesIntoAddPolygon(folder):
     ('a.csv', '0 0\n1 0\n1 1\n', dict(gap=-1), 'gap is -1, it must be a positive number'),
     ('a.csv', '0 0\n1 0\n1 1\n', dict(leastArea=-1), 'leastArea is -1, it must be 0 or a positive'),
     ('a.png', 'no picture', {}, 'tolerance is None, but .*a.png is a picture'),
-    ('a.png', 'no picture', dict(tolerance=1), 'a.png is no picture that can be read'),
+    ('a.png', 'no picture', dict(tolerance=1), 'a.png is not a readable picture'),
 ])
 def test_wrongFilesAreRefusedInOneSentence(folder, name, text, more, sentence):
     with pytest.raises(ValueError, match=sentence) as error:

@@ -58,7 +58,7 @@ def test_greysWithoutARangeAreRefused(folder):
     from PIL import Image
     file = os.path.join(folder, 'float.tif')
     Image.fromarray(np.ones((9, 9), dtype=np.float32)).save(file)
-    with pytest.raises(ValueError, match='float.tif is no picture that can be read: its greys are not of 8 or 16'):
+    with pytest.raises(ValueError, match='float.tif is not a readable picture: its grey values do not have 8 or 16'):
         readOutline(file, 1)
 
 
