@@ -1,5 +1,4 @@
-"""Three-point bending of an elastic beam: deflection compared with Timoshenko's, reactions with the
-load.
+"""Three-point bending of an elastic beam: deflection compared with Timoshenko's, reactions with the load.
 
     scripts/yade -n -x examples/small/bending.py [FOLDER of the picture]
 """

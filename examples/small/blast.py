@@ -1,5 +1,4 @@
-"""Pressure in the hole of a disc of rock: first a small one, compared with Lamé's solution, then a
-blast that cracks it.
+"""Pressure in the hole of a disc of rock: first a small one, compared with Lamé's solution, then a blast that cracks it.
 
     scripts/yade -n -x examples/small/blast.py [FOLDER of the picture]
 """

@@ -1,5 +1,4 @@
-"""Wind on a pane of glass, in a section across its edge: it breaks in the middle, at the pressure
-of beam theory.
+"""Wind on a pane of glass, in a section across its edge: it breaks in the middle, at the pressure of beam theory.
 
     scripts/yade -n -x examples/small/glass.py [FOLDER of the picture]
 """
