@@ -27,7 +27,8 @@ FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, 
       foot.xi < range.begin ? surfaces.prev[master.value] : surfaces.next[master.value];
   if (neighbour == pair.slave || neighbour == surfaces.prev[pair.slave.value])
     return {master, foot};
-  // In a notch its normal would push the slave on the way that it came: energy from nothing.
+  // In a notch the neighbour's normal would push the slave in the direction of its motion, which
+  // creates energy.
   const bool isNotch = neighbour == surfaces.prev[master.value]
                            ? isConcaveJoint(before, neighbour, master)
                            : isConcaveJoint(before, master, neighbour);

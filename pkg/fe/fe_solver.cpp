@@ -76,7 +76,7 @@ void FESolver::action() try {
 /// Of spheres and other bodies on the boundary.
 void FESolver::collectForces() {
   bodies_.collectForces(*scene, world_, world_.outerForces);
-  if (world_.outerForces.empty()) return rolling_.forget();
+  if (world_.outerForces.empty()) return rolling_.clear();
   if (rolling_.carry(*scene, bodies_, world_.surfaces))
     bodies_.collectForces(*scene, world_, world_.outerForces);
 }

@@ -32,9 +32,9 @@ struct RollingSpheres::Contact {
   double shear, normal;  // as in Held
   Vec2 direction;
 
-  /// Of tangential force and pressure: what friction allows is no less.
+  /// Ratio of tangential force to pressure: the available friction is at least this.
   [[nodiscard]] double ratio() const { return normal > 0 ? std::abs(shear) / normal : 0; }
-  /// The smaller coefficient of the two materials, which most laws take.
+  /// The smaller friction coefficient of the two materials, which most laws use.
   [[nodiscard]] double friction(const yade::Scene& scene) const;
   void addForce(yade::Scene& scene, double by) const;
 };
@@ -49,7 +49,7 @@ double RollingSpheres::Contact::friction(const yade::Scene& scene) const {
   return least;
 }
 
-/// As YADE's laws do: on the sphere the opposite.
+/// As in YADE's laws; the opposite force acts on the sphere.
 void RollingSpheres::Contact::addForce(yade::Scene& scene, double by) const {
   const Vector3r force = by * inSpace(leftOf(direction));
   phys->shearForce += force;
@@ -62,7 +62,7 @@ void RollingSpheres::Contact::addForce(yade::Scene& scene, double by) const {
   }
 }
 
-/// Of all spheres with pieces, by sphere, then piece.
+/// Contacts of all spheres with pieces, by sphere, then piece.
 RollingSpheres::Contacts RollingSpheres::contactsOf(const EntryBodies& bodies) {
   Contacts found;
   for (std::size_t e = 0; e < bodies.ids().size(); ++e) {
@@ -82,7 +82,8 @@ RollingSpheres::Contacts RollingSpheres::contactsOf(const EntryBodies& bodies) {
   return found;
 }
 
-/// What ended in this step goes to the sphere's contact with the piece beside it.
+/// Adds the tangential force of a contact that ended in this step to the sphere's contact with the
+/// adjacent piece.
 void RollingSpheres::carryEnded(Contacts& contacts, const yade::Scene& scene,
                                 const EntryBodies& bodies, const ContactSurfaces& surfaces) const {
   const auto pairOf = [](const auto& one) { return std::pair(one.sphere, one.piece); };

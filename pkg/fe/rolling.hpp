@@ -1,8 +1,8 @@
 #pragma once
-// Spheres that roll along a boundary. YADE has a contact for each piece, and a new one begins
-// without a tangential force: a sphere that goes from one piece to the next would lose it. It is
-// carried over here; and shared out where a sphere is on two pieces at once, as at the joints of a
-// boundary that is bent a little inwards, where one contact fades as the other one grows.
+// Spheres that roll along a boundary. YADE has a contact for each piece, and a new contact begins
+// without a tangential force, which a sphere that moves from one piece to the next would lose. That
+// force is transferred here. It is divided if a sphere touches two pieces at once, e.g. at the
+// joints of a slightly concave boundary, where one contact decreases as the other one increases.
 
 #include <vector>
 
@@ -17,16 +17,16 @@ namespace yadefrag {
 
 class RollingSpheres {
  public:
-  /// After contacts have got their forces in this step, and before these are collected. Returns
-  /// whether it has changed any.
+  /// Must be called after contacts have got their forces in this step, and before these are
+  /// collected. Returns true if any force has changed.
   bool carry(yade::Scene& scene, const EntryBodies& bodies, const ContactSurfaces& surfaces);
-  void forget() { held_.clear(); }
+  void clear() { held_.clear(); }
 
   template <class Archive>
   void archive(Archive& archive);
 
  private:
-  /// Of the last step.
+  /// A contact at the end of the last step.
   struct Held {
     yade::Body::id_t sphere, piece;
     double shear;   // N, positive to the left of the normal
@@ -57,7 +57,7 @@ void RollingSpheres::archive(Archive& archive) {
   if constexpr (Archive::is_loading::value) {
     if (values.size() != 2 * ids.size() || ids.size() % 2 != 0)
       throw InputError(
-          "The saved state of FESolver is damaged (its contacts with spheres cannot be); load "
+          "The saved state of FESolver is damaged (its contacts with spheres are invalid); load "
           "another save.");
     held_.clear();
     for (std::size_t i = 0; 2 * i < ids.size(); ++i) {

@@ -5,16 +5,16 @@ import numpy
 from yade import wrapper
 from yadefrag import _yadefrag
 
-WIDENING = .5  # most of it by rigid bodies on each side, of what else is drawn: floors may be long
+WIDENING = .5  # of the other contents: largest enlargement of a picture by rigid bodies, per side
 
 
 class YadeBodies:
-    """Those of YADE's scene now.
+    """Bodies of YADE's scene at present.
 
-    places, radii    of spheres: (n, 2), (n) in m; without `spheres` none
+    places, radii    of spheres: (n, 2), (n) in m; empty without `spheres`
     outlines, lines  sections of boxes and facets with the plane z = 0: lists of arrays (k, 2) in m;
-                     without `rigidBodies` none
-    walls            [(axis that they cross, place on it in m)]
+                     empty without `rigidBodies`
+    walls            [(axis that they cross, position on it in m)]
     """
 
     def __init__(self, spheres, rigidBodies):
@@ -42,7 +42,7 @@ class YadeBodies:
         self.places, self.radii, self._shades = table[:, :2], table[:, 2], table[:, 3:].clip(0, 1)
 
     def extent(self, low, high):
-        """The lower left and upper right corner of a picture of all, and of the box from `low` to
+        """The lower left and upper right corner of a picture of all bodies and of the box from `low` to
         `high`, each (2) in m."""
         arms = self.radii[:, None]
         low = numpy.vstack([[low], self.places - arms]).min(axis=0)
@@ -61,7 +61,7 @@ class YadeBodies:
         return low, high
 
     def draw(self, ax, low, high):
-        """Adds them to the axes, whose limits follow as far as extent(low, high) goes."""
+        """Adds them to the axes, whose limits are extended up to extent(low, high)."""
         self._drawRigid(ax)
         self._drawSpheres(ax)
         ax.update_datalim(self.extent(low, high))
@@ -81,7 +81,7 @@ class YadeBodies:
         from matplotlib.collections import LineCollection, PolyCollection
         from matplotlib.lines import Line2D
         from matplotlib.patheffects import withStroke
-        rim = [withStroke(linewidth=2.6, foreground='k')]  # of lines as bright as the paper
+        rim = [withStroke(linewidth=2.6, foreground='k')]  # for lines as bright as the background
         if self.outlines:
             ax.add_collection(PolyCollection(self.outlines, facecolors=self._colours['outline'],
                                              edgecolors='k', linewidths=.6, zorder=.9), autolim=False)
@@ -89,7 +89,7 @@ class YadeBodies:
             ax.add_collection(LineCollection(self.lines, colors=self._colours['line'], linewidths=1.6,
                                              path_effects=rim, zorder=2), autolim=False)
         for (axis, place), colour in zip(self.walls, self._colours['wall']):
-            along = [place, place], [0, 1]  # all across the axes, wherever these end
+            along = [place, place], [0, 1]  # across the axes, for any limits
             onto = (ax.get_xaxis_transform, ax.get_yaxis_transform)[axis]('grid')
             ax.add_artist(Line2D(*along[::(1, -1)[axis]], transform=onto, color=colour, linewidth=1.6,
                                  path_effects=rim, zorder=2))
