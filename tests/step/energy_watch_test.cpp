@@ -92,7 +92,7 @@ TEST(EnergyWatch, CracksAreToldApart) {
   EXPECT_TRUE(
       said(watch, stepOf(ledger))
           .find("element='smoothed' have created 7 J, 7 % of the bodies' energy; the strains "
-                "of elements that a crack parts") != std::string::npos);
+                "of elements that a crack separates") != std::string::npos);
 }
 
 TEST(EnergyWatch, SparesWhatRoundingMakes) {
