@@ -27,6 +27,16 @@ void requireForces(const Engines& engines, std::size_t from, const yade::Engine*
   }
 }
 
+/// Does NewtonIntegrator use the forces of the engine at `from` before `solver` does.
+bool movesBefore(const Engines& engines, std::size_t from, const yade::Engine& solver) {
+  for (std::size_t i = 1; i < engines.size(); ++i) {
+    const yade::Engine* const next = engines[(from + i) % engines.size()];
+    if (next == &solver) return false;
+    if (isA(next, "NewtonIntegrator")) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void EngineOrder::requireReturn(const yade::Scene& scene, const yade::Engine& solver) {
@@ -65,6 +75,7 @@ bool EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) 
   const auto has = [&](const char* name) {
     return std::any_of(alive.begin(), alive.end(), [&](auto* one) { return isA(one, name); });
   };
+  bool moveFirst = false;
   for (std::size_t i = 0; i < alive.size() && count == 1; ++i) {
     if (!isA(alive[i], "InteractionLoop")) continue;
     if (!has("ForceResetter"))
@@ -74,7 +85,9 @@ bool EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) 
           kOrder);
     for (const yade::Engine* user : alive)
       if (user == &solver || isA(user, "NewtonIntegrator")) requireForces(alive, i, user);
+    moveFirst = moveFirst || movesBefore(alive, i, solver);
   }
+  spheresMoveFirst_ = moveFirst;
   known_.swap(places);
   return true;
 }

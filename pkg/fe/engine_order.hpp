@@ -14,6 +14,9 @@ class EngineOrder {
   /// before `solver` or NewtonIntegrator has used them: momentum would be lost. Checks only if
   /// engines have changed since the last call; returns true in that case.
   bool require(const yade::Scene& scene, const yade::Engine& solver);
+  /// Does NewtonIntegrator use the forces of InteractionLoop before `solver` does, in the engines
+  /// of the last `require`.
+  [[nodiscard]] bool spheresMoveFirst() const { return spheresMoveFirst_; }
 
   /// Throws std::invalid_argument if the forces of `solver` on bodies are reset before
   /// NewtonIntegrator has used them.
@@ -28,6 +31,7 @@ class EngineOrder {
   bool isKnown(const yade::Scene& scene, const yade::Engine& solver) const;
 
   std::vector<Place> known_;
+  bool spheresMoveFirst_ = false;
 };
 
 }  // namespace yadefrag

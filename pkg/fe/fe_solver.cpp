@@ -77,7 +77,7 @@ void FESolver::action() try {
 void FESolver::collectForces() {
   bodies_.collectForces(*scene, world_, world_.outerForces);
   if (world_.outerForces.empty()) return rolling_.clear();
-  if (rolling_.carry(*scene, bodies_, world_.surfaces))
+  if (rolling_.carry(*scene, bodies_, world_.surfaces, order_.spheresMoveFirst()))
     bodies_.collectForces(*scene, world_, world_.outerForces);
 }
 

@@ -36,7 +36,7 @@ struct RollingSpheres::Contact {
   [[nodiscard]] double ratio() const { return normal > 0 ? std::abs(shear) / normal : 0; }
   /// The smaller friction coefficient of the two materials, which most laws use.
   [[nodiscard]] double friction(const yade::Scene& scene) const;
-  void addForce(yade::Scene& scene, double by) const;
+  void addForce(yade::Scene& scene, double by, bool fromNextStep) const;
 };
 
 double RollingSpheres::Contact::friction(const yade::Scene& scene) const {
@@ -50,9 +50,10 @@ double RollingSpheres::Contact::friction(const yade::Scene& scene) const {
 }
 
 /// As in YADE's laws; the opposite force acts on the sphere.
-void RollingSpheres::Contact::addForce(yade::Scene& scene, double by) const {
+void RollingSpheres::Contact::addForce(yade::Scene& scene, double by, bool fromNextStep) const {
   const Vector3r force = by * inSpace(leftOf(direction));
   phys->shearForce += force;
+  if (fromNextStep) return;
   const auto& bodies = scene.bodies->body;
   for (const auto& [id, sign] : {std::pair(contact->getId1(), -1.), {contact->getId2(), 1.}}) {
     const Vector3r& place = bodies[static_cast<std::size_t>(id)]->state->se3.position;
@@ -105,7 +106,7 @@ void RollingSpheres::carryEnded(Contacts& contacts, const yade::Scene& scene,
 }
 
 bool RollingSpheres::carry(yade::Scene& scene, const EntryBodies& bodies,
-                           const ContactSurfaces& surfaces) {
+                           const ContactSurfaces& surfaces, bool fromNextStep) {
   Contacts contacts = contactsOf(bodies);
   std::vector<double> former;
   for (const Contact& one : contacts) former.push_back(one.shear);
@@ -124,8 +125,8 @@ bool RollingSpheres::carry(yade::Scene& scene, const EntryBodies& bodies,
   bool any = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (contacts[i].shear == former[i]) continue;
-    contacts[i].addForce(scene, contacts[i].shear - former[i]);
-    any = true;
+    contacts[i].addForce(scene, contacts[i].shear - former[i], fromNextStep);
+    any = !fromNextStep;
   }
   remember(contacts);
   return any;

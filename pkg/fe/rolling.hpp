@@ -18,8 +18,10 @@ namespace yadefrag {
 class RollingSpheres {
  public:
   /// Must be called after contacts have got their forces in this step, and before these are
-  /// collected. Returns true if any force has changed.
-  bool carry(yade::Scene& scene, const EntryBodies& bodies, const ContactSurfaces& surfaces);
+  /// collected. Returns true if any force of this step has changed. `fromNextStep`: the spheres
+  /// have moved by the forces of this step, which must stay the same on both sides of each contact.
+  bool carry(yade::Scene& scene, const EntryBodies& bodies, const ContactSurfaces& surfaces,
+             bool fromNextStep);
   void clear() { held_.clear(); }
 
   template <class Archive>

@@ -1,9 +1,8 @@
 """Runs pytest inside the running yade: `scripts/yade -n -x tests/pkg/inside.py [pytest args]`.
 
-Exits with pytest's code. Arguments that name tests are relative to tests/pkg. `--part 2/3` runs the
-second of three parts of all files; every file is in one of them.
+Exits with pytest's code. Arguments that name tests are relative to tests/pkg. With
+`--shared FOLDER`, processes that are started with the same empty folder run each file once.
 """
-import collections
 import os
 import signal
 import sys
@@ -11,30 +10,30 @@ import sys
 import pytest
 
 
-class Part:
-    """Pytest plugin: leaves the tests of `part` (from 1), of `parts`.
+class Shared:
+    """Pytest plugin: of the files that several processes collect, each runs those that it takes first.
 
-    A file is in one part as a whole, since its tests share fixtures. Files with many tests come
-    first, each to the part that has the fewest tests so far.
+    A file that is taken has an empty file of its name in `folder`. A file is taken as a whole, since
+    its tests share fixtures.
     """
 
-    def __init__(self, text):
-        self.part, self.parts = (int(number) for number in text.split('/'))
-        if not 1 <= self.part <= self.parts:
-            raise ValueError(f'--part: there is no part {self.part} of {self.parts}.')
+    def __init__(self, folder):
+        self.folder = folder
+        self.mine = {}
 
-    def pytest_collection_modifyitems(self, config, items):
-        counts = collections.Counter(str(item.path) for item in items)
-        sums = [0] * self.parts
-        mine = set()
-        for path, count in sorted(counts.items(), key=lambda entry: (-entry[1], entry[0])):
-            least = sums.index(min(sums))
-            sums[least] += count
-            if least == self.part - 1:
-                mine.add(path)
-        others = [item for item in items if str(item.path) not in mine]
-        items[:] = [item for item in items if str(item.path) in mine]
-        config.hook.pytest_deselected(items=others)
+    def take(self, file):
+        try:
+            os.close(os.open(os.path.join(self.folder, file.name), os.O_CREAT | os.O_EXCL))
+        except FileExistsError:
+            return False
+        return True
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtest_protocol(self, item, nextitem):
+        if item.path not in self.mine:
+            self.mine[item.path] = self.take(item.path)
+        # True: nothing else has to be done for this test.
+        return None if self.mine[item.path] else True
 
 
 def main():
@@ -42,9 +41,9 @@ def main():
     arguments = sys.argv[1:]
     os.chdir(here)
     plugins = []
-    if '--part' in arguments:
-        at = arguments.index('--part')
-        plugins.append(Part(arguments[at + 1]))
+    if '--shared' in arguments:
+        at = arguments.index('--shared')
+        plugins.append(Shared(arguments[at + 1]))
         del arguments[at:at + 2]
     # A shell starts background jobs with interrupts ignored: tests of Ctrl-C would wait for ever.
     signal.signal(signal.SIGINT, signal.default_int_handler)
