@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <random>
 #include <vector>
 
@@ -28,7 +27,7 @@ std::uint64_t sceneCount() {
 std::vector<BoxId> changedSlots(const std::vector<Box>& before, const std::vector<Box>& now) {
   std::vector<BoxId> changed;
   for (std::size_t i = 0; i < now.size(); ++i)
-    if (i >= before.size() || std::memcmp(&before[i], &now[i], sizeof(Box)) != 0)
+    if (i >= before.size() || before[i].min != now[i].min || before[i].max != now[i].max)
       changed.push_back(BoxId(i));
   return changed;
 }
