@@ -40,6 +40,7 @@ bool meetInConvexJoint(const ContactSurfaces& surfaces, const PieceGeometry& geo
 void Contact::reset() {
   candidates.clear();
   touches.clear();
+  lastCorrection = 0;
   rows_.clear();
   now_ = {};
   touched_.clear();
@@ -74,7 +75,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
   deepest_ = deepestTouch(surfaces, step.before);
   bool gapsAreKnown = false;
   // Corrections are mostly as large as those of the previous step.
-  double reach = std::max(step.reach, tolerance::kReachSpare * former_.largestCorrection);
+  double reach = std::max(step.reach, tolerance::kReachSpare * lastCorrection);
   scan(model, surfaces, step, reach, step.move);
   const int most = step.rubble ? tolerance::kRubbleDetections : tolerance::kDetections;
   for (int detection = 0; detection < most; ++detection) {
@@ -130,7 +131,7 @@ void Contact::takeBack() {
   if (!hasBegun_) return;
   candidates.outside.swap(formerOutside_);
   candidates.idleDistance.clear();
-  if (isFinished_) touches.swap(formerTouches_);
+  if (isFinished_) touches.swap(formerTouches_), lastCorrection = formerCorrection_;
   rows_.swap(formerRows_);
   now_ = former_;
   clearForces();
@@ -156,7 +157,8 @@ void Contact::releaseUnsolved() {
 void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
                    double reach, double moved) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
-  const PathStart start{step.before, touches, tolerance::kEntryDepth * step.shortest, deepest_};
+  const PathStart start{step.before, touches, tolerance::contact().entryDepth * step.shortest,
+                        deepest_};
   search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads, moved + sinceScan_,
                entry_ == Entry::kPath ? &start : nullptr);
   sinceScan_ = 0;
@@ -283,15 +285,15 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
                        [](const Touch& known, SlaveMaster pair) { return known.pair < pair; });
   if (former != touches.end() && former->pair == active.pair) {
     row.toleratedGap =
-        std::min(0., former->toleratedGap +
-                         tolerance::kOverlapDecay * std::min(-former->toleratedGap, step.move));
+        std::min(0., former->toleratedGap + tolerance::contact().overlapDecay *
+                                                std::min(-former->toleratedGap, step.move));
     row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;
     return;
   }
   // An overlap from before the step (missed by the flags, or beside an end) must not become
   // velocity at once.
   const double gap = before.foot(row.master, before.slave(row.slave)).gap;
-  row.toleratedGap = std::min(0., gap + tolerance::kOverlapDecay * step.move);
+  row.toleratedGap = std::min(0., gap + tolerance::contact().overlapDecay * step.move);
 }
 
 /// Computes the exact gaps at the corrected positions, and transforms them back to the predicted
@@ -357,6 +359,7 @@ void Contact::finish(Model& model, const ContactSurfaces& surfaces, const Contac
   for (const ContactRow& row : rows_)
     formerTouches_.push_back({pairOf(row), row.normalForce, row.tangentForce, row.toleratedGap});
   touches.swap(formerTouches_);
+  formerCorrection_ = std::exchange(lastCorrection, now_.largestCorrection);
   isFinished_ = true;
   const double restored = step.rubble ? tolerance::kRestoredDepth * step.reach : 0;
   if (entry_ == Entry::kFlags && search_.anyNear())

@@ -87,6 +87,8 @@ class Contact {
 
   Candidates candidates;
   std::vector<Touch> touches;  ///< by pair
+  /// (m) Largest correction of the last step. The first scan of the next one looks as far.
+  double lastCorrection = 0;
 
  private:
   /// Statistics of a step.
@@ -142,6 +144,7 @@ class Contact {
   std::vector<ContactRow> formerRows_;
   std::vector<Touch> formerTouches_;
   std::vector<std::uint8_t> formerOutside_;
+  double formerCorrection_ = 0;  // m
   Figures former_;
   bool hasBegun_ = false, isFinished_ = false;
 };

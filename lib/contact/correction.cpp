@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tolerances/contact.hpp"
 #include "core/tolerances/solver.hpp"
 #include "mesh/mobility.hpp"
 
@@ -65,7 +66,7 @@ Lagrange::Outcome Lagrange::solve(std::span<ContactRow> rows, const Nodes& nodes
 
 double Lagrange::sweep(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step,
                        double drag, double change) {
-  return sweeps_.solve(rows, nodes, step, drag, {change, tolerance::kRowSweeps});
+  return sweeps_.solve(rows, nodes, step, drag, {change, tolerance::contact().rowSweeps});
 }
 
 /// True if a group is solved by sweeps. Without friction pivoting is as fast, and exact. With

@@ -106,8 +106,9 @@ void LocalSearch::findEnterable(const Candidates& candidates, const Geometry& be
     const PieceEnds ends = before.ends(master);
     const Vec2 along = ends.end - ends.begin;
     // Twice the depth, since the piece may be longer at the end of the step. If the piece rotates
-    // in the step, a slave may leave and enter again by less than the product of two displacements.
-    const double inside = cross(along, point - ends.begin) - reach_ * reach_;
+    // in the step, a slave may leave and enter again by less than the product of two relative
+    // displacements, each at most twice the reach.
+    const double inside = cross(along, point - ends.begin) - 4 * reach_ * reach_;
     near.canEnter =
         inside <= 2 * start_.depth * norm(along) ||
         std::ranges::binary_search(start_.touches, SlaveMaster{slave, master}, {}, &Touch::pair);

@@ -10,16 +10,18 @@ namespace yadefrag {
 
 namespace {
 
-/// True if the boundary turns left by more than an angle (rad) at the begin of the entry.
+/// True if the boundary turns left by more than an angle (given as its sine) at the begin of the
+/// entry.
 bool isSharp(const ContactSurfaces& surfaces, const PieceGeometry& geometry, EntryId entry,
-             double angle) {
+             double sine) {
   const EntryId former = surfaces.prev[entry.value];
   if (surfaces.piece[entry.value] == Piece::kArc || surfaces.piece[former.value] == Piece::kArc)
     return false;
   const Vec2 in = geometry.tangent(former, 1);
   const Vec2 out = geometry.tangent(entry, 0);
-  if (dot(in, out) < tolerance::kFolded * norm(in) * norm(out)) return true;
-  return std::atan2(cross(in, out), dot(in, out)) > angle;
+  const double lengths = norm(in) * norm(out);
+  if (dot(in, out) < tolerance::kFolded * lengths) return true;
+  return cross(in, out) > 0 && (dot(in, out) < 0 || cross(in, out) > sine * lengths);
 }
 
 }  // namespace
@@ -30,7 +32,7 @@ void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> ref
   anyRigid_ = anyRigid;
   if (passes == 2 && !anyRigid) return;
   // With two passes only corners of rigid boundaries are determined.
-  const double angle = passes == 2 ? tolerance::kLineCorner : tolerance::kSharpCorner;
+  const double sine = passes == 2 ? tolerance::kLineCorner : tolerance::contact().faceAngle;
   const PieceGeometry geometry(surfaces, reference);
   const std::size_t count = surfaces.entries();
   std::uint32_t loops = 0;
@@ -42,7 +44,7 @@ void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> ref
     const EntryId entry(e);
     fineness_[surfaces.loop[e]] += geometry.length(entry);
     pieces[surfaces.loop[e]] += 1;
-    sharp_[e] = isSharp(surfaces, geometry, entry, angle) ? 1 : 0;
+    sharp_[e] = isSharp(surfaces, geometry, entry, sine) ? 1 : 0;
   }
   // With a tolerance for rounding: equal meshes at different positions are equally fine.
   for (std::uint32_t l = 0; l < loops; ++l)

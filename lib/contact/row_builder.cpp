@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/joint_rules.hpp"
+#include "contact/slave_normals.hpp"
 #include "core/tolerances/contact.hpp"
 
 namespace yadefrag {
@@ -36,7 +37,7 @@ FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, 
   const Foot other = before.foot(neighbour, slave);
   const PieceRange otherRange = before.range(neighbour);
   const bool overOther = other.xi >= otherRange.begin && other.xi <= otherRange.end;
-  if (overOther && dot(other.normal, foot.normal) > tolerance::kSameFace) return {neighbour, other};
+  if (overOther && areOneFace(other.normal, foot.normal)) return {neighbour, other};
   return {master, foot};
 }
 
@@ -54,8 +55,7 @@ bool goesOn(const ContactSurfaces& surfaces, const PieceGeometry& before, EntryI
             Vec2 slave) {
   const bool atBegin = xi < before.range(master).begin;
   const EntryId neighbour = atBegin ? surfaces.prev[master.value] : surfaces.next[master.value];
-  return dot(before.foot(neighbour, slave).normal, before.foot(master, slave).normal) >
-         tolerance::kSameFace;
+  return areOneFace(before.foot(neighbour, slave).normal, before.foot(master, slave).normal);
 }
 
 }  // namespace

@@ -1,11 +1,17 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/tolerances/contact.hpp"
 #include "surface/piece_geometry.hpp"
 
 namespace yadefrag {
+
+/// True if two adjacent pieces with these unit normals are one face for a slave that slides.
+inline bool areOneFace(Vec2 a, Vec2 b) {
+  return dot(a, b) > 0 && std::abs(cross(a, b)) < tolerance::contact().faceAngle;
+}
 
 /// The slave's outward normals: those of the previous piece and of its own piece. A convex corner
 /// has these two and all normals in between. The two sides of a splinter are not opposed to the
@@ -18,9 +24,9 @@ struct SlaveNormals {
     const bool convex = cross(before, after) > 0 || dot(before, after) < tolerance::kFolded;
     const double leaning = std::min(cross(normal, before), cross(after, normal));
     if (convex && leaning >= 0) return true;
-    const bool sharp = convex && dot(before, after) < tolerance::kSameFace;
-    if (sharp && leaning < -tolerance::kLeansIn) return false;
-    return std::min(dot(before, normal), dot(after, normal)) < tolerance::kOpposed;
+    const bool sharp = convex && !areOneFace(before, after);
+    if (sharp && leaning < -tolerance::contact().faceAngle) return false;
+    return std::min(dot(before, normal), dot(after, normal)) < tolerance::contact().opposed;
   }
 };
 

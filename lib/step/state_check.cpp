@@ -144,6 +144,7 @@ bool contactIsValid(const World& world) {
                                     std::ranges::is_sorted(c.offsets);
   return offsetsFit && (c.outside.empty() || c.outside.size() == c.masters.size()) &&
          allBelow(c.slaves, entries) && allBelow(c.masters, entries) &&
+         world.contact.lastCorrection >= 0 && std::isfinite(world.contact.lastCorrection) &&
          std::ranges::all_of(world.contact.touches, [&](const Touch& t) {
            return t.pair.slave.value < entries && t.pair.master.value < entries;
          });

@@ -50,7 +50,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 9;
+  static constexpr std::uint64_t kFormat = 10;
   /// (count) A damaged length must not exhaust the memory: values are read in parts of this size,
   /// and the archive ends before the memory is full.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -306,6 +306,7 @@ class WorldArchive {
     member("touchNormal", rows, [](Touch& t) -> double& { return t.normalForce; });
     member("touchTangent", rows, [](Touch& t) -> double& { return t.tangentForce; });
     member("touchAllowed", rows, [](Touch& t) -> double& { return t.toleratedGap; });
+    value("lastCorrection", contact.lastCorrection);
   }
 
   void search(SearchState& search) {

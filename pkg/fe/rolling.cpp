@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/tolerances/contact.hpp"
+#include "contact/slave_normals.hpp"
 
 namespace yadefrag {
 namespace {
@@ -18,8 +18,6 @@ Vec2 leftOf(Vec2 v) { return {-v.y, v.x}; }
 bool areNeighbours(const ContactSurfaces& surfaces, EntryId a, EntryId b) {
   return surfaces.next[a.value] == b || surfaces.next[b.value] == a;
 }
-
-bool areOneFace(Vec2 a, Vec2 b) { return dot(a, b) > tolerance::kSameFace; }
 
 }  // namespace
 

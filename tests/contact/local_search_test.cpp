@@ -181,10 +181,10 @@ TEST_P(PassedTip, IsNoMatterOfTheFaceThatItGoesAlong) {
 INSTANTIATE_TEST_SUITE_P(
     Turns, PassedTip,
     testing::Values(std::pair{-2 * std::numbers::pi / 3, true}, std::pair{-std::numbers::pi, true},
-                    std::pair{-std::numbers::pi / 3, true}, std::pair{-std::numbers::pi - .4, true},
-                    std::pair{-std::numbers::pi / 3 + .4, true},
-                    std::pair{-std::numbers::pi - .7, false},
-                    std::pair{-std::numbers::pi / 3 + .7, false},
+                    std::pair{-std::numbers::pi / 3, true}, std::pair{-std::numbers::pi - .3, true},
+                    std::pair{-std::numbers::pi / 3 + .3, true},
+                    std::pair{-std::numbers::pi - .4, false},
+                    std::pair{-std::numbers::pi / 3 + .4, false},
                     std::pair{2 * std::numbers::pi / 3, false}, std::pair{0., false}));
 
 // A notch in the upper face, its bottom at the origin. 2 falls into it, 3 rises from it.

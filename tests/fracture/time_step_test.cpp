@@ -180,7 +180,7 @@ TEST(TimeStep, ABentBeam) { expectConverged(bentBeam, {.01, .01, .01, .01}); }
 
 // The load rises by 0.14 of the strength in a step: several edges beside each other crack before
 // one has relieved the others. Measured: cracks 1.09, 1.13; broken 1.06, 1.12; spent 0.947, 0.899.
-TEST(TimeStep, AnExpandingRing) { expectConverged(expandingRing, {.01, .18, .14, .14}); }
+TEST(TimeStep, AnExpandingRing) { expectConverged(expandingRing, {.01, .18, .17, .14}); }
 
 }  // namespace
 }  // namespace yadefrag::test

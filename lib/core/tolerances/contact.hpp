@@ -4,6 +4,47 @@
 
 namespace yadefrag::tolerance {
 
+/// The constants on which the outcome of contact depends besides rounding (with entry by the path
+/// the only ones). Overlaps in the following are the largest ones of any two triangles in 24
+/// impacts, in parts of the shortest segment: 7e-5 with these values.
+struct Contact {
+  /// (of the shortest segment) Applies to entry by the path. A slave no deeper than this behind a
+  /// piece at the start of a step counts as outside. It must exceed the errors of a step's
+  /// corrections, otherwise a contact is lost.
+  double entryDepth = 4e-4;
+
+  /// (sine) Two adjacent pieces whose normals differ by less than this angle, 20°, are one face for
+  /// a slave that slides from one to the other. A convex corner with a larger angle is sharp: it is
+  /// a slave in a single pass, too, and it can touch a face only if neither of its sides is
+  /// inclined into that face by more than this angle. Overlaps are the same from 5° to 45°; at 60°
+  /// pieces overlap by a half.
+  double faceAngle = .34;
+
+  /// (cosine) The cosine between a slave's normal and its master's must be below this. It excludes
+  /// the lateral faces at coincident corners, which are parallel except for rounding.
+  double opposed = -.1;
+
+  /// (of a slave's depth behind a piece) At a concave joint a slave up to this far beyond the
+  /// piece's end is still inside the piece: the value is reached at the bottom of a notch of 11°.
+  double pastConcave = 10;
+
+  /// (ratio) An overlap older than its contact is reduced in every step by this part of itself, and
+  /// by no more than this part of the largest displacement. An overlap that is removed in one step
+  /// becomes a velocity. With .02 overlaps of 4e-4 accumulate in rubble, and slaves are lost.
+  double overlapDecay = .2;
+
+  /// (count) Contact in rubble is solved by at most this number of sweeps at each of at most
+  /// kRubbleDetections detections. What remains must be less than entryDepth: with 20 sweeps
+  /// overlaps are 2e-4 to 9e-3, with 40 8e-5, with 200 3e-5, for .9, .93 and 1.2 times the time.
+  int rowSweeps = 80;
+};
+
+/// Tests halve and double each of these values.
+inline Contact& contact() {
+  static constinit Contact values;
+  return values;
+}
+
 /// (of a piece's length) A slave no deeper than this inside a master at its first detection counts
 /// as outside: bodies placed exactly on each other differ by rounding.
 inline constexpr double kTouching = 1e-9;
@@ -11,10 +52,7 @@ inline constexpr double kTouching = 1e-9;
 /// (of the coordinates) The same for large coordinates: some roundings of a coordinate.
 inline constexpr double kTouchRounding = 0x1p-50;
 
-/// (rad) A corner that turns by more than this, 30°, is a slave in a single pass, too.
-inline constexpr double kSharpCorner = .52;
-
-/// (rad) A corner of a rigid boundary that turns by less lies on a straight line: files give facet
+/// (sine) A corner of a rigid boundary that turns by less lies on a straight line: files give facet
 /// ends with six digits.
 inline constexpr double kLineCorner = 1e-5;
 
@@ -26,15 +64,6 @@ inline constexpr double kFinenessSteps = 8;
 /// between two pieces at their joint.
 inline constexpr double kFootRange = 1e-9;
 
-/// (cosine) The cosine between a slave's normal and its master's must be below this. It excludes
-/// the lateral faces at coincident corners, which are parallel except for rounding.
-inline constexpr double kOpposed = -.1;
-
-/// (sine) A sharp convex corner (turning by more than kSameFace) can touch a face if neither of its
-/// sides is inclined into that face by more than 30°. With 6° contacts that tilt are dropped and
-/// return as overlaps: in impacts contact then created ten times as much energy.
-inline constexpr double kLeansIn = .5;
-
 /// (of the search reach, which is twice the largest displacement) Applies to entry by flags, in
 /// rubble. A slave that was outside its master and is inside by less than this, because of rounding
 /// or of other contacts' corrections, still belongs to the master. With half or twice the value one
@@ -43,28 +72,14 @@ inline constexpr double kLeansIn = .5;
 /// energy.
 inline constexpr double kRestoredDepth = .02;
 
-/// (of the shortest segment) Applies to entry by the path. A slave no deeper than this behind a
-/// piece at the start of a step counts as outside. In twelve impacts pieces overlap by up to 1.9e-4
-/// of a segment with this value, 1.7e-4 with half and 4.2e-4 with twice of it. A quarter is less
-/// than the errors of a step's corrections in rubble: one of the twelve impacts then loses a
-/// contact.
-inline constexpr double kEntryDepth = 4e-4;
-
 /// (cosine) Two adjacent sides whose normals have a cosine below this are the two sides of one
 /// line: its ends are corners with all normals in between.
 inline constexpr double kFolded = -.999999;
 
-/// (of a slave's depth behind a piece) At a concave joint a slave up to this far beyond the piece's
-/// end is still inside the piece: the value is reached at the bottom of a notch of 11°.
-inline constexpr double kPastConcave = 10;
-
 /// (ξ) The force acts at the foot at xⁿ, which conserves the angular momentum, if that foot is no
-/// farther than this beyond the piece's end. The shape functions are extended linearly.
+/// farther than this beyond the piece's end. The shape functions are extended linearly. Any larger
+/// value gives the same bits in 24 impacts.
 inline constexpr double kFootBeyond = .25;
-
-/// (cosine) Two adjacent pieces whose normals differ by less than 30° are one face for a slave that
-/// slides from one to the other.
-inline constexpr double kSameFace = .866;
 
 /// (of the largest displacement in the step; of the shortest segment) Penetrations below these
 /// sizes are not solved again. The first is the second-order remainder of the linearised contact
@@ -77,10 +92,5 @@ inline constexpr int kDetections = 10;
 /// (of the last step's largest correction) Minimum reach of the first detection of a step. The
 /// additional pairs cost less than a second detection.
 inline constexpr double kReachSpare = 2.5;
-
-/// (ratio) An overlap older than its contact is reduced in every step by this part of itself, and
-/// by no more than this part of the largest displacement. If it were removed in one step, the
-/// correction would become a velocity, and contact would create energy.
-inline constexpr double kOverlapDecay = .02;
 
 }  // namespace yadefrag::tolerance
