@@ -3,23 +3,19 @@ and as with YADE's collider; what it cannot split is refused. Each run starts an
 processes (mpi_scene.py)."""
 import json
 import os
-import signal
-import subprocess
 import sys
 import tempfile
 
 import pytest
 import yade
 
+import mpi_processes
+
 kHere = os.path.dirname(os.path.abspath(__file__))
 kChecks = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
 kExamples = '/usr/share/doc/yade/examples/mpi'
 kRadius = .5
 kLimit = 120        # s, for one run; a few seconds on an idle machine
-# Processes that share two cores, as root in a container.
-kMpi = dict(OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1', OMP_NUM_THREADS='1',
-            OMPI_MCA_rmaps_base_oversubscribe='1', OMPI_MCA_mpi_yield_when_idle='1',
-            OMPI_MCA_btl_vader_single_copy_mechanism='none')
 # Forces of a body are added in another order, since its contacts are: rounding, of 17 m positions,
 # amplified by some collisions.
 kRounding = 1e-12 * kRadius
@@ -28,60 +24,20 @@ kRounding = 1e-12 * kRadius
 kParted = 1e-7 * kRadius
 
 
-def environment():
-    """Without what an MPI of this process itself has set."""
-    kept = {k: v for k, v in os.environ.items() if not k.startswith(('OMPI_', 'PMIX_', 'ORTE_'))}
-    return {**kept, **kMpi}
-
-
-def descendants(pid):
-    """Processes that `pid` has started, and these in turn."""
-    parents = {}
-    for name in filter(str.isdigit, os.listdir('/proc')):
-        try:
-            with open('/proc/%s/stat' % name) as file:
-                parents.setdefault(int(file.read().rpartition(')')[2].split()[1]), []).append(
-                    int(name))
-        except OSError:
-            continue    # ended meanwhile
-    found = [pid]
-    for one in found:
-        found += parents.get(one, [])
-    return found[1:]
-
-
-def end(process):
-    """MPI puts its processes into groups of their own: each is ended by its number."""
-    for pid in [*descendants(process.pid), process.pid]:
-        try:
-            os.kill(pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
-    process.communicate()
-
-
 def run(ranks, collider, scene, *arguments):
     """What each process reports, by rank."""
     script = [getattr(sys, 'yade_argv', ['/usr/bin/yade'])[0], '-n', '-x',
               os.path.join(kHere, 'mpi_scene.py')]
     with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
-        process = subprocess.Popen(
-            (['mpiexec', '-n', str(ranks)] if ranks > 1 else []) +
-            [*script, collider, folder, scene, *arguments], cwd=folder, env=environment(),
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        try:
-            output = process.communicate(timeout=kLimit)[0].decode(errors='replace')
-        except subprocess.TimeoutExpired:
-            output = 'no end within %d s' % kLimit
-        finally:
-            end(process)
+        code, output = mpi_processes.run(
+            ranks, [*script, collider, folder, scene, *arguments], folder, kLimit)
         reports = []
         for name in sorted(n for n in os.listdir(folder) if n[:-5].isdigit()):
             with open(os.path.join(folder, name)) as file:
                 reports.append(json.load(file))
     for report in reports:
         assert report['error'] is None, report['error']
-    assert process.returncode == 0 and reports, output[-3000:]
+    assert code == 0 and reports, output[-3000:]
     return reports
 
 
