@@ -3,6 +3,8 @@ and as with YADE's collider; what it cannot split is refused. Each run starts an
 processes (mpi_scene.py)."""
 import json
 import os
+import pathlib
+import re
 import sys
 import tempfile
 
@@ -12,6 +14,7 @@ import yade
 import mpi_processes
 
 kHere = os.path.dirname(os.path.abspath(__file__))
+kRoot = pathlib.Path(kHere).parents[1]
 kChecks = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
 kExamples = '/usr/share/doc/yade/examples/mpi'
 kRadius = .5
@@ -167,6 +170,18 @@ def test_refused(once, ranks, case, message):
         found = report[case]
         assert found['ranks'] == ranks and found['message'] == message
         assert found['isUnchanged'] and found['steps'] == 2
+
+
+def test_manual():
+    """The script of docs/colliders.md, which lets mpy distribute the bodies."""
+    text = (kRoot / 'docs' / 'colliders.md').read_text()
+    script = next(b for b in re.findall(r'^```python\n(.*?)^```', text, re.S | re.M) if 'mpy' in b)
+    with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
+        path = os.path.join(folder, 'script.py')
+        with open(path, 'w') as out:
+            out.write(script)
+        one, three = (run(ranks, 'LebesgueCollider', path) for ranks in (1, 3))
+    compare(merged(one), merged(three))
 
 
 def test_yadesCheck():
