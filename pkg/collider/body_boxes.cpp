@@ -219,8 +219,6 @@ double BodyBoxes::sweepOfOther(const yade::Body& body, bool hadBound) {
   const yade::State& state = *body.state;
   const double speed = SweepRule::speedOf(state.vel);
   const ShapeKind kind = shapeKinds_.of(*body.shape);
-  // Bodies of a process may move as far as any of ours before all processes search again.
-  if (kind == ShapeKind::kSubdomain) return rule_.most;
   if (kind == ShapeKind::kFollower) {
     hasFollowers_ = true;
     return rule_.most;

@@ -16,7 +16,6 @@ ShapeKind ShapeKinds::find(const yade::Shape& shape) {
   const std::string name = shape.getClassName();
   if (name == "Sphere") return ShapeKind::kSphere;
   if (name == SurfaceSegment::kName) return ShapeKind::kSegment;
-  if (name == "Subdomain") return ShapeKind::kSubdomain;
   const bool isRigid = std::find(rigid.begin(), rigid.end(), name) != rigid.end();
   return isRigid ? ShapeKind::kRigid : ShapeKind::kFollower;
 }

@@ -10,12 +10,11 @@ namespace yadefrag {
 
 enum class ShapeKind : signed char {
   kUnknown,
-  kSphere,     ///< exactly YADE's Sphere: rotation does not change its bound
-  kRigid,      ///< its points move only with its own body's position and orientation
-  kSegment,    ///< SurfaceSegment: FESolver moves it, and requests searches
-  kSubdomain,  ///< box around all bodies of another process of yade.mpy, which sets it
-  kFollower    ///< anything else: grid connections and facets, chained cylinders, other plugins'
-               ///< shapes
+  kSphere,   ///< exactly YADE's Sphere: rotation does not change its bound
+  kRigid,    ///< its points move only with its own body's position and orientation
+  kSegment,  ///< SurfaceSegment: FESolver moves it, and requests searches
+  kFollower  ///< anything else: grid connections and facets, chained cylinders, other plugins'
+             ///< shapes
 };
 
 /// Caches the kind by class index, which is cheaper to read than the class name.
