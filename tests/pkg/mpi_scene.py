@@ -216,10 +216,10 @@ def sceneNow():
 
 def yadesOwn(collider, script, arguments):
     """One of YADE's scripts, with YADE's default engines."""
-    scope = sys.modules['__main__'].__dict__
-    scope.update(YadeCheckError=YadeCheckError, InsertionSortCollider=getattr(w, collider))
+    scope = dict(sys.modules['__main__'].__dict__, YadeCheckError=YadeCheckError,
+                 InsertionSortCollider=getattr(w, collider))
     O.engines = [getattr(w, collider)(list(e.boundDispatcher.functors), label='collider')
-                 if isinstance(e, w.InsertionSortCollider) else e for e in scope['kDefault']]
+                 if isinstance(e, w.InsertionSortCollider) else e for e in kDefault]
     sys.argv = [script, *arguments]
     with contextlib.suppress(SystemExit), open(script, encoding='utf-8') as file:
         exec(compile(file.read(), script, 'exec'), scope)

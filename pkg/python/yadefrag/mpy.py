@@ -1,4 +1,8 @@
-"""YADE's MPI engine, yade.mpy: finds our colliders, and refuses scenes that it cannot split."""
+"""YADE's MPI engine, yade.mpy: finds our colliders, and refuses scenes that it cannot split.
+
+The name of this file is that of YADE's: mpirun lets its workers run the script of the innermost frame
+that is in no file of that name.
+"""
 
 import builtins
 import functools
@@ -86,8 +90,6 @@ def _guardRun(mpy, mpirun):
         if mpy.rank == 0 and isAlone and wanted != 1 and reasonNotToSplit():
             raise RuntimeError(reasonNotToSplit())
         return mpirun(nSteps, np, withMerge)
-    # The workers run the script of the innermost frame that is in no file named mpy.py.
-    run.__code__ = run.__code__.replace(co_filename=mpy.__file__)
     return run
 
 
