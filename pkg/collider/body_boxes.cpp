@@ -32,6 +32,11 @@ const yade::Bo1_Sphere_Aabb* findSphereFunctor(const yade::BoundDispatcher& disp
   return found;
 }
 
+/// The box around the bodies of a process that has none.
+bool isEmpty(const Bound& bound) {
+  return (bound.min.array() == INFINITY).all() && (bound.max.array() == -INFINITY).all();
+}
+
 /// Written so that NaN counts as invalid, too.
 bool isGood(const Box& box) {
   return box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];
@@ -167,7 +172,7 @@ void BodyBoxes::updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatch
   undo_.clear();
   segments_.clear();
   segmentCount_ = 0;
-  hasOthers_ = hasFollowers_ = false;
+  hasOthers_ = hasFollowers_ = isSplit_ = false;
   for (std::size_t id = 0; id < kinds_.size(); ++id) {
     hasOthers_ |= kinds_[id] == Kind::kSphere;
     if (kinds_[id] != Kind::kOther) continue;
@@ -181,6 +186,8 @@ void BodyBoxes::updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatch
 void BodyBoxes::takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene) {
   const auto id = static_cast<std::size_t>(body->id);
   Bound& bound = *body->bound;
+  isSplit_ |= body->getIsSubdomain();
+  if (body->getIsSubdomain() && isEmpty(bound)) return;
   if (!isGood(toBox(bound.min, bound.max))) throwBadBound(id, bound);
   // A body that no longer requests a bound keeps its present one, as in YADE.
   if (body->shape && body->isBounded()) {

@@ -69,6 +69,8 @@ class BodyBoxes {
   /// Displacement (m) of nodes without a bound up to which the boxes that follow them are valid;
   /// infinite if there are no such boxes.
   [[nodiscard]] double followerSweep() const { return hasFollowers_ ? rule_.most : INFINITY; }
+  /// True if yade.mpy has distributed the scene to several processes.
+  [[nodiscard]] bool isSplit() const { return isSplit_; }
   /// True if all bodies with a bound are surface segments.
   [[nodiscard]] bool onlySegments() const { return segmentCount_ > 0 && !hasOthers_; }
 
@@ -129,6 +131,7 @@ class BodyBoxes {
   std::size_t segmentCount_ = 0;
   bool hasOthers_ = false;
   bool hasFollowers_ = false;
+  bool isSplit_ = false;
   std::vector<OldBound> undo_;
   ShapeKinds shapeKinds_;
 

@@ -12,6 +12,7 @@ using yade::Scene;
 void MotionWatch::start(const Scene& scene, const BodyBoxes& boxes, double cellSlack,
                         const yade::Vector3r& cellSpan) {
   turning_ = boxes.turning();
+  isSplit_ = boxes.isSplit();
   cellSlack_ = cellSlack;
   cellSpan_ = cellSpan;
   if (scene.isPeriodic) cellBefore_ = scene.cell->hSize;
@@ -23,14 +24,14 @@ void MotionWatch::start(const Scene& scene, const BodyBoxes& boxes, double cellS
       nodes_.push_back({body->id, body->state->se3.position});
 }
 
+/// In a process of yade.mpy without bodies of its own the integrator always reports 0. (YADE makes
+/// all processes search at every step then.)
 bool MotionWatch::boundsBroken(const Scene& scene) const {
   const auto newton = findIntegrator(scene);
-  if (newton && newton->mask <= 0) {
-    const double fastest = fastestBody(*newton);
-    if (fastest >= 1 || fastest == 0) return true;
-  } else if (someMovedOut(scene)) {
-    return true;
-  }
+  const bool isWatching = newton && newton->mask <= 0;
+  const double fastest = isWatching ? fastestBody(scene, *newton) : 0;
+  if (fastest >= 1 || (fastest == 0 && isWatching && !isSplit_)) return true;
+  if (fastest == 0 && someMovedOut(scene)) return true;
   return someTurnedOut(scene) || someNodeMovedOut(scene) || (scene.isPeriodic && cellMoved(scene));
 }
 
@@ -42,11 +43,16 @@ yade::shared_ptr<NewtonIntegrator> MotionWatch::findIntegrator(const Scene& scen
   return {};
 }
 
-/// `maxVelocitySq` is not used: in a periodic scene it also contains the cell's speed in m/s, so
-/// that the next search would depend on the unit of length. The cell is checked here.
-double MotionWatch::fastestBody(const NewtonIntegrator& newton) {
+/// In a periodic scene `maxVelocitySq` also contains the cell's speed in m/s, so that the next
+/// search would depend on the unit of length: the cell is checked here, and the values of the
+/// threads are used. In both cases a smaller `maxVelocitySq` comes from yade.mpy, which sets it
+/// after a search of all processes: a search of one alone would move its bounds away from those of
+/// the others.
+double MotionWatch::fastestBody(const Scene& scene, const NewtonIntegrator& newton) {
   const auto& byThread = newton.threadMaxVelocitySq;
-  return byThread.empty() ? 0 : *std::max_element(byThread.begin(), byThread.end());
+  if (!scene.isPeriodic) return newton.maxVelocitySq;
+  if (byThread.empty()) return 0;
+  return std::min(*std::max_element(byThread.begin(), byThread.end()), newton.maxVelocitySq);
 }
 
 bool MotionWatch::someMovedOut(const Scene& scene) {

@@ -24,9 +24,9 @@ class MotionWatch {
   /// The integrator that moves the scene's bodies; null if there is none or it is dead.
   static yade::shared_ptr<yade::NewtonIntegrator> findIntegrator(const yade::Scene& scene);
 
-  /// Displacement record of the integrator: 0 before its first step, below 1 within bounds,
-  /// otherwise outside.
-  static double fastestBody(const yade::NewtonIntegrator& newton);
+  /// Displacement record of the integrator: 0 if it has moved no body, below 1 within bounds or if
+  /// yade.mpy has searched since, otherwise outside.
+  static double fastestBody(const yade::Scene& scene, const yade::NewtonIntegrator& newton);
 
  private:
   [[nodiscard]] bool cellMoved(const yade::Scene& scene) const;
@@ -41,6 +41,7 @@ class MotionWatch {
   std::vector<Node> nodes_;
   double nodeSweep_ = 0;  // m
   std::vector<Turning> turning_;
+  bool isSplit_ = false;
   double cellSlack_ = 0;
   yade::Vector3r cellSpan_ = yade::Vector3r::Zero();
   yade::Matrix3r cellBefore_ = yade::Matrix3r::Zero();

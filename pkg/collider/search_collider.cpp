@@ -287,7 +287,7 @@ bool SearchCollider::isActivated() {
   if (onlySegments_) return came || scene->doSort;
   if (!strideActive_) return true;
   newton = MotionWatch::findIntegrator(*scene);
-  if (newton) fastestBodyMaxDist = MotionWatch::fastestBody(*newton);
+  if (newton) fastestBodyMaxDist = MotionWatch::fastestBody(*scene, *newton);
   sweepsEnded_ = watch_.boundsBroken(*scene);
   quickCheck_ = came && !sweepsEnded_;
   return came || scene->doSort || sweepsEnded_;

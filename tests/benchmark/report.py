@@ -71,9 +71,9 @@ def _machine(rows):
                 yade=next((r['yade'] for r in rows if 'yade' in r), 'unknown'))
 
 
-def line(machine):
+def line(machine, used='one used'):
     """The machine in one line."""
-    return (f"{machine['cpu']}, {machine['cores']} cores (one used), {machine['date']}, "
+    return (f"{machine['cpu']}, {machine['cores']} cores ({used}), {machine['date']}, "
             f"YADE {machine['yade']}, commit {machine['commit']}")
 
 

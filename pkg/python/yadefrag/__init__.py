@@ -24,7 +24,7 @@ _yadefrag.checkRunningYade()
 __all__ = list(_yadefrag.publish())
 
 # Only now, because these need FESolver.
-from yadefrag import attributes, lifecycle, solver  # noqa: E402
+from yadefrag import attributes, lifecycle, mpy, solver  # noqa: E402
 from yadefrag.about import about  # noqa: E402
 from yadefrag.engines import engines  # noqa: E402
 from yadefrag.ensemble import ensemble  # noqa: E402
@@ -61,6 +61,7 @@ def _renewDispatchers():
 
 solver.install()
 lifecycle.install()
+mpy.install()
 _renewDispatchers()
 for _name in __all__:
     globals()[_name] = getattr(wrapper, _name)

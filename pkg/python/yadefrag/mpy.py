@@ -1,0 +1,124 @@
+"""YADE's MPI engine, yade.mpy: finds our colliders, and refuses scenes that it cannot split.
+
+The name of this file is that of YADE's: mpirun lets its workers run the script of the innermost frame
+that is in no file of that name.
+"""
+
+import builtins
+import functools
+import importlib.abc
+import importlib.util
+import sys
+
+from yade import wrapper
+
+kModule = 'yade.mpy'
+kRival = 'InsertionSortCollider'
+
+
+def colliderClasses():
+    return wrapper.LebesgueCollider, wrapper.LinearCodeCollider, wrapper.HierarchyCollider
+
+
+def ourCollider():
+    """The first of our colliders in O.engines, or None."""
+    ours = (e for e in wrapper.Omega().engines if isinstance(e, colliderClasses()))
+    return next(ours, None)
+
+
+def _findOurs(typedEngine):
+    """mpy asks for its collider by the name of YADE's class."""
+    @functools.wraps(typedEngine)
+    def found(name):
+        return (ourCollider() if name == kRival else None) or typedEngine(name)
+    return found
+
+
+def _isPiece(body):
+    return body is not None and isinstance(body.shape, wrapper.SurfaceSegment)
+
+
+def reasonNotToSplit():
+    """One sentence, or None if this process's scene can be split."""
+    omega = wrapper.Omega()
+    if any(isinstance(e, wrapper.FESolver) for e in omega.engines) or \
+            any(map(_isPiece, omega.bodies)):
+        return ('FESolver and its bodies work in one process only: yade.mpy cannot split this '
+                'scene; run it with O.run.')
+    collider = ourCollider()
+    if collider is not None and collider.label != 'collider':
+        return ("yade.mpy finds its collider by the label 'collider', but this one has %s: write "
+                "%s([...], label='collider')."
+                % ("the label '%s'" % collider.label if collider.label else 'no label',
+                   type(collider).__name__))
+    return None
+
+
+def _smallestRadius():
+    radii = (b.shape.radius for b in wrapper.Omega().bodies if isinstance(b.shape, wrapper.Sphere))
+    return min(radii, default=float('inf'))
+
+
+def _shareVerletDist(reports):
+    """A negative verletDist is a multiple of the smallest radius: that of all processes, since each
+    alone would get another length, and bounds of one body must be the same in all."""
+    collider, least = ourCollider(), min(radius for _, radius in reports)
+    if collider is not None and collider.verletDist < 0 and least < float('inf'):
+        collider.verletDist *= -least
+
+
+def _guardSplit(mpy, splitScene):
+    """All processes split together: all refuse, or none."""
+    @functools.wraps(splitScene)
+    def split():
+        if not builtins.O.splittedOnce:  # an attribute of this object, not of the class
+            reports = mpy.comm.allgather((reasonNotToSplit(), _smallestRadius()))
+            for reason, _ in reports:
+                if reason:
+                    raise RuntimeError(reason)
+            _shareVerletDist(reports)
+        splitScene()
+    return split
+
+
+def _guardRun(mpy, mpirun):
+    """Refuses before mpirun starts processes, or sends them a command to run."""
+    @functools.wraps(mpirun)
+    def run(nSteps, np=None, withMerge=False):
+        wanted = mpy.numThreads if np is None else np
+        isAlone = mpy.comm is None or mpy.numThreads == 1 or mpy.waitingCommands
+        if mpy.rank == 0 and isAlone and wanted != 1 and reasonNotToSplit():
+            raise RuntimeError(reasonNotToSplit())
+        return mpirun(nSteps, np, withMerge)
+    return run
+
+
+def _adapt(mpy):
+    mpy.typedEngine = _findOurs(mpy.typedEngine)
+    mpy.splitScene = _guardSplit(mpy, mpy.splitScene)
+    mpy.mpirun = _guardRun(mpy, mpy.mpirun)
+
+
+class _WhenImported(importlib.abc.MetaPathFinder):
+    """Adapts yade.mpy after its import; we do not import it, since that starts MPI."""
+
+    def find_spec(self, name, path=None, target=None):
+        if name != kModule:
+            return None
+        sys.meta_path.remove(self)
+        spec = importlib.util.find_spec(name)
+        if spec is not None:
+            execute = spec.loader.exec_module
+
+            def executeAndAdapt(module):
+                execute(module)
+                _adapt(module)
+            spec.loader.exec_module = executeAndAdapt
+        return spec
+
+
+def install():
+    if kModule in sys.modules:
+        _adapt(sys.modules[kModule])
+    else:
+        sys.meta_path.insert(0, _WhenImported())
