@@ -8,13 +8,14 @@ Pareto front (NAME.png), by yadefrag.tradeoff; tradeoff.png has all of them. REA
 results.
 """
 import argparse
-import datetime
 import importlib
 import os
 import sys
 
 HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
-sys.path.insert(0, HERE)
+sys.path[:0] = [HERE, os.path.join(HERE, '..')]
+import origin  # noqa: E402
+
 PROBLEMS = 'bars', 'hertz', 'rolling', 'ring', 'compression'
 
 
@@ -41,15 +42,6 @@ def known(text):
     return names
 
 
-def machine():
-    """Processor, cores, load, date."""
-    with open('/proc/cpuinfo', encoding='utf-8') as f:
-        names = [line.split(':')[1].strip() for line in f if line.startswith('model name')]
-    return '%s, %d cores, load %.1f before the run, %s' % (
-        names[0] if names else 'unknown processor', os.cpu_count(), os.getloadavg()[0],
-        datetime.date.today().isoformat())
-
-
 def together(tables, file, time):
     """The plots of all tables in one picture, with the names at the points."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -69,7 +61,7 @@ def main():
     tables = []
     for name in options.problems:
         problem = importlib.import_module(name)
-        where = machine()
+        where = 'Load %.1f before the run; %s' % (os.getloadavg()[0], origin.line())
         table = tradeoff(problem.scene, problem.VARY, problem.measure, repeats=options.repeats,
                          limit=options.limit, **problem.ARGUMENTS)
         table.write(os.path.join(options.out, name), options.time)

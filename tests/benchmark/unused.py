@@ -8,10 +8,8 @@ many bytes to its arrays, and what it costs the same scene to use it.
 """
 import argparse
 import collections
-import datetime
 import json
 import os
-import re
 import statistics
 import subprocess
 import sys
@@ -22,6 +20,9 @@ from instructions import Feature
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(ROOT, 'examples'))
+import origin  # noqa: E402
+
 RINGS, STEPS = 8, 100
 # Scenes of bodies far from each other: steps, enough to look whether they still are.
 FAR = dict(blocks=100, squares=400, farRings=400)
@@ -117,7 +118,7 @@ def main(arguments):
     with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
         elements = _measureElements(program, folder, options.repeat)
         balls = _measureSpheres(counting, folder, options.repeat)
-    machine = _machine()
+    machine = origin.line()
     text = '\n'.join(['# What is not used costs nothing', '', machine + '.', '',
                       *_elementTable(elements), '', *_sphereTable(balls)])
     os.makedirs(options.out, exist_ok=True)
@@ -188,13 +189,6 @@ def _sphereTable(rows):
                    f"{1e3 * row['importing']:.0f} ms | {1e3 * row['step']:.2f} ms | "
                    f"{row['peak'] / 2**20:.1f} MB |")
     return out
-
-
-def _machine():
-    with open('/proc/cpuinfo', encoding='utf-8') as file:
-        model = re.search(r'model name\s*: (.*)', file.read())
-    return f"{model.group(1).strip() if model else 'unknown'}, {os.cpu_count()} cores, " \
-           f'{datetime.date.today().isoformat()}'
 
 
 def _parse(arguments):
