@@ -148,7 +148,7 @@ class Run:
                 ('surface entries', f'{sum(map(len, fe.surfaces)):,}'),
                 ('steps', f'{O.iter:,} of {1e9 * O.dt:.4g} ns'),
                 ('searches', f'{fe.numSearches:,}'),
-                ('actives, last and most', f'{fe.numActives:,} {self.mostActives:,}'),
+                ('actives, last and most', f'{fe.numActives:,}, {self.mostActives:,}'),
                 ('deepest penetration', f'{self.deepest / self.segment:.2e} of the shortest '
                                         f'segment, {1e3 * self.segment:.3g} mm'),
                 ('energy at the start', f'{total[0]:.6g} J'),

@@ -18,7 +18,8 @@ sys.path.insert(0, str(ROOT / 'examples'))
 import origin  # noqa: E402
 
 END = '<!-- end of figures -->'
-NOT_SHOWN = ('positions (md5)', 'CPU time', 'written')
+# Times, and what YADE itself prints.
+NOT_SHOWN = ('positions (md5)', 'CPU time', 'written', 'Using python version')
 
 
 @dataclasses.dataclass
@@ -96,7 +97,7 @@ def run(maker, options, out):
                           text=True, check=False)
     if done.returncode:
         raise Failed(f'{" ".join(words)} ended with {done.returncode}: {(done.stderr or done.stdout).strip()[-600:]}')
-    return done.stdout.split('Running script', 1)[-1]
+    return done.stdout
 
 
 def make(maker, origin_):
@@ -162,14 +163,14 @@ def figures(output):
 
 
 def readable(text):
-    """1.2e-05 as 1.2·10⁻⁵, and a typographic minus before numbers."""
+    """1.2e-05 as 1.2·10⁻⁵, a typographic minus before numbers, a space before %."""
     def power(match):
         number, exponent = match[1], int(match[2])
         if float(number) == 0:
             return '0'
         return f'{number}·10{str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))}'
     text = re.sub(r'([+-]?\d+(?:\.\d+)?)e([+-]\d+)', power, text)
-    return re.sub(r'(?<![\w.)\]-])-(?=\d)', '−', text)
+    return re.sub(r'(?<![\w.)\]-])-(?=\d)', '−', text).replace('%', ' %').replace('  %', ' %')
 
 
 def main(arguments):
