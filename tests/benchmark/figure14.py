@@ -86,7 +86,7 @@ def runSearches(options, folder):
 
 
 def _bench(options, which, repeat, environment):
-    """Rows of one call of the benchmark program; frames and searches are told apart by `which`."""
+    """Rows of one call of the benchmark program; `which` chooses frames or searches."""
     print('running', which, file=sys.stderr, flush=True)
     command = [options.program, f'--benchmark_filter={which}', '--benchmark_format=json',
                f'--benchmark_repetitions={repeat}', '--benchmark_display_aggregates_only=false',

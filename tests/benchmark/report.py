@@ -22,7 +22,7 @@ TIMES = [('first', 'first activation'), ('perActivation', 'each later activation
 
 
 def write(folder, rows, grids, options):
-    """Write colliders.json, colliders.md and the plots into the folder, and say where."""
+    """Write colliders.json, colliders.md and the plots into the folder, and print their folder."""
     os.makedirs(folder, exist_ok=True)
     machine = _machine(rows)
     raw = dict(machine=machine, repeat=options.repeat, seed=options.seed, budget=options.budget,

@@ -4,7 +4,7 @@ Plain Python; every scene and size is a process of its own (yadefrag_rivals), in
 see the same boxes and have to find the same pairs:
 
     Lebesgue, LinearCode, Hierarchy   the paper's three
-    Lebesgue, told what moved         the first, which looks only at boxes that are said to have moved
+    Lebesgue, moved boxes given       the first, which searches only for the boxes given as moved
     LinearBvh                         a tree over position codes (Karras 2012)
     cell list                         a grid with cells as long as the longest box
     CGAL                              box_self_intersection_d
@@ -107,7 +107,7 @@ def plot(rows, file):
 
 
 def report(rows, options):
-    """Write search.json, search.md, search.png and, if asked to, the manual's table."""
+    """Write search.json, search.md, search.png and, if requested, the manual's table."""
     os.makedirs(options.out, exist_ok=True)
     with open(os.path.join(options.out, 'search.json'), 'w') as file:
         json.dump(rows, file, indent=1)
