@@ -100,8 +100,8 @@ def run(maker, options, out):
     return done.stdout
 
 
-def make(maker, origin_):
-    """Runs the maker, then replaces its pictures and its table."""
+def make(maker, where):
+    """Runs the maker, then replaces its pictures and its table; `where`: machine, date, commit."""
     with tempfile.TemporaryDirectory() as folder:
         outputs = []
         for number, options in enumerate(maker.runs):
@@ -114,9 +114,8 @@ def make(maker, origin_):
                 raise Failed(f'{maker.name} did not write {picture}')
         readme = ROOT / 'examples' / maker.folder / 'README.md'
         if maker.table:
-            text = replaced(readme.read_text(), maker.name, table(maker, outputs) + f'\n\n`scripts/gallery {maker.name}`: '
-                            f'{origin_}.')
-            readme.write_text(text)
+            shown = f'{table(maker, outputs)}\n\n`scripts/gallery {maker.name}`: {where}.'
+            readme.write_text(replaced(readme.read_text(), maker.name, shown))
         for picture, place in zip(maker.files, maker.places()):
             shutil.copyfile(first / picture, ROOT / place)
 
@@ -186,6 +185,8 @@ def main(arguments):
         for maker in MAKERS:
             print(f'{maker.name:18}{" (times)" * maker.timed:9}{" ".join(maker.places())}')
         return 0
+    for command in (['setup', 'plugin'], ['build', 'release', '_yadefrag']):
+        subprocess.run([ROOT / 'scripts' / command[0], *command[1:]], check=True)
     where, failed = origin.line(), 0  # before files change
     for name in options.names or makers:
         print(name, flush=True)
