@@ -20,12 +20,18 @@ def date():
 
 
 def commit():
-    """Abbreviated hash of the commit, with '-dirty' if files differ from it; 'unknown' without git."""
-    command = ['git', '-C', HERE, '-c', 'safe.directory=*', 'describe', '--always', '--dirty', '--exclude', '*']
+    """Abbreviated hash of the commit, with '-dirty' if sources differ from it; 'unknown' without git."""
     try:
-        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+        # Pages and pictures are what scripts write: new ones do not make others dirty.
+        changed = _git('diff', '--name-only', 'HEAD', '--', ':/', *(f':(top,exclude)*.{e}' for e in ('md', 'png', 'gif')))
+        return _git('rev-parse', '--short', 'HEAD') + '-dirty' * bool(changed)
     except (OSError, subprocess.CalledProcessError):
         return 'unknown'
+
+
+def _git(*arguments):
+    command = ['git', '-C', HERE, '-c', 'safe.directory=*', *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 
 
 def line():
