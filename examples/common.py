@@ -142,19 +142,20 @@ class Run:
         """Prints the setting and the results of the run; one value per line."""
         fe, total = self.fe, self.series('total')
         lost = self.history[-1]['contact'] - self.history[0]['contact']
-        scale = max(abs(total).max(), np.finfo(float).tiny)
+        # Where the ends are moved, most of the energy is their work.
+        scale = max(abs(total).max(), abs(self.series('outside')).max(), np.finfo(float).tiny)
         rows = [('elements', f'{len(fe.triangles):,}'),
                 ('surface entries', f'{sum(map(len, fe.surfaces)):,}'),
                 ('steps', f'{O.iter:,} of {1e9 * O.dt:.4g} ns'),
                 ('searches', f'{fe.numSearches:,}'),
-                ('actives, last and most', f'{fe.numActives:,} {self.mostActives:,}'),
+                ('actives, last and most', f'{fe.numActives:,}, {self.mostActives:,}'),
                 ('deepest penetration', f'{self.deepest / self.segment:.2e} of the shortest '
                                         f'segment, {1e3 * self.segment:.3g} mm'),
                 ('energy at the start', f'{total[0]:.6g} J'),
                 ('energy drift', f'{(total[-1] - total[0]) / scale:+.1e} at the end, '
                                  f'{(total - total[0]).max() / scale:+.1e} at most'),
-                ('dissipated by contact', f'{lost / scale:+.2%} of the energy'),
-                ('dissipated by friction', f'{self.history[-1]["friction"] / scale:+.2%} of the energy'),
+                ('dissipated by contact', f'{lost / scale:.2%}'),
+                ('dissipated by friction', f'{self.history[-1]["friction"] / scale:.2%}'),
                 ('positions (md5)', hashlib.md5(fe.nodes.tobytes()).hexdigest())]
         print('\n'.join(f'{name + ":":24}{value}' for name, value in rows))
         print(timeSplit())

@@ -1,4 +1,4 @@
-"""The manual against the code: what it quotes is said somewhere, its links lead somewhere.
+"""The manual against the code: the sentences that it quotes exist, its links have targets.
 
 Run by scripts/docs, without YADE; the code of the pages is run by tests/pkg/test_docs.py.
 """
@@ -22,7 +22,7 @@ def sources():
 
 class Manual(unittest.TestCase):
 
-    def test_quotedSentencesAreSaid(self):
+    def test_quotedSentencesExist(self):
         text = sources()
         table = (ROOT / 'docs' / 'troubleshooting.md').read_text()
         quoted = re.findall(r'^\| \*(.*?)\*', table, re.M)

@@ -9,6 +9,8 @@ import os
 import sys
 
 import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..'))
 import common  # noqa: E402
@@ -54,5 +56,11 @@ common.setEngines(fe, options.collider)
 run = common.Run(fe).go(options.steps)
 run.report()
 if not options.no_pictures:
-    plotMesh(fe, fe.materialNumbers, os.path.join(options.out, 'aggregates.png'))
+    axes = plotMesh(fe, fe.materialNumbers)
+    drawn = next(drawn for drawn in axes.collections if drawn.colorbar)
+    drawn.colorbar.remove()
+    keys = [Patch(color=drawn.to_rgba(number), label=name) for number, name in enumerate(('mortar', 'stone'))]
+    axes.legend(handles=[*keys, Line2D([], [], color='r', label='cohesive crack')], ncol=3, frameon=False,
+                loc='lower center', bbox_to_anchor=(.5, 1))
+    axes.figure.savefig(os.path.join(options.out, 'aggregates.png'), dpi=150)
     common.tell(options, 'aggregates.png')

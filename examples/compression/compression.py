@@ -115,9 +115,9 @@ class Block:
     def report(self):
         fe = self.fe
         external = self.fe.energy['external']
-        return (f'{1e-6 * self.pressure:8g} {1e-6 * self.failure:8.2f} {1e-6 * self.peak:8.2f}'
-                f' {self.peak / self.failure:8.4f} {self.load[-1] / self.peak:8.2f}'
-                f' {fe.numCracks:8} {len(fe.fragments()):8} {self.drift / external:+10.1e}')
+        return (f'| {1e-6 * self.pressure:21g} | {1e-6 * self.failure:6.2f} | {1e-6 * self.peak:5.2f}'
+                f' | {self.peak / self.failure:11.4f} | {self.load[-1] / self.peak:9.2f}'
+                f' | {fe.numCracks:6} | {len(fe.fragments()):6} | {self.drift / external:+8.1e} |')
 
 
 def shot(fe):
@@ -176,7 +176,7 @@ def picture(blocks, file):
                             label=f'σ₃ = {1e-6 * block.pressure:g} MPa')
         curves.axhline(1e-6 * block.failure, color=line.get_color(), linewidth=.7, linestyle='--')
     curves.set(xlabel='shortening, mm per m', ylabel='load, MPa', ylim=(0, None))
-    curves.legend(title='dashed: Mohr–Coulomb', loc='upper left', frameon=False)
+    curves.legend(title='dashed: Mohr–Coulomb', loc='lower right')
     figure.savefig(file, dpi=90)
     pictures.plt.close(figure)
 
@@ -202,7 +202,8 @@ def parse():
 def main():
     options = parse()
     blocks = []
-    print('aside, theory, peak: MPa   peak/theory  last/peak  cracks   pieces      drift')
+    print('| lateral pressure, MPa | theory | peak  | peak/theory | last/peak | cracks | pieces | drift    |')
+    print('|--:|--:|--:|--:|--:|--:|--:|--:|')
     for pressure in options.pressures:
         blocks.append(Block(options, 1e6 * pressure))
         print(blocks[-1].report(), flush=True)

@@ -42,7 +42,7 @@ def drawFragments(fe, shot, file, title, window):
                                                 edgecolors='none', antialiaseds=False))
     axis.add_collection(pictures.LineCollection(shot.outlines, colors='k', linewidths=.5))
     axis.set(aspect='equal', xlim=(left, right), ylim=(low, high), xlabel='x, mm', ylabel='y, mm')
-    axis.set_title(f'{title}: {len(area):,} fragments after {1e6 * shot.time:.1f} µs', loc='left')
+    axis.set_title(f'{title}: {(component == 0).sum():,} fragments after {1e6 * shot.time:.1f} µs', loc='left')
     figure.savefig(file, dpi=100)
     pictures.plt.close(figure)
 
@@ -60,7 +60,7 @@ def course(file, picture, title):
     for name, label, colour in (
             ('total', 'total', 'k'), ('kinetic', 'kinetic', '#3d8fb5'),
             ('strain', 'strain', '#edae49'), ('friction', 'dissipated by friction', '#8d6a9f'),
-            ('contact', 'dissipated by contact', '#66a182'), ('fracture', 'dissipated by cracks', '#d1495b')):
+            ('contact', 'by contact', '#66a182'), ('fracture', 'by cracks', '#d1495b')):
         axes[1].plot(time, 1e-3 * data[f'{name}_(J)'], label=label, color=colour)
     axes[1].set(xlabel='time, µs', ylabel='energy, kJ per m')
     for axis in axes:

@@ -60,6 +60,7 @@ class Watch:
         self.fe, self.start = fe, time.process_time()
         self.mass, self.segments = fe.masses.sum(), fe.numSegments
         self.record = recordFracture(fe, file) if file else None
+        self.energy = fe.energy['total']  # J
         self.first = None  # step of the first crack
 
     def __call__(self):
@@ -76,14 +77,15 @@ class Watch:
         share = pieces['area'] / pieces['area'].sum()
         back = table[table['component'] == CYLINDER]['vy'][0]
         first = 'none' if self.first is None else f'{1e6 * self.first * O.dt:.3f} µs'
-        rows = [('surface segments', f'{self.segments:,} at the start, {fe.numSegments:,} at the '
-                                     f'end: {fe.numSegments / self.segments:.1f} times'),
-                ('cracks', f'{fe.numCracks:,}, the first at {first}'),
-                ('fragments', f'{len(pieces):,}, the largest {share[0]:.1%} of the block, '
-                              f'{(pieces["triangles"] == 1).sum():,} of one triangle'),
+        rows = [('surface segments', f'{self.segments:,} → {fe.numSegments:,}'),
+                ('cracks', f'{fe.numCracks:,}'),
+                ('first crack', first),
+                ('fragments', f'{len(pieces):,}'),
+                ('largest fragment', f'{share[0]:.1%} of the block'),
+                ('of one triangle', f'{(pieces["triangles"] == 1).sum():,}'),
                 ('mass', f'{fe.masses.sum() / self.mass - 1:+.1e} of it changed'),
                 ('cylinder at the end', f'{back:+.2f} m/s'),
-                ('dissipated by cracks', f'{fe.energy["fracture"]:.6g} J'),
+                ('dissipated by cracks', f'{fe.energy["fracture"] / self.energy:.2%}'),
                 ('CPU time', f'{time.process_time() - self.start:.1f} s')]
         print('\n'.join(f'{name + ":":24}{value}' for name, value in rows))
 

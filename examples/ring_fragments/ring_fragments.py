@@ -107,17 +107,18 @@ class Ring:
 def run(options):
     """Dict (modulus, rate) → (sizes of all seeds, m; the first ring's arcs)."""
     found = {}
-    print('Weibull modulus   rate, 1/s   pieces   mean size, mm      theory, mm   ratio'
-          '   energy drift')
+    print('| Weibull modulus | strain rate, 1/s | fragments | mean size, mm   | theory, mm | ratio |'
+          ' energy drift |')
+    print('|--:|--:|--:|--:|--:|--:|--:|')
     for modulus in options.moduli:
         for rate in options.rates:
             rings = [Ring(rate, modulus, seed) for seed in range(1, options.seeds + 1)]
             sizes = np.array([ring.size() for ring in rings])
             found[modulus, rate] = sizes, rings[0].arcs()
-            print(f'{modulus or "none":15} {rate:11g} {np.mean(CIRCUMFERENCE / sizes):8.1f}'
-                  f' {1e3 * sizes.mean():8.4f} ± {1e3 * sizes.std():.4f}'
-                  f' {1e3 * theory(rate):13.4f} {sizes.mean() / theory(rate):7.3f}'
-                  f' {max((ring.drift for ring in rings), key=abs):+14.1e}', flush=True)
+            print(f'| {modulus or "none":>15} | {rate:16g} | {np.mean(CIRCUMFERENCE / sizes):9.1f}'
+                  f' | {1e3 * sizes.mean():.4f} ± {1e3 * sizes.std():.4f}'
+                  f' | {1e3 * theory(rate):10.4f} | {sizes.mean() / theory(rate):5.3f}'
+                  f' | {max((ring.drift for ring in rings), key=abs):+12.1e} |', flush=True)
     return found
 
 

@@ -116,6 +116,8 @@ def main():
         if results[-1][-1]:
             return
     ripples = [np.ptp(force) / force.mean() for _, force, _ in results]
+    for name, ripple, (_, force, _) in zip(('straight', 'smooth'), ripples, results):
+        print(f'{"ripple, " + name + ":":24}{ripple:.1%}, standard deviation {force.std() / force.mean():.1%}')
     print(f'straight / smooth:      {ripples[0] / ripples[1]:.2f}')
     if shots:
         draw(os.path.join(options.out, 'rolling.png'), options, results, shots[-1])

@@ -43,4 +43,4 @@ runSteps(int(1.2e-4 / O.dt))
 print('cracks: %d, fragments: %d, energy off by %.3g of the work' %
       (fe.numCracks, len(fe.fragments()), abs(fe.energy['total'] - before) / abs(fe.energy['outside'])))
 folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(sys.argv[0]))
-plotMesh(fe, fields=['fragment', 'speed'], xlim=(-.12, .12), ylim=(-.12, .12), file=os.path.join(folder, 'blast.png'))
+plotMesh(fe, fields=['fragment', 'speed'], limits=[None, (0, 1)], xlim=(-.12, .12), ylim=(-.12, .12), file=os.path.join(folder, 'blast.png'))

@@ -28,7 +28,7 @@ def jaw(side, lean):
                      orientation=Quaternion((0, 0, 1), lean))
 
 
-still, moving = O.bodies.append([jaw(-1, 0), jaw(1, LEAN)])
+fixed, moving = O.bodies.append([jaw(-1, 0), jaw(1, LEAN)])
 O.bodies[moving].state.vel = (-SPEED, 0, 0)
 O.engines = engines(fe, moving=True)
 O.dt = .5 * fe.criticalTimeStep()
@@ -36,7 +36,7 @@ total = fe.energy['total']
 course, impulse = [], np.zeros(2)
 while fe.time < 9e-4:
     O.step()
-    forces = [np.array(O.forces.f(number))[:2] for number in (still, moving)]
+    forces = [np.array(O.forces.f(number))[:2] for number in (fixed, moving)]
     impulse -= sum(forces) * O.dt
     course.append((fe.time, -forces[0][0], forces[1][0], fe.numCracks))
 times, left, right, cracks = np.array(course).T
@@ -49,7 +49,8 @@ import matplotlib.figure  # noqa: E402
 figure = matplotlib.figure.Figure(figsize=(11, 5), layout='constrained')
 body, curve = figure.subplots(1, 2)
 plotMesh(fe, 'fragment', ax=body)
-curve.plot(1e6 * times, 1e-3 * left, label='still jaw')
+body.locator_params(axis='x', nbins=5)
+curve.plot(1e6 * times, 1e-3 * left, label='fixed jaw')
 curve.plot(1e6 * times, 1e-3 * right, label='moving jaw')
 curve.set(xlabel='time (µs)', ylabel='force (kN per m of thickness)')
 curve.legend()

@@ -48,12 +48,12 @@ def sizes(fe):
 
 if __name__ == '__main__':
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(sys.argv[0]))
-    rings = int(sys.argv[2]) if len(sys.argv) > 2 else 8
-    runs = [dict(strength=s, seed=k) for s in STRENGTHS for k in range(rings)]
+    runs = [dict(strength=s, seed=k) for s in STRENGTHS for k in range(int(sys.argv[2]) if len(sys.argv) > 2 else 8)]
     table = ensemble(scene, runs, sizes, duration=1.2e-6, resume=os.path.join(folder, 'monte_carlo.jsonl'))
     for row in table.statistics('strength'):
         print('%g MPa: mean size %.4g mm, from %.4g to %.4g mm, theory %.4g mm, %d rings' %
               (row['by'] / 1e6, 1e3 * row['mean'], 1e3 * row['low'], 1e3 * row['high'], 1e3 * theory(row['by']), row['runs']))
     axes = table.plot(by='strength', label='mean size (m), dashed: theory')
     axes.plot(STRENGTHS, list(map(theory, STRENGTHS)), 'k--')
+    axes.set_xlabel('strength (Pa)')
     axes.figure.savefig(os.path.join(folder, 'monte_carlo.png'), dpi=120)

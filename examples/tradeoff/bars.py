@@ -70,4 +70,4 @@ VARY = [{},
         {'element': ['smoothed']},
         {'entry': ['flags']}]
 ARGUMENTS = dict(duration=DURATION, reference=right(), watch=watch,
-                 title='Two bars: contact stress over time, rms error')
+                 title='Two bars: error of the contact stress, rms')

@@ -62,4 +62,4 @@ VARY = [{},
         {'collider': ['none', 'InsertionSortCollider']},
         {'threads': [2]}]
 ARGUMENTS = dict(duration=DURATION, reference=1., watch=watch, every=EVERY,
-                 title='Compressed rock: largest load off Mohr and Coulomb')
+                 title='Compressed rock: error of the largest load')

@@ -100,4 +100,4 @@ VARY = [{},
         {'mesh': ['irregular']},
         {'element': ['smoothed']},
         {'entry': ['flags']}]
-ARGUMENTS = dict(duration=.7e-3, title='Hertz: pressure off the ellipse, rms')
+ARGUMENTS = dict(duration=.7e-3, title='Hertz: error of the pressure, rms')

@@ -86,4 +86,4 @@ VARY = [{},
         {'mesh': ['irregular']},
         {'element': ['smoothed']}]
 ARGUMENTS = dict(duration=DURATION, reference=1.,
-                 title='Expanding ring: mean size of its pieces, off the formula')
+                 title='Expanding ring: error of the fragments\' mean size')

@@ -64,4 +64,4 @@ VARY = [{},
         {'mesh': ['irregular']},
         {'element': ['smoothed']}]
 ARGUMENTS = dict(duration=DURATION, watch=watch, every=EVERY,
-                 title='Rolling cylinder: force off the weight, rms')
+                 title='Rolling cylinder: error of the force, rms')

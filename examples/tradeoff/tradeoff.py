@@ -1,20 +1,21 @@
 """Speed against accuracy in five problems with known solutions.
 
     scripts/bench tradeoff [--problems bars,hertz,rolling,ring,compression] [--repeats 3]
-        [--time wall|cpu] [--out FOLDER]
+        [--time wall|cpu] [--draw] [--out FOLDER]
 
 For each problem a table of choices (NAME.csv, NAME.md) with times and errors, and a plot with the
 Pareto front (NAME.png), by yadefrag.tradeoff; tradeoff.png has all of them. README.md discusses the
 results.
 """
 import argparse
-import datetime
 import importlib
 import os
 import sys
 
 HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
-sys.path.insert(0, HERE)
+sys.path[:0] = [HERE, os.path.join(HERE, '..')]
+import origin  # noqa: E402
+
 PROBLEMS = 'bars', 'hertz', 'rolling', 'ring', 'compression'
 
 
@@ -28,6 +29,8 @@ def parse():
     parser.add_argument('--limit', type=float, default=120, help='s for each run; default: 120')
     parser.add_argument('--time', choices=('wall', 'cpu'), default='wall',
                         help='which one the plots show; cpu for a machine that is not free')
+    parser.add_argument('--draw', action='store_true',
+                        help='draws the pictures of the tables in --out, without runs')
     parser.add_argument('--out', default=HERE, help='folder; default: that of the script')
     return parser.parse_args(sys.argv[1:])
 
@@ -39,15 +42,6 @@ def known(text):
         if name not in PROBLEMS:
             raise argparse.ArgumentTypeError(f'{name!r} is not one of {", ".join(PROBLEMS)}')
     return names
-
-
-def machine():
-    """Processor, cores, load, date."""
-    with open('/proc/cpuinfo', encoding='utf-8') as f:
-        names = [line.split(':')[1].strip() for line in f if line.startswith('model name')]
-    return '%s, %d cores, load %.1f before the run, %s' % (
-        names[0] if names else 'unknown processor', os.cpu_count(), os.getloadavg()[0],
-        datetime.date.today().isoformat())
 
 
 def together(tables, file, time):
@@ -62,19 +56,34 @@ def together(tables, file, time):
     figure.savefig(file, dpi=100)
 
 
-def main():
+def measure(problem, where, options):
+    """The table of new runs; load, machine, date, commit and repeats as text."""
     from yadefrag import tradeoff
+    about = 'Load %.1f before the run; %s. Medians of %d runs.\n' % (
+        os.getloadavg()[0], origin.line(), options.repeats)
+    return tradeoff(problem.scene, problem.VARY, problem.measure, repeats=options.repeats,
+                    limit=options.limit, **problem.ARGUMENTS), about
+
+
+def earlier(problem, where, options):
+    """The table of earlier runs, and the last line of its page."""
+    from yadefrag import TradeoffTable
+    with open(where + '.md', encoding='utf-8') as f:
+        about = f.readlines()[-1]
+    return TradeoffTable.read(where + '.csv', problem.ARGUMENTS['title']), about
+
+
+def main():
     options = parse()
     os.makedirs(options.out, exist_ok=True)
     tables = []
     for name in options.problems:
         problem = importlib.import_module(name)
-        where = machine()
-        table = tradeoff(problem.scene, problem.VARY, problem.measure, repeats=options.repeats,
-                         limit=options.limit, **problem.ARGUMENTS)
-        table.write(os.path.join(options.out, name), options.time)
-        with open(os.path.join(options.out, name + '.md'), 'a', encoding='utf-8') as f:
-            f.write('\n%s. Medians of %d runs.\n' % (where, options.repeats))
+        where = os.path.join(options.out, name)
+        table, about = (earlier if options.draw else measure)(problem, where, options)
+        table.write(where, options.time)
+        with open(where + '.md', 'a', encoding='utf-8') as f:
+            f.write('\n' + about)
         tables.append(table)
         print(table.markdown(time=options.time))
     together(tables, os.path.join(options.out, 'tradeoff.png'), options.time)

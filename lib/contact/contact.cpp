@@ -1,8 +1,9 @@
 #include "contact/contact.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "contact/row_builder.hpp"
@@ -332,11 +333,10 @@ void Contact::move(Model& model, const ContactStep& step) {
   sinceScan_ += std::sqrt(farthest);
   now_.largestCorrection = std::sqrt(largest);
   if (now_.largestCorrection <= 2 * tolerance::kFarthestMove * step.shortest) return;
-  std::ostringstream text;
-  text << "contact moves a surface node by " << now_.largestCorrection
-       << " m, which is many times the shortest segment, " << step.shortest
-       << " m; take a shorter step.";
-  throw RunError(text.str());
+  throw RunError(fmt::format(
+      "contact moves a surface node by {:g} m, which is many times the shortest segment, "
+      "{:g} m; take a shorter step.",
+      now_.largestCorrection, step.shortest));
 }
 
 /// Eq. 7: Fᵢ = Σ weight × force of the rows.

@@ -1,8 +1,9 @@
 // Errors in a step: finds the element or node that causes them, and restores the state before the
 // step.
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -18,11 +19,8 @@ std::string nameOf(const Model& model, ElementId element, std::span<const Vec2> 
   Vec2 centre;
   for (const NodeId node : model.triangles.nodes[element.value])
     centre += 1. / 3 * position[node.value];
-  std::ostringstream text;
-  text << "element " << element.value << " of component "
-       << model.triangles.component[element.value].value << " at (" << centre.x << ", " << centre.y
-       << ") m";
-  return text.str();
+  return fmt::format("element {} of component {} at ({:g}, {:g}) m", element.value,
+                     model.triangles.component[element.value].value, centre.x, centre.y);
 }
 
 }  // namespace
@@ -40,10 +38,8 @@ void ExplicitDynamics::requireUpright(const Model& model, double dt, double corr
   const auto look = [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       if (determinant(deformationGradient(model, ElementId(e))) > 0) continue;
-      std::ostringstream text;
-      text << nameOf(model, ElementId(e), previousPosition_) << " is inverted in a step of " << dt
-           << " s; take a shorter one.";
-      throw RunError(text.str());
+      throw RunError(fmt::format("{} is inverted in a step of {:g} s; take a shorter one.",
+                                 nameOf(model, ElementId(e), previousPosition_), dt));
     }
   };
   if (anyLargeMove_ || correction > tolerance::kLargeMove * leastHeight_)
@@ -70,8 +66,8 @@ void ExplicitDynamics::refuseElement(const Model& model) {
   std::size_t e = 0;
   while (determinant(deformationGradient(model, ElementId(e))) > 0) ++e;
   const bool inverted = determinant(deformationGradient(model, ElementId(e))) <= 0;
-  throw RunError(nameOf(model, ElementId(e), model.nodes.position) +
-                 (inverted ? " is inverted." : " has a value that is not finite."));
+  throw RunError(fmt::format("{} {}.", nameOf(model, ElementId(e), model.nodes.position),
+                             inverted ? "is inverted" : "has a value that is not finite"));
 }
 
 void ExplicitDynamics::refuseNode(Model& model) {
@@ -79,11 +75,9 @@ void ExplicitDynamics::refuseNode(Model& model) {
   exchangeHeld(nodes);
   std::size_t bad = 0;
   while (isFinite(previousPosition_[bad])) ++bad;
-  std::ostringstream text;
-  text << "node " << bad << " of component " << nodes.component[bad].value << " at ("
-       << nodes.position[bad].x << ", " << nodes.position[bad].y
-       << ") m has a force or a velocity that is not finite.";
-  throw RunError(text.str());
+  throw RunError(fmt::format(
+      "node {} of component {} at ({:g}, {:g}) m has a force or a velocity that is not finite.",
+      bad, nodes.component[bad].value, nodes.position[bad].x, nodes.position[bad].y));
 }
 
 }  // namespace yadefrag

@@ -1,9 +1,10 @@
 #include "dynamics/mesh_step.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "core/tolerances/mesh.hpp"
 #include "dynamics/critical_time_step.hpp"
@@ -76,14 +77,13 @@ std::string costlyStepWarning(const TriangleMesh& mesh, const Component& compone
     const Shape shape = shapeOf(mesh, t);
     if (shape.altitude < worst.altitude) worst = shape;
   }
-  std::array<char, 400> text;
-  (void)std::snprintf(
-      text.data(), text.size(),
-      "the critical time step is %.3g times shorter than with even triangles of the "
-      "size %.4g m, since at (%.6g, %.6g) the outline or a joint requires a triangle with an "
-      "edge of %.3g m and a height of %.3g m; simplify= removes redundant points.",
+  return fmt::format(
+      "the critical time step is {:.3g} times shorter than with even triangles of the size {:.4g} "
+      "m, "
+      "since at ({:g}, {:g}) the outline or a joint requires a triangle with an edge of {:.3g} m "
+      "and a "
+      "height of {:.3g} m; simplify= removes redundant points.",
       factor, size, worst.centre.x, worst.centre.y, worst.shortest, worst.altitude);
-  return text.data();
 }
 
 }  // namespace yadefrag

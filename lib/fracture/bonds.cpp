@@ -1,9 +1,10 @@
 #include "fracture/bonds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
 #include "core/errors.hpp"
@@ -77,15 +78,16 @@ std::vector<BoxPair> nearPairs(const std::vector<Line>& lines) {
 }
 
 std::string named(ComponentId a, ComponentId b) {
-  return "the bodies " + std::to_string(a.value) + " and " + std::to_string(b.value);
+  return fmt::format("the bodies {} and {}", a.value, b.value);
 }
 
 [[noreturn]] void refuseMismatch(ComponentId a, ComponentId b, Vec2 at) {
-  std::ostringstream text;
-  text << "At (" << at.x << ", " << at.y << ") sides of " << named(a, b)
-       << " coincide but have different ends; bonded sides must have the same ends. Give both "
-          "outlines the same points there and the same size, or add one body with joints.";
-  throw InputError(text.str());
+  throw InputError(
+      fmt::format("At ({:g}, {:g}) sides of {} coincide but have different ends; bonded sides must "
+                  "have the same "
+                  "ends. Give both outlines the same points there and the same size, or add one "
+                  "body with joints.",
+                  at.x, at.y, named(a, b)));
 }
 
 }  // namespace
@@ -108,18 +110,18 @@ std::vector<std::array<Side, 2>> matchingSides(const Model& model, const CrackEd
       refuseMismatch(a, b, .5 * (x.begin + x.end));
   }
   if (result.empty())
-    throw InputError("No sides of " + named(a, b) +
-                     " that are not bonded yet lie on each other; bodies to be bonded must touch "
-                     "along sides with the same ends.");
+    throw InputError(fmt::format(
+        "No sides of {} that are not bonded yet lie on each other; bodies to be bonded must touch "
+        "along sides with the same ends.",
+        named(a, b)));
   return result;
 }
 
 void checkBond(double strength, double energy) {
   const auto require = [](const char* name, double value, const char* unit) {
     if (value > 0 && std::isfinite(value)) return;
-    std::ostringstream text;
-    text << name << " is " << value << unit << "; that of a bond must be positive and finite.";
-    throw InputError(text.str());
+    throw InputError(fmt::format("{} is {:g}{}; that of a bond must be positive and finite.", name,
+                                 value, unit));
   };
   require("strength", strength, " Pa");
   require("energy", energy, " J/m²");

@@ -1,10 +1,10 @@
 #include "fracture/checks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <vector>
 
 #include "core/errors.hpp"
@@ -15,22 +15,12 @@
 namespace yadefrag {
 namespace {
 
-std::string text(double value, const char* unit) {
-  std::array<char, 48> buffer;
-  (void)std::snprintf(buffer.data(), buffer.size(), "%.4g%s", value, unit);
-  return buffer.data();
-}
-
 /// A permitted value for messages, with a margin for the rounding to three digits.
-std::string atMost(double value, const char* unit) {
-  std::array<char, 48> buffer;
-  (void)std::snprintf(buffer.data(), buffer.size(), "at most %.3g%s", .99 * value, unit);
-  return buffer.data();
-}
+double atMost(double value) { return .99 * value; }
 
 void require(bool holds, const char* name, double value, const char* unit, const char* right) {
   if (holds) return;
-  throw InputError(std::string(name) + " is " + text(value, unit) + "; it must be " + right + ".");
+  throw InputError(fmt::format("{} is {:.4g}{}; it must be {}.", name, value, unit, right));
 }
 
 struct EdgeSums {
@@ -70,8 +60,8 @@ EdgeSums sumsOf(const Model& model, const Component& body) {
 }
 
 std::string named(double fractureEnergy, ComponentId component) {
-  return "fractureEnergy is " + text(fractureEnergy, " J/m²") + " in component " +
-         std::to_string(component.value);
+  return fmt::format("fractureEnergy is {:.4g} J/m² in component {}", fractureEnergy,
+                     component.value);
 }
 
 /// Cohesive values of one edge.
@@ -90,11 +80,14 @@ void requireResolved(const Cohesive& edge, double crossed, double meanLength, do
   const double ratio = critical / crossed;
   // Masses are proportional to the size squared. With a step in proportion to the size, `crossed`
   // is proportional to the size.
-  throw InputError(edge.name + ": a crack is cohesive up to an opening of " + text(critical, " m") +
-                   ", which a step of " + text(dt, " s") + " does not resolve; a step of " +
-                   atMost(dt * std::sqrt(ratio), " s") + " is sufficient, or elements of " +
-                   atMost(ratio * meanLength, " m") + " (now " + text(meanLength, " m") +
-                   ") with a step in proportion.");
+  throw InputError(
+      fmt::format("{}: a crack is cohesive up to an opening of {:.4g} m, which a step of {:.4g} s "
+                  "does not resolve; "
+                  "a step of at most {:.3g} s is sufficient, or elements of at most {:.3g} m (now "
+                  "{:.4g} m) with a "
+                  "step in proportion.",
+                  edge.name, critical, dt, atMost(dt * std::sqrt(ratio)),
+                  atMost(ratio * meanLength), meanLength));
 }
 
 /// κ/β²: the cohesive zone of a sliding crack has the length E·κGc/(βσc)².
@@ -107,10 +100,11 @@ std::string zoneSentence(double young, const Cohesive& edge, double size) {
       young / edge.strength * edge.fractureEnergy / edge.strength * std::min(1., edge.sliding);
   const double wanted = zone / tolerance::kZoneElements;
   if (size <= wanted) return {};
-  return edge.name + ": the cohesive zone " + (edge.sliding < 1 ? "of a sliding crack " : "") +
-         "is " + text(zone, " m") + " long, less than four elements of " + text(size, " m") +
-         "; notched or cracked bodies carry too much load; elements of " + atMost(wanted, " m") +
-         " are sufficient.";
+  return fmt::format(
+      "{}: the cohesive zone {}is {:.4g} m long, less than four elements of {:.4g} m; notched or "
+      "cracked "
+      "bodies carry too much load; elements of at most {:.3g} m are sufficient.",
+      edge.name, edge.sliding < 1 ? "of a sliding crack " : "", zone, size, atMost(wanted));
 }
 
 /// (m²/kg) (L/2)(1/m₁ + 1/m₂) of an edge, where m is the least mass of a node with one triangle
@@ -160,10 +154,10 @@ Cohesive valuesOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const double energy = edges.fractureEnergy[edge.value];
   const std::string name =
       one == other ? named(energy, one)
-                   : "energy is " + text(energy, " J/m²") + " of the bond between the bodies " +
-                         std::to_string(one.value) + " and " + std::to_string(other.value);
+                   : fmt::format("energy is {:.4g} J/m² of the bond between the bodies {} and {}",
+                                 energy, one.value, other.value);
   return {edges.strength[edge.value], energy,
-          name + " at (" + text(at.x, "") + ", " + text(at.y, "") + ")",
+          fmt::format("{} at ({:.4g}, {:.4g})", name, at.x, at.y),
           slidingOf(materialBetween(model, a, b).brittle)};
 }
 

@@ -1,5 +1,7 @@
 #include "mesh/assembly.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "core/errors.hpp"
@@ -81,8 +83,9 @@ void checkTriangles(const TriangleMesh& mesh) {
     const auto& [a, b, c] = mesh.triangles[t];
     const double twice = cross(mesh.nodes[b] - mesh.nodes[a], mesh.nodes[c] - mesh.nodes[a]);
     if (!(twice > 0))
-      throw InputError("triangle " + std::to_string(t) + " of the mesh has the area " +
-                       std::to_string(twice / 2) + " m²; it must be positive (counter-clockwise).");
+      throw InputError(fmt::format(
+          "triangle {} of the mesh has the area {:g} m²; it must be positive (counter-clockwise).",
+          t, twice / 2));
   }
 }
 

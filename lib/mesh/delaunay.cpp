@@ -1,5 +1,7 @@
 #include "mesh/delaunay.hpp"
 
+#include <fmt/format.h>
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
@@ -91,10 +93,10 @@ class Builder {
   }
 
   [[noreturn]] void refuse(std::uint32_t node) const {
-    throw InputError("Polygon: near (" + std::to_string(boundary_.nodes[node].x) + ", " +
-                     std::to_string(boundary_.nodes[node].y) +
-                     ") two edges are so near each other that dividing them makes them meet; move "
-                     "them apart or make the size larger than the edges.");
+    throw InputError(fmt::format(
+        "Polygon: near ({:g}, {:g}) two edges are so near each other that dividing them makes them "
+        "meet; move them apart or make the size larger than the edges.",
+        boundary_.nodes[node].x, boundary_.nodes[node].y));
   }
 
   /// Numbers the faces inside, which are reached from the left of the boundary without crossing it;

@@ -1,9 +1,9 @@
 #include "mesh/divided_boundary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -14,12 +14,6 @@
 
 namespace yadefrag {
 namespace {
-
-std::string text(double value) {
-  std::array<char, 32> buffer;
-  (void)std::snprintf(buffer.data(), buffer.size(), "%.4g", value);
-  return buffer.data();
-}
 
 double twiceArea(const std::vector<Vec2>& loop) {
   double sum = 0;
@@ -60,19 +54,21 @@ void checkSize(const Polygon& polygon, const SizeField& field, double mostBytes)
   const double triangles =
       field.isEven() ? std::max(filling, extent.parts) : std::min(filling, field.trianglesInGrid());
   if (!(triangles < tolerance::kMostTriangles))
-    throw InputError("Size " + text(size) + " m would give about " + text(triangles) +
-                     " triangles; a mesh can have " + text(tolerance::kMostTriangles) + ".");
+    throw InputError(
+        fmt::format("Size {:.4g} m would give about {:.4g} triangles; a mesh can have {:.4g}.",
+                    size, triangles, tolerance::kMostTriangles));
   const double bytes = triangles * tolerance::kTriangleBytes;
   if (bytes > mostBytes)
-    throw InputError("Size " + text(size) + " m would give about " + text(triangles) +
-                     " triangles, which take about " + text(bytes / 1e9) + " GB, but there are " +
-                     text(mostBytes / 1e9) + " GB of memory; " +
-                     text(size * std::sqrt(bytes / mostBytes)) + " m would fill it.");
+    throw InputError(fmt::format(
+        "Size {:.4g} m would give about {:.4g} triangles, which take about {:.4g} GB, but there "
+        "are "
+        "{:.4g} GB of memory; {:.4g} m would fill it.",
+        size, triangles, bytes / 1e9, mostBytes / 1e9, size * std::sqrt(bytes / mostBytes)));
   if (size < tolerance::kLeastSize * extent.farthest)
-    throw InputError("Size " + text(size) + " m is lost in the rounding of coordinates of " +
-                     text(extent.farthest) +
-                     " m; move the polygon to the origin or use a size of " + "at least " +
-                     text(tolerance::kLeastSize * extent.farthest) + " m.");
+    throw InputError(fmt::format(
+        "Size {:.4g} m is lost in the rounding of coordinates of {:.4g} m; move the polygon to the "
+        "origin or use a size of at least {:.4g} m.",
+        size, extent.farthest, tolerance::kLeastSize * extent.farthest));
 }
 
 /// The same bits from either end.
@@ -178,7 +174,7 @@ class Divider {
 DividedBoundary divideBoundary(const Polygon& given, const SizeField& size, double mostBytes,
                                const JointLines& joints) {
   if (!(size.smallest() > 0) || !std::isfinite(size.largest()))
-    throw InputError("Size " + text(size.smallest()) + " m must be positive and finite.");
+    throw InputError(fmt::format("Size {:.4g} m must be positive and finite.", size.smallest()));
   const Polygon polygon = checkPolygon(given);
   checkSize(polygon, size, mostBytes);
   const CutLines lines = cutAtJoints(polygon, joints, size);

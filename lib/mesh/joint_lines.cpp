@@ -1,10 +1,11 @@
 #include "mesh/joint_lines.hpp"
 
+#include <fmt/format.h>
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 #include <string>
 
@@ -29,10 +30,8 @@ struct Line {
 };
 
 [[noreturn]] void refuse(std::size_t joint, const Line& line, const char* right) {
-  std::array<char, 200> text;
-  (void)std::snprintf(text.data(), text.size(), "joints[%zu] from (%.6g, %.6g) to (%.6g, %.6g) %s.",
-                      joint, line.begin.x, line.begin.y, line.end.x, line.end.y, right);
-  throw InputError(text.data());
+  throw InputError(fmt::format("joints[{}] from ({:g}, {:g}) to ({:g}, {:g}) {}.", joint,
+                               line.begin.x, line.begin.y, line.end.x, line.end.y, right));
 }
 
 class Cutter {

@@ -1,12 +1,12 @@
 #include "mesh/polygon.hpp"
 
+#include <fmt/format.h>
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,14 +38,10 @@ std::vector<Point> toPoints(const Loop& loop) {
 }
 
 std::string nameOf(std::size_t loop) {
-  return loop == 0 ? "the outline" : "hole " + std::to_string(loop - 1);
+  return loop == 0 ? "the outline" : fmt::format("hole {}", loop - 1);
 }
 
-std::string text(Vec2 p) {
-  std::array<char, 64> buffer;
-  (void)std::snprintf(buffer.data(), buffer.size(), "(%.9g, %.9g)", p.x, p.y);
-  return buffer.data();
-}
+std::string text(Vec2 p) { return fmt::format("({:.9g}, {:.9g})", p.x, p.y); }
 
 class Checker {
  public:
@@ -71,19 +67,19 @@ class Checker {
   }
 
   [[nodiscard]] std::string name(Corner c) const {
-    return "vertex " + std::to_string(c.vertex) + " of " + nameOf(c.loop) + " at " + text(at(c));
+    return fmt::format("vertex {} of {} at {}", c.vertex, nameOf(c.loop), text(at(c)));
   }
 
   void checkPoints(std::size_t loop) const {
     const Loop& points = *loops_[loop];
     if (points.size() < 3)
-      throw InputError("Polygon: " + nameOf(loop) + " ends after " + std::to_string(points.size()) +
-                       (points.size() == 1 ? " vertex" : " vertices") +
-                       (points.empty() ? "" : ", the last at " + text(points.back())) +
-                       "; it needs at least three.");
+      throw InputError(fmt::format("Polygon: {} ends after {} {}{}; it needs at least three.",
+                                   nameOf(loop), points.size(),
+                                   points.size() == 1 ? "vertex" : "vertices",
+                                   points.empty() ? "" : ", the last at " + text(points.back())));
     for (std::size_t i = 0; i < points.size(); ++i)
       if (!isFinite(points[i]))
-        throw InputError("Polygon: " + name({loop, i}) + " must have finite coordinates.");
+        throw InputError(fmt::format("Polygon: {} must have finite coordinates.", name({loop, i})));
   }
 
   void checkRepeated() const {
@@ -96,11 +92,11 @@ class Checker {
       if (at(corners[i - 1]) != at(corners[i])) continue;
       const bool closes = corners[i - 1] == Corner{corners[i].loop, 0} &&
                           corners[i].vertex + 1 == loops_[corners[i].loop]->size();
-      throw InputError("Polygon: " + name(corners[i]) + " is the same point as vertex " +
-                       std::to_string(corners[i - 1].vertex) + " of " +
-                       nameOf(corners[i - 1].loop) +
-                       (closes ? "; a loop closes by itself, leave its last point out."
-                               : "; all points must be different."));
+      throw InputError(fmt::format("Polygon: {} is the same point as vertex {} of {}; {}.",
+                                   name(corners[i]), corners[i - 1].vertex,
+                                   nameOf(corners[i - 1].loop),
+                                   closes ? "a loop closes by itself, leave its last point out"
+                                          : "all points must be different"));
     }
   }
 
@@ -108,8 +104,9 @@ class Checker {
     const std::vector<Point> points = toPoints(*loops_[loop]);
     for (std::size_t i = 2; i < points.size(); ++i)
       if (!CGAL::collinear(points[0], points[1], points[i])) return;
-    throw InputError("Polygon: " + name({loop, 0}) + " lies on one line with all others of " +
-                     nameOf(loop) + ", which must enclose an area.");
+    throw InputError(fmt::format(
+        "Polygon: {} lies on one line with all others of {}, which must enclose an area.",
+        name({loop, 0}), nameOf(loop)));
   }
 
   /// The first pair of edges that meet at a forbidden point.
@@ -147,10 +144,11 @@ class Checker {
     const auto found = findCrossing();
     if (!found) return;
     const auto [a, b] = *found;
-    throw InputError("Polygon: the edge that begins at " + name(a) +
-                     " meets the one that begins at " + name(b) +
-                     (a.loop == b.loop ? "; a loop must not cross or touch itself."
-                                       : "; loops must not cross or touch one another."));
+    throw InputError(
+        fmt::format("Polygon: the edge that begins at {} meets the one that begins at {}; {}.",
+                    name(a), name(b),
+                    a.loop == b.loop ? "a loop must not cross or touch itself"
+                                     : "loops must not cross or touch one another"));
   }
 
   void checkArea() const {
@@ -160,9 +158,10 @@ class Checker {
       for (std::size_t k = 2; k < points.size(); ++k)
         twice += cross(points[k - 1] - points[0], points[k] - points[0]);
       if (std::isnormal(twice)) continue;
-      throw InputError("Polygon: " + nameOf(i) + ", from " + name({i, 0}) +
-                       " on, encloses an area that is not a usable number of square metres; "
-                       "coordinates are in metres.");
+      throw InputError(fmt::format(
+          "Polygon: {}, from {} on, encloses an area that is not a usable number of square metres; "
+          "coordinates are in metres.",
+          nameOf(i), name({i, 0})));
     }
   }
 
@@ -174,15 +173,15 @@ class Checker {
       holes.push_back(toPoints(*loops_[i]));
       boxes.push_back(CGAL::bbox_2(holes.back().begin(), holes.back().end()));
       if (!contains(outline, holes.back().front()))
-        throw InputError("Polygon: " + name({i, 0}) +
-                         " is outside the outline; holes must be "
-                         "inside.");
+        throw InputError(
+            fmt::format("Polygon: {} is outside the outline; holes must be inside.", name({i, 0})));
     }
     for (std::size_t i = 0; i < holes.size(); ++i)
       for (std::size_t k = 0; k < holes.size(); ++k)
         if (i != k && CGAL::do_overlap(boxes[i], boxes[k]) && contains(holes[k], holes[i].front()))
-          throw InputError("Polygon: " + name({i + 1, 0}) + " is inside hole " + std::to_string(k) +
-                           "; holes must be beside one another.");
+          throw InputError(
+              fmt::format("Polygon: {} is inside hole {}; holes must be beside one another.",
+                          name({i + 1, 0}), k));
   }
 
   [[nodiscard]] static bool contains(const std::vector<Point>& loop, const Point& point) {

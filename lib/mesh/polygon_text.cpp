@@ -1,5 +1,7 @@
 #include "mesh/polygon_text.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -18,8 +20,8 @@ constexpr std::string_view kSpace = " \t\r\f\v";
   std::string shown;
   for (const char c : found.substr(0, kShown)) shown += c >= ' ' && c <= '~' ? c : '?';
   if (found.size() > kShown) shown += "...";
-  throw InputError("line " + std::to_string(line) + ": '" + shown +
-                   "' must be two finite numbers, x and y in metres.");
+  throw InputError(
+      fmt::format("line {}: '{}' must be two finite numbers, x and y in metres.", line, shown));
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -1,5 +1,7 @@
 #include "mesh/simplify.hpp"
 
+#include <fmt/format.h>
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -8,10 +10,8 @@
 #include <CGAL/Polyline_simplification_2/simplify.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -54,12 +54,6 @@ class Cost {
   double share_;
 };
 
-std::string text(double value) {
-  std::array<char, 32> buffer;
-  (void)std::snprintf(buffer.data(), buffer.size(), "%.4g m", value);
-  return buffer.data();
-}
-
 void checkTolerance(const Loop& loop, const std::string& name, double tolerance) {
   double twiceArea = 0, length = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -69,9 +63,10 @@ void checkTolerance(const Loop& loop, const std::string& name, double tolerance)
   }
   const double most = std::abs(twiceArea) / (2 * length);
   if (!(tolerance < most))
-    throw InputError("simplify is " + text(tolerance) + ", but " + name +
-                     " could vanish; it must be less than that loop's area over its length, " +
-                     text(most) + ".");
+    throw InputError(fmt::format(
+        "simplify is {:.4g} m, but {} could vanish; it must be less than that loop's area "
+        "over its length, {:.4g} m.",
+        tolerance, name, most));
 }
 
 class Simplification {
@@ -132,12 +127,13 @@ double scaleOf(const std::vector<const Loop*>& loops) {
 std::vector<std::vector<std::uint32_t>> verticesToKeep(const Polygon& polygon, double tolerance,
                                                        std::span<const std::uint8_t> pinned) {
   if (!(tolerance > 0) || !std::isfinite(tolerance))
-    throw InputError("simplify is " + text(tolerance) + ", it must be positive and finite.");
+    throw InputError(
+        fmt::format("simplify is {:.4g} m, it must be positive and finite.", tolerance));
   (void)checkPolygon(polygon);
   std::vector<const Loop*> loops{&polygon.outline};
   for (const Loop& hole : polygon.holes) loops.push_back(&hole);
   for (std::size_t i = 0; i < loops.size(); ++i)
-    checkTolerance(*loops[i], i == 0 ? "the outline" : "hole " + std::to_string(i - 1), tolerance);
+    checkTolerance(*loops[i], i == 0 ? "the outline" : fmt::format("hole {}", i - 1), tolerance);
 
   const double scale = scaleOf(loops);
   Simplification simplification(loops, scale, pinned);

@@ -1,5 +1,7 @@
 #include "mesh/structured.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "core/errors.hpp"
@@ -85,14 +87,14 @@ class Grid {
 
 TriangleMesh structuredRectangle(Vec2 low, Vec2 high, int nx, int ny, QuadPattern pattern) {
   if (!isFinite(low) || !isFinite(high) || !(low.x < high.x) || !(low.y < high.y))
-    throw InputError("Rectangle: its corners (" + std::to_string(low.x) + ", " +
-                     std::to_string(low.y) + ") and (" + std::to_string(high.x) + ", " +
-                     std::to_string(high.y) +
-                     ") must be finite, the second above and to the right of the first.");
+    throw InputError(fmt::format(
+        "Rectangle: its corners ({:g}, {:g}) and ({:g}, {:g}) must be finite, the second "
+        "above and to the right of the first.",
+        low.x, low.y, high.x, high.y));
   if (nx < 1 || ny < 1 || 4. * nx * ny > tolerance::kMostTriangles)
-    throw InputError("Rectangle: " + std::to_string(nx) + " × " + std::to_string(ny) +
-                     " quads; there must be at least one each way and in all fewer than " +
-                     std::to_string(static_cast<long>(tolerance::kMostTriangles / 4)) + ".");
+    throw InputError(fmt::format(
+        "Rectangle: {} × {} quads; there must be at least one each way and in all fewer than {}.",
+        nx, ny, static_cast<long>(tolerance::kMostTriangles / 4)));
   return Grid(low, high, nx, ny).build(pattern);
 }
 

@@ -1,8 +1,8 @@
 #include "mesh/triangulate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <numeric>
 
 #include "core/errors.hpp"
@@ -25,12 +25,10 @@ void checkThinnest(const TriangleMesh& mesh) {
                tanMinAngle(mesh.nodes[b[0]], mesh.nodes[b[1]], mesh.nodes[b[2]]);
       });
   const Vec2 p = mesh.nodes[(*thinnest)[0]];
-  std::array<char, 256> text;
-  (void)std::snprintf(text.data(), text.size(),
-                      "Polygon: at (%.9g, %.9g) it is so thin that a triangle would have no area; "
-                      "move its vertices and edges farther apart there.",
-                      p.x, p.y);
-  throw InputError(text.data());
+  throw InputError(
+      fmt::format("Polygon: at ({:.9g}, {:.9g}) it is so thin that a triangle would have no area; "
+                  "move its vertices and edges farther apart there.",
+                  p.x, p.y));
 }
 
 }  // namespace

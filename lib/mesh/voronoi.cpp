@@ -1,5 +1,7 @@
 #include "mesh/voronoi.hpp"
 
+#include <fmt/format.h>
+
 #include <CGAL/Boolean_set_operations_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -126,8 +128,9 @@ class Grains {
     std::set<std::pair<double, double>> known;
     for (int tries = 0; places_.size() < count; ++tries) {
       if (tries == tolerance::kPlaceTries)
-        throw InputError("The outline has no room for " + std::to_string(count) +
-                         " grains: it is too thin, or too far from the origin.");
+        throw InputError(fmt::format(
+            "The outline has no room for {} grains: it is too thin, or too far from the origin.",
+            count));
       const Vec2 way{(random_.symmetric() + 1) / 2, (random_.symmetric() + 1) / 2};
       const Vec2 p{low_.x + way.x * (high_.x - low_.x), low_.y + way.y * (high_.y - low_.y)};
       if (!isInside(p) || !known.insert({p.x, p.y}).second) continue;

@@ -1,7 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <utility>
@@ -116,13 +116,9 @@ bool isSound(const Loop& grain) {
 }
 
 [[noreturn]] void refuse(double shortest) {
-  std::array<char, 160> text;
-  (void)std::snprintf(
-      text.data(), text.size(),
-      "shortest is %.4g m, too long for these grains; it must be less, or the grains "
-      "fewer.",
-      shortest);
-  throw InputError(text.data());
+  throw InputError(fmt::format(
+      "shortest is {:.4g} m, too long for these grains; it must be less, or the grains fewer.",
+      shortest));
 }
 
 }  // namespace

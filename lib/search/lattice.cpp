@@ -1,5 +1,7 @@
 #include "search/lattice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -110,9 +112,9 @@ bool Lattice::reduceThird() {
 /// The vector is computed again from the periods, so that errors do not accumulate.
 void Lattice::subtract(int from, int other, double times) {
   if (!(std::abs(times) < tolerance::kMostShear)) {
-    throw InputError("The periodic cell is sheared beyond " +
-                     std::to_string(static_cast<long>(tolerance::kMostShear)) +
-                     " cells: flip it (O.cell.flipCell).");
+    throw InputError(
+        fmt::format("The periodic cell is sheared beyond {} cells: flip it (O.cell.flipCell).",
+                    static_cast<long>(tolerance::kMostShear)));
   }
   basis_[from] = {};
   for (int i = 0; i < 3; ++i) {

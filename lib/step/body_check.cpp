@@ -1,10 +1,11 @@
 #include "step/body_check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
@@ -19,27 +20,21 @@ namespace {
 
 void require(bool holds, const char* name, double value, const char* unit, const char* right) {
   if (holds) return;
-  std::ostringstream text;
-  text << name << " is " << value << unit << "; it must be " << right << ".";
-  throw InputError(text.str());
+  throw InputError(fmt::format("{} is {:g}{}; it must be {}.", name, value, unit, right));
 }
 
 template <class Values>
 void requireLength(const char* name, const Values& values, const TriangleMesh& mesh) {
   if (values.empty() || values.size() == mesh.nodes.size()) return;
-  std::ostringstream text;
-  text << name << " has " << values.size() << " values, but the mesh has " << mesh.nodes.size()
-       << " nodes.";
-  throw InputError(text.str());
+  throw InputError(fmt::format("{} has {} values, but the mesh has {} nodes.", name, values.size(),
+                               mesh.nodes.size()));
 }
 
 void requireFinite(const char* name, const std::vector<Vec2>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (isFinite(values[i])) continue;
-    std::ostringstream text;
-    text << name << " of node " << i << " is (" << values[i].x << ", " << values[i].y
-         << "); it must be finite.";
-    throw InputError(text.str());
+    throw InputError(fmt::format("{} of node {} is ({:g}, {:g}); it must be finite.", name, i,
+                                 values[i].x, values[i].y));
   }
 }
 
@@ -59,10 +54,10 @@ void checkDisplacement(const TriangleMesh& mesh, const std::vector<Vec2>& displa
   const auto at = [&](std::uint32_t node) { return mesh.nodes[node] + displacement[node]; };
   for (const auto& [a, b, c] : mesh.triangles) {
     if (cross(at(b) - at(a), at(c) - at(a)) > 0) continue;
-    std::ostringstream text;
-    text << "displacement inverts the triangle at (" << mesh.nodes[a].x << ", " << mesh.nodes[a].y
-         << ") m; every triangle must keep its corners' counter-clockwise order.";
-    throw InputError(text.str());
+    throw InputError(
+        fmt::format("displacement inverts the triangle at ({:g}, {:g}) m; every triangle must keep "
+                    "its corners' counter-clockwise order.",
+                    mesh.nodes[a].x, mesh.nodes[a].y));
   }
 }
 
@@ -70,10 +65,8 @@ template <class Value>
 void requireOfTriangles(const char* name, const std::vector<Value>& values,
                         const TriangleMesh& mesh) {
   if (values.empty() || values.size() == mesh.triangles.size()) return;
-  std::ostringstream text;
-  text << name << " has " << values.size() << " values, but the mesh has " << mesh.triangles.size()
-       << " triangles.";
-  throw InputError(text.str());
+  throw InputError(fmt::format("{} has {} values, but the mesh has {} triangles.", name,
+                               values.size(), mesh.triangles.size()));
 }
 
 bool isPositive(double value) { return value > 0 && std::isfinite(value); }
@@ -183,23 +176,21 @@ double fastestWave(const BodySpec& spec) {
 /// Checks that strains and displacements in a step are larger than the rounding of coordinates.
 void checkRounding(const TriangleMesh& mesh, const BodySpec& spec) {
   const Extent extent = extentOf(mesh);
-  std::ostringstream text;
-  if (extent.shortest < tolerance::kLeastSize * extent.farthest) {
-    text << "The mesh has an edge of " << extent.shortest << " m and a coordinate of "
-         << extent.farthest
-         << " m, whose rounding is too large for that edge; edges must be longer than "
-         << tolerance::kLeastSize * extent.farthest << " m, or the scene nearer to the origin.";
-    throw InputError(text.str());
-  }
+  if (extent.shortest < tolerance::kLeastSize * extent.farthest)
+    throw InputError(fmt::format(
+        "The mesh has an edge of {:g} m and a coordinate of {:g} m, whose rounding is too large "
+        "for "
+        "that edge; edges must be longer than {:g} m, or the scene nearer to the origin.",
+        extent.shortest, extent.farthest, tolerance::kLeastSize * extent.farthest));
   double fastest = 0;
   for (const Vec2 velocity : spec.velocity) fastest = std::max(fastest, norm(velocity));
   const double step = extent.shortest / fastestWave(spec);
   const double seen = tolerance::kLeastMotion * extent.farthest;
   if (fastest == 0 || fastest * step >= seen) return;
-  text << "velocity is " << fastest << " m/s at most: at coordinates of " << extent.farthest
-       << " m, a step of " << step << " s would be lost in rounding; it must be zero or above "
-       << seen / step << " m/s, or the scene nearer to the origin.";
-  throw InputError(text.str());
+  throw InputError(fmt::format(
+      "velocity is {:g} m/s at most: at coordinates of {:g} m, a step of {:g} s would be lost in "
+      "rounding; it must be zero or above {:g} m/s, or the scene nearer to the origin.",
+      fastest, extent.farthest, step, seen / step));
 }
 
 void checkStress(const TriangleMesh& mesh, const BodySpec& spec) {
@@ -212,11 +203,11 @@ void checkStress(const TriangleMesh& mesh, const BodySpec& spec) {
     const ElasticMaterial& material = materialOf(spec, t).material;
     if (stretchOf(material, stress)) continue;
     const Vec2 at = mesh.nodes[mesh.triangles[t][0]];
-    std::ostringstream text;
-    text << "stress at (" << at.x << ", " << at.y << ") m is (" << stress[0] << ", " << stress[1]
-         << ", " << stress[2] << ") Pa, by which the material with young " << material.young
-         << " Pa would be strained by more than half; it must be less, and finite.";
-    throw InputError(text.str());
+    throw InputError(
+        fmt::format("stress at ({:g}, {:g}) m is ({:g}, {:g}, {:g}) Pa, by which the material with "
+                    "young {:g} Pa "
+                    "would be strained by more than half; it must be less, and finite.",
+                    at.x, at.y, stress[0], stress[1], stress[2], material.young));
   }
 }
 

@@ -1,7 +1,8 @@
 #include "step/energy_watch.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <sstream>
 
 #include "core/tolerances/step.hpp"
 
@@ -9,20 +10,15 @@ namespace yadefrag {
 
 namespace {
 
-std::ostringstream begin(const WatchedStep& step) {
-  std::ostringstream text;
-  text.precision(3);
-  text << "Step " << step.step << ", time " << step.time << " s: ";
-  return text;
+std::string begin(const WatchedStep& step) {
+  return fmt::format("Step {}, time {:.3g} s: ", step.step, step.time);
 }
 
 /// `most` (J): 0 for bodies that were always at rest.
 std::string amountText(double amount, double most) {
-  std::ostringstream text;
-  text.precision(3);
-  text << amount << " J";
-  if (most > 0) text << ", " << 100 * amount / most << " % of the bodies' energy";
-  return text.str();
+  const std::string text = fmt::format("{:.3g} J", amount);
+  if (!(most > 0)) return text;
+  return fmt::format("{}, {:.3g} % of the bodies' energy", text, 100 * amount / most);
 }
 
 /// Sums over all bodies are computed only for an amount that has grown since the last ones.
@@ -74,22 +70,18 @@ std::string EnergyWatch::contactMessage(const WatchedStep& step, double noise) {
   if (!(amount > std::max(tolerated(reportedCreated), noise))) return {};
   reportedCreated = amount;
   const bool byCracks = -step.ledger.fracture > amount / 2;
-  std::ostringstream text = yadefrag::begin(step);
   const bool bySplits = byCracks && split > amount / 2;
   const char* const cause = bySplits   ? "cracks in bodies with element='smoothed' have"
                             : byCracks ? "cohesive cracks have"
                                        : "contact has";
-  text << cause << " created " << amountText(amount, most) << "; ";
-  if (bySplits)
-    text << "the strains of elements that a crack separates are no longer averaged; "
-            "element='linear' avoids this.";
-  else if (byCracks)
-    text << "take a shorter step, or smaller elements.";
-  else if (step.isPenalty)
-    text << "take the Lagrangian correction, or a shorter step.";
-  else
-    text << "take a shorter step, or smaller elements where bodies touch.";
-  return text.str();
+  const char* const advice =
+      bySplits         ? "the strains of elements that a crack separates are no longer averaged; "
+                         "element='linear' avoids this."
+      : byCracks       ? "take a shorter step, or smaller elements."
+      : step.isPenalty ? "take the Lagrangian correction, or a shorter step."
+                       : "take a shorter step, or smaller elements where bodies touch.";
+  return fmt::format("{}{} created {}; {}", yadefrag::begin(step), cause, amountText(amount, most),
+                     advice);
 }
 
 bool EnergyWatch::isDue(std::uint64_t step) {
@@ -106,34 +98,28 @@ std::string EnergyWatch::growthMessage(const WatchedStep& step, double energy, d
   const double over = step.ledger.total(energy, 0) - expected;
   if (!(over > std::max(tolerated(reportedGrown), noise))) return {};
   reportedGrown = over;
-  std::ostringstream text = yadefrag::begin(step);
-  text << "the time integration has created " << amountText(over, most) << "; " << stepAdvice(step);
-  return text.str();
+  return fmt::format("{}the time integration has created {}; {}", yadefrag::begin(step),
+                     amountText(over, most), stepAdvice(step));
 }
 
 std::string EnergyWatch::stepAdvice(const WatchedStep& step) const {
-  std::ostringstream text;
-  text.precision(3);
   if (changes > std::max(tolerance::kFewChanges, step.step / tolerance::kStepsPerChange))
-    text << "keep the time step constant, or below a third of the critical one: changing often "
-            "between "
-         << leastStep << " and " << mostStep << " s, it excites vibrations.";
-  else
-    text << "take a shorter step: in one of " << step.dt
-         << " s the bodies rotate or deform too much.";
-  return text.str();
+    return fmt::format(
+        "keep the time step constant, or below a third of the critical one: changing often between "
+        "{:.3g} and {:.3g} s, it excites vibrations.",
+        leastStep, mostStep);
+  return fmt::format(
+      "take a shorter step: in one of {:.3g} s the bodies rotate or deform too much.", step.dt);
 }
 
 std::string EnergyWatch::depthMessage(const WatchedStep& step) {
   const double deep = std::min(tolerance::kDeep * step.shortest, step.halo / 2);
   if (step.depth <= std::max(deep, 2 * reportedDepth)) return {};
   reportedDepth = step.depth;
-  std::ostringstream text = yadefrag::begin(step);
-  text << "bodies overlap by " << step.depth << " m, " << step.depth / step.shortest
-       << " of the shortest segment; "
-       << (step.isPenalty ? "take the Lagrangian correction, or a larger penalty factor."
-                          : "take a shorter step.");
-  return text.str();
+  return fmt::format(
+      "{}bodies overlap by {:.3g} m, {:.3g} of the shortest segment; take {}.",
+      yadefrag::begin(step), step.depth, step.depth / step.shortest,
+      step.isPenalty ? "the Lagrangian correction, or a larger penalty factor" : "a shorter step");
 }
 
 }  // namespace yadefrag

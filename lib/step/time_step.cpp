@@ -1,6 +1,6 @@
 // One step of all bodies, in the order of the paper (§2, §4, §5).
 
-#include <sstream>
+#include <fmt/format.h>
 
 #include "core/errors.hpp"
 #include "step/world.hpp"
@@ -17,9 +17,7 @@ void World::step(double dt) {
     advance(dt);
   } catch (const RunError& error) {
     takeBack();
-    std::ostringstream text;
-    text << "Step " << steps << ", time " << time << " s: " << error.what();
-    throw RunError(text.str());
+    throw RunError(fmt::format("Step {}, time {:g} s: {}", steps, time, error.what()));
   } catch (...) {
     takeBack();
     throw;

@@ -1,9 +1,10 @@
 #include "step/world.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -58,7 +59,7 @@ void World::requireBody(ComponentId component, const char* purpose) const {
     const Component& body = model.components[component.value];
     if (body.firstTriangle != body.lastTriangle) return;
   }
-  throw InputError("There is no body " + std::to_string(component.value) + " to " + purpose + ".");
+  throw InputError(fmt::format("There is no body {} to {}.", component.value, purpose));
 }
 
 void World::removeBody(ComponentId component) {
@@ -94,11 +95,10 @@ std::vector<EntryId> World::takeOff(const std::vector<std::uint8_t>& gone,
 
 void World::setLoads(std::vector<Vec2> loads) {
   if (!loads.empty() && loads.size() != model.nodes.size())
-    throw InputError("There are " + std::to_string(loads.size()) + " loads, but " +
-                     std::to_string(model.nodes.size()) + " nodes.");
+    throw InputError(
+        fmt::format("There are {} loads, but {} nodes.", loads.size(), model.nodes.size()));
   for (std::size_t i = 0; i < loads.size(); ++i)
-    if (!isFinite(loads[i]))
-      throw InputError("The load of node " + std::to_string(i) + " is not finite.");
+    if (!isFinite(loads[i])) throw InputError(fmt::format("The load of node {} is not finite.", i));
   model.nodes.load = std::move(loads);
 }
 
@@ -163,13 +163,11 @@ void World::requireStableStep(double dt) {
   if (critical == 0)
     throw TimeStepError("No time step is stable: a velocity or a node's place is too large.");
   // Without elements any finite step is stable.
-  if (!(dt > 0 && dt <= critical && std::isfinite(dt))) {
-    std::ostringstream text;
-    text.precision(6);
-    text << "The time step is " << dt << " s, but must be above 0 and at most " << critical
-         << " s, the critical step of the present mesh.";
-    throw TimeStepError(text.str());
-  }
+  if (!(dt > 0 && dt <= critical && std::isfinite(dt)))
+    throw TimeStepError(
+        fmt::format("The time step is {:g} s, but must be above 0 and at most {:g} s, the critical "
+                    "step of the present mesh.",
+                    dt, critical));
   for (std::size_t c = 0; c < model.components.size(); ++c)
     if (model.components[c].brittle.cracks())
       checkCohesiveResolution(model, fracture.edges, ComponentId(c), dt);

@@ -1,5 +1,7 @@
 // World: prescribed motion.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -14,8 +16,8 @@ namespace yadefrag {
 void World::requireNodes(std::span<const NodeId> nodes) const {
   for (const NodeId node : nodes)
     if (node.value >= model.nodes.size())
-      throw InputError("There is no node " + std::to_string(node.value) + ": there are " +
-                       std::to_string(model.nodes.size()) + " nodes.");
+      throw InputError(
+          fmt::format("There is no node {}: there are {} nodes.", node.value, model.nodes.size()));
 }
 
 void World::prescribe(std::span<const NodeId> nodes, std::uint8_t held, Vec2 velocity) {

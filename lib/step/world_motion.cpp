@@ -1,9 +1,10 @@
 // Refuses bodies and steps for which contact could be missed or wrong: bodies that overlap
 // initially, or displacements that are too large.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "core/errors.hpp"
 #include "core/tolerances/step.hpp"
@@ -52,17 +53,12 @@ void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec,
   places_.update(model, surfaces);
   const auto overlap = findOverlap(model, surfaces, places_, mesh, spec);
   if (!overlap) return;
-  std::ostringstream text;
-  text.precision(9);
   const Component& other = model.components[overlap->body.value];
-  text << subject << " overlaps ";
-  if (other.rigid)
-    text << other.name;
-  else
-    text << "body " << overlap->body.value;
-  text << " at (" << overlap->place.x << ", " << overlap->place.y
-       << ") m; it may touch others at the start, but not overlap them.";
-  throw InputError(text.str());
+  throw InputError(
+      fmt::format("{} overlaps {} at ({:.9g}, {:.9g}) m; it may touch others at the start, but not "
+                  "overlap them.",
+                  subject, other.rigid ? other.name : fmt::format("body {}", overlap->body.value),
+                  overlap->place.x, overlap->place.y));
 }
 
 /// With larger displacements neither the search nor the deformation would be meaningful.
@@ -77,11 +73,11 @@ void World::requireBoundedMotion(double dt) {
     throw RunError(
         "a node leaves the range of numbers; loads, gravity or velocities are too large for any "
         "step.");
-  std::ostringstream text;
-  text << "a node moves by " << most << " m in one step, but may not by more than "
-       << tolerance::kFarthestMove << " times the shortest segment, " << finest_
-       << " m; take a step of at most " << dt * tolerance::kFarthestMove * finest_ / most << " s.";
-  throw RunError(text.str());
+  throw RunError(fmt::format(
+      "a node moves by {:g} m in one step, but may not by more than {:g} times the shortest "
+      "segment, "
+      "{:g} m; take a step of at most {:g} s.",
+      most, tolerance::kFarthestMove, finest_, dt * tolerance::kFarthestMove * finest_ / most));
 }
 
 void World::requireResolvedMotion(double dt) {
@@ -101,12 +97,11 @@ void World::requireResolvedMotion(double dt) {
     }
   if (most <= tolerance::kMostMotion) return;
   const Vec2 at = before.slave(fastest);
-  std::ostringstream text;
-  text << "at (" << at.x << ", " << at.y << ") m a body moves against another by " << most
-       << " of a segment in one step, but may not by more than " << tolerance::kMostMotion
-       << "; otherwise contact could be missed; take a step of at most "
-       << dt * tolerance::kMostMotion / most << " s.";
-  throw RunError(text.str());
+  throw RunError(fmt::format(
+      "at ({:g}, {:g}) m a body moves against another by {:g} of a segment in one step, but may "
+      "not by "
+      "more than {:g}; otherwise contact could be missed; take a step of at most {:g} s.",
+      at.x, at.y, most, tolerance::kMostMotion, dt * tolerance::kMostMotion / most));
 }
 
 /// Forces so large that their work exceeds the range of numbers.

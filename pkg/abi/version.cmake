@@ -15,13 +15,13 @@ endif()
 execute_process(
   COMMAND ${Python3_EXECUTABLE} ${abi_dir}/tools/make_table.py "${found_version}" ${YADEFRAG_VERSION}
           ${generated_dir}/abi/layout_table.hpp ${package_dir}/_built.py
-  OUTPUT_VARIABLE told OUTPUT_STRIP_TRAILING_WHITESPACE
+  OUTPUT_VARIABLE reason OUTPUT_STRIP_TRAILING_WHITESPACE
   RESULT_VARIABLE failed)
 file(GLOB version_files CONFIGURE_DEPENDS ${abi_dir}/versions/*.json)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${version_files} ${yade_config}
                                        ${abi_dir}/tools/make_table.py)
 if(failed)
-  message(WARNING "pkg skipped: ${told}")
+  message(WARNING "pkg skipped: ${reason}")
 else()
   set(YADEFRAG_YADE_VERSION ${found_version})
 endif()

@@ -1,8 +1,9 @@
 #include "fe/entry_bodies.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
@@ -97,10 +98,10 @@ bool isPresent(const yade::Scene& scene, yade::Body::id_t id) {
     throw RunError(
         "The bodies of this FESolver are not in the scene any more (O.reset, O.load, O.switchScene "
         "or O.bodies.clear left them behind); this scene needs a new FESolver.");
-  std::ostringstream text;
-  text << "Body #" << id << " is no longer in the scene, but it is part of the boundary of a "
-       << "body of FESolver: remove whole bodies only, with FESolver.removeBody.";
-  throw RunError(text.str());
+  throw RunError(
+      fmt::format("Body #{} is no longer in the scene, but it is part of the boundary of a body of "
+                  "FESolver: remove whole bodies only, with FESolver.removeBody.",
+                  id));
 }
 
 }  // namespace
@@ -172,10 +173,10 @@ void EntryBodies::requireWhole(std::size_t entry) const {
                             : !body.material               ? "material"
                                                            : nullptr;
   if (!wrong) return;
-  std::ostringstream text;
-  text << "Body #" << body.getId() << " has lost its " << wrong << ", but it is part of the "
-       << "boundary of a body of FESolver: a script must not replace it.";
-  throw RunError(text.str());
+  throw RunError(fmt::format(
+      "Body #{} has lost its {}, but it is part of the boundary of a body of FESolver: a "
+      "script must not replace it.",
+      body.getId(), wrong));
 }
 
 void EntryBodies::requireWhole() const {

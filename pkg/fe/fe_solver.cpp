@@ -1,5 +1,7 @@
 #include "fe/fe_solver.hpp"
 
+#include <fmt/format.h>
+
 #include <omp.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <iostream>
 #include <limits>
 #include <mutex>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -92,13 +93,11 @@ void FESolver::countSphereEnergy(double born) {
   const int before = doublings(energyFromSpheres);
   energyFromSpheres += born;
   if (doublings(energyFromSpheres) <= before) return;
-  std::ostringstream text;
-  text.precision(3);
-  text << "Step " << world_.steps << ", time " << world_.time
-       << " s: where cracks opened under spheres, new contacts have created " << energyFromSpheres
-       << " J, " << 100 * energyFromSpheres / world_.watch.most
-       << " % of the bodies' energy; stiffer spheres overlap the new corners less.";
-  world_.warnings.push_back(text.str());
+  world_.warnings.push_back(fmt::format(
+      "Step {}, time {:.3g} s: where cracks opened under spheres, new contacts have created {:.3g} "
+      "J, "
+      "{:.3g} % of the bodies' energy; stiffer spheres overlap the new corners less.",
+      world_.steps, world_.time, energyFromSpheres, 100 * energyFromSpheres / world_.watch.most));
 }
 
 /// Writes the new warnings.
@@ -269,11 +268,8 @@ void FESolver::removeBody(int component) {
   const auto& components = world_.model.components;
   const auto index = static_cast<std::size_t>(component);
   if (component < 0 || index >= components.size() ||
-      components[index].firstTriangle == components[index].lastTriangle) {
-    std::ostringstream text;
-    text << "component is " << component << ", which is no body of this FESolver.";
-    throw InputError(text.str());
-  }
+      components[index].firstTriangle == components[index].lastTriangle)
+    throw InputError(fmt::format("component is {}, which is no body of this FESolver.", component));
   surveyed_ = 0;
   bodies_.remove(here, world_, ComponentId(index));
   world_.removeBody(ComponentId(index));
@@ -285,38 +281,40 @@ double FESolver::criticalTimeStep() {
 }
 
 void FESolver::checkSettings() const {
-  const auto refuse = [](const char* name, const auto& value, const char* right) {
-    std::ostringstream text;
-    text << "FESolver." << name << " is " << value << ", it must be " << right << ".";
-    throw std::invalid_argument(text.str());
+  const auto refuse = [](const char* name, const std::string& value, const char* right) {
+    throw std::invalid_argument(
+        fmt::format("FESolver.{} is {}, it must be {}.", name, value, right));
+  };
+  const auto refuseNumber = [&](const char* name, double value, const char* right) {
+    refuse(name, fmt::format("{:g}", value), right);
   };
   const auto shown = [](const std::string& text) {
-    return text.size() <= 40 ? "'" + text + "'"
-                             : "a text of " + std::to_string(text.size()) + " bytes";
+    return text.size() <= 40 ? fmt::format("'{}'", text)
+                             : fmt::format("a text of {} bytes", text.size());
   };
   if (correction != "lagrange" && correction != "penalty")
     refuse("correction", shown(correction), "'lagrange' or 'penalty'");
   if (entry != "path" && entry != "flags") refuse("entry", shown(entry), "'path' or 'flags'");
   if (view != "component" && view != "fragment" && view != "mises")
     refuse("view", shown(view), "'component', 'fragment' or 'mises'");
-  if (passes != 1 && passes != 2) refuse("passes", passes, "1 or 2");
+  if (passes != 1 && passes != 2) refuseNumber("passes", passes, "1 or 2");
   if (!(penaltyFactor > 0 && penaltyFactor <= 1))
-    refuse("penaltyFactor", penaltyFactor, "above 0 and at most 1");
+    refuseNumber("penaltyFactor", penaltyFactor, "above 0 and at most 1");
   if (!(halo >= 0 && halo <= tolerance::kWidestHalo))
-    refuse("halo", halo, "positive and at most 0.5, or 0 for a width that depends on the speed");
-  if (!(damping >= 0 && std::isfinite(damping))) refuse("damping", damping, "0 or positive");
-  if (maxCracks < -1) refuse("maxCracks", maxCracks, "0 or positive, or -1 for no limit");
+    refuseNumber("halo", halo,
+                 "positive and at most 0.5, or 0 for a width that depends on the speed");
+  if (!(damping >= 0 && std::isfinite(damping))) refuseNumber("damping", damping, "0 or positive");
+  if (maxCracks < -1) refuseNumber("maxCracks", maxCracks, "0 or positive, or -1 for no limit");
   if (!(minFragmentArea >= 0 && std::isfinite(minFragmentArea)))
-    refuse("minFragmentArea", minFragmentArea, "positive (m²), or 0 to keep all fragments");
-  if (!gravity.allFinite() || gravity[2] != 0) {
-    std::ostringstream text;
-    text << "(" << gravity[0] << ", " << gravity[1] << ", " << gravity[2] << ")";
-    refuse("gravity", text.str(), "finite, and z must be 0: bodies move in the plane z = 0 only");
-  }
+    refuseNumber("minFragmentArea", minFragmentArea, "positive (m²), or 0 to keep all fragments");
+  if (!gravity.allFinite() || gravity[2] != 0)
+    refuse("gravity", fmt::format("({:g}, {:g}, {:g})", gravity[0], gravity[1], gravity[2]),
+           "finite, and z must be 0: bodies move in the plane z = 0 only");
   const auto isViscosity = [](double v) { return v >= 0 && v <= tolerance::kMostViscosity; };
   const char* viscosity = "0 or positive, and at most 1e6";
-  if (!isViscosity(linearViscosity)) refuse("linearViscosity", linearViscosity, viscosity);
-  if (!isViscosity(quadraticViscosity)) refuse("quadraticViscosity", quadraticViscosity, viscosity);
+  if (!isViscosity(linearViscosity)) refuseNumber("linearViscosity", linearViscosity, viscosity);
+  if (!isViscosity(quadraticViscosity))
+    refuseNumber("quadraticViscosity", quadraticViscosity, viscosity);
 }
 
 void FESolver::postLoad(FESolver& /*self*/) {

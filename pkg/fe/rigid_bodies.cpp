@@ -1,9 +1,10 @@
 #include "fe/rigid_bodies.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "core/tolerances/collider.hpp"
@@ -99,8 +100,10 @@ bool RigidBodies::takeNew(const yade::Scene& scene, int mask) {
     const auto isKnown = [&](const Member& member) { return member.id == body->id; };
     if (std::ranges::any_of(members_, isKnown)) continue;
     if (isFlat(*body) && !std::exchange(reportedFlat_, true))
-      sentences_.push_back("FE bodies go through facets that lie in their plane z = 0, such as #" +
-                           std::to_string(body->id) + ": a facet must cut the plane.");
+      sentences_.push_back(fmt::format(
+          "FE bodies go through facets that lie in their plane z = 0, such as #{}: a facet "
+          "must cut the plane.",
+          body->id));
     members_.push_back({body->id, body, formOf(*body->shape)});
     members_.back().isOut = true;
     anyNew = comesBack(members_.back()) || anyNew;
@@ -190,7 +193,7 @@ std::vector<RigidPart> RigidBodies::parts(std::vector<std::uint32_t>& memberOf, 
     for (const Vec2 point : section->points)
       after.push_back(inPlane(then.place(now.local(inSpace(point)))));
     all.push_back({std::move(*section), std::move(after), frictionOf(body),
-                   body.shape->getClassName() + " #" + std::to_string(member.id)});
+                   fmt::format("{} #{}", body.shape->getClassName(), member.id)});
     memberOf.push_back(static_cast<std::uint32_t>(&member - members_.data()));
   }
   return all;
@@ -301,9 +304,10 @@ void RigidBodies::warnOfUnmoved() const {
   for (const RigidCorner& corner : corners_) {
     const yade::Body& body = *members_[corner.member].body;
     if (body.state->vel.isZero(0) && body.state->angVel.isZero(0)) continue;
-    sentences_.push_back(body.shape->getClassName() + " #" + std::to_string(body.id) +
-                         " has a velocity, but no NewtonIntegrator behind FESolver moves it: "
-                         "engines(fe, moving=True) has one.");
+    sentences_.push_back(
+        fmt::format("{} #{} has a velocity, but no NewtonIntegrator behind FESolver moves it: "
+                    "engines(fe, moving=True) has one.",
+                    body.shape->getClassName(), body.id));
     return;
   }
 }
@@ -364,12 +368,11 @@ void RigidBodies::warnOfLight(const yade::Scene& scene, const World& world) cons
     const yade::Body& body = *members_[m].body;
     const yade::State& state = mover(scene, body);
     if (state.blockedDOFs == yade::State::DOF_ALL || touched[m] <= state.mass) continue;
-    std::ostringstream text;
-    text.precision(3);
-    text << body.shape->getClassName() << " #" << body.id << " has a mass of " << state.mass
-         << " kg, less than the nodes of FE bodies that it touches, " << touched[m]
-         << " kg: it bounces back faster than it came; make it heavier, or the elements smaller.";
-    sentences_.push_back(text.str());
+    sentences_.push_back(fmt::format(
+        "{} #{} has a mass of {:.3g} kg, less than the nodes of FE bodies that it touches, {:.3g} "
+        "kg: "
+        "it bounces back faster than it came; make it heavier, or the elements smaller.",
+        body.shape->getClassName(), body.id, state.mass, touched[m]));
     reportedLight_ = true;
     return;
   }

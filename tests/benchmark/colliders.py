@@ -185,7 +185,7 @@ def _known(names, known):
 
 
 def main(arguments):
-    """Measure what the arguments ask for; reports what there is even when interrupted."""
+    """Measure according to the arguments; report the results so far if interrupted."""
     options = _parse(arguments)
     runner, grids = Runner(options), []
     places = [(scene, n) for n in options.sizes for scene in options.scenes]

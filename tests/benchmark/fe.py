@@ -45,8 +45,7 @@ def main(arguments):
 
 
 def _line(machine):
-    return (f"{machine['cpu']}, {machine['cores']} cores, {machine['date']}, "
-            f"commit {machine['commit']}")
+    return f"{machine['machine']}, {machine['date']}, commit {machine['commit']}"
 
 
 def _parse(arguments):

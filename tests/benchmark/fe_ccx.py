@@ -7,7 +7,7 @@ elements do not take an initial velocity together with explicit contact (the vel
 cylinder is spoiled in the first increment), so each triangle becomes a wedge C3D6 between two layers
 of nodes that are held in z, which is plane strain with twice the nodes. Contact is its penalty
 contact NODE TO SURFACE, ours without penetration. It chooses its own increment (DIRECT stops it).
-Its explicit contact stays soft whatever stiffness is asked for (10¹⁴ to 10¹⁶ Pa/m give the same
+Its explicit contact stays soft with any stiffness (10¹⁴ to 10¹⁶ Pa/m give the same
 contact of 15 µs instead of 11): a plain explicit code of 50 lines on the same mesh gave our course
 with springs of 10¹² N/m a node and CalculiX's with 10¹¹ N/m. So the answers differ by that.
 """
@@ -41,7 +41,7 @@ def main(arguments):
 
 
 def compare(program, across, repeat):
-    """Lines of Markdown; says what is missing where ccx is not installed or fails."""
+    """Lines of Markdown; reports what is missing if ccx is not installed or fails."""
     if not shutil.which('ccx'):
         return ['CalculiX is not installed: `apt-get install calculix-ccx`, then run this again.']
     with tempfile.TemporaryDirectory() as folder:
@@ -70,7 +70,7 @@ def runOurs(program, across, repeat, folder):
 
 
 def runTheirs(folder, repeat):
-    """dict: seconds (median, without ccx's start); or a sentence that says what went wrong."""
+    """dict: seconds (median, without ccx's start); or a sentence with the error."""
     times = []
     for _ in range(repeat):
         start = time.perf_counter()

@@ -86,7 +86,7 @@ def runSearches(options, folder):
 
 
 def _bench(options, which, repeat, environment):
-    """Rows of one call of the benchmark program; frames and searches are told apart by `which`."""
+    """Rows of one call of the benchmark program; `which` chooses frames or searches."""
     print('running', which, file=sys.stderr, flush=True)
     command = [options.program, f'--benchmark_filter={which}', '--benchmark_format=json',
                f'--benchmark_repetitions={repeat}', '--benchmark_display_aggregates_only=false',
@@ -207,7 +207,7 @@ EDGES = {'squares': 'b: side of a square', 'rings': 'b: shortest segment',
          'bars': 'b: segment before bending'}
 CAPTION = """\
 Comparison: of two integers or two coordinates. Codes: 4 a node and 1 a level crossed; 1 each code \
-looked at to place a moved code or a range; 5 a node in a range.
+compared to place a moved code or a range; 5 a node in a range.
 HO: 4 a tree node refitted, 4 a pair of groups, 4 a node met. Sweep-and-prune: 1 each two bounds, \
 4 an overlap test. δ: half the shortest segment. SPC, LPC and HO find the same candidates."""
 

@@ -15,7 +15,7 @@ kCalm = dict(PYTHONHASHSEED='0', OMP_WAIT_POLICY='passive', OMP_NUM_THREADS='1')
 
 
 def count(command, folder, timeout=600):
-    """(what the command printed, [[Cost]]): it says itself, by client requests, what is counted.
+    """(what the command printed, [[Cost]]): its client requests determine what is counted.
 
     Raises RuntimeError with the end of its output if it fails."""
     out = os.path.join(folder, 'callgrind.out')

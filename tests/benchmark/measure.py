@@ -8,7 +8,7 @@ steps    at most so many measured steps (0: by the number of bodies, see `_stepL
 other    attributes of the collider
 
 Small scenes are built and measured again, up to five times within the budget, and the medians kept
-(`rounds` says how often).
+(`rounds`: how often).
 
 Times are taken by YADE's own per-engine counters (s); `wallPerStep` is the clock around O.step and
 `sumPerStep` collider + loop + integrator. Values per step are means over the measured steps, cut to

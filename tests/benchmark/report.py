@@ -1,15 +1,16 @@
 """Tables and plots of `scripts/bench colliders`."""
-import datetime
 import json
 import os
-import re
 import statistics
-import subprocess
+import sys
 
 import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'examples'))
+import origin  # noqa: E402
 
 RIVAL = 'InsertionSortCollider'
 NAMES = {RIVAL: 'YADE default', 'tuned': 'YADE tuned', 'LebesgueCollider': 'Lebesgue',
@@ -21,7 +22,7 @@ TIMES = [('first', 'first activation'), ('perActivation', 'each later activation
 
 
 def write(folder, rows, grids, options):
-    """Write colliders.json, colliders.md and the plots into the folder, and say where."""
+    """Write colliders.json, colliders.md and the plots into the folder, and print their folder."""
     os.makedirs(folder, exist_ok=True)
     machine = _machine(rows)
     raw = dict(machine=machine, repeat=options.repeat, seed=options.seed, budget=options.budget,
@@ -61,19 +62,14 @@ def summarise(rows):
 
 
 def _machine(rows):
-    """Processor, cores, date, versions."""
-    with open('/proc/cpuinfo') as f:
-        model = re.search(r'model name\s*: (.*)', f.read())
-    git = subprocess.run(['git', '-C', os.path.dirname(os.path.abspath(__file__)), 'describe',
-                          '--always', '--dirty'], capture_output=True, text=True, check=False)
-    return dict(cpu=model.group(1).strip() if model else 'unknown', cores=os.cpu_count(),
-                date=datetime.date.today().isoformat(), commit=git.stdout.strip() or 'unknown',
+    """Machine, date, versions."""
+    return dict(machine=origin.machine(), date=origin.date(), commit=origin.commit(),
                 yade=next((r['yade'] for r in rows if 'yade' in r), 'unknown'))
 
 
 def line(machine, used='one used'):
     """The machine in one line."""
-    return (f"{machine['cpu']}, {machine['cores']} cores ({used}), {machine['date']}, "
+    return (f"{machine['machine']} ({used}), {machine['date']}, "
             f"YADE {machine['yade']}, commit {machine['commit']}")
 
 

@@ -4,7 +4,7 @@ Plain Python; every scene and size is a process of its own (yadefrag_rivals), in
 see the same boxes and have to find the same pairs:
 
     Lebesgue, LinearCode, Hierarchy   the paper's three
-    Lebesgue, told what moved         the first, which looks only at boxes that are said to have moved
+    Lebesgue, moved boxes given       the first, which searches only for the boxes given as moved
     LinearBvh                         a tree over position codes (Karras 2012)
     cell list                         a grid with cells as long as the longest box
     CGAL                              box_self_intersection_d
@@ -19,13 +19,15 @@ the table also goes into docs/measured.md.
 import argparse
 import json
 import os
-import platform
 import subprocess
 import sys
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(ROOT, 'examples'))
+import origin  # noqa: E402
+
 SCENES = ['uniform', 'few move', 'clusters', 'sizes', 'slivers']
 MARKS = ('<!-- searches -->', '<!-- end of searches -->')
 
@@ -104,19 +106,12 @@ def plot(rows, file):
     figure.savefig(file, dpi=100, bbox_inches='tight')
 
 
-def processor():
-    """Name of the processor and how many there are."""
-    with open('/proc/cpuinfo') as info:
-        names = [line.split(':')[1].strip() for line in info if line.startswith('model name')]
-    return f'{names[0] if names else platform.machine()}, {os.cpu_count()} cores'
-
-
 def report(rows, options):
-    """Write search.json, search.md, search.png and, if asked to, the manual's table."""
+    """Write search.json, search.md, search.png and, if requested, the manual's table."""
     os.makedirs(options.out, exist_ok=True)
     with open(os.path.join(options.out, 'search.json'), 'w') as file:
         json.dump(rows, file, indent=1)
-    about = f'{processor()}, {time.strftime("%-d %B %Y")}, `scripts/bench search`'
+    about = f'{origin.line()}, `scripts/bench search`'
     parts = [f'ms for the first search and a later one of {n:,} boxes, {t} thread(s). {about}.\n\n'
              + table(rows, n, t) for t in options.threads for n in options.sizes]
     with open(os.path.join(options.out, 'search.md'), 'w') as file:

@@ -8,10 +8,8 @@ many bytes to its arrays, and what it costs the same scene to use it.
 """
 import argparse
 import collections
-import datetime
 import json
 import os
-import re
 import statistics
 import subprocess
 import sys
@@ -22,6 +20,9 @@ from instructions import Feature
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(ROOT, 'examples'))
+import origin  # noqa: E402
+
 RINGS, STEPS = 8, 100
 # Scenes of bodies far from each other: steps, enough to look whether they still are.
 FAR = dict(blocks=100, squares=400, farRings=400)
@@ -50,7 +51,7 @@ def contactCode(root=ROOT):
 
 
 def run(program, *arguments):
-    """What yadefrag_unused says: a dict."""
+    """Output of yadefrag_unused: a dict."""
     done = subprocess.run([program, *map(str, arguments)], stdout=subprocess.PIPE, text=True,
                           check=True, env=dict(os.environ, **instructions.kCalm))
     return json.loads(done.stdout)
@@ -63,9 +64,9 @@ def counted(program, folder, *arguments):
 
 
 def unusedShares(program, folder, root=ROOT):
-    """({feature: share of the instructions of a scene that does not use it}, what the run said)."""
-    said, costs = counted(program, folder, 'rings', RINGS, STEPS)
-    return {name: feature.share(costs) for name, feature in features(root).items()}, said
+    """({feature: share of the instructions of a scene that does not use it}, output of the run)."""
+    printed, costs = counted(program, folder, 'rings', RINGS, STEPS)
+    return {name: feature.share(costs) for name, feature in features(root).items()}, printed
 
 
 def farShare(program, folder, scene, root=ROOT):
@@ -80,15 +81,15 @@ def spheres(ways, counting, number, steps, yade='/usr/bin/yade'):
             counting, str(number), str(steps), *ways]
 
 
-def said(text):
+def printed(text):
     """[dict], one a way."""
     return [json.loads(line[4:]) for line in text.splitlines() if line.startswith('@@@ ')]
 
 
 def countSpheres(counting, folder, number, steps):
-    """({way: [Cost]}, what was said); without the plugin twice, and the second time taken."""
+    """({way: [Cost]}, output); without the plugin twice, and the second time taken."""
     text, dumps = instructions.count(spheres(('absent', *WAYS), counting, number, steps), folder)
-    return dict(zip(WAYS, dumps[1:])), said(text)
+    return dict(zip(WAYS, dumps[1:])), printed(text)
 
 
 def addingPerEntry(counting, folder, few=20, many=420, counted=4, yade='/usr/bin/yade'):
@@ -96,7 +97,7 @@ def addingPerEntry(counting, folder, few=20, many=420, counted=4, yade='/usr/bin
     command = ['/usr/bin/python3', yade, '-n', '-x', '-j1', os.path.join(HERE, 'unused_adding.py'),
                counting, str(few), str(many), str(counted)]
     text, dumps = instructions.count(command, folder)
-    before = [row['entries'] for row in said(text)]
+    before = [row['entries'] for row in printed(text)]
     costs = [byObject(dump)['_yadefrag.so'] / counted for dump in dumps]
     return (costs[1] - costs[0]) / (before[1] - before[0])
 
@@ -117,7 +118,7 @@ def main(arguments):
     with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
         elements = _measureElements(program, folder, options.repeat)
         balls = _measureSpheres(counting, folder, options.repeat)
-    machine = _machine()
+    machine = origin.line()
     text = '\n'.join(['# What is not used costs nothing', '', machine + '.', '',
                       *_elementTable(elements), '', *_sphereTable(balls)])
     os.makedirs(options.out, exist_ok=True)
@@ -161,7 +162,7 @@ def _measureSpheres(counting, folder, repeat):
         for _ in range(repeat):
             done = subprocess.run(spheres((way,), counting, 3000, 200), stdout=subprocess.PIPE,
                                   text=True, check=True)
-            runs += said(done.stdout)
+            runs += printed(done.stdout)
         rows[way] = {key: statistics.median(r[key] for r in runs)
                      for key in ('importing', 'step', 'peak')}
         rows[way].update(instructions=instructions.total(costs[way]) / base,
@@ -188,13 +189,6 @@ def _sphereTable(rows):
                    f"{1e3 * row['importing']:.0f} ms | {1e3 * row['step']:.2f} ms | "
                    f"{row['peak'] / 2**20:.1f} MB |")
     return out
-
-
-def _machine():
-    with open('/proc/cpuinfo', encoding='utf-8') as file:
-        model = re.search(r'model name\s*: (.*)', file.read())
-    return f"{model.group(1).strip() if model else 'unknown'}, {os.cpu_count()} cores, " \
-           f'{datetime.date.today().isoformat()}'
 
 
 def _parse(arguments):

@@ -27,7 +27,7 @@ struct SurfaceScene {
   std::vector<Vec2> at;  ///< m, by node
   std::uint32_t components = 0;
 
-  /// A body of one loop (material on the left), without smooth nodes unless told; its first entry.
+  /// A body of one loop (material on the left), smooth nodes only if given; its first entry.
   EntryId addBody(const std::vector<Vec2>& points, std::vector<std::uint8_t> smooth = {}) {
     const EntryId first(surfaces.entries());
     std::vector<NodeId> nodes;

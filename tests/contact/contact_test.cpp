@@ -12,7 +12,7 @@
 namespace yadefrag::test {
 namespace {
 
-/// Surfaces with masses, and what the caller says of a step.
+/// Surfaces with masses, and the data of a step.
 struct ContactScene {
   SurfaceScene scene;
   Model model;
@@ -72,8 +72,8 @@ TEST(Contact, ARowThatContradictsAnotherCarriesNoFriction) {
 
 /// A light corner that one row throws far and the next one brings back, and a needle that comes
 /// down on the side of it. In the second scan that side is far away; the needle must be detected
-/// all the same when it arrives, in the step in which it would be without any row asleep.
-int stepsUntilTouch(bool sleeps) {
+/// all the same when it arrives, in the same step as if no row were skipped.
+int stepsUntilTouch(bool skips) {
   ContactScene s;
   const EntryId body = s.scene.addBody({{0, 0}, {9, -1}, {10, 0}});
   const EntryId floor = s.scene.addBody({{-5, -5}, {.01, -5}, {.01, -.05}, {-5, -.05}});
@@ -87,7 +87,7 @@ int stepsUntilTouch(bool sleeps) {
   s.model.nodes.mass[s.nodeOf(coming)] = 1e-9;
   for (std::size_t k = 0; k < 3; ++k) s.model.nodes.position[s.nodeOf(pressing + k)].y -= .1;
   for (int step = 0; step < 40; ++step) {
-    if (!sleeps) s.contact.candidates.idleDistance.clear();
+    if (!skips) s.contact.candidates.idleDistance.clear();
     s.correct();
     if (s.rowOf(arrival)) return step;
     for (std::size_t k = 0; k < 3; ++k) s.model.nodes.position[s.nodeOf(coming + k)].y -= s.move;
@@ -95,7 +95,7 @@ int stepsUntilTouch(bool sleeps) {
   return -1;
 }
 
-TEST(Contact, NoRowSleepsTooLongAfterAStepWithTwoScans) {
+TEST(Contact, NoRowIsSkippedTooLongAfterAStepWithTwoScans) {
   const int wanted = stepsUntilTouch(false);
   EXPECT_GT(wanted, 3);
   EXPECT_EQ(stepsUntilTouch(true), wanted);

@@ -1,4 +1,4 @@
-// Forces of actives where they are known in closed form.
+// Forces of actives with a closed form.
 
 #include "contact/correction.hpp"
 
@@ -110,7 +110,7 @@ TEST(Correction, InfiniteMasses) {
   EXPECT_NEAR(rows[0].normalForce * kDt * kDt / 2 / 1e-4, 1, 1e-14) << "the slave alone gives way";
   nodes.held[0] = kHeldXY;
   rows[0].normalForce = 0;
-  EXPECT_EQ(solveAll(lagrange, rows, nodes, 0), 0) << "nobody can give way";
+  EXPECT_EQ(solveAll(lagrange, rows, nodes, 0), 0) << "no node can move";
   EXPECT_EQ(rows[0].normalForce, 0);
 }
 
@@ -138,7 +138,7 @@ TEST(Correction, MomentumOfTwoBodiesIsKept) {
       size += nodes.mass[n] * norm(u[n]);
     }
     EXPECT_LE(norm(sum), 1e-14 * size);
-    // Bounds of friction are known to 1e-4; the next detection of the step solves for the rest.
+    // Bounds of friction are accurate to 1e-4; the next detection of the step solves for the rest.
     const double left = scene % 2 == 0 ? 2e-4 * kLeft : 2e-8;
     for (const ContactRow& row : rows) {
       EXPECT_GE(row.normalForce, 0);

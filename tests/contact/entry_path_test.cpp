@@ -55,7 +55,7 @@ TEST(EntryPath, SameAsManySmallSteps) {
       ++returns;
       continue;
     }
-    // Two roots within a step in time, or one at an end, are beyond what steps tell.
+    // Two roots within a step in time, or one at an end, cannot be resolved by steps.
     if (time < 0 && found) {
       const double nearest = std::min(found->time, 1 - found->time);
       EXPECT_TRUE(nearest < 1. / kSteps ||

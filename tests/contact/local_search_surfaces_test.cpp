@@ -77,7 +77,7 @@ TEST(LocalSearch, EveryPieceOfAnySurfaceKeepsPointsOut) {
     EXPECT_GT(seen[piece], 100);
 }
 
-/// Where pieces meet smoothly, at halfpoints, no gap is left for a point to slip through.
+/// Where pieces meet smoothly, at halfpoints, there is no gap through which a point could pass.
 TEST(LocalSearch, JointsAtHalfpointsAreTight) {
   Random random(42);
   for (int scene = 0; scene < 200; ++scene) {

@@ -26,7 +26,7 @@ void* operator new(std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NE
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return allocate(size, static_cast<std::size_t>(alignment));
 }
-// Never fails: what asks for this goes on without it. Its memory is freed by the functions below,
+// Never fails: its callers go on without it. Its memory is freed by the functions below,
 // which must match (sanitizers look).
 void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
   return std::malloc(std::max(size, std::size_t{1}));

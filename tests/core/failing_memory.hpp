@@ -1,11 +1,11 @@
 #pragma once
-// Memory that runs out when a test says so.
+// Memory that runs out at a moment which a test chooses.
 
 #include <cstddef>
 
 namespace yadefrag::test {
 
-/// While it lives, the allocation after `count` further ones of this thread throws std::bad_alloc.
+/// While it exists, the allocation after `count` further ones of this thread throws std::bad_alloc.
 class FailingMemory {
  public:
   explicit FailingMemory(std::size_t count);

@@ -4,7 +4,7 @@
 
 namespace yadefrag::test {
 
-/// As long as it lives, parts of a few items already are worth a thread.
+/// While it exists, even a few items are distributed to threads.
 class ThreadsForFew {
  public:
   explicit ThreadsForFew(std::size_t items = 4) { leastItemsPerThread() = items; }

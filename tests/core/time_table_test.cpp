@@ -29,7 +29,7 @@ TEST(TimeTable, WithoutValuesIsZero) {
   EXPECT_EQ(TimeTable().integral(0, 1), 0);
 }
 
-TEST(TimeTable, TellsWhatIsNoTable) {
+TEST(TimeTable, ReportsWhatIsNoTable) {
   EXPECT_TRUE(TimeTable::isValid({0, 1}, {5, 5}));
   EXPECT_FALSE(TimeTable::isValid({}, {}));
   EXPECT_FALSE(TimeTable::isValid({0, 1}, {5}));

@@ -77,7 +77,7 @@ TEST(Conservation, FreeFallIsExact) {
   EXPECT_NEAR(run.total(), 0, 1e-12 * energy);
 }
 
-TEST(Conservation, DampingTakesWhatTheMotionLoses) {
+TEST(Conservation, DampingDissipatesWhatTheMotionLoses) {
   Model model = square();
   shake(model, 1);
   Stepper run = runOf(std::move(model), .9, {.damping = 2e5});
@@ -161,7 +161,7 @@ TEST(Conservation, ReactionsToContactForcesAreExternalWork) {
   EXPECT_NEAR(run.ledger.external, 300 * run.dt, 1e-3 * run.dt);
 }
 
-TEST(Conservation, BulkViscosityTakesEnergyAndBooksIt) {
+TEST(Conservation, BulkViscosityDissipatesEnergyAndCountsIt) {
   Model model = square();
   shake(model, 5);
   Stepper run = runOf(std::move(model), .9, {.viscosity = {.1, 1.2}});
@@ -176,7 +176,7 @@ TEST(Conservation, BulkViscosityTakesEnergyAndBooksIt) {
   EXPECT_NEAR(run.total(), energy, 1e-4 * energy);
 }
 
-TEST(Conservation, NothingIsBookedWhereNothingActs) {
+TEST(Conservation, NothingIsCountedWhereNothingActs) {
   Model model = square();
   shake(model, 5);
   Stepper run = runOf(std::move(model), .9);

@@ -166,7 +166,7 @@ TEST(ExplicitDynamics, TheSameBitsWithAnyInstructionSet) {
   }
 }
 
-TEST(ExplicitDynamics, BodiesDoNotFeelEachOther) {
+TEST(ExplicitDynamics, BodiesDoNotAffectEachOther) {
   Model both = square(20);
   appendBlock(both, {.1, .1}, {.12, .12}, 20, 20);
   shake(both, 5);

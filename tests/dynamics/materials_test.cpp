@@ -125,7 +125,7 @@ Echo echoOf(const BodyMaterial& left, const BodyMaterial& right) {
 
 // Of bars with impedances z = √(Eρ): of the velocity 2z₁/(z₁+z₂) goes on and (z₁−z₂)/(z₁+z₂) comes
 // back. The pulse is 80 triangles long, of which the mesh's dispersion takes some thousandths.
-TEST(Materials, AWaveIsReflectedAndTransmittedAsTheImpedancesSay) {
+TEST(Materials, AWaveIsReflectedAndTransmittedAsTheImpedancesRequire) {
   const BodyMaterial first = elastic(1e9, 1000);
   for (const BodyMaterial& second :
        {elastic(1e9, 4000), elastic(4e9, 1000), elastic(.25e9, 1000), elastic(3e9, 3000)}) {
@@ -161,7 +161,7 @@ TEST(Materials, TheCriticalStepHoldsForAnyMixture) {
     const double begin = run.total();
     run.step(5000);
     EXPECT_NEAR(run.total() / begin, 1, 1e-4) << viscosity;
-    // Hardly more than the lightest and stiffest of them would ask for alone.
+    // Hardly more than the lightest and stiffest of them would require alone.
     const TriangleMesh mesh = structuredRectangle({0, 0}, {1, 1}, 8, 8);
     Model stiffest;
     appendBody(stiffest, mesh, {elastic(50e9, 1000, .1)});

@@ -1,4 +1,5 @@
-// Which elements of brittle bodies are told to be stressed, against one element after the other.
+// Which elements of brittle bodies are reported as stressed, compared with one element after the
+// other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,7 +71,7 @@ void distort(Model& model, double most) {
 }
 
 /// By element: does a range hold it? Checks that ranges are small and ascending.
-std::vector<bool> told(const Model& model, std::span<const ElementRange> ranges) {
+std::vector<bool> reported(const Model& model, std::span<const ElementRange> ranges) {
   std::vector<bool> result(model.triangles.size(), false);
   std::uint32_t last = 0;
   for (const ElementRange& range : ranges) {
@@ -88,7 +89,7 @@ std::vector<bool> told(const Model& model, std::span<const ElementRange> ranges)
 void check(const Model& model, const std::vector<double>& strength,
            std::span<const ElementRange> ranges) {
   const std::vector<double> measure = measures(model);
-  const std::vector<bool> isTold = told(model, ranges);
+  const std::vector<bool> isReported = reported(model, ranges);
   const auto look = [&](std::size_t e) {
     const std::size_t c = model.triangles.component[e].value;
     return model.components[c].brittle.cracks() ? tolerance::kStrengthCheck * strength[c]
@@ -97,7 +98,7 @@ void check(const Model& model, const std::vector<double>& strength,
   // Rounding of angles and of F − R: 1e-9 is far above.
   for (std::size_t e = 0; e < measure.size(); ++e)
     if (measure[e] > look(e) * (1 + 1e-9)) {
-      EXPECT_TRUE(isTold[e]) << e;
+      EXPECT_TRUE(isReported[e]) << e;
     }
   for (const ElementRange& range : ranges) {
     bool any = false;
@@ -149,7 +150,7 @@ TEST(Stressed, AreTheSameForAnyThreadsAndInstructionSet) {
   EXPECT_TRUE(one.forces == unwatched);
 }
 
-TEST(Stressed, OnlyWhatIsWatchedIsToldAndItMayChange) {
+TEST(Stressed, OnlyWatchedElementsAreReportedAndTheyMayChange) {
   Model model = bodies();
   distort(model, .01);
   const double none = kInfinite;

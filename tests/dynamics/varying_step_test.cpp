@@ -31,7 +31,7 @@ TEST(VaryingStep, EnergyJumpsByASecondOrderTerm) {
   EXPECT_NEAR(run.total() - before, jump, 1e-4 * jump);
 }
 
-TEST(VaryingStep, FallsAsFarAsItShould) {
+TEST(VaryingStep, FallsByTheClosedForm) {
   Stepper run = runOf(square(), .9, {.gravity = {0, -9.81}});
   const double dt = run.dt, start = run.model.nodes.position[0].y;
   double time = 0;

@@ -40,15 +40,15 @@ double wantedMass(const Model& model) {
 }
 
 /// (of the energy) What no scene may gain in silence, but for what comes between two looks; and
-/// where the step changes all the time, which few steps do not tell.
+/// where the step changes all the time, which few steps do not show.
 constexpr double kMostGrowth = .01, kBetweenLooks = .005, kVaryingGrowth = 2;
 
 struct Tally {
   std::uint64_t scenes = 0, steps = 0, refused = 0, givenUp = 0, cracked = 0, touched = 0;
   double mass = 0, momentum = 0;  ///< largest errors, of the mass and of Σm|v|
   std::uint64_t saved = 0;        ///< runs that went on from a saved state, too
-  std::uint64_t grown = 0;        ///< stretches whose energy grew, all of them told
-  double growth = 0;              ///< of the energy, where nothing was told
+  std::uint64_t grown = 0;        ///< stretches whose energy grew, all of them reported
+  double growth = 0;              ///< of the energy, where nothing was reported
 };
 
 /// A scene from its first body to its last step.
@@ -174,7 +174,7 @@ class SceneRun {
   bool goesOn_ = true, touched_ = false;
 };
 
-TEST(ExtremeScenes, AreStoodOrRefused) {
+TEST(ExtremeScenes, RunOrAreRefused) {
   Tally tally;
   for (std::uint64_t seed = firstScene(); tally.scenes < numScenes(); ++seed) {
     SCOPED_TRACE("scene " + std::to_string(seed));

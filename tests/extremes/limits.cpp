@@ -22,7 +22,7 @@ void expectNear(const std::string& what, double measured, const std::string& sta
   }
   const double value = numberOf(stated);
   EXPECT_TRUE(measured == value || std::abs(std::log(measured / value)) <= std::log(factor))
-      << what << ": docs/limits.md says " << stated << ", measured " << measured
+      << what << ": docs/limits.md states " << stated << ", measured " << measured
       << "; scripts/bench limits rewrites it";
 }
 

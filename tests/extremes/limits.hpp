@@ -1,6 +1,6 @@
 #pragma once
 // The manual's table of limits, which the tests make and check: a test measures the smallest and
-// the largest value that works, and docs/limits.md has to say the same.
+// the largest value that works, and docs/limits.md must state the same.
 
 #include <cmath>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace yadefrag::test {
 
-/// There is no such bound: the table says "–".
+/// There is no such bound: the table shows "–".
 inline constexpr double kNone = NAN;
 
 /// One row. The page's row of this name has to have the same sentence, and numbers that are equal

@@ -8,6 +8,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / 'examples'))
+import origin  # noqa: E402
+
 BEGIN, END = '<!-- limits', '<!-- end of limits -->'
 
 
@@ -24,8 +27,9 @@ def measured(tests, arguments):
     return {name(line): line for line in lines}
 
 
-def rewrite(text, rows):
-    """The page with these rows in place of those of the same names; new ones come last."""
+def rewrite(text, rows, where):
+    """The page with these rows in place of those of the same names; new ones come last. `where` is
+    written below the table."""
     before, rest = text.split(BEGIN, 1)
     table, after = rest.split(END, 1)
     lines = table.splitlines(keepends=True)
@@ -33,12 +37,12 @@ def rewrite(text, rows):
     for i in known:
         lines[i] = rows.pop(name(lines[i]), lines[i])
     end = known[-1] + 1 if known else len(lines)
-    lines[end:end] = rows.values()
+    lines[end:] = [*rows.values(), f'\n`scripts/bench limits`: {where}.\n']
     return before + BEGIN + ''.join(lines) + END + after
 
 
 if __name__ == '__main__':
     readme = ROOT / 'docs' / 'limits.md'
     rows = measured(sys.argv[1], sys.argv[2:])
-    readme.write_text(rewrite(readme.read_text(), rows))
+    readme.write_text(rewrite(readme.read_text(), rows, origin.line()))
     print('docs/limits.md is rewritten.')

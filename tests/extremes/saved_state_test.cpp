@@ -19,7 +19,7 @@ std::size_t headerSize() {
 class ExtremeSave : public ::testing::Test {
  protected:
   ExtremeSave() : world_(eventfulWorld(true)), bytes_(saved(world_)) {}
-  /// Loading these gives a sentence that says whose state it is.
+  /// Loading these gives a sentence that names the part with the error.
   static bool isRefused(const std::string& bytes) {
     World world;
     const std::string sentence = sentenceOf([&] { load(bytes, world); });

@@ -107,7 +107,7 @@ TEST(ExtremeSpeed, NothingPassesThroughAThinPlateUnseen) {
   EXPECT_GE(whole, 12);
 }
 
-TEST(ExtremeSpeed, TheShorterStepThatIsAskedForDoes) {
+TEST(ExtremeSpeed, TheProposedShorterStepSuffices) {
   for (int seed = 0; seed < 6; ++seed) {
     const Shot shot{.5, seed, 2};
     const Hit result = hit(shot, true);

@@ -213,7 +213,7 @@ TEST(Bonds, GoOnAfterAReloadWithTheSameBitsAndLeaveWithABody) {
   for (int i = 0; i < 100; ++i) world.step(dt);
 }
 
-TEST(Bonds, WhatCannotBeIsRefusedAndTheWorldAsItWas) {
+TEST(Bonds, ImpossibleArgumentsAreRefusedAndTheWorldIsUnchanged) {
   const TriangleMesh left = barFrom(0, .04), right = barFrom(.04, .08);
   const auto complaint = [&](const TriangleMesh& other, double strength, double energy) {
     World world;

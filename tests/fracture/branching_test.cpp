@@ -1,5 +1,5 @@
 // A crack that starts, runs and branches on irregular meshes, beside the same crack on a straight
-// line, where no mesh has any say in its path.
+// line, so that its path does not depend on the mesh.
 
 #include <gtest/gtest.h>
 
@@ -169,7 +169,7 @@ TEST(Branching, StartsWhenTheReleasedEnergySuffices) {
 
 /// On a straight line a crack of constant Gc, which spends Gc and nothing beside it, runs at .73 of
 /// Rayleigh's speed, with any mesh (.5, 1 mm: .728, .724), and as two bodies that a bond holds,
-/// where no criterion says when an edge opens (.730): so much is what the plate's energy asks for.
+/// without a criterion for edges (.730): the part that the plate's energy requires.
 /// Free cracks are slower, as the next test has it.
 TEST(Branching, StraightCrackSpendsItsFractureEnergy) {
   const Growth run = straightCrack(1e-3, 1, [](const Moment&) { return false; });

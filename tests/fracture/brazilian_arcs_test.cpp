@@ -101,7 +101,7 @@ TEST_P(BrazilianArcs, SplitFromTheMiddle) {
 
 INSTANTIATE_TEST_SUITE_P(ShearFactors, BrazilianArcs, testing::Values(3., 20.));
 
-TEST(BrazilianArcsMesh, FinerMeshesComeToTheTheory) {
+TEST(BrazilianArcsMesh, FinerMeshesConvergeToTheTheory) {
   if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   for (const double shearFactor : {3., 20.})
     for (const std::uint64_t seed : {1, 2, 3})

@@ -68,7 +68,7 @@ void lookAtCrack(const World& world, Split& split) {
 Split press(double size, double speed, double shearFactor) {
   const ElasticMaterial material{2e9, .25, 2500, false};
   World world;
-  // Vibrations die out in 0.1 ms; the pressing takes 1.5 ms.
+  // Vibrations decay in 0.1 ms; the pressing takes 1.5 ms.
   world.dynamicsSettings.damping = 2e4;
   const TriangleMesh mesh = discOf(size);
   BodySpec spec = moving(mesh, material, {0, 0});
@@ -110,7 +110,7 @@ TEST_P(Brazilian, SplitsAlongTheLoadedDiameter) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Brazilian, testing::Values(8e-4, 6e-4, 4e-4, 3e-4));
 
-TEST(Brazilian, TheLoadDoesNotHangOnTheSpeed) {
+TEST(Brazilian, TheLoadDoesNotDependOnTheSpeed) {
   const Split slow = press(6e-4, .05, 20), fast = press(6e-4, .1, 20);
   figure("slow_over_fast", slow.load / fast.load, 1, .005);
 }

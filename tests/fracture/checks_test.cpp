@@ -22,7 +22,7 @@ constexpr BrittleMaterial kBrittle{.tensileStrength = 300e6, .fractureEnergy = 1
 constexpr BrittleMaterial kTough{.tensileStrength = 300e6, .fractureEnergy = 300};
 constexpr ComponentId kBody(std::size_t{0});
 
-/// What is said when the call throws InputError; empty if it does not.
+/// The sentence of the InputError that the call throws; empty if it does not.
 std::string saidBy(const std::function<void()>& call) {
   try {
     call();
@@ -66,7 +66,7 @@ std::string saidAtStep(const Model& model, double dt) {
   return saidBy([&] { checkCohesiveResolution(model, kBody, dt); });
 }
 
-TEST(CheckBrittle, LetsPassWhatCanBe) {
+TEST(CheckBrittle, AcceptsPossibleValues) {
   EXPECT_EQ(saidOf(kBrittle), "");
   EXPECT_EQ(saidOf({.tensileStrength = 1}), "");
   EXPECT_EQ(saidOf({.tensileStrength = 1, .weibullModulus = .5, .strengthScatter = .999}), "");
@@ -117,7 +117,7 @@ TEST(CheckCohesiveResolution, RefusesFromTheStepOfTheFormulaOn) {
   EXPECT_EQ(saidAtStep(body(20, kBrittle, .001), .9999 * limit), "");
 }
 
-TEST(CheckCohesiveResolution, GoesByTheStrongestEdge) {
+TEST(CheckCohesiveResolution, DependsOnTheStrongestEdge) {
   BrittleMaterial scattered = kBrittle;
   scattered.weibullModulus = 5;
   scattered.strengthScatter = .1;
@@ -128,7 +128,7 @@ TEST(CheckCohesiveResolution, GoesByTheStrongestEdge) {
   EXPECT_NE(saidAtStep(body(20, scattered), 1.0001 * limit), "");
 }
 
-TEST(CheckCohesiveResolution, TheSentenceSaysWhatWouldDoAndItDoes) {
+TEST(CheckCohesiveResolution, TheSentenceStatesWhatSufficesAndItSuffices) {
   const Model model = body(20, kBrittle);
   const double dt = 1e-7;
   const std::string sentence = saidAtStep(model, dt);
@@ -147,7 +147,7 @@ TEST(CheckCohesiveResolution, TheSentenceSaysWhatWouldDoAndItDoes) {
   EXPECT_NE(saidAtStep(body(coarse, kBrittle), dt * 20 / coarse), "");
 }
 
-TEST(CheckCohesiveResolution, LetsPassAStableStepWhereTheZoneIsResolved) {
+TEST(CheckCohesiveResolution, AcceptsAStableStepWhereTheZoneIsResolved) {
   for (const int side : {120, 200}) {  // the zone is 0.92 mm: 9 and more elements
     const Model model = body(side, kTough);
     ASSERT_EQ(cohesiveZoneWarning(model, kBody), "");
@@ -169,7 +169,7 @@ TEST(CheckCohesiveResolution, HasNothingToResolveWithoutAFractureEnergyOrAnInner
   EXPECT_EQ(saidAtStep(one, 1), "");
 }
 
-TEST(CheckCohesiveResolution, LooksAtItsOwnComponentOnly) {
+TEST(CheckCohesiveResolution, ChecksItsOwnComponentOnly) {
   Model model = body(200, kTough);
   Component coarse = model.components[0];
   appendBody(model, structuredRectangle({1, 0}, {2, 1}, 2, 2), coarse);
@@ -180,7 +180,7 @@ TEST(CheckCohesiveResolution, LooksAtItsOwnComponentOnly) {
             std::string::npos);
 }
 
-TEST(CohesiveZoneWarning, SaysZoneElementAndWhatWouldDo) {
+TEST(CohesiveZoneWarning, StatesZoneElementAndWhatSuffices) {
   const double zone = 275e9 * 100 / 9e16;
   const std::string sentence = cohesiveZoneWarning(body(20, kBrittle), kBody);
   EXPECT_EQ(sentence.substr(0, sentence.find(';')),
@@ -194,7 +194,7 @@ TEST(CohesiveZoneWarning, SaysZoneElementAndWhatWouldDo) {
   EXPECT_NE(cohesiveZoneWarning(body(.01 * legToMean / wanted * .95, kBrittle), kBody), "");
 }
 
-TEST(CohesiveZoneWarning, GoesByTheZoneOfACrackThatSlidesIfThatIsShorter) {
+TEST(CohesiveZoneWarning, UsesTheZoneOfASlidingCrackIfThatIsShorter) {
   constexpr int kSide = 100;
   ASSERT_EQ(cohesiveZoneWarning(body(kSide, kTough), kBody), "");  // 0.92 mm, eight elements
   BrittleMaterial material = kTough;

@@ -129,7 +129,7 @@ void expectPeakAndCollapse(const Course& course) {
 
 class UniaxialMesh : public testing::TestWithParam<Trial> {};
 
-TEST_P(UniaxialMesh, BearsWhatMohrAndCoulombSayAndCollapses) {
+TEST_P(UniaxialMesh, CarriesTheMohrCoulombLoadAndCollapses) {
   expectPeakAndCollapse(uniaxial(GetParam()));
 }
 
@@ -154,7 +154,7 @@ TEST(Uniaxial, TheRateDoesNotMatter) {
   figure("slow_over_fast", uniaxial(slow).peak / uniaxial({kSize}).peak, 1, .003);
 }
 
-TEST(Uniaxial, RowsAndSmoothedStrainsBearTheSame) {
+TEST(Uniaxial, RowsAndSmoothedStrainsCarryTheSame) {
   Trial rows{kSize}, smoothed{kSize};
   rows.layout = NodeLayout::kRows;
   smoothed.element = ElementKind::kSmoothed;
@@ -176,7 +176,7 @@ class BiaxialPressure : public testing::TestWithParam<double> {};
 
 /// Up to a lateral pressure of ft: 0.0 to +2.5 %. It does not fall to the friction of smooth faces
 /// afterwards, a quarter of the peak at 5 MPa, but to 0.6 to 0.75: see the next test.
-TEST_P(BiaxialPressure, BearsWhatMohrAndCoulombSay) {
+TEST_P(BiaxialPressure, CarriesTheMohrCoulombLoad) {
   for (const std::uint64_t seed : {1, 2}) {
     const Course course = Press({1.6e-3, seed}, rock(), GetParam()).run(1.1, .5);
     figure("peak", course.peak, 1, .04);

@@ -71,12 +71,12 @@ TEST(CrackFlags, AllPartsOfASlaveAreWhereItWas) {
   addCandidates(candidates, pairs, world.surfaces, positions);
   EXPECT_EQ(std::ranges::count(candidates.outside, 0), 1);
 
-  const std::vector<SlaveMaster> told =
+  const std::vector<SlaveMaster> updated =
       inheritFlags(candidates, world.surfaces, split.originals, world.model.nodes.size());
   EXPECT_EQ(candidates.size(), 2U);
   EXPECT_EQ(std::ranges::count(candidates.outside, 1), 2);
-  ASSERT_EQ(told.size(), 1U) << "the other was outside before";
-  EXPECT_EQ(told.front().master, master);
+  ASSERT_EQ(updated.size(), 1U) << "the other was outside before";
+  EXPECT_EQ(updated.front().master, master);
 
   // Entry by the path stores contacts only; the existing one keeps its force.
   std::vector<Touch> touches{{{before, master}, 7, 1, -kLeft}};

@@ -162,7 +162,7 @@ Rub rub(Pair& pair, const Law& law, double pressure, std::initializer_list<doubl
 // βσc + μp at opening, to 10⁻⁵; then a straight line to μp at the slip κδc/β, step by step to 0.2
 // %: what presses and holds the edge does not act on the triangles' tips, so that the faces turn by
 // some 10⁻³. Its work is κGc and μp times the slip, each in its own entry.
-TEST(CrackShear, PressedFacesRubBesideWhatHoldsThem) {
+TEST(CrackShear, PressedFacesHaveFrictionBesideCohesion) {
   for (const Law& law : {Law{1, 1, .5}, Law{2, 3, .5}, Law{1, 1, 0}, Law{.5, 1, 2}})
     for (const double part : {.1, 1., 3.}) {
       const double pressure = part * kStrength;

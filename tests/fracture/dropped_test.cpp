@@ -65,7 +65,7 @@ std::size_t loosePieces(const World& world, double area) {
   return count;
 }
 
-/// Dropped triangles rest where they are without stress, and neither contact nor cracks know them.
+/// Dropped triangles rest where they are without stress, without contact and cracks.
 void expectInert(const World& world) {
   const Model& model = world.model;
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
@@ -98,7 +98,7 @@ class DropFragments : public testing::TestWithParam<double> {};
 
 INSTANTIATE_TEST_SUITE_P(FractureEnergies, DropFragments, testing::Values(0., 200.));
 
-TEST_P(DropFragments, NothingIsLostButWhatIsBooked) {
+TEST_P(DropFragments, OnlyCountedQuantitiesAreLost) {
   World world = impact(GetParam(), false, kArea);
   const double dt = .8 * world.criticalTimeStep();
   const double energy = world.kineticEnergy();
@@ -206,7 +206,7 @@ TEST(DropFragmentsOf, WholeAndHeldBodiesStay) {
   EXPECT_GT(bottom, 10U);
 }
 
-TEST(DropFragmentsOf, NobodyMovesThemAgain) {
+TEST(DropFragmentsOf, TheyDoNotMoveAgain) {
   World world = impact(0, true, kArea);
   const double dt = .8 * world.criticalTimeStep();
   for (int i = 0; i < 300; ++i) world.step(dt);

@@ -164,7 +164,7 @@ TEST(EdgeStrength, IsPositiveAndFiniteForAnySeedAndNumber) {
 
 // Of n edges that share a volume the weakest has one distribution, for any n: that of one edge of
 // the whole volume. Without V₀ the weakest of 100 would be 100^(1/m) times as weak.
-TEST(EdgeStrength, WeakestOfAVolumeDoesNotKnowHowManyEdgesThereAre) {
+TEST(EdgeStrength, WeakestOfAVolumeDoesNotDependOnTheNumberOfEdges) {
   constexpr std::size_t kBodies = 2000;
   BrittleMaterial material = weibull(5);
   material.referenceVolume = 3;

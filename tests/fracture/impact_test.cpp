@@ -48,7 +48,7 @@ TEST(Impact, OnAnIrregularMesh) {
   EXPECT_GT(course.growth, 7);
 }
 
-/// The paper's way to tell what comes in, to compare with.
+/// The paper's criterion of entry, for comparison.
 TEST(Impact, EntryByFlags) {
   const Course course = runImpact({.size = 8e-4, .entry = Entry::kFlags});
   expectSound(course, .003, Entry::kFlags);

@@ -205,7 +205,7 @@ TEST(Joints, AJointAsStrongAsTheRestIsNone) {
   EXPECT_NEAR(breakBar(10 * kStrength, NAN, .003).stress / kStrength, 1, .03);
 }
 
-TEST(Joints, WhatCannotBe) {
+TEST(Joints, ImpossibleArgumentsAreRefused) {
   const TriangleMesh mesh =
       triangulate(rectangle({0, 0}, {1, 1}), .2, kScattered, INFINITY, {{{{.5, 0}, {.5, 1}}}});
   const auto expectRefusedWith = [&](double strength, double energy, const char* part) {

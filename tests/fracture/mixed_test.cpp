@@ -220,7 +220,7 @@ TEST(Mixed, GoOnAfterAReloadWithTheSameBits) {
   EXPECT_EQ(totalEnergy(copy), totalEnergy(world));
 }
 
-TEST(Mixed, WhatCannotBeIsRefusedAndTheWorldAsItWas) {
+TEST(Mixed, ImpossibleArgumentsAreRefusedAndTheWorldIsUnchanged) {
   const TriangleMesh mesh = barMesh();
   const BodySpec good = drawn(mesh, {brittle(kStiff, 1e6, 1), brittle(kSoft, 1e6, 1)}, leftHalf);
   BodySpec spec = good;

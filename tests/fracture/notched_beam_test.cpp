@@ -26,7 +26,7 @@ constexpr double kHalfLength = kHalfSpan + kDepth / 10;                         
 /// Fract. 12, 475). A straight crack with this cohesive law bears 0.897 of it: the fictitious crack
 /// model (Hillerborg, Modéer and Petersson 1976) on 160 elements over the depth, quasi-static. The
 /// asymptotic formula, a crack longer by 0.419 E'Gc/ft² (Planas and Elices 1991, Int. J. Fract. 51,
-/// 139), says 0.880.
+/// 139), gives 0.880.
 constexpr double kSizeEffect = .897;
 
 double theory(const BodySpec& spec, double young) {

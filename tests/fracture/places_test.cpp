@@ -210,7 +210,7 @@ TEST(Places, AStepThatDoesNotResolveTheBandIsRefusedByItsPlace) {
   EXPECT_NE(warning.find("the cohesive zone is"), std::string::npos) << warning;
 }
 
-TEST(Places, WhatCannotBeIsRefusedAndTheWorldAsItWas) {
+TEST(Places, ImpossibleArgumentsAreRefusedAndTheWorldIsUnchanged) {
   const TriangleMesh mesh = barMesh();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto expectRefusedAfter = [&](const std::function<void(BodySpec&)>& spoil,

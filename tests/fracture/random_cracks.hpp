@@ -107,7 +107,7 @@ inline Sums sumsOf(const Model& model) {
   return sums;
 }
 
-/// Sums of some 2000 values of either sign: each mass is known to 2⁻⁵³ of the sum of its ten or so
+/// Sums of some 2000 values of either sign: each mass is exact to 2⁻⁵³ of the sum of its ten or so
 /// thirds, and the sum to 2⁻⁵³ of itself per value added, some 10⁻¹³ in all.
 inline void expectKept(const Sums& before, const Sums& after) {
   constexpr double kRounding = 1e-12;

@@ -100,14 +100,14 @@ double fragmentSize(const Case& one, std::uint64_t seed) {
   world.step(dt);
   const double start = test::totalEnergy(world);
   while (world.time < one.duration) world.step(dt);
-  // 1 % is asked for. Strains are 10⁻³, of which the leapfrog's invariant neglects the square.
+  // 1 % is required. Strains are 10⁻³, of which the leapfrog's invariant neglects the square.
   EXPECT_NEAR(test::totalEnergy(world) / start, 1, 1e-5) << one.rate << ' ' << seed;
   const std::size_t broken = world.fracture.numCracks() - world.fracture.cohesion.edge.size();
   EXPECT_GT(broken, 0U);
   return kCircumference / static_cast<double>(broken);
 }
 
-/// Over what the formula says.
+/// Relative to the formula.
 double meanSize(const Case& one, std::uint64_t seeds) {
   double sum = 0;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) sum += fragmentSize(one, seed);

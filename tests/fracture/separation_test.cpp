@@ -35,7 +35,7 @@ TEST(Separation, TractionOfTheAxesAndTheDiagonal) {
   EXPECT_NEAR(diagonal.shear, (-5 - 3) / 2., 1e-14);
 }
 
-TEST(Separation, BothSidesOfALineSeeTheSameTraction) {
+TEST(Separation, BothSidesOfALineHaveTheSameTraction) {
   const std::array<double, 3> stress{3, -5, 2};
   for (double angle = 0; angle < 3; angle += .1) {
     const Traction one = tractionOn(stress, direction(angle));
@@ -58,20 +58,20 @@ TEST(Separation, DoesNotDependOnTheAxes) {
     }
 }
 
-TEST(Separation, EvenTensionIsFeltOnEveryLineAlike) {
+TEST(Separation, UniformTensionActsOnEveryLineAlike) {
   for (double angle = 0; angle < 6.3; angle += .1) {
     const Traction t = tractionOn({7, 7, 0}, direction(angle));
     EXPECT_NEAR(effectiveTraction(t.normal, t.shear, kShearProof, kFriction), 7, 1e-14);
   }
 }
 
-TEST(Separation, OnePullIsFeltMostAcrossIt) {
+TEST(Separation, UniaxialTensionActsMostOnLinesAcrossIt) {
   double most = 0;
   double at = 0;
   for (double angle = -1.5; angle < 1.55; angle += .01) {
     const Traction t = tractionOn({4, 0, 0}, direction(angle));
-    const double felt = effectiveTraction(t.normal, t.shear, kShearProof, kFriction);
-    if (felt > most) most = felt, at = angle;
+    const double effective = effectiveTraction(t.normal, t.shear, kShearProof, kFriction);
+    if (effective > most) most = effective, at = angle;
   }
   EXPECT_NEAR(at, 0, 1e-9);
   EXPECT_NEAR(most, 4, 1e-14);

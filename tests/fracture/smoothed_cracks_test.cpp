@@ -52,7 +52,7 @@ TEST(SmoothedCracks, TheLedgerClosesOverEveryCrack) {
 }
 
 /// The step in which nodes first split: what the ledger has is what the strain energy gained.
-TEST(SmoothedCracks, WhatASplitNodeGainsIsBookedInThatStep) {
+TEST(SmoothedCracks, TheGainOfASplitNodeIsCountedInThatStep) {
   World world = plate(0, ElementKind::kSmoothed);
   const double dt = .5 * world.criticalTimeStep();
   const std::size_t nodes = world.model.nodes.size();

@@ -176,7 +176,7 @@ TEST(Strip, TheMeshNeedNotBeRegular) {
 // Measured: GII at the first break over κGc is 2.05, 1.49, 1.20, 1.08 with 4, 6, 8, 16 elements in
 // the zone E·κGc/(βσc)² of a crack that slides, whatever β and κ are: at the tip the mean over the
 // fan decides, since the pull alone counts there (fracture/tip_pull.hpp).
-TEST(Strip, SlidingCrackGoesByItsOwnZone) {
+TEST(Strip, SlidingCrackHasItsOwnZone) {
   const Outcome six = pullUntilBreak({.rows = 24, .shear = true});
   const Outcome same = pullUntilBreak({.rows = 24, .shear = true, .beta = 2, .kappa = 4});
   const Outcome sixteen = pullUntilBreak({.rows = 16, .shear = true, .kappa = 4});

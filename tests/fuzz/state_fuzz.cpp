@@ -1,6 +1,6 @@
 // libFuzzer: any bytes as the saved state of an FESolver. scripts/fuzz state.
 //
-// Compiled so that the checksum, which no mutation would get past, is not asked for: what is
+// Compiled so that the checksum, which no mutation would pass, is not required: what is
 // behind it has to stand damage by itself.
 
 #include <cstddef>

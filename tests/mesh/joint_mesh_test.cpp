@@ -137,7 +137,7 @@ TEST(JointMesh, WithoutJointsTheMeshIsAsItWas) {
   EXPECT_TRUE(triangulate(plate, .1).joints.empty());
 }
 
-TEST(JointMesh, WhatCannotBe) {
+TEST(JointMesh, ImpossibleArgumentsAreRefused) {
   const Polygon plate{box({0, 0}, {4, 2}), {box({1, .5}, {2, 1.5})}};
   const auto expectRefused = [&](const std::array<Vec2, 2>& joint, const std::string& part) {
     try {

@@ -217,7 +217,7 @@ void expectRefused(const Polygon& polygon, double tolerance, const std::string& 
   }
 }
 
-TEST(Simplify, WhatCannotBe) {
+TEST(Simplify, ImpossibleArgumentsAreRefused) {
   const Polygon plate{box({0, 0}, {4, 2}), {box({1, 1}, {1.2, 1.2})}};
   for (const double wrong : {0., -1., double(INFINITY), std::numeric_limits<double>::quiet_NaN()})
     expectRefused(plate, wrong, "must be positive and finite");

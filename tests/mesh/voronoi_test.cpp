@@ -127,7 +127,7 @@ TEST(Voronoi, ShortSidesShrinkToPoints) {
   EXPECT_THROW((void)withoutShortSides(voronoiGrains(kAngle, 30, 1), kAngle, 1.5), InputError);
 }
 
-TEST(Voronoi, ClockwiseOutlinesAndWhatCannotBe) {
+TEST(Voronoi, ClockwiseOutlinesAndImpossibleOnes) {
   Loop turned = kAngle;
   std::reverse(turned.begin(), turned.end());
   expectGrains(kAngle, voronoiGrains(turned, 20, 1));

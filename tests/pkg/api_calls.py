@@ -1,6 +1,6 @@
 """Calls of all that is public, with values that are wrong: `yade -n -x api_calls.py SEED CALLS LOG`.
 
-What there is to call is asked of the package: its functions, classes, their attributes and methods.
+The callables are taken from the package: its functions, classes, their attributes and methods.
 Each call must succeed, or be refused in a sentence and change nothing. LOG has the call that is
 under way, and `FOUND` before a line for each that did neither.
 """
@@ -344,7 +344,7 @@ def main(seed, calls, logName):
                 wrong = 'the scene changed'
             if wrong:
                 log.write('FOUND %s; %s\n' % (wrong, answer(error)[:600]))
-            # What a call has left behind must be a scene that steps, or says why it does not.
+            # What a call has left behind must be a scene that steps, or reports why it does not.
             if draw.random() < (.1 if error else .7):
                 log.write('%d a step\n' % number)
                 log.flush()

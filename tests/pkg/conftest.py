@@ -1,6 +1,6 @@
 """Shared set-up of the tests that run inside yade.
 
-A test that asks for `collider` runs once per collider class; YADEFRAG_COLLIDERS (comma separated)
+A test with the argument `collider` runs once per collider class; YADEFRAG_COLLIDERS (comma separated)
 replaces the list, so that YADE's own InsertionSortCollider can be put through the same tests.
 """
 import os

@@ -17,7 +17,7 @@ def flight(choices):
 
 
 def draw(built):
-    """As many numbers as the seed says, all positive."""
+    """As many positive numbers as the seed."""
     _, seed, strength = built
     random.seed(seed)
     return [random.lognormvariate(0, .3) * strength for _ in range(3 + seed % 3)]

@@ -2,7 +2,7 @@
 
 Names (YADE's modules, the namespace that scripts run in), objects that come without a name (C++
 generators, O.load, the default engines) and typedEngine('InsertionSortCollider') all lead to the
-new class. `swap.count` says how often: `made` by name, `found` as objects and replaced, `runs`
+new class. `swap.count` counts: `made` by name, `found` as objects and replaced, `runs`
 that began with the new class among the engines, `rivals`: runs that began with one left (0!).
 """
 import collections
@@ -27,7 +27,7 @@ class _Constructor(type):
 class Swap:
     """`target` is the class to put in; YADE's own works too (then objects are left as they are).
 
-    `everyStep` takes the strides away, whatever a script asks for: the yardstick for contacts.
+    `everyStep` takes the strides away, whatever a script sets: the reference for contacts.
     """
 
     def __init__(self, target, everyStep=False):

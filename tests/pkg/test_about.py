@@ -1,4 +1,4 @@
-"""What yadefrag says of itself: yadefrag.about() and python3 -m yadefrag."""
+"""The report of yadefrag on itself: yadefrag.about() and python3 -m yadefrag."""
 
 import os
 import pathlib

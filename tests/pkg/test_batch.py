@@ -36,7 +36,7 @@ def test_jobsOfATableFindThePlugin(folder):
     assert all(abs(one - 1) < 1e-12 for one in moved)
 
 
-def test_batchAsksForNothingItCannotGet(folder):
+def test_batchRequiresOnlyWhatExists(folder):
     """A script that is not there is yade-batch's own complaint, not ours."""
     done = subprocess.run([kBatch, '--version'], cwd=folder, capture_output=True, text=True, timeout=60)
     assert done.returncode == 0 and 'Yade version' in done.stdout

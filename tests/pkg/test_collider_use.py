@@ -10,7 +10,7 @@ from yade.minieigenHP import Vector3
 
 
 def testProbe(collider):
-    """BoxFactory asks the collider for free room: no sphere may be put into another one."""
+    """BoxFactory requests free room from the collider: no sphere may be put into another one."""
     O.dt = 1e-3
     O.materials.append(w.FrictMat(density=1000, young=1e6))
     addSpheres([(.5, .5, .5)], [.1])
@@ -26,7 +26,7 @@ def testProbe(collider):
         for new in range(known, len(O.bodies)):
             gap = np.linalg.norm(centres - centres[new], axis=1) - radii - radii[new]
             gap[new] = 1
-            # those that fly have moved since the factory asked only if they were made earlier
+            # those that fly have moved since the request of the factory only if they were made earlier
             assert gap.min() > -1e-9, f'body {new} was made inside body {gap.argmin()}'
         known = len(O.bodies)
     assert known > 60

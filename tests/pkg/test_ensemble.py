@@ -223,7 +223,7 @@ def table(values, **settings):
                                       value=value) for k, value in enumerate(values)])
 
 
-def test_bandHoldsTheTruthAsOftenAsItSays():
+def test_bandHoldsTheTruthWithItsProbability():
     """2000 ensembles of five normal runs: 90 % ± 2.5 % (3.7 standard deviations)."""
     draw = np.random.default_rng(3)
     bands = [table((3 + 2 * draw.standard_normal(5)).tolist()).statistics(confidence=.9)[0]

@@ -301,7 +301,7 @@ def test_filesThatCannotBeOpenedAreNamed():
             call()
 
 
-def test_namesThatDoNotExistAreTold():
+def test_namesThatDoNotExistAreReported():
     solver = fe()
     with pytest.warns(UserWarning, match="^FESolver has no attribute 'dampng', but damping: it is stored, but has no"):
         solver.dampng = 3
@@ -312,14 +312,14 @@ def test_namesThatDoNotExistAreTold():
         solver.damping, solver.label, solver.dead = 3, 'fe', False
 
 
-def test_prescribeForNoNodeIsTold():
+def test_prescribeForNoNodeIsReported():
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
     with pytest.warns(UserWarning, match='^prescribe: nodes selects none of the %d nodes.$' % len(solver.nodes)):
         solver.prescribe(lambda x, y: x > 2, vx=0)
 
 
-def test_runStepsSaysWhatFESolverSaid():
+def test_runStepsShowsFESolversMessages():
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
     run(solver)

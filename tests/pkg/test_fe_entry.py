@@ -52,7 +52,7 @@ def test_piecesStayApart(entry, most):
 
 
 def test_bothGiveTheSameBlowOfTwoElasticBodies():
-    """Nothing slides past an end here, so there is nothing to tell them apart."""
+    """Nothing slides past an end here, so the two agree."""
     places = []
     for entry in ('path', 'flags'):
         O.reset()

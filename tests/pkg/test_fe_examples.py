@@ -66,6 +66,12 @@ def rows(text):
     return reports
 
 
+def cells(text):
+    """The table in `text` without the line below its head, as lists of texts."""
+    lines = [line for line in text.splitlines() if line.startswith('|') and '--:' not in line]
+    return [[cell.strip() for cell in line.strip('|').split('|')] for line in lines]
+
+
 def numbers(text):
     return [float(n) for n in re.findall(r'[+-]?\d+\.?\d*(?:e[+-]?\d+)?', text.replace(',', ''))]
 
@@ -110,9 +116,9 @@ def test_impactShatters(energy, folder):
     options = ['--fracture-energy', str(energy), '--size', str(6e-4), '--steps', '600']
     out, _ = run('impact', *options, '--out', folder)
     report = rows(out)[0]
-    before, after, factor = numbers(report['surface segments'])
-    cracks, first = numbers(report['cracks'])
-    assert before == 252 and after > 1000 and factor > 4
+    before, after = numbers(report['surface segments'])
+    cracks, first = numbers(report['cracks'])[0], numbers(report['first crack'])[0]
+    assert before == 252 and after > 1000
     # A crack has two faces; where it leaves a surface or meets an arc nothing is added.
     assert after - before <= 2 * cracks and cracks > 400
     assert .4 < first < 1.5
@@ -126,13 +132,13 @@ def test_impactShatters(energy, folder):
     assert table[:, 4].sum() == pytest.approx(.04 * .02 + np.pi * .005**2, rel=.01)
 
 
-def test_ringBreaksAsTheorySays(folder):
+def test_ringBreaksAsInTheory(folder):
     """One ring of each kind at 10⁴ per second: 40 % for a single seed."""
     out, _ = run('ring_fragments', '--seeds', '1', '--rates', '1e4', '--moduli', '0', '20', '--out',
                  folder)
-    plain, scattered = (line.split() for line in out.splitlines() if '10000' in line)
+    plain, scattered = (row for row in cells(out) if row[1] == '10000')
     assert float(plain[-2]) == pytest.approx(1, abs=.4)
-    # Weak places spare the others: fewer and larger pieces.
+    # Edges that break early unload the others: fewer and larger pieces.
     assert float(scattered[-2]) > 1.1 * float(plain[-2])
     assert abs(float(plain[-1])) < 1e-3 and abs(float(scattered[-1])) < 1e-3
     assert sorted(os.listdir(folder)) == ['ring_pieces.png', 'ring_sizes.png']
@@ -140,13 +146,12 @@ def test_ringBreaksAsTheorySays(folder):
 
 
 @pytest.mark.parametrize('held', [False, True])
-def test_compressedBlocksBreakAsMohrAndCoulombSay(held, folder):
+def test_compressedBlocksBreakAtTheMohrCoulombLoad(held, folder):
     """5 %: measured +0.2, +1.4 %; with held ends, whose corners bear more, −2.8, −2.4 %."""
     options = ['--size', '2e-3', '--pressures', '0', '2.5', '--scatter', '0', '--fracture-energy', '0',
                '--out', folder]
     out, _ = run('compression', *options, *['--held'] * held)
-    table = np.array([line.split() for line in out.splitlines() if line.strip()[:1].isdigit()],
-                     dtype=float)
+    table = np.array(cells(out)[1:], dtype=float)
     assert table[:, 1] == pytest.approx([56.87, 65.86], rel=1e-3)
     assert table[:, 3] == pytest.approx(1, abs=.05)
     assert table[0, 4] < .5 and (table[:, 5] > 50).all() and (abs(table[:, 7]) < 1e-3).all()

@@ -131,14 +131,14 @@ def test_tooSlowForTheCoordinates():
 
 
 def proposed(error):
-    """The step (s) that a sentence asks for."""
+    """The step (s) that a sentence proposes."""
     found = re.search('take a step of at most ([^ ]*) s', str(error.value))
     assert found, str(error.value)
     return float(found.group(1))
 
 
 def stepAsAsked(solver, most):
-    """O.step, with the shorter steps that it asks for, and how many times it did."""
+    """O.step, with the shorter steps that it proposes, and how many times it did."""
     for asked in range(most):
         before, velocity = solver.nodes, solver.velocities
         try:
@@ -146,7 +146,7 @@ def stepAsAsked(solver, most):
             return asked
         except RuntimeError:
             with pytest.raises(RuntimeError) as error:
-                O.step()  # it asks for the same again
+                O.step()  # it proposes the same again
         assert np.abs(solver.nodes - before).max() <= 1e-12 and O.dt > proposed(error)
         assert np.abs(solver.velocities - velocity).max() <= 1e-12 * np.abs(velocity).max()
         O.dt = .999 * proposed(error)

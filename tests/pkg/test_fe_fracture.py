@@ -48,7 +48,7 @@ def test_fragmentsAlwaysTouch():
     assert O.bodies[0].shape.selfContact
 
 
-def test_coarseMeshIsWarnedOf():
+def test_coarseMeshIsReported():
     with pytest.warns(UserWarning, match='less than four elements'):
         impact(fractureEnergy=5)
 

@@ -80,25 +80,25 @@ def aSphere():
     ('mat', lambda: None), ('shape', lambda: None), ('shape', aSphere), ('bound', lambda: None),
     ('mat', lambda: w.FrictMat()), ('state', lambda: None), ('state', w.State)])
 def test_partsAreTakenAway(name, value, finder):
-    """From all pieces, or from the first, as cracks begin: the step goes well or says what is wrong,
+    """From all pieces, or from the first, as cracks begin: the step succeeds or reports what is wrong,
     and so does loading what was saved."""
     for count in (1, 10**6):
         O.reset()
         solver = impact(finder)
         steps(120)
         before = solver.numCracks
-        said = None
+        sentence = None
         try:
             for body in [b for b in O.bodies if isinstance(b.shape, w.SurfaceSegment)][:count]:
                 setattr(body, name, value())
             steps(100)
         except (RuntimeError, ValueError) as error:
-            said = str(error)
-        assert solver.numCracks > before or 'must not replace it' in said
-        assert said is not None or name not in ('state', 'shape')
+            sentence = str(error)
+        assert solver.numCracks > before or 'must not replace it' in sentence
+        assert sentence is not None or name not in ('state', 'shape')
         if name == 'bound':
-            assert said is None
-        if said is None:
+            assert sentence is None
+        if sentence is None:
             solver.removeBody(0)
             O.saveTmp()
             O.loadTmp()

@@ -115,7 +115,7 @@ def test_groundUnderItsWeightIsAtRest():
     assert solver.reaction(low)[1] == pytest.approx(g * solver.masses.sum(), rel=1e-2)
 
 
-def test_cracksSeeTheStress():
+def test_cracksDependOnTheStress():
     for part, cracks in ((.95, False), (1.05, True)):
         O.reset()
         O.materials.append(w.BrittleFEMat(young=1e9, poisson=.2, density=2000, tensileStrength=1e6, label='b'))

@@ -224,7 +224,7 @@ def splitting(intoCracks, **settings):
 
 
 @pytest.mark.parametrize('intoCracks', [False, True])
-def test_pressureComesIntoCracksWhereAskedFor(intoCracks, folder):
+def test_pressureEntersCracksIfRequested(intoCracks, folder):
     """The halves of a bar that has parted: each gets pressure × height × time along it, to 0.5 %: its sides
     tilt, and its height vibrates, by 10⁻³. The energies add up, and a saved scene goes on with the same bits."""
     solver = splitting(intoCracks)
@@ -253,7 +253,7 @@ def test_pressureComesIntoCracksWhereAskedFor(intoCracks, folder):
     assert solver.nodes.tobytes() == places
 
 
-def test_pressureWaitsUntilCracksLetGo():
+def test_pressureEntersCracksThatTransmitNoTraction():
     """As long as a fractureEnergy holds the halves together, there is none between them."""
     ends = []
     for intoCracks in (False, True):
@@ -297,7 +297,7 @@ def test_pressureStaysOutOfCracksThatDoNotReachIt():
 
 # --- rest
 
-def test_relaxedBlockBearsItsWeight():
+def test_relaxedBlockCarriesItsWeight():
     solver = fe(gravity=(0, -9.81))
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.25, material='m', name='block')
     run(solver)

@@ -55,7 +55,7 @@ def test_halvesHaveTheirOwnMassesStressesAndSteps():
     far = np.abs(middles[:, 0] - kLength / 2) > .01
     assert stress[far & isHard] == pytest.approx(2e9 * strain, rel=1e-2)
     assert stress[far & ~isHard] == pytest.approx(1e9 * strain, rel=1e-2)
-    # The stiffer and lighter half is what asks for the step.
+    # The stiffer and lighter half determines the step.
     step = solver.criticalTimeStep()
     O.reset()
     alone = drawnBar(material='hard')
@@ -119,7 +119,7 @@ def test_listsArraysAndFunctionsAreTheSame(folder):
         assert np.array_equal(wanted[2], found[2]) and wanted[3] == found[3]
 
 
-def test_spheresSeeTheMaterialBesideThem():
+def test_spheresHaveTheMaterialBesideThem():
     O.materials.append(hard())
     O.materials.append(soft())
     solver = w.FESolver()
@@ -200,7 +200,7 @@ def test_bondsAreSaved(folder):
     assert np.array_equal(again.nodes, nodes) and again.energy == energy
 
 
-def test_bondedGrainsBearStressAsOneBodyDoes():
+def test_bondedGrainsCarryStressAsOneBodyDoes():
     grains = yadefrag.voronoi(yadefrag.rectangle((0, 0), (.04, .04)), 8, 3, shortest=.004)
     O.materials.append(w.FEMat(young=1e9, poisson=.2, density=1000, label='m'))
     solver = w.FESolver()
@@ -248,9 +248,9 @@ def test_meshesThatDoNotMatchAreRefused():
         pair(gap=.01).bond(0, 1, 1e6, 100)
 
 
-def test_aMeshTooCoarseForABondIsWarnedOf():
+def test_aMeshTooCoarseForABondIsReported():
     solver = pair()
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter('always')
         solver.bond(0, 1, 5e6, 1)
-    assert any('of the bond between the bodies 0 and 1' in str(one.message) for one in told)
+    assert any('of the bond between the bodies 0 and 1' in str(one.message) for one in caught)

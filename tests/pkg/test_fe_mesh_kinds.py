@@ -144,7 +144,7 @@ def test_functionThatIsConstant():
         pytest.approx(len(added(size=.05).triangles), rel=.05)
 
 
-def test_shortEdgeOfTheOutlineIsWarnedOf():
+def test_shortEdgeOfTheOutlineIsReported():
     outline = [*kSquare[:2], (1, .5), (.9999, .5005), *kSquare[2:]]
     with pytest.warns(UserWarning, match=r'critical time step is [\d.]+ times shorter .* at \('):
         added(outline=outline)

@@ -179,7 +179,7 @@ def drift(factor):
     return (solver.energy['total'] - started) / solver.energy['external']
 
 
-def test_booksOfADrumLoseWhatIsOfSecondOrderInTheStep():
-    """A quarter of the step, a sixteenth of the loss; stones take other ways, so that a sixth is asked for."""
+def test_energyOfADrumDecreasesBySecondOrderInTheStep():
+    """A quarter of the step, a sixteenth of the loss; stones take other ways, so that a sixth is required."""
     coarse, fine = abs(drift(.8)), abs(drift(.2))
     assert coarse < 2e-3 and fine < coarse / 6

@@ -63,7 +63,7 @@ def test_missingResetterIsRefused():
 
 
 def test_orderIsCheckedAgain():
-    """When engines change in the middle of a run, and when one dies or comes to life."""
+    """When engines change in the middle of a run, and when one is disabled or enabled."""
     blow('RCIFN')
     steps(2)
     O.engines = [O.engines[i] for i in (0, 3, 1, 2, 4)]

@@ -43,7 +43,7 @@ def series(file):
             tree.parse(file + '.pvd').getroot().iter('DataSet')]
 
 
-def test_recordsAreWhatTheSolverSays(folder):
+def test_recordsAreTheSolversValues(folder):
     file = folder + '/a run & more'
     solver = scene(file)
     wanted = []
@@ -121,8 +121,8 @@ def test_aFullDiskIsASentenceAndTheRunGoesOn(small, capfd):
     file = small + '/run'
     scene(file)
     assert yadefrag.runSteps(400) == 400
-    said = [line for line in capfd.readouterr().err.splitlines() if line.startswith('WARN  FERecorder')]
-    assert 1 <= len(said) <= 2 and all('No space left on device' in one for one in said)
+    written = [line for line in capfd.readouterr().err.splitlines() if line.startswith('WARN  FERecorder')]
+    assert 1 <= len(written) <= 2 and all('No space left on device' in one for one in written)
     # What is there is whole.
     rows, pictures = table(file), series(file)
     assert 0 < len(pictures) <= len(rows) < 40
@@ -140,8 +140,8 @@ def test_aFolderThatGoesIsASentence(folder, capfd):
         os.remove(folder + '/deep/' + name)
     os.rmdir(folder + '/deep')
     steps(30)
-    said = [line for line in capfd.readouterr().err.splitlines() if line.startswith('WARN  FERecorder')]
-    assert len(said) == 2 and all('No such file or directory' in one for one in said)
+    written = [line for line in capfd.readouterr().err.splitlines() if line.startswith('WARN  FERecorder')]
+    assert len(written) == 2 and all('No such file or directory' in one for one in written)
 
 
 @pytest.mark.parametrize('settings, error', [
@@ -191,8 +191,8 @@ def test_wrongEnginesAreRefused(settings):
 
 # --- calls between steps
 
-def test_callsDoNotWaitForYadesLook(monkeypatch):
-    """YADE's O.wait() looks every 40 ms whether a run is over: it is not asked."""
+def test_callsDoNotWaitForYadesPolling(monkeypatch):
+    """YADE's O.wait() looks every 40 ms whether a run is over: it is not used."""
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
     O.engines = yadefrag.engines(solver)
@@ -203,7 +203,7 @@ def test_callsDoNotWaitForYadesLook(monkeypatch):
     assert called == list(range(1, 201)) and waited == []
 
 
-def test_runsThatStopAreTold():
+def test_runsThatStopAreReported():
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
     O.engines = yadefrag.engines(solver)

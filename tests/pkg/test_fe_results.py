@@ -196,7 +196,7 @@ def test_openJointsHaveNoStart():
     (lambda fe: fe.reaction([99]), 'but there are'),
     (lambda fe: yadefrag.crackTable(3), 'fe is 3, it must be an FESolver'),
 ])
-def test_wrongQuestionsAreRefused(call, sentence):
+def test_wrongArgumentsOfQueriesAreRefused(call, sentence):
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
     with pytest.raises(ValueError) as error:

@@ -151,7 +151,7 @@ def test_boxThatHitsABlockKeepsMomentum(clump):
 
 @pytest.mark.parametrize('above', [-.05, .05])
 @pytest.mark.parametrize('shape', ['box', 'facet'])
-def test_slidesOnATiltedSurfaceAsFrictionHasIt(shape, above):
+def test_slidesOnATiltedSurfaceAsFrictionRequires(shape, above):
     """A block at an angle of friction of 0.4, on slopes around it: it stays, or gains speed at
     g (sin a - cos a tan phi); 2 % of g sin a for the vibrations of its own start."""
     phi, slope = .4, .4 + above
@@ -249,7 +249,7 @@ def test_surfacesComeAndGo():
     assert len(solver.nodes) == len(nodes) and (solver.triangles == triangles).all()
 
 
-def test_scriptsSeeNoNodesOfSurfaces():
+def test_scriptsGetNoNodesOfSurfaces():
     solver = fe(gravity=(0, -G))
     one = block(solver, (0, 0), name='one')
     O.bodies.append([wall(0), facet((-1, .3), (1, .3), fixed=True)])
@@ -299,7 +299,7 @@ def test_overlapIsRefused():
     assert solver.warnings[0].startswith('FE bodies go through bodies of the shape Box, such as #%d' % number)
 
 
-def test_whatDoesNotTouchIsTold(capfd):
+def test_bodiesWithoutContactAreReported(capfd):
     solver = fe(gravity=(0, -G))
     block(solver)
     O.bodies.append(utils.facet([(-1, 0, 0), (1, 0, 0), (0, -1, 0)]))  # in the plane
@@ -308,10 +308,10 @@ def test_whatDoesNotTouchIsTold(capfd):
     light = O.bodies[-1]
     run(solver)
     steps(20)
-    told = solver.warnings
+    warnings = solver.warnings
     assert any(one.startswith('FE bodies go through facets that lie in their plane z = 0, such as #%d' % flat)
-               for one in told)
-    assert len(told) == 1
+               for one in warnings)
+    assert len(warnings) == 1
     light.state.mass, light.state.blockedDOFs = .05, 'zXY'
     for _ in range(20):
         O.step()
@@ -352,7 +352,7 @@ def test_brittleBlockShattersOnIt(what):
     assert abs(solver.energy['total'] - started) < 1e-3 * started
 
 
-def test_sceneWithoutThemPaysNothing():
+def test_sceneWithoutThemHasNoCost():
     """The same bits and searches with the option on and off."""
     runs = []
     for rigid in (True, False):

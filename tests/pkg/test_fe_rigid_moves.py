@@ -245,7 +245,7 @@ def test_whatComesAndGoesElsewhereDisturbsNoContact(way):
     assert np.abs(ends[0] - ends[1]).max() < 1e-11
 
 
-def test_velocityThatNothingIntegratesIsTold():
+def test_velocityThatNothingIntegratesIsReported():
     solver = fe()
     block(solver, (.001, 0))
     box = O.bodies[O.bodies.append(utils.box((-.1, .05, 0), (.1, .03, 1), fixed=True))]

@@ -47,7 +47,7 @@ def test_tangentialForceGoesOnAtAJoint(way):
     assert len(pieces) == 2 and moved * way > .00015
 
 
-def test_ballThatIsThrownRollsAsTheoryHasIt():
+def test_ballThatIsThrownRollsAsInTheory():
     """It slides first, then rolls: 5/7 of its speed is left, whatever friction is. 2·10⁻³: normal
     springs swing, and where the ball begins to roll its tangential spring does."""
     _, ball = sphereOn(yadefrag.rectangle((-.1, -.02), (.5, 0)), (-.07, R - 1e-7), (.5, 0), blocked='zXY')

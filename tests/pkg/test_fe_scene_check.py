@@ -28,24 +28,24 @@ def ball(place=(.5, 3, 0), blocked='zXY', **settings):
     return body
 
 
-def told(solver, capfd):
-    """What has been said; each sentence once on stderr."""
+def messages(solver, capfd):
+    """The messages; each once on stderr."""
     lines = [line for line in capfd.readouterr().err.splitlines() if line.startswith('WARN  FESolver: ')]
     assert lines == ['WARN  FESolver: ' + sentence for sentence in solver.warnings]
     return solver.warnings
 
 
-def test_wholeSceneIsQuiet(capfd):
+def test_completeSceneGivesNoMessage(capfd):
     solver = scene()
     ball()
     steps(5)
-    assert told(solver, capfd) == []
+    assert messages(solver, capfd) == []
 
 
 @pytest.mark.parametrize('make, shape', [
     (lambda: utils.wall(-1, axis=1), 'Wall'), (lambda: utils.box((0, -1, 0), (1, .1, 1)), 'Box'),
     (lambda: utils.facet([(0, -1, 0), (1, -1, 0), (0, -1, 1)]), 'Facet')])
-def test_shapesThatBodiesGoThroughAreTold(make, shape, capfd, folder):
+def test_shapesThatBodiesGoThroughAreReported(make, shape, capfd, folder):
     solver = scene(rigidBodies=False)
     ball()
     steps(2)
@@ -54,9 +54,9 @@ def test_shapesThatBodiesGoThroughAreTold(make, shape, capfd, folder):
     steps(2)
     O.bodies.append(make())  # the same kind again
     steps(2)
-    [sentence] = told(solver, capfd)
+    [sentence] = messages(solver, capfd)
     assert sentence.startswith('FE bodies go through bodies of the shape %s, such as #%d: ' % (shape, number))
-    # It is part of the scene, and not said again.
+    # It is part of the scene, and not repeated.
     path = os.path.join(folder, 'scene.yade')
     O.save(path)
     O.load(path)
@@ -65,22 +65,22 @@ def test_shapesThatBodiesGoThroughAreTold(make, shape, capfd, folder):
     assert solver.warnings == [sentence] and 'WARN  FESolver' not in capfd.readouterr().err
 
 
-def test_otherShapesAreTold(capfd):
+def test_otherShapesAreReported(capfd):
     solver = scene()
     O.bodies.append(utils.tetra([(0, -1, 0), (0, -2, 0), (1, -1, 0), (0, -1, 1)], material='m'))
     steps(2)
-    [sentence] = told(solver, capfd)
+    [sentence] = messages(solver, capfd)
     assert sentence.startswith('FE bodies go through bodies of the shape Tetra, such as #%d: they touch '
                                'each other, spheres, walls, boxes and facets only' % O.bodies[-1].id)
 
 
-def test_forcesThatAddUpAreTold(capfd):
+def test_forcesThatAddUpAreReported(capfd):
     """FESolver puts forces on walls."""
     solver = scene(spheres=False)
     O.bodies.append(utils.wall(-1, axis=1))
     O.engines = [solver]
     steps(2)
-    [sentence] = told(solver, capfd)
+    [sentence] = messages(solver, capfd)
     assert 'no ForceResetter: the forces of FESolver on bodies add up' in sentence
 
 
@@ -97,13 +97,13 @@ def without(solver, name):
     (lambda solver: setattr(O, 'engines', [w.ForceEngine(ids=[0]), solver]), 'no ForceResetter: the forces of'
                                                                             ' ForceEngine'),
 ])
-def test_missingPartsAreTold(spoil, sentence, capfd):
+def test_missingPartsAreReported(spoil, sentence, capfd):
     solver = scene()
     if 'ForceEngine' not in sentence:
         ball()
     spoil(solver)
     steps(3)
-    [one] = told(solver, capfd)
+    [one] = messages(solver, capfd)
     assert sentence in one
 
 
@@ -111,12 +111,12 @@ def test_missingPartsAreTold(spoil, sentence, capfd):
     ((.5, 3, .2), 'zXY', 0, 0, 'is beside the plane'), ((.5, 3, .01), 'XY', 0, 0, 'leaves the plane'),
     ((.5, 3, 0), '', .1, 0, 'leaves the plane'), ((.5, 3, 0), '', 0, -9.81, 'Gravity along z moves sphere #'),
     ((.5, 3, 0), 'zXY', 0, -9.81, 'NewtonIntegrator along z does not act'), ((.5, 3, 0), '', 0, 0, None)])
-def test_spheresBesideThePlaneAreTold(place, blocked, speed, gravity, sentence, capfd):
+def test_spheresBesideThePlaneAreReported(place, blocked, speed, gravity, sentence, capfd):
     solver = scene()
     ball(place, blocked).state.vel = (0, 0, speed)
     O.engines[-1].gravity = (0, 0, gravity)
     steps(3)
-    found = told(solver, capfd)
+    found = messages(solver, capfd)
     assert len(found) == (sentence is not None) and all(sentence in one for one in found)
 
 

@@ -144,15 +144,15 @@ def allEnergy(solver, clump):
                                                 'fracture', 'damping'))
 
 
-@pytest.mark.parametrize('young, told', [(2e9, True), (2e11, False)])
-def test_springsThatCracksCompressAreCountedAndToldOf(young, told):
+@pytest.mark.parametrize('young, reported', [(2e9, True), (2e11, False)])
+def test_springsThatCracksCompressAreCountedAndReported(young, reported):
     """Where a crack opens under a sphere, a contact begins deep inside."""
     solver, clump = wallAndClump(young)
     before = allEnergy(solver, clump)
     O.run(int(6e-4 / O.dt), True)
     assert solver.numCracks > 30
     gained = allEnergy(solver, clump) - before
-    # Leapfrog's energies are known to some thousandths; springs' friction is not counted.
+    # Leapfrog's energies are accurate to some thousandths; springs' friction is not counted.
     assert abs(gained - solver.energyFromSpheres) < .01 * before
-    assert (solver.energyFromSpheres > .1 * before) == told
-    assert any('new contacts have created' in sentence for sentence in solver.warnings) == told
+    assert (solver.energyFromSpheres > .1 * before) == reported
+    assert any('new contacts have created' in sentence for sentence in solver.warnings) == reported

@@ -196,7 +196,7 @@ def test_savedMotionsGoOnWithTheSameBits(folder, ending):
     assert (solver.nodes == wanted).all() and solver.energy == energy
 
 
-def test_functionsAreAskedForAfterALoad(folder):
+def test_functionsAreRequiredAfterALoad(folder):
     solver = block()
     path = os.path.join(folder, 'scene.yade')
     low = bottom(solver)

@@ -26,29 +26,29 @@ def blow(**settings):
 
 
 @pytest.mark.parametrize('settings', [{}, dict(passes=2), dict(correction='penalty')])
-def test_healthyBlowIsQuiet(settings, capfd):
+def test_correctImpactGivesNoMessage(settings, capfd):
     solver = blow(**settings)
     O.run(400, True)
     assert solver.numSearches > 0 and solver.energy['contact'] > 0
     assert solver.warnings == [] and 'WARN  FESolver' not in capfd.readouterr().err
 
 
-def test_softPenaltyIsToldOncePerDoubling(capfd, tmp_path):
+def test_softPenaltyIsReportedOncePerDoubling(capfd, tmp_path):
     solver = blow(correction='penalty', penaltyFactor=1e-4)
     O.run(400, True)
-    told = solver.warnings
-    assert 0 < len(told) < 8
-    assert 'bodies overlap by' in told[0] and 'larger penalty factor' in told[0]
+    sentences = solver.warnings
+    assert 0 < len(sentences) < 8
+    assert 'bodies overlap by' in sentences[0] and 'larger penalty factor' in sentences[0]
     err = capfd.readouterr().err
     assert [line for line in err.splitlines() if line.startswith('WARN')] == \
-        ['WARN  FESolver: ' + sentence for sentence in told]
-    # They are part of the state, and not told again.
+        ['WARN  FESolver: ' + sentence for sentence in sentences]
+    # They are part of the state, and not repeated.
     for name in ('x.yade', 'x.xml'):
         path = str(tmp_path / name)
         O.save(path)
         O.load(path)
         [again] = [e for e in O.engines if isinstance(e, w.FESolver)]
-        assert again.warnings == told
+        assert again.warnings == sentences
         assert 'WARN  FESolver' not in capfd.readouterr().err
 
 
@@ -62,10 +62,10 @@ def vary(critical, steps, seed=3):
     return solver
 
 
-def test_stepsThatChangeAllTheTimeAreTold():
-    told = vary(blow().criticalTimeStep(), 1000).warnings
-    assert 0 < len(told) < 12 and all(len(sentence) <= 300 for sentence in told)
-    assert 'keep the time step constant, or below a third of the critical one' in told[0]
+def test_stepsThatChangeAllTheTimeAreReported():
+    sentences = vary(blow().criticalTimeStep(), 1000).warnings
+    assert 0 < len(sentences) < 12 and all(len(sentence) <= 300 for sentence in sentences)
+    assert 'keep the time step constant, or below a third of the critical one' in sentences[0]
 
 
 @pytest.mark.parametrize('before, after', [(200, 800), (800, 250)])
@@ -83,7 +83,7 @@ def test_reloadedRunWarnsTheSame(before, after, tmp_path):
     assert solver.warnings == wanted and (solver.nodes == nodes).all()
 
 
-def test_untouchedBodyIsQuiet():
+def test_untouchedBodyGivesNoMessage():
     material = w.FEMat(young=210e9, poisson=.3, density=7800)
     O.materials.append(material)
     solver = w.FESolver()
@@ -94,7 +94,7 @@ def test_untouchedBodyIsQuiet():
     assert solver.energy['total'] > 0 and solver.warnings == []
 
 
-def test_deepestOverlapKnowsWhatContactKnows():
+def test_deepestOverlapIsThatOfContact():
     """Faces that a soft penalty lets into one another: the same depth by triangles as by points."""
     solver = blow(correction='penalty', penaltyFactor=1e-4)
     assert solver.deepestOverlap() == 0
@@ -103,7 +103,7 @@ def test_deepestOverlapKnowsWhatContactKnows():
     assert abs(solver.deepestOverlap() / solver.maxPenetration - 1) < .05
 
 
-def test_bodiesWithoutTheirEngineAreTold():
+def test_bodiesWithoutTheirEngineAreReported():
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
     O.engines, O.dt = [w.ForceResetter()], 1e-6

@@ -1,4 +1,4 @@
-"""Files that cannot be written: known before a run, named, and the old file stays as it was."""
+"""Files that cannot be written: reported before a run, with their names, and the old file stays as it was."""
 import builtins
 import os
 import random
@@ -227,7 +227,7 @@ def test_aByteOrderMarkIsSkipped(folder):
 # --- YADE's own save
 
 @pytest.mark.parametrize('name', ['/dev/full', '/nowhere/x.yade', '{folder}'])
-def test_aSaveThatFailsSaysSo(name, folder):
+def test_aSaveThatFailsIsReported(name, folder):
     impact()
     sentence = '^FESolver could not be saved .*its file cannot be opened or the disk is full'
     with pytest.raises(RuntimeError, match=sentence):

@@ -112,7 +112,7 @@ def test_virtualFunctionsOfTheRunningYadeAreTheMeasuredOnes():
     assert len(names) == len(wanted) > 500
     compared = 0
     for (name, at, function), spelled in zip(wanted, demangled(names)):
-        # Functions of the same code, say of two empty destructors, may have one symbol's name.
+        # Functions of the same code, e.g. of two empty destructors, may have one symbol's name.
         if not spelled or function == '~':
             continue
         assert re.search(r'\b%s(\[abi:cxx11\])?\(' % function, spelled), (name, at, function, spelled)
@@ -181,9 +181,9 @@ Class yade::Shape
 
 def test_anUnknownVersionIsNamedInOneSentence(tmp_path, capsys):
     assert make_table.main('2031.1', '0', tmp_path / 'a.hpp', tmp_path / 'b.py') == 2
-    said = capsys.readouterr().out
-    assert '2031.1' in said and all(version in said for version in KNOWN)
-    assert said.count('\n') == 1 and not list(tmp_path.iterdir())
+    printed = capsys.readouterr().out
+    assert '2031.1' in printed and all(version in printed for version in KNOWN)
+    assert printed.count('\n') == 1 and not list(tmp_path.iterdir())
 
 
 def test_filesAreWrittenAsTheyAreRead(tmp_path, monkeypatch):

@@ -41,7 +41,7 @@ def test_finestFeatureAndItsCost(outline, finest, place, word):
     assert found[at] == pytest.approx(place)
     assert found['ratio'] == pytest.approx(.05 / finest)
     assert word in found['words'] and found['words'].endswith('.')
-    # As the docstring says; the shapes of triangles differ.
+    # According to the docstring; the shapes of triangles differ.
     assert .5 < step / found['timeStep'] < 3
 
 

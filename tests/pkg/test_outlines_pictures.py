@@ -62,7 +62,7 @@ def test_greysWithoutARangeAreRefused(folder):
         readOutline(file, 1)
 
 
-def test_specksAreLeftOutWhereAskedFor(folder):
+def test_specksAreOmittedIfRequested(folder):
     def inside(x, y):
         return (abs(x - 60) < 30) & (abs(y - 50) < 20) | (np.hypot(x - 10, y - 10) < 2)
     file = silhouette(folder, inside)

@@ -136,7 +136,7 @@ def test_spheresAndMembersOfClumpsAreDrawn(folder):
         assert count == pytest.approx(numpy.pi * (radius * scale)**2, rel=.1)
 
 
-def test_spheresAreLeftOutWhereAskedFor():
+def test_spheresAreOmittedIfRequested():
     ax = scenePicture(spheres=False)
     assert drawnSpheres(ax) == [] and ax.get_xlim()[1] < 1.2
 
@@ -187,7 +187,7 @@ def test_sectionsOfWallsBoxesAndFacetsAreDrawn(folder):
     assert (pixels == (0, 0, 255)).all(axis=2).any() and not (pixels == (255, 255, 0)).all(axis=2).any()
 
 
-def test_rigidBodiesAreLeftOutWhereAskedFor():
+def test_rigidBodiesAreOmittedIfRequested():
     ax = pictures.plotMesh(rigidScene(), rigidBodies=False)
     assert drawnRigid(ax) == ([], [], set()) and ax.get_xlim()[0] > -.2 and ax.get_xlim()[1] < 1.2
 
@@ -245,7 +245,7 @@ def test_wrongWindowsAndFields(change, sentence):
         pictures.plotMesh(makeSolver(), **change)
 
 
-def test_curvesOfFractureAreToldApart(folder):
+def test_curvesOfFractureAreDistinguishable(folder):
     """Colours of both axes: red, green and blue of any two differ by 0.25 and more together."""
     from matplotlib import colors
     from yadefrag import fragments

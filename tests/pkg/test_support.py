@@ -47,7 +47,7 @@ def test_versionOfAnotherBuildIsNamedAsSuch():
 
 
 def test_untriedVersionIsRefusedInOneSentence(monkeypatch):
-    """A build for a YADE whose layout is known, and which no test was run with."""
+    """A build for a YADE whose layout is known, but without a test run."""
     monkeypatch.setattr(support, 'VERSION', '2026.1.0')
     sentence = support.describeMismatch('2026.1.0', 'PrecisionDouble', STOCK)
     assert 'never tested with it' in sentence and '2023.02a' in sentence
@@ -65,7 +65,7 @@ def test_configWithoutTheFieldsIsRefused():
     assert 'unknown' in support.describeSurroundings(modules)
 
 
-def test_plainPythonIsToldToUseYade():
+def test_plainPythonIsReferredToYade():
     package = pathlib.Path(support.__file__).parent.parent
     done = subprocess.run([sys.executable, '-c', 'import yadefrag'], capture_output=True, text=True,
                           env={**os.environ, 'PYTHONPATH': str(package)}, check=False)
@@ -100,13 +100,13 @@ def test_yadesOwnClassesAreNotReplaced():
     assert isinstance(wrapper.InsertionSortCollider(), yade.Collider)
 
 
-def test_ownCopiesOfEigenAndCgalStayInside():
+def test_ownCopiesOfEigenCgalAndFmtStayInside():
     """YADE's, compiled with other options, would be called instead."""
     names = subprocess.run(['nm', '-DC', '--defined-only', _yadefrag.__file__], check=True,
                            capture_output=True, text=True).stdout.splitlines()
     names = [line.split(' ', 2)[2] for line in names]
     assert 'PyInit__yadefrag' in names
     assert any(name.startswith('typeinfo for yade') for name in names), 'one with YADE\'s'
-    functions = [name for name in names if 'CGAL::' in name or re.match(
+    functions = [name for name in names if 'CGAL::' in name or 'fmt::v' in name or re.match(
         r'(guard variable for |void |)Eigen::', name)]
     assert functions == []

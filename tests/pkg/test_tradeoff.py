@@ -275,7 +275,7 @@ def test_interruptedTableHasWhatWasDone(monkeypatch, capsys):
 
 
 def local(_):
-    """A scene that is not where its name says."""
+    """A scene that is not in the module of its name."""
 
 
 local.__name__ = 'elsewhere'

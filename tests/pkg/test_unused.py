@@ -27,8 +27,8 @@ def rings(tmp_path_factory):
 
 @pytest.mark.parametrize('feature', unused.features())
 def testFeatureThatIsNotUsedTakesNoTime(rings, feature):
-    shares, said = rings
-    assert said['rows'] > 100 and said['searches'] > 2      # contact and search are there
+    shares, printed = rings
+    assert printed['rows'] > 100 and printed['searches'] > 2      # contact and search are there
     assert shares[feature] <= kMost
 
 
@@ -51,9 +51,9 @@ def testBodiesThatAreNearTakeContact(folder):
 
 
 def testSpheresDoNotPayForThePlugin(folder):
-    costs, said = unused.countSpheres(kCounting, folder, 200, 30)
-    assert [row['way'] for row in said] == ['absent', *unused.WAYS] and said[0]['real'] > 50
-    # Boost.Python asks every module about each call from Python: nothing to do with the step.
+    costs, printed = unused.countSpheres(kCounting, folder, 200, 30)
+    assert [row['way'] for row in printed] == ['absent', *unused.WAYS] and printed[0]['real'] > 50
+    # Boost.Python searches every module in each call from Python: nothing to do with the step.
     ours = {cost.function for cost in costs['imported'] if cost.object.endswith('_yadefrag.so')}
     assert all('translate_exception' in name for name in ours), ours
     absent, imported, used = map(unused.byObject, costs.values())

@@ -33,9 +33,9 @@ def isOfCompression(functions):
 
 
 def findings(report):
-    """What memcheck says with the plugin in a stack: [(kind, text, functions innermost first)].
+    """Findings of memcheck with the plugin in a stack: [(kind, text, functions innermost first)].
 
-    With XML it looks for leaks whatever it is told; those are left out: Python and YADE keep their
+    With XML it looks for leaks with any options; those are left out: Python and YADE keep their
     classes, and the last scene, to the end."""
     found = []
     for error in ElementTree.parse(report).getroot().iter('error'):

@@ -49,7 +49,7 @@ def seen(_, ways):
 
 
 def whole(fe):
-    """Numbers that tell which choices have come through."""
+    """Numbers that depend on the choices."""
     return [fe.passes, fe.correction == 'penalty', fe.penaltyFactor, fe.halo, fe.linearViscosity,
             fe.quadraticViscosity, O.materials[0].planeStress, O.numThreads,
             len(O.engines), len(fe.triangles)]
@@ -75,7 +75,7 @@ def place(body):
 
 
 def odd(choices):
-    """What the setting says goes wrong, does."""
+    """The fault that the setting names."""
     fault = choices['fault']
     fe = block(choices)
     if fault == 'sentence':

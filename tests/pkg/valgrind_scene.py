@@ -44,7 +44,7 @@ def saveAndLoad():
 
 
 def badInput():
-    """A body that is nowhere: the search raises and the scene lives on."""
+    """A body that is nowhere: the search raises and the scene remains valid."""
     state = O.bodies[1].state
     good = Vector3(state.pos)
     state.pos = Vector3(math.nan, 0, 0)
@@ -58,7 +58,7 @@ def badInput():
 
 
 def probe():
-    """BoxFactory asks the collider for free room."""
+    """BoxFactory requests free room from the collider."""
     factory = w.BoxFactory(maxParticles=5, extents=(.4, .4, .4), center=(.5, .5, 1.5), rMin=.03,
                            rMax=.05, vMin=.5, vMax=.5, normal=(0, 0, 1), massFlowRate=1000,
                            materialId=0, maxAttempt=100, stopIfFailed=False)

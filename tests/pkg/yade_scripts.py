@@ -92,7 +92,7 @@ def runUnit(swap, names):
     for name in names:
         O.reset()
         started, before = clock.time(), dict(swap.count)
-        if name == 'wrapper':   # demands that a class be called as it was asked for
+        if name == 'wrapper':   # requires the class under its original name
             import yade.tests.wrapper as tests
             tests.allClasses = [c for c in tests.allClasses if c not in kRivals]
         suite = unittest.defaultTestLoader.loadTestsFromName('yade.tests.' + name)

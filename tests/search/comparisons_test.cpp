@@ -120,7 +120,7 @@ TEST(PaperFigures, RivalsNeedMoreAndGrow) {
   EXPECT_LT(lebesgue[1], hierarchy[1]);
 }
 
-TEST(PaperFigures, CountingIsOffUnlessAskedFor) {
+TEST(PaperFigures, CountingIsOffByDefault) {
   const Nodes nodes(1000);
   const auto search = makeSearch(SearchMethod::kLebesgue);
   EXPECT_EQ(ofOneSearch(*search, nodes.boxes()).total(), 0U);

@@ -215,7 +215,7 @@ TEST(Figure14, LebesgueBeatsLinearOnRingsMoreAndMore) {
   }
   EXPECT_GT(shipped[0], 1.15);
   EXPECT_GT(shipped[2], shipped[0] + .05);
-  // With the printed exponential search the two meet at some twenty rings.
+  // With the printed exponential search the two are equal at some twenty rings.
   EXPECT_GT(printed[0], .95);
   EXPECT_GT(printed[1], 1);
   EXPECT_GT(printed[2], printed[1] + .05);

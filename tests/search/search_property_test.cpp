@@ -116,7 +116,7 @@ TEST(SearchProperty, StopsWhereThereAreTooManyPairs) {
   }
 }
 
-TEST(SearchProperty, ClearForgetsEverything) {
+TEST(SearchProperty, ClearRemovesEverything) {
   for (const SearchMethod method : kMethods) {
     RandomScene before(1), after(2);
     const auto used = makeSearch(method), fresh = makeSearch(method);

@@ -56,7 +56,7 @@ TEST_P(Apart, NothingIsMissed) {
     fewest = std::min(fewest, seldom.surfaceNodes().size());
   }
   EXPECT_GT(touched, 20U);
-  EXPECT_EQ(fewest, 0U) << "at some time nobody is watched";
+  EXPECT_EQ(fewest, 0U) << "at some time no body is watched";
   EXPECT_LT(seldom.numSearches, .9 * always.numSearches);
 }
 

@@ -101,7 +101,7 @@ void equalBars(QuadPattern pattern, double mostRipple) {
   figure("speed_of_a", speed(world, a) / (v / 2), -1, .015);
   figure("speed_of_b", speed(world, b) / (v / 2), 1, .015);
   figure("energy_error", totalEnergy(world) / before - 1, 0, .002);
-  // What the nodes of both faces lose when they meet, some half an element's mass: it is booked.
+  // What the nodes of both faces lose when they meet, some half an element's mass: it is counted.
   figure("energy_lost_at_touch", world.ledger.contact / before, 0, .006);
 }
 

@@ -26,13 +26,13 @@ EnergyWatch watchOf(double energy) {
   return watch;
 }
 
-/// What the watch says of contact and cracks.
-std::string said(EnergyWatch& watch, const WatchedStep& step, double noise = 0) {
+/// The message of the watch on contact and cracks.
+std::string message(EnergyWatch& watch, const WatchedStep& step, double noise = 0) {
   watch.count(step);
   return watch.mayHaveCreated(step) ? watch.contactMessage(step, noise) : "";
 }
 
-/// What the watch says of the motion of bodies that have so much energy (J).
+/// The message of the watch on the motion of bodies that have so much energy (J).
 std::string saidOf(EnergyWatch& watch, double kinetic, double strain,
                    const EnergyLedger& ledger = {}, double noise = 0) {
   const WatchedStep step = stepOf(ledger);
@@ -41,12 +41,12 @@ std::string saidOf(EnergyWatch& watch, double kinetic, double strain,
   return watch.growthMessage(step, kinetic + strain, noise);
 }
 
-TEST(EnergyWatch, TellsOncePerDoubling) {
+TEST(EnergyWatch, ReportsOncePerDoubling) {
   EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   const auto contact = [&](double given) {
     ledger.contact = -given;
-    return said(watch, stepOf(ledger));
+    return message(watch, stepOf(ledger));
   };
   EXPECT_EQ(contact(.9), "");
   EXPECT_EQ(contact(1.2),
@@ -58,48 +58,48 @@ TEST(EnergyWatch, TellsOncePerDoubling) {
   EXPECT_NE(contact(5.1), "");
 }
 
-TEST(EnergyWatch, WhatContactTookBeforeHidesNothing) {
+TEST(EnergyWatch, EarlierDissipationByContactHidesNothing) {
   EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   ledger.contact = 30, ledger.friction = 20;
-  EXPECT_EQ(said(watch, stepOf(ledger)), "");
+  EXPECT_EQ(message(watch, stepOf(ledger)), "");
   ledger.contact = 28.5;
-  EXPECT_NE(said(watch, stepOf(ledger)), "");
+  EXPECT_NE(message(watch, stepOf(ledger)), "");
   ledger.friction = 18;
-  EXPECT_NE(said(watch, stepOf(ledger)), "") << "friction";
+  EXPECT_NE(message(watch, stepOf(ledger)), "") << "friction";
 }
 
-TEST(EnergyWatch, APenaltyMayGiveBackWhatItTook) {
+TEST(EnergyWatch, APenaltyMayReleaseWhatItHasStored) {
   EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   for (const double stored : {0., 30., 5., 0., -.5}) {
     ledger.contact = stored;
-    EXPECT_EQ(said(watch, stepOf(ledger, true)), "") << stored;
+    EXPECT_EQ(message(watch, stepOf(ledger, true)), "") << stored;
   }
   ledger.contact = -2;
   EXPECT_TRUE(
-      said(watch, stepOf(ledger, true)).ends_with("Lagrangian correction, or a shorter step."));
+      message(watch, stepOf(ledger, true)).ends_with("Lagrangian correction, or a shorter step."));
 }
 
-TEST(EnergyWatch, CracksAreToldApart) {
+TEST(EnergyWatch, CracksAreDistinguishedFromContact) {
   EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   ledger.fracture = -3;
-  EXPECT_TRUE(said(watch, stepOf(ledger)).find("cohesive cracks have created 3 J") !=
+  EXPECT_TRUE(message(watch, stepOf(ledger)).find("cohesive cracks have created 3 J") !=
               std::string::npos);
   watch.split = 7;
   ledger.fracture = -7;
   EXPECT_TRUE(
-      said(watch, stepOf(ledger))
+      message(watch, stepOf(ledger))
           .find("element='smoothed' have created 7 J, 7 % of the bodies' energy; the strains "
                 "of elements that a crack separates") != std::string::npos);
 }
 
-TEST(EnergyWatch, SparesWhatRoundingMakes) {
+TEST(EnergyWatch, DoesNotReportRounding) {
   EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   ledger.contact = -2;
-  EXPECT_EQ(said(watch, stepOf(ledger), 5), "");
+  EXPECT_EQ(message(watch, stepOf(ledger), 5), "");
   EXPECT_EQ(saidOf(watch, 102, 1, {}, 5), "");
   EXPECT_NE(saidOf(watch, 112, 1, {}, 5), "");
 }
@@ -109,13 +109,13 @@ TEST(EnergyWatch, BeginsAnewWhenABodyGoes) {
   EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
   ledger.contact = -2;
-  EXPECT_NE(said(watch, stepOf(ledger)), "");
+  EXPECT_NE(message(watch, stepOf(ledger)), "");
   watch.begin(50, ledger);
   EXPECT_EQ(watch.most, 50);
-  EXPECT_EQ(said(watch, stepOf(ledger)), "");
+  EXPECT_EQ(message(watch, stepOf(ledger)), "");
   EXPECT_EQ(saidOf(watch, 50.4, 0, ledger), "");
   ledger.contact = -2.7;
-  EXPECT_NE(said(watch, stepOf(ledger)), "");
+  EXPECT_NE(message(watch, stepOf(ledger)), "");
 }
 
 TEST(EnergyWatch, SumsUpWhereBodiesMoveWithMoreThanThereIs) {
@@ -139,7 +139,7 @@ TEST(EnergyWatch, SumsUpFromTimeToTimeWhateverTheMotion) {
   EXPECT_TRUE(EnergyWatch::isDue(step.step) && watch.mayHaveGrown(step, 10));
 }
 
-TEST(EnergyWatch, WhatWasSpentIsThereNoMore) {
+TEST(EnergyWatch, DissipatedEnergyCannotBeReleased) {
   EnergyWatch watch = watchOf(100);
   EXPECT_EQ(saidOf(watch, 60, 0, {.contact = 40}), "");
   EXPECT_NE(saidOf(watch, 60, 0, {.contact = 45}), "");
@@ -148,14 +148,14 @@ TEST(EnergyWatch, WhatWasSpentIsThereNoMore) {
 }
 
 /// A message about bodies at rest is in joules, and does not suppress messages once they move.
-TEST(EnergyWatch, WhatWasToldAtRestHidesNothingLater) {
+TEST(EnergyWatch, ReportsAtRestHideNoLaterOnes) {
   EnergyWatch watch = watchOf(1e-20);
   EXPECT_NE(saidOf(watch, 7e-18, 0), "");
   EXPECT_EQ(saidOf(watch, 100, 0, {.external = 100}), "");
   EXPECT_NE(saidOf(watch, 121, 0, {.external = 100}).find("21 J, 21 %"), std::string::npos);
 }
 
-TEST(EnergyWatch, BlamesAStepThatChangesOften) {
+TEST(EnergyWatch, ReportsAStepThatChangesOften) {
   EnergyWatch watch = watchOf(100);
   const EnergyLedger ledger;
   WatchedStep step = stepOf(ledger);
@@ -172,7 +172,7 @@ TEST(EnergyWatch, BlamesAStepThatChangesOften) {
       << "that was long ago";
 }
 
-TEST(EnergyWatch, TellsOfDepth) {
+TEST(EnergyWatch, ReportsDepth) {
   EnergyWatch watch;
   const EnergyLedger ledger;
   WatchedStep step = stepOf(ledger, true);
@@ -207,7 +207,7 @@ World blow(const ContactSettings& settings, int steps) {
   return world;
 }
 
-TEST(EnergyWatch, HealthyBlowsAreQuiet) {
+TEST(EnergyWatch, CorrectImpactsGiveNoMessage) {
   for (const int passes : {1, 2})
     for (const Correction correction : {Correction::kLagrange, Correction::kPenalty}) {
       const World world = blow({correction, passes}, 400);
@@ -217,7 +217,7 @@ TEST(EnergyWatch, HealthyBlowsAreQuiet) {
 }
 
 /// A ten-thousandth of the stiffness that would undo a penetration in a step: they sink.
-TEST(EnergyWatch, ASoftPenaltyIsTold) {
+TEST(EnergyWatch, ASoftPenaltyIsReported) {
   const World world = blow({Correction::kPenalty, 1, 1e-4}, 400);
   ASSERT_FALSE(world.warnings.empty());
   EXPECT_TRUE(world.warnings.front().find("bodies overlap by") != std::string::npos)
@@ -243,7 +243,7 @@ World spreading(double part) {
   return world;
 }
 
-TEST(EnergyWatch, TellsOfAStepThatCannotFollow) {
+TEST(EnergyWatch, ReportsAStepThatIsTooLong) {
   for (const double part : {1e-3, .01, .05}) {
     const World world = spreading(part);
     EXPECT_TRUE(world.warnings.empty()) << part << ": " << world.warnings.front();
@@ -283,7 +283,7 @@ void vary(World& world, double least, double most, int steps, double growth) {
 }
 
 /// At each change of the step the sum was begun anew.
-TEST(EnergyWatch, TellsOfStepsThatChangeAllTheTime) {
+TEST(EnergyWatch, ReportsStepsThatChangeAllTheTime) {
   World world = shaking(.01, {}, .01);
   vary(world, .27, .9, 4000, 50);
   ASSERT_FALSE(world.warnings.empty());
@@ -295,7 +295,7 @@ TEST(EnergyWatch, TellsOfStepsThatChangeAllTheTime) {
 }
 
 /// Rounding shakes a body at rest, more and more.
-TEST(EnergyWatch, BodiesAtRestAreQuiet) {
+TEST(EnergyWatch, BodiesAtRestGiveNoMessage) {
   for (const Vec2 low : {Vec2{.3, .3}, Vec2{-.35, -.35}, Vec2{17.3, 3}, Vec2{1000, 1000}})
     for (const double ofCritical : {.8, .05}) {
       World world = shaking(0, low, .7);
@@ -310,7 +310,7 @@ TEST(EnergyWatch, BodiesAtRestAreQuiet) {
 }
 
 /// After all that rounding has made of it.
-TEST(EnergyWatch, GrowthIsToldAfterALongRest) {
+TEST(EnergyWatch, GrowthIsReportedAfterALongRest) {
   World world = shaking(0, {.3, .3}, .7);
   const double dt = .8 * world.criticalTimeStep();
   for (int i = 0; i < 6000; ++i) world.step(dt);
@@ -351,7 +351,7 @@ TEST(EnergyWatch, NewcomersDoNotBeginTheSumAnew) {
   EXPECT_NEAR(quiet.watch.expected / energyOf(quiet), 1, 1e-8);
 }
 
-TEST(EnergyWatch, BodiesThatGoTakeTheirEnergyAlong) {
+TEST(EnergyWatch, RemovedBodiesTakeTheirEnergyAway) {
   World world = joined(.8, .8, {0, 1});
   const double before = energyOf(world), dt = world.lastDt;
   world.removeBody(ComponentId(3));

@@ -114,7 +114,7 @@ TEST_P(EntryPairs, AllSlavesInTheHaloForEverySearch) {
 /// The guarantee of the halo: if no node has moved by more than δ/2, everything that touches was a
 /// pair. Backwards: a point is put on a master, then all nodes go away from each other by up to δ/2
 /// at random.
-TEST_P(EntryPairs, WhoeverTouchesWithinTheHaloWasAPair) {
+TEST_P(EntryPairs, AllThatTouchWithinTheHaloWerePairs) {
   Random random(90 + GetParam());
   int far = 0;
   for (int scene = 0; scene < 1000; ++scene) {

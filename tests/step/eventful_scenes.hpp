@@ -55,7 +55,7 @@ inline TriangleMesh rectangleAt(Vec2 low, Vec2 size, int nx, int ny) {
   return structuredRectangle(low, low + size, nx, ny, QuadPattern::kCrossed);
 }
 
-/// A row of blocks; the outer ones fly inwards. `change` is asked for each body.
+/// A row of blocks; the outer ones fly inwards. `change` is called for each body.
 inline World row(int count, double gap, double speed,
                  const std::function<void(int, BodySpec&, const TriangleMesh&)>& change) {
   World world;

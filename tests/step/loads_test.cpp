@@ -132,7 +132,7 @@ TEST(Absorbing, TakesTheImpedanceOfTheTriangleBehind) {
   EXPECT_NEAR(force.y, -.2 * across, 1e-5 * across);
 }
 
-TEST(Absorbing, EnergyIsKeptInTheBooks) {
+TEST(Absorbing, TheEnergyBalanceHolds) {
   World world = oneBlock({0, 0}, {.1, .2});
   world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1 || x.y == 0; }));
   const double before = world.kineticEnergy();

@@ -184,7 +184,7 @@ class AnyCollision {
   std::mt19937 random_{1};
 };
 
-/// Whatever meets however, on coarse meshes too.
+/// Any contact, on coarse meshes too.
 void anyCollisions(bool hasFriction, double angular, int count = 80) {
   AnyCollision any;
   Errors worst;

@@ -62,7 +62,7 @@ TEST(Motion, ReactionAcceleratesABodyThatIsAllHeld) {
   EXPECT_NEAR(sum.x, 1000 * 5, 1e-5);  // 1000 kg, 5 m/s²; speeds are differences of places
 }
 
-TEST(Motion, UnusedOnesAreForgotten) {
+TEST(Motion, UnusedOnesAreRemoved) {
   World world = oneBlock();
   for (int k = 0; k < 5; ++k) {
     world.prescribeMotion(all(world), kHeldXY, {.turn = TimeTable(k)});

@@ -1,5 +1,5 @@
 // A step that is refused has not been: all state is as before, to the last bit, and the run goes on
-// as that of a twin that was never asked for the step. Whatever the scene, the moment, the reason.
+// as that of a copy that did not try the step, in any scene, at any moment, for any reason.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace yadefrag::test {
 namespace {
 
-/// A world that is asked for steps that cannot be, and one that is not.
+/// A world that tries impossible steps, and one that does not.
 class Twins {
  public:
   Twins(const Scene& scene, std::uint64_t seed)
@@ -37,7 +37,7 @@ class Twins {
 
  private:
   /// The sentence of the step, "" if it was taken.
-  std::string ask(const char* reason, double dt) {
+  std::string attempt(const char* reason, double dt) {
     const State before = stateOf(asked_);
     std::string sentence = sentenceOf([&] { asked_.step(dt); });
     if (sentence.empty()) return sentence;
@@ -54,7 +54,7 @@ class Twins {
   void askForSteps() {
     const double critical = asked_.criticalTimeStep();
     for (const double dt : {1.01 * critical, 1e9 * critical, -dt_, 0., double(NAN)})
-      EXPECT_NE(ask("step", dt), "") << dt;
+      EXPECT_NE(attempt("step", dt), "") << dt;
   }
 
   /// Cracks that would break within a step, before what they spend is resolved.
@@ -65,7 +65,7 @@ class Twins {
       const double kept = energy;
       energy = 1e-12 * kept;
       const double stable = std::exchange(asked_.stableStep, 0.);  // looked at anew
-      EXPECT_NE(ask("opening", dt_).find("does not resolve"), std::string::npos);
+      EXPECT_NE(attempt("opening", dt_).find("does not resolve"), std::string::npos);
       energy = kept;
       asked_.stableStep = stable;
     }
@@ -91,7 +91,7 @@ class Twins {
     forces[node] = force * Vec2{1, chance_.from(-1, 1)};
     if (isAccepted(forces)) return;
     asked_.outerForces = std::move(forces);
-    std::string sentence = ask(reason, dt_);
+    std::string sentence = attempt(reason, dt_);
     EXPECT_NE(sentence, "") << force;
     for (const char* part : {"is inverted", "be missed", "a node moves by", "range of numbers",
                              "not finite", "contact moves"})
@@ -106,7 +106,7 @@ class Twins {
     return sentenceOf([&] { copy.step(dt_); }).empty();
   }
 
-  /// At every place of the step where memory is asked for, up to where it is certain.
+  /// At every place of the step where memory is allocated, up to the last possible one.
   void askWithoutMemory() {
     for (std::size_t count = 0; count < 1000; ++count) {
       const State before = stateOf(asked_);

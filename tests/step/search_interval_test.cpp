@@ -135,7 +135,7 @@ TEST(SearchInterval, HaloOfNewcomersIsThatOfAll) {
 }
 
 /// During a run: half the shortest segment at most, no node leaves it by more than the correction
-/// of the step at hand, and it is renewed no more often than the motion asks for.
+/// of the step at hand, and it is renewed no more often than the motion requires.
 TEST(SearchInterval, HaloHoldsUntilTheNextSearch) {
   for (const double speed : {1., 10.}) {
     World world = row(speed, 2);
@@ -214,7 +214,7 @@ TEST(SearchInterval, EmergencySearch) {
 }
 
 /// Without a force nothing is searched twice, and a collider's pairs serve until they are due.
-TEST(SearchInterval, ColliderIsAskedOnlyWhenDue) {
+TEST(SearchInterval, ColliderIsCalledOnlyWhenDue) {
   World world = row(10, 2);
   const double dt = .5 * world.criticalTimeStep();
   std::uint64_t taken = 0;

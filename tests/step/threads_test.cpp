@@ -1,5 +1,5 @@
 // Whole runs have the same bits for any number of threads, and searching more often than the halo
-// asks for changes nothing.
+// requires changes nothing.
 
 #include <gtest/gtest.h>
 

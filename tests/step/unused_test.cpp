@@ -167,12 +167,12 @@ std::size_t heapInUse() {
 }
 
 /// No array is missing: the growth of the heap equals the footprint.
-TEST(Footprint, TellsOfNearlyAllMemory) {
+TEST(Footprint, CountsNearlyAllMemory) {
   for (const char* used : {"", "fracture", "smooth", "viscosity"}) {
     Uses uses;
     uses.turnOn(used);
     const std::size_t before = heapInUse();
-    if (before == 0) GTEST_SKIP() << "this allocator does not tell what is in use";
+    if (before == 0) GTEST_SKIP() << "this allocator does not report the memory in use";
     const auto run = std::make_unique<Ringing>(uses, 20, 40);
     const auto grown = static_cast<double>(heapInUse() - before);
     EXPECT_NEAR(static_cast<double>(run->world.footprint().total()) / grown, 1, .02) << used;

@@ -179,10 +179,10 @@ class EnsembleTable:
 
 def _meanText(line):
     """A line of `statistics` as text."""
-    said = 'Mean of %d run%s: %.6g' % (line['runs'], 's' * (line['runs'] > 1), line['mean'])
+    sentence = 'Mean of %d run%s: %.6g' % (line['runs'], 's' * (line['runs'] > 1), line['mean'])
     if math.isfinite(line['low']):
-        said += ', with 95 %% confidence between %.6g and %.6g' % (line['low'], line['high'])
-    return said + ('; %d have no value.' % line['failed'] if line['failed'] else '.')
+        sentence += ', with 95 %% confidence between %.6g and %.6g' % (line['low'], line['high'])
+    return sentence + ('; %d have no value.' % line['failed'] if line['failed'] else '.')
 
 
 def _found(row):

@@ -2,6 +2,7 @@
 
 import textwrap
 
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, NullFormatter
 from matplotlib.transforms import Bbox
 
@@ -68,7 +69,9 @@ def _marks(ax, points, isNeeded):
     taken = [_box(ax.transData.transform(at), 4) for at, _, _ in points]
     for at, text, isBold in points:
         mark = ax.annotate(text, at, (0, 0), textcoords='offset points', fontsize=8,
-                           weight='bold' if isBold else 'normal')
+                           weight='bold' if isBold else 'normal',
+                           # The line of the front does not strike the text through.
+                           path_effects=[withStroke(linewidth=3, foreground='w')])
         mark.set_in_layout(False)
         for dx, dy, ha, va in _SIDES:
             mark.xyann = (dx, dy)

@@ -26,9 +26,11 @@ class Whole final : public Rival {
 };
 
 /// The search with a list of changed boxes, and the list of pairs that its caller keeps.
-class Told final : public Rival {
+class MovedGiven final : public Rival {
  public:
-  explicit Told(int threads) : search_(SearchMethod::kLebesgue) { search_.setThreads(threads); }
+  explicit MovedGiven(int threads) : search_(SearchMethod::kLebesgue) {
+    search_.setThreads(threads);
+  }
   void build(std::span<const Box> boxes) override {
     boxes_ = boxes;
     hasChanged_.assign(boxes.size(), false);
@@ -67,7 +69,7 @@ std::unique_ptr<Rival> makeOwn(const std::string& name, int threads) {
   if (name == "LinearCode") return std::make_unique<Whole>(SearchMethod::kLinearCode, threads);
   if (name == "Hierarchy") return std::make_unique<Whole>(SearchMethod::kHierarchy, threads);
   if (name == "LinearBvh") return std::make_unique<Whole>(SearchMethod::kLinearBvh, threads);
-  return std::make_unique<Told>(threads);
+  return std::make_unique<MovedGiven>(threads);
 }
 
 }  // namespace yadefrag
