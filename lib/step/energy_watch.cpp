@@ -16,7 +16,7 @@ std::string begin(const WatchedStep& step) {
 
 /// `most` (J): 0 for bodies that were always at rest.
 std::string amountText(double amount, double most) {
-  const std::string text = fmt::format("{:.3g} J", amount);
+  std::string text = fmt::format("{:.3g} J", amount);
   if (!(most > 0)) return text;
   return fmt::format("{}, {:.3g} % of the bodies' energy", text, 100 * amount / most);
 }
