@@ -54,8 +54,8 @@ TEST(Contact, ARowThatContradictsAnotherCarriesNoFriction) {
   for (const bool rubble : {false, true}) {
     ContactScene s;
     s.rubble = rubble;
-    const EntryId a = s.scene.addBody({{.1, 0}, {-1, .15}, {-1, -1}});
-    const EntryId b = s.scene.addBody({{-.1, 0}, {1, -1}, {1, .15}});
+    const EntryId a = s.scene.addBody({{.1, 0}, {-1, .15}, {-1, -.2}});
+    const EntryId b = s.scene.addBody({{-.1, 0}, {1, -.2}, {1, .15}});
     const SlaveMaster first{a, b + 2}, second{b, a};
     s.build(.5, {first, second});
     s.contact.candidates.outside.assign(2, 1);

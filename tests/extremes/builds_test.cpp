@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6573643596824295);
-  expectNear(places.y, 1.4585951321970334);
-  expectNear(speeds, 4524.9087186620427);
-  expectNear(totalEnergy(world), 89.999330790131353);
-  expectNear(world.ledger.contact, 4.4371809026056104);
+  expectNear(places.x, 3.657381946929974);
+  expectNear(places.y, 1.4496491693811717);
+  expectNear(speeds, 4506.9534904611501);
+  expectNear(totalEnergy(world), 89.999313687396452);
+  expectNear(world.ledger.contact, 4.8107610605985487);
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ def test_spheresRainOnABeam(smooth):
 
 
 def wallAndClump(young):
-    """A brittle wall, and a clump of three spheres that hits it at 30 m/s."""
+    """A brittle wall, and a clump of three spheres that hits it at 40 m/s."""
     O.materials.append(w.BrittleFEMat(young=30e9, poisson=.2, density=2400, frictionAngle=.3,
                                       tensileStrength=3e6, strengthScatter=.1, label='wall'))
     O.materials.append(w.FrictMat(young=young, poisson=.3, density=2400, frictionAngle=.3,
@@ -125,7 +125,7 @@ def wallAndClump(young):
              for at in ((-.051, .01), (-.09, .07), (-.09, -.05))]
     number, _ = O.bodies.appendClumped(balls)
     clump = O.bodies[number]
-    clump.state.vel, clump.state.blockedDOFs = (30, 0, 0), 'zXY'
+    clump.state.vel, clump.state.blockedDOFs = (40, 0, 0), 'zXY'
     run(solver, finder('LebesgueCollider'), spheres=True, factor=.2)
     return solver, clump
 
@@ -153,6 +153,6 @@ def test_springsThatCracksCompressAreCountedAndReported(young, reported):
     assert solver.numCracks > 30
     gained = allEnergy(solver, clump) - before
     # Leapfrog's energies are accurate to some thousandths; springs' friction is not counted.
-    assert abs(gained - solver.energyFromSpheres) < .01 * before
+    assert abs(gained - solver.energyFromSpheres) < .01 * (before + solver.energyFromSpheres)
     assert (solver.energyFromSpheres > .1 * before) == reported
     assert any('new contacts have created' in sentence for sentence in solver.warnings) == reported
