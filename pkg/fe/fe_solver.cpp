@@ -16,7 +16,7 @@
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/step.hpp"
-#include "fe/born_inside.hpp"
+#include "fe/overlap_energy.hpp"
 #include "fe/pair_source.hpp"
 #include "fe/running.hpp"
 #include "fracture/checks.hpp"
@@ -47,8 +47,8 @@ void FESolver::action() try {
   const std::uint64_t dropped = world_.dropped.count;
   const std::size_t known = world_.warnings.size();
   collectForces();
-  const bool mayBeBorn = world_.fracture.numCracks() > 0 && !world_.outerForces.empty();
-  const double born = mayBeBorn ? energyBornInside(*scene, bodies_) : 0;
+  const bool mayOverlap = world_.fracture.numCracks() > 0 && !world_.outerForces.empty();
+  const double overlap = mayOverlap ? initialOverlapEnergy(*scene, bodies_) : 0;
   functions_.giveValues(world_, scene->dt);
   rigid_.giveVelocities(world_, scene->dt, timeToIntegrate());
   const StepLength length(scene->dt, world_.lastDt);
@@ -59,7 +59,7 @@ void FESolver::action() try {
   } catch (const InputError& error) {
     throw std::invalid_argument(error.what());
   }
-  countSphereEnergy(born);
+  countSphereEnergy(overlap);
   warn(known);
   if (rigid_.any()) {
     rigid_.giveForces(*scene, world_, length);
@@ -82,16 +82,16 @@ void FESolver::collectForces() {
     bodies_.collectForces(*scene, world_, world_.outerForces);
 }
 
-/// `born`: J, initial energy of contacts with spheres. A message is given above 1 % of the bodies'
-/// energy, and once per doubling.
-void FESolver::countSphereEnergy(double born) {
-  if (born == 0) return;
+/// `initial`: J, initial energy of contacts with spheres. A message is given above 1 % of the
+/// bodies' energy, and once per doubling.
+void FESolver::countSphereEnergy(double initial) {
+  if (initial == 0) return;
   const double least = tolerance::kGivenEnergy * world_.watch.most;
   const auto doublings = [&](double energy) {
     return energy > least ? std::ilogb(energy / least) : -1;
   };
   const int before = doublings(energyFromSpheres);
-  energyFromSpheres += born;
+  energyFromSpheres += initial;
   if (doublings(energyFromSpheres) <= before) return;
   world_.warnings.push_back(fmt::format(
       "Step {}, time {:.3g} s: where cracks opened under spheres, new contacts have created {:.3g} "

@@ -82,7 +82,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void checkSettings() const;
   void giveSettings();
   void collectForces();
-  void countSphereEnergy(double born);
+  void countSphereEnergy(double initial);
   void warn(std::size_t known) const;
   void checkScene(bool enginesAreNew);
   void followRigid(bool enginesAreNew);

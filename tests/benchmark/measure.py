@@ -3,7 +3,7 @@
     scripts/yade -n -x -j1 tests/benchmark/measure.py scene=gas n=10000 seed=1 \\
         collider=InsertionSortCollider budget=10 steps=200 verletDist=-.1 targetInterv=0
 
-budget   seconds for the measured steps (the scene and the first activation come on top)
+budget   seconds for the measured steps (the scene and the first activation are not included)
 steps    at most so many measured steps (0: by the number of bodies, see `_stepLimit`)
 other    attributes of the collider
 

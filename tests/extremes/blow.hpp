@@ -66,9 +66,9 @@ inline void stepOrShorter(World& world, double& dt, bool shorten) {
   for (;;) try {
       return world.step(dt);
     } catch (const RunError& error) {
-      const bool asks =
+      const bool isTooLong =
           std::string(error.what()).find("take a step of at most") != std::string::npos;
-      if (!shorten || !asks || dt < 1e-12) throw;
+      if (!shorten || !isTooLong || dt < 1e-12) throw;
       dt *= .5;
     }
 }

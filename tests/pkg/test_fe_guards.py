@@ -128,7 +128,7 @@ def test_resetFreesTheSolver(collider):
 
 
 def test_whatWasInAListIsFreed():
-    """YADE alone keeps what is in a list of bodies, engines or functors for good."""
+    """YADE alone keeps what is in a list of bodies, engines or functors permanently."""
     def made():
         functors = [w.Bo1_Sphere_Aabb()], [w.Ig2_Sphere_Sphere_ScGeom()], \
             [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]

@@ -19,7 +19,7 @@ def test_memoryStays():
     result = json.loads(lines[-1][4:])
     assert min(result['cracks']) > 0
     used = result['memory']
-    # The first third fills what is kept for good: imports, pools of threads, tables of classes.
+    # The first third fills what is kept permanently: imports, pools of threads, tables of classes.
     warm = max(used[:len(used) // 3])
     print('%d rounds, %d kB after the first third, %d kB at the end' % (len(used), warm, used[-1]))
     assert used[-1] < 1.01 * warm

@@ -137,7 +137,7 @@ TEST(PatchTest, Meshes10And33) { patchTest({10, 33}); }
 TEST(PatchTest, Meshes10And13Jittered) { patchTest({10, 13, true}); }
 
 // The load comes at once and bulges the upper block before the lower one: friction keeps some of
-// that shear for good, so that the state at rest is not quite the even one.
+// that shear permanently, so that the state at rest is not quite the even one.
 TEST(PatchTest, Meshes8And12WithFriction) { patchTest({8, 12, false, .3}, .015); }
 TEST(PatchTest, Meshes10And13JitteredWithFriction) { patchTest({10, 13, true, .3}, .015); }
 

@@ -222,7 +222,7 @@ TEST(WorldStep, AnElementTurnedInsideOutStopsTheRun) {
   World world;
   const TriangleMesh mesh = block({0, 0}, 6);
   BodySpec spec = moving(mesh, rubber(), {0, 0});
-  spec.selfContact = false;  // or contact asks for a shorter step first
+  spec.selfContact = false;  // otherwise contact requires a shorter step first
   // All nodes rush to the middle at more than the speed of sound.
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     spec.velocity[n] = -1000. * (mesh.nodes[n] - Vec2{.5, .5});

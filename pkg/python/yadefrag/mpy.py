@@ -27,7 +27,7 @@ def ourCollider():
 
 
 def _findOurs(typedEngine):
-    """mpy asks for its collider by the name of YADE's class."""
+    """mpy looks for its collider by the name of YADE's class."""
     @functools.wraps(typedEngine)
     def found(name):
         return (ourCollider() if name == kRival else None) or typedEngine(name)

@@ -11,6 +11,6 @@ namespace yadefrag {
 /// (J) Initial energy of the normal springs of such contacts in this step. These are contacts
 /// deeper than the possible motion of their bodies, of spheres that also have an older contact with
 /// these bodies. (If a sphere rolls from piece to piece, the older contact ends.)
-[[nodiscard]] double energyBornInside(const yade::Scene& scene, const EntryBodies& bodies);
+[[nodiscard]] double initialOverlapEnergy(const yade::Scene& scene, const EntryBodies& bodies);
 
 }  // namespace yadefrag

@@ -1,4 +1,4 @@
-#include "fe/born_inside.hpp"
+#include "fe/overlap_energy.hpp"
 
 namespace yadefrag {
 namespace {
@@ -25,7 +25,7 @@ double springEnergy(const yade::Interaction& contact, double travel) {
 
 }  // namespace
 
-double energyBornInside(const yade::Scene& scene, const EntryBodies& bodies) {
+double initialOverlapEnergy(const yade::Scene& scene, const EntryBodies& bodies) {
   double sum = 0;
   for (std::size_t e = 0; e < bodies.ids().size(); ++e) {
     if (!bodies.hasBody(EntryId(e))) continue;
