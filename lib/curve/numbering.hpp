@@ -1,8 +1,10 @@
 #pragma once
-// The two numberings of position-code boxes: along the Lebesgue curve (SPC, paper §4.2) and row by
-// row (LPC, Oldenburg and Nilsson 1994, the paper's [5]). Both count coordinates modulo 2^kBits.
-// Distant boxes can therefore have the same code, which adds a candidate and loses none.
+// The numberings of position-code boxes: along the Lebesgue curve (SPC, paper §4.2) and row by row
+// (LPC, Oldenburg and Nilsson 1994, the paper's [5]), the latter also for sweeps. All count
+// coordinates modulo 2^kBits. Distant boxes can therefore have the same code, which adds a
+// candidate and loses none.
 
+#include "core/tolerances/search.hpp"
 #include "curve/code_ranges.hpp"
 #include "curve/position_code.hpp"
 
@@ -13,6 +15,9 @@ struct LebesgueNumbering {
   using Code = PositionCode<Dim>;
   using Cell = typename Code::Cell;
   static constexpr bool kIsCurve = true;
+  static constexpr bool kIsSwept = false;
+  static constexpr double kEdgeOverExtent = tolerance::kEdgeOverExtent;
+  static constexpr std::int64_t kFirst = 0;  ///< number of the boxes at the origin
 
   static std::uint64_t encode(const Cell& cell) { return Code::encode(cell); }
 
@@ -45,6 +50,9 @@ struct LinearNumbering {
   using Code = PositionCode<Dim>;
   using Cell = typename Code::Cell;
   static constexpr bool kIsCurve = false;
+  static constexpr bool kIsSwept = false;
+  static constexpr double kEdgeOverExtent = tolerance::kEdgeOverExtent;
+  static constexpr std::int64_t kFirst = 0;
 
   /// Rows run along x, the first axis; each row has 2^kBits boxes.
   static std::uint64_t encode(const Cell& cell) {
@@ -63,6 +71,15 @@ struct LinearNumbering {
     return stepped(code, axis, Code::kMask);
   }
   static std::uint64_t up(std::uint64_t code, int axis) { return stepped(code, axis, 1); }
+
+  /// Number of rows of a rectangle that does not wrap around.
+  static std::uint64_t rowsOf(std::uint64_t lowCode, std::uint64_t highCode) {
+    const Cell low = decode(lowCode);
+    const Cell high = decode(highCode);
+    std::uint64_t rows = 1;
+    for (int axis = 1; axis < Dim; ++axis) rows *= high[axis] - low[axis] + std::uint64_t{1};
+    return rows;
+  }
 
   /// One range per row of the rectangle; two if the row wraps around.
   template <class Visit>
@@ -96,6 +113,40 @@ struct LinearNumbering {
     Cell cell = decode(code);
     cell[axis] = (cell[axis] + by) & Code::kMask;
     return encode(cell);
+  }
+};
+
+/// Row by row, for a search that visits all boxes in their order: the boxes of the adjacent rows
+/// then come in their order, too, so that each of these rows is found by a few steps from where it
+/// was left (lemma A.3 with a distance of about one), without a look-up. The origin lies inside the
+/// numbered area: rows wrap around far from all boxes.
+template <int Dim>
+struct SweptRows : LinearNumbering<Dim> {
+  using Code = PositionCode<Dim>;
+  static constexpr bool kIsSwept = true;
+  static constexpr double kEdgeOverExtent = tolerance::kRowEdgeOverExtent;
+  static constexpr std::int64_t kFirst = std::int64_t{1} << (Code::kBits - 2);
+
+  /// Number of adjacent rows whose codes are greater than those of a row.
+  static constexpr int kLaterRows = Dim == 2 ? 1 : 4;
+
+  /// True if no adjacent box is beyond the end of a coordinate.
+  static bool isInner(std::uint64_t code) {
+    for (int axis = 0; axis < Dim; ++axis) {
+      const auto at = static_cast<std::uint32_t>(code >> (axis * Code::kBits)) & Code::kMask;
+      if (at == 0 || at == Code::kMask) return false;
+    }
+    return true;
+  }
+  /// The three boxes of the k-th of these rows that are adjacent to the box `code`, if it is inner.
+  static CodeRange laterRow(std::uint64_t code, int k) {
+    constexpr std::uint64_t y = std::uint64_t{1} << Code::kBits;
+    std::uint64_t middle = code + y;
+    if constexpr (Dim == 3) {
+      constexpr std::uint64_t z = y << Code::kBits;
+      if (k > 0) middle = code + z + static_cast<std::uint64_t>(k - 2) * y;
+    }
+    return {middle - 1, middle + 1};
   }
 };
 

@@ -15,6 +15,7 @@
 #include "search/code_level.hpp"
 #include "search/contact_search.hpp"
 #include "search/level_grid.hpp"
+#include "search/row_places.hpp"
 #include "search/wide_boxes.hpp"
 
 namespace yadefrag {
@@ -22,7 +23,7 @@ namespace yadefrag {
 template <class Numbering, int Dim, class Count>
 class CodeSearch final : public ContactSearch {
  public:
-  explicit CodeSearch(const SearchPlan& plan) : grid_(plan) {}
+  explicit CodeSearch(const SearchPlan& plan) : grid_(plan, Numbering::kFirst) {}
 
   void update(std::span<const Box> boxes) override;
   void findPairs(std::vector<BoxPair>& pairs) override;
@@ -64,12 +65,16 @@ class CodeSearch final : public ContactSearch {
   bool joinThinLevels();
   void listOccupiedLevels();
 
-  void pairsOf(int level, std::size_t i, std::vector<BoxPair>& out, Count& count) const;
+  void pairsOf(int level, std::size_t i, RowPlaces& places, std::vector<BoxPair>& out,
+               Count& count) const;
   template <class Visit>
   void visitLaterNeighbours(const CodeLevel& level, int own, std::size_t i, Count& count,
                             Visit visit) const;
+  void sweepRows(int level, std::size_t from, std::size_t to, std::vector<BoxPair>& out,
+                 Count& count) const;
   template <class Visit>
-  void visitRectangle(const Box& box, int at, Count& count, Visit visit) const;
+  void visitRectangle(const Box& box, int at, RowPlaces::OfLevel* places, Count& count,
+                      Visit visit) const;
   std::uint32_t lowerBound(const CodeLevel& level, std::uint64_t code, Count& count) const;
   double lowestStart(const Box& box, int axis, int level) const;
   Extent rectangleOf(const Box& box, int level, CodeRange& corners) const;

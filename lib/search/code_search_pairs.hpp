@@ -15,12 +15,16 @@ void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
   const int parts = forEachPart(total, threads_, [&](std::size_t begin, std::size_t end, int part) {
     std::vector<BoxPair>& out = partPairs_[part];
     out.clear();
+    RowPlaces places;
     std::size_t first = 0;
     for (const int level : occupied_) {
       const std::size_t size = levels_[level].size();
       const std::size_t from = std::max(begin, first), to = std::min(end, first + size);
-      for (std::size_t i = from; i < to && !isFull(out); ++i)
-        pairsOf(level, i - first, out, counts[part]);
+      if constexpr (Numbering::kIsSwept)
+        if (from < to) sweepRows(level, from - first, to - first, out, counts[part]);
+      const bool alone = Numbering::kIsSwept && occupied_.size() == 1 && wide_.size() == 0;
+      for (std::size_t i = from; i < to && !alone && !isFull(out); ++i)
+        pairsOf(level, i - first, places, out, counts[part]);
       first += size;
     }
   });
@@ -46,8 +50,8 @@ bool CodeSearch<Numbering, Dim, Count>::searchesLevel(int own, int other) const 
 /// Pairs of the i-th box of a level with later boxes of its level, with boxes of all levels that
 /// this level searches, and with the wide boxes.
 template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, std::vector<BoxPair>& out,
-                                                Count& count) const {
+void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, RowPlaces& places,
+                                                std::vector<BoxPair>& out, Count& count) const {
   const CodedBox& me = levels_[own][i];
   const FilterBox& filter = levels_[own].filter(i);
   for (const int other : occupied_) {
@@ -64,10 +68,10 @@ void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, std::vec
           out.push_back(orderedPair(BoxId(me.slot), BoxId(level[j].slot)));
       }
     };
-    if (other == own)
+    if (other != own)
+      visitRectangle(me.box, other, &places.of(other), count, test);
+    else if (!Numbering::kIsSwept)
       visitLaterNeighbours(level, own, i, count, test);
-    else
-      visitRectangle(me.box, other, count, test);
   }
   wide_.pairsWith(boxes_, me.box, me.slot, out, count);
 }
@@ -101,15 +105,61 @@ void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const CodeLevel& le
   });
 }
 
-/// Visits all boxes of a level that can overlap `box`; it may visit others, too.
+/// Pairs of the boxes [from, to) of a level with later boxes of the level: those behind them in
+/// their own row, and those in the adjacent later rows, at the shortest possible edge and without
+/// comparisons of coordinates.
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::sweepRows(int own, std::size_t from, std::size_t to,
+                                                  std::vector<BoxPair>& out, Count& count) const {
+  const CodeLevel& level = levels_[own];
+  const std::span<const std::uint64_t> codes = level.codes();
+  RowPlaces::OfLevel places;
+  for (std::size_t i = from; i < to && !isFull(out); ++i) {
+    const FilterBox filter = level.filter(i);
+    const auto test = [&](std::uint32_t begin, std::uint64_t stop) {
+      count.range(1);
+      for (std::uint32_t j = begin; codes[j] <= stop; ++j) {
+        count.range(1);
+        count.test(2 * Dim);
+        if (mayOverlap(filter, level.filter(j)) && overlaps(level[i].box, level[j].box))
+          out.push_back(orderedPair(BoxId(level[i].slot), BoxId(level[j].slot)));
+      }
+    };
+    const auto next = static_cast<std::uint32_t>(i) + 1;
+    const std::uint64_t code = codes[i];
+    if (!Numbering::isInner(code)) {
+      CodeRange corners = {code, code};
+      for (int d = 0; d < Dim; ++d)
+        corners = {Numbering::down(corners.start, d), Numbering::up(corners.stop, d)};
+      Numbering::forEachRange(corners.start, corners.stop, [&](const CodeRange& range) {
+        if (range.stop < code) return;
+        test(range.start <= code ? next : lowerBound(level, range.start, count), range.stop);
+      });
+      continue;
+    }
+    test(next, code + 1);
+    for (int k = 0; k < Numbering::kLaterRows; ++k) {
+      const CodeRange row = Numbering::laterRow(code, k);
+      test(places.lowerBound(k, codes, row.start, count), row.stop);
+    }
+  }
+}
+
+/// Visits all boxes of a level that can overlap `box`; it may visit others, too. `places`: where
+/// the rows of the last rectangle on this level began, if boxes are visited in their order.
 template <class Numbering, int Dim, class Count>
 template <class Visit>
-void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at, Count& count,
+void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at,
+                                                       RowPlaces::OfLevel* places, Count& count,
                                                        Visit visit) const {
   const CodeLevel& level = levels_[at];
   CodeRange corners;
+  int row = 0;
   const auto visitRange = [&](const CodeRange& range) {
-    visit(lowerBound(level, range.start, count), range.stop);
+    if (Numbering::kIsSwept && places)
+      visit(places->lowerBound(row++, level.codes(), range.start, count), range.stop);
+    else
+      visit(lowerBound(level, range.start, count), range.stop);
   };
   switch (rectangleOf(box, at, corners)) {
     case Extent::kSmall:
@@ -118,6 +168,9 @@ void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at, C
     case Extent::kLarge:
       if constexpr (Numbering::kIsCurve) {
         Numbering::forEachRangeOfLarge(corners.start, corners.stop, visitRange);
+        return;
+      } else if (Numbering::rowsOf(corners.start, corners.stop) < level.size()) {
+        Numbering::forEachRange(corners.start, corners.stop, visitRange);
         return;
       }
       [[fallthrough]];  // a scan of all boxes is cheaper than thousands of rows
@@ -187,7 +240,7 @@ void CodeSearch<Numbering, Dim, Count>::findOverlaps(const Box& box,
   const FilterBox filter(box, grid_.filterScale());
   for (const int at : occupied_) {
     const CodeLevel& level = levels_[at];
-    visitRectangle(box, at, uncounted, [&](std::uint32_t begin, std::uint64_t stop) {
+    visitRectangle(box, at, nullptr, uncounted, [&](std::uint32_t begin, std::uint64_t stop) {
       for (std::uint32_t j = begin; level.codes()[j] <= stop; ++j)
         if (mayOverlap(filter, level.filter(j)) && overlaps(box, level[j].box))
           found.push_back(BoxId(level[j].slot));

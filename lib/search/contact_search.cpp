@@ -16,6 +16,8 @@ std::unique_ptr<ContactSearch> make(SearchMethod method) {
       return std::make_unique<PlannedSearch<LebesgueNumbering, Count>>();
     case SearchMethod::kLinearCode:
       return std::make_unique<PlannedSearch<LinearNumbering, Count>>();
+    case SearchMethod::kSweptRows:
+      return std::make_unique<PlannedSearch<SweptRows, Count>>();
     case SearchMethod::kHierarchy:
       return std::make_unique<HierarchySearch<Count>>();
     case SearchMethod::kLinearBvh:

@@ -34,16 +34,17 @@ class LevelGrid {
   using Cell = typename Code::Cell;
 
   LevelGrid() = default;
-  explicit LevelGrid(const SearchPlan& plan) : plan_(plan) {
+  /// `first`: the number of the boxes at the origin.
+  explicit LevelGrid(const SearchPlan& plan, std::int64_t first = 0) : plan_(plan) {
     for (int level = 0; level < kLevels; ++level) {
       inverseEdge_[level] = 1 / std::ldexp(plan.edge, level - kBaseLevel);
       for (int d = 0; d < Dim; ++d) {
         const double origin = plan.low[plan.axes[d]] * inverseEdge_[level];
         // Beyond 2^30 boxes from zero the origin is not changed: coordinates there get no code.
-        origin_[level][d] = std::abs(origin) < kFarthest ? floorToInt(origin) : 0;
+        origin_[level][d] = (std::abs(origin) < kFarthest ? floorToInt(origin) : 0) - first;
       }
     }
-    inverseSmallest_ = inverseEdge_[0] * tolerance::kEdgeOverExtent;
+    inverseSmallest_ = inverseEdge_[0] * plan.edgeOverExtent;
   }
 
   [[nodiscard]] int axis(int d) const { return plan_.axes[d]; }
@@ -51,7 +52,7 @@ class LevelGrid {
   /// Origin and edge of the base level, for the filter boxes of all levels.
   [[nodiscard]] FilterScale filterScale() const { return {plan_.low, 1 / plan_.edge}; }
 
-  /// The finest level whose edge is at least kEdgeOverExtent times `side`; kLevels if there is no
+  /// The finest level whose edge is at least edgeOverExtent times `side`; kLevels if there is no
   /// such level.
   [[nodiscard]] int levelOf(double side) const {
     const double ratio = side * inverseSmallest_;

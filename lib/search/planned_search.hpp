@@ -13,7 +13,7 @@ class PlannedSearch final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
     checkBoxCount(boxes.size());
-    const SearchPlan now = planSearch(boxes);
+    const SearchPlan now = planSearch(boxes, Numbering<2>::kEdgeOverExtent);
     if (!search_ || !plan_.stillServes(now)) start(now);
     search_->setThreads(threads_);
     search_->update(boxes);

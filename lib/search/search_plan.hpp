@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/box.hpp"
+#include "core/tolerances/search.hpp"
 
 namespace yadefrag {
 
@@ -16,13 +17,15 @@ struct SearchPlan {
   std::array<double, 3> low = {0, 0, 0};  ///< m, lower corner of the sample, origin of the codes
   std::array<int, 3> axes = {0, 1, 2};    ///< the axes that enter the code
   int dim = 3;                            ///< number of these axes: 2 for a plane scene
+  double edgeOverExtent = tolerance::kEdgeOverExtent;  ///< of a level, over its longest box
 
   /// True if boxes numbered by this plan may keep their numbers although `now` would be planned
   /// today.
   [[nodiscard]] bool stillServes(const SearchPlan& now) const;
 };
 
-SearchPlan planSearch(std::span<const Box> boxes);
+SearchPlan planSearch(std::span<const Box> boxes,
+                      double edgeOverExtent = tolerance::kEdgeOverExtent);
 
 /// Longest side (m); infinite for a wall.
 inline double longestSide(const Box& box) {

@@ -5,6 +5,7 @@ see the same boxes and have to find the same pairs:
 
     Lebesgue, LinearCode, Hierarchy   the paper's three
     Lebesgue, moved boxes given       the first, which searches only for the boxes given as moved
+    SweptRows                         codes row by row, in a sweep over all boxes
     LinearBvh                         a tree over position codes (Karras 2012)
     cell list                         a grid with cells as long as the longest box
     CGAL                              box_self_intersection_d

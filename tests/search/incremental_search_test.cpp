@@ -15,9 +15,9 @@
 namespace yadefrag {
 namespace {
 
-constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue, SearchMethod::kLinearCode,
-                                     SearchMethod::kHierarchy, SearchMethod::kLinearBvh,
-                                     SearchMethod::kBruteForce};
+constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue,  SearchMethod::kLinearCode,
+                                     SearchMethod::kSweptRows, SearchMethod::kHierarchy,
+                                     SearchMethod::kLinearBvh, SearchMethod::kBruteForce};
 
 std::uint64_t sceneCount() {
   const char* text = std::getenv("YADEFRAG_SCENES");

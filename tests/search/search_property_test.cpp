@@ -26,7 +26,8 @@ std::vector<BoxPair> sortedPairs(ContactSearch& search, const std::vector<Box>& 
 }
 
 constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue, SearchMethod::kLinearCode,
-                                     SearchMethod::kHierarchy, SearchMethod::kLinearBvh};
+                                     SearchMethod::kSweptRows, SearchMethod::kHierarchy,
+                                     SearchMethod::kLinearBvh};
 
 TEST(SearchProperty, SamePairsAsBruteForce) {
   const std::uint64_t scenes = sceneCount();
@@ -100,7 +101,7 @@ TEST(SearchProperty, StopsWhereThereAreTooManyPairs) {
     const std::vector<Box> boxes(kBoxes, Box{{0, 0, 0}, {side, 1, 1}});
     for (const SearchMethod method :
          {SearchMethod::kBruteForce, SearchMethod::kLebesgue, SearchMethod::kLinearCode,
-          SearchMethod::kHierarchy, SearchMethod::kLinearBvh}) {
+          SearchMethod::kSweptRows, SearchMethod::kHierarchy, SearchMethod::kLinearBvh}) {
       const auto search = makeSearch(method);
       search->setThreads(2);
       search->setMostPairs(kMost);

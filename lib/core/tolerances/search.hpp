@@ -16,6 +16,15 @@ inline constexpr double kExtentRounding = 8.9e-16;
 /// that. A larger ratio gives fewer ranges and more candidates: see tests/benchmark.
 inline constexpr double kEdgeOverExtent = 2;
 
+/// (ratio) The same for codes row by row. A row is scanned as a whole whatever the edge, so that
+/// the shortest possible edge gives the fewest candidates. The excess over 1 covers the rounding of
+/// coordinates, at most 2⁻²³ of an edge.
+inline constexpr double kRowEdgeOverExtent = 1.001;
+
+/// (codes) The begin of a row is searched this far from the last one, code by code, before larger
+/// strides are taken.
+inline constexpr int kRowSteps = 8;
+
 /// (count) Size of the sample of boxes from which the levels are planned.
 inline constexpr std::size_t kSample = 1024;
 

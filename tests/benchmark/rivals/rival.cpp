@@ -7,10 +7,11 @@ namespace yadefrag {
 
 const std::vector<RivalName>& rivalNames() {
   static const std::vector<RivalName> names = {
-      {"Lebesgue", 0, true},   {"Lebesgue, moved boxes given", 0, true},
-      {"LinearCode", 0, true}, {"Hierarchy", 0, true},
-      {"LinearBvh", 0, true},  {"cell list", 0, false},
-      {"CGAL", 0, true},       {"Boost R-tree", 0, true},
+      {"Lebesgue", 0, true},     {"Lebesgue, moved boxes given", 0, true},
+      {"LinearCode", 0, true},   {"SweptRows", 0, true},
+      {"Hierarchy", 0, true},    {"LinearBvh", 0, true},
+      {"cell list", 0, false},   {"CGAL", 0, true},
+      {"Boost R-tree", 0, true},
 #ifdef YADEFRAG_BULLET
       {"Bullet", 0, true},
 #endif
