@@ -1,0 +1,76 @@
+#pragma once
+// Where the rows of a sweep over boxes in the order of linear codes begin.
+//
+// A sweep visits the boxes row by row. The boxes that one of them can meet lie in a few adjacent
+// rows, and the place of each of these in the list advances with the sweep: the next place is
+// found from the last one, by single steps, then by strides that double (paper §4.4, lemma A.3).
+// All look-ups of a row together take about as many steps as there are codes.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/tolerances/search.hpp"
+#include "search/level_grid.hpp"
+
+namespace yadefrag {
+
+class RowPlaces {
+ public:
+  class OfLevel {
+   public:
+    /// Index of the first code ≥ `code`, for the row'th row of a rectangle. `codes` is ascending;
+    /// its last element is greater than any code.
+    template <class Count>
+    std::uint32_t lowerBound(int row, std::span<const std::uint64_t> codes, std::uint64_t code,
+                             Count& count) {
+      std::uint32_t& place = places_[static_cast<std::size_t>(row) % places_.size()];
+      count.range(1);
+      if (place > 0 && codes[place - 1] >= code) place = bisect(codes, 0, place - 1, code, count);
+      for (int step = 0; step < tolerance::kRowSteps; ++step) {
+        count.range(1);
+        if (codes[place] >= code) return place;
+        ++place;
+      }
+      return place = gallop(codes, place, code, count);
+    }
+
+   private:
+    template <class Count>
+    static std::uint32_t gallop(std::span<const std::uint64_t> codes, std::uint32_t begin,
+                                std::uint64_t code, Count& count) {
+      const auto last = static_cast<std::uint32_t>(codes.size() - 1);
+      std::uint32_t stride = 1;
+      while (begin + stride <= last && codes[begin + stride - 1] < code) {
+        count.range(1);
+        begin += stride;
+        stride *= 2;
+      }
+      return bisect(codes, begin, std::min(last, begin + stride - 1), code, count);
+    }
+    /// The result is known to be in [begin, end].
+    template <class Count>
+    static std::uint32_t bisect(std::span<const std::uint64_t> codes, std::uint32_t begin,
+                                std::uint32_t end, std::uint64_t code, Count& count) {
+      while (begin < end) {
+        const std::uint32_t middle = begin + (end - begin) / 2;
+        count.range(1);
+        if (codes[middle] < code)
+          begin = middle + 1;
+        else
+          end = middle;
+      }
+      return begin;
+    }
+
+    std::array<std::uint32_t, 16> places_{};
+  };
+
+  OfLevel& of(int level) { return levels_[static_cast<std::size_t>(level)]; }
+
+ private:
+  std::array<OfLevel, kLevels> levels_{};
+};
+
+}  // namespace yadefrag
