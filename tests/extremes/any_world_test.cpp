@@ -94,7 +94,7 @@ class SceneRun {
     const int steps = 5 + any_.chance().below(30);
     const Sums start = sumsOf(world.model);
     // The leapfrog's energy belongs to a step: that of the first one is the start.
-    double energy = 0, had = 0, growth = 0;
+    double energy = 0, growth = 0;
     double flow = 0;  // kg m/s
     for (int i = 0; i < steps && goesOn_; ++i) {
       if (i == 0 && !attempt([&] { world.step(dt); })) return;  // a step that is refused
@@ -108,8 +108,9 @@ class SceneRun {
       for (const Vec2 force : world.contact.forces()) now += norm(force) * length;
       flow = std::max(flow, now);
       const double present = world.kineticEnergy() + world.strainEnergy();
-      if (i == 0) energy = present + stored(), had = std::max(energy, totalEnergy(world));
-      growth = std::max(growth, (present - energy) / had);
+      if (i == 0)
+        energy = present + stored(), most_ = std::max({most_, energy, totalEnergy(world)});
+      growth = std::max(growth, (present - energy) / most_);
     }
     tally_.givenUp += goesOn_ ? 0 : 1;
     if (!any_.isFree || flow == 0) return;
@@ -172,6 +173,7 @@ class SceneRun {
   AnyWorld any_;
   Tally& tally_;
   bool goesOn_ = true, touched_ = false;
+  double most_ = 0;  // J, largest energy that the scene has had, as in the messages
 };
 
 TEST(ExtremeScenes, RunOrAreRefused) {
@@ -193,9 +195,10 @@ TEST(ExtremeScenes, RunOrAreRefused) {
 
 // 48778: a state that was loaded cracked before its first search, when no roles of slave and master
 // were known. 98693: a loaded state did not have the last step's largest correction, on which the
-// reach of the first scan depends, and in rubble the order in which rows are found.
+// reach of the first scan depends, and in rubble the order in which rows are found. 583913: at .73
+// of the critical step the energy of a strongly deformed body varies by 2.4 %, without contact.
 TEST(ExtremeScenes, ThatOnceFailed) {
-  for (const std::uint64_t seed : {48778U, 98693U}) {
+  for (const std::uint64_t seed : {48778U, 98693U, 583913U}) {
     Tally tally;
     SceneRun(seed, tally).all();
     EXPECT_GT(tally.cracked, 0U);
