@@ -16,7 +16,6 @@
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/step.hpp"
-#include "fe/overlap_energy.hpp"
 #include "fe/pair_source.hpp"
 #include "fe/running.hpp"
 #include "fracture/checks.hpp"
@@ -47,8 +46,6 @@ void FESolver::action() try {
   const std::uint64_t dropped = world_.dropped.count;
   const std::size_t known = world_.warnings.size();
   collectForces();
-  const bool mayOverlap = world_.fracture.numCracks() > 0 && !world_.outerForces.empty();
-  const double overlap = mayOverlap ? initialOverlapEnergy(*scene, bodies_) : 0;
   functions_.giveValues(world_, scene->dt);
   rigid_.giveVelocities(world_, scene->dt, timeToIntegrate());
   const StepLength length(scene->dt, world_.lastDt);
@@ -59,7 +56,7 @@ void FESolver::action() try {
   } catch (const InputError& error) {
     throw std::invalid_argument(error.what());
   }
-  countSphereEnergy(overlap);
+  countSphereEnergy();
   warn(known);
   if (rigid_.any()) {
     rigid_.giveForces(*scene, world_, length);
@@ -77,14 +74,19 @@ void FESolver::action() try {
 /// Of spheres and other bodies on the boundary.
 void FESolver::collectForces() {
   bodies_.collectForces(*scene, world_, world_.outerForces);
-  if (world_.outerForces.empty()) return rolling_.clear();
-  if (rolling_.carry(*scene, bodies_, world_.surfaces, order_.spheresMoveFirst()))
+  if (world_.outerForces.empty()) return rolling_.clear(), overlaps_.clear();
+  if (world_.fracture.numCracks() > 0) overlaps_.findNew(*scene, bodies_);
+  // The forces must stay the same on both sides of each contact.
+  if (order_.spheresMoveFirst()) overlaps_.forgetNew();
+  const bool isReduced = overlaps_.reduceForces(*scene);
+  if (rolling_.carry(*scene, bodies_, world_.surfaces, order_.spheresMoveFirst()) || isReduced)
     bodies_.collectForces(*scene, world_, world_.outerForces);
 }
 
-/// `initial`: J, initial energy of contacts with spheres. A message is given above 1 % of the
-/// bodies' energy, and once per doubling.
-void FESolver::countSphereEnergy(double initial) {
+/// Initial energy of contacts with spheres whose overlap is not tolerated. A message is given above
+/// 1 % of the bodies' energy, and once per doubling.
+void FESolver::countSphereEnergy() {
+  const double initial = order_.spheresMoveFirst() ? overlaps_.energyOfNew() : 0;
   if (initial == 0) return;
   const double least = tolerance::kGivenEnergy * world_.watch.most;
   const auto doublings = [&](double energy) {
@@ -94,9 +96,9 @@ void FESolver::countSphereEnergy(double initial) {
   energyFromSpheres += initial;
   if (doublings(energyFromSpheres) <= before) return;
   world_.warnings.push_back(fmt::format(
-      "Step {}, time {:.3g} s: where cracks opened under spheres, new contacts have created {:.3g} "
-      "J, "
-      "{:.3g} % of the bodies' energy; stiffer spheres overlap the new corners less.",
+      "Step {}, time {:.3g} s: where cracks opened under spheres, new contacts have created "
+      "{:.3g} J, {:.3g} % of the bodies' energy; with FESolver before NewtonIntegrator in "
+      "O.engines they create none.",
       world_.steps, world_.time, energyFromSpheres, 100 * energyFromSpheres / world_.watch.most));
 }
 

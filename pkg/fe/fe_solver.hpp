@@ -15,6 +15,7 @@
 #include "fe/scene_watch.hpp"
 #include "fe/script_functions.hpp"
 #include "fe/step_lock.hpp"
+#include "fe/tolerated_overlaps.hpp"
 #include "publish/published.hpp"
 #include "step/world.hpp"
 
@@ -82,7 +83,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void checkSettings() const;
   void giveSettings();
   void collectForces();
-  void countSphereEnergy(double initial);
+  void countSphereEnergy();
   void warn(std::size_t known) const;
   void checkScene(bool enginesAreNew);
   void followRigid(bool enginesAreNew);
@@ -102,6 +103,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   SceneWatch around_;
   RigidBodies rigid_;
   RollingSpheres rolling_;
+  ToleratedOverlaps overlaps_;
   bool checkedRigid_ = true;  // `rigidBodies` when the scene was last checked
   ScriptFunctions functions_;
   std::vector<BoxPair> pairs_;
@@ -172,9 +174,10 @@ constexpr auto FESolver::attributes() {
                 triggerPostLoad),
       attribute(
           "energyFromSpheres", &C::energyFromSpheres,
-          "Energy (J) that contacts with spheres have created so far. Where a crack opens "
-          "under a sphere, the sphere overlaps the new corner at once, and the contact starts "
-          "with a compressed spring.",
+          "Energy (J) that contacts with spheres have created so far, if NewtonIntegrator comes "
+          "before FESolver in O.engines. Where a crack opens under a sphere, the sphere overlaps "
+          "the new corner at once, and the contact starts with a compressed spring. In the usual "
+          "order that overlap gets no force, and this is 0.",
           yade::Attr::readonly),
       attribute("rigidBodies", &C::rigidBodies,
                 "Contact with YADE's Wall, Box and Facet, also in clumps: their sections "
@@ -194,6 +197,7 @@ void FESolver::archiveMore(Archive& archive) {
   WorldArchive<Archive>(archive).run(world_, ids);
   rigid_.archive(archive, world_);
   rolling_.archive(archive);
+  overlaps_.archive(archive);
   if constexpr (Archive::is_loading::value) bodies_.restore(std::move(ids));
 }
 

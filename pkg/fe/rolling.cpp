@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "contact/slave_normals.hpp"
+#include "fe/contact_friction.hpp"
 
 namespace yadefrag {
 namespace {
@@ -32,20 +33,8 @@ struct RollingSpheres::Contact {
 
   /// Ratio of tangential force to pressure: the available friction is at least this.
   [[nodiscard]] double ratio() const { return normal > 0 ? std::abs(shear) / normal : 0; }
-  /// The smaller friction coefficient of the two materials, which most laws use.
-  [[nodiscard]] double friction(const yade::Scene& scene) const;
   void addForce(yade::Scene& scene, double by, bool fromNextStep) const;
 };
-
-double RollingSpheres::Contact::friction(const yade::Scene& scene) const {
-  double least = INFINITY;
-  for (const auto id : {sphere, piece}) {
-    const yade::Body& body = *scene.bodies->body[static_cast<std::size_t>(id)];
-    const auto* material = dynamic_cast<const yade::FrictMat*>(body.material.get());
-    least = std::min(least, material ? std::tan(material->frictionAngle) : 0);
-  }
-  return least;
-}
 
 /// As in YADE's laws; the opposite force acts on the sphere.
 void RollingSpheres::Contact::addForce(yade::Scene& scene, double by, bool fromNextStep) const {
@@ -96,8 +85,8 @@ void RollingSpheres::carryEnded(Contacts& contacts, const yade::Scene& scene,
       return areNeighbours(surfaces, one.entry, entry) && areOneFace(one.direction, held.direction);
     });
     if (heir == end) continue;
-    const double ratio =
-        std::max({heir->ratio(), std::abs(held.shear) / held.normal, heir->friction(scene)});
+    const double ratio = std::max({heir->ratio(), std::abs(held.shear) / held.normal,
+                                   smallerFriction(scene, heir->sphere, heir->piece)});
     const double most = ratio * heir->normal;
     heir->shear = std::clamp(heir->shear + held.shear, -most, most);
   }
