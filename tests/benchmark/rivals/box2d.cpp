@@ -12,8 +12,11 @@ class Box2d final : public Rival {
   void build(std::span<const Box> boxes) override {
     boxes_ = boxes;
     here_.assign(boxes.begin(), boxes.end());
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-      proxies_.push_back(tree_.CreateProxy(boxOf(boxes[i]), reinterpret_cast<void*>(i)));
+    slots_.resize(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      slots_[i] = i;
+      proxies_.push_back(tree_.CreateProxy(boxOf(boxes[i]), &slots_[i]));
+    }
   }
   void update(std::span<const BoxId> changed) override {
     for (const BoxId id : changed) {
@@ -34,7 +37,7 @@ class Box2d final : public Rival {
   }
   /// Called by Box2D for each box that is met.
   bool QueryCallback(std::int32_t proxy) {
-    const auto other = reinterpret_cast<std::size_t>(tree_.GetUserData(proxy));
+    const std::size_t other = *static_cast<const std::size_t*>(tree_.GetUserData(proxy));
     if (asking_ < other && overlaps(boxes_[asking_], boxes_[other]))
       pairs_->push_back({BoxId(asking_), BoxId(other)});
     return true;
@@ -52,6 +55,7 @@ class Box2d final : public Rival {
   b2DynamicTree tree_;
   std::span<const Box> boxes_;
   std::vector<Box> here_;
+  std::vector<std::size_t> slots_;  // to which the proxies point
   std::vector<std::int32_t> proxies_;
   std::vector<BoxPair>* pairs_ = nullptr;
   std::size_t asking_ = 0;

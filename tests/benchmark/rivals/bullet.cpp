@@ -14,11 +14,11 @@ class Bullet final : public Rival {
   }
   void build(std::span<const Box> boxes) override {
     boxes_ = boxes;
+    slots_.resize(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const auto [low, high] = cornersOf(boxes[i]);
-      // The client's object is the slot, plus one: none may be null.
-      proxies_.push_back(
-          broadphase_.createProxy(low, high, 0, reinterpret_cast<void*>(i + 1), 1, 1, nullptr));
+      slots_[i] = i;
+      proxies_.push_back(broadphase_.createProxy(low, high, 0, &slots_[i], 1, 1, nullptr));
     }
   }
   void update(std::span<const BoxId> changed) override {
@@ -38,7 +38,7 @@ class Bullet final : public Rival {
 
  private:
   static BoxId slotOf(const btBroadphaseProxy* proxy) {
-    return BoxId(reinterpret_cast<std::size_t>(proxy->m_clientObject) - 1);
+    return BoxId(*static_cast<const std::size_t*>(proxy->m_clientObject));
   }
   static std::pair<btVector3, btVector3> cornersOf(const Box& box) {
     const FloatBox f(box);
@@ -47,6 +47,7 @@ class Bullet final : public Rival {
 
   btDbvtBroadphase broadphase_;
   std::span<const Box> boxes_;
+  std::vector<std::size_t> slots_;  // to which the proxies point
   std::vector<btBroadphaseProxy*> proxies_;
 };
 

@@ -4,11 +4,10 @@
 // the first search (build), and of the later ones the least of ROUNDS (update, query), and how many
 // pairs there are. All methods see the same boxes; those whose pairs differ from the first one's
 // fail. A method that takes longer than MOST_SECONDS in all ends there.
-#include <time.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <limits>
 
 #include "benchmark/rivals/box_scenes.hpp"
