@@ -2,6 +2,7 @@
 
 #include "curve/numbering.hpp"
 #include "search/brute_force.hpp"
+#include "search/fastest_search.hpp"
 #include "search/hierarchy_search.hpp"
 #include "search/linear_bvh.hpp"
 #include "search/planned_search.hpp"
@@ -18,6 +19,8 @@ std::unique_ptr<ContactSearch> make(SearchMethod method) {
       return std::make_unique<PlannedSearch<LinearNumbering, Count>>();
     case SearchMethod::kSweptRows:
       return std::make_unique<PlannedSearch<SweptRows, Count>>();
+    case SearchMethod::kFastest:
+      return std::make_unique<FastestSearch<Count>>();
     case SearchMethod::kHierarchy:
       return std::make_unique<HierarchySearch<Count>>();
     case SearchMethod::kLinearBvh:

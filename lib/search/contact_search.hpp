@@ -79,6 +79,7 @@ enum class SearchMethod {
   kLebesgue,    ///< position codes on the Lebesgue curve (SPC), paper §4
   kLinearCode,  ///< position codes row by row (LPC), the paper's [5]
   kSweptRows,   ///< the same in a sweep over all boxes, which needs no look-up of rows
+  kFastest,     ///< kSweptRows for boxes of similar size, kLebesgue otherwise
   kHierarchy,   ///< a tree of boxes (HO), the paper's [12]
   kLinearBvh,   ///< a tree of boxes over position codes, rebuilt every time (Karras 2012)
 };

@@ -40,6 +40,13 @@ double typicalSide(std::vector<double>& sides) {
   return *std::prev(std::upper_bound(sides.begin(), sides.end(), 2 * median));
 }
 
+/// Part of the sorted sides in (low, high].
+double partBetween(const std::vector<double>& sides, double low, double high) {
+  const auto count = std::upper_bound(sides.begin(), sides.end(), high) -
+                     std::upper_bound(sides.begin(), sides.end(), low);
+  return static_cast<double>(count) / static_cast<double>(sides.size());
+}
+
 }  // namespace
 
 bool SearchPlan::stillServes(const SearchPlan& now) const {
@@ -55,6 +62,7 @@ SearchPlan planSearch(std::span<const Box> boxes, double edgeOverExtent) {
   std::array<double, 3> spread;
   for (int axis = 0; axis < 3; ++axis) spread[axis] = sample.high[axis] - sample.low[axis];
   double side = typicalSide(sample.sides);
+  plan.evenPart = partBetween(sample.sides, .5 * tolerance::kSpareSide * side, side);
   // Points have size 0: any edge far below their spread separates them.
   if (side == 0) side = std::ldexp(*std::max_element(spread.begin(), spread.end()), -20);
   if (!(side > 0) || !std::isnormal(side)) side = 1;

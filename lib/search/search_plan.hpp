@@ -17,6 +17,7 @@ struct SearchPlan {
   std::array<double, 3> low = {0, 0, 0};  ///< m, lower corner of the sample, origin of the codes
   std::array<int, 3> axes = {0, 1, 2};    ///< the axes that enter the code
   int dim = 3;                            ///< number of these axes: 2 for a plane scene
+  double evenPart = 0;                    ///< part of the sample that is on level kBaseLevel
   double edgeOverExtent = tolerance::kEdgeOverExtent;  ///< of a level, over its longest box
 
   /// True if boxes numbered by this plan may keep their numbers although `now` would be planned

@@ -279,7 +279,8 @@ void HaloWatch::searchNow(const Scene& scene, double dt) {
   }
   updateSpeedLimit(scene, dt);
   chooseWatched(scene);
-  if (!search_) search_ = makeSearch(SearchMethod::kLebesgue);
+  // The pairs are sorted later, so that their order does not matter.
+  if (!search_) search_ = makeSearch(SearchMethod::kFastest);
   boxes_.resize(scene.surfaces.entries());
   for (std::size_t e = 0; e < boxes_.size(); ++e)
     boxes_[e] = apart_.isApart(scene.surfaces.component[e])

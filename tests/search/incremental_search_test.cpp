@@ -16,8 +16,9 @@ namespace yadefrag {
 namespace {
 
 constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue,  SearchMethod::kLinearCode,
-                                     SearchMethod::kSweptRows, SearchMethod::kHierarchy,
-                                     SearchMethod::kLinearBvh, SearchMethod::kBruteForce};
+                                     SearchMethod::kSweptRows, SearchMethod::kFastest,
+                                     SearchMethod::kHierarchy, SearchMethod::kLinearBvh,
+                                     SearchMethod::kBruteForce};
 
 std::uint64_t sceneCount() {
   const char* text = std::getenv("YADEFRAG_SCENES");

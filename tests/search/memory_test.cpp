@@ -11,8 +11,9 @@ namespace yadefrag {
 namespace {
 
 constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue,  SearchMethod::kLinearCode,
-                                     SearchMethod::kSweptRows, SearchMethod::kHierarchy,
-                                     SearchMethod::kLinearBvh, SearchMethod::kBruteForce};
+                                     SearchMethod::kSweptRows, SearchMethod::kFastest,
+                                     SearchMethod::kHierarchy, SearchMethod::kLinearBvh,
+                                     SearchMethod::kBruteForce};
 
 TEST(SearchMemory, MoreBoxesThanCanBeCountedAreRefused) {
   // None of them is looked at: there is one.

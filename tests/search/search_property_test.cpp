@@ -25,9 +25,9 @@ std::vector<BoxPair> sortedPairs(ContactSearch& search, const std::vector<Box>& 
   return pairs;
 }
 
-constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue, SearchMethod::kLinearCode,
-                                     SearchMethod::kSweptRows, SearchMethod::kHierarchy,
-                                     SearchMethod::kLinearBvh};
+constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue,  SearchMethod::kLinearCode,
+                                     SearchMethod::kSweptRows, SearchMethod::kFastest,
+                                     SearchMethod::kHierarchy, SearchMethod::kLinearBvh};
 
 TEST(SearchProperty, SamePairsAsBruteForce) {
   const std::uint64_t scenes = sceneCount();
@@ -101,7 +101,8 @@ TEST(SearchProperty, StopsWhereThereAreTooManyPairs) {
     const std::vector<Box> boxes(kBoxes, Box{{0, 0, 0}, {side, 1, 1}});
     for (const SearchMethod method :
          {SearchMethod::kBruteForce, SearchMethod::kLebesgue, SearchMethod::kLinearCode,
-          SearchMethod::kSweptRows, SearchMethod::kHierarchy, SearchMethod::kLinearBvh}) {
+          SearchMethod::kSweptRows, SearchMethod::kFastest, SearchMethod::kHierarchy,
+          SearchMethod::kLinearBvh}) {
       const auto search = makeSearch(method);
       search->setThreads(2);
       search->setMostPairs(kMost);
