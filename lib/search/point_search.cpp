@@ -24,7 +24,9 @@ std::unique_ptr<PointSearch> make(SearchMethod method, PointSearchPlan plan) {
       return makeCodes<LinearNumbering<2>, Lookup::kBinary, Count>(plan);
     case SearchMethod::kHierarchy:
       return std::make_unique<PointHierarchySearch<Count>>(std::move(plan));
-    case SearchMethod::kLinearBvh:  // searches boxes only
+    case SearchMethod::kSweptRows:  // these three search boxes only
+    case SearchMethod::kFastest:
+    case SearchMethod::kLinearBvh:
     case SearchMethod::kBruteForce:
       break;
   }
