@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
@@ -120,6 +121,8 @@ void EntryBodies::append(yade::Scene& scene, const World& world, EntryId entry,
   body->material = material;
   if (material) body->state = material->newAssocState();
   body->state->blockedDOFs = yade::State::DOF_ALL;
+  // The 3D view locks this while it reads the list of bodies; YADE's `insert` does not.
+  const std::lock_guard drawing(scene.bodies->drawloopmutex);
   ids_.push_back(scene.bodies->insert(body));
   bodies_.push_back(body);
   shapes_.push_back(shape);
