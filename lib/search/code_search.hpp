@@ -23,7 +23,8 @@ namespace yadefrag {
 template <class Numbering, int Dim, class Count>
 class CodeSearch final : public ContactSearch {
  public:
-  explicit CodeSearch(const SearchPlan& plan) : grid_(plan, Numbering::kFirst) {}
+  explicit CodeSearch(const SearchPlan& plan)
+      : grid_(plan, Numbering::kEdgeOverExtent, Numbering::kFirst) {}
 
   void update(std::span<const Box> boxes) override;
   void findPairs(std::vector<BoxPair>& pairs) override;

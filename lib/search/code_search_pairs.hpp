@@ -219,18 +219,7 @@ std::uint32_t CodeSearch<Numbering, Dim, Count>::lowerBound(const CodeLevel& lev
                                                             std::uint64_t code,
                                                             Count& count) const {
   if constexpr (Numbering::kIsCurve) return level.directory().lowerBound(code, count);
-  const std::span<const std::uint64_t> codes = level.codes();
-  std::uint32_t begin = 0;
-  auto end = static_cast<std::uint32_t>(level.size());
-  while (begin < end) {
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    count.range(1);
-    if (codes[middle] < code)
-      begin = middle + 1;
-    else
-      end = middle;
-  }
-  return begin;
+  return bisectCodes(level.codes(), 0, static_cast<std::uint32_t>(level.size()), code, count);
 }
 
 template <class Numbering, int Dim, class Count>

@@ -2,7 +2,6 @@
 
 #include "curve/numbering.hpp"
 #include "search/brute_force.hpp"
-#include "search/fastest_search.hpp"
 #include "search/hierarchy_search.hpp"
 #include "search/linear_bvh.hpp"
 #include "search/planned_search.hpp"
@@ -14,13 +13,13 @@ template <class Count>
 std::unique_ptr<ContactSearch> make(SearchMethod method) {
   switch (method) {
     case SearchMethod::kLebesgue:
-      return std::make_unique<PlannedSearch<LebesgueNumbering, Count>>();
+      return std::make_unique<PlannedSearch<Count, LebesgueNumbering>>();
     case SearchMethod::kLinearCode:
-      return std::make_unique<PlannedSearch<LinearNumbering, Count>>();
+      return std::make_unique<PlannedSearch<Count, LinearNumbering>>();
     case SearchMethod::kSweptRows:
-      return std::make_unique<PlannedSearch<SweptRows, Count>>();
+      return std::make_unique<PlannedSearch<Count, SweptRows>>();
     case SearchMethod::kFastest:
-      return std::make_unique<FastestSearch<Count>>();
+      return std::make_unique<PlannedSearch<Count, LebesgueNumbering, SweptRows>>();
     case SearchMethod::kHierarchy:
       return std::make_unique<HierarchySearch<Count>>();
     case SearchMethod::kLinearBvh:

@@ -34,23 +34,25 @@ class LevelGrid {
   using Cell = typename Code::Cell;
 
   LevelGrid() = default;
-  /// `first`: the number of the boxes at the origin.
-  explicit LevelGrid(const SearchPlan& plan, std::int64_t first = 0) : plan_(plan) {
+  /// `edgeOverExtent`: of the boxes of a level, over its longest body box; `first`: the number of
+  /// the boxes at the origin.
+  LevelGrid(const SearchPlan& plan, double edgeOverExtent, std::int64_t first)
+      : plan_(plan), edge_(plan.extent * edgeOverExtent) {
     for (int level = 0; level < kLevels; ++level) {
-      inverseEdge_[level] = 1 / std::ldexp(plan.edge, level - kBaseLevel);
+      inverseEdge_[level] = 1 / std::ldexp(edge_, level - kBaseLevel);
       for (int d = 0; d < Dim; ++d) {
         const double origin = plan.low[plan.axes[d]] * inverseEdge_[level];
         // Beyond 2^30 boxes from zero the origin is not changed: coordinates there get no code.
         origin_[level][d] = (std::abs(origin) < kFarthest ? floorToInt(origin) : 0) - first;
       }
     }
-    inverseSmallest_ = inverseEdge_[0] * plan.edgeOverExtent;
+    inverseSmallest_ = inverseEdge_[0] * edgeOverExtent;
   }
 
   [[nodiscard]] int axis(int d) const { return plan_.axes[d]; }
 
   /// Origin and edge of the base level, for the filter boxes of all levels.
-  [[nodiscard]] FilterScale filterScale() const { return {plan_.low, 1 / plan_.edge}; }
+  [[nodiscard]] FilterScale filterScale() const { return {plan_.low, 1 / edge_}; }
 
   /// The finest level whose edge is at least edgeOverExtent times `side`; kLevels if there is no
   /// such level.
@@ -80,6 +82,7 @@ class LevelGrid {
   static constexpr double kFarthest = 536870912.0;  // 2^29: differences fit 32 bits
 
   SearchPlan plan_;
+  double edge_ = 1;  // m, of level kBaseLevel
   std::array<double, kLevels> inverseEdge_{};
   std::array<std::array<std::int64_t, Dim>, kLevels> origin_{};
   double inverseSmallest_ = 1;

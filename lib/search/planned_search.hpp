@@ -3,18 +3,23 @@
 // leaves its plane changes from 2D to 3D codes, one whose boxes grow gets longer position-code
 // boxes.
 
+#include <type_traits>
+
 #include "search/box_count.hpp"
 #include "search/code_search.hpp"
 
 namespace yadefrag {
 
-template <template <int> class Numbering, class Count>
+/// With a second numbering that one is used while nearly all boxes have a similar size. The order
+/// of the pairs then depends on the choice.
+template <class Count, template <int> class Numbering, template <int> class Even = Numbering>
 class PlannedSearch final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
     checkBoxCount(boxes.size());
-    const SearchPlan now = planSearch(boxes, Numbering<2>::kEdgeOverExtent);
-    if (!search_ || !plan_.stillServes(now)) start(now);
+    const SearchPlan now = planSearch(boxes);
+    const bool even = now.evenPart >= (isEven_ ? tolerance::kStillEven : tolerance::kEven);
+    if (!search_ || !plan_.stillServes(now) || (kChooses && even != isEven_)) start(now, even);
     search_->setThreads(threads_);
     search_->update(boxes);
   }
@@ -47,16 +52,21 @@ class PlannedSearch final : public ContactSearch {
     retired_ += search_->comparisons();
     search_.reset();
   }
-  void start(const SearchPlan& plan) {
+  void start(const SearchPlan& plan, bool even) {
     if (search_) retire();
     plan_ = plan;
-    if (plan.dim == 2)
-      search_ = std::make_unique<CodeSearch<Numbering<2>, 2, Count>>(plan);
-    else
-      search_ = std::make_unique<CodeSearch<Numbering<3>, 3, Count>>(plan);
+    isEven_ = even;
+    search_ = even ? make<Even>() : make<Numbering>();
+  }
+  template <template <int> class Chosen>
+  [[nodiscard]] std::unique_ptr<ContactSearch> make() const {
+    if (plan_.dim == 2) return std::make_unique<CodeSearch<Chosen<2>, 2, Count>>(plan_);
+    return std::make_unique<CodeSearch<Chosen<3>, 3, Count>>(plan_);
   }
 
+  static constexpr bool kChooses = !std::is_same_v<Numbering<2>, Even<2>>;
   SearchPlan plan_;
+  bool isEven_ = false;
   std::unique_ptr<ContactSearch> search_;
   Comparisons retired_;
 };

@@ -13,6 +13,7 @@
 
 #include "core/tolerances/search.hpp"
 #include "search/level_grid.hpp"
+#include "search/sorted_list.hpp"
 
 namespace yadefrag {
 
@@ -27,7 +28,8 @@ class RowPlaces {
                              Count& count) {
       std::uint32_t& place = places_[static_cast<std::size_t>(row) % places_.size()];
       count.range(1);
-      if (place > 0 && codes[place - 1] >= code) place = bisect(codes, 0, place - 1, code, count);
+      if (place > 0 && codes[place - 1] >= code)
+        return place = bisectCodes(codes, 0, place - 1, code, count);
       for (int step = 0; step < tolerance::kRowSteps; ++step) {
         count.range(1);
         if (codes[place] >= code) return place;
@@ -47,21 +49,7 @@ class RowPlaces {
         begin += stride;
         stride *= 2;
       }
-      return bisect(codes, begin, std::min(last, begin + stride - 1), code, count);
-    }
-    /// The result is known to be in [begin, end].
-    template <class Count>
-    static std::uint32_t bisect(std::span<const std::uint64_t> codes, std::uint32_t begin,
-                                std::uint32_t end, std::uint64_t code, Count& count) {
-      while (begin < end) {
-        const std::uint32_t middle = begin + (end - begin) / 2;
-        count.range(1);
-        if (codes[middle] < code)
-          begin = middle + 1;
-        else
-          end = middle;
-      }
-      return begin;
+      return bisectCodes(codes, begin, std::min(last, begin + stride - 1), code, count);
     }
 
     std::array<std::uint32_t, 16> places_{};

@@ -50,12 +50,12 @@ double partBetween(const std::vector<double>& sides, double low, double high) {
 }  // namespace
 
 bool SearchPlan::stillServes(const SearchPlan& now) const {
-  return dim == now.dim && axes == now.axes && now.edge < 1.3 * edge && now.edge > edge / 1.3;
+  return dim == now.dim && axes == now.axes && now.extent < 1.3 * extent &&
+         now.extent > extent / 1.3;
 }
 
-SearchPlan planSearch(std::span<const Box> boxes, double edgeOverExtent) {
+SearchPlan planSearch(std::span<const Box> boxes) {
   SearchPlan plan;
-  plan.edgeOverExtent = edgeOverExtent;
   Sample sample = takeSample(boxes);
   if (sample.sides.empty()) return plan;
   plan.low = sample.low;
@@ -66,7 +66,7 @@ SearchPlan planSearch(std::span<const Box> boxes, double edgeOverExtent) {
   // Points have size 0: any edge far below their spread separates them.
   if (side == 0) side = std::ldexp(*std::max_element(spread.begin(), spread.end()), -20);
   if (!(side > 0) || !std::isnormal(side)) side = 1;
-  plan.edge = side * tolerance::kSpareSide * edgeOverExtent;
+  plan.extent = side * tolerance::kSpareSide;
 
   const int flattest =
       static_cast<int>(std::min_element(spread.begin(), spread.end()) - spread.begin());

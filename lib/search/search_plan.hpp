@@ -6,27 +6,24 @@
 #include <span>
 
 #include "core/box.hpp"
-#include "core/tolerances/search.hpp"
 
 namespace yadefrag {
 
 /// These parameters affect speed only: any plan gives the same pairs. A sample of the boxes is
 /// therefore sufficient.
 struct SearchPlan {
-  double edge = 1;  ///< m, edge of the position-code boxes of level kBaseLevel
+  double extent = 1;                      ///< m, longest side on level kBaseLevel
   std::array<double, 3> low = {0, 0, 0};  ///< m, lower corner of the sample, origin of the codes
   std::array<int, 3> axes = {0, 1, 2};    ///< the axes that enter the code
   int dim = 3;                            ///< number of these axes: 2 for a plane scene
   double evenPart = 0;                    ///< part of the sample that is on level kBaseLevel
-  double edgeOverExtent = tolerance::kEdgeOverExtent;  ///< of a level, over its longest box
 
   /// True if boxes numbered by this plan may keep their numbers although `now` would be planned
   /// today.
   [[nodiscard]] bool stillServes(const SearchPlan& now) const;
 };
 
-SearchPlan planSearch(std::span<const Box> boxes,
-                      double edgeOverExtent = tolerance::kEdgeOverExtent);
+SearchPlan planSearch(std::span<const Box> boxes);
 
 /// Longest side (m); infinite for a wall.
 inline double longestSide(const Box& box) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace yadefrag {
@@ -16,6 +17,19 @@ struct CodedSlot {
     return a.code != b.code ? a.code < b.code : a.slot < b.slot;
   }
 };
+
+/// Index of the first code ≥ `code` of the ascending `codes`; it is known to be in [begin, end].
+template <class Count>
+std::uint32_t bisectCodes(std::span<const std::uint64_t> codes, std::uint32_t begin,
+                          std::uint32_t end, std::uint64_t code, Count& count) {
+  const auto isBelow = [&](std::uint64_t a, std::uint64_t b) {
+    count.range(1);
+    return a < b;
+  };
+  const auto first = codes.begin();
+  return static_cast<std::uint32_t>(std::lower_bound(first + begin, first + end, code, isBelow) -
+                                    first);
+}
 
 /// Sorts a list that ascends in slot (radix sort: stable, without comparisons).
 void sortByCode(std::vector<CodedSlot>& list);

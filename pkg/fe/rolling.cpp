@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "contact/slave_normals.hpp"
-#include "fe/contact_friction.hpp"
+#include "fe/sphere_contact.hpp"
 
 namespace yadefrag {
 namespace {
@@ -40,14 +40,7 @@ struct RollingSpheres::Contact {
 void RollingSpheres::Contact::addForce(yade::Scene& scene, double by, bool fromNextStep) const {
   const Vector3r force = by * inSpace(leftOf(direction));
   phys->shearForce += force;
-  if (fromNextStep) return;
-  const auto& bodies = scene.bodies->body;
-  for (const auto& [id, sign] : {std::pair(contact->getId1(), -1.), {contact->getId2(), 1.}}) {
-    const Vector3r& place = bodies[static_cast<std::size_t>(id)]->state->se3.position;
-    const Vector3r part = sign * force;
-    scene.forces.addForce(id, part);
-    scene.forces.addTorque(id, (geom->contactPoint - place).cross(part));
-  }
+  if (!fromNextStep) addContactForce(scene, *contact, *geom, force);
 }
 
 /// Contacts of all spheres with pieces, by sphere, then piece.

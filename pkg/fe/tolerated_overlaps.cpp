@@ -1,9 +1,8 @@
 #include "fe/tolerated_overlaps.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "fe/contact_friction.hpp"
+#include "fe/sphere_contact.hpp"
 #include "fe/surface_segment.hpp"
 
 namespace yadefrag {
@@ -28,16 +27,6 @@ bool isHeldSince(const yade::Body& sphere, int component, const yade::Scene& sce
            bodies.hasBody(entry) && componentOf(bodies.body(entry)) == component;
   };
   return std::any_of(sphere.intrs.begin(), sphere.intrs.end(), isOlder);
-}
-
-void addForce(yade::Scene& scene, const yade::Interaction& contact, const yade::ScGeom& geom,
-              const Vector3r& force) {
-  for (const auto& [id, sign] : {std::pair(contact.getId1(), -1.), {contact.getId2(), 1.}}) {
-    const Vector3r& place = scene.bodies->body[static_cast<std::size_t>(id)]->state->se3.position;
-    const Vector3r part = sign * force;
-    scene.forces.addForce(id, part);
-    scene.forces.addTorque(id, (geom.contactPoint - place).cross(part));
-  }
 }
 
 }  // namespace
@@ -87,7 +76,7 @@ bool ToleratedOverlaps::reduce(yade::Scene& scene, Overlap& overlap) {
   const Vector3r change =
       shear > most ? Vector3r((most / shear - 1) * phys->shearForce) : Vector3r(Vector3r::Zero());
   phys->shearForce += change;
-  addForce(scene, *contact, *geom, normal + change);
+  addContactForce(scene, *contact, *geom, normal + change);
   return true;
 }
 
