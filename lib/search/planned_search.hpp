@@ -56,7 +56,9 @@ class PlannedSearch final : public ContactSearch {
     if (search_) retire();
     plan_ = plan;
     isEven_ = even;
-    search_ = even ? make<Even>() : make<Numbering>();
+    search_ = make<Numbering>();
+    if constexpr (kChooses)
+      if (even) search_ = make<Even>();
   }
   template <template <int> class Chosen>
   [[nodiscard]] std::unique_ptr<ContactSearch> make() const {
