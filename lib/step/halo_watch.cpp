@@ -43,20 +43,23 @@ double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
 
 void HaloWatch::rebuild(const Scene& scene) {
   if (isVoid && scene.canTouch) watchAll(scene);
+  const SearchBounds bounds = std::exchange(loaded, {});
   if (scene.canTouch) {
     apart_.takeFrom(scene.model, nodes);
+    apart_.restoreSpare(bounds.spare);
     // A loaded state may crack before its first search.
     passRule_.update(scene.surfaces, scene.reference, scene.settings.passes, scene.hasRigid);
   }
-  scene.dynamics.setSpeedLimit(scene.canTouch ? 0 : tolerance::kMostSpeed);
+  scene.dynamics.setSpeedLimit(scene.canTouch ? bounds.speed : tolerance::kMostSpeed);
   search_.reset();
-  motion_.farthest = INFINITY;
+  motion_.farthest = bounds.farthest;
 }
 
 void HaloWatch::invalidate() {
   nodes.clear();
   positions.clear();
   isVoid = true;
+  loaded = {};
 }
 
 void HaloWatch::begin() {

@@ -19,6 +19,14 @@
 
 namespace yadefrag {
 
+/// Bounds between two searches. They decide in which steps nodes are checked, and with this the
+/// bound of the displacement from which contact gets its tolerances: a loaded state needs the same.
+struct SearchBounds {
+  double farthest = INFINITY;  ///< m, distance of the checked nodes from `SearchState::positions`
+  double spare = -1;           ///< m, of isolated bodies; negative: unknown
+  double speed = 0;            ///< m/s, of all nodes
+};
+
 /// The state of the global search: its validity.
 struct SearchState {
   double halo = 0;      ///< m, δ of the last search
@@ -29,6 +37,7 @@ struct SearchState {
   /// the last ones.
   std::vector<NodeId> nodes;
   std::vector<Vec2> positions;  ///< m, of those nodes at the last search, or when they were added
+  SearchBounds loaded;          ///< from a saved state, until the first step after loading
 };
 
 class HaloWatch : public SearchState {
@@ -85,6 +94,9 @@ class HaloWatch : public SearchState {
   /// Adds candidates among entries around a crack.
   void addCandidatesAround(const Scene& scene, std::span<const EntryId> around);
 
+  [[nodiscard]] SearchBounds bounds(const ExplicitDynamics& dynamics) const {
+    return {motion_.farthest, apart_.spare(), dynamics.speedLimit()};
+  }
   /// (m) Upper bound of the displacement of checked nodes from xⁿ to x*.
   [[nodiscard]] double largestMove() const { return motion_.largest; }
   void addTo(Footprint& footprint) const;

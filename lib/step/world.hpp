@@ -129,6 +129,10 @@ class World {
   /// Uses pairs of entries whose boxes overlap at the present positions instead of the world's own
   /// search.
   void takePairs(std::span<const BoxPair> overlapping);
+  /// To save.
+  [[nodiscard]] SearchBounds searchBounds() const {
+    return isBuilt_ ? search.bounds(dynamics_) : search.loaded;
+  }
 
   /// (J) At the last half step.
   [[nodiscard]] double kineticEnergy() const { return yadefrag::kineticEnergy(model.nodes); }

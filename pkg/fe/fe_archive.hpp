@@ -50,7 +50,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 11;
+  static constexpr std::uint64_t kFormat = 12;
   /// (count) A damaged length must not exhaust the memory: values are read in parts of this size,
   /// and the archive ends before the memory is full.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -86,7 +86,7 @@ class WorldArchive {
     surfaces(world.surfaces);
     loads(world);
     contact(world.contact);
-    search(world.search);
+    search(world);
     fracture(world.fracture);
     EnergyLedger& ledger = world.ledger;
     value("contactEnergy", ledger.contact), value("frictionEnergy", ledger.friction);
@@ -309,11 +309,16 @@ class WorldArchive {
     value("lastCorrection", contact.lastCorrection);
   }
 
-  void search(SearchState& search) {
+  void search(World& world) {
+    SearchState& search = world.search;
     value("halo", search.halo), value("shortest", search.shortest);
     value("isDue", search.isDue), value("isVoid", search.isVoid);
     column<std::uint32_t>("searchNodes", search.nodes);
     column<double>("searchPositions", search.positions);
+    SearchBounds bounds = world.searchBounds();
+    value("searchFarthest", bounds.farthest), value("searchSpare", bounds.spare);
+    value("searchSpeed", bounds.speed);
+    if constexpr (Archive::is_loading::value) search.loaded = bounds;
   }
 
   void fracture(Fracture& fracture) {
