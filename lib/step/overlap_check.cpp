@@ -17,7 +17,7 @@ using Corners = std::array<Vec2, 3>;
 
 /// A boundary segment, or a triangle, of any body. `held`: all its nodes are held in both
 /// directions. `isLine`: of a rigid boundary whose material may be on either side.
-struct Side {
+struct BoundarySide {
   Vec2 from, to;
   bool held;
   ComponentId body;
@@ -35,7 +35,7 @@ Box boxAround(const Points& points) {
   for (const Vec2 point : points) include(box, point);
   return box;
 }
-Box boxOf(const Side& side) { return boxAround(std::array{side.from, side.to}); }
+Box boxOf(const BoundarySide& side) { return boxAround(std::array{side.from, side.to}); }
 Box boxOf(const Facet& facet) { return boxAround(facet.corners); }
 
 /// The part of a segment, from 0 to 1, that is deeper than `margin` (m) in a triangle.
@@ -72,7 +72,7 @@ double margin(const Corners& triangle, Vec2 from, Vec2 to) {
 }
 
 /// A point inside both.
-std::optional<Vec2> meet(const Side& side, const Facet& facet) {
+std::optional<Vec2> meet(const BoundarySide& side, const Facet& facet) {
   if (side.held && facet.held) return std::nullopt;
   const Vec2 along = side.to - side.from;
   const double touching = margin(facet.corners, side.from, side.to);
@@ -87,14 +87,15 @@ std::optional<Vec2> meet(const Side& side, const Facet& facet) {
 
 /// A triangle beside the left side of a line.
 struct Along {
-  Side side;
+  BoundarySide side;
   Part part;
   ComponentId body;
 };
 
 /// The same for lines, which may touch triangles with either side: a point at which triangles of
 /// one body lie on both sides of the line. `known`: all triangles so far.
-std::optional<Vec2> meetLine(const Side& side, const Facet& facet, std::vector<Along>& known) {
+std::optional<Vec2> meetLine(const BoundarySide& side, const Facet& facet,
+                             std::vector<Along>& known) {
   if (side.held && facet.held) return std::nullopt;
   const Vec2 along = side.to - side.from;
   const double touching = margin(facet.corners, side.from, side.to);
@@ -117,7 +118,7 @@ std::optional<Vec2> meetLine(const Side& side, const Facet& facet, std::vector<A
 /// Sides and triangles of the bodies that may overlap, within a common box.
 class OverlapSearch {
  public:
-  void add(const Side& side) { add(sides_, side); }
+  void add(const BoundarySide& side) { add(sides_, side); }
   void add(const Facet& facet) { add(facets_, facet); }
   /// Limits the search to this box.
   void limitTo(const Box& box) { within_ = box; }
@@ -125,13 +126,13 @@ class OverlapSearch {
   [[nodiscard]] std::optional<Overlap> find(ComponentId newBody) const {
     std::vector<Along> known;
     std::vector<Box> boxes;
-    for (const Side& side : sides_) boxes.push_back(boxOf(side));
+    for (const BoundarySide& side : sides_) boxes.push_back(boxOf(side));
     for (const Facet& facet : facets_) boxes.push_back(boxOf(facet));
     for (const BoxPair& pair :
          overlappingPairs(boxes)) {  // first < second: sides come before triangles
       const std::size_t a = pair.first.value, b = pair.second.value;
       if (a >= sides_.size() || b < sides_.size()) continue;
-      const Side& side = sides_[a];
+      const BoundarySide& side = sides_[a];
       const Facet& facet = facets_[b - sides_.size()];
       if ((side.body == newBody) == (facet.body == newBody)) continue;
       if (const auto place = side.isLine ? meetLine(side, facet, known) : meet(side, facet))
@@ -146,7 +147,7 @@ class OverlapSearch {
     if (overlaps(boxOf(shape), within_)) shapes.push_back(shape);
   }
 
-  std::vector<Side> sides_;
+  std::vector<BoundarySide> sides_;
   std::vector<Facet> facets_;
   Box within_ = Box::absent();
 };
@@ -160,8 +161,8 @@ void addBody(OverlapSearch& search, const Model& model, const ContactSurfaces& s
   for (const SegmentId segment : segments) {
     const NodeId a = surfaces.segmentNode[segment.value];
     const NodeId b = surfaces.segmentNode[surfaces.segmentNext[segment.value].value];
-    search.add(
-        Side{at(a), at(b), isHeld(a) && isHeld(b), body, model.components[body.value].rigid});
+    search.add(BoundarySide{at(a), at(b), isHeld(a) && isHeld(b), body,
+                            model.components[body.value].rigid});
   }
   const Component& component = model.components[body.value];
   for (std::uint32_t e = component.firstTriangle; e < component.lastTriangle; ++e) {
@@ -177,7 +178,7 @@ void addNew(OverlapSearch& search, const TriangleMesh& mesh, const std::vector<V
   for (const auto& loop : mesh.loops)
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
-      search.add(Side{positions[a], positions[b], isHeld(a) && isHeld(b), body, isLine});
+      search.add(BoundarySide{positions[a], positions[b], isHeld(a) && isHeld(b), body, isLine});
     }
   for (const auto& [a, b, c] : mesh.triangles)
     search.add(Facet{

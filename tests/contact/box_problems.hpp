@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "contact/box_problem.hpp"
+#include "core/random.hpp"
 #include "core/tolerances/solver.hpp"
 
 namespace yadefrag::test {
@@ -14,12 +14,7 @@ namespace yadefrag::test {
 /// What the solver promises, and some rounding.
 inline constexpr double kResidual = 1.01 * tolerance::kBoxResidual;
 
-using Random = std::mt19937_64;
 using Dense = std::vector<std::vector<double>>;
-
-inline double even(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 inline BoxProblem fromDense(const Dense& m) {
   BoxProblem p;

@@ -6,21 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "contact/candidates.hpp"
+#include "core/random.hpp"
 #include "mesh/model.hpp"
 #include "surface/piece_geometry.hpp"
 
 namespace yadefrag::test {
-
-using Random = std::mt19937_64;
-
-inline double even(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 struct SurfaceScene {
   ContactSurfaces surfaces;

@@ -77,7 +77,7 @@ std::vector<EdgeRecord> recordsWithout(const World& world, ComponentId gone) {
   return records;
 }
 
-void removeOne(World& world, Random& random) {
+void removeOne(World& world, RandomCracks& random) {
   std::vector<ComponentId> present;
   for (std::size_t c = 0; c < world.model.components.size(); ++c)
     if (world.model.components[c].firstTriangle != world.model.components[c].lastTriangle)
@@ -92,7 +92,7 @@ void removeOne(World& world, Random& random) {
 }
 
 /// Returns how many edges cracked.
-std::size_t crackToPieces(Random& random) {
+std::size_t crackToPieces(RandomCracks& random) {
   World world;
   fill(world, random);
   checkAll(world);
@@ -132,7 +132,7 @@ std::size_t crackToPieces(Random& random) {
 }
 
 TEST(NodeSplitting, BodiesCrackToPiecesAndEveryLawHolds) {
-  Random random(5);
+  RandomCracks random(5);
   std::size_t cracked = 0;
   while (cracked < 100000 && !HasFailure()) cracked += crackToPieces(random);
   RecordProperty("cracked", static_cast<int>(cracked));
@@ -179,7 +179,7 @@ void expectSamePartition(const Model& a, const Model& b) {
 // A batch gives the same bits every time, and the same pieces as its edges one by one: only the
 // numbers of nodes and segments depend on the order.
 TEST(NodeSplitting, ABatchIsItsEdgesOneByOne) {
-  Random random(9);
+  RandomCracks random(9);
   for (int scene = 0; scene < 60 && !HasFailure(); ++scene) {
     World world;
     fill(world, random);

@@ -20,15 +20,17 @@
 
 namespace yadefrag::test {
 
-using Random = std::mt19937;
+using RandomCracks = std::mt19937;
 
-inline double any(Random& random) { return std::uniform_real_distribution<double>(-1, 1)(random); }
-inline int below(Random& random, int count) {
+inline double any(RandomCracks& random) {
+  return std::uniform_real_distribution<double>(-1, 1)(random);
+}
+inline int below(RandomCracks& random, int count) {
   return static_cast<int>(random() % static_cast<unsigned>(count));
 }
 
 /// A regular mesh, or a random one with or without a hole.
-inline TriangleMesh randomMesh(Random& random, double left) {
+inline TriangleMesh randomMesh(RandomCracks& random, double left) {
   const int kind = below(random, 4);
   if (kind < 2)
     return structuredRectangle({left, 0}, {left + 1, 1}, 1 + below(random, 8), 1 + below(random, 8),
@@ -46,7 +48,7 @@ inline TriangleMesh randomMesh(Random& random, double left) {
   return triangulate(polygon, .12 + .1 * std::abs(any(random)));
 }
 
-inline BodySpec randomSpec(Random& random, const TriangleMesh& mesh, bool brittle) {
+inline BodySpec randomSpec(RandomCracks& random, const TriangleMesh& mesh, bool brittle) {
   BodySpec spec;
   spec.material = {1e9, .2, 1000 + 500 * any(random), false};
   spec.thickness = 1 + .5 * any(random);
@@ -66,7 +68,7 @@ inline BodySpec randomSpec(Random& random, const TriangleMesh& mesh, bool brittl
 }
 
 /// One that cannot crack, and three others; an unbreakable one last at times.
-inline void fill(World& world, Random& random) {
+inline void fill(World& world, RandomCracks& random) {
   const int bodies = 4 + below(random, 2);
   for (int body = 0; body < bodies; ++body) {
     const TriangleMesh mesh = randomMesh(random, 2. * body);
@@ -80,7 +82,7 @@ inline void fill(World& world, Random& random) {
 }
 
 /// The edges that have not cracked yet, in random order.
-inline std::vector<EdgeId> shuffledEdges(const CrackEdges& edges, Random& random) {
+inline std::vector<EdgeId> shuffledEdges(const CrackEdges& edges, RandomCracks& random) {
   std::vector<EdgeId> left;
   for (std::size_t i = 0; i < edges.size(); ++i)
     if (edges.cracked[i] == 0) left.emplace_back(i);

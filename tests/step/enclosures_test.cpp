@@ -79,7 +79,7 @@ TEST_P(DiscInARing, Rattles) {
 INSTANTIATE_TEST_SUITE_P(Surfaces, DiscInARing, testing::Bool(),
                          [](const auto& info) { return info.param ? "Smooth" : "Straight"; });
 
-double signedArea(const Loop& loop) {
+double signedArea(const BodyLoop& loop) {
   double sum = 0;
   for (std::size_t i = 0; i < loop.points.size(); ++i)
     sum += cross(loop.points[i], loop.points[(i + 1) % loop.points.size()]) / 2;
@@ -91,7 +91,7 @@ double distanceToLine(Vec2 point, Vec2 a, Vec2 b) {
 }
 
 /// (m) How deep a loop's segments cross one another: the end that is least far through.
-double selfCrossing(const Loop& loop) {
+double selfCrossing(const BodyLoop& loop) {
   const auto& p = loop.points;
   const std::size_t n = p.size();
   double deepest = 0;
@@ -127,7 +127,7 @@ TEST_P(BucklingRing, TouchesItself) {
     world.step(dt);
     touched += world.contact.rows().size();
     if (i % 20 != 0) continue;
-    for (const Loop& loop : loopsOf(world)) {
+    for (const BodyLoop& loop : loopsOf(world)) {
       crossed = std::max(crossed, selfCrossing(loop) / world.search.shortest);
       least = std::min(least, std::abs(signedArea(loop)));
     }

@@ -85,8 +85,8 @@ void loadTop(World& world, ComponentId cylinder, const Hertz& hertz) {
 }
 
 /// Nodal contact force over tributary length along a body's boundary, where there is any.
-std::vector<Pressure> pressures(const World& world, ComponentId on) {
-  std::vector<Pressure> profile;
+std::vector<PressureAt> pressures(const World& world, ComponentId on) {
+  std::vector<PressureAt> profile;
   const ContactSurfaces& surfaces = world.surfaces;
   const auto& x = world.model.nodes.position;
   for (std::size_t s = 0; s < surfaces.segments(); ++s) {
@@ -99,7 +99,7 @@ std::vector<Pressure> pressures(const World& world, ComponentId on) {
     profile.push_back({x[node.value].x, force / length});
   }
   std::sort(profile.begin(), profile.end(),
-            [](const Pressure& a, const Pressure& b) { return a.x < b.x; });
+            [](const PressureAt& a, const PressureAt& b) { return a.x < b.x; });
   return profile;
 }
 

@@ -25,7 +25,7 @@ struct HertzMesh {
   int passes = 2;
 };
 
-struct Pressure {
+struct PressureAt {
   double x, p;  ///< m, Pa
 };
 
@@ -39,7 +39,7 @@ struct HertzResult {
   double total = 0;        ///< contact force over load
   double kinetic = 0;      ///< over strain energy
   double penetration = 0;  ///< m
-  std::vector<Pressure> profile;
+  std::vector<PressureAt> profile;
 };
 
 HertzResult press(const Hertz& hertz, const HertzMesh& mesh);

@@ -95,7 +95,7 @@ BodyState stateOf(const World& world, ComponentId component) {
     state.velocity.push_back(world.model.nodes.velocity[n]);
     state.reference.push_back(world.reference[n]);
   }
-  for (const Loop& loop : loopsOf(world))
+  for (const BodyLoop& loop : loopsOf(world))
     if (loop.component == component) state.loops.push_back(loop.points);
   return state;
 }

@@ -9,14 +9,14 @@
 
 namespace yadefrag::test {
 
-struct Loop {
+struct BodyLoop {
   ComponentId component;
   std::vector<Vec2> points;
 };
 
-inline std::vector<Loop> loopsOf(const World& world) {
+inline std::vector<BodyLoop> loopsOf(const World& world) {
   const ContactSurfaces& surfaces = world.surfaces;
-  std::vector<Loop> loops;
+  std::vector<BodyLoop> loops;
   std::vector<bool> seen(surfaces.segments(), false);
   for (std::size_t s = 0; s < surfaces.segments(); ++s) {
     if (seen[s]) continue;
@@ -30,7 +30,7 @@ inline std::vector<Loop> loopsOf(const World& world) {
 }
 
 /// How often a ray from `point` to the right crosses a loop, and how far the loop is (m).
-inline void lookAt(const Loop& loop, Vec2 point, bool& inside, double& distance) {
+inline void lookAt(const BodyLoop& loop, Vec2 point, bool& inside, double& distance) {
   for (std::size_t i = 0; i < loop.points.size(); ++i) {
     const Vec2 a = loop.points[i], b = loop.points[(i + 1) % loop.points.size()];
     const Vec2 along = b - a;
@@ -43,15 +43,15 @@ inline void lookAt(const Loop& loop, Vec2 point, bool& inside, double& distance)
 
 /// (m) How deep the deepest boundary node is in another body.
 inline double deepestNode(const World& world) {
-  const std::vector<Loop> loops = loopsOf(world);
+  const std::vector<BodyLoop> loops = loopsOf(world);
   double deepest = 0;
-  for (const Loop& from : loops)
+  for (const BodyLoop& from : loops)
     for (const Vec2 point : from.points)
       for (std::size_t c = 0; c < world.model.components.size(); ++c) {
         if (ComponentId(c) == from.component) continue;
         bool inside = false;
         double distance = INFINITY;
-        for (const Loop& loop : loops)
+        for (const BodyLoop& loop : loops)
           if (loop.component == ComponentId(c)) lookAt(loop, point, inside, distance);
         if (inside) deepest = std::max(deepest, distance);
       }

@@ -3,16 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <random>
+
+#include "core/random.hpp"
 
 namespace yadefrag {
 namespace {
 
-using Random = std::mt19937_64;
-
-double even(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
+using test::even;
+using test::Random;
 
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
