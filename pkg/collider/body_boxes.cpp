@@ -244,9 +244,26 @@ void BodyBoxes::commit(yade::Scene& scene, int threads) {
   undo_.clear();
   const std::size_t count = onlyChanged_ ? changed_.size() : kinds_.size();
   forEachPart(count, threads, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i)
-      commitOne(scene, onlyChanged_ ? changed_[i].value : i);
+    const auto bodyAt = [&](std::size_t i) { return onlyChanged_ ? changed_[i].value : i; };
+    // Bounds are scattered in memory, as the bodies that point to them: prefetch.
+    constexpr std::size_t farAhead = 16, ahead = 8;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i + farAhead < end) {
+        const yade::Body* body = scene.bodies->body[bodyAt(i + farAhead)].get();
+        __builtin_prefetch(reinterpret_cast<const char*>(body) + offsetof(yade::Body, bound));
+      }
+      if (i + ahead < end) prefetchBound(scene.bodies->body[bodyAt(i + ahead)].get());
+      commitOne(scene, bodyAt(i));
+    }
   });
+}
+
+void BodyBoxes::prefetchBound(const yade::Body* body) {
+  if (!body || !body->bound) return;
+  const char* bound = reinterpret_cast<const char*>(body->bound.get());
+  __builtin_prefetch(bound + offsetof(Bound, lastUpdateIter), 1);
+  __builtin_prefetch(bound + offsetof(Bound, min), 1);
+  __builtin_prefetch(bound + offsetof(Bound, max) + sizeof(Vector3r) - 1, 1);
 }
 
 void BodyBoxes::commitOne(yade::Scene& scene, std::size_t id) {

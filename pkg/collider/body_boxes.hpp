@@ -108,6 +108,7 @@ class BodyBoxes {
   void keepTurning(const yade::Scene& scene, const Turning& turning);
   static void startDispatcher(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   void commitOne(yade::Scene& scene, std::size_t id);
+  static void prefetchBound(const yade::Body* body);
   Kind take(const yade::Body* body, std::size_t id);
   Kind takeSphere(const yade::Body& body, std::size_t id);
   void updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);

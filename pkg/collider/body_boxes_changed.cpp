@@ -38,6 +38,7 @@ void BodyBoxes::prefetch(const std::vector<yade::shared_ptr<Body>>& bodies, std:
     const char* shape = reinterpret_cast<const char*>(bodies[id + ahead]->shape.get());
     __builtin_prefetch(state + offsetof(yade::State, se3));
     __builtin_prefetch(state + offsetof(yade::State, vel));
+    __builtin_prefetch(shape);  // its type
     __builtin_prefetch(shape + offsetof(yade::Shape, boundFunctor));
     __builtin_prefetch(shape + offsetof(yade::Sphere, radius));
   }

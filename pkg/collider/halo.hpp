@@ -49,6 +49,13 @@ class Halo {
     return byHalf || isWithin(apart, cube + slack_, sum);
   }
 
+  void prefetch(const BoxPair& pair) const {
+    for (const BoxId id : {pair.first, pair.second}) {
+      __builtin_prefetch(&balls_[id.value]);
+      __builtin_prefetch(&balls_[id.value].sweep);
+    }
+  }
+
  private:
   /// True if a point at `apart` is within `reach` of the cube of the given half-width.
   static bool isWithin(const yade::Vector3r& apart, double halfWidth, double reach) {

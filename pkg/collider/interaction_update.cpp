@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "core/tolerances/collider.hpp"
+#include "search/curve_key.hpp"
+
 namespace yadefrag {
 
 using yade::Body;
@@ -25,7 +28,7 @@ bool InteractionUpdate::mayErase(const Interaction& is, const Bodies& bodies) {
 }
 
 void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> near,
-                              const MayCollide& mayCollide) {
+                              std::span<const Box> boxes, const MayCollide& mayCollide) {
   InteractionContainer& interactions = *scene.interactions;
   known_.assign(near.size(), 0);
   toErase_.clear();
@@ -37,7 +40,7 @@ void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> ne
     const Interaction& gone = *interactions[static_cast<std::size_t>(*place)];
     interactions.erase(gone.getId1(), gone.getId2(), *place);
   }
-  makeNew(scene, near, mayCollide);
+  makeNew(scene, near, boxes, mayCollide);
   sizeAfter_ = interactions.size();
 }
 
@@ -77,26 +80,42 @@ void InteractionUpdate::markKnown(InteractionContainer& interactions,
   }
 }
 
+/// Codes on the curve, and indices, of the pairs without an interaction, in the order of the curve.
+/// A few pairs keep the order of the search: the loop's time does not depend on them.
+std::vector<CodedSlot> InteractionUpdate::unknown(std::span<const Neighbours> near,
+                                                  std::span<const Box> boxes) const {
+  std::vector<CodedSlot> found;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (!known_[i]) found.push_back({0, static_cast<std::uint32_t>(i)});
+  if (found.size() < tolerance::kFewNewPairs) return found;
+  const CurveKey key(boxes);
+  for (CodedSlot& pair : found)
+    pair.code = key(boxes[static_cast<std::size_t>(near[pair.slot].first)]);
+  sortByCode(found);
+  return found;
+}
+
 void InteractionUpdate::makeNew(yade::Scene& scene, std::span<const Neighbours> near,
-                                const MayCollide& mayCollide) {
+                                std::span<const Box> boxes, const MayCollide& mayCollide) {
   const auto& bodies = scene.bodies->body;
   const auto prefetch = [&](Body::id_t id) {
     const char* body = reinterpret_cast<const char*>(bodies[static_cast<std::size_t>(id)].get());
     __builtin_prefetch(body + offsetof(Body, groupMask));
     __builtin_prefetch(body + offsetof(Body, intrs) + sizeof(Body::MapId2IntrT) - 1);
   };
+  const std::vector<CodedSlot> pairs = unknown(near, boxes);
   constexpr std::size_t ahead = 8;  // bodies are in the order of their ids, not of the curve
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    if (i + ahead < near.size() && !known_[i + ahead]) {
-      prefetch(near[i + ahead].first);
-      prefetch(near[i + ahead].second);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (k + ahead < pairs.size()) {
+      prefetch(near[pairs[k + ahead].slot].first);
+      prefetch(near[pairs[k + ahead].slot].second);
     }
-    if (known_[i]) continue;
-    const Body* first = bodies[static_cast<std::size_t>(near[i].first)].get();
-    const Body* second = bodies[static_cast<std::size_t>(near[i].second)].get();
+    const Neighbours& pair = near[pairs[k].slot];
+    const Body* first = bodies[static_cast<std::size_t>(pair.first)].get();
+    const Body* second = bodies[static_cast<std::size_t>(pair.second)].get();
     if (!mayCollide(first, second)) continue;
-    const auto made = boost::make_shared<Interaction>(near[i].first, near[i].second);
-    made->cellDist = near[i].cellDist;
+    const auto made = boost::make_shared<Interaction>(pair.first, pair.second);
+    made->cellDist = pair.cellDist;
     scene.interactions->insert(made);
   }
 }

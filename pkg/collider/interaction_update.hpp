@@ -10,6 +10,7 @@
 #include "collider/halo.hpp"
 #include "core/csr.hpp"
 #include "search/partner_table.hpp"
+#include "search/sorted_list.hpp"
 
 namespace yadefrag {
 
@@ -18,17 +19,19 @@ class InteractionUpdate {
   using MayCollide = std::function<bool(const yade::Body*, const yade::Body*)>;
   using IsNear = std::function<bool(yade::Body::id_t, yade::Body::id_t)>;
 
-  /// Erases interactions that are neither near nor real, and creates new ones in the order of
-  /// `near`: neighbours on the curve are then neighbours in memory, which determines the time of
-  /// the interaction loop. One pass over the existing interactions replaces a look-up per pair.
-  void apply(yade::Scene& scene, std::span<const Neighbours> near, const MayCollide& mayCollide);
+  /// Erases interactions that are neither near nor real, and creates new ones in the order of the
+  /// Lebesgue curve: neighbours in space are then neighbours in memory, which determines the time
+  /// of the interaction loop. `boxes`: by body id. One pass over the existing interactions replaces
+  /// a look-up per pair.
+  void apply(yade::Scene& scene, std::span<const Neighbours> near, std::span<const Box> boxes,
+             const MayCollide& mayCollide);
 
   /// The same if only the boxes of `changed` (ascending) are new; `near` are the pairs with at
   /// least one of these bodies. Only their interactions are checked, and those kept because of a
   /// contact: for these `isNear(id1, id2)`, id1 < id2, is called.
   void applyChanged(yade::Scene& scene, std::span<const Neighbours> near,
-                    std::span<const BoxId> changed, const MayCollide& mayCollide,
-                    const IsNear& isNear);
+                    std::span<const Box> boxes, std::span<const BoxId> changed,
+                    const MayCollide& mayCollide, const IsNear& isNear);
 
   /// Number of interactions created elsewhere, minus those erased, since the last call of either
   /// function.
@@ -42,7 +45,10 @@ class InteractionUpdate {
   static bool mayErase(const yade::Interaction& is, const Bodies& bodies);
   void markKnown(yade::InteractionContainer& interactions, std::span<const Neighbours> near,
                  const Bodies& bodies);
-  void makeNew(yade::Scene& scene, std::span<const Neighbours> near, const MayCollide& mayCollide);
+  [[nodiscard]] std::vector<CodedSlot> unknown(std::span<const Neighbours> near,
+                                               std::span<const Box> boxes) const;
+  void makeNew(yade::Scene& scene, std::span<const Neighbours> near, std::span<const Box> boxes,
+               const MayCollide& mayCollide);
   void checkBodies(yade::Scene& scene, std::span<const Neighbours> near,
                    std::span<const BoxId> changed);
   void checkHeld(yade::Scene& scene, const IsNear& isNear);

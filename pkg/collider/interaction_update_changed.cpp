@@ -10,8 +10,8 @@ using yade::Body;
 using yade::Interaction;
 
 void InteractionUpdate::applyChanged(yade::Scene& scene, std::span<const Neighbours> near,
-                                     std::span<const BoxId> changed, const MayCollide& mayCollide,
-                                     const IsNear& isNear) {
+                                     std::span<const Box> boxes, std::span<const BoxId> changed,
+                                     const MayCollide& mayCollide, const IsNear& isNear) {
   known_.assign(near.size(), 0);
   gone_.clear();
   checkHeld(scene, isNear);
@@ -21,7 +21,7 @@ void InteractionUpdate::applyChanged(yade::Scene& scene, std::span<const Neighbo
   gone_.erase(std::unique(gone_.begin(), gone_.end()), gone_.end());
   for (const Interaction* is : gone_)
     scene.interactions->erase(is->getId1(), is->getId2(), is->linIx);
-  makeNew(scene, near, mayCollide);
+  makeNew(scene, near, boxes, mayCollide);
   sizeAfter_ = scene.interactions->size();
 }
 

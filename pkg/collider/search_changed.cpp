@@ -43,7 +43,7 @@ bool SearchCollider::searchChanged(int threads) {
   pairsOfHalf_ = pairsOfHalf;  // that of the last full search
   boxes_.commit(*scene, threads);
   interactions_.applyChanged(
-      *scene, near_, boxes_.changed(),
+      *scene, near_, boxes_.boxes(), boxes_.changed(),
       [this](const Body* a, const Body* b) { return mayCollide(a, b, scene->subdomain); },
       [this](Body::id_t id1, Body::id_t id2) { return isStillNear(id1, id2); });
   if (!quick) lastCheck_ = scene->iter;

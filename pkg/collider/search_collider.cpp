@@ -59,7 +59,7 @@ void SearchCollider::searchAll(int threads) {
   takeEntryPairs();
   findNeighbours(threads);
   boxes_.commit(*scene, threads);
-  interactions_.apply(*scene, near_, [this](const Body* a, const Body* b) {
+  interactions_.apply(*scene, near_, boxes_.boxes(), [this](const Body* a, const Body* b) {
     return mayCollide(a, b, scene->subdomain);
   });
   keptWith_ = choices();
@@ -141,7 +141,10 @@ void SearchCollider::startSearchIfNeeded() {
       periodic_ == scene->isPeriodic)
     return;
   if (!search_ || searchCounts_ != countComparisons) {
-    search_ = std::make_unique<IncrementalSearch>(method_, countComparisons);
+    // The paper's counts are those of the method itself.
+    const bool isFree = method_ == SearchMethod::kLebesgue && !countComparisons;
+    search_ = std::make_unique<IncrementalSearch>(isFree ? SearchMethod::kFastest : method_,
+                                                  countComparisons);
     searchCounts_ = countComparisons;
   }
   search_->clear();
@@ -193,7 +196,9 @@ void SearchCollider::findNeighbours(int threads) {
     std::vector<Neighbours>& out = nearByPart_[static_cast<std::size_t>(part)];
     out.clear();
     Neighbours found;
+    constexpr std::size_t ahead = 12;  // the balls are in the order of the bodies' ids: prefetch
     for (std::size_t i = begin; i < end; ++i) {
+      if (i + ahead < end) halo.prefetch(pairs_[i + ahead]);
       if (!isNear(pairs_[i], halo, found)) continue;
       out.push_back(found);
       ofHalf[static_cast<std::size_t>(part)] += !found.nearByHalf;

@@ -9,6 +9,10 @@ namespace yadefrag::tolerance {
 /// functors: spheres that touch exactly, in the last bit, are found also without a sweep.
 inline constexpr double kHaloRounding = 2e-15;
 
+/// (count) Fewer new interactions than this at once are created in any order; sorting them along
+/// the curve would take longer than it saves.
+inline constexpr std::size_t kFewNewPairs = 256;
+
 /// (bytes) Memory of a potential interaction with its pair in the search, and additional memory of
 /// a contact (measured: 417; 380 to 660).
 inline constexpr double kPairBytes = 420, kContactBytes = 650;
