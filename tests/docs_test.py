@@ -5,9 +5,13 @@ Run by scripts/docs, without YADE; the code of the pages is run by tests/pkg/tes
 
 import pathlib
 import re
+import sys
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / 'tests' / 'benchmark'))
+import measured_tables  # noqa: E402
+
 PAGES = sorted((ROOT / 'docs').glob('*.md')) + [ROOT / 'README.md']
 
 
@@ -50,6 +54,24 @@ class Manual(unittest.TestCase):
         for page in (ROOT / 'docs').glob('*.md'):
             if page.stem != 'index':
                 self.assertIn('\n' + page.stem + '\n', index)
+
+
+class MeasuredTables(unittest.TestCase):
+    """The README's tables are those that the benchmarks wrote."""
+
+    def test_theyAreThoseOfTheFile(self):
+        data = measured_tables.load()
+        text = measured_tables.README.read_text().split(measured_tables.MARKS[0])[1]
+        self.assertEqual(text.split(measured_tables.MARKS[1])[0], measured_tables.tables(data))
+
+    def test_percentsAreRatiosToTheReference(self):
+        self.assertEqual(measured_tables.percents([1.0217, 1.02, 1.0213]), '+2.0 to +2.2 %')
+        self.assertEqual(measured_tables.percents([.9, .9]), '-10.0 %')
+        self.assertEqual(measured_tables.power(6.42e-5), '6.4·10⁻⁵')
+
+    def test_aMissingFigureIsNamed(self):
+        with self.assertRaisesRegex(ValueError, 'p0 over hertz'):
+            measured_tables.used([('HertzContact.Smooth', 'p0_in_MPa', '1')])
 
 
 if __name__ == '__main__':

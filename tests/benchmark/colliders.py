@@ -167,6 +167,8 @@ def _parse(arguments):
     parser.add_argument('--limit', type=float, default=180., help='s per process; default: 180')
     parser.add_argument('--quick', action='store_true',
                         help='sizes 1000 and 10000, one repeat, 2 s of measured steps')
+    parser.add_argument('--readme', action='store_true',
+                        help='write the table of the largest size into README.md')
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('--out', default=os.path.join(ROOT, 'out', 'bench'))
     parser.add_argument('--yade', default=os.path.join(ROOT, 'scripts', 'yade'),

@@ -37,13 +37,16 @@ def main(arguments):
     parser.add_argument('--across', type=int, default=10, choices=(10, 20))
     parser.add_argument('--repeat', type=int, default=3)
     options = parser.parse_args(arguments)
-    print('\n'.join(compare(options.program, options.across, options.repeat)))
+    print('\n'.join(compare(options.program, options.across, options.repeat)[0]))
 
 
 def compare(program, across, repeat):
-    """Lines of Markdown; reports what is missing if ccx is not installed or fails."""
+    """(lines of Markdown, figures for measured_tables or None).
+
+    The lines report what is missing if ccx is not installed or fails.
+    """
     if not shutil.which('ccx'):
-        return ['CalculiX is not installed: `apt-get install calculix-ccx`, then run this again.']
+        return ['CalculiX is not installed: `apt-get install calculix-ccx`, then run this again.'], None
     with tempfile.TemporaryDirectory() as folder:
         ours = runOurs(program, across, repeat, folder)
         mesh = readMesh(os.path.join(folder, 'mesh.txt'))
@@ -51,9 +54,9 @@ def compare(program, across, repeat):
             f.write(deck(mesh))
         theirs = runTheirs(folder, repeat)
         if isinstance(theirs, str):
-            return [theirs]
+            return [theirs], None
         theirs['course'] = readCourse(os.path.join(folder, 'impact.dat'), mesh)
-    return table(ours, theirs)
+    return table(ours, theirs), figures(ours, theirs)
 
 
 def runOurs(program, across, repeat, folder):
@@ -163,6 +166,13 @@ def readCourse(file, mesh):
 
 
 # --- the table ------------------------------------------------------------------------------------
+def figures(ours, theirs):
+    """Triangles, ms per step of CalculiX and of yadefrag, ratio of the lengths of the steps."""
+    increments = EVERY * len(theirs['course'])
+    return dict(triangles=ours['triangles'], theirs=1e3 * theirs['seconds'] / increments,
+                ours=1e3 * ours['seconds'] / ours['steps'], dtRatio=ours['dt'] * increments / UNTIL)
+
+
 def table(ours, theirs):
     """Markdown lines."""
     increments = EVERY * len(theirs['course'])

@@ -14,6 +14,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / 'examples'))
 import origin  # noqa: E402
 
+import measured_tables  # noqa: E402
+
 PAGE = ROOT / 'docs' / 'figures.md'
 HEAD = '''# Figures
 
@@ -54,6 +56,7 @@ def main(tests):
         subprocess.run(command, check=True)
         rows = list(recorded(file))
     PAGE.write_text(page(rows, where))
+    measured_tables.keep('figures', dict(about=where, values=measured_tables.used(rows)))
     print(f'docs/figures.md has {len(rows)} figures.')
 
 

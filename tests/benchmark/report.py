@@ -12,6 +12,8 @@ from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'examples'))
 import origin  # noqa: E402
 
+import measured_tables  # noqa: E402
+
 RIVAL = 'InsertionSortCollider'
 NAMES = {RIVAL: 'YADE default', 'tuned': 'YADE tuned', 'LebesgueCollider': 'Lebesgue',
          'LinearCodeCollider': 'LinearCode', 'HierarchyCollider': 'Hierarchy'}
@@ -34,6 +36,11 @@ def write(folder, rows, grids, options):
     with open(os.path.join(folder, 'colliders.md'), 'w') as f:
         f.write(text)
     plots(folder, summary, machine)
+    if options.readme:
+        n = max(key[1] for key in summary)
+        measured_tables.keep('colliders', measured_tables.colliders(summary, n, line(machine)))
+        measured_tables.fill(measured_tables.MANUAL, ('<!-- colliders -->\n', '<!-- end of colliders -->'),
+                             measured_tables.manualTable(summary, n, line(machine)))
     print(text)
     print('written to', folder)
 

@@ -29,8 +29,10 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(ROOT, 'examples'))
 import origin  # noqa: E402
 
+import measured_tables  # noqa: E402
+
 SCENES = ['uniform', 'few move', 'clusters', 'sizes', 'slivers']
-MARKS = ('<!-- searches -->', '<!-- end of searches -->')
+MARKS = ('<!-- searches -->\n', '<!-- end of searches -->')
 
 
 def measure(options):
@@ -120,19 +122,10 @@ def report(rows, options):
     plot([r for r in rows if r['threads'] == 1], os.path.join(options.out, 'search.png'))
     if options.readme:
         n = 100000 if 100000 in options.sizes else options.sizes[-1]
-        _intoManual(f'Milliseconds for {n:,} boxes, one thread: the first search of all; a later '
+        measured_tables.fill(measured_tables.MANUAL, MARKS,
+                    f'Milliseconds for {n:,} boxes, one thread: the first search of all; a later '
                     f'one, after boxes have moved by up to a tenth of their sides ({about}).\n\n'
-                    + table(rows, n, 1))
-
-
-def _intoManual(text):
-    path = os.path.join(ROOT, 'docs', 'measured.md')
-    with open(path) as file:
-        readme = file.read()
-    before, rest = readme.split(MARKS[0])
-    after = rest.split(MARKS[1])[1]
-    with open(path, 'w') as file:
-        file.write(f'{before}{MARKS[0]}\n{text}\n{MARKS[1]}{after}')
+                    + table(rows, n, 1) + '\n')
 
 
 def main(arguments):
