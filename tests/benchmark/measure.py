@@ -5,6 +5,7 @@
 
 budget   seconds for the measured steps (the scene and the first activation are not included)
 steps    at most so many measured steps (0: by the number of bodies, see `_stepLimit`)
+warm     steps before these, for a collider that adapts (0: at most 60, see `_warmUp`)
 other    attributes of the collider
 
 Small scenes are built and measured again, up to five times within the budget, and the medians kept
@@ -44,7 +45,8 @@ def main(arguments):
             settings[key] = value if key in ('scene', 'collider') else json.loads(_number(value))
         row = measure(settings.pop('scene', 'gas'), settings.pop('n', 1000),
                       settings.pop('seed', 1), settings.pop('collider', 'InsertionSortCollider'),
-                      settings.pop('budget', 10), settings.pop('steps', 0), settings)
+                      settings.pop('budget', 10), (settings.pop('steps', 0), settings.pop('warm', 0)),
+                      settings)
     except LookupError as error:
         row = dict(error=str(error))
     except Exception as error:  # the caller needs one line of JSON in any case
@@ -52,15 +54,18 @@ def main(arguments):
     print(json.dumps(row), flush=True)
 
 
-def measure(scene, n, seed, collider, budget, steps, settings):
-    """Measure; returns the dict that is printed. Raises LookupError for an unknown collider."""
+def measure(scene, n, seed, collider, budget, lengths, settings):
+    """Measure, with `lengths` = (measured steps, steps before); returns the dict that is printed.
+
+    Raises LookupError for an unknown collider.
+    """
     makeCollider = _findCollider(collider)
     row = dict(scene=scene, n=n, seed=seed, collider=collider, settings=settings,
                yade=config.version)
     end, rounds = time.perf_counter() + budget, []
     while len(rounds) < MOST_ROUNDS:
         start = time.perf_counter()
-        rounds.append(_round(scene, n, seed, lambda b: makeCollider(b, **settings), budget, steps))
+        rounds.append(_round(scene, n, seed, lambda b: makeCollider(b, **settings), budget, lengths))
         now = time.perf_counter()
         if now + (now - start) > end:
             break
@@ -68,7 +73,7 @@ def measure(scene, n, seed, collider, budget, steps, settings):
     return dict(row, rounds=len(rounds), **medians, peakMemory=_peakMemory())
 
 
-def _round(scene, n, seed, makeCollider, budget, steps):
+def _round(scene, n, seed, makeCollider, budget, lengths):
     """Build the scene and measure it once; returns a dict of numbers."""
     start = time.perf_counter()
     parts = scenes.build(scene, n, seed)
@@ -82,6 +87,9 @@ def _round(scene, n, seed, makeCollider, budget, steps):
     row['first'] = stepper.step().times[1]
     row['interactionsAfterFirst'] = len(O.interactions)
     row['realAfterFirst'] = O.interactions.countReal()
+    steps, warm = lengths
+    for _ in range(warm):
+        stepper.step()
     warmUp = _warmUp(stepper, .3 * budget)
     records = _record(stepper, steps or _stepLimit(n), budget)
     row.update(_summary(records), warmUpSteps=warmUp, bodies=len(O.bodies),

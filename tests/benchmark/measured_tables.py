@@ -84,8 +84,8 @@ def manualTable(summary, n, about):
             continue
         ms = [[digits(1e3 * row[key]) for row in (theirs, ours)] for key in ('first', 'perActivation')]
         step = [digits(1e3 * row['sumPerStep']) for row in (theirs, tuned, ours)]
-        lines.append(f'| {scene} | {ms[0][0]} → {ms[0][1]} | {ours["xfirst"]:.2g} | {ms[1][0]} → {ms[1][1]} | '
-                     f'{ours["xperActivation"]:.2g} | {step[0]}, {step[1]} → {step[2]} | '
+        lines.append(f'| {scene} | {ms[0][0]} → {ms[0][1]} | {ours["xfirst"]:.2g} | '
+                     f'{ms[1][0]} → {ms[1][1]} | {ours["xperActivation"]:.2g} | {step[0]}, {step[1]} → {step[2]} | '
                      f'{ours["xsumPerStep"]:.2g} | {ours["tsumPerStep"]:.2g} |')
     return '\n'.join(lines) + f'\n\n{n:,} bodies, {about}, `scripts/bench colliders`.\n'
 
@@ -119,7 +119,8 @@ def elementTable(figures, calculix):
         '| finite elements | reference | ours |', '|---|--:|--:|',
         f'| impact, {calculix["triangles"]} triangles, ms per step | CalculiX {calculix["theirs"]:.2g} | '
         f'{calculix["ours"]:.2g}, with a step {calculix["dtRatio"]:.2g} times as long |',
-        f'| pressure of Hertz\' contact, smooth and straight surfaces | theory | {percents(figures["hertz"])} |',
+        f'| pressure of Hertz\' contact, smooth and straight surfaces | theory | '
+        f'{percents(figures["hertz"])} |',
         f'| angular momentum, of impulse × length, {len(angular)} collisions | 0 | '
         f'at most {power(max(angular))} |'])
 
@@ -150,8 +151,9 @@ def number(values):
 
 def power(value):
     """'6.4·10⁻⁵'."""
-    digits_, exponent = f'{value:.1e}'.split('e')
-    return f'{digits_}·10' + str(int(exponent)).translate(str.maketrans('-0123456789', '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'))
+    first, exponent = f'{value:.1e}'.split('e')
+    raised = str.maketrans('-0123456789', '⁻⁰¹²³⁴⁵⁶⁷⁸⁹')
+    return f'{first}·10' + str(int(exponent)).translate(raised)
 
 
 def digits(value):

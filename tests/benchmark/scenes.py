@@ -44,6 +44,11 @@ def gas4(n, seed):
     return gas(n, seed, 4 * SPEED)
 
 
+def gas025(n, seed):
+    """`gas` at a quarter of the speed."""
+    return gas(n, seed, .25 * SPEED)
+
+
 def packing(n, seed):
     """A dense block of n equal spheres, volume fraction .6, nearly at rest.
 
@@ -79,6 +84,11 @@ def polydisperse(n, seed, ratio=20., speed=SPEED):
 def polydisperse4(n, seed):
     """`polydisperse` at four times the speed."""
     return polydisperse(n, seed, speed=4 * SPEED)
+
+
+def polydisperse025(n, seed):
+    """`polydisperse` at a quarter of the speed."""
+    return polydisperse(n, seed, speed=.25 * SPEED)
 
 
 def polydisperse50(n, seed):
@@ -209,8 +219,9 @@ def rest(n, seed):
     return _parts(1e7, damping=0, speed=10 * SPEED)
 
 
-SCENES = {f.__name__: f for f in (gas, gas4, packing, polydisperse, polydisperse4, polydisperse50,
-                                  clusters, plane, projectile, insertion, exchange, rest)}
+SCENES = {f.__name__: f for f in (
+    gas025, gas, gas4, packing, polydisperse025, polydisperse, polydisperse4, polydisperse50, clusters,
+    plane, projectile, insertion, exchange, rest)}
 
 
 def build(name, n, seed):

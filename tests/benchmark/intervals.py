@@ -1,0 +1,86 @@
+"""The interval that LebesgueCollider chooses, against fixed ones: scripts/bench intervals [...]
+
+For each scene the default (`adaptInterval=True`) and fixed intervals (`adaptInterval=False` with each
+of STEPS as `targetInterv`) take turns in each repeat. Shown are collider + interaction loop +
+integrator per step, medians over the repeats, relative to the fixed interval with the least, and the
+interval that was chosen at the end. Writes intervals.json and intervals.md to out/bench; with
+--readme the table goes into docs/measured.md.
+"""
+import argparse
+import json
+import os
+import statistics
+import sys
+
+import colliders
+import measured_tables
+import report
+
+STEPS = (3, 5, 10, 20, 40, 80)
+SCENES = ['gas025', 'gas', 'gas4', 'polydisperse025', 'polydisperse', 'polydisperse4', 'packing',
+          'clusters', 'insertion']
+MARKS = ('<!-- intervals -->\n', '<!-- end of intervals -->')
+
+
+def measure(options):
+    """{scene: {steps or 'chosen': s per step}}; a run without a result ends the comparison."""
+    runner = colliders.Runner(options)
+    settings = {'chosen': {}, **{t: dict(adaptInterval='False', targetInterv=t) for t in STEPS}}
+    found = {}
+    for scene in options.scenes:
+        runs = {name: [] for name in settings}
+        for _ in range(options.repeat):
+            for name, values in settings.items():
+                row = runner.measure('LebesgueCollider', scene, options.n, options.budget,
+                                     warm=options.warm, **values)
+                if 'error' in row:
+                    sys.exit(f'{scene}, {name}: {row["error"]}')
+                runs[name].append(row['sumPerStep'])
+        found[scene] = {name: statistics.median(times) for name, times in runs.items()}
+        print(scene, {name: f'{1e3 * time:.4g}' for name, time in found[scene].items()}, file=sys.stderr,
+              flush=True)
+    return found
+
+
+def table(found, n, about):
+    """Markdown: a row per scene."""
+    lines = ['| scene | ' + ' | '.join(f'{t}' for t in STEPS) + ' | chosen | chosen over the best |',
+             '|---|' + '--:|' * (len(STEPS) + 2)]
+    for scene, times in found.items():
+        best = min(times[t] for t in STEPS)
+        cells = [f'**{1e3 * times[t]:.3g}**' if times[t] == best else f'{1e3 * times[t]:.3g}' for t in STEPS]
+        lines.append(f'| {scene} | ' + ' | '.join(cells)
+                     + f' | {1e3 * times["chosen"]:.3g} | {times["chosen"] / best:.2f} |')
+    return '\n'.join(lines) + f'\n\n{n:,} bodies, ms per step, {about}, `scripts/bench intervals`.\n'
+
+
+def main(arguments):
+    """Parse, measure, report."""
+    parser = argparse.ArgumentParser(
+        prog='scripts/bench intervals', formatter_class=argparse.RawDescriptionHelpFormatter,
+        description=__doc__)
+    parser.add_argument('--scenes', type=lambda t: t.split(','), default=SCENES)
+    parser.add_argument('--n', type=int, default=100000)
+    parser.add_argument('--repeat', type=int, default=3)
+    parser.add_argument('--warm', type=int, default=300, help='steps before those that are measured')
+    parser.add_argument('--budget', type=float, default=6.)
+    parser.add_argument('--limit', type=float, default=180.)
+    parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--readme', action='store_true', help='write the table into docs/measured.md')
+    parser.add_argument('--out', default=os.path.join(colliders.ROOT, 'out', 'bench'))
+    parser.add_argument('--yade', default=os.path.join(colliders.ROOT, 'scripts', 'yade'))
+    options = parser.parse_args(arguments)
+    found = measure(options)
+    text = table(found, options.n, report.origin.line())
+    os.makedirs(options.out, exist_ok=True)
+    with open(os.path.join(options.out, 'intervals.json'), 'w') as file:
+        json.dump(found, file, indent=1)
+    with open(os.path.join(options.out, 'intervals.md'), 'w') as file:
+        file.write(text)
+    print(text)
+    if options.readme:
+        measured_tables.fill(measured_tables.MANUAL, MARKS, text)
+
+
+if __name__ == '__main__':
+    main(sys.argv[1:])
