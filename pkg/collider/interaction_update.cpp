@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
 #include "search/curve_key.hpp"
 
@@ -28,56 +29,66 @@ bool InteractionUpdate::mayErase(const Interaction& is, const Bodies& bodies) {
 }
 
 void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> near,
-                              std::span<const Box> boxes, const MayCollide& mayCollide) {
+                              std::span<const Box> boxes, const MayCollide& mayCollide,
+                              int threads) {
   InteractionContainer& interactions = *scene.interactions;
   known_.assign(near.size(), 0);
-  toErase_.clear();
   held_.clear();
-  if (interactions.size() > 0) markKnown(interactions, near, scene.bodies->body);
+  parts_.clear();
+  if (interactions.size() > 0) markKnown(interactions, near, scene.bodies->body, threads);
+  for (const Part& part : parts_) held_.insert(held_.end(), part.held.begin(), part.held.end());
   // In reverse order: erasing moves the last interaction into the gap, and that one must not be
   // among those still to be erased.
-  for (auto place = toErase_.rbegin(); place != toErase_.rend(); ++place) {
-    const Interaction& gone = *interactions[static_cast<std::size_t>(*place)];
-    interactions.erase(gone.getId1(), gone.getId2(), *place);
-  }
+  for (auto part = parts_.rbegin(); part != parts_.rend(); ++part)
+    for (auto place = part->toErase.rbegin(); place != part->toErase.rend(); ++place) {
+      const Interaction& gone = *interactions[static_cast<std::size_t>(*place)];
+      interactions.erase(gone.getId1(), gone.getId2(), *place);
+    }
   makeNew(scene, near, boxes, mayCollide);
   sizeAfter_ = interactions.size();
 }
 
 void InteractionUpdate::markKnown(InteractionContainer& interactions,
-                                  std::span<const Neighbours> near, const Bodies& bodies) {
+                                  std::span<const Neighbours> near, const Bodies& bodies,
+                                  int threads) {
   partners_.build(
       bodies.size(), near.size(), [&](std::size_t i) { return near[i].first; },
       [&](std::size_t i) { return near[i].second; });
-  constexpr std::size_t ahead = 12;  // interactions are scattered in memory: prefetch
-  const std::size_t count = interactions.size();
-  for (std::size_t place = 0; place < count; ++place) {
-    if (place + ahead < count) {
-      const char* next = reinterpret_cast<const char*>(interactions[place + ahead].get());
-      __builtin_prefetch(next + offsetof(Interaction, id1));
-      __builtin_prefetch(next + offsetof(Interaction, phys));
+  parts_.resize(static_cast<std::size_t>(threads));
+  forEachPart(interactions.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
+    constexpr std::size_t ahead = 12;  // interactions are scattered in memory: prefetch
+    for (std::size_t place = begin; place < end; ++place) {
+      if (place + ahead < end) {
+        const char* next = reinterpret_cast<const char*>(interactions[place + ahead].get());
+        __builtin_prefetch(next + offsetof(Interaction, id1));
+        __builtin_prefetch(next + offsetof(Interaction, phys));
+      }
+      markOne(*interactions[place], static_cast<int>(place), near, bodies,
+              parts_[static_cast<std::size_t>(part)]);
     }
-    Interaction& is = *interactions[place];
-    const bool swapped = is.getId1() > is.getId2();
-    const Body::id_t first = swapped ? is.getId2() : is.getId1();
-    const Body::id_t second = swapped ? is.getId1() : is.getId2();
-    bool isNear = false;
-    partners_.forEach(static_cast<std::size_t>(first), static_cast<std::uint32_t>(second),
-                      [&](std::uint32_t index) {
-                        isNear = true;
-                        known_[index] = 1;
-                        // A pair without contact may have come near across another face of the
-                        // cell.
-                        if (is.isReal()) return;
-                        const yade::Vector3i& cells = near[index].cellDist;
-                        is.cellDist = swapped ? yade::Vector3i(-cells) : cells;
-                      });
-    if (isNear) continue;
-    if (is.isReal())
-      held_.emplace_back(first, second);
-    else if (mayErase(is, bodies))
-      toErase_.push_back(static_cast<int>(place));
-  }
+  });
+}
+
+void InteractionUpdate::markOne(Interaction& is, int place, std::span<const Neighbours> near,
+                                const Bodies& bodies, Part& part) {
+  const bool swapped = is.getId1() > is.getId2();
+  const Body::id_t first = swapped ? is.getId2() : is.getId1();
+  const Body::id_t second = swapped ? is.getId1() : is.getId2();
+  bool isNear = false;
+  partners_.forEach(static_cast<std::size_t>(first), static_cast<std::uint32_t>(second),
+                    [&](std::uint32_t index) {
+                      isNear = true;
+                      known_[index] = 1;
+                      // A pair without contact may have come near across another face of the cell.
+                      if (is.isReal()) return;
+                      const yade::Vector3i& cells = near[index].cellDist;
+                      is.cellDist = swapped ? yade::Vector3i(-cells) : cells;
+                    });
+  if (isNear) return;
+  if (is.isReal())
+    part.held.emplace_back(first, second);
+  else if (mayErase(is, bodies))
+    part.toErase.push_back(place);
 }
 
 /// Codes on the curve, and indices, of the pairs without an interaction, in the order of the curve.

@@ -24,7 +24,7 @@ class InteractionUpdate {
   /// of the interaction loop. `boxes`: by body id. One pass over the existing interactions replaces
   /// a look-up per pair.
   void apply(yade::Scene& scene, std::span<const Neighbours> near, std::span<const Box> boxes,
-             const MayCollide& mayCollide);
+             const MayCollide& mayCollide, int threads);
 
   /// The same if only the boxes of `changed` (ascending) are new; `near` are the pairs with at
   /// least one of these bodies. Only their interactions are checked, and those kept because of a
@@ -43,8 +43,15 @@ class InteractionUpdate {
   using Bodies = std::vector<yade::shared_ptr<yade::Body>>;
 
   static bool mayErase(const yade::Interaction& is, const Bodies& bodies);
+  /// What one thread finds in its part of YADE's list.
+  struct Part {
+    std::vector<int> toErase;  // indices in the list, ascending
+    std::vector<std::pair<yade::Body::id_t, yade::Body::id_t>> held;
+  };
   void markKnown(yade::InteractionContainer& interactions, std::span<const Neighbours> near,
-                 const Bodies& bodies);
+                 const Bodies& bodies, int threads);
+  void markOne(yade::Interaction& is, int place, std::span<const Neighbours> near,
+               const Bodies& bodies, Part& part);
   [[nodiscard]] std::vector<CodedSlot> unknown(std::span<const Neighbours> near,
                                                std::span<const Box> boxes) const;
   void makeNew(yade::Scene& scene, std::span<const Neighbours> near, std::span<const Box> boxes,
@@ -55,7 +62,7 @@ class InteractionUpdate {
 
   PartnerTable partners_;
   std::vector<char> known_;          // by index: true if this interaction exists
-  std::vector<int> toErase_;         // indices in YADE's list, ascending
+  std::vector<Part> parts_;          // by thread
   Csr<std::uint32_t> nearOf_;        // indices of pairs, by index in `changed`
   std::vector<std::uint32_t> mark_;  // by body id, while one body is checked: index of pair + 1
   std::vector<yade::Interaction*> gone_;

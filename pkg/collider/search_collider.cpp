@@ -59,9 +59,9 @@ void SearchCollider::searchAll(int threads) {
   takeEntryPairs();
   findNeighbours(threads);
   boxes_.commit(*scene, threads);
-  interactions_.apply(*scene, near_, boxes_.boxes(), [this](const Body* a, const Body* b) {
-    return mayCollide(a, b, scene->subdomain);
-  });
+  interactions_.apply(
+      *scene, near_, boxes_.boxes(),
+      [this](const Body* a, const Body* b) { return mayCollide(a, b, scene->subdomain); }, threads);
   keptWith_ = choices();
   lastCheck_ = scene->iter;
   searchedSinceAll_ = 0;
