@@ -13,16 +13,18 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FILE = ROOT / 'docs' / 'data' / 'measured.json'
 README = ROOT / 'README.md'
 MANUAL = ROOT / 'docs' / 'measured.md'
+SOURCES = ('colliders', 'figures', 'calculix')
 MARKS = ('<!-- measured -->\n', '<!-- end of measured -->')
 RIVAL, OURS = 'InsertionSortCollider', 'LebesgueCollider'
 
 
 def keep(key, value):
-    """Store the figures of one benchmark, and make the tables of the README anew."""
+    """Store the figures of one benchmark, and make the tables of the README anew once all three are there."""
     data = load()
     data[key] = value
     FILE.write_text(json.dumps(data, indent=1, ensure_ascii=False) + '\n')
-    fill(README, MARKS, tables(data))
+    if all(source in data for source in SOURCES):
+        fill(README, MARKS, tables(data))
 
 
 def load():
@@ -44,7 +46,7 @@ def tables(data):
     parts = [colliderTable(data['colliders']), elementTable(data['figures']['values'], data['calculix']),
              fractureTable(data['figures']['values'])]
     keys = {}
-    for key in ('colliders', 'figures', 'calculix'):
+    for key in SOURCES:
         keys.setdefault(data[key]['about'], []).append(key)
     origin = '; '.join(f'{", ".join(names)}: {about}' for about, names in keys.items())
     return '\n\n'.join(parts) + f'\n\n`scripts/bench`: {origin}.\n'
