@@ -1,5 +1,5 @@
 # The library as others use it: installed, found by find_package, and its example built and run.
-#   cmake -DBUILD=... -DEXAMPLE=... -DFOLDER=... -DCOMPILER=... -P try_library.cmake
+#   cmake -DBUILD=... -DEXAMPLE=... -DFOLDER=... -DCOMPILER=... -DGENERATOR=... -P try_library.cmake
 
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE output)
@@ -8,7 +8,8 @@ endfunction()
 
 file(REMOVE_RECURSE ${FOLDER})
 run(${CMAKE_COMMAND} --install ${BUILD} --component library --prefix ${FOLDER}/installed)
-run(${CMAKE_COMMAND} -S ${EXAMPLE} -B ${FOLDER}/build -DCMAKE_PREFIX_PATH=${FOLDER}/installed
+# The same generator: a machine with Ninja may have no make.
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${EXAMPLE} -B ${FOLDER}/build -DCMAKE_PREFIX_PATH=${FOLDER}/installed
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${FOLDER}/build)
 run(${FOLDER}/build/bars)

@@ -1,6 +1,7 @@
-"""Scenes for every geometry functor of YADE 2023.02a: bodies that fly through each other.
+"""Scenes for every geometry functor of YADE 2023.02a and 2025.2.0: bodies that fly through each other.
 
-`kScenes` has one scene per functor, `kNoScene` the reason where there is none. All bodies keep their
+`kScenes` has one scene per functor, `kNoScene` the reason where there is none; `isHere` is true for the
+functors of this YADE (2025.2.0 has new ones, and Debian's package of it lacks some features). All bodies keep their
 velocity whatever forces act, so that a run does not depend on the order of summation. Positions are
 in m, in a unit box; a step takes 1 s.
 """
@@ -10,7 +11,7 @@ import warnings
 import numpy as np
 import yade.wrapper as w
 from scenes import O
-from yade import gridpfacet, polyhedra_utils, utils
+from yade import gridpfacet, utils
 from yade.minieigenHP import Quaternion, Vector3
 
 kSpeed = .02        # m per step
@@ -86,6 +87,7 @@ def walls(rng, sense=0):
 
 
 def polyhedra(rng, n=20):
+    from yade import polyhedra_utils    # not in every YADE
     # corners given: with a seed alone YADE makes another body each time
     fly(rng, [polyhedra_utils.polyhedra(O.materials['m'], v=[
         vector(x) for x in rng.uniform(-.12, .12, (10, 3))]) for _ in range(n)])
@@ -241,7 +243,13 @@ class Scene:
 def boundFunctors():
     names = ('Sphere', 'Facet', 'Box', 'Wall', 'Polyhedra', 'Tetra', 'LevelSet', 'ChainedCylinder',
              'GridConnection', 'PFacet')
-    return [getattr(w, f'Bo1_{name}_Aabb')() for name in names] + [w.PotentialParticle2AABB()]
+    classes = [*(f'Bo1_{name}_Aabb' for name in names), 'PotentialParticle2AABB']
+    return [getattr(w, name)() for name in classes if isHere(name)]
+
+
+def isHere(name):
+    """True if this YADE has the class."""
+    return hasattr(w, name)
 
 
 kVolumetric = dict(material=polyhedraMat, physics=['Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys'],
@@ -250,6 +258,9 @@ kFacetted = dict(material=polyhedraMat)
 kLinear = dict(laws=['Law2_L3Geom_FrictPhys_ElPerfPl'])
 kLinear6 = dict(laws=['Law2_L6Geom_FrictPhys_Linear'])
 kChained = dict(material=cohesiveMat, physics=[], cohesive=True)
+kSeveralPoints = dict(physics=['Ip2_FrictMat_FrictMat_MultiFrictPhys'],
+                      laws=['Law2_MultiScGeom_MultiFrictPhys_CundallStrack'])
+kOverlapVolume = dict(laws=['Law2_VolumeGeom_FrictPhys_Elastic'])
 kGridContacts = ['Ig2_GridConnection_GridConnection_GridCoGridCoGeom',
                  'Ig2_Sphere_PFacet_ScGridCoGeom']
 
@@ -267,7 +278,9 @@ kScenes = {
     'Ig2_GridConnection_GridConnection_GridCoGridCoGeom': Scene(connections, grid=True),
     'Ig2_GridConnection_PFacet_ScGeom': Scene(connections, pfacets, others=kGridContacts, grid=True),
     'Ig2_GridNode_GridNode_GridNodeGeom6D': Scene(looseNodes, grid=True),
+    'Ig2_LevelSet_LevelSet_MultiScGeom': Scene(levelSets, **kSeveralPoints),
     'Ig2_LevelSet_LevelSet_ScGeom': Scene(levelSets),
+    'Ig2_LevelSet_LevelSet_VolumeGeom': Scene(levelSets, **kOverlapVolume),
     'Ig2_PFacet_PFacet_ScGeom': Scene(pfacets, others=kGridContacts, grid=True),
     'Ig2_PP_PP_ScGeom': Scene(potentialParticles, physics=['Ip2_FrictMat_FrictMat_KnKsPhys'],
                               laws=['Law2_SCG_KnKsPhys_KnKsLaw']),
@@ -279,6 +292,7 @@ kScenes = {
     'Ig2_Sphere_ChainedCylinder_CylScGeom6D': Scene(
         spheres, chains, laws=['Law2_CylScGeom6D_CohFrictPhys_CohesionMoment'], **kChained),
     'Ig2_Sphere_GridConnection_ScGridCoGeom': Scene(spheres, connections, grid=True),
+    'Ig2_Sphere_LevelSet_ScGeom': Scene(spheres, levelSets),
     'Ig2_Sphere_PFacet_ScGridCoGeom': Scene(spheres, pfacets, grid=True),
     'Ig2_Sphere_Polyhedra_ScGeom': Scene(spheres, polyhedra, **kFacetted),
     'Ig2_Sphere_Sphere_L3Geom': Scene(spheres, **kLinear),
@@ -288,7 +302,9 @@ kScenes = {
     'Ig2_Tetra_Tetra_TTetraSimpleGeom': Scene(
         tetrahedra, physics=['Ip2_ElastMat_ElastMat_NormPhys'],
         laws=['Law2_TTetraSimpleGeom_NormPhys_Simple']),
+    'Ig2_Wall_LevelSet_MultiScGeom': Scene(walls, levelSets, **kSeveralPoints),
     'Ig2_Wall_LevelSet_ScGeom': Scene(walls, levelSets),
+    'Ig2_Wall_LevelSet_VolumeGeom': Scene(walls, levelSets, **kOverlapVolume),
     'Ig2_Wall_PFacet_ScGeom': Scene(walls, pfacets, others=['Ig2_Wall_Sphere_ScGeom'], grid=True),
     'Ig2_Wall_Polyhedra_PolyhedraGeom': Scene(walls, polyhedra, **kVolumetric),
     'Ig2_Wall_Sphere_L3Geom': Scene(sidedWalls, spheres, **kLinear),
