@@ -8,12 +8,13 @@ kMark = 'YADEFRAG_MPI_RUN'
 # Processes that share two cores, as root in a container.
 kMpi = dict(OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1', OMP_NUM_THREADS='1',
             OMPI_MCA_rmaps_base_oversubscribe='1', OMPI_MCA_mpi_yield_when_idle='1',
-            OMPI_MCA_btl_vader_single_copy_mechanism='none')
+            OMPI_MCA_btl_vader_single_copy_mechanism='none',
+            PRTE_MCA_rmaps_default_mapping_policy=':oversubscribe')    # from Open MPI 5 on
 
 
 def environment(mark):
     """Without what an MPI of this process itself has set."""
-    kept = {k: v for k, v in os.environ.items() if not k.startswith(('OMPI_', 'PMIX_', 'ORTE_'))}
+    kept = {k: v for k, v in os.environ.items() if not k.startswith(('OMPI_', 'PMIX_', 'ORTE_', 'PRTE_'))}
     return {**kept, **kMpi, kMark: mark}
 
 

@@ -17,7 +17,7 @@ O.dt = .5 * fe.criticalTimeStep()
 start = fe.nodes[:, 0].mean()
 O.run(20, True)
 with open('%g.txt' % speed, 'w') as out:
-    out.write(repr((fe.nodes[:, 0].mean() - start) / (speed * 20 * O.dt)))
+    out.write(repr(float((fe.nodes[:, 0].mean() - start) / (speed * 20 * O.dt))))
 '''
 
 

@@ -172,7 +172,8 @@ kDask = '''from distributed import Client
         client.wait_for_workers(2)'''
 kFound = "@@@ 2 [('ok', 0.0), ('failed', None), ('refused', None), ('ok', 5.0)]"
 kAsRoot = dict(OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1',
-               OMPI_MCA_rmaps_base_oversubscribe='1')
+               OMPI_MCA_rmaps_base_oversubscribe='1',
+               PRTE_MCA_rmaps_default_mapping_policy=':oversubscribe')    # from Open MPI 5 on
 
 
 def byScript(folder, opening):

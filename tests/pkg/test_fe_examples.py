@@ -193,7 +193,7 @@ def test_picturesAreWritten(name, folder):
     ('squares', ['--n', '0'], 'whole number of at least 1'),
     ('rings', ['--steps', 'many'], "it is 'many', it must be a whole number of at least 1"),
     ('bars', ['--collider', 'Sweep'], "invalid choice: 'Sweep'"),
-    ('bars', ['--passes', '3'], 'invalid choice: 3'),
+    ('bars', ['--passes', '3'], '--passes: invalid choice'),
     ('cylinder', ['--size', '-1'], "it is '-1', it must be a positive number"),
     ('cylinder', ['--size', '1'], '--size is 1 m, it must be at most 0.0025 m'),
     ('cylinder', ['--vtk', 'a.txt'], "its name must end with '.vtu'"),

@@ -72,4 +72,6 @@ def test_anUnreachableServerHasACodeOfItsOwn(tmp_path):
     done = subprocess.run(['bash', str(tmp_path / 'scripts' / 'in-release'), 'trixie', 'true'],
                           capture_output=True, text=True, check=False,
                           env={**os.environ, 'YADEFRAG_ROOTS': str(tmp_path / 'roots')})
+    if 'lets no file system be mounted' in done.stderr:
+        pytest.skip('this machine permits no mounts: the server is not asked')
     assert done.returncode == 75 and 'cannot be fetched' in done.stderr

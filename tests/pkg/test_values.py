@@ -86,6 +86,12 @@ def test_valuesAreShownInShort(value):
         assert len(str(error.value)) <= 300
 
 
+def test_numbersOfNumPyAreShownAsPythons():
+    """NumPy 2 has np.float64(1.5) as repr."""
+    assert values.shown((np.float64(1.5), np.int32(2))) == '(1.5, 2)'
+    assert values.shown([np.bool_(True)]) == '[True]'
+
+
 def test_aBrokenReprIsNoReasonToFail():
     class Broken:
         def __repr__(self):

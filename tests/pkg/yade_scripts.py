@@ -41,7 +41,7 @@ def colliderClass(name):
 
 def report(name, swap, before, started, **more):
     counted = {k: v - before[k] for k, v in swap.count.items()}
-    print('@@@ ' + json.dumps(dict(name=name, seconds=round(clock.time() - started, 2),
+    print('\n@@@ ' + json.dumps(dict(name=name, seconds=round(clock.time() - started, 2),
                                    **counted, **more)), flush=True)
 
 

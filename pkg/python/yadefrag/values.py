@@ -26,6 +26,10 @@ class _Short(reprlib.Repr):
         self.maxstring = self.maxother = 40
         self.maxlong = 24
 
+    def repr1(self, value, level):
+        # NumPy 2 would write np.float64(1.0).
+        return super().repr1(plain(value), level)
+
     def repr_ndarray(self, array, level):
         if array.ndim == 1 and array.size <= self.maxlist:
             return self.repr(array.tolist())
