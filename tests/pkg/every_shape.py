@@ -197,7 +197,8 @@ def cohesiveMat(label='m', young=1e5):
 
 
 class Scene:
-    """Bodies of the given kinds, and the functors that they need beside their own."""
+    """Bodies of the given kinds, and the functors that they need beside their own: names, or
+    (name, attributes)."""
 
     def __init__(self, *bodies, material=frictMat, physics=('Ip2_FrictMat_FrictMat_FrictPhys',),
                  laws=('Law2_ScGeom_FrictPhys_CundallStrack',), others=(), grid=False,
@@ -223,7 +224,7 @@ class Scene:
         return dict(interactionLoop=loop)
 
     def loop(self, functor):
-        physics = [getattr(w, name)() for name in self.physics]
+        physics = [functorOf(entry) for entry in self.physics]
         laws = self.laws
         if self.grid or self.cohesive:
             physics.append(w.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(
@@ -235,9 +236,14 @@ class Scene:
         others = ['Ig2_GridNode_GridNode_GridNodeGeom6D'] if self.grid else []
         geometry = list(dict.fromkeys([functor, *others, *self.others]))
         # Sorted: functors of chains and grids look at other interactions of the same step.
-        return w.InteractionLoop([getattr(w, name)() for name in geometry], physics,
-                                 [getattr(w, name)() for name in laws],
+        return w.InteractionLoop([functorOf(entry) for entry in geometry], physics,
+                                 [functorOf(entry) for entry in laws],
                                  loopOnSortedInteractions=True)
+
+
+def functorOf(entry):
+    name, attributes = (entry, {}) if isinstance(entry, str) else entry
+    return getattr(w, name)(**attributes)
 
 
 def boundFunctors():
@@ -258,9 +264,11 @@ kFacetted = dict(material=polyhedraMat)
 kLinear = dict(laws=['Law2_L3Geom_FrictPhys_ElPerfPl'])
 kLinear6 = dict(laws=['Law2_L6Geom_FrictPhys_Linear'])
 kChained = dict(material=cohesiveMat, physics=[], cohesive=True)
-kSeveralPoints = dict(physics=['Ip2_FrictMat_FrictMat_MultiFrictPhys'],
-                      laws=['Law2_MultiScGeom_MultiFrictPhys_CundallStrack'])
-kOverlapVolume = dict(laws=['Law2_VolumeGeom_FrictPhys_Elastic'])
+kSeveralPoints = dict(
+    physics=[('Ip2_FrictMat_FrictMat_MultiFrictPhys', dict(kn=1e4, ks=1e4))],
+    laws=[('Law2_MultiScGeom_MultiFrictPhys_CundallStrack', dict(sphericalBodies=False))])
+kOverlapVolume = dict(physics=['Ip2_FrictMat_FrictMat_KnKsPhys'],
+                      laws=['Law2_VolumeGeom_FrictPhys_Elastic'])
 kGridContacts = ['Ig2_GridConnection_GridConnection_GridCoGridCoGeom',
                  'Ig2_Sphere_PFacet_ScGridCoGeom']
 
