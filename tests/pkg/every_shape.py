@@ -25,7 +25,8 @@ kInserting = ('Ig2_PFacet_PFacet_ScGeom', 'Ig2_GridConnection_PFacet_ScGeom',
 kNearIsReal = ('Ig2_Facet_Polyhedra_PolyhedraGeom', 'Ig2_Wall_Polyhedra_PolyhedraGeom',
                'Ig2_Polyhedra_Polyhedra_PolyhedraGeom', 'Ig2_Polyhedra_Polyhedra_ScGeom',
                'Ig2_Polyhedra_Polyhedra_PolyhedraGeomOrScGeom',
-               'Ig2_Sphere_ChainedCylinder_CylScGeom', 'Ig2_Sphere_ChainedCylinder_CylScGeom6D')
+               'Ig2_Sphere_ChainedCylinder_CylScGeom', 'Ig2_Sphere_ChainedCylinder_CylScGeom6D',
+               'Ig2_LevelSet_LevelSet_VolumeGeom', 'Ig2_Wall_LevelSet_VolumeGeom')
 
 kNoScene = {
     'Ig2_Tetra_Tetra_TTetraGeom':

@@ -1,4 +1,5 @@
 """Runs a command in several MPI processes, and ends all of them. Without YADE: a benchmark uses it, too."""
+import functools
 import os
 import signal
 import subprocess
@@ -18,6 +19,25 @@ def environment(mark):
     return {**kept, **kMpi, kMark: mark}
 
 
+# Starts one more process of itself, which ends at once.
+kSpawn = '''import sys
+from mpi4py import MPI
+parent = MPI.Comm.Get_parent()
+if parent == MPI.COMM_NULL:
+    parent = MPI.COMM_SELF.Spawn(sys.executable, args=['-c', sys.argv[1], sys.argv[1]], maxprocs=1)
+parent.Disconnect()
+'''
+
+
+@functools.cache
+def starter():
+    """What comes before the command of one process that starts others: mpiexec, where a process without
+    it cannot start any (Debian 13's Open MPI 5)."""
+    done = subprocess.run(['/usr/bin/python3', '-c', kSpawn, kSpawn], env=environment('probe'),
+                          stdin=subprocess.DEVNULL, capture_output=True, timeout=60, check=False)
+    return ['mpiexec', '-n', '1'] if done.returncode else []
+
+
 def end(mark):
     """Ends all processes of one run, by their numbers: MPI puts them into groups of their own, and
     those whose parent has ended are no descendants any more."""
@@ -34,7 +54,8 @@ def end(mark):
 def run(ranks, command, folder, limit):
     """(exit code, output) of `command` in `ranks` processes; code None: no end within `limit` s."""
     mark = str(uuid.uuid4())
-    process = subprocess.Popen((['mpiexec', '-n', str(ranks)] if ranks > 1 else []) + command,
+    start = ['mpiexec', '-n', str(ranks)] if ranks > 1 else starter()
+    process = subprocess.Popen(start + command,
                                cwd=folder, env=environment(mark), stdin=subprocess.DEVNULL,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     try:

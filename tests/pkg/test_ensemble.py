@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import ensemble_scenes as scenes
+import mpi_processes
 import tradeoff_scenes
 import yadefrag
 from test_threads import yadeCommand
@@ -171,22 +172,19 @@ kDask = '''from distributed import Client
         executor = client.get_executor(pure=False)
         client.wait_for_workers(2)'''
 kFound = "@@@ 2 [('ok', 0.0), ('failed', None), ('refused', None), ('ok', 5.0)]"
-kAsRoot = dict(OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1',
-               OMPI_MCA_rmaps_base_oversubscribe='1',
-               PRTE_MCA_rmaps_default_mapping_policy=':oversubscribe')    # from Open MPI 5 on
 
 
-def byScript(folder, opening):
+def byScript(folder, opening, start=()):
     file = os.path.join(folder, 'script.py')
     with open(file, 'w') as out:
         out.write(kScript % (kHere, opening))
-    done = subprocess.run([*yadeCommand(), file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          text=True, timeout=300, env=dict(os.environ, **kAsRoot))
+    done = subprocess.run([*start, *yadeCommand(), file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, timeout=300, env=mpi_processes.environment('ensemble'))
     assert kFound in done.stdout, done.stdout[-3000:]
 
 
 def test_twoWorkersOfMpi(folder):
-    byScript(folder, kMpi)
+    byScript(folder, kMpi, mpi_processes.starter())
 
 
 def test_twoWorkersOfDask(folder):
