@@ -156,6 +156,7 @@ kScript = '''
 import os, sys
 sys.path.insert(0, %r)
 import ensemble_scenes as scenes
+import mpi_processes
 from yadefrag import ensemble
 if __name__ == '__main__':
     %s
@@ -174,17 +175,17 @@ kDask = '''from distributed import Client
 kFound = "@@@ 2 [('ok', 0.0), ('failed', None), ('refused', None), ('ok', 5.0)]"
 
 
-def byScript(folder, opening, start=()):
+def byScript(folder, opening):
     file = os.path.join(folder, 'script.py')
     with open(file, 'w') as out:
         out.write(kScript % (kHere, opening))
-    done = subprocess.run([*start, *yadeCommand(), file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    done = subprocess.run([*yadeCommand(), file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           text=True, timeout=300, env=mpi_processes.environment('ensemble'))
     assert kFound in done.stdout, done.stdout[-3000:]
 
 
 def test_twoWorkersOfMpi(folder):
-    byScript(folder, kMpi, mpi_processes.starter())
+    byScript(folder, kMpi)
 
 
 def test_twoWorkersOfDask(folder):

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 
@@ -150,6 +151,14 @@ def test_processWithoutBodies(once, alone):
     assert max(r['searches'] for r in reports) < 20
 
 
+def ordersStartedProcesses():
+    """Before its version 5, Open MPI put the process that starts others first, though MPI does not ask for
+    that; YADE relies on it, and does not end, or reports bounds that are not numbers, with any collider."""
+    found = subprocess.run(['mpiexec', '--version'], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return int(re.search(r' (\d+)\.', found)[1]) < 5
+
+
+@pytest.mark.skipif(not ordersStartedProcesses(), reason='Open MPI 5 orders them arbitrarily')
 def test_processesThatMpirunStarts(once, alone):
     """They run the script that called it, not a file of ours."""
     reports = once(1, 'LebesgueCollider', 'spawned')
