@@ -203,7 +203,7 @@ def test_twoWorkersOfDask(folder):
         byScript(folder, kDask % file)
     finally:
         for process in started:
-            process.terminate()
+            process.kill()      # Dask 2024.12 with Python 3.13 does not always end when it is asked to
         for process in started:
             process.wait()
 

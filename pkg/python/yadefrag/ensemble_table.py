@@ -179,7 +179,7 @@ class EnsembleTable:
 
 def _meanText(line):
     """A line of `statistics` as text."""
-    sentence = 'Mean of %d run%s: %.6g' % (line['runs'], 's' * (line['runs'] > 1), line['mean'])
+    sentence = 'Mean of %d run%s: %.6g' % (line['runs'], 's' if line['runs'] > 1 else '', line['mean'])
     if math.isfinite(line['low']):
         sentence += ', with 95 %% confidence between %.6g and %.6g' % (line['low'], line['high'])
     return sentence + ('; %d have no value.' % line['failed'] if line['failed'] else '.')
