@@ -1,6 +1,7 @@
 #include "mesh/interior_front.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <map>
 

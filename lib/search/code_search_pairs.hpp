@@ -1,6 +1,9 @@
 #pragma once
 // Third part of code_search.hpp: from codes to pairs (paper §4.4).
 
+#include <algorithm>
+#include <cmath>
+
 #include "curve/numbering.hpp"
 #include "search/code_search.hpp"
 

@@ -1,6 +1,7 @@
 #pragma once
 // Search in a tree of boxes (HO), the second method that the paper compares with.
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/parallel.hpp"

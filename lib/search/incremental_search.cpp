@@ -1,5 +1,7 @@
 #include "search/incremental_search.hpp"
 
+#include <algorithm>
+
 #include "core/parallel.hpp"
 #include "core/tolerances/search.hpp"
 #include "search/box_count.hpp"

@@ -2,6 +2,7 @@
 // A search that receives the list of changed boxes: its cost depends on their number, not on that
 // of all boxes.
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>

@@ -1,6 +1,7 @@
 #pragma once
 // Search in a tree over position codes that is rebuilt for every update (LBVH, Karras 2012).
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -3,6 +3,7 @@
 // leaves its plane changes from 2D to 3D codes, one whose boxes grow gets longer position-code
 // boxes.
 
+#include <memory>
 #include <type_traits>
 
 #include "search/box_count.hpp"

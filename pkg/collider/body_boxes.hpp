@@ -1,6 +1,7 @@
 #pragma once
 // Converts YADE's bodies to the boxes of a search, and writes the boxes back into their bounds.
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include <GL/gl.h>
 #include <dlfcn.h>
+#include <algorithm>
 
 #include <mutex>
 

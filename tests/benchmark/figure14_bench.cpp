@@ -5,6 +5,7 @@
 // Names: figure14/<scene>/<method>/<size>, and figure14/frames/<scene>/<size> where the environment
 // variable FIGURE14_FRAMES names a folder: the boxes of all searches, for YADE's collider.
 #include <benchmark/benchmark.h>
+#include <memory>
 
 #include <chrono>
 #include <cstdlib>

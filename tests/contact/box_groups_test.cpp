@@ -3,6 +3,7 @@
 #include "contact/box_problem.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <random>

@@ -2,6 +2,7 @@
 // Problems of contact forces for the tests of their solver, and what is true of a solution.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 

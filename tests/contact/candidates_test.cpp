@@ -3,6 +3,7 @@
 #include "contact/candidates.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <map>
 

@@ -3,6 +3,7 @@
 #include "contact/contact_groups.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <set>
 

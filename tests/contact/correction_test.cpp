@@ -3,6 +3,7 @@
 #include "contact/correction.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "contact/contact_scenes.hpp"
 #include "core/tolerances/solver.hpp"

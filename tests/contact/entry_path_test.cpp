@@ -3,6 +3,7 @@
 #include "contact/entry_path.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <random>

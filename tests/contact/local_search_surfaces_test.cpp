@@ -2,6 +2,8 @@
 // the halo leave out is compared with every slave against every master.
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include <map>
 

@@ -4,6 +4,7 @@
 #include "contact/local_search.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "contact/chase.hpp"
 

@@ -3,6 +3,7 @@
 #include "contact/pass_rule.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "contact/contact_scenes.hpp"
 

@@ -4,6 +4,7 @@
 #include "contact/path_rules.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <tuple>
 

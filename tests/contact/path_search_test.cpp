@@ -2,6 +2,8 @@
 // that leaves out nothing.
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include "contact/chase.hpp"
 

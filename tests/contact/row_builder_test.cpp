@@ -3,6 +3,8 @@
 #include "contact/row_builder.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include "contact/contact_scenes.hpp"
 

@@ -1,6 +1,7 @@
 #pragma once
 // Equal to the last bit: what "same input, same bits" means (== would take -0 for 0).
 
+#include <algorithm>
 #include <cstring>
 #include <ranges>
 

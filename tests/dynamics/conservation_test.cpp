@@ -1,5 +1,6 @@
 // Momentum and the energy ledger.
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 

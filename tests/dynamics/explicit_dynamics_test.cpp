@@ -2,6 +2,7 @@
 #include "dynamics/explicit_dynamics.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <limits>

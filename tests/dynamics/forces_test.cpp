@@ -1,5 +1,6 @@
 // The elastic law: stress of uniform strain, forces as the gradient of the energy, rotation.
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <numeric>

@@ -1,6 +1,7 @@
 // Bodies of several materials: layers against their closed forms, waves through an interface.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 

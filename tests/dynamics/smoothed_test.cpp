@@ -1,5 +1,6 @@
 // Bodies with smoothed strains: modes without energy, energy and momentum, dropped triangles.
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -4,6 +4,8 @@
 #include "extremes/any_world.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include <cstdlib>
 

@@ -2,6 +2,7 @@
 // One block hits another, however large, fast, heavy or far away: what came of it.
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "extremes/limits.hpp"

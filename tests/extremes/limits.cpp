@@ -1,6 +1,7 @@
 #include "extremes/limits.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cstdlib>
 #include <fstream>

@@ -3,6 +3,7 @@
 #include "extremes/limits.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <filesystem>
 #include <fstream>

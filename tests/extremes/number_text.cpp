@@ -1,5 +1,6 @@
 #include "extremes/number_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

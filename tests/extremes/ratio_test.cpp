@@ -1,6 +1,8 @@
 // Bodies of very different mass and stiffness touch.
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include "extremes/blow.hpp"
 

@@ -1,6 +1,7 @@
 // Slivers, nodes at the same place, bodies that touch or overlap at the start.
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <numbers>
 

@@ -1,6 +1,7 @@
 // From nanometres to thousands of kilometres, near the origin and far from it, any way round.
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "extremes/blow.hpp"
 

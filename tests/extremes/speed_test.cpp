@@ -1,6 +1,8 @@
 // From a nanometre a second to beyond the speed of waves: nothing passes through anything unseen.
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include <random>
 

@@ -1,6 +1,7 @@
 // From a thousandth of the critical time step to just above it; energy over very many steps.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include "extremes/blow.hpp"
 

@@ -1,6 +1,7 @@
 // Bodies that are bonded along the sides that they have in common.
 
 #include <gtest/gtest.h>
+#include <functional>
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 // below the plates: the disc of a material that is strong in shear cracks there and then.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <numbers>

@@ -9,6 +9,7 @@
 //        ↑ ↑ ↑ ↑        20 × 40 mm
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <algorithm>
 #include <cstdlib>

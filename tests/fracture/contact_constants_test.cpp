@@ -2,6 +2,7 @@
 // choice. Impacts differ in mesh, speed and cohesion.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <array>
 #include <string>

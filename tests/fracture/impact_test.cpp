@@ -2,6 +2,7 @@
 // falls to pieces.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <numbers>

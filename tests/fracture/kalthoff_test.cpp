@@ -2,6 +2,7 @@
 // leave the notches at about 70° to them, towards the void side. The upper half, 100 × 100 mm, its
 // lower side held in y, driven at 16.5 m/s between there and the notch (50 mm long, 25 mm up).
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,7 @@
 #include "fracture/separation.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <numbers>
 

@@ -1,6 +1,7 @@
 // Brittle bodies with smoothed strains: at a node that splits the parts get strains of their own,
 // and the ledger has what that changes.
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 

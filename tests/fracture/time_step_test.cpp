@@ -1,6 +1,7 @@
 // Cracks with half and a quarter of the time step: loads, cracks, fragments and works.
 
 #include <gtest/gtest.h>
+#include <functional>
 
 #include <algorithm>
 #include <array>

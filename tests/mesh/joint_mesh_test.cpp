@@ -1,6 +1,7 @@
 // Meshes with lines along which sides of triangles lie.
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <algorithm>
 #include <limits>

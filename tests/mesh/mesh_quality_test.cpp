@@ -1,6 +1,7 @@
 #include "mesh/mesh_quality.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 

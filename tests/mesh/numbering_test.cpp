@@ -1,6 +1,7 @@
 #include "mesh/numbering.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include "curve/position_code.hpp"
 #include "mesh/structured.hpp"

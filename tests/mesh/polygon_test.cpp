@@ -1,6 +1,8 @@
 #include "mesh/polygon.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include <chrono>
 #include <limits>

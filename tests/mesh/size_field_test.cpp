@@ -1,6 +1,7 @@
 #include "mesh/size_field.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <functional>

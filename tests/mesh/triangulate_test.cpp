@@ -1,6 +1,8 @@
 #include "mesh/triangulate.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include <limits>
 #include <random>

@@ -3,6 +3,7 @@
 #include "search/incremental_search.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <algorithm>
 #include <cstdlib>

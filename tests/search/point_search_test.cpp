@@ -3,6 +3,7 @@
 #include "search/point_search.hpp"
 
 #include <gtest/gtest.h>
+#include <memory>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,9 @@
 #pragma once
 // Random boxes of every kind that a search must get right.
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 

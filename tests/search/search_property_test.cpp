@@ -1,6 +1,7 @@
 // Every search finds exactly the pairs of brute force, in random scenes whose boxes move, jump,
 // appear and vanish. YADEFRAG_SCENES sets the number of scenes (default 100,000).
 #include <gtest/gtest.h>
+#include <memory>
 
 #include <algorithm>
 #include <cmath>

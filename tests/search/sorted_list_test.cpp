@@ -1,6 +1,7 @@
 #include "search/sorted_list.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <random>
 

@@ -3,6 +3,7 @@
 // never touch themselves at these speeds (at 40 m/s one is bent so far that it does).
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <random>
 

@@ -5,6 +5,7 @@
 #include "step/blocks.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 // Corners: where node against segment has the most ways to go wrong.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include "mesh/polygon.hpp"
 #include "step/course.hpp"

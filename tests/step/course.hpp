@@ -2,6 +2,7 @@
 // A run with a record: points on the wrong side, and energy created.
 
 #include <algorithm>
+#include <cmath>
 
 #include "step/bodies.hpp"
 #include "step/wrong_side.hpp"

@@ -1,6 +1,7 @@
 // Many blows in a small space: nothing gets out, nothing gets in, no energy appears.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <numbers>

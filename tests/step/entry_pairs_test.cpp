@@ -3,6 +3,8 @@
 #include "step/entry_pairs.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include <set>
 

@@ -5,6 +5,7 @@
 // block of sixteen half widths and the strains of some per cent are not.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cstdlib>
 

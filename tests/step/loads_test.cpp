@@ -1,6 +1,7 @@
 // Loads on pieces of the boundary.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <numeric>

@@ -3,6 +3,8 @@
 #include "step/overlap_depth.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include <random>
 

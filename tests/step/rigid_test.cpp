@@ -1,6 +1,7 @@
 // Rigid boundaries: lines and outlines without elements that bodies touch.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <numbers>

@@ -2,6 +2,7 @@
 // polygons would, by what the README states.
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "benchmark/fe_scenes.hpp"
 

@@ -2,6 +2,7 @@
 // notch too narrow for a foot.
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "mesh/polygon.hpp"
 #include "step/course.hpp"

@@ -2,6 +2,7 @@
 // requires changes nothing.
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <algorithm>
 #include <numbers>

@@ -3,6 +3,7 @@
 #include "step/world.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <sstream>
 

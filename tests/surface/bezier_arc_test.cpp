@@ -1,6 +1,8 @@
 #include "surface/bezier_arc.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include <numbers>
 

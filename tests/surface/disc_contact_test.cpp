@@ -3,6 +3,8 @@
 #include "surface/disc_contact.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include "contact/contact_scenes.hpp"
 

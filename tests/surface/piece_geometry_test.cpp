@@ -1,6 +1,7 @@
 #include "surface/piece_geometry.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <numbers>
 #include <random>

@@ -1,6 +1,7 @@
 // Meshes that crack edge by edge until every triangle is on its own.
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <random>
 #include <vector>

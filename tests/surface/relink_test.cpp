@@ -1,6 +1,8 @@
 #include "surface/relink.hpp"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 
 #include <vector>
 

@@ -1,6 +1,7 @@
 // Box2D's b2DynamicTree: boxes with a margin, in the plane and in single precision.
 #ifdef YADEFRAG_BOX2D
 #include <box2d/b2_dynamic_tree.h>
+#include <memory>
 
 #include "benchmark/rivals/rival.hpp"
 

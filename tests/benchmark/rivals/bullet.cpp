@@ -1,6 +1,7 @@
 // Bullet's btDbvtBroadphase: dynamic trees and a hash of pairs, in single precision.
 #ifdef YADEFRAG_BULLET
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <memory>
 
 #include "benchmark/rivals/rival.hpp"
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "benchmark/rivals/rival.hpp"
 #include "search/search_plan.hpp"

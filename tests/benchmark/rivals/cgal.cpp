@@ -1,6 +1,7 @@
 // CGAL's box_self_intersection_d (streamed segment trees; Zomorodian and Edelsbrunner).
 #include <CGAL/Box_intersection_d/Box_with_handle_d.h>
 #include <CGAL/box_intersection_d.h>
+#include <memory>
 
 #include "benchmark/rivals/rival.hpp"
 

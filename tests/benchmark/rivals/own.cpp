@@ -1,5 +1,6 @@
 // Our own searches, in the form for the comparison.
 #include <algorithm>
+#include <memory>
 
 #include "benchmark/rivals/rival.hpp"
 #include "search/incremental_search.hpp"
