@@ -27,4 +27,10 @@ inline bool overlaps(const Box& a, const Box& b) {
               (b.min[1] <= a.max[1]) & (a.min[2] <= b.max[2]) & (b.min[2] <= a.max[2]));
 }
 
+/// A box may lie in two cache lines.
+inline void prefetch(const Box& box) {
+  __builtin_prefetch(&box);
+  __builtin_prefetch(&box.max[2]);
+}
+
 }  // namespace yadefrag

@@ -17,6 +17,7 @@ struct LebesgueNumbering {
   static constexpr bool kIsCurve = true;
   static constexpr bool kIsSwept = false;
   static constexpr double kEdgeOverExtent = tolerance::kEdgeOverExtent;
+  static constexpr int kPartsOfX = 1;
   static constexpr std::int64_t kFirst = 0;  ///< number of the boxes at the origin
 
   static std::uint64_t encode(const Cell& cell) { return Code::encode(cell); }
@@ -52,6 +53,7 @@ struct LinearNumbering {
   static constexpr bool kIsCurve = false;
   static constexpr bool kIsSwept = false;
   static constexpr double kEdgeOverExtent = tolerance::kEdgeOverExtent;
+  static constexpr int kPartsOfX = 1;
   static constexpr std::int64_t kFirst = 0;
 
   /// Rows run along x, the first axis; each row has 2^kBits boxes.
@@ -108,7 +110,7 @@ struct LinearNumbering {
     }
   }
 
- private:
+ protected:
   static std::uint64_t stepped(std::uint64_t code, int axis, std::uint32_t by) {
     Cell cell = decode(code);
     cell[axis] = (cell[axis] + by) & Code::kMask;
@@ -122,23 +124,33 @@ struct LinearNumbering {
 /// numbered area: rows wrap around far from all boxes.
 template <int Dim>
 struct SweptRows : LinearNumbering<Dim> {
+  using Base = LinearNumbering<Dim>;
   using Code = PositionCode<Dim>;
   static constexpr bool kIsSwept = true;
   static constexpr double kEdgeOverExtent = tolerance::kRowEdgeOverExtent;
+  static constexpr int kPartsOfX = tolerance::kPartsOfX;  ///< boxes per edge along a row
   static constexpr std::int64_t kFirst = std::int64_t{1} << (Code::kBits - 2);
 
   /// Number of adjacent rows whose codes are greater than those of a row.
   static constexpr int kLaterRows = Dim == 2 ? 1 : 4;
 
+  static std::uint64_t down(std::uint64_t code, int axis) {
+    return Base::stepped(code, axis, axis == 0 ? Code::kMask + 1 - kPartsOfX : Code::kMask);
+  }
+  static std::uint64_t up(std::uint64_t code, int axis) {
+    return Base::stepped(code, axis, axis == 0 ? kPartsOfX : 1);
+  }
+
   /// True if no adjacent box is beyond the end of a coordinate.
   static bool isInner(std::uint64_t code) {
     for (int axis = 0; axis < Dim; ++axis) {
       const auto at = static_cast<std::uint32_t>(code >> (axis * Code::kBits)) & Code::kMask;
-      if (at == 0 || at == Code::kMask) return false;
+      const std::uint32_t edge = axis == 0 ? kPartsOfX : 1;
+      if (at < edge || at > Code::kMask - edge) return false;
     }
     return true;
   }
-  /// The three boxes of the k-th of these rows that are adjacent to the box `code`, if it is inner.
+  /// The boxes of the k-th of these rows within an edge of the box `code`, if it is inner.
   static CodeRange laterRow(std::uint64_t code, int k) {
     constexpr std::uint64_t y = std::uint64_t{1} << Code::kBits;
     std::uint64_t middle = code + y;
@@ -146,7 +158,7 @@ struct SweptRows : LinearNumbering<Dim> {
       constexpr std::uint64_t z = y << Code::kBits;
       if (k > 0) middle = code + z + static_cast<std::uint64_t>(k - 2) * y;
     }
-    return {middle - 1, middle + 1};
+    return {middle - kPartsOfX, middle + kPartsOfX};
   }
 };
 

@@ -8,41 +8,48 @@
 
 #include "core/box.hpp"
 #include "core/footprint.hpp"
+#include "core/parallel.hpp"
 #include "search/code_directory.hpp"
-#include "search/filter_box.hpp"
+#include "search/filter_list.hpp"
 #include "search/sorted_list.hpp"
 
 namespace yadefrag {
 
-/// A box together with its slot: an exact test reads one cache line.
-struct alignas(64) CodedBox {
-  Box box;
-  std::uint32_t slot;
-};
-
+/// `Filters`: FilterList or FilterBlocks.
+template <class Filters>
 class CodeLevel {
  public:
   [[nodiscard]] std::size_t size() const { return list_.size(); }
-  [[nodiscard]] const CodedBox& operator[](std::size_t i) const { return boxes_[i]; }
-  [[nodiscard]] const FilterBox& filter(std::size_t i) const { return filters_[i]; }
-  [[nodiscard]] std::uint64_t code(std::size_t i) const { return codes_[i]; }
+  [[nodiscard]] std::uint32_t slot(std::size_t i) const { return list_.slot(i); }
+  [[nodiscard]] FilterBox filter(std::size_t i) const { return filters_[i]; }
   [[nodiscard]] const CodeDirectory& directory() const { return directory_; }
-  /// Ascending, with kEnd behind the last.
-  [[nodiscard]] std::span<const std::uint64_t> codes() const { return codes_; }
-  static constexpr std::uint64_t kEnd = ~std::uint64_t{0};
+  /// Ascending, with SortedList::kEnd behind the last.
+  [[nodiscard]] std::span<const std::uint64_t> codes() const { return list_.codes(); }
+
+  /// Calls `visit(slot)` for each box with start ≤ code ≤ stop, from index `begin` on, that
+  /// overlaps `box`, whose filter box is `filter`. `boxes`: by slot.
+  template <class Visit>
+  [[gnu::always_inline]] void forEachOverlap(const Box& box, const FilterBox& filter,
+                                             std::span<const Box> boxes, std::uint32_t begin,
+                                             std::uint64_t start, std::uint64_t stop,
+                                             Visit visit) const {
+    filters_.forEachNear(filter, codes().data(), begin, start, stop, [&](std::size_t j) {
+      if (surelyOverlap(filter, filters_[j]) || overlaps(box, boxes[slot(j)])) visit(slot(j));
+    });
+  }
 
   /// Removes the entries for which `leaves(slot)` is true, and marks the list as changed.
   template <class Leaves>
   void remove(Leaves leaves) {
-    std::erase_if(list_, [&](const CodedSlot& c) { return leaves(c.slot); });
+    list_.remove(leaves);
     changed_ = true;
   }
 
   /// Inserts new entries, which ascend in slot.
   template <class Count>
-  void insert(std::vector<CodedSlot>& incoming, std::vector<CodedSlot>& scratch, Count& count) {
+  void insert(std::vector<CodedSlot>& incoming, Count& count) {
     sortByCode(incoming);
-    mergeByCode(list_, incoming, scratch, count);
+    list_.insert(incoming, count);
     changed_ = true;
   }
 
@@ -51,20 +58,33 @@ class CodeLevel {
     changed_ = true;
   }
 
-  /// Copies the boxes in curve order. `withDirectory`: codes are looked up through a directory.
+  /// Takes the boxes in the order of the list. `withDirectory`: codes are looked up through a
+  /// directory.
   void refresh(std::span<const Box> boxes, const FilterScale& scale, bool withDirectory,
-               int threads);
+               int threads) {
+    filters_.resize(size());
+    const std::size_t groups = (size() + Filters::kTogether - 1) / Filters::kTogether;
+    forEachPart(groups, threads, [&](std::size_t begin, std::size_t end, int) {
+      constexpr std::size_t ahead = 16;  // the boxes are in the order of their slots: prefetch
+      const std::size_t last = std::min(end * Filters::kTogether, size());
+      for (std::size_t i = begin * Filters::kTogether; i < last; ++i) {
+        if (i + ahead < last) prefetch(boxes[slot(i + ahead)]);
+        filters_.set(i, FilterBox::of(boxes[slot(i)], scale));
+      }
+    });
+    if (changed_ && withDirectory) directory_.build(codes().first(size()));
+    changed_ = false;
+  }
 
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kSearch, list_, codes_, boxes_, filters_);
+    list_.addTo(footprint);
+    filters_.addTo(footprint);
     directory_.addTo(footprint);
   }
 
  private:
-  std::vector<CodedSlot> list_;
-  std::vector<std::uint64_t> codes_;
-  std::vector<CodedBox> boxes_;
-  std::vector<FilterBox> filters_;
+  SortedList list_;
+  Filters filters_;
   CodeDirectory directory_;
   bool changed_ = true;
 };

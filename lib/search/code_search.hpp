@@ -8,6 +8,7 @@
 
 #include <array>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -24,7 +25,7 @@ template <class Numbering, int Dim, class Count>
 class CodeSearch final : public ContactSearch {
  public:
   explicit CodeSearch(const SearchPlan& plan)
-      : grid_(plan, Numbering::kEdgeOverExtent, Numbering::kFirst) {}
+      : grid_(plan, Numbering::kEdgeOverExtent, Numbering::kPartsOfX, Numbering::kFirst) {}
 
   void update(std::span<const Box> boxes) override;
   void findPairs(std::vector<BoxPair>& pairs) override;
@@ -33,15 +34,16 @@ class CodeSearch final : public ContactSearch {
   void clear() override;
   [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
   void addTo(Footprint& footprint) const override {
-    footprint.add(Use::kSearch, places_, changes_, occupied_, scratch_, partPairs_);
+    footprint.add(Use::kSearch, places_, changes_, occupied_, partPairs_);
     for (const auto& arriving : arriving_) footprint.add(Use::kSearch, arriving);
-    for (const CodeLevel& level : levels_) level.addTo(footprint);
+    for (const Level& level : levels_) level.addTo(footprint);
     wide_.addTo(footprint);
   }
 
  private:
   using Code = PositionCode<Dim>;
   using Cell = typename Code::Cell;
+  using Level = CodeLevel<std::conditional_t<Numbering::kIsSwept, FilterBlocks, FilterList>>;
 
   static constexpr int kAbsent = -1;
   static constexpr int kWide = -2;
@@ -69,14 +71,17 @@ class CodeSearch final : public ContactSearch {
   void pairsOf(int level, std::size_t i, RowPlaces& places, std::vector<BoxPair>& out,
                Count& count) const;
   template <class Visit>
-  void visitLaterNeighbours(const CodeLevel& level, int own, std::size_t i, Count& count,
+  void visitLaterNeighbours(const Level& level, int own, std::size_t i, Count& count,
                             Visit visit) const;
+  template <class Visit>
+  void visitRange(const Level& level, const FilterBox& filter, const Box& box, std::uint32_t begin,
+                  const CodeRange& range, Count& count, Visit visit) const;
   void sweepRows(int level, std::size_t from, std::size_t to, std::vector<BoxPair>& out,
                  Count& count) const;
   template <class Visit>
   void visitRectangle(const Box& box, int at, RowPlaces::OfLevel* places, Count& count,
                       Visit visit) const;
-  std::uint32_t lowerBound(const CodeLevel& level, std::uint64_t code, Count& count) const;
+  std::uint32_t lowerBound(const Level& level, std::uint64_t code, Count& count) const;
   double lowestStart(const Box& box, int axis, int level) const;
   Extent rectangleOf(const Box& box, int level, CodeRange& corners) const;
   [[nodiscard]] bool searchesLevel(int own, int other) const;
@@ -85,7 +90,7 @@ class CodeSearch final : public ContactSearch {
   std::span<const Box> boxes_;
   std::vector<Place> places_;
   std::vector<Change> changes_;
-  std::array<CodeLevel, kLevels> levels_;
+  std::array<Level, kLevels> levels_;
   Extents extents_{};                   // longest side on each level at present
   std::array<bool, kLevels> isWide_{};  // levels with too few boxes for codes
   std::array<int, kLevels> joined_{};   // the level that stores the boxes of each level
@@ -93,7 +98,6 @@ class CodeSearch final : public ContactSearch {
   WideBoxes wide_;
   std::size_t wideAtStart_ = 0;
   bool started_ = false;
-  std::vector<CodedSlot> scratch_;
   std::array<std::vector<CodedSlot>, kLevels> arriving_;
   std::vector<std::vector<BoxPair>> partPairs_;
   Count count_;

@@ -26,8 +26,11 @@ void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
       if constexpr (Numbering::kIsSwept)
         if (from < to) sweepRows(level, from - first, to - first, out, counts[part]);
       const bool alone = Numbering::kIsSwept && occupied_.size() == 1 && wide_.size() == 0;
-      for (std::size_t i = from; i < to && !alone && !isFull(out); ++i)
+      constexpr std::size_t ahead = 16;  // the boxes are in the order of their slots: prefetch
+      for (std::size_t i = from; i < to && !alone && !isFull(out); ++i) {
+        if (i + ahead < to) prefetch(boxes_[levels_[level].slot(i + ahead - first)]);
         pairsOf(level, i - first, places, out, counts[part]);
+      }
       first += size;
     }
   });
@@ -55,28 +58,43 @@ bool CodeSearch<Numbering, Dim, Count>::searchesLevel(int own, int other) const 
 template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, RowPlaces& places,
                                                 std::vector<BoxPair>& out, Count& count) const {
-  const CodedBox& me = levels_[own][i];
-  const FilterBox& filter = levels_[own].filter(i);
+  const std::uint32_t slot = levels_[own].slot(i);
+  const Box& box = boxes_[slot];
+  const FilterBox filter = levels_[own].filter(i);
+  const auto take = [&](std::uint32_t other) {
+    out.push_back(orderedPair(BoxId(slot), BoxId(other)));
+  };
   for (const int other : occupied_) {
     if (other != own && !searchesLevel(own, other)) continue;
-    const CodeLevel& level = levels_[other];
-    const std::uint64_t* codes = level.codes().data();
-    // Starting at the begin of a range, a linear scan reaches its end faster than a look-up.
-    const auto test = [&](std::uint32_t begin, std::uint64_t stop) {
-      count.range(1);
-      for (std::uint32_t j = begin; codes[j] <= stop; ++j) {
-        count.range(1);
-        count.test(2 * Dim);
-        if (mayOverlap(filter, level.filter(j)) && overlaps(me.box, level[j].box))
-          out.push_back(orderedPair(BoxId(me.slot), BoxId(level[j].slot)));
-      }
+    const Level& level = levels_[other];
+    const auto test = [&](std::uint32_t begin, const CodeRange& range) {
+      visitRange(level, filter, box, begin, range, count, take);
     };
     if (other != own)
-      visitRectangle(me.box, other, &places.of(other), count, test);
+      visitRectangle(box, other, &places.of(other), count, test);
     else if (!Numbering::kIsSwept)
       visitLaterNeighbours(level, own, i, count, test);
   }
-  wide_.pairsWith(boxes_, me.box, me.slot, out, count);
+  wide_.pairsWith(boxes_, box, slot, out, count);
+}
+
+/// Calls `visit(slot)` for the boxes of a range of codes, from index `begin` on, that overlap
+/// `box`. Starting at the begin of a range, a linear scan reaches its end faster than a look-up.
+template <class Numbering, int Dim, class Count>
+template <class Visit>
+void CodeSearch<Numbering, Dim, Count>::visitRange(const Level& level, const FilterBox& filter,
+                                                   const Box& box, std::uint32_t begin,
+                                                   const CodeRange& range, Count& count,
+                                                   Visit visit) const {
+  if constexpr (Count::kOn) {
+    count.range(1);
+    for (std::uint32_t j = begin; level.codes()[j] <= range.stop; ++j) {
+      if (level.codes()[j] < range.start) continue;
+      count.range(1);
+      count.test(2 * Dim);
+    }
+  }
+  level.forEachOverlap(box, filter, boxes_, begin, range.start, range.stop, visit);
 }
 
 /// Boxes of one level are shorter than an edge: boxes that overlap lie in the same position-code
@@ -84,19 +102,19 @@ void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, RowPlace
 /// follow from the box's own code.
 template <class Numbering, int Dim, class Count>
 template <class Visit>
-void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const CodeLevel& level, int own,
+void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const Level& level, int own,
                                                              std::size_t i, Count& count,
                                                              Visit visit) const {
-  const Box& box = level[i].box;
-  const std::uint64_t code = level.code(i);
+  const Box& box = boxes_[level.slot(i)];
+  const std::uint64_t code = level.codes()[i];
   CodeRange corners = {code, code};
   for (int d = 0; d < Dim; ++d) {
     const int axis = grid_.axis(d);
-    const auto floor = static_cast<double>(floorToInt(grid_.scaled(box.min[axis], own)));
+    const auto floor = static_cast<double>(floorToInt(grid_.scaled(box.min[axis], own, d)));
     count.range(2);
-    if (grid_.scaled(lowestStart(box, axis, own), own) < floor)
+    if (grid_.scaled(lowestStart(box, axis, own), own, d) < floor)
       corners.start = Numbering::down(corners.start, d);
-    if (grid_.scaled(box.max[axis], own) >= floor + 1)
+    if (grid_.scaled(box.max[axis], own, d) >= floor + 1)
       corners.stop = Numbering::up(corners.stop, d);
   }
   const auto next = static_cast<std::uint32_t>(i) + 1;
@@ -104,7 +122,7 @@ void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const CodeLevel& le
     count.range(2);
     if (range.stop < code) return;
     const std::uint32_t begin = range.start <= code ? next : lowerBound(level, range.start, count);
-    visit(begin, range.stop);
+    visit(begin, range);
   });
 }
 
@@ -114,19 +132,17 @@ void CodeSearch<Numbering, Dim, Count>::visitLaterNeighbours(const CodeLevel& le
 template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::sweepRows(int own, std::size_t from, std::size_t to,
                                                   std::vector<BoxPair>& out, Count& count) const {
-  const CodeLevel& level = levels_[own];
-  const std::span<const std::uint64_t> codes = level.codes();
-  RowPlaces::OfLevel places;
+  const Level& level = levels_[own];
+  const std::uint64_t* codes = level.codes().data();
+  constexpr std::size_t width = FilterBlocks::kTogether;
+  std::array<std::size_t, Numbering::kLaterRows> places{};  // blocks in which the rows begin
   for (std::size_t i = from; i < to && !isFull(out); ++i) {
+    const std::uint32_t slot = level.slot(i);
     const FilterBox filter = level.filter(i);
-    const auto test = [&](std::uint32_t begin, std::uint64_t stop) {
-      count.range(1);
-      for (std::uint32_t j = begin; codes[j] <= stop; ++j) {
-        count.range(1);
-        count.test(2 * Dim);
-        if (mayOverlap(filter, level.filter(j)) && overlaps(level[i].box, level[j].box))
-          out.push_back(orderedPair(BoxId(level[i].slot), BoxId(level[j].slot)));
-      }
+    const auto test = [&](std::uint32_t begin, const CodeRange& range) {
+      visitRange(level, filter, boxes_[slot], begin, range, count, [&](std::uint32_t other) {
+        out.push_back(orderedPair(BoxId(slot), BoxId(other)));
+      });
     };
     const auto next = static_cast<std::uint32_t>(i) + 1;
     const std::uint64_t code = codes[i];
@@ -136,14 +152,16 @@ void CodeSearch<Numbering, Dim, Count>::sweepRows(int own, std::size_t from, std
         corners = {Numbering::down(corners.start, d), Numbering::up(corners.stop, d)};
       Numbering::forEachRange(corners.start, corners.stop, [&](const CodeRange& range) {
         if (range.stop < code) return;
-        test(range.start <= code ? next : lowerBound(level, range.start, count), range.stop);
+        test(range.start <= code ? next : lowerBound(level, range.start, count), range);
       });
       continue;
     }
-    test(next, code + 1);
+    test(next, {code, code + Numbering::kPartsOfX});
     for (int k = 0; k < Numbering::kLaterRows; ++k) {
       const CodeRange row = Numbering::laterRow(code, k);
-      test(places.lowerBound(k, codes, row.start, count), row.stop);
+      std::size_t& place = places[k];
+      while (codes[place * width + width - 1] < row.start) ++place;
+      test(static_cast<std::uint32_t>(place * width), row);
     }
   }
 }
@@ -155,14 +173,14 @@ template <class Visit>
 void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at,
                                                        RowPlaces::OfLevel* places, Count& count,
                                                        Visit visit) const {
-  const CodeLevel& level = levels_[at];
+  const Level& level = levels_[at];
   CodeRange corners;
   int row = 0;
   const auto visitRange = [&](const CodeRange& range) {
     if (Numbering::kIsSwept && places)
-      visit(places->lowerBound(row++, level.codes(), range.start, count), range.stop);
+      visit(places->lowerBound(row++, level.codes(), range.start, count), range);
     else
-      visit(lowerBound(level, range.start, count), range.stop);
+      visit(lowerBound(level, range.start, count), range);
   };
   switch (rectangleOf(box, at, corners)) {
     case Extent::kSmall:
@@ -178,7 +196,7 @@ void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at,
       }
       [[fallthrough]];  // a scan of all boxes is cheaper than thousands of rows
     case Extent::kWraps:
-      visit(0, CodeLevel::kEnd - 1);
+      visit(0, {0, SortedList::kEnd - 1});
       return;
   }
 }
@@ -202,8 +220,8 @@ auto CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level,
   double longest = 0;
   for (int d = 0; d < Dim; ++d) {
     const int axis = grid_.axis(d);
-    const double from = grid_.scaled(lowestStart(box, axis, level), level);
-    const double to = grid_.scaled(box.max[axis], level);
+    const double from = grid_.scaled(lowestStart(box, axis, level), level, d);
+    const double to = grid_.scaled(box.max[axis], level, d);
     longest = std::max(longest, to - from);
     if (!(to - from < (Code::kMask >> 1)) || !(std::abs(from) < 0x1p60)) return Extent::kWraps;
     const std::int64_t origin = grid_.origin(level, d);
@@ -218,8 +236,7 @@ auto CodeSearch<Numbering, Dim, Count>::rectangleOf(const Box& box, int level,
 
 /// The Lebesgue search uses its directory; the linear search (LPC) searches its whole list (§4.5).
 template <class Numbering, int Dim, class Count>
-std::uint32_t CodeSearch<Numbering, Dim, Count>::lowerBound(const CodeLevel& level,
-                                                            std::uint64_t code,
+std::uint32_t CodeSearch<Numbering, Dim, Count>::lowerBound(const Level& level, std::uint64_t code,
                                                             Count& count) const {
   if constexpr (Numbering::kIsCurve) return level.directory().lowerBound(code, count);
   return bisectCodes(level.codes(), 0, static_cast<std::uint32_t>(level.size()), code, count);
@@ -229,13 +246,12 @@ template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::findOverlaps(const Box& box,
                                                      std::vector<BoxId>& found) const {
   Count uncounted;
-  const FilterBox filter(box, grid_.filterScale());
+  const FilterBox filter = FilterBox::of(box, grid_.filterScale());
   for (const int at : occupied_) {
-    const CodeLevel& level = levels_[at];
-    visitRectangle(box, at, nullptr, uncounted, [&](std::uint32_t begin, std::uint64_t stop) {
-      for (std::uint32_t j = begin; level.codes()[j] <= stop; ++j)
-        if (mayOverlap(filter, level.filter(j)) && overlaps(box, level[j].box))
-          found.push_back(BoxId(level[j].slot));
+    const Level& level = levels_[at];
+    visitRectangle(box, at, nullptr, uncounted, [&](std::uint32_t begin, const CodeRange& range) {
+      level.forEachOverlap(box, filter, boxes_, begin, range.start, range.stop,
+                           [&](std::uint32_t slot) { found.emplace_back(slot); });
     });
   }
   wide_.overlapsWith(boxes_, box, found, uncounted);

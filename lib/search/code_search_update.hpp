@@ -19,7 +19,7 @@ void CodeSearch<Numbering, Dim, Count>::update(std::span<const Box> boxes) {
   boxes_ = boxes;
   if (!started_) {
     places_.clear();
-    for (CodeLevel& level : levels_) level.clear();
+    for (Level& level : levels_) level.clear();
     isWide_.fill(false);
     std::iota(joined_.begin(), joined_.end(), 0);
   }
@@ -98,7 +98,7 @@ int CodeSearch<Numbering, Dim, Count>::levelFor(const Box& box, double side) con
   if (level >= kLevels || isWide_[level]) return kWide;
   level = joined_[level];
   for (int d = 0; d < Dim; ++d)
-    if (!LevelGrid<Dim>::isNumbered(grid_.scaled(box.min[grid_.axis(d)], level))) return kWide;
+    if (!LevelGrid<Dim>::isNumbered(grid_.scaled(box.min[grid_.axis(d)], level, d))) return kWide;
   return level;
 }
 
@@ -109,7 +109,7 @@ bool CodeSearch<Numbering, Dim, Count>::stepWithin(const Box& box, Place& place,
                                                    Count& count) const {
   bool same = true;
   for (int d = 0; d < Dim; ++d) {
-    const double x = grid_.scaled(box.min[grid_.axis(d)], place.level);
+    const double x = grid_.scaled(box.min[grid_.axis(d)], place.level, d);
     const auto floor = static_cast<double>(grid_.origin(place.level, d) + place.number[d]);
     count.move(2);
     const bool down = x < floor;
@@ -202,7 +202,7 @@ void CodeSearch<Numbering, Dim, Count>::collectMoved() {
     for (int level = 0; level < kLevels; ++level) {
       if (levels_[level].size() > 0)
         levels_[level].remove([&](std::uint32_t slot) { return changes_[slot] != Change::kNone; });
-      if (!arriving_[level].empty()) levels_[level].insert(arriving_[level], scratch_, count_);
+      if (!arriving_[level].empty()) levels_[level].insert(arriving_[level], count_);
     }
   }
   places_.resize(boxes_.size());

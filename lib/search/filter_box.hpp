@@ -1,6 +1,5 @@
 #pragma once
-// Boxes in single precision for a quick first test: two vector comparisons on half a cache line.
-// (With it the pairs of the gas benchmark took 11 ms instead of 15.)
+// Boxes in single precision for a quick first test.
 
 #include <array>
 
@@ -27,12 +26,13 @@ struct alignas(32) FilterBox {
   std::array<float, 4> min;
   std::array<float, 4> max;  // the fourth of each is 0
 
-  FilterBox() = default;
-  FilterBox(const Box& box, const FilterScale& scale) : min{}, max{} {
+  static FilterBox of(const Box& box, const FilterScale& scale) {
+    FilterBox filter{};
     for (int axis = 0; axis < 3; ++axis) {
-      min[axis] = scale(box.min[axis], axis);
-      max[axis] = scale(box.max[axis], axis);
+      filter.min[axis] = scale(box.min[axis], axis);
+      filter.max[axis] = scale(box.max[axis], axis);
     }
+    return filter;
   }
 };
 
@@ -48,6 +48,16 @@ inline bool mayOverlap(const FilterBox& a, const FilterBox& b) {
     may &= a.min[axis] <= b.max[axis] && b.min[axis] <= a.max[axis];
   return may;
 #endif
+}
+
+/// True only if the original boxes overlap: where the images of a monotone mapping are strictly
+/// ordered, so are the originals. Nearly all pairs are decided without access to the originals,
+/// which are scattered in memory.
+inline bool surelyOverlap(const FilterBox& a, const FilterBox& b) {
+  bool sure = true;
+  for (int axis = 0; axis < 3; ++axis)
+    sure &= bool((a.min[axis] < b.max[axis]) & (b.min[axis] < a.max[axis]));
+  return sure;
 }
 
 }  // namespace yadefrag

@@ -34,19 +34,21 @@ class LevelGrid {
   using Cell = typename Code::Cell;
 
   LevelGrid() = default;
-  /// `edgeOverExtent`: of the boxes of a level, over its longest body box; `first`: the number of
-  /// the boxes at the origin.
-  LevelGrid(const SearchPlan& plan, double edgeOverExtent, std::int64_t first)
+  /// `edgeOverExtent`: of the boxes of a level, over its longest body box; `partsOfX`: number of
+  /// boxes per edge along the first axis, a power of two; `first`: the number of the boxes at the
+  /// origin.
+  LevelGrid(const SearchPlan& plan, double edgeOverExtent, int partsOfX, std::int64_t first)
       : plan_(plan), edge_(plan.extent * edgeOverExtent) {
     for (int level = 0; level < kLevels; ++level) {
-      inverseEdge_[level] = 1 / std::ldexp(edge_, level - kBaseLevel);
+      inverseEdge_[level].fill(1 / std::ldexp(edge_, level - kBaseLevel));
+      inverseEdge_[level][0] *= partsOfX;
       for (int d = 0; d < Dim; ++d) {
-        const double origin = plan.low[plan.axes[d]] * inverseEdge_[level];
+        const double origin = plan.low[plan.axes[d]] * inverseEdge_[level][d];
         // Beyond 2^30 boxes from zero the origin is not changed: coordinates there get no code.
         origin_[level][d] = (std::abs(origin) < kFarthest ? floorToInt(origin) : 0) - first;
       }
     }
-    inverseSmallest_ = inverseEdge_[0] * edgeOverExtent;
+    inverseSmallest_ = inverseEdge_[0][1] * edgeOverExtent;
   }
 
   [[nodiscard]] int axis(int d) const { return plan_.axes[d]; }
@@ -65,8 +67,12 @@ class LevelGrid {
     return level < kLevels ? level : kLevels;
   }
 
-  /// x in box edges of the level; box number k holds k + origin ≤ scaled < k + 1 + origin.
-  [[nodiscard]] double scaled(double x, int level) const { return x * inverseEdge_[level]; }
+  /// x along the coded axis d, in boxes of the level; box number k holds k + origin ≤ scaled < k +
+  /// 1
+  /// + origin.
+  [[nodiscard]] double scaled(double x, int level, int d) const {
+    return x * inverseEdge_[level][d];
+  }
   [[nodiscard]] std::int64_t origin(int level, int d) const { return origin_[level][d]; }
 
   /// False for coordinates too distant for a number on this level.
@@ -75,7 +81,7 @@ class LevelGrid {
   /// Box number of x along the coded axis d, before the reduction modulo 2^kBits. It is monotone in
   /// x, because its only rounding is that of a product with a constant.
   [[nodiscard]] std::int32_t number(double x, int level, int d) const {
-    return static_cast<std::int32_t>(floorToInt(scaled(x, level)) - origin_[level][d]);
+    return static_cast<std::int32_t>(floorToInt(scaled(x, level, d)) - origin_[level][d]);
   }
 
  private:
@@ -83,7 +89,7 @@ class LevelGrid {
 
   SearchPlan plan_;
   double edge_ = 1;  // m, of level kBaseLevel
-  std::array<double, kLevels> inverseEdge_{};
+  std::array<std::array<double, Dim>, kLevels> inverseEdge_{};
   std::array<std::array<std::int64_t, Dim>, kLevels> origin_{};
   double inverseSmallest_ = 1;
 };

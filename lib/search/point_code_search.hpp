@@ -79,13 +79,14 @@ class PointCodeSearch final : public PointSearch {
 
   void encodeAll() {
     places_.resize(points_.size());
-    list_.clear();
+    moved_.clear();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Numbers number = numbers(points_[i]);
       places_[i] = {encode(number), number};
-      list_.push_back({places_[i].code, static_cast<std::uint32_t>(i)});
+      moved_.push_back({places_[i].code, static_cast<std::uint32_t>(i)});
     }
-    sortByCode(list_);
+    list_.clear();
+    insertMoved();
     refresh();
   }
 
@@ -98,27 +99,28 @@ class PointCodeSearch final : public PointSearch {
       moved_.push_back({places_[i].code, static_cast<std::uint32_t>(i)});
     }
     if (!moved_.empty()) {
-      std::erase_if(list_, [&](const CodedSlot& c) { return hasMoved_[c.slot] != 0; });
-      sortByCode(moved_);
-      mergeByCode(list_, moved_, scratch_, count_);
+      list_.remove([&](std::uint32_t slot) { return hasMoved_[slot] != 0; });
+      insertMoved();
     }
     refresh();
+  }
+
+  void insertMoved() {
+    sortByCode(moved_);
+    list_.insert(moved_, count_);
   }
 
   /// Copies the data that queries read into the order of the list.
   void refresh() {
     const std::size_t size = list_.size();
-    codes_.resize(size);
     sorted_.resize(size);
     if constexpr (kLookup == Lookup::kExponential) rank_.resize(size);
     for (std::size_t at = 0; at < size; ++at) {
-      const CodedSlot& here = list_[at];
-      codes_[at] = here.code;
-      sorted_[at] = {points_[here.slot], here.slot};
-      if constexpr (kLookup == Lookup::kExponential)
-        rank_[here.slot] = static_cast<std::uint32_t>(at);
+      const std::uint32_t slot = list_.slot(at);
+      sorted_[at] = {points_[slot], slot};
+      if constexpr (kLookup == Lookup::kExponential) rank_[slot] = static_cast<std::uint32_t>(at);
     }
-    if constexpr (kLookup == Lookup::kDirectory) directory_.build(codes_);
+    if constexpr (kLookup == Lookup::kDirectory) directory_.build(list_.codes().first(size));
   }
 
   /// Fig. 6: two comparisons per axis decide whether the point has kept its box. Returns true if it
@@ -161,8 +163,9 @@ class PointCodeSearch final : public PointSearch {
   void findIn(const Rectangle& rectangle, std::size_t own, std::vector<EntryId>& found) {
     const auto visit = [&](const CodeRange& range) {
       count_.range(1);  // the comparison with the code that ends it
-      for (std::uint32_t at = firstFrom(range.start, own); at < codes_.size(); ++at) {
-        if (codes_[at] > range.stop) break;  // a linear scan is faster than a look-up
+      const std::span<const std::uint64_t> codes = list_.codes();
+      for (std::uint32_t at = firstFrom(range.start, own); at < list_.size(); ++at) {
+        if (codes[at] > range.stop) break;  // a linear scan is faster than a look-up
         count_.test(5);
         if (contains(rectangle, sorted_[at].point)) found.emplace_back(sorted_[at].slot);
       }
@@ -185,7 +188,7 @@ class PointCodeSearch final : public PointSearch {
   std::uint32_t firstFrom(std::uint64_t code, std::size_t own) {
     if constexpr (kLookup == Lookup::kDirectory) return directory_.lowerBound(code, count_);
     std::uint32_t low = 0;
-    auto high = static_cast<std::uint32_t>(codes_.size());
+    auto high = static_cast<std::uint32_t>(list_.size());
     if constexpr (kLookup == Lookup::kExponential) {
       const std::uint32_t from = rank_[own];
       std::uint32_t stride = 1;
@@ -210,7 +213,7 @@ class PointCodeSearch final : public PointSearch {
   }
   bool isBefore(std::uint32_t at, std::uint64_t code) {
     count_.range(1);
-    return codes_[at] < code;
+    return list_.codes()[at] < code;
   }
 
   static constexpr std::int64_t kFourRanges = 16;     // boxes
@@ -219,13 +222,12 @@ class PointCodeSearch final : public PointSearch {
   double inverseEdge_;
   Vec2 origin_;
   std::span<const Vec2> points_;
-  std::vector<Place> places_;         // by slot
-  std::vector<CodedSlot> list_;       // sorted
-  std::vector<std::uint64_t> codes_;  // of the list
-  std::vector<SortedPoint> sorted_;   // of the list
-  std::vector<std::uint32_t> rank_;   // by slot: its index in the list
+  std::vector<Place> places_;  // by slot
+  SortedList list_;
+  std::vector<SortedPoint> sorted_;  // of the list
+  std::vector<std::uint32_t> rank_;  // by slot: its index in the list
   CodeDirectory directory_;
-  std::vector<CodedSlot> moved_, scratch_;
+  std::vector<CodedSlot> moved_;
   std::vector<std::uint8_t> hasMoved_;
   Count count_;
 };

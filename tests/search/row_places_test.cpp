@@ -66,12 +66,15 @@ void expectAdjacentRows() {
     for (std::uint64_t c = row.start; c <= row.stop; ++c) found.push_back(c);
   }
   std::vector<std::uint64_t> wanted;
-  for (int n = 0; n < (Dim == 2 ? 9 : 27); ++n) {
-    typename Rows::Cell other = cell;
-    for (int axis = 0, rest = n; axis < Dim; ++axis, rest /= 3)
-      other[axis] += static_cast<std::uint32_t>(rest % 3 - 1);
-    if (Rows::encode(other) > code + 1) wanted.push_back(Rows::encode(other));
-  }
+  constexpr int edge = Rows::kPartsOfX;
+  for (int n = 0; n < (Dim == 2 ? 3 : 9); ++n)
+    for (int x = -edge; x <= edge; ++x) {
+      typename Rows::Cell other = cell;
+      other[0] += static_cast<std::uint32_t>(x);
+      for (int axis = 1, rest = n; axis < Dim; ++axis, rest /= 3)
+        other[axis] += static_cast<std::uint32_t>(rest % 3 - 1);
+      if (Rows::encode(other) > code + edge) wanted.push_back(Rows::encode(other));
+    }
   std::sort(found.begin(), found.end());
   std::sort(wanted.begin(), wanted.end());
   EXPECT_EQ(found, wanted);

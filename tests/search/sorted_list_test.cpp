@@ -34,36 +34,65 @@ TEST(SortedList, RadixSortIsASort) {
     }
 }
 
-TEST(SortedList, MergeIsASortOfBoth) {
+/// A list with the given entries, which are sorted.
+SortedList listOf(const std::vector<CodedSlot>& entries) {
+  SortedList list;
+  CountNothing uncounted;
+  list.insert(entries, uncounted);
+  return list;
+}
+
+bool same(const SortedList& list, const std::vector<CodedSlot>& entries) {
+  bool all = list.size() == entries.size() && list.codes().back() == SortedList::kEnd;
+  for (std::size_t i = 0; all && i < entries.size(); ++i)
+    all = list.codes()[i] == entries[i].code && list.slot(i) == entries[i].slot;
+  return all;
+}
+
+TEST(SortedList, InsertionIsASortOfBoth) {
   std::mt19937_64 random(6);
-  std::vector<CodedSlot> scratch;
   for (int k = 0; k < 2000; ++k) {
     const std::uint64_t most = k % 3 ? 1000000 : 10;
     auto all = randomList(random, random() % 300, most);
-    std::vector<CodedSlot> list;
+    std::vector<CodedSlot> entries;
     std::vector<CodedSlot> incoming;
-    for (const CodedSlot& entry : all) (random() % 4 ? list : incoming).push_back(entry);
-    std::sort(list.begin(), list.end());
+    for (const CodedSlot& entry : all) (random() % 4 ? entries : incoming).push_back(entry);
+    std::sort(entries.begin(), entries.end());
     std::sort(incoming.begin(), incoming.end());
     std::sort(all.begin(), all.end());
+    SortedList list = listOf(entries);
+    ASSERT_TRUE(same(list, entries));
     CountNothing nothing;
-    mergeByCode(list, incoming, scratch, nothing);
+    list.insert(incoming, nothing);
     ASSERT_TRUE(same(list, all));
   }
 }
 
-TEST(SortedList, ComparisonsOfAMergeDoNotGrowWithTheList) {
+TEST(SortedList, KeepsTheOrderOfWhatStays) {
+  std::mt19937_64 random(7);
+  auto entries = randomList(random, 500, 100);
+  std::sort(entries.begin(), entries.end());
+  SortedList list = listOf(entries);
+  const auto leaves = [](std::uint32_t slot) { return slot % 3 == 0; };
+  list.remove(leaves);
+  std::erase_if(entries, [&](const CodedSlot& entry) { return leaves(entry.slot); });
+  EXPECT_TRUE(same(list, entries));
+  list.clear();
+  EXPECT_TRUE(same(list, {}));
+}
+
+TEST(SortedList, ComparisonsOfAnInsertionDoNotGrowWithTheList) {
   // Lemma A.2: a constant number per entry that moved, here a tenth of them all.
   std::mt19937_64 random(8);
-  std::vector<CodedSlot> scratch;
   std::vector<double> perMoved;
   for (const std::size_t count : {1000, 1000000}) {
-    auto list = randomList(random, count, 1ULL << 40);
+    auto entries = randomList(random, count, 1ULL << 40);
     auto incoming = randomList(random, count / 10, 1ULL << 40);
-    sortByCode(list);
+    sortByCode(entries);
     sortByCode(incoming);
+    SortedList list = listOf(entries);
     CountAll counted;
-    mergeByCode(list, incoming, scratch, counted);
+    list.insert(incoming, counted);
     perMoved.push_back(static_cast<double>(counted.total().resort) /
                        (static_cast<double>(count) / 10));
   }

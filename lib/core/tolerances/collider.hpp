@@ -30,6 +30,10 @@ inline constexpr double kMemoryLookUp = 1.1;
 /// margin a body at constant speed requires a search one step early.
 inline constexpr double kSweepSpare = 1.02;
 
+/// (of its room's length) A sphere that has moved this far along its velocity is expected to keep
+/// it.
+inline constexpr double kStraight = .5;
+
 /// (ratio) A body whose swept box is this many times longer than its present speed requires gets a
 /// new one. Otherwise bodies that come to rest would keep neighbours out of their reach.
 inline constexpr double kLooseSweep = 4;

@@ -21,6 +21,11 @@ inline constexpr double kEdgeOverExtent = 2;
 /// coordinates, at most 2⁻²³ of an edge.
 inline constexpr double kRowEdgeOverExtent = 1.001;
 
+/// (count) Boxes per edge along a row, a power of two. Boxes that overlap start within one edge of
+/// each other: the finer its division, the fewer others are tested, and the more often a box that
+/// moves gets another code.
+inline constexpr int kPartsOfX = 2;
+
 /// (ratio) Rows in a sweep are used if at least this part of the boxes is on one level, and then as
 /// long as the second part is. With more levels the rows of the fine ones are nearly empty: sizes
 /// of 1 : 1000 take twice (2D) to five times (3D) as long as on the curve.
