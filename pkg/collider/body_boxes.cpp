@@ -100,7 +100,7 @@ void BodyBoxes::gatherSpheres(yade::Scene& scene, int threads) {
   known_.resize(bodies.size());
   forEachPart(bodies.size(), threads, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t id = begin; id < end; ++id) {
-      prefetch(bodies, id);
+      prefetch(bodies, id, Check::kAll);
       kinds_[id] = take(bodies[id].get(), id);
     }
   });
@@ -111,10 +111,10 @@ void BodyBoxes::gatherSpheres(yade::Scene& scene, int threads) {
 std::optional<Real> BodyBoxes::boundRadius(const yade::Body& body) const {
   if (!body.shape || !body.isBounded()) return {};
   const yade::Shape& shape = *body.shape;
-  if (typeid(shape) != typeid(yade::Sphere)) return {};
+  if (!isSphere_(shape)) return {};
   const yade::Bo1_Sphere_Aabb* functor = sphereFunctor_;
   if (const yade::BoundFunctor* cached = shape.boundFunctor.get(); cached && cached != functor) {
-    if (typeid(*cached) != typeid(yade::Bo1_Sphere_Aabb)) return {};
+    if (!isSphereFunctor_(*cached)) return {};
     functor = static_cast<const yade::Bo1_Sphere_Aabb*>(cached);
   }
   if (!functor) return {};
@@ -124,12 +124,30 @@ std::optional<Real> BodyBoxes::boundRadius(const yade::Body& body) const {
 
 /// Spheres get their box here, all others later.
 auto BodyBoxes::take(const yade::Body* body, std::size_t id) -> Kind {
+  const bool isSame = body && known_[id].body == body && balls_[id].radius >= 0;
+  const Heading heading = isSame ? headingOf(*body->state, balls_[id], known_[id].heading) : 0;
   boxes_[id] = Box::absent();
   balls_[id].radius = -1;
   known_[id] = {};
   if (!body) return Kind::kNone;
-  known_[id] = {body, body->groupMask, body->clumpId};
+  known_[id] = {body, body->groupMask, body->clumpId, heading};
   return takeSphere(*body, id);
+}
+
+/// Axis and sign of the velocity with which a sphere crosses its room: it is expected to keep that
+/// velocity as long as its sign does not change. A sphere in a room around its position shows it by
+/// leaving this room: in a packing at rest spheres oscillate within their rooms.
+auto BodyBoxes::headingOf(const yade::State& state, const Ball& was, Heading before) -> Heading {
+  int axis = 0;
+  const double speed = state.vel.cwiseAbs().maxCoeff(&axis);
+  if (!(speed > 0)) return 0;
+  const auto now = static_cast<Heading>(state.vel[axis] > 0 ? axis + 1 : -axis - 1);
+  if (before != 0) {
+    const int was = before > 0 ? before - 1 : -before - 1;
+    return state.vel[was] * before > 0 ? now : 0;
+  }
+  const double moved = (state.se3.position[axis] - was.centre[axis]) * (now > 0 ? 1 : -1);
+  return moved > tolerance::kStraight * was.sweep ? now : 0;
 }
 
 /// Computes the box without calling the functor.
@@ -139,7 +157,8 @@ auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
   if (!radius) return Kind::kOther;
   const yade::State& state = *body.state;
   Ball& ball = balls_[id];
-  ball = {state.se3.position, *radius, rule_.lengthForBall(*radius, SweepRule::speedOf(state.vel))};
+  const Room room = rule_.roomFor(*radius, state.vel, known_[id].heading != 0);
+  ball = {state.se3.position + room.shift, *radius, room.length};
   const Vector3r at = cell_ ? cell_->unshearPt(ball.centre) : ball.centre;
   const Vector3r half = ball.radius * radiusFactor_;
   const Vector3r sweep = (ball.sweep + cellSlack_) * sweepFactor_;

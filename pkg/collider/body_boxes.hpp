@@ -16,11 +16,11 @@ namespace yadefrag {
 
 class SurfaceSegment;
 
-/// Centre and radius of a body that is exactly a sphere, for the true-halo test.
+/// Radius and room of a body that is exactly a sphere, for the true-halo test.
 struct Ball {
-  yade::Vector3r centre;
+  yade::Vector3r centre;  ///< m, of its room
   double radius;  ///< m, radius of its bound (with aabbEnlargeFactor); negative: not a sphere
-  double sweep;   ///< m, permitted displacement in any direction
+  double sweep;   ///< m, permitted displacement from the room's centre along each axis
 };
 
 /// Data for checking, between searches, bodies whose orientation affects their bound.
@@ -39,6 +39,14 @@ struct Turning {
   }
 };
 
+/// What a search of changed bodies checks of the others.
+enum class Check : unsigned char {
+  kNew,    ///< only whether they were added or removed
+  kMoved,  ///< also whether spheres have left their rooms: the shape, elsewhere in memory, is not
+           ///< read
+  kAll     ///< also whether their shape, mask or clump has changed
+};
+
 class BodyBoxes {
  public:
   /// Computes all boxes, which `commit` then writes into the bounds. Throws InputError for a
@@ -49,11 +57,10 @@ class BodyBoxes {
   /// The same, but only for bodies that were added, removed or changed since the last `commit`, and
   /// for those that have left their box, will have left it `rule.lookAhead` from now at their
   /// present speed, or have become so slow that the box is far too large. All others keep their
-  /// boxes and bounds. `quick`: only for added or removed bodies. Returns false if this is too
-  /// costly or impossible: more than `most` have changed, or boxes follow other bodies. The caller
-  /// must then call `rollBack` and `prepare`.
+  /// boxes and bounds. Returns false if this is too costly or impossible: more than `most` have
+  /// changed, or boxes follow other bodies. The caller must then call `rollBack` and `prepare`.
   bool prepareChanged(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
-                      std::size_t most, bool quick, int threads);
+                      std::size_t most, Check check, int threads);
   void commit(yade::Scene& scene, int threads);
   /// Instead of `commit`: restores all bounds to their state before `prepare`.
   void rollBack();
@@ -89,21 +96,25 @@ class BodyBoxes {
     void restore() const;
   };
 
+  /// Axis (1, 2, 3) and sign of a velocity that a sphere is expected to keep; 0: none.
+  using Heading = signed char;
+
   /// Properties of a body, besides position and size, that determine its box: they show whether the
   /// body is still the same.
   struct Known {
     const yade::Body* body = nullptr;
     yade::mask_t mask = 0;
     yade::Body::id_t clump = yade::Body::ID_NONE;
+    Heading heading = 0;
   };
   enum class Seen : unsigned char { kSame, kChanged, kOther };
 
   void takeRule(yade::Scene& scene, const yade::BoundDispatcher& dispatcher, const SweepRule& rule,
                 double cellSlack);
   void gatherSpheres(yade::Scene& scene, int threads);
-  bool gatherChanged(yade::Scene& scene, std::size_t most, bool quick, int threads);
-  Seen look(const yade::Body* body, std::size_t id);
-  [[nodiscard]] bool keepsBall(const yade::Body& body, const Ball& ball) const;
+  bool gatherChanged(yade::Scene& scene, std::size_t most, Check check, int threads);
+  Seen look(const yade::Body* body, std::size_t id, Check check);
+  [[nodiscard]] bool staysIn(const Ball& ball, const yade::State& state) const;
   bool updateChangedOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   bool keepsBox(const yade::Body& body, const Turning* was);
   void keepTurning(const yade::Scene& scene, const Turning& turning);
@@ -111,11 +122,13 @@ class BodyBoxes {
   void commitOne(yade::Scene& scene, std::size_t id);
   static void prefetchBound(const yade::Body* body);
   Kind take(const yade::Body* body, std::size_t id);
+  static Heading headingOf(const yade::State& state, const Ball& was, Heading before);
   Kind takeSphere(const yade::Body& body, std::size_t id);
   void updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   void takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene);
   [[nodiscard]] std::optional<double> boundRadius(const yade::Body& body) const;
-  static void prefetch(const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::size_t id);
+  static void prefetch(const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::size_t id,
+                       Check check);
   void takeSegment(const yade::Body& body);
   double sweepOfOther(const yade::Body& body, bool hadBound);
   void checkPosition(const yade::Scene& scene, std::size_t id) const;
@@ -136,6 +149,8 @@ class BodyBoxes {
   bool isSplit_ = false;
   std::vector<OldBound> undo_;
   ShapeKinds shapeKinds_;
+  IsExactly<yade::Shape, yade::Sphere> isSphere_;
+  IsExactly<yade::BoundFunctor, yade::Bo1_Sphere_Aabb> isSphereFunctor_;
 
   // Common to all bodies of one update:
   SweepRule rule_{0, 0, 0, 0};

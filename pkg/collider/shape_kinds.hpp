@@ -2,6 +2,9 @@
 // Properties of a shape, besides its bound, that a collider needs: whether it moves rigidly with
 // its body.
 
+#include <atomic>
+#include <cstring>
+#include <typeinfo>
 #include <vector>
 
 #include "abi/yade.hpp"
@@ -15,6 +18,25 @@ enum class ShapeKind : signed char {
   kSegment,  ///< SurfaceSegment: FESolver moves it, and requests searches
   kFollower  ///< anything else: grid connections and facets, chained cylinders, other plugins'
              ///< shapes
+};
+
+/// Tests whether objects are exactly of one class, `Exact`. YADE's classes are declared in several
+/// libraries, so that `typeid` compares their names. An object with the table of virtual functions
+/// of one that has passed the test passes without that.
+template <class Base, class Exact>
+class IsExactly {
+ public:
+  bool operator()(const Base& object) const {
+    const void* table = nullptr;
+    std::memcpy(&table, static_cast<const void*>(&object), sizeof table);
+    if (table == known_.load(std::memory_order_relaxed)) return true;
+    if (typeid(object) != typeid(Exact)) return false;
+    known_.store(table, std::memory_order_relaxed);
+    return true;
+  }
+
+ private:
+  mutable std::atomic<const void*> known_ = nullptr;
 };
 
 /// Caches the kind by class index, which is cheaper to read than the class name.
