@@ -12,7 +12,7 @@ from yadefrag.values import refuse
 _OWN = pathlib.Path(__file__).resolve().parent
 # Folders of a source tree (by links in its build folder) and of installations below /usr,
 # /usr/local.
-_PLACES = (_OWN.parents[2], _OWN.parents[3] / 'share' / 'doc' / 'yadefrag')
+_PLACES = ((_OWN / '../../..').resolve(), (_OWN / '../../../../share/doc/yadefrag').resolve())
 
 
 def about(show=print):
