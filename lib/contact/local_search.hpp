@@ -11,6 +11,7 @@
 #include "contact/candidates.hpp"
 #include "contact/joint_rules.hpp"
 #include "contact/path_rules.hpp"
+#include "core/tolerances/threads.hpp"
 #include "surface/piece_geometry.hpp"
 
 namespace yadefrag {
@@ -86,7 +87,7 @@ class LocalSearch {
     }
   };
   /// Results of one thread, and its memory.
-  struct Part {
+  struct alignas(tolerance::kThreadsApart) Part {
     std::vector<Near> near;
     std::vector<Active> actives;
     std::vector<Trial> trials;

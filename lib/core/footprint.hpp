@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/parallel.hpp"
+
 namespace yadefrag {
 
 enum class Use : std::uint8_t {
@@ -48,8 +50,16 @@ class Footprint {
   }
   template <class T>
   static std::size_t bytesOf(const std::vector<std::vector<T>>& arrays) {
-    std::size_t sum = arrays.capacity() * sizeof(std::vector<T>);
-    for (const std::vector<T>& array : arrays) sum += bytesOf(array);
+    return bytesOfAll(arrays);
+  }
+  template <class T>
+  static std::size_t bytesOf(const std::vector<PartList<T>>& arrays) {
+    return bytesOfAll(arrays);
+  }
+  template <class Arrays>
+  static std::size_t bytesOfAll(const Arrays& arrays) {
+    std::size_t sum = arrays.capacity() * sizeof(typename Arrays::value_type);
+    for (const auto& array : arrays) sum += array.capacity() * sizeof(array[0]);
     return sum;
   }
 

@@ -42,6 +42,12 @@ class PartErrors {
   int part_ = std::numeric_limits<int>::max();
 };
 
+/// The list that one part fills. Several of them in an array share no cache lines: threads that
+/// change data on one line wait for each other at every change. (Two lines, since processors fetch
+/// them in pairs.)
+template <class T>
+struct alignas(tolerance::kThreadsApart) PartList : std::vector<T> {};
+
 /// (count) Minimum number of items of a thread's part. Tests lower it so that small scenes use
 /// several threads.
 inline std::size_t& leastItemsPerThread() {

@@ -10,6 +10,7 @@
 #include "core/parallel.hpp"
 #include "core/step_length.hpp"
 #include "core/tolerances/dynamics.hpp"
+#include "core/tolerances/threads.hpp"
 #include "dynamics/element_kernel.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "dynamics/strain_smoothing.hpp"
@@ -109,7 +110,7 @@ class ExplicitDynamics {
   struct Update;
   struct Works;
   /// Data of one thread.
-  struct alignas(64) Scratch {
+  struct alignas(tolerance::kThreadsApart) Scratch {
     std::vector<Vec2> values;
     std::vector<ElementRange> stressed, flat;
     StrainSmoothing::Room room;

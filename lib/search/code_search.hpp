@@ -99,7 +99,7 @@ class CodeSearch final : public ContactSearch {
   std::size_t wideAtStart_ = 0;
   bool started_ = false;
   std::array<std::vector<CodedSlot>, kLevels> arriving_;
-  std::vector<std::vector<BoxPair>> partPairs_;
+  std::vector<PartList<BoxPair>> partPairs_;
   Count count_;
 };
 

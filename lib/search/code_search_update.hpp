@@ -203,6 +203,8 @@ void CodeSearch<Numbering, Dim, Count>::collectMoved() {
       if (levels_[level].size() > 0)
         levels_[level].remove([&](std::uint32_t slot) { return changes_[slot] != Change::kNone; });
       if (!arriving_[level].empty()) levels_[level].insert(arriving_[level], count_);
+      // Most boxes arrive at the start only.
+      if (2 * arriving_[level].size() > levels_[level].size()) arriving_[level] = {};
     }
   }
   places_.resize(boxes_.size());

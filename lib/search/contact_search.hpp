@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/footprint.hpp"
 #include "core/ids.hpp"
+#include "core/parallel.hpp"
 
 namespace yadefrag {
 
@@ -63,7 +64,7 @@ class ContactSearch {
     return pairs.size() > mostPairs_;
   }
   /// Appends the pairs that the threads have found to `pairs`.
-  void join(std::span<const std::vector<BoxPair>> parts, std::vector<BoxPair>& pairs) const {
+  void join(std::span<const PartList<BoxPair>> parts, std::vector<BoxPair>& pairs) const {
     std::size_t count = 0;
     for (const auto& part : parts) count += part.size();
     if (count > mostPairs_) throw TooManyPairs();

@@ -36,7 +36,7 @@ class HierarchySearch final : public ContactSearch {
 
   void findPairs(std::vector<BoxPair>& pairs) override {
     const std::span<const std::uint32_t> order = tree_.order();
-    std::vector<std::vector<BoxPair>> partPairs(static_cast<std::size_t>(std::max(threads_, 1)));
+    std::vector<PartList<BoxPair>> partPairs(static_cast<std::size_t>(std::max(threads_, 1)));
     std::vector<Count> counts(partPairs.size());
     const int parts =
         forEachPart(order.size(), threads_, [&](std::size_t begin, std::size_t end, int part) {

@@ -56,7 +56,7 @@ class IncrementalSearch {
   std::vector<std::uint32_t> asidePlace_;  // by slot: index in asideBoxes_ plus one; 0: in settled_
   std::vector<BoxId> changed_;             // of the last call of `change`
   std::vector<bool> isChanged_;            // by slot
-  std::vector<std::vector<BoxPair>> partPairs_;
+  std::vector<PartList<BoxPair>> partPairs_;
   std::size_t workAside_ = 0;  // box tests in `aside_` since all boxes were sorted in
   std::size_t mostPairs_ = std::numeric_limits<std::size_t>::max();
   int threads_ = 1;

@@ -32,7 +32,7 @@ class LinearBvh final : public ContactSearch {
   }
 
   void findPairs(std::vector<BoxPair>& pairs) override {
-    std::vector<std::vector<BoxPair>> partPairs(static_cast<std::size_t>(std::max(threads_, 1)));
+    std::vector<PartList<BoxPair>> partPairs(static_cast<std::size_t>(std::max(threads_, 1)));
     std::vector<Count> counts(partPairs.size());
     const auto slots = tree_.slots();
     const int parts =

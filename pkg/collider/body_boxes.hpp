@@ -11,6 +11,7 @@
 #include "collider/sweep_rule.hpp"
 #include "core/box.hpp"
 #include "core/ids.hpp"
+#include "core/parallel.hpp"
 
 namespace yadefrag {
 
@@ -139,7 +140,7 @@ class BodyBoxes {
   std::vector<Known> known_;
   std::vector<BoxId> changed_;
   std::vector<BoxId> others_;  // bodies whose boxes their functors must compute
-  std::vector<std::vector<BoxId>> changedByPart_, othersByPart_;
+  std::vector<PartList<BoxId>> changedByPart_, othersByPart_;
   bool onlyChanged_ = false;  // `commit` writes the boxes of `changed_` only
   std::vector<Turning> turning_;
   std::vector<const SurfaceSegment*> segments_;

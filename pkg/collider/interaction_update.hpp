@@ -9,6 +9,7 @@
 #include "abi/yade.hpp"
 #include "collider/halo.hpp"
 #include "core/csr.hpp"
+#include "core/tolerances/threads.hpp"
 #include "search/partner_table.hpp"
 #include "search/sorted_list.hpp"
 
@@ -44,7 +45,7 @@ class InteractionUpdate {
 
   static bool mayErase(const yade::Interaction& is, const Bodies& bodies);
   /// What one thread finds in its part of YADE's list.
-  struct Part {
+  struct alignas(tolerance::kThreadsApart) Part {
     std::vector<int> toErase;  // indices in the list, ascending
     std::vector<std::pair<yade::Body::id_t, yade::Body::id_t>> held;
   };

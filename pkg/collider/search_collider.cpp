@@ -196,13 +196,15 @@ void SearchCollider::findNeighbours(int threads) {
     std::vector<Neighbours>& out = nearByPart_[static_cast<std::size_t>(part)];
     out.clear();
     Neighbours found;
+    std::size_t ofHalves = 0;
     constexpr std::size_t ahead = 12;  // the balls are in the order of the bodies' ids: prefetch
     for (std::size_t i = begin; i < end; ++i) {
       if (i + ahead < end) halo.prefetch(pairs_[i + ahead]);
       if (!isNear(pairs_[i], halo, found)) continue;
       out.push_back(found);
-      ofHalf[static_cast<std::size_t>(part)] += !found.nearByHalf;
+      ofHalves += !found.nearByHalf;
     }
+    ofHalf[static_cast<std::size_t>(part)] = ofHalves;
   };
   // In a periodic cell one part only: the exception about a body's size must not leave a parallel
   // region.

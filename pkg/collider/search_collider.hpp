@@ -13,6 +13,7 @@
 #include "collider/interaction_update.hpp"
 #include "collider/interval.hpp"
 #include "collider/motion_watch.hpp"
+#include "core/parallel.hpp"
 #include "publish/attribute.hpp"
 #include "search/incremental_search.hpp"
 #include "search/lattice.hpp"
@@ -120,7 +121,7 @@ class SearchCollider : public yade::Collider {
   std::vector<BoxPair> pairs_;
   std::vector<BoxPair> entryPairs_;
   std::vector<Neighbours> near_;
-  std::vector<std::vector<Neighbours>> nearByPart_;
+  std::vector<PartList<Neighbours>> nearByPart_;
   std::size_t pairsOfHalf_ = 0;       // pairs near only because the sweeps are not half as long
   Interval counts_;                   // counts since the interval was chosen
   bool quickCheck_ = false;           // this search is due only because bodies were added

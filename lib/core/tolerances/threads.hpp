@@ -8,4 +8,7 @@ namespace yadefrag::tolerance {
 /// (count) With fewer items than this a second thread costs more than it saves.
 inline constexpr std::size_t kMinItemsPerThread = 512;
 
+/// (bytes) Distance of data that several threads change: two cache lines.
+inline constexpr std::size_t kThreadsApart = 128;
+
 }  // namespace yadefrag::tolerance
