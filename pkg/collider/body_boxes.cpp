@@ -98,6 +98,7 @@ void BodyBoxes::gatherSpheres(yade::Scene& scene, int threads) {
   balls_.resize(bodies.size());
   kinds_.resize(bodies.size());
   known_.resize(bodies.size());
+  headings_.resize(bodies.size());
   forEachPart(bodies.size(), threads, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t id = begin; id < end; ++id) {
       prefetch(bodies, id, Check::kAll);
@@ -125,12 +126,12 @@ std::optional<Real> BodyBoxes::boundRadius(const yade::Body& body) const {
 /// Spheres get their box here, all others later.
 auto BodyBoxes::take(const yade::Body* body, std::size_t id) -> Kind {
   const bool isSame = body && known_[id].body == body && balls_[id].radius >= 0;
-  const Heading heading = isSame ? headingOf(*body->state, balls_[id], known_[id].heading) : 0;
+  headings_[id] = isSame ? headingOf(*body->state, balls_[id], headings_[id]) : 0;
   boxes_[id] = Box::absent();
   balls_[id].radius = -1;
   known_[id] = {};
   if (!body) return Kind::kNone;
-  known_[id] = {body, body->groupMask, body->clumpId, heading};
+  known_[id] = {body, body->groupMask, body->clumpId};
   return takeSphere(*body, id);
 }
 
@@ -143,8 +144,8 @@ auto BodyBoxes::headingOf(const yade::State& state, const Ball& was, Heading bef
   if (!(speed > 0)) return 0;
   const auto now = static_cast<Heading>(state.vel[axis] > 0 ? axis + 1 : -axis - 1);
   if (before != 0) {
-    const int was = before > 0 ? before - 1 : -before - 1;
-    return state.vel[was] * before > 0 ? now : 0;
+    const int axisBefore = before > 0 ? before - 1 : -before - 1;
+    return state.vel[axisBefore] * before > 0 ? now : 0;
   }
   const double moved = (state.se3.position[axis] - was.centre[axis]) * (now > 0 ? 1 : -1);
   return moved > tolerance::kStraight * was.sweep ? now : 0;
@@ -157,7 +158,7 @@ auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
   if (!radius) return Kind::kOther;
   const yade::State& state = *body.state;
   Ball& ball = balls_[id];
-  const Room room = rule_.roomFor(*radius, state.vel, known_[id].heading != 0);
+  const Room room = rule_.roomFor(*radius, state.vel, headings_[id] != 0);
   ball = {state.se3.position + room.shift, *radius, room.length};
   const Vector3r at = cell_ ? cell_->unshearPt(ball.centre) : ball.centre;
   const Vector3r half = ball.radius * radiusFactor_;

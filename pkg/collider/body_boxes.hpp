@@ -106,7 +106,6 @@ class BodyBoxes {
     const yade::Body* body = nullptr;
     yade::mask_t mask = 0;
     yade::Body::id_t clump = yade::Body::ID_NONE;
-    Heading heading = 0;
   };
   enum class Seen : unsigned char { kSame, kChanged, kOther };
 
@@ -138,6 +137,7 @@ class BodyBoxes {
   std::vector<Ball> balls_;
   std::vector<Kind> kinds_;
   std::vector<Known> known_;
+  std::vector<Heading> headings_;
   std::vector<BoxId> changed_;
   std::vector<BoxId> others_;  // bodies whose boxes their functors must compute
   std::vector<PartList<BoxId>> changedByPart_, othersByPart_;

@@ -55,6 +55,7 @@ bool BodyBoxes::gatherChanged(yade::Scene& scene, std::size_t most, Check check,
   balls_.resize(bodies.size(), {Vector3r::Zero(), -1, 0});
   kinds_.resize(bodies.size(), Kind::kNone);
   known_.resize(bodies.size());
+  headings_.resize(bodies.size());
   changedByPart_.resize(static_cast<std::size_t>(threads));
   othersByPart_.resize(static_cast<std::size_t>(threads));
   const auto work = [&](std::size_t begin, std::size_t end, int part) {
