@@ -61,8 +61,11 @@ struct SweepRule {
   /// soon, or is so slow that the room causes needless neighbours.
   [[nodiscard]] bool lasts(double length, const yade::Vector3r& moved,
                            const yade::Vector3r& velocity) const {
-    const auto isInside = [&](double farthest) { return farthest < length || farthest == 0; };
-    return isInside(speedOf(moved)) && isInside(speedOf(moved + velocity * lookAhead)) &&
+    // NaN in any component is outside.
+    const auto isInside = [&](const yade::Vector3r& from) {
+      return (from.array().abs() < length || from.array() == 0).all();
+    };
+    return isInside(moved) && isInside(moved + velocity * lookAhead) &&
            length <= tolerance::kLooseSweep * lengthFor(speedOf(velocity));
   }
 

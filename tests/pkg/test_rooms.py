@@ -128,3 +128,22 @@ def testAnExplicitSearchReadsAll():
     collider()
     assert allPairs() == {(0, 1)}
     assert isinstance(O.bodies[0].shape, utils.Sphere)
+
+
+@pytest.mark.parametrize('axis', range(3))
+def testAPositionThatIsNoNumberIsRefusedWhenOthersMove(axis):
+    """Searches of few bodies check the positions of all."""
+    clear()
+    O.dt = 1e-3
+    addSpheres([(3 * k * RADIUS, 0, 0) for k in range(300)], np.full(300, RADIUS))
+    addSpheres([(0, 10, 0)], [RADIUS], [(0, SPEED, 0)])
+    collider = setEngines(makeCollider('LebesgueCollider', adaptInterval=False, targetInterv=INTERVAL))
+    for _ in range(3 * INTERVAL):
+        O.step()
+    position = [30., 0., 0.]
+    position[axis] = math.nan
+    O.bodies[100].state.pos = Vector3(*position)
+    with pytest.raises(RuntimeError, match='#100'):
+        for _ in range(INTERVAL):
+            O.step()
+    assert collider.numAction > 1

@@ -49,7 +49,7 @@ def badInput():
     good = Vector3(state.pos)
     state.pos = Vector3(math.nan, 0, 0)
     try:
-        O.step()
+        O.engines[1]()
     except RuntimeError:
         state.pos = good
         O.run(2, True)
