@@ -101,7 +101,7 @@ void BodyBoxes::gatherSpheres(yade::Scene& scene, int threads) {
   headings_.resize(bodies.size());
   forEachPart(bodies.size(), threads, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t id = begin; id < end; ++id) {
-      prefetch(bodies, id, Check::kAll);
+      prefetch(bodies, id);
       kinds_[id] = take(bodies[id].get(), id);
     }
   });

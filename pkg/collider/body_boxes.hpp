@@ -40,14 +40,6 @@ struct Turning {
   }
 };
 
-/// What a search of changed bodies checks of the others.
-enum class Check : unsigned char {
-  kNew,    ///< only whether they were added or removed
-  kMoved,  ///< also whether spheres have left their rooms: the shape, elsewhere in memory, is not
-           ///< read
-  kAll     ///< also whether their shape, mask or clump has changed
-};
-
 class BodyBoxes {
  public:
   /// Computes all boxes, which `commit` then writes into the bounds. Throws InputError for a
@@ -58,10 +50,11 @@ class BodyBoxes {
   /// The same, but only for bodies that were added, removed or changed since the last `commit`, and
   /// for those that have left their box, will have left it `rule.lookAhead` from now at their
   /// present speed, or have become so slow that the box is far too large. All others keep their
-  /// boxes and bounds. Returns false if this is too costly or impossible: more than `most` have
-  /// changed, or boxes follow other bodies. The caller must then call `rollBack` and `prepare`.
+  /// boxes and bounds. `quick`: only added or removed bodies are checked. Returns false if this is
+  /// too costly or impossible: more than `most` have changed, or boxes follow other bodies. The
+  /// caller must then call `rollBack` and `prepare`.
   bool prepareChanged(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
-                      std::size_t most, Check check, int threads);
+                      std::size_t most, bool quick, int threads);
   void commit(yade::Scene& scene, int threads);
   /// Instead of `commit`: restores all bounds to their state before `prepare`.
   void rollBack();
@@ -112,8 +105,8 @@ class BodyBoxes {
   void takeRule(yade::Scene& scene, const yade::BoundDispatcher& dispatcher, const SweepRule& rule,
                 double cellSlack);
   void gatherSpheres(yade::Scene& scene, int threads);
-  bool gatherChanged(yade::Scene& scene, std::size_t most, Check check, int threads);
-  Seen look(const yade::Body* body, std::size_t id, Check check);
+  bool gatherChanged(yade::Scene& scene, std::size_t most, bool quick, int threads);
+  Seen look(const yade::Body* body, std::size_t id);
   [[nodiscard]] bool staysIn(const Ball& ball, const yade::State& state) const;
   bool updateChangedOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   bool keepsBox(const yade::Body& body, const Turning* was);
@@ -127,8 +120,7 @@ class BodyBoxes {
   void updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   void takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene& scene);
   [[nodiscard]] std::optional<double> boundRadius(const yade::Body& body) const;
-  static void prefetch(const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::size_t id,
-                       Check check);
+  static void prefetch(const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::size_t id);
   void takeSegment(const yade::Body& body);
   double sweepOfOther(const yade::Body& body, bool hadBound);
   void checkPosition(const yade::Scene& scene, std::size_t id) const;

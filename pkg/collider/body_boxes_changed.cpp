@@ -13,11 +13,11 @@ using yade::Bound;
 using yade::Vector3r;
 
 bool BodyBoxes::prepareChanged(yade::Scene& scene, yade::BoundDispatcher& dispatcher,
-                               const SweepRule& rule, std::size_t most, Check check, int threads) {
+                               const SweepRule& rule, std::size_t most, bool quick, int threads) {
   if (segmentCount_ > 0 || hasFollowers_ || scene.bodies->body.size() < kinds_.size()) return false;
   onlyChanged_ = true;
   takeRule(scene, dispatcher, rule, 0);
-  if (!gatherChanged(scene, most, check, threads)) return false;
+  if (!gatherChanged(scene, most, quick, threads)) return false;
   for (const BoxId id : changed_) checkPosition(scene, id.value);
   for (const BoxId id : others_) checkPosition(scene, id.value);
   return updateChangedOthers(scene, dispatcher);
@@ -25,23 +25,18 @@ bool BodyBoxes::prepareChanged(yade::Scene& scene, yade::BoundDispatcher& dispat
 
 /// The pointers to bodies are in the order of their ids; each body's state and shape are elsewhere
 /// in memory.
-void BodyBoxes::prefetch(const std::vector<yade::shared_ptr<Body>>& bodies, std::size_t id,
-                         Check check) {
+void BodyBoxes::prefetch(const std::vector<yade::shared_ptr<Body>>& bodies, std::size_t id) {
   constexpr std::size_t farAhead = 16, ahead = 8;
   if (id + farAhead < bodies.size() && bodies[id + farAhead]) {
     const char* body = reinterpret_cast<const char*>(bodies[id + farAhead].get());
-    __builtin_prefetch(body + offsetof(Body, state));
-    if (check == Check::kAll) {
-      __builtin_prefetch(body + offsetof(Body, groupMask));
-      __builtin_prefetch(body + offsetof(Body, shape));
-      __builtin_prefetch(body + offsetof(Body, clumpId));
-    }
+    __builtin_prefetch(body + offsetof(Body, groupMask));
+    __builtin_prefetch(body + offsetof(Body, shape));
+    __builtin_prefetch(body + offsetof(Body, clumpId));
   }
   if (id + ahead < bodies.size() && bodies[id + ahead]) {
     const char* state = reinterpret_cast<const char*>(bodies[id + ahead]->state.get());
     __builtin_prefetch(state + offsetof(yade::State, se3));
     __builtin_prefetch(state + offsetof(yade::State, vel));
-    if (check != Check::kAll) return;
     const char* shape = reinterpret_cast<const char*>(bodies[id + ahead]->shape.get());
     __builtin_prefetch(shape);  // its type
     __builtin_prefetch(shape + offsetof(yade::Shape, boundFunctor));
@@ -49,7 +44,7 @@ void BodyBoxes::prefetch(const std::vector<yade::shared_ptr<Body>>& bodies, std:
   }
 }
 
-bool BodyBoxes::gatherChanged(yade::Scene& scene, std::size_t most, Check check, int threads) {
+bool BodyBoxes::gatherChanged(yade::Scene& scene, std::size_t most, bool quick, int threads) {
   const auto& bodies = scene.bodies->body;
   boxes_.resize(bodies.size(), Box::absent());
   balls_.resize(bodies.size(), {Vector3r::Zero(), -1, 0});
@@ -63,9 +58,9 @@ bool BodyBoxes::gatherChanged(yade::Scene& scene, std::size_t most, Check check,
     auto& others = othersByPart_[static_cast<std::size_t>(part)];
     changed.clear(), others.clear();
     for (std::size_t id = begin; id < end && changed.size() <= most; ++id) {
-      if (check == Check::kNew && bodies[id].get() == known_[id].body) continue;
-      prefetch(bodies, id, check);
-      const Seen seen = look(bodies[id].get(), id, check);
+      if (quick && bodies[id].get() == known_[id].body) continue;
+      prefetch(bodies, id);
+      const Seen seen = look(bodies[id].get(), id);
       if (seen == Seen::kChanged) changed.push_back(BoxId(id));
       if (seen == Seen::kOther) others.push_back(BoxId(id));
     }
@@ -82,12 +77,11 @@ bool BodyBoxes::gatherChanged(yade::Scene& scene, std::size_t most, Check check,
 
 /// Checks one body. If it has changed, its box is computed here, except if its functor must do
 /// that.
-BodyBoxes::Seen BodyBoxes::look(const Body* body, std::size_t id, Check check) {
+BodyBoxes::Seen BodyBoxes::look(const Body* body, std::size_t id) {
   Known& known = known_[id];
   if (!body && !known.body) return Seen::kSame;
   const bool stays = body && body == known.body && kinds_[id] == Kind::kSphere &&
                      staysIn(balls_[id], *body->state);
-  if (stays && check == Check::kMoved) return Seen::kSame;
   const bool same =
       body && body == known.body && body->groupMask == known.mask && body->clumpId == known.clump;
   if (same && stays && body->bound && boundRadius(*body) == balls_[id].radius) return Seen::kSame;

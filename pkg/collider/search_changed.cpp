@@ -23,10 +23,11 @@ bool SearchCollider::searchChanged(int threads) {
   SweepRule rule = chooseSweeps();
   const double soon = tolerance::kLookAhead * interval;
   rule.lookAhead = soon * scene->dt;
-  const Check check = whatToCheck(soon);
+  // If bodies are added at every step, the others are checked only now and then.
+  const bool quick = quickCheck_ && static_cast<double>(scene->iter - lastCheck_) < soon;
   const auto most =
       static_cast<std::size_t>(std::max(remainingWork() / tolerance::kChangeWork, 0.));
-  if (!boxes_.prepareChanged(*scene, *boundDispatcher, rule, most, check, threads)) return false;
+  if (!boxes_.prepareChanged(*scene, *boundDispatcher, rule, most, quick, threads)) return false;
   // The interactions of erased bodies were erased with them. If any other interaction was erased,
   // it may have to be created again by a full search.
   if (interactions_.madeByOthers(*scene) < 0 && !someErased()) return false;
@@ -45,21 +46,11 @@ bool SearchCollider::searchChanged(int threads) {
       *scene, near_, boxes_.boxes(), boxes_.changed(),
       [this](const Body* a, const Body* b) { return mayCollide(a, b, scene->subdomain); },
       [this](Body::id_t id1, Body::id_t id2) { return isStillNear(id1, id2); });
-  if (check != Check::kNew) lastCheck_ = scene->iter;
-  if (check == Check::kAll) lastCheckOfAll_ = scene->iter;
+  if (!quick) lastCheck_ = scene->iter;
   searchedSinceAll_ += boxes_.changed().size();
-  countWork(check == Check::kNew ? 0 : static_cast<double>(boxes_.boxes().size()),
+  countWork(quick ? 0 : static_cast<double>(boxes_.boxes().size()),
             static_cast<double>(boxes_.changed().size()), halvesOfChanged());
   return true;
-}
-
-/// If bodies are added at every step, the others are checked only now and then. Shapes, masks and
-/// clumps are checked at least once in an interval, and whenever the collider is called by hand.
-Check SearchCollider::whatToCheck(double soon) const {
-  const auto since = [&](long step) { return static_cast<double>(scene->iter - step); };
-  if (quickCheck_ && since(lastCheck_) < soon) return Check::kNew;
-  const bool isDue = quickCheck_ || sweepsEnded_;
-  return isDue && since(lastCheckOfAll_) < interval ? Check::kMoved : Check::kAll;
 }
 
 /// All bodies are searched when the searches of changed bodies have cost as much as a full search.

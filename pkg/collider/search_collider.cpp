@@ -63,7 +63,7 @@ void SearchCollider::searchAll(int threads) {
       *scene, near_, boxes_.boxes(),
       [this](const Body* a, const Body* b) { return mayCollide(a, b, scene->subdomain); }, threads);
   keptWith_ = choices();
-  lastCheck_ = lastCheckOfAll_ = scene->iter;
+  lastCheck_ = scene->iter;
   searchedSinceAll_ = 0;
   const auto bodies = static_cast<double>(scene->bodies->body.size());
   countWork(bodies, bodies, 2 * static_cast<double>(pairsOfHalf_));

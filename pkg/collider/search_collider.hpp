@@ -74,7 +74,6 @@ class SearchCollider : public yade::Collider {
   void searchAll(int threads);
   bool searchChanged(int threads);
   [[nodiscard]] bool mayKeep() const;
-  [[nodiscard]] Check whatToCheck(double soon) const;
   [[nodiscard]] double remainingWork() const;
   [[nodiscard]] double halvesOfChanged() const;
   [[nodiscard]] bool someErased() const;
@@ -126,8 +125,7 @@ class SearchCollider : public yade::Collider {
   Interval counts_;                   // counts since the interval was chosen
   bool quickCheck_ = false;           // this search is due only because bodies were added
   std::size_t searchedSinceAll_ = 0;  // bodies searched since the last full search
-  long lastCheck_ = -1;               // step at which all bodies' positions were checked
-  long lastCheckOfAll_ = -1;          // step at which all their properties were checked
+  long lastCheck_ = -1;               // step at which all bodies were checked
   long lastIter_ = -1;                // step of the last search
   bool sweepsEnded_ = false;          // this search is due because a body left its bound
   double slack_ = 0;                  // m, margin for the cell's deformation in every box
