@@ -40,7 +40,7 @@ class FilterList {
 
 /// Eight boxes at once, by coordinate: three cache lines. There is no branch that depends on a
 /// single box, which would be mispredicted at every second one: rows are swept in .6 of the time.
-/// Rejected for ranges on the curve: these have one or two boxes, and take 1.3 times as long.
+/// Rejected for ranges on the curve: these have one or two boxes, and take up to 1.1 times as long.
 ///
 ///     min  x0 … x7 | y0 … y7 | z0 … z7
 ///     max  x0 … x7 | y0 … y7 | z0 … z7
