@@ -107,7 +107,7 @@ class BodyBoxes {
   void gatherSpheres(yade::Scene& scene, int threads);
   bool gatherChanged(yade::Scene& scene, std::size_t most, bool quick, int threads);
   Seen look(const yade::Body* body, std::size_t id);
-  [[nodiscard]] bool staysIn(const Ball& ball, const yade::State& state) const;
+  [[nodiscard]] bool keepsBall(const yade::Body& body, const Ball& ball) const;
   bool updateChangedOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   bool keepsBox(const yade::Body& body, const Turning* was);
   void keepTurning(const yade::Scene& scene, const Turning& turning);

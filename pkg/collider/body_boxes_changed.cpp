@@ -35,9 +35,9 @@ void BodyBoxes::prefetch(const std::vector<yade::shared_ptr<Body>>& bodies, std:
   }
   if (id + ahead < bodies.size() && bodies[id + ahead]) {
     const char* state = reinterpret_cast<const char*>(bodies[id + ahead]->state.get());
+    const char* shape = reinterpret_cast<const char*>(bodies[id + ahead]->shape.get());
     __builtin_prefetch(state + offsetof(yade::State, se3));
     __builtin_prefetch(state + offsetof(yade::State, vel));
-    const char* shape = reinterpret_cast<const char*>(bodies[id + ahead]->shape.get());
     __builtin_prefetch(shape);  // its type
     __builtin_prefetch(shape + offsetof(yade::Shape, boundFunctor));
     __builtin_prefetch(shape + offsetof(yade::Sphere, radius));
@@ -80,11 +80,10 @@ bool BodyBoxes::gatherChanged(yade::Scene& scene, std::size_t most, bool quick, 
 BodyBoxes::Seen BodyBoxes::look(const Body* body, std::size_t id) {
   Known& known = known_[id];
   if (!body && !known.body) return Seen::kSame;
-  const bool stays = body && body == known.body && kinds_[id] == Kind::kSphere &&
-                     staysIn(balls_[id], *body->state);
   const bool same =
       body && body == known.body && body->groupMask == known.mask && body->clumpId == known.clump;
-  if (same && stays && body->bound && boundRadius(*body) == balls_[id].radius) return Seen::kSame;
+  if (same && kinds_[id] == Kind::kSphere && body->bound && keepsBall(*body, balls_[id]))
+    return Seen::kSame;
   const Kind before = kinds_[id];
   if (same && before == Kind::kOther && !boundRadius(*body)) return Seen::kOther;
   kinds_[id] = take(body, id);
@@ -92,8 +91,10 @@ BodyBoxes::Seen BodyBoxes::look(const Body* body, std::size_t id) {
   return same && before == Kind::kNone && kinds_[id] == Kind::kNone ? Seen::kSame : Seen::kChanged;
 }
 
-bool BodyBoxes::staysIn(const Ball& ball, const yade::State& state) const {
-  return rule_.lasts(ball.sweep, state.se3.position - ball.centre, state.vel);
+bool BodyBoxes::keepsBall(const Body& body, const Ball& ball) const {
+  const yade::State& state = *body.state;
+  return boundRadius(body) == ball.radius &&
+         rule_.lasts(ball.sweep, state.se3.position - ball.centre, state.vel);
 }
 
 /// Computes the box without sweep of all bodies that are no spheres: only this shows whether a
