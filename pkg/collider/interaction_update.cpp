@@ -17,6 +17,30 @@ using yade::InteractionContainer;
 /// True if the searches include the body: it has a box that is updated.
 static bool isSearched(const Body* body) { return !body || (body->bound && body->isBounded()); }
 
+namespace {
+
+// Interactions, bodies and the nodes of their maps are scattered in memory: prefetch them in the
+// order in which one leads to the next.
+constexpr std::size_t kFar = 24, kMiddle = 16, kNear = 8;  // items ahead
+
+void prefetchInteraction(const Interaction* is) {
+  const char* at = reinterpret_cast<const char*>(is);
+  __builtin_prefetch(at + offsetof(Interaction, id1));
+  __builtin_prefetch(at + offsetof(Interaction, phys));
+}
+
+void prefetchBody(const Body* body) {
+  const char* at = reinterpret_cast<const char*>(body);
+  __builtin_prefetch(at + offsetof(Body, groupMask));
+  __builtin_prefetch(at + offsetof(Body, intrs) + sizeof(Body::MapId2IntrT) - 1);
+}
+
+void prefetchFirstNode(const Body* body) {
+  if (body && !body->intrs.empty()) __builtin_prefetch(&*body->intrs.begin());
+}
+
+}  // namespace
+
 /// Functors of grids and PFacets insert potential interactions between nodes and connections
 /// without a bound. Without boxes their distance is unknown, so that these interactions are always
 /// kept. (YADE uses the origin as the box of a body without one.)
@@ -36,16 +60,34 @@ void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> ne
   held_.clear();
   parts_.clear();
   if (interactions.size() > 0) markKnown(interactions, near, scene.bodies->body, threads);
-  for (const Part& part : parts_) held_.insert(held_.end(), part.held.begin(), part.held.end());
-  // In reverse order: erasing moves the last interaction into the gap, and that one must not be
-  // among those still to be erased.
-  for (auto part = parts_.rbegin(); part != parts_.rend(); ++part)
-    for (auto place = part->toErase.rbegin(); place != part->toErase.rend(); ++place) {
-      const Interaction& gone = *interactions[static_cast<std::size_t>(*place)];
-      interactions.erase(gone.getId1(), gone.getId2(), *place);
-    }
+  gone_.clear();
+  for (const Part& part : parts_) {
+    held_.insert(held_.end(), part.held.begin(), part.held.end());
+    gone_.insert(gone_.end(), part.gone.begin(), part.gone.end());
+  }
+  std::reverse(gone_.begin(), gone_.end());
+  eraseGone(scene);
   makeNew(scene, near, boxes, mayCollide);
   sizeAfter_ = interactions.size();
+}
+
+/// `gone_` is in descending order of places in YADE's list: erasing moves the last interaction into
+/// the gap, and that one must not be among those still to be erased.
+void InteractionUpdate::eraseGone(yade::Scene& scene) {
+  const Bodies& bodies = scene.bodies->body;
+  const auto bodyOf = [&](Body::id_t id) { return bodies[static_cast<std::size_t>(id)].get(); };
+  const auto prefetchAt = [&](std::size_t k, auto prefetch) {
+    if (k >= gone_.size()) return;
+    prefetch(bodyOf(gone_[k]->getId1()));
+    prefetch(bodyOf(gone_[k]->getId2()));
+  };
+  for (std::size_t k = 0; k < gone_.size(); ++k) {
+    if (k + kFar < gone_.size()) prefetchInteraction(gone_[k + kFar]);
+    prefetchAt(k + kMiddle, prefetchBody);
+    prefetchAt(k + kNear, prefetchFirstNode);
+    const Interaction* is = gone_[k];
+    scene.interactions->erase(is->getId1(), is->getId2(), is->linIx);
+  }
 }
 
 void InteractionUpdate::markKnown(InteractionContainer& interactions,
@@ -56,20 +98,14 @@ void InteractionUpdate::markKnown(InteractionContainer& interactions,
       [&](std::size_t i) { return near[i].second; });
   parts_.resize(static_cast<std::size_t>(threads));
   forEachPart(interactions.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
-    constexpr std::size_t ahead = 12;  // interactions are scattered in memory: prefetch
     for (std::size_t place = begin; place < end; ++place) {
-      if (place + ahead < end) {
-        const char* next = reinterpret_cast<const char*>(interactions[place + ahead].get());
-        __builtin_prefetch(next + offsetof(Interaction, id1));
-        __builtin_prefetch(next + offsetof(Interaction, phys));
-      }
-      markOne(*interactions[place], static_cast<int>(place), near, bodies,
-              parts_[static_cast<std::size_t>(part)]);
+      if (place + kFar < end) prefetchInteraction(interactions[place + kFar].get());
+      markOne(*interactions[place], near, bodies, parts_[static_cast<std::size_t>(part)]);
     }
   });
 }
 
-void InteractionUpdate::markOne(Interaction& is, int place, std::span<const Neighbours> near,
+void InteractionUpdate::markOne(Interaction& is, std::span<const Neighbours> near,
                                 const Bodies& bodies, Part& part) {
   const bool swapped = is.getId1() > is.getId2();
   const Body::id_t first = swapped ? is.getId2() : is.getId1();
@@ -88,7 +124,7 @@ void InteractionUpdate::markOne(Interaction& is, int place, std::span<const Neig
   if (is.isReal())
     part.held.emplace_back(first, second);
   else if (mayErase(is, bodies))
-    part.toErase.push_back(place);
+    part.gone.push_back(&is);
 }
 
 /// Codes on the curve, and indices, of the pairs without an interaction, in the order of the curve.
@@ -109,18 +145,16 @@ std::vector<CodedSlot> InteractionUpdate::unknown(std::span<const Neighbours> ne
 void InteractionUpdate::makeNew(yade::Scene& scene, std::span<const Neighbours> near,
                                 std::span<const Box> boxes, const MayCollide& mayCollide) {
   const auto& bodies = scene.bodies->body;
-  const auto prefetch = [&](Body::id_t id) {
-    const char* body = reinterpret_cast<const char*>(bodies[static_cast<std::size_t>(id)].get());
-    __builtin_prefetch(body + offsetof(Body, groupMask));
-    __builtin_prefetch(body + offsetof(Body, intrs) + sizeof(Body::MapId2IntrT) - 1);
-  };
   const std::vector<CodedSlot> pairs = unknown(near, boxes);
-  constexpr std::size_t ahead = 8;  // bodies are in the order of their ids, not of the curve
+  const auto prefetchAt = [&](std::size_t k, auto prefetch) {
+    if (k >= pairs.size()) return;
+    const Neighbours& pair = near[pairs[k].slot];
+    prefetch(bodies[static_cast<std::size_t>(pair.first)].get());
+    prefetch(bodies[static_cast<std::size_t>(pair.second)].get());
+  };
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (k + ahead < pairs.size()) {
-      prefetch(near[pairs[k + ahead].slot].first);
-      prefetch(near[pairs[k + ahead].slot].second);
-    }
+    prefetchAt(k + kMiddle, prefetchBody);
+    prefetchAt(k + kNear, prefetchFirstNode);
     const Neighbours& pair = near[pairs[k].slot];
     const Body* first = bodies[static_cast<std::size_t>(pair.first)].get();
     const Body* second = bodies[static_cast<std::size_t>(pair.second)].get();

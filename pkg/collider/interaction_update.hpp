@@ -46,13 +46,14 @@ class InteractionUpdate {
   static bool mayErase(const yade::Interaction& is, const Bodies& bodies);
   /// What one thread finds in its part of YADE's list.
   struct alignas(tolerance::kThreadsApart) Part {
-    std::vector<int> toErase;  // indices in the list, ascending
+    std::vector<yade::Interaction*> gone;  // to be erased, in the order of the list
     std::vector<std::pair<yade::Body::id_t, yade::Body::id_t>> held;
   };
   void markKnown(yade::InteractionContainer& interactions, std::span<const Neighbours> near,
                  const Bodies& bodies, int threads);
-  void markOne(yade::Interaction& is, int place, std::span<const Neighbours> near,
-               const Bodies& bodies, Part& part);
+  void markOne(yade::Interaction& is, std::span<const Neighbours> near, const Bodies& bodies,
+               Part& part);
+  void eraseGone(yade::Scene& scene);
   [[nodiscard]] std::vector<CodedSlot> unknown(std::span<const Neighbours> near,
                                                std::span<const Box> boxes) const;
   void makeNew(yade::Scene& scene, std::span<const Neighbours> near, std::span<const Box> boxes,

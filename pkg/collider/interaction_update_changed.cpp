@@ -19,8 +19,7 @@ void InteractionUpdate::applyChanged(yade::Scene& scene, std::span<const Neighbo
   std::sort(gone_.begin(), gone_.end(),
             [](const Interaction* a, const Interaction* b) { return a->linIx > b->linIx; });
   gone_.erase(std::unique(gone_.begin(), gone_.end()), gone_.end());
-  for (const Interaction* is : gone_)
-    scene.interactions->erase(is->getId1(), is->getId2(), is->linIx);
+  eraseGone(scene);
   makeNew(scene, near, boxes, mayCollide);
   sizeAfter_ = scene.interactions->size();
 }
