@@ -79,13 +79,6 @@ bool addForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes
 
 }  // namespace
 
-InstructionSet bestInstructionSet() {
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("avx2")) return InstructionSet::kAvx2;
-#endif
-  return InstructionSet::kBaseline;
-}
-
 bool addElasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const ElementLaws* laws, const Vec2* position, Vec2* force) {
   StressedLanes none;

@@ -2,18 +2,14 @@
 // The loops over a chunk's elements, compiled for several instruction sets, of which one is chosen
 // at run time: the library runs on any amd64 processor. Every instruction set gives the same bits,
 // since the operations on each element are the same, and the compiler must not contract them
-// (lib/CMakeLists.txt).
+// (lib/CMakeLists.txt). Rejected: AVX-512, which takes as long (6.5 against 6.1 ns per element on a
+// Zen 5).
 
+#include "core/instruction_set.hpp"
 #include "core/vec2.hpp"
 #include "dynamics/element_chunks.hpp"
 
 namespace yadefrag {
-
-/// AVX-512 was not faster (6.5 against 6.1 ns per element on a Zen 5).
-enum class InstructionSet { kBaseline, kAvx2 };
-
-/// The widest instruction set of this machine.
-InstructionSet bestInstructionSet();
 
 /// Adds the elastic forces (N) of a chunk to `force`; positions and forces by local node number.
 /// `laws`: laws of the chunk, if it is mixed. Returns false if an element is flat (`kFlat`),

@@ -10,6 +10,7 @@
 #include "core/footprint.hpp"
 #include "core/parallel.hpp"
 #include "search/code_directory.hpp"
+#include "search/filter_blocks.hpp"
 #include "search/filter_list.hpp"
 #include "search/sorted_list.hpp"
 
@@ -36,6 +37,16 @@ class CodeLevel {
     filters_.forEachNear(filter, codes().data(), begin, start, stop, [&](std::size_t j) {
       if (surelyOverlap(filter, filters_[j]) || overlaps(box, boxes[slot(j)])) visit(slot(j));
     });
+  }
+
+  /// The same for all `ranges`; `near` is overwritten. For FilterBlocks.
+  template <class Visit>
+  void forEachOverlap(InstructionSet set, const Box& box, const FilterBox& filter,
+                      std::span<const Box> boxes, std::span<const BlockRange> ranges,
+                      NearList& near, Visit visit) const {
+    filters_.collectNear(set, filter, codes().data(), ranges, near);
+    for (const std::uint32_t j : near.all())
+      if (surelyOverlap(filter, filters_[j]) || overlaps(box, boxes[slot(j)])) visit(slot(j));
   }
 
   /// Removes the entries for which `leaves(slot)` is true, and marks the list as changed.

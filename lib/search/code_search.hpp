@@ -73,10 +73,14 @@ class CodeSearch final : public ContactSearch {
   template <class Visit>
   void visitLaterNeighbours(const Level& level, int own, std::size_t i, Count& count,
                             Visit visit) const;
+  static void countRange(const Level& level, std::size_t begin, const CodeRange& range,
+                         Count& count);
   template <class Visit>
   void visitRange(const Level& level, const FilterBox& filter, const Box& box, std::uint32_t begin,
                   const CodeRange& range, Count& count, Visit visit) const;
   void sweepRows(int level, std::size_t from, std::size_t to, std::vector<BoxPair>& out,
+                 Count& count) const;
+  void outerRows(const Level& level, std::size_t i, std::vector<BlockRange>& ranges,
                  Count& count) const;
   template <class Visit>
   void visitRectangle(const Box& box, int at, RowPlaces::OfLevel* places, Count& count,

@@ -78,6 +78,20 @@ void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, RowPlace
   wide_.pairsWith(boxes_, box, slot, out, count);
 }
 
+/// Counts what the scan of a range compares.
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::countRange(const Level& level, std::size_t begin,
+                                                   const CodeRange& range, Count& count) {
+  if constexpr (Count::kOn) {
+    count.range(1);
+    for (std::size_t j = begin; level.codes()[j] <= range.stop; ++j) {
+      if (level.codes()[j] < range.start) continue;
+      count.range(1);
+      count.test(2 * Dim);
+    }
+  }
+}
+
 /// Calls `visit(slot)` for the boxes of a range of codes, from index `begin` on, that overlap
 /// `box`. Starting at the begin of a range, a linear scan reaches its end faster than a look-up.
 template <class Numbering, int Dim, class Count>
@@ -86,14 +100,7 @@ void CodeSearch<Numbering, Dim, Count>::visitRange(const Level& level, const Fil
                                                    const Box& box, std::uint32_t begin,
                                                    const CodeRange& range, Count& count,
                                                    Visit visit) const {
-  if constexpr (Count::kOn) {
-    count.range(1);
-    for (std::uint32_t j = begin; level.codes()[j] <= range.stop; ++j) {
-      if (level.codes()[j] < range.start) continue;
-      count.range(1);
-      count.test(2 * Dim);
-    }
-  }
+  countRange(level, begin, range, count);
   level.forEachOverlap(box, filter, boxes_, begin, range.start, range.stop, visit);
 }
 
@@ -134,36 +141,50 @@ void CodeSearch<Numbering, Dim, Count>::sweepRows(int own, std::size_t from, std
                                                   std::vector<BoxPair>& out, Count& count) const {
   const Level& level = levels_[own];
   const std::uint64_t* codes = level.codes().data();
+  const InstructionSet set = bestInstructionSet();
   constexpr std::size_t width = FilterBlocks::kTogether;
+  NearList near;
+  std::vector<BlockRange> outer;
+  std::array<BlockRange, Numbering::kLaterRows + 1> inner{};
   std::array<std::size_t, Numbering::kLaterRows> places{};  // blocks in which the rows begin
   for (std::size_t i = from; i < to && !isFull(out); ++i) {
     const std::uint32_t slot = level.slot(i);
-    const FilterBox filter = level.filter(i);
-    const auto test = [&](std::uint32_t begin, const CodeRange& range) {
-      visitRange(level, filter, boxes_[slot], begin, range, count, [&](std::uint32_t other) {
-        out.push_back(orderedPair(BoxId(slot), BoxId(other)));
-      });
-    };
-    const auto next = static_cast<std::uint32_t>(i) + 1;
     const std::uint64_t code = codes[i];
-    if (!Numbering::isInner(code)) {
-      CodeRange corners = {code, code};
-      for (int d = 0; d < Dim; ++d)
-        corners = {Numbering::down(corners.start, d), Numbering::up(corners.stop, d)};
-      Numbering::forEachRange(corners.start, corners.stop, [&](const CodeRange& range) {
-        if (range.stop < code) return;
-        test(range.start <= code ? next : lowerBound(level, range.start, count), range);
-      });
-      continue;
+    std::span<const BlockRange> ranges = inner;
+    if (Numbering::isInner(code)) {
+      inner[0] = {i + 1, {code, code + Numbering::kPartsOfX}};
+      for (int k = 0; k < Numbering::kLaterRows; ++k) {
+        const CodeRange row = Numbering::laterRow(code, k);
+        std::size_t& place = places[k];
+        while (codes[place * width + width - 1] < row.start) ++place;
+        inner[k + 1] = {place * width, row};
+      }
+    } else {
+      outerRows(level, i, outer, count);
+      ranges = outer;
     }
-    test(next, {code, code + Numbering::kPartsOfX});
-    for (int k = 0; k < Numbering::kLaterRows; ++k) {
-      const CodeRange row = Numbering::laterRow(code, k);
-      std::size_t& place = places[k];
-      while (codes[place * width + width - 1] < row.start) ++place;
-      test(static_cast<std::uint32_t>(place * width), row);
-    }
+    for (const BlockRange& range : ranges) countRange(level, range.begin, range.codes, count);
+    level.forEachOverlap(
+        set, boxes_[slot], level.filter(i), boxes_, ranges, near,
+        [&](std::uint32_t other) { out.push_back(orderedPair(BoxId(slot), BoxId(other))); });
   }
+}
+
+/// The same ranges for a box beside the end of a coordinate, where rows wrap around.
+template <class Numbering, int Dim, class Count>
+void CodeSearch<Numbering, Dim, Count>::outerRows(const Level& level, std::size_t i,
+                                                  std::vector<BlockRange>& ranges,
+                                                  Count& count) const {
+  ranges.clear();
+  const std::uint64_t code = level.codes()[i];
+  CodeRange corners = {code, code};
+  for (int d = 0; d < Dim; ++d)
+    corners = {Numbering::down(corners.start, d), Numbering::up(corners.stop, d)};
+  Numbering::forEachRange(corners.start, corners.stop, [&](const CodeRange& range) {
+    if (range.stop < code) return;
+    const std::size_t begin = range.start <= code ? i + 1 : lowerBound(level, range.start, count);
+    ranges.push_back({begin, range});
+  });
 }
 
 /// Visits all boxes of a level that can overlap `box`; it may visit others, too. `places`: where

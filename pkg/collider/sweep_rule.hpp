@@ -66,13 +66,18 @@ struct SweepRule {
       return (from.array().abs() < length || from.array() == 0).all();
     };
     return isInside(moved) && isInside(moved + velocity * lookAhead) &&
-           length <= tolerance::kLooseSweep * lengthFor(speedOf(velocity));
+           !isLoose(length, speedOf(velocity));
   }
 
   /// The same for any body that has moved by `moved` (m) in a room around its position.
   [[nodiscard]] bool lasts(double sweep, double moved, double speed) const {
     const double soon = moved + speed * lookAhead;
-    return (soon < sweep || soon == 0) && sweep <= tolerance::kLooseSweep * lengthFor(speed);
+    return (soon < sweep || soon == 0) && !isLoose(sweep, speed);
+  }
+
+  /// True if a body has become so slow that its room is far too large.
+  [[nodiscard]] bool isLoose(double length, double speed) const {
+    return length > tolerance::kLooseSweep * lengthFor(speed);
   }
 
   /// The integrator requests a search when the largest component has reached the sweep.

@@ -4,7 +4,7 @@
 
 #include "abi/support_check.hpp"
 #include "collider/colliders.hpp"
-#include "dynamics/element_kernel.hpp"
+#include "core/instruction_set.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/gl_surface_segment.hpp"
 #include "fe/materials.hpp"
@@ -32,7 +32,7 @@ using NewClasses = ClassList<LebesgueCollider, LinearCodeCollider, HierarchyColl
                              BrittleFEMat, SurfaceSegment, Bo1_SurfaceSegment_Aabb,
                              Ig2_Sphere_SurfaceSegment_ScGeom, Gl1_SurfaceSegment, FESolver>;
 
-/// The instruction set for the elements on this processor.
+/// The instruction set that is used on this processor.
 std::string instructionSet() {
   return bestInstructionSet() == InstructionSet::kAvx2 ? "AVX2" : "SSE2";
 }

@@ -1,12 +1,16 @@
-// Filter boxes: what they exclude and what they decide, and the two layouts against a plain loop.
+// Filter boxes: what they exclude and what they decide, the two layouts against a plain loop, and
+// the instruction sets.
 
 #include "search/filter_list.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "search/filter_blocks.hpp"
 
 namespace yadefrag {
 namespace {
@@ -83,6 +87,39 @@ TEST(FilterBox, BothLayoutsVisitTheSameBoxesOfARange) {
       if (codes[j] >= codes[begin] && mayOverlap(box, list[j])) all.push_back(j);
     EXPECT_EQ(nearOnes(blocks, box, codes, early, codes[begin], stop), all);
   }
+}
+
+TEST(FilterBox, EveryInstructionSetCollectsTheSameBoxes) {
+  std::mt19937_64 random(3);
+  NearList near;
+  std::size_t most = 0;
+  for (int round = 0; round < 300; ++round) {
+    const std::vector<Box> boxes = touchingBoxes(random, 1 + random() % 600);
+    std::vector<std::uint64_t> codes;
+    for (std::size_t i = 0; i < boxes.size(); ++i) codes.push_back(i / 3 * 2);
+    codes.insert(codes.end(), FilterBlocks::kTogether, ~std::uint64_t{0});
+    FilterBlocks blocks;
+    blocks.resize(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) blocks.set(i, FilterBox::of(boxes[i], kScale));
+    const FilterBox box = FilterBox::of(boxes[random() % boxes.size()], kScale);
+    std::vector<BlockRange> ranges;
+    std::vector<std::size_t> wanted;
+    for (std::uint64_t k = random() % 6; k > 0; --k) {
+      const std::size_t begin = random() % boxes.size();
+      ranges.push_back({begin, {codes[begin] + random() % 2, random() % 450}});
+      const BlockRange& range = ranges.back();
+      for (const std::size_t j :
+           nearOnes(blocks, box, codes, begin, range.codes.start, range.codes.stop))
+        wanted.push_back(j);
+    }
+    for (const InstructionSet set : {InstructionSet::kBaseline, bestInstructionSet()}) {
+      blocks.collectNear(set, box, codes.data(), ranges, near);
+      const auto found = near.all();
+      EXPECT_EQ(std::vector<std::size_t>(found.begin(), found.end()), wanted);
+    }
+    most = std::max(most, wanted.size());
+  }
+  EXPECT_GT(most, 50);
 }
 
 }  // namespace
