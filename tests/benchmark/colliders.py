@@ -99,11 +99,16 @@ def tune(runner, scene, n, progress):
     return (min(finalists, key=lambda e: min(e['runs']))['settings'] if good else None), table
 
 
+def rowsOf(options, scene):
+    """The colliders that are measured in a scene."""
+    return [label for label in options.colliders if label != 'tuned' or scene in options.tune]
+
+
 def compare(runner, scene, n, progress, grids):
     """All rows of one scene and size, interleaved; appends to runner.rows and grids."""
     o, failed, settings = runner.options, set(), {}
     for repeat in range(o.repeat):
-        for label in o.colliders:
+        for label in rowsOf(o, scene):
             progress(f'{scene} {n}: {label}')
             if label in failed:
                 continue
@@ -162,6 +167,8 @@ def _parse(arguments):
     parser.add_argument('--sizes', type=lambda t: [int(float(x)) for x in t.split(',')],
                         default=[1000, 10000, 100000], help='default: 1000,10000,100000')
     parser.add_argument('--colliders', type=names(ROWS), default=ROWS, help='default: all rows')
+    parser.add_argument('--tune', type=names(SCENES), default=SCENES,
+                        help='scenes with the row `tuned`; default: all')
     parser.add_argument('--repeat', type=int, default=3, help='default: 3')
     parser.add_argument('--budget', type=float, default=8., help='s of measured steps; default: 8')
     parser.add_argument('--limit', type=float, default=180., help='s per process; default: 180')
@@ -191,9 +198,9 @@ def main(arguments):
     options = _parse(arguments)
     runner, grids = Runner(options), []
     places = [(scene, n) for n in options.sizes for scene in options.scenes]
-    each = options.repeat * len(options.colliders)
-    each += (len(GRID) + FINALISTS) * ('tuned' in options.colliders)
-    progress = makeProgress(len(places) * each)
+    rows = [rowsOf(options, scene) for scene, _ in places]
+    runs = sum(options.repeat * len(labels) + (len(GRID) + FINALISTS) * ('tuned' in labels) for labels in rows)
+    progress = makeProgress(runs)
     status = 0
     try:
         for scene, n in places:

@@ -82,13 +82,14 @@ def manualTable(summary, n, about):
              'step: default, tuned → ours | × default | × tuned |', '|---|--:|--:|--:|--:|--:|--:|--:|']
     for scene in dict.fromkeys(key[0] for key in summary if key[1] == n):
         theirs, tuned, ours = (summary.get((scene, n, label), {}) for label in (RIVAL, 'tuned', OURS))
-        if not all('sumPerStep' in row for row in (theirs, tuned, ours)):
+        if not all('sumPerStep' in row for row in (theirs, ours)):
             continue
         ms = [[digits(1e3 * row[key]) for row in (theirs, ours)] for key in ('first', 'perActivation')]
-        step = [digits(1e3 * row['sumPerStep']) for row in (theirs, tuned, ours)]
+        step = [digits(1e3 * row['sumPerStep']) if row else '–' for row in (theirs, tuned, ours)]
+        overTuned = f'{ours["tsumPerStep"]:.2g}' if tuned else '–'
         lines.append(f'| {scene} | {ms[0][0]} → {ms[0][1]} | {ours["xfirst"]:.2g} | '
                      f'{ms[1][0]} → {ms[1][1]} | {ours["xperActivation"]:.2g} | {step[0]}, {step[1]} → {step[2]} | '
-                     f'{ours["xsumPerStep"]:.2g} | {ours["tsumPerStep"]:.2g} |')
+                     f'{ours["xsumPerStep"]:.2g} | {overTuned} |')
     return '\n'.join(lines) + f'\n\n{n:,} bodies, {about}, `scripts/bench colliders`.\n'
 
 

@@ -1,0 +1,65 @@
+"""How long the gain of inCurveOrder lasts in a stirred packing: scripts/bench stirred [...]
+
+A block of n spheres, as the scene `packing`: its outermost spheres are fixed, and a bar of spheres through
+its middle turns, so that its ends move by .005 radii per step. One run with spheres created in the order
+of the curve, one in random order, each in a yade of its own, with LebesgueCollider and one thread. Shown
+is the interaction loop per step, in parts of the run. Writes stirred.md to out/bench; with --readme the
+table goes into docs/measured.md.
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+
+import measured_tables
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+ORDERS = ('curve', 'random')
+PARTS = 5
+MARKS = ('<!-- stirred -->\n', '<!-- end of stirred -->')
+
+
+def measure(options, order):
+    """Rows of one run: the end of each part (steps), ms per step of the loop, contacts."""
+    command = [options.yade, '-n', '-x', '-j1', os.path.join(ROOT, 'tests', 'benchmark', 'stirred_run.py'),
+               str(options.n), str(options.steps), order, str(PARTS)]
+    run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    rows = [line for line in run.stdout.splitlines() if line.startswith('[')]
+    if run.returncode or len(rows) != 1:
+        sys.exit(f'{order}: yade ended with status {run.returncode}: {run.stderr[-300:]}')
+    return json.loads(rows[0])
+
+
+def table(runs, n, about):
+    """Markdown: a row per part of the run."""
+    lines = ['| steps | contacts | order of the curve | random order | × |', '|--:|--:|--:|--:|--:|']
+    for curve, random in zip(runs['curve'], runs['random']):
+        lines.append(f'| {curve["end"]:,} | {curve["real"]:,} | {curve["loop"]:.3g} | {random["loop"]:.3g} '
+                     f'| {random["loop"] / curve["loop"]:.2f} |')
+    return '\n'.join(lines) + f'\n\n{n:,} spheres, ms of the interaction loop per step, {about}, `scripts/bench stirred`.\n'
+
+
+def main(arguments):
+    """Parse, measure, report."""
+    import report
+    parser = argparse.ArgumentParser(
+        prog='scripts/bench stirred', formatter_class=argparse.RawDescriptionHelpFormatter,
+        description=__doc__)
+    parser.add_argument('--n', type=int, default=20000)
+    parser.add_argument('--steps', type=int, default=10000)
+    parser.add_argument('--readme', action='store_true', help='write the table into docs/measured.md')
+    parser.add_argument('--out', default=os.path.join(ROOT, 'out', 'bench'))
+    parser.add_argument('--yade', default=os.path.join(ROOT, 'scripts', 'yade'))
+    options = parser.parse_args(arguments)
+    text = table({order: measure(options, order) for order in ORDERS}, options.n, report.origin.line())
+    os.makedirs(options.out, exist_ok=True)
+    with open(os.path.join(options.out, 'stirred.md'), 'w') as file:
+        file.write(text)
+    print(text)
+    if options.readme:
+        measured_tables.fill(measured_tables.MANUAL, MARKS, text)
+
+
+if __name__ == '__main__':
+    main(sys.argv[1:])
