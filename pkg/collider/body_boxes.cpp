@@ -68,7 +68,6 @@ void BodyBoxes::prepare(yade::Scene& scene, yade::BoundDispatcher& dispatcher,
   onlyChanged_ = false;
   takeRule(scene, dispatcher, rule, cellSlack);
   gatherSpheres(scene, threads);
-  for (std::size_t id = 0; id < kinds_.size(); ++id) checkPosition(scene, id);
   updateOthers(scene, dispatcher);
 }
 
@@ -99,12 +98,18 @@ void BodyBoxes::gatherSpheres(yade::Scene& scene, int threads) {
   kinds_.resize(bodies.size());
   known_.resize(bodies.size());
   headings_.resize(bodies.size());
-  forEachPart(bodies.size(), threads, [&](std::size_t begin, std::size_t end, int) {
+  std::vector<std::size_t> firstBad(static_cast<std::size_t>(threads), bodies.size());
+  forEachPart(bodies.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
+    std::size_t bad = bodies.size();
     for (std::size_t id = begin; id < end; ++id) {
       prefetch(bodies, id);
       kinds_[id] = take(bodies[id].get(), id);
+      if (bad == bodies.size() && !isGoodBody(bodies[id].get(), id)) bad = id;
     }
+    firstBad[static_cast<std::size_t>(part)] = bad;
   });
+  const std::size_t bad = *std::min_element(firstBad.begin(), firstBad.end());
+  if (bad < bodies.size()) throwBadBody(*bodies[bad], bad);
 }
 
 /// Radius of the bound of a body that is exactly a sphere and gets its bound from exactly YADE's
@@ -167,15 +172,21 @@ auto BodyBoxes::takeSphere(const yade::Body& body, std::size_t id) -> Kind {
   return Kind::kSphere;
 }
 
-void BodyBoxes::checkPosition(const yade::Scene& scene, std::size_t id) const {
+/// False if a body with a bound has a position that is not finite, or a sphere an invalid radius.
+bool BodyBoxes::isGoodBody(const yade::Body* body, std::size_t id) const {
   if (kinds_[id] == Kind::kSphere) {
-    if (!balls_[id].centre.allFinite()) throwBadPosition(id, balls_[id].centre);
-    if (!(balls_[id].radius >= 0)) throwBadRadius(id, balls_[id].radius);
-  } else if (kinds_[id] == Kind::kOther) {
-    const yade::Body& body = *scene.bodies->body[id];
-    if (body.shape && body.isBounded() && !body.state->se3.position.allFinite())
-      throwBadPosition(id, body.state->se3.position);
+    const Ball& ball = balls_[id];
+    return ball.centre.allFinite() && ball.radius >= 0;
   }
+  return kinds_[id] != Kind::kOther || !body->shape || !body->isBounded() ||
+         body->state->se3.position.allFinite();
+}
+
+void BodyBoxes::throwBadBody(const yade::Body& body, std::size_t id) const {
+  const bool isSphere = kinds_[id] == Kind::kSphere;
+  const Vector3r& at = isSphere ? balls_[id].centre : body.state->se3.position;
+  if (!at.allFinite()) throwBadPosition(id, at);
+  throwBadRadius(id, balls_[id].radius);
 }
 
 /// The functors compute boxes without sweep: each is then enlarged by an individual sweep.

@@ -123,7 +123,8 @@ class BodyBoxes {
   static void prefetch(const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::size_t id);
   void takeSegment(const yade::Body& body);
   double sweepOfOther(const yade::Body& body, bool hadBound);
-  void checkPosition(const yade::Scene& scene, std::size_t id) const;
+  [[nodiscard]] bool isGoodBody(const yade::Body* body, std::size_t id) const;
+  [[noreturn]] void throwBadBody(const yade::Body& body, std::size_t id) const;
 
   std::vector<Box> boxes_;
   std::vector<Ball> balls_;

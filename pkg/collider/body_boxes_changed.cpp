@@ -18,8 +18,11 @@ bool BodyBoxes::prepareChanged(yade::Scene& scene, yade::BoundDispatcher& dispat
   onlyChanged_ = true;
   takeRule(scene, dispatcher, rule, 0);
   if (!gatherChanged(scene, most, quick, threads)) return false;
-  for (const BoxId id : changed_) checkPosition(scene, id.value);
-  for (const BoxId id : others_) checkPosition(scene, id.value);
+  for (const auto* ids : {&changed_, &others_})
+    for (const BoxId id : *ids) {
+      const Body* body = scene.bodies->body[id.value].get();
+      if (!isGoodBody(body, id.value)) throwBadBody(*body, id.value);
+    }
   return updateChangedOthers(scene, dispatcher);
 }
 

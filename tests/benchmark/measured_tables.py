@@ -59,7 +59,7 @@ def colliderTable(colliders):
              'YADE\'s default, tuned | ours | × |', '|---|--:|--:|--:|']
     for scene, entry in colliders['scenes'].items():
         lines.append(f'| {scene} | {digits(entry["default"])}, {digits(entry["tuned"])} | '
-                     f'{digits(entry["ours"])} | {entry["x"]:.2g}, {entry["t"]:.2g} |')
+                     f'{digits(entry["ours"])} | {ratio(entry["x"])}, {ratio(entry["t"])} |')
     return '\n'.join(lines)
 
 
@@ -86,10 +86,10 @@ def manualTable(summary, n, about):
             continue
         ms = [[digits(1e3 * row[key]) for row in (theirs, ours)] for key in ('first', 'perActivation')]
         step = [digits(1e3 * row['sumPerStep']) if row else '–' for row in (theirs, tuned, ours)]
-        overTuned = f'{ours["tsumPerStep"]:.2g}' if tuned else '–'
-        lines.append(f'| {scene} | {ms[0][0]} → {ms[0][1]} | {ours["xfirst"]:.2g} | '
-                     f'{ms[1][0]} → {ms[1][1]} | {ours["xperActivation"]:.2g} | {step[0]}, {step[1]} → {step[2]} | '
-                     f'{ours["xsumPerStep"]:.2g} | {overTuned} |')
+        overTuned = f'{ratio(ours["tsumPerStep"])}' if tuned else '–'
+        lines.append(f'| {scene} | {ms[0][0]} → {ms[0][1]} | {ratio(ours["xfirst"])} | '
+                     f'{ms[1][0]} → {ms[1][1]} | {ratio(ours["xperActivation"])} | {step[0]}, {step[1]} → {step[2]} | '
+                     f'{ratio(ours["xsumPerStep"])} | {overTuned} |')
     return '\n'.join(lines) + f'\n\n{n:,} bodies, {about}, `scripts/bench colliders`.\n'
 
 
@@ -157,6 +157,11 @@ def power(value):
     first, exponent = f'{value:.1e}'.split('e')
     raised = str.maketrans('-0123456789', '⁻⁰¹²³⁴⁵⁶⁷⁸⁹')
     return f'{first}·10' + str(int(exponent)).translate(raised)
+
+
+def ratio(value):
+    """Two digits, or all before the point."""
+    return f'{value:.2g}' if value < 10 else f'{value:.0f}'
 
 
 def digits(value):
