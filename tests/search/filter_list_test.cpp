@@ -58,20 +58,29 @@ std::vector<std::size_t> nearOnes(const Filters& filters, const FilterBox& box,
   return found;
 }
 
+/// Each third box has another code.
+std::vector<std::uint64_t> codesOf(const std::vector<Box>& boxes) {
+  std::vector<std::uint64_t> codes;
+  for (std::size_t i = 0; i < boxes.size(); ++i) codes.push_back(i / 3 * 2);
+  codes.insert(codes.end(), FilterBlocks::kTogether, ~std::uint64_t{0});
+  return codes;
+}
+
+template <class Filters>
+Filters filtersOf(const std::vector<Box>& boxes) {
+  Filters filters;
+  filters.resize(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) filters.set(i, FilterBox::of(boxes[i], kScale));
+  return filters;
+}
+
 TEST(FilterBox, BothLayoutsVisitTheSameBoxesOfARange) {
   std::mt19937_64 random(2);
   for (int round = 0; round < 300; ++round) {
     const std::vector<Box> boxes = touchingBoxes(random, 1 + random() % 60);
-    std::vector<std::uint64_t> codes;
-    for (std::size_t i = 0; i < boxes.size(); ++i) codes.push_back(i / 3 * 2);
-    codes.insert(codes.end(), FilterBlocks::kTogether, ~std::uint64_t{0});
-    FilterList list;
-    FilterBlocks blocks;
-    list.resize(boxes.size()), blocks.resize(boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      list.set(i, FilterBox::of(boxes[i], kScale));
-      blocks.set(i, FilterBox::of(boxes[i], kScale));
-    }
+    const std::vector<std::uint64_t> codes = codesOf(boxes);
+    const auto list = filtersOf<FilterList>(boxes);
+    const auto blocks = filtersOf<FilterBlocks>(boxes);
     const FilterBox box = FilterBox::of(boxes[random() % boxes.size()], kScale);
     const std::size_t begin = random() % boxes.size();
     const std::uint64_t stop = random() % 45;
@@ -95,12 +104,8 @@ TEST(FilterBox, EveryInstructionSetCollectsTheSameBoxes) {
   std::size_t most = 0;
   for (int round = 0; round < 300; ++round) {
     const std::vector<Box> boxes = touchingBoxes(random, 1 + random() % 600);
-    std::vector<std::uint64_t> codes;
-    for (std::size_t i = 0; i < boxes.size(); ++i) codes.push_back(i / 3 * 2);
-    codes.insert(codes.end(), FilterBlocks::kTogether, ~std::uint64_t{0});
-    FilterBlocks blocks;
-    blocks.resize(boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) blocks.set(i, FilterBox::of(boxes[i], kScale));
+    const std::vector<std::uint64_t> codes = codesOf(boxes);
+    const auto blocks = filtersOf<FilterBlocks>(boxes);
     const FilterBox box = FilterBox::of(boxes[random() % boxes.size()], kScale);
     std::vector<BlockRange> ranges;
     std::vector<std::size_t> wanted;
