@@ -96,7 +96,7 @@ def plot(rows, file):
                         == (scene, d, method, 1)]
                 part = [r for r in part if later(r) < float('inf')]
                 axis.loglog([r['n'] for r in part], [1e3 * later(r) / r['n'] for r in part],
-                            '.-', color=f'C{k}', label=method, lw=2.5 if k < 2 else 1)
+                            '.-', color=f'C{k}' if k < 10 else 'black', label=method, lw=2.5 if k < 2 else 1)
             axis.set_title(f'{d}D, {scene}', fontsize=10, loc='left')
             axis.grid(alpha=.3)
     for axis in axes[-1]:
