@@ -28,7 +28,7 @@ inline constexpr int kPartsOfX = 2;
 
 /// (ratio) Rows in a sweep are used if at least this part of the boxes is on one level, and then as
 /// long as the second part is. With more levels the rows of the fine ones are nearly empty: sizes
-/// of 1 : 1000 take .9 (2D) to 2.6 times (3D) as long as on the curve.
+/// of 1 : 1000 take .6 (2D) to 1.5 times (3D) as long as on the curve.
 inline constexpr double kEven = .9, kStillEven = .8;
 
 /// (codes) The begin of a row is searched this far from the last one, code by code, before larger
