@@ -35,7 +35,7 @@ class CodeLevel {
                                              std::uint64_t start, std::uint64_t stop,
                                              Visit visit) const {
     filters_.forEachNear(filter, codes().data(), begin, start, stop, [&](std::size_t j) {
-      if (surelyOverlap(filter, filters_[j]) || overlaps(box, boxes[slot(j)])) visit(slot(j));
+      if (overlapsAt(j, box, filter, boxes)) visit(slot(j));
     });
   }
 
@@ -46,7 +46,7 @@ class CodeLevel {
                       NearList& near, Visit visit) const {
     filters_.collectNear(set, filter, codes().data(), ranges, near);
     for (const std::uint32_t j : near.all())
-      if (surelyOverlap(filter, filters_[j]) || overlaps(box, boxes[slot(j)])) visit(slot(j));
+      if (overlapsAt(j, box, filter, boxes)) visit(slot(j));
   }
 
   /// Removes the entries for which `leaves(slot)` is true, and marks the list as changed.
@@ -94,6 +94,11 @@ class CodeLevel {
   }
 
  private:
+  [[gnu::always_inline]] bool overlapsAt(std::size_t j, const Box& box, const FilterBox& filter,
+                                         std::span<const Box> boxes) const {
+    return surelyOverlap(filter, filters_[j]) || overlaps(box, boxes[slot(j)]);
+  }
+
   SortedList list_;
   Filters filters_;
   CodeDirectory directory_;

@@ -3,6 +3,7 @@
 #include <boost/make_shared.hpp>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
@@ -18,6 +19,8 @@ using yade::InteractionContainer;
 static bool isSearched(const Body* body) { return !body || (body->bound && body->isBounded()); }
 
 namespace {
+
+using Bodies = std::vector<yade::shared_ptr<Body>>;
 
 // Interactions, bodies and the nodes of their maps are scattered in memory: prefetch them in the
 // order in which one leads to the next.
@@ -36,7 +39,27 @@ void prefetchBody(const Body* body) {
 }
 
 void prefetchFirstNode(const Body* body) {
-  if (body && !body->intrs.empty()) __builtin_prefetch(&*body->intrs.begin());
+  if (!body->intrs.empty()) __builtin_prefetch(&*body->intrs.begin());
+}
+
+/// Null if the body was erased, or if there are no longer so many.
+const Body* bodyOf(const Bodies& bodies, Body::id_t id) {
+  const auto slot = static_cast<std::size_t>(id);
+  return slot < bodies.size() ? bodies[slot].get() : nullptr;
+}
+
+/// For item k of `count`, whose interaction is about to be inserted or erased; `idsOf(k)`: its two
+/// bodies.
+template <class IdsOf>
+void prefetchBodies(const Bodies& bodies, std::size_t k, std::size_t count, const IdsOf& idsOf) {
+  const auto both = [&](std::size_t at, auto prefetch) {
+    if (at >= count) return;
+    const auto [first, second] = idsOf(at);
+    for (const Body::id_t id : {first, second})
+      if (const Body* body = bodyOf(bodies, id)) prefetch(body);
+  };
+  both(k + kMiddle, prefetchBody);
+  both(k + kNear, prefetchFirstNode);
 }
 
 }  // namespace
@@ -45,11 +68,7 @@ void prefetchFirstNode(const Body* body) {
 /// without a bound. Without boxes their distance is unknown, so that these interactions are always
 /// kept. (YADE uses the origin as the box of a body without one.)
 bool InteractionUpdate::mayErase(const Interaction& is, const Bodies& bodies) {
-  const auto bodyOf = [&](Body::id_t id) {
-    const auto slot = static_cast<std::size_t>(id);
-    return slot < bodies.size() ? bodies[slot].get() : nullptr;
-  };
-  return isSearched(bodyOf(is.getId1())) && isSearched(bodyOf(is.getId2()));
+  return isSearched(bodyOf(bodies, is.getId1())) && isSearched(bodyOf(bodies, is.getId2()));
 }
 
 void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> near,
@@ -74,17 +93,12 @@ void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> ne
 /// `gone_` is in descending order of places in YADE's list: erasing moves the last interaction into
 /// the gap, and that one must not be among those still to be erased.
 void InteractionUpdate::eraseGone(yade::Scene& scene) {
-  const Bodies& bodies = scene.bodies->body;
-  const auto bodyOf = [&](Body::id_t id) { return bodies[static_cast<std::size_t>(id)].get(); };
-  const auto prefetchAt = [&](std::size_t k, auto prefetch) {
-    if (k >= gone_.size()) return;
-    prefetch(bodyOf(gone_[k]->getId1()));
-    prefetch(bodyOf(gone_[k]->getId2()));
+  const auto idsOf = [&](std::size_t k) {
+    return std::pair(gone_[k]->getId1(), gone_[k]->getId2());
   };
   for (std::size_t k = 0; k < gone_.size(); ++k) {
     if (k + kFar < gone_.size()) prefetchInteraction(gone_[k + kFar]);
-    prefetchAt(k + kMiddle, prefetchBody);
-    prefetchAt(k + kNear, prefetchFirstNode);
+    prefetchBodies(scene.bodies->body, k, gone_.size(), idsOf);
     const Interaction* is = gone_[k];
     scene.interactions->erase(is->getId1(), is->getId2(), is->linIx);
   }
@@ -146,15 +160,12 @@ void InteractionUpdate::makeNew(yade::Scene& scene, std::span<const Neighbours> 
                                 std::span<const Box> boxes, const MayCollide& mayCollide) {
   const auto& bodies = scene.bodies->body;
   const std::vector<CodedSlot> pairs = unknown(near, boxes);
-  const auto prefetchAt = [&](std::size_t k, auto prefetch) {
-    if (k >= pairs.size()) return;
+  const auto idsOf = [&](std::size_t k) {
     const Neighbours& pair = near[pairs[k].slot];
-    prefetch(bodies[static_cast<std::size_t>(pair.first)].get());
-    prefetch(bodies[static_cast<std::size_t>(pair.second)].get());
+    return std::pair(pair.first, pair.second);
   };
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    prefetchAt(k + kMiddle, prefetchBody);
-    prefetchAt(k + kNear, prefetchFirstNode);
+    prefetchBodies(bodies, k, pairs.size(), idsOf);
     const Neighbours& pair = near[pairs[k].slot];
     const Body* first = bodies[static_cast<std::size_t>(pair.first)].get();
     const Body* second = bodies[static_cast<std::size_t>(pair.second)].get();
