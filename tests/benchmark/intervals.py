@@ -7,7 +7,6 @@ The integrator does the same work in all runs of a scene: its time shows how fas
 a run, and all times are relative to it. Writes intervals.json and intervals.md to out/bench; with
 --readme the table goes into docs/measured.md.
 """
-import argparse
 import json
 import os
 import statistics
@@ -62,9 +61,7 @@ def table(found, n, about):
 
 def main(arguments):
     """Parse, measure, report."""
-    parser = argparse.ArgumentParser(
-        prog='scripts/bench intervals', formatter_class=argparse.RawDescriptionHelpFormatter,
-        description=__doc__)
+    parser = measured_tables.parser('intervals', __doc__)
     parser.add_argument('--scenes', type=lambda t: t.split(','), default=SCENES)
     parser.add_argument('--n', type=int, default=100000)
     parser.add_argument('--repeat', type=int, default=3)
@@ -72,20 +69,11 @@ def main(arguments):
     parser.add_argument('--budget', type=float, default=6.)
     parser.add_argument('--limit', type=float, default=180.)
     parser.add_argument('--seed', type=int, default=1)
-    parser.add_argument('--readme', action='store_true', help='write the table into docs/measured.md')
-    parser.add_argument('--out', default=os.path.join(colliders.ROOT, 'out', 'bench'))
-    parser.add_argument('--yade', default=os.path.join(colliders.ROOT, 'scripts', 'yade'))
     options = parser.parse_args(arguments)
     found = measure(options)
-    text = table(found, options.n, report.origin.line())
-    os.makedirs(options.out, exist_ok=True)
+    measured_tables.publish(options, 'intervals', table(found, options.n, report.origin.line()), MARKS)
     with open(os.path.join(options.out, 'intervals.json'), 'w') as file:
         json.dump(found, file, indent=1)
-    with open(os.path.join(options.out, 'intervals.md'), 'w') as file:
-        file.write(text)
-    print(text)
-    if options.readme:
-        measured_tables.fill(measured_tables.MANUAL, MARKS, text)
 
 
 if __name__ == '__main__':

@@ -5,6 +5,7 @@
 `figures` come from `scripts/bench figures`, `colliders` from `scripts/bench colliders --readme`,
 `calculix` from `scripts/bench fe --readme`. Each has `about`: machine, date, commit.
 """
+import argparse
 import json
 import pathlib
 import re
@@ -39,6 +40,26 @@ def fill(page, marks, text):
         raise ValueError(f'{page} has no {marks[0].strip()} with {marks[1]}')
     before, rest = whole.split(marks[0])
     page.write_text(f'{before}{marks[0]}{text}{marks[1]}{rest.split(marks[1])[1]}')
+
+
+def parser(name, doc):
+    """The options of a benchmark `scripts/bench NAME` whose table goes into the manual."""
+    found = argparse.ArgumentParser(prog=f'scripts/bench {name}', description=doc,
+                                    formatter_class=argparse.RawDescriptionHelpFormatter)
+    found.add_argument('--readme', action='store_true', help='write the table into docs/measured.md')
+    found.add_argument('--out', default=str(ROOT / 'out' / 'bench'))
+    found.add_argument('--yade', default=str(ROOT / 'scripts' / 'yade'))
+    return found
+
+
+def publish(options, name, text, marks):
+    """Write NAME.md to the folder of the options, print it, and fill it into the manual if requested."""
+    folder = pathlib.Path(options.out)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / f'{name}.md').write_text(text)
+    print(text)
+    if options.readme:
+        fill(MANUAL, marks, text)
 
 
 def tables(data):

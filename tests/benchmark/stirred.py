@@ -6,13 +6,13 @@ of the curve, one in random order, each in a yade of its own, with LebesgueColli
 is the interaction loop per step, in parts of the run. Writes stirred.md to out/bench; with --readme the
 table goes into docs/measured.md.
 """
-import argparse
 import json
 import os
 import subprocess
 import sys
 
 import measured_tables
+import report
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 ORDERS = ('curve', 'random')
@@ -42,23 +42,14 @@ def table(runs, n, about):
 
 def main(arguments):
     """Parse, measure, report."""
-    import report
-    parser = argparse.ArgumentParser(
-        prog='scripts/bench stirred', formatter_class=argparse.RawDescriptionHelpFormatter,
-        description=__doc__)
+    parser = measured_tables.parser('stirred', __doc__)
     parser.add_argument('--n', type=int, default=20000)
     parser.add_argument('--steps', type=int, default=10000)
-    parser.add_argument('--readme', action='store_true', help='write the table into docs/measured.md')
-    parser.add_argument('--out', default=os.path.join(ROOT, 'out', 'bench'))
-    parser.add_argument('--yade', default=os.path.join(ROOT, 'scripts', 'yade'))
     options = parser.parse_args(arguments)
-    text = table({order: measure(options, order) for order in ORDERS}, options.n, report.origin.line())
-    os.makedirs(options.out, exist_ok=True)
-    with open(os.path.join(options.out, 'stirred.md'), 'w') as file:
-        file.write(text)
-    print(text)
-    if options.readme:
-        measured_tables.fill(measured_tables.MANUAL, MARKS, text)
+    if options.steps < 100:
+        parser.error(f'--steps is {options.steps}; it must be at least 100.')
+    runs = {order: measure(options, order) for order in ORDERS}
+    measured_tables.publish(options, 'stirred', table(runs, options.n, report.origin.line()), MARKS)
 
 
 if __name__ == '__main__':

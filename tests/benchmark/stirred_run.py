@@ -43,14 +43,14 @@ def build(n, order):
 
 def main(n, steps, order, parts):
     """Build, run, print; the first row is that of the first hundredth of the run."""
-    loop, rows, end = build(n, order), [], 0
+    loop, rows = build(n, order), []
+    ends = [steps // 100] + [steps * k // parts for k in range(1, parts + 1)]
     O.timingEnabled = True
     O.step()
-    for length in [steps // 100] + [steps // parts - (steps // 100 if k == 0 else 0) for k in range(parts)]:
+    for begin, end in zip([0] + ends, ends):
         before = loop.execTime
-        O.run(length, True)
-        end += length
-        rows.append(dict(end=end, loop=(loop.execTime - before) * 1e-6 / length,
+        O.run(end - begin, True)
+        rows.append(dict(end=end, loop=(loop.execTime - before) * 1e-6 / (end - begin),
                          real=O.interactions.countReal()))
     print(json.dumps(rows), flush=True)
 
