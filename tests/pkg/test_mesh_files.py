@@ -141,7 +141,7 @@ def test_missingLibraryAndFile(folder, monkeypatch):
         readMesh(folder + '/nowhere.msh')
     monkeypatch.setitem(sys.modules, 'meshio', None)
     with pytest.raises(ImportError, match="install Debian's package python3-meshio[.]"):
-        readMesh(written(folder, 'a.msh', kGmsh))
+        readMesh(written(folder, 'a.vtk', 'nothing'))
 
 
 def test_pointsOfThreeColumnsGoIntoAddTriangles():

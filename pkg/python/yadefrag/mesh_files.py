@@ -1,16 +1,17 @@
 """Meshes from files of other programs, for FESolver.addTriangles."""
 
 import dataclasses
+import os
+import warnings
 
 import numpy
 
-from yadefrag.readers import needed, refuseFile
+from yadefrag import mesh_checks
+from yadefrag.readers import abaqus, by_meshio, gmsh, refuseFile
+from yadefrag.readers.elements import cornersOf, counted
 from yadefrag.values import path, positive, shownPath
 
-_PACKAGE = 'python3-meshio'
-_FLAT = 1e-9  # of the longer side: permitted distance of points from a plane
-_MIDDLE = {'triangle6': 'triangle', 'triangle7': 'triangle', 'quad8': 'quad', 'quad9': 'quad'}
-_OTHER = ('vertex', 'line', 'line3', 'line4')  # in a plane mesh: they mark its boundary
+_READERS = {'.msh': gmsh.read, '.inp': abaqus.read}
 
 
 @dataclasses.dataclass
@@ -19,20 +20,27 @@ class MeshFile:
 
     nodes      (n, 2) in m, those used by triangles
     triangles  (m, 3) numbers of nodes, counter-clockwise
-    groups     {name: numbers of triangles}: physical groups of gmsh, sets of cells of other formats
+    groups     {name: numbers of triangles}: physical groups of gmsh, sets of elements of other formats
     nodeSets   {name: numbers of nodes}: those of groups of lines, points and triangles, and sets of
-               points. In a solver the nodes are `fe.nodesOf(body)[mesh.nodeSets['left']]`
+               points. In a solver the nodes are `fe.nodesOf(body)[mesh.nodeSets['left']]`. If a line
+               or point and a surface of gmsh have one name, the set has the nodes of the line or point
+    instances  {name: numbers of triangles}: instances of Abaqus' parts; the set 'left' of the instance
+               'P-1' is nodeSets['P-1.left']
+    leftOut    list of sentences about what of the file is not in this mesh
     """
 
     nodes: numpy.ndarray
     triangles: numpy.ndarray
     groups: dict
     nodeSets: dict
+    instances: dict = dataclasses.field(default_factory=dict)
+    leftOut: list = dataclasses.field(default_factory=list)
 
     @property
     def material(self):
         """(names, (m) numbers among them): addTriangles' `material`, if O.materials has a material
-        with the label of each group. ValueError if a triangle is in no group, or in two."""
+        with the label of each group. ValueError if a triangle is in no group, or in two; groups that
+        are no materials can be deleted before: `del mesh.groups['all']`."""
         names = list(self.groups)
         count = numpy.zeros(len(self.triangles), dtype=int)
         of = numpy.zeros(len(self.triangles), dtype=int)
@@ -41,123 +49,90 @@ class MeshFile:
             of[self.groups[name]] = number
         if not (count == 1).all():
             bad = int(numpy.argmax(count != 1))
-            raise ValueError('triangle %d is in %d groups of the mesh, it must be in one to have a '
-                             'material.' % (bad, count[bad]))
+            its = [name for name in names if bad in self.groups[name]]
+            raise ValueError('triangle %d is in %d groups of the mesh%s, it must be in one to have a '
+                             'material%s.' %
+                             (bad, count[bad], ' (%s)' % ', '.join(map(repr, its)) if its else '',
+                              '; `del mesh.groups[%r]` removes one that is no material' % its[-1] if its else
+                              ': give addTriangles the label of a material instead'))
         return names, of
 
 
 def readMesh(file, scale=1):
-    """A MeshFile from any format that meshio reads: gmsh (.msh), Abaqus (.inp), VTK (.vtk, .vtu),
-    Medit ...
+    """A MeshFile from gmsh (.msh), Abaqus and CalculiX (.inp), and any format that meshio reads: VTK
+    (.vtk, .vtu), Medit, Nastran ...
 
     file   its ending determines the format
     scale  m for one unit of the file
-    Points of three columns are accepted if z is the same for all. Of elements with nodes at the
-    middles of their sides only the corners are used; quads are divided along their shorter
-    diagonal; clockwise elements are reversed, and unused points are left out. ValueError with the
-    file if meshio cannot read it, for 3D elements, or without triangles; ImportError if meshio is
+    Points of three columns are accepted if z is the same for all used ones. Of elements with nodes
+    between their corners only the corners are used; quads are divided along their shorter diagonal;
+    clockwise elements are reversed. Parts of an Abaqus file are read once for each instance, at its
+    place. What is left out is listed in `leftOut`; elements which other programs show are also told in
+    a warning. ValueError with the file if it cannot be read, for 3D elements, without triangles,
+    and with the number of an element that is flat, collapsed, concave, doubled or inverted (that of the
+    file for .msh and .inp, counted from 0 for other formats); ImportError if meshio is needed and
     missing; OSError for a file that cannot be read.
     """
     name = path('file', file)
     scale = positive('scale', scale, 'm per unit of the file')
     with open(name, 'rb'):  # OSError, before a library raises another exception
         pass
-    meshio = needed('meshio', _PACKAGE, name)
+    read = _READERS.get(os.path.splitext(name)[1].lower(), by_meshio.read)
     try:
-        mesh = meshio.read(name)
-    except (Exception, SystemExit) as error:  # meshio ends the process for an unknown ending
+        elements = read(name)
+    except (ValueError, IndexError, KeyError, OSError, OverflowError, MemoryError) as error:
         refuseFile(name, 'mesh', error)
-    points = scale * _plane(numpy.asarray(mesh.points, dtype=float), name)
-    triangles, source = _triangles(mesh, points, name)
-    used, corners = numpy.unique(triangles, return_inverse=True)
-    groups, sets = _groups(mesh, triangles, source)
+    mesh_checks.requirePlaneKinds(elements, name)
+    used = mesh_checks.usedPoints(elements, name)
+    points = scale * _plane(numpy.asarray(elements.points, dtype=float), used, name)
+    triangles, source, told = mesh_checks.trianglesOf(elements, points, name)
+    told = elements.leftOut + told + _looseLines(elements, triangles)
+    if told:
+        warnings.warn('readMesh: %s: left out are %s.' % (shownPath(name), '; '.join(told)), stacklevel=2)
+    corners, triangles = numpy.unique(triangles, return_inverse=True)
+    if len(elements.points) > len(used):
+        told.append('%s in no triangle or quad' % counted(len(elements.points) - len(used), 'point'))
     place = numpy.full(len(points), -1)
-    place[used] = numpy.arange(len(used))
-    sets = {key: numpy.unique(place[nodes][place[nodes] >= 0]) for key, nodes in sets.items()}
-    return MeshFile(points[used], corners.reshape(-1, 3), groups, sets)
+    place[corners] = numpy.arange(len(corners))
+    groups, instances = (_ofTriangles(of, source) for of in (elements.groups, elements.instances))
+    sets = {key: numpy.unique(place[nodes][place[nodes] >= 0]) for key, nodes in _nodeSets(elements)}
+    return MeshFile(points[corners], triangles.reshape(-1, 3), groups, sets, instances, told)
 
 
-def _plane(points, name):
+def _plane(points, used, name):
     """(n, 2)."""
-    if points.ndim != 2 or points.shape[1] not in (2, 3) or not len(points) \
-            or not numpy.isfinite(points).all():
+    if points.ndim != 2 or points.shape[1] not in (2, 3) or not numpy.isfinite(points[used]).all():
         raise ValueError('%s has points that are not finite, or none.' % shownPath(name))
-    low, high = points.min(axis=0), points.max(axis=0)
-    if points.shape[1] == 3 and high[2] - low[2] > _FLAT * (high - low)[:2].max():
+    low, high = points[used].min(axis=0), points[used].max(axis=0)
+    if points.shape[1] == 3 and high[2] - low[2] > mesh_checks.FLAT * (high - low)[:2].max():
         raise ValueError('%s is no plane mesh: z goes from %g to %g, it must be the same '
                          'everywhere.' % (shownPath(name), low[2], high[2]))
     return points[:, :2]
 
 
-def _triangles(mesh, points, name):
-    """(m, 3) numbers of points, and (m, 2): number of the block of cells and of the cell in it."""
-    found, source = [], []
-    for block, cells in enumerate(mesh.cells):
-        kind = _MIDDLE.get(cells.type, cells.type)
-        if kind not in ('triangle', 'quad'):
-            if cells.type not in _OTHER:
-                raise ValueError("%s has elements of the kind '%s', those of a plane mesh are "
-                                 'triangles and quads.' % (shownPath(name), cells.type))
-            continue
-        corners = numpy.asarray(cells.data, dtype=int)[:, :3 if kind == 'triangle' else 4]
-        number = numpy.arange(len(corners))
-        if kind == 'quad':
-            corners, number = _cut(points, corners), numpy.repeat(number, 2)
-        found.append(corners)
-        source.append(numpy.stack([numpy.full(len(number), block), number], axis=1))
-    if not found or not sum(map(len, found)):
-        raise ValueError('%s has no triangles.' % shownPath(name))
-    triangles = numpy.concatenate(found)
-    a, b, c = points[triangles].transpose(1, 0, 2)
-    isClockwise = _cross(b - a, c - a) < 0
-    triangles[isClockwise] = triangles[isClockwise][:, ::-1]
-    return triangles, numpy.concatenate(source)
+def _looseLines(elements, triangles):
+    """A sentence about lines that are no sides of triangles."""
+    sides = numpy.sort(numpy.stack([triangles, numpy.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    known, count = set(map(tuple, sides.tolist())), 0
+    for kind, nodes, numbers in elements.blocks:
+        if cornersOf(kind) == 2 and len(numbers):
+            ends = numpy.sort(numpy.asarray(nodes, dtype=int)[:, :2], axis=1)
+            count += sum(pair not in known for pair in map(tuple, ends.tolist()))
+    return ['%s beside the sides of triangles' % counted(count, 'line')] if count else []
 
 
-def _cross(a, b):
-    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+def _ofTriangles(sets, source):
+    """{name: numbers of triangles} of {name: numbers of elements}; sets without triangles are left out."""
+    found = {name: numpy.nonzero(numpy.isin(source, numbers))[0] for name, numbers in sets.items()}
+    return {name: triangles for name, triangles in found.items() if len(triangles)}
 
 
-def _cut(points, quads):
-    """(2m, 3): each quad divided along its shorter diagonal."""
-    corners = points[quads]
-    first = numpy.linalg.norm(corners[:, 2] - corners[:, 0], axis=1)
-    second = numpy.linalg.norm(corners[:, 3] - corners[:, 1], axis=1)
-    along = numpy.array([[0, 1, 2, 0, 2, 3]]), numpy.array([[0, 1, 3, 1, 2, 3]])
-    order = numpy.where((first <= second)[:, None], *along)
-    return numpy.take_along_axis(quads, order, axis=1).reshape(-1, 3)
-
-
-def _groups(mesh, triangles, source):
-    """({name: triangles}, {name: points}) of a meshio mesh."""
-    groups, sets = {}, {}
-    for name, blocks in _cellsOf(mesh).items():
-        mine = [numpy.nonzero(source[:, 0] == b)[0][numpy.isin(source[source[:, 0] == b, 1], cells)]
-                for b, cells in blocks]
-        mine = numpy.concatenate(mine)
-        nodes = [numpy.asarray(mesh.cells[b].data, dtype=int)[cells].ravel() for b, cells in blocks]
-        sets[name] = numpy.concatenate(nodes)
-        if len(mine):
-            groups[name] = mine
-    for name, nodes in mesh.point_sets.items():
-        sets[name] = numpy.asarray(nodes, dtype=int).ravel()
-    return groups, sets
-
-
-def _cellsOf(mesh):
-    """{name: [(block, numbers of its cells)]}."""
-    found = {}
-    names = {(int(tag), int(dimension)): name for name, (tag, dimension) in mesh.field_data.items()}
-    for block, tags in enumerate(mesh.cell_data.get('gmsh:physical', ())):
-        for tag in numpy.unique(tags):
-            name = names.get((int(tag), mesh.cells[block].dim), '%d' % tag)
-            if tag != 0:  # 0: in no group
-                found.setdefault(name, []).append((block, numpy.nonzero(tags == tag)[0]))
-    for name, blocks in mesh.cell_sets.items():
-        if name.startswith('gmsh:') or name in found:
-            continue
-        numbers = [(b, numpy.asarray(cells, dtype=int)) for b, cells in enumerate(blocks)
-                   if cells is not None and len(cells)]
-        if numbers:
-            found[name] = numbers
-    return found
+def _nodeSets(elements):
+    """Pairs of a name and numbers of points; later ones replace earlier ones."""
+    for sets in (elements.groups, elements.markers):
+        for name, numbers in sets.items():
+            parts = [numpy.asarray(nodes, dtype=int)[numpy.isin(own, numbers)].ravel()
+                     for _, nodes, own in elements.blocks if numpy.isin(own, numbers).any()]
+            yield name, numpy.concatenate(parts or [numpy.zeros(0, dtype=int)])
+    for name, nodes in elements.nodeSets.items():
+        yield name, numpy.asarray(nodes, dtype=int)
