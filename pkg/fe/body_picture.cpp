@@ -39,7 +39,7 @@ std::vector<Colour> coloursOf(const FESolver& solver, const std::string& field) 
     return colours;
   }
   std::vector<std::uint32_t> numbers;
-  if (field == "fragment") findFragments(model, &numbers);
+  if (field == "fragment") findFragments(model, &numbers, &solver.world().fracture);
   for (std::size_t e = 0; e < model.triangles.size(); ++e)
     colours.push_back(colourOf(numbers.empty() ? model.triangles.component[e].value : numbers[e]));
   return colours;

@@ -231,7 +231,7 @@ py::object reactionsOf(const FESolver& solver) {
 
 py::object fragmentOf(const FESolver& solver) {
   std::vector<std::uint32_t> numbers;
-  findFragments(solver.world().model, &numbers);
+  findFragments(solver.world().model, &numbers, &solver.world().fracture);
   return toArray(numbers, "int32", 0);  // −1: removed
 }
 

@@ -63,10 +63,11 @@ void FESolver::pyExtra(PyClass& pyClass) {
            "independently of contact; maxPenetration considers only points in contact. 0, except "
            "for "
            "rounding, where bodies touch.")
-      .def("fragments", &Locked<fragmentsOf>::call, (yade::py::arg("held") = false),
-           "List of dicts, one per connected part: component, triangles (their number), mass "
-           "(kg), area (m²), centroid (m), velocity (m/s), spin (rad/s). With held=True, parts "
-           "that are connected by cohesive cracks count as one.")
+      .def("fragments", &Locked<fragmentsOf>::call, (yade::py::arg("held") = true),
+           "List of dicts, one per part that has come apart: component (of its first triangle), "
+           "triangles (their number), mass (kg), area (m²), centroid (m), velocity (m/s), spin "
+           "(rad/s). Parts that cohesion or a bond still holds together are one fragment; with "
+           "held=False every crack separates, also one that has hardly opened.")
       .def("_zoneWarning", &Locked<zoneWarningOf>::call)
       .def(
           "_lock", +[](const FESolver& self) { self.betweenSteps().lock(); })
@@ -114,7 +115,7 @@ void FESolver::valuesOf(PyClass& pyClass) {
                     "their first triangles, array (m); 0 in bodies of one.")
       .add_property("fragmentOf", &Locked<fragmentOf>::call,
                     "Number of each triangle's fragment, its place in fragments(), array (m); -1: "
-                    "dropped.")
+                    "removed.")
       .add_property("_reference", &Locked<referenceOf>::call)
       .add_property(
           "contactForces", &Locked<contactForcesOf>::call,
@@ -160,7 +161,10 @@ void FESolver::countersOf(PyClass& pyClass) {
       .add_property("maxPenetration", &Locked<penetrationOf>::call,
                     "Deepest remaining penetration (m) at points in contact in the last step; "
                     "deepestOverlap() checks all triangles.")
-      .add_property("numCracks", &Locked<numCracksOf>::call, "Cracked edges so far.");
+      .add_property(
+          "numCracks", &Locked<numCracksOf>::call,
+          "Cracked edges so far, without bonds and joints that are open from the start. Some "
+          "may still hold: see crackCounts.");
 }
 
 }  // namespace yadefrag

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "abi/yade.hpp"
+#include "fe/with_gil.hpp"
 #include "fe/without_gil.hpp"
 
 namespace yadefrag {
@@ -97,8 +98,16 @@ std::string stopReason;  // written by the scene's thread
 }  // namespace
 
 void noteStop(const char* why) {
-  const std::lock_guard guard(stopLock);
-  stopReason = why;
+  {
+    const std::lock_guard guard(stopLock);
+    stopReason = why;
+  }
+  const WithGil gil;
+  try {
+    yade::py::import("yadefrag.refusals").attr("silence")();
+  } catch (const yade::py::error_already_set&) {
+    PyErr_Clear();  // YADE's lines are then written, too
+  }
 }
 
 std::string whyStopped() {

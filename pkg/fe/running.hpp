@@ -20,7 +20,7 @@ void waitForStart(long iter, int subStep);
 /// Stops a run of another thread; returns after its last step. Python's lock is released meanwhile.
 void stopRun();
 /// Stores the reason why an engine has stopped the run, for the message to the script: YADE writes
-/// the reason to stderr only.
+/// the reason to stderr only. If a script waits for the run, YADE's lines about it are not written.
 void noteStop(const char* why);
 /// The reason stored since the last call; empty: none.
 [[nodiscard]] std::string whyStopped();

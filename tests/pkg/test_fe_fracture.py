@@ -287,13 +287,19 @@ def test_heldPartsCountAsOne():
     O.engines = [solver]
     O.dt = .5 * solver.criticalTimeStep()
     seen = []
-    while O.iter < 1000 and len(solver.fragments(held=True)) == 1:
-        seen.append(len(solver.fragments()))
+    while O.iter < 1000 and len(solver.fragments()) == 1:
+        assert not solver.fragmentOf.any() and len(yadefrag.fragmentTable(solver)) == 1
+        assert solver.crackCounts['open'] == 0
+        assert solver.crackCounts['damaged'] + solver.crackCounts['whole'] == solver.numCracks
+        seen.append(len(solver.fragments(held=False)))
         O.step()
     assert seen[0] == 1 and seen[-1] > 1 and seen.count(seen[-1]) > 5
-    held = solver.fragments(held=True)
-    assert 2 <= len(held) <= len(solver.fragments()) == seen[-1]
-    assert sum(p['mass'] for p in held) == pytest.approx(solver.masses.sum())
+    apart = solver.fragments()
+    assert apart == solver.fragments(held=True)
+    assert 2 <= len(apart) <= len(solver.fragments(held=False)) == seen[-1]
+    assert sum(p['mass'] for p in apart) == pytest.approx(solver.masses.sum())
+    assert solver.fragmentOf.max() == len(apart) - 1 and solver.crackCounts['open'] > 0
+    assert sum(solver.crackCounts.values()) == len(yadefrag.crackTable(solver)) == solver.numCracks
 
 
 def test_recordOfARun(folder):
@@ -307,6 +313,8 @@ def test_recordOfARun(folder):
     assert data['cracks'][-1] == solver.numCracks > data['cracks'][0] == 0
     assert data['segments'][-1] == sum(map(len, solver.surfaces))
     assert data['fragments'][-1] == len(solver.fragments())
+    counts = solver.crackCounts
+    assert {name: data[name + '_cracks'][-1] for name in counts} == counts and counts['open'] > 0
     assert data['total_J'][-1] == solver.energy['total']
     again = yadefrag.recordFracture(solver, file, append=True)
     again()

@@ -173,16 +173,18 @@ def test_aBondHoldsAndBreaks():
     assert sides == round(kHeight / .002)
     engines(solver, factor=.4)
     O.run(1000, True)
-    assert len(solver.fragments()) == 2 and len(solver.fragments(held=True)) == 1
+    assert len(solver.fragments(held=False)) == 2 and len(solver.fragments()) == 1
+    counts = solver.crackCounts
+    assert counts['open'] == 0 and counts['damaged'] + counts['whole'] == sides
     assert abs(solver.energy['fracture']) < 1e-6 * 100 * kHeight
     O.reset()
     solver = pair(velocity=20)
     solver.bond(0, 1, 5e6, 100)
     engines(solver, factor=.4)
     O.run(1000, True)
-    assert len(solver.fragments(held=True)) == 2
+    assert len(solver.fragments()) == 2
     assert solver.energy['fracture'] == pytest.approx(100 * kHeight, rel=.02)
-    assert solver.numCracks == 0
+    assert solver.numCracks == 0 and solver.crackCounts == dict(open=sides, damaged=0, whole=0)
 
 
 def test_bondsAreSaved(folder):

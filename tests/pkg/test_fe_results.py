@@ -136,6 +136,10 @@ def test_cracksAreATable(folder):
         yadefrag.crackTable(solver, folder + '/cracks.txt')
 
 
+def crackLines(solver):
+    return [c for c in yadefrag.plotMesh(solver).collections if type(c).__name__ == 'LineCollection']
+
+
 @pytest.mark.parametrize('wall', [False, True])
 def test_heldCracksAreDrawnAndExported(folder, wall):
     """A wall has nodes of its own between those of the body and those that cracks add."""
@@ -147,8 +151,9 @@ def test_heldCracksAreDrawnAndExported(folder, wall):
     steps(5)
     table = yadefrag.crackTable(solver)
     assert table['held'].all() and len(table) == 2
-    lines = [c for c in yadefrag.plotMesh(solver).collections if type(c).__name__ == 'LineCollection']
-    drawn = np.array([path.vertices for line in lines for path in line.get_paths()])
+    [line] = crackLines(solver)
+    assert line.get_label() == 'held' and np.array_equal(line.get_array(), table['damage'])
+    drawn = np.array([path.vertices for path in line.get_paths()])
     middles = drawn.mean(axis=1)
     assert middles == pytest.approx(np.stack([table['x'], table['y']], axis=1), abs=1e-12)
     assert np.hypot(*(drawn[:, 1] - drawn[:, 0]).T) == pytest.approx([.1, .1], rel=.05)
@@ -164,7 +169,34 @@ def test_heldCracksAreDrawnAndExported(folder, wall):
         steps(20)
     yadefrag.exportVTK(solver, folder + '/out.vtu')
     assert list(meshio.read(folder + '/out.vtu').cells_dict) == ['triangle']
-    assert not [c for c in yadefrag.plotMesh(solver).collections if type(c).__name__ == 'LineCollection']
+    # Open ones are black, both faces, above those that hold.
+    [open_] = crackLines(solver)
+    assert open_.get_label() == 'open' and (open_.get_colors() == (0, 0, 0, 1)).all()
+    assert open_.get_zorder() > line.get_zorder() and len(open_.get_paths()) == 4
+
+
+def test_principalStressesAndEnlargedDisplacementsAreDrawn():
+    """Their sum and product are trace and determinant of the stress; positions are multiples of the
+    displacements."""
+    solver = strip(20.)
+    steps(3)
+    stress = solver.principalStress
+    for name, other, values in (('sigma1', 'principal1', stress[:, 0]), ('sigma2', 'principal2', stress[:, 1])):
+        for field in (name, other):
+            drawn = next(c for c in yadefrag.plotMesh(solver, field).collections if c.get_array() is not None)
+            assert np.array_equal(drawn.get_array(), values)
+    xx, yy, xy = solver.stress.T
+    assert np.allclose(stress[:, 0] + stress[:, 1], xx + yy) and (stress[:, 0] >= stress[:, 1]).all()
+    assert np.allclose(stress[:, 0] * stress[:, 1], xx * yy - xy**2)
+    rest, moved = solver.nodes - solver.displacements, solver.displacements
+    for scale in (0, 1, 3):
+        [mesh] = [c for c in yadefrag.plotMesh(solver, 'xx', scale=scale).collections if c.get_array() is not None]
+        corners = np.array([path.vertices[:3] for path in mesh.get_paths()])
+        assert np.allclose(corners, (rest + scale * moved)[solver.triangles], atol=1e-12)
+    length = yadefrag.plotMesh(solver, 'displacement').collections[0].get_array()
+    assert np.allclose(length, np.hypot(*moved.T))
+    with pytest.raises(ValueError, match='scale is -1'):
+        yadefrag.plotMesh(solver, scale=-1)
 
 
 def test_startOfCracksIsSaved(folder):

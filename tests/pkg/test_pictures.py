@@ -245,21 +245,25 @@ def test_wrongWindowsAndFields(change, sentence):
         pictures.plotMesh(makeSolver(), **change)
 
 
-def test_curvesOfFractureAreDistinguishable(folder):
-    """Colours of both axes: red, green and blue of any two differ by 0.25 and more together."""
+@pytest.mark.parametrize('columns', [14, 17])  # of version 0.1, and with the cracks by state
+def test_curvesOfFractureAreDistinguishable(folder, columns):
+    """Colours of both axes: red, green and blue of any two differ by 0.25 and more together; open cracks
+    are a dashed line of the colour of all cracks."""
     from matplotlib import colors
     from yadefrag import fragments
     file = folder + '/run.csv'
     with open(file, 'w') as out:
-        out.write(fragments._RECORDED + '\n')
+        out.write(','.join(fragments._RECORDED.split(',')[:columns]) + '\n')
         for step in range(2):
-            out.write(','.join(map(str, range(step, step + 14))) + '\n')
+            out.write(','.join(map(str, range(step, step + columns))) + '\n')
     lines = [line for ax in fragments.plotFracture(file, folder + '/a.png') for line in ax.lines]
+    labels = [line.get_label() for line in lines]
+    assert len(set(labels)) == len(labels) == 12 + (columns > 14)
+    lines = [line for line in lines if line.get_linestyle() == '-']
     shades = numpy.array([colors.to_rgb(line.get_color()) for line in lines])
     assert len(shades) == 12
     distances = numpy.linalg.norm(shades[:, None] - shades, axis=2) + numpy.eye(12)
     assert distances.min() >= .25
-    assert len({line.get_label() for line in lines}) == 12
 
 
 def imports(module):

@@ -26,6 +26,7 @@ __all__ = list(_yadefrag.publish())
 # Only now, because these need FESolver.
 from yadefrag import attributes, lifecycle, mpy, solver  # noqa: E402
 from yadefrag.about import about  # noqa: E402
+from yadefrag.calls import inWords  # noqa: E402
 from yadefrag.engines import engines  # noqa: E402
 from yadefrag.ensemble import ensemble  # noqa: E402
 from yadefrag.ensemble_table import EnsembleTable  # noqa: E402
@@ -73,4 +74,7 @@ __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMe
             'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
             'plotFracture', 'crackTable', 'engines', 'FERecorder', 'tradeoff', 'TradeoffTable',
             'ensemble', 'EnsembleTable', 'inCurveOrder', 'about']
+for _name in __all__:
+    if type(globals()[_name]) is type(inWords):
+        globals()[_name] = inWords(globals()[_name])
 __version__ = support.YADEFRAG

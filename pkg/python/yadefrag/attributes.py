@@ -64,6 +64,10 @@ def _guardConstructor(make):
     def __init__(self, *args, **settings):
         if args and isinstance(self, wrapper.Collider):
             _requireFunctors(args[0])
+        elif args and isinstance(self, (wrapper.Material, wrapper.FESolver)):
+            kind = type(self).__name__
+            raise TypeError('%s takes no arguments by position: write the names of its attributes, as %s(%s=...).' %
+                            (kind, kind, 'young' if isinstance(self, wrapper.Material) else 'passes'))
         make(self, *args)
         if settings:
             updateAttrs(self, settings)

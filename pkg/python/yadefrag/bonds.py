@@ -1,8 +1,7 @@
 """Bonds between bodies of FESolver."""
 
-import warnings
-
 from yadefrag._yadefrag import requirePaused
+from yadefrag.messages import warn
 from yadefrag.names import bodyNumber
 from yadefrag.values import positive
 
@@ -19,7 +18,7 @@ def bond(self, a, b, strength, energy):
     energy    J/m², that opens the bond in tension; positive
     A bond acts like a crack that has not opened yet, by the cohesive law. An opening dissipates
     `energy`; after that, or where the bond is closed, the faces have contact like any others.
-    fragments(held=True) counts bonded bodies as one; numCracks does not count bonds. ValueError,
+    fragments() counts bonded bodies as one; crackCounts counts bonds, numCracks does not. ValueError,
     before any change, if no sides match or if sides coincide with different ends; a warning if
     sides are too long for the energy.
     """
@@ -29,5 +28,5 @@ def bond(self, a, b, strength, energy):
     sides, problem = self._bond(first, second, positive('strength', strength, 'Pa'),
                                 positive('energy', energy, 'J/m²'))
     if problem:
-        warnings.warn('bond: ' + problem, stacklevel=2)
+        warn('bond: ' + problem)
     return sides

@@ -8,6 +8,7 @@ import numpy
 
 from yadefrag.ensemble_table import COLUMNS, EnsembleRow, EnsembleTable
 from yadefrag.files import requireWritable
+from yadefrag.grouping import passOn
 from yadefrag.runs import Finished, Processes, jobOf, requireExecutor, requireOutside, runAll
 from yadefrag.tradeoff import MOST_SECONDS, checkChoice, writeTable
 from yadefrag.values import isWhole, number, plain, positive, refuse, shown, text, whole
@@ -38,9 +39,11 @@ def ensemble(scene, runs, measure, *, duration, watch=None, every=0., limit=600.
     title     of the plot
 
     Each run is a separate `yade -n -x`. A run that the scene or an engine refuses, that blows up,
-    fails or takes too long is a row with that result. Ctrl-C ends the runs; the table then has the
-    finished ones. Functions must be at the top level of a file, and the call in a script after
-    `if __name__ == '__main__':`, since each run loads the file again.
+    fails or takes too long is a row with that result. What runs warn of is in `warnings` of their rows,
+    and is passed on as a warning of this call, once for each kind, with the number of these runs. The
+    table has means of runs that differ in nothing but the seed; print(table) shows them. Ctrl-C ends the
+    runs; the table then has the finished ones. Functions must be at the top level of a file, and the call
+    in a script after `if __name__ == '__main__':`, since each run loads the file again.
     ValueError, before anything runs, for bad arguments, OSError for files that cannot be written;
     RuntimeError if the file cannot be loaded again.
     """
@@ -59,6 +62,7 @@ def ensemble(scene, runs, measure, *, duration, watch=None, every=0., limit=600.
             requireWritable(name)
     finished = Finished(resume, {key: job[key] for key in ('file', 'functions', 'duration', 'every')})
     _run(table.rows, job, finished, executor, workers)
+    passOn('ensemble', table.rows)
     if files is not None:
         writeTable(table, files)
     return table

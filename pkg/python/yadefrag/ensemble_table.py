@@ -1,16 +1,19 @@
 """The table that ensemble() returns: rows, means with confidence bands, CSV, plot."""
 
 import dataclasses
+import itertools
 import math
 
 import numpy
 
 from yadefrag import student
+from yadefrag.colours import DISTINCT
 from yadefrag.files import savePicture, writeText
+from yadefrag.grouping import grouped, samples, varying
 from yadefrag.tradeoff_table import describe, tableText
 from yadefrag.values import array, number, path, refuse, text
 
-COLUMNS = ('result', 'value', 'steps', 'wall', 'message')
+COLUMNS = ('result', 'value', 'steps', 'wall', 'message', 'seconds', 'warnings')
 _PLACES = 200  # points of a curve
 
 
@@ -22,7 +25,10 @@ class EnsembleRow:
     result    'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or 'not
               run'
     value     the measured value, a number or a list; None without
-    steps     number of steps; wall: wall-clock time over simulated time (s/s)
+    steps     number of steps
+    wall      wall-clock time of the steps over simulated time (s/s), large for short scenes
+    seconds   wall-clock time of the steps (s)
+    warnings  messages of the run: those of fe.warnings, and Python's of the script
     """
 
     settings: dict
@@ -31,6 +37,8 @@ class EnsembleRow:
     steps: int = None
     wall: float = None
     message: str = ''
+    seconds: float = None
+    warnings: list = dataclasses.field(default_factory=list)
 
     def take(self, found):
         """Stores the result of a run."""
@@ -38,7 +46,8 @@ class EnsembleRow:
             raise RuntimeError('a run cannot load the scene: %s' % found['message'])
         self.result = 'failed' if found['result'] == 'lost' else found['result']
         self.message = found['message']
-        self.value, self.steps, self.wall = map(found.get, ('value', 'steps', 'wall'))
+        self.value, self.steps, self.wall, self.seconds = map(found.get, ('value', 'steps', 'wall', 'seconds'))
+        self.warnings = list(found.get('warnings', ()))
 
 
 class EnsembleTable:
@@ -56,46 +65,58 @@ class EnsembleTable:
         self.rows, self.title = list(rows), text('title', title)
 
     def __str__(self):
-        """A line for each row, and the mean."""
+        """A line for each row, and the means of the runs that differ in nothing but seeds and samples."""
         lines = [self.title] * bool(self.title) + [
             '%s: %s' % (describe(row.settings), _found(row)) for row in self.rows]
-        return '\n'.join(lines + [_meanText(*self.statistics())] * bool(self.good()))
+        among = samples(self.rows)
+        for (settings, _), line in zip(grouped(self.rows, varying(self.rows)), self.statistics()):
+            if line['runs']:
+                lines.append(describe(settings) * bool(settings) + ': ' * bool(settings) + _meanText(line, among))
+        return '\n'.join(lines)
 
     def good(self):
         """Rows with a value."""
         return [row for row in self.rows if row.result == 'ok']
 
     def statistics(self, by=None, reduce=numpy.mean, confidence=.95):
-        """Mean of the measured values, with its confidence band, as a NumPy array with named
-        columns (k).
+        """Means of the measured values, with their confidence bands, as a NumPy array with named
+        columns (k): one row for the runs that differ only in the seed, or in a number that is another one
+        in each run.
 
-        by      None, or the name of a setting: one row for each of its values, ascending
-        reduce  function of a run's numbers (n) → one number; default: their mean; numpy.median,
-        len, ... Columns: by (nan without), runs, failed (their number), mean, deviation (of single
-        runs), low, high (band of the mean; nan for less than two runs). ValueError for an unknown
+        by      None, or the name of a setting: rows by its values, ascending; if others vary, too, one
+                row for each of their combinations
+        reduce  function of a run's numbers (n) → one number; default: their mean; numpy.median, len, ...
+        Columns: by (value of that setting, or of the only one that varies; otherwise nan), runs, failed
+        (their number), mean, deviation (of single runs), low, high (band of the mean; nan for less than
+        two runs), settings (text: what the runs of the row have in common). ValueError for an unknown
         name.
         """
         confidence = _share(confidence)
         if not callable(reduce):
             refuse('reduce', reduce, 'a function')
-        groups = {math.nan: self.rows} if by is None else self._groups(by)
         lines = []
-        for value, rows in groups.items():
+        for settings, value, rows in self._groups(by):
             good = [float(reduce(numpy.atleast_1d(row.value))) for row in rows if row.result == 'ok']
             mean, deviation, half = _meanOf(numpy.array(good)[:, None], confidence)
             lines.append((value, len(good), len(rows) - len(good), mean[0], deviation[0],
-                          mean[0] - half[0], mean[0] + half[0]))
-        names = ('by', 'runs', 'failed', 'mean', 'deviation', 'low', 'high')
-        kinds = (float, int, int, float, float, float, float)
+                          mean[0] - half[0], mean[0] + half[0], describe(settings) if settings else ''))
+        names = ('by', 'runs', 'failed', 'mean', 'deviation', 'low', 'high', 'settings')
+        text = 'U%d' % max((len(line[-1]) for line in lines), default=1)
+        kinds = (float, int, int, float, float, float, float, text)
         return numpy.array(lines, dtype=list(zip(names, kinds)))
 
     def _groups(self, by):
-        """{value: rows} in the order of the values."""
-        numbers = [row.settings.get(by) if isinstance(by, str) else None for row in self.rows]
-        if not numbers or not all(isinstance(n, (int, float)) for n in numbers):
+        """[(settings, value of `by`, rows)] by all that varies, in the order of the values."""
+        names = varying(self.rows)
+        if by is None:
+            groups = grouped(self.rows, names)
+            values = [of.get(names[0]) if len(names) == 1 else None for of, _ in groups]
+            return [(of, value if _isNumber(value) else math.nan, rows)
+                    for (of, rows), value in zip(groups, values)]
+        if not self.rows or not all(isinstance(by, str) and _isNumber(row.settings.get(by)) for row in self.rows):
             refuse('by', by, 'the name of a setting that is a number in all rows')
-        return {value: [row for row, n in zip(self.rows, numbers) if n == value]
-                for value in sorted(set(numbers))}
+        names = [name for name in names if name != by] + [by]
+        return sorted(((of, of[by], rows) for of, rows in grouped(self.rows, names)), key=lambda one: one[1])
 
     def shares(self, places=None, confidence=.95):
         """Fraction of a run's numbers that are at least as large as a given value, over all runs.
@@ -147,21 +168,29 @@ class EnsembleTable:
         return ax
 
     def _plotShares(self, ax, _, confidence, label):
-        band = self.shares(confidence=confidence)
-        for row in self.good():
-            values = numpy.sort(numpy.atleast_1d(row.value))
-            ax.step(values, 1 - numpy.arange(len(values)) / len(values), where='pre', color='.75',
-                    linewidth=.6, zorder=1)
-        _drawBand(ax, band['place'], band, len(self.good()), confidence)
-        if band['place'][0] > 0:
+        self.shares()  # refuses a table without values
+        lowest = min(numpy.min(row.value) for row in self.good())
+        groups = [(of, EnsembleTable(rows)) for of, rows in grouped(self.good(), varying(self.rows))]
+        for (of, group), colour in zip(groups, itertools.cycle(DISTINCT)):
+            band = group.shares(confidence=confidence)
+            for row in group.rows:
+                values = numpy.sort(numpy.atleast_1d(row.value))
+                ax.step(values, 1 - numpy.arange(len(values)) / len(values), where='pre', color='.75',
+                        linewidth=.6, zorder=1)
+            _drawBand(ax, band['place'], band, len(group.rows), confidence, colour=colour, of=of)
+        if lowest > 0:
             ax.set_xscale('log')
         ax.set(xlabel=label, ylabel='fraction at least as large', ylim=(0, 1.02))
 
     def _plotBy(self, ax, by, confidence, label):
-        table = self.statistics(by, confidence=confidence)
+        self.statistics(by)  # refuses an unknown name
+        others = [name for name in varying(self.rows) if name != by]
         for row in self.good():
             ax.plot(row.settings[by], numpy.mean(row.value), '.', color='.6', zorder=1)
-        _drawBand(ax, table['by'], table, len(self.good()), confidence, 'o-')
+        for (of, rows), colour in zip(grouped(self.rows, others), itertools.cycle(DISTINCT)):
+            group = EnsembleTable(rows)
+            table = group.statistics(by, confidence=confidence)
+            _drawBand(ax, table['by'], table, len(group.good()), confidence, 'o-', colour, of)
         ax.set(xlabel=by, ylabel=label)
 
     def write(self, files):
@@ -177,9 +206,15 @@ class EnsembleTable:
         return [path('files', files) + ending for ending in ('.csv', '.png')]
 
 
-def _meanText(line):
-    """A line of `statistics` as text."""
-    sentence = 'Mean of %d run%s: %.6g' % (line['runs'], 's' if line['runs'] > 1 else '', line['mean'])
+def _isNumber(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _meanText(line, among):
+    """A line of `statistics` as text; among: names of settings that are another one in each run."""
+    sentence = 'Mean of %d run%s%s: %.6g' % (
+        line['runs'], 's' if line['runs'] > 1 else '',
+        ', each with another ' + ' and '.join(among) if among and line['runs'] > 1 else '', line['mean'])
     if math.isfinite(line['low']):
         sentence += ', with 95 %% confidence between %.6g and %.6g' % (line['low'], line['high'])
     return sentence + ('; %d have no value.' % line['failed'] if line['failed'] else '.')
@@ -187,6 +222,13 @@ def _meanText(line):
 
 def _found(row):
     """What a run gave, as text."""
+    said = '; %d message%s' % (len(row.warnings), 's' * (len(row.warnings) > 1)) if row.warnings else ''
+    if row.seconds is not None:
+        said = '; %.3g s, %.4g s per simulated second' % (row.seconds, row.wall) + said
+    return _measured(row) + said
+
+
+def _measured(row):
     if row.result != 'ok':
         return '%s, %s' % (row.result, row.message) if row.message else row.result
     values = numpy.atleast_1d(row.value)
@@ -195,10 +237,12 @@ def _found(row):
     return '%.6g on average of %d' % (values.mean(), len(values)) if len(values) else 'no numbers'
 
 
-def _drawBand(ax, x, table, count, confidence, style='-'):
-    ax.fill_between(x, table['low'], table['high'], color='#1f77b4', alpha=.3, linewidth=0,
-                    label='%g %% band of the mean' % (100 * confidence))
-    ax.plot(x, table['mean'], style, color='#1f77b4', label='mean of %d runs' % count)
+def _drawBand(ax, x, table, count, confidence, style='-', colour=DISTINCT[0], of=()):
+    """of: settings of these runs, if others have other ones."""
+    ax.fill_between(x, table['low'], table['high'], color=colour, alpha=.3, linewidth=0,
+                    label=None if of else '%g %% band of the mean' % (100 * confidence))
+    ax.plot(x, table['mean'], style, color=colour,
+            label='%smean of %d runs' % (describe(of) + ': ' if of else '', count))
 
 
 def _share(confidence):

@@ -17,7 +17,10 @@ _COLUMNS = (('fragment', '', int), ('component', '', int), ('triangles', '', int
 _ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped',
              'external', 'total')
 _COUNTS = ('step', 'time (s)', 'cracks', 'segments', 'fragments')
-_RECORDED = ','.join(_COUNTS + tuple('%s (J)' % e for e in _ENERGIES))
+_STATES = ('open', 'damaged', 'whole')
+_RECORD = _COUNTS + tuple('%s (J)' % e for e in _ENERGIES) + tuple('%s cracks' % s for s in _STATES)
+_RECORDED = ','.join(_RECORD)
+_FORMER = ','.join(_RECORD[:-len(_STATES)])  # of version 0.1, which can be drawn
 
 
 def _heading(name, unit):
@@ -25,10 +28,11 @@ def _heading(name, unit):
 
 
 def fragmentTable(fe, file=None):
-    """All fragments, the largest area first, as a NumPy array with named columns (k).
+    """All fragments, the largest area first, as a NumPy array with named columns (k). What cohesion or a
+    bond still holds together is one fragment.
 
-    Columns: fragment (its index in fe.fragments(), the number in fe.fragmentOf), component,
-    triangles (their number), mass (kg), area (m², in the plane), size (√area, m), x, y (centroid, m),
+    Columns: fragment (its index in fe.fragments(), the number in fe.fragmentOf), component (of its
+    first triangle), triangles (their number), mass (kg), area (m², in the plane), size (√area, m), x, y (centroid, m),
     vx, vy (m/s), spin (rad/s).
     file  path of a .csv to write as well, with the units in its first line
     ValueError for another ending, before anything is written.
@@ -48,22 +52,21 @@ def fragmentTable(fe, file=None):
 
 
 def plotFragmentSizes(fe, file=None, ax=None, components=None):
-    """Draws the number of fragments that are at least as large as a size, with logarithmic axes;
-    returns
+    """Draws the number of fragments that are at least as large as a size, with logarithmic axes; returns
     Matplotlib's axes.
 
     file        path of the picture; its ending determines the format (.png, .pdf, .svg ...)
     ax          axes to draw in; default: new ones
-    components  numbers or names of the bodies whose fragments are counted; default: all broken ones
+    components  numbers or names of the bodies whose fragments are counted; default: all broken ones, and
+                bonded ones that have come apart
     ValueError if there is no such body.
     """
-    table = fragmentTable(fe)
     if components is not None:
         components = _componentNumbers(fe, components)
-    else:
-        numbers, pieces = numpy.unique(table['component'], return_counts=True)
-        components = numbers[pieces > 1]
-    chosen = table[numpy.isin(table['component'], components)]
+    with betweenSteps(fe):
+        table, of = fragmentTable(fe), fe.fragmentOf
+        bodies = _brokenBodies(fe, of) if components is None else components
+        chosen = table[numpy.isin(table['fragment'], of[numpy.isin(fe.components, bodies)])]
     if len(chosen) == 0:
         raise ValueError('fe has no broken body: there are no sizes to draw.')
     ax = newAxes() if ax is None else requireAxes(ax)
@@ -77,6 +80,24 @@ def plotFragmentSizes(fe, file=None, ax=None, components=None):
     if file is not None:
         savePicture(ax.figure, file, dpi=150)
     return ax
+
+
+def _brokenBodies(fe, of):
+    """Numbers of the bodies that have come apart, from their own other parts or from those that they
+    were bonded to."""
+    isThere = of >= 0
+    fragments, bodies = numpy.unique(numpy.stack([of, fe.components])[:, isThere], axis=1)
+    cracks = fe._cracks()
+    # Bodies belong together if a fragment has both, or a crack is between them.
+    firsts = bodies[numpy.searchsorted(fragments, fragments)]
+    ends = numpy.concatenate([[firsts, bodies], [cracks['component'], cracks['other']]], axis=1).astype(int)
+    group = numpy.arange(ends.max(initial=0) + 1)
+    while (group[ends[0]] != group[ends[1]]).any():
+        least = group[ends].min(axis=0)
+        for end in ends:
+            numpy.minimum.at(group, end, least)
+    parts = numpy.unique(numpy.stack([group[bodies], fragments]), axis=1)[0]
+    return bodies[numpy.bincount(parts, minlength=len(group))[group[bodies]] > 1]
 
 
 def _componentNumbers(fe, components):
@@ -98,14 +119,14 @@ def recordFracture(fe, file, append=False):
     For runSteps, `runSteps(5000, every=100, call=recordFracture(fe, 'run.csv'))`, and for a
     PyRunner, `record = recordFracture(fe, 'run.csv')` and
     `PyRunner(command='record()', iterPeriod=100)`. A line has the step, the time (s), the numbers
-    of cracks, surface segments and fragments, and all of fe.energy (J). It is in the file when the
-    call returns. append=True continues an existing file, for a run that was loaded. ValueError for
+    of cracks, surface segments and fragments, all of fe.energy (J), and the cracks by state as in
+    fe.crackCounts. It is in the file when the call returns. append=True continues an existing file, for a run that was loaded. ValueError for
     another ending, and for an existing file with other columns.
     """
     requireSolver(fe)
     name = path('file', file, '.csv')
     if flag('append', append) and os.path.exists(name) and os.path.getsize(name):
-        if not _linesOf(name):
+        if _linesOf(name)[:1] != [_RECORDED]:
             raise ValueError('%s has other columns than those of recordFracture: use another '
                              'file, or append=False to overwrite it.' % shownPath(name))
     else:
@@ -117,7 +138,7 @@ def recordFracture(fe, file, append=False):
         with betweenSteps(fe):
             energy = fe.energy
             row = (scene.iter, scene.time, fe.numCracks, fe.numSegments, len(fe.fragments()),
-                   *(energy.get(e, 0.) for e in _ENERGIES))
+                   *(energy.get(e, 0.) for e in _ENERGIES), *fe.crackCounts.values())
         appendText(name, ','.join(map(repr, row)) + '\n')
 
     record()
@@ -129,21 +150,21 @@ def _linesOf(name):
     kind."""
     with open(name, encoding='utf-8-sig', errors='replace') as file:
         lines = file.read().splitlines()
-    return lines if lines[:1] == [_RECORDED] else []
+    return lines if lines and lines[0] in (_RECORDED, _FORMER) else []
 
 
 def _recorded(file):
-    """(columns, lines) of floats from a file of recordFracture."""
+    """{column: floats} from a file of recordFracture."""
     name = path('file', file, '.csv')
     try:
         rows = [[float(cell) for cell in line.split(',')] for line in _linesOf(name)[1:]]
         data = numpy.array(rows, dtype=float)
     except ValueError:
         data = numpy.empty(0)
-    if data.ndim != 2 or data.shape[1] != _RECORDED.count(',') + 1:
+    if data.ndim != 2 or data.shape[1] < len(_RECORD) - len(_STATES):
         raise ValueError('%s has no lines of recordFracture, or a damaged one.' %
                          shownPath(name))
-    return data.T
+    return dict(zip(_RECORD, data.T))
 
 
 def plotFracture(file, picture=None):
@@ -153,16 +174,18 @@ def plotFracture(file, picture=None):
     ValueError for a file with other columns or without a line.
     """
     data = _recorded(file)
-    time = 1e6 * data[1]
+    time = 1e6 * data['time (s)']
     upper = newAxes()
     figure = upper.figure
     upper.remove()
     upper, lower = figure.subplots(2, 1, sharex=True)
-    for name, colour, values in zip(_COUNTS[2:], DISTINCT[len(_ENERGIES):], data[2:5]):
-        upper.plot(time, values, label=name, color=colour)
+    for name, colour, style in zip(('cracks', 'segments', 'fragments', 'open cracks'),
+                                   DISTINCT[len(_ENERGIES):] + DISTINCT[len(_ENERGIES):], ('-', '-', '-', '--')):
+        if name in data:
+            upper.plot(time, data[name], style, label=name, color=colour)
     upper.set(ylabel='number', ylim=(0, None))
-    for name, colour, values in zip(_ENERGIES, DISTINCT, data[5:]):
-        lower.plot(time, values, label=name, color=colour)
+    for name, colour in zip(_ENERGIES, DISTINCT):
+        lower.plot(time, data[name + ' (J)'], label=name, color=colour)
     lower.set(xlabel='time (µs)', ylabel='energy (J)')
     for ax in (upper, lower):
         ax.legend(loc='center left', bbox_to_anchor=(1, .5))

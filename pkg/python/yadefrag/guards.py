@@ -5,6 +5,7 @@ import numbers
 
 from yade import wrapper
 from yadefrag import _yadefrag
+from yadefrag.calls import inWords
 from yadefrag.names import bodyNumber
 
 
@@ -110,6 +111,13 @@ def _guardRemove(remove):
     return guarded
 
 
+def _withoutArguments(function):
+    @functools.wraps(function)
+    def guarded(self):
+        return function(self)
+    return guarded
+
+
 def _guardCopy(reduce):
     """For copy and pickle: allowed only for a solver without bodies, since a copy would have none
     of them."""
@@ -123,7 +131,9 @@ def _guardCopy(reduce):
 
 
 def install():
-    wrapper.FESolver.removeBody = _guardRemove(wrapper.FESolver.removeBody)
+    wrapper.FESolver.removeBody = inWords(_guardRemove(wrapper.FESolver.removeBody))
+    for name in ('criticalTimeStep', 'deepestOverlap'):
+        setattr(wrapper.FESolver, name, inWords(_withoutArguments(getattr(wrapper.FESolver, name))))
     wrapper.FESolver.__reduce_ex__ = _guardCopy(wrapper.FESolver.__reduce_ex__)
     for name in ('state', 'shape'):
         setattr(wrapper.Body, name, _guardPart(name))

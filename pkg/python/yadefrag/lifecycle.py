@@ -7,7 +7,7 @@ import functools
 import threading
 
 from yade import wrapper
-from yadefrag import _yadefrag
+from yadefrag import _yadefrag, messages, refusals
 
 _Omega = wrapper.Omega
 _saving = threading.RLock()  # held while a run is interrupted for a save
@@ -101,11 +101,18 @@ def _runBegun(run):
     """O.run() that returns after the run has begun: YADE may crash if a run is stopped before."""
     @functools.wraps(run)
     def runs(self, nSteps=-1, wait=False):
+        messages.tellNumbers()
         before = self.iter, self.subStep
-        run(self, nSteps, False)
-        _yadefrag.waitForStart(*before)
-        if wait:
-            self.wait()
+        _yadefrag.whyStopped()
+        with refusals.raisedHere() if wait else contextlib.nullcontext():
+            run(self, nSteps, False)
+            _yadefrag.waitForStart(*before)
+            if wait:
+                self.wait()
+                # YADE's O.wait() raises no error of a run that has ended before.
+                why = _yadefrag.whyStopped()
+                if why:
+                    raise RuntimeError(why)
     return runs
 
 
@@ -117,9 +124,19 @@ def _resetStopped(reset):
         if _yadefrag.isInStep():
             return reset(self)
         _yadefrag.stopRun()
+        messages.forget()
         reset(self)
         _yadefrag.freeListItems()
     return stopped
+
+
+def _stepTold(step):
+    """O.step() with the messages that come before a run."""
+    @functools.wraps(step)
+    def stepped(self):
+        messages.tellNumbers()
+        step(self)
+    return stepped
 
 
 def _underOldName(get):
@@ -138,6 +155,7 @@ def install():
     _Omega.resetTime = _countSteps(_Omega.resetTime)
     _Omega.wait = _waitForAll(_Omega.wait)
     _Omega.run = _runBegun(_Omega.run)
+    _Omega.step = _stepTold(_Omega.step)
     _Omega.reset = _resetStopped(_Omega.reset)
     _yadefrag.watchListItems()
     # The process must not end in the middle of a step.

@@ -1,12 +1,12 @@
 """Loads on the boundary that depend on its shape, and relaxation to a state of rest."""
 
 import math
-import warnings
 
 import numpy
 
 from yade import wrapper
 from yadefrag._yadefrag import requirePaused
+from yadefrag.messages import warn
 from yadefrag.motions import chosenNodes, packed, tableOrNumber
 from yadefrag.progress import runSteps
 from yadefrag.shown import betweenSteps
@@ -108,8 +108,8 @@ def relax(self, tolerance=1e-6, most=10**6):
     finally:
         self.damping = before
     if calm < 2:
-        warnings.warn('relax: after %d steps the kinetic energy is still %.3g of the strain energy.' %
-                      (done, ratio), stacklevel=2)
+        warn('relax: after %d steps the kinetic energy is still %.3g of the strain energy.' %
+             (done, ratio))
     return done
 
 

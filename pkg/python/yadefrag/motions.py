@@ -2,11 +2,11 @@
 rotations."""
 
 import math
-import warnings
 
 import numpy
 
 from yadefrag._yadefrag import requirePaused
+from yadefrag.messages import warn
 from yadefrag.names import isBody
 from yadefrag.values import array, flag, number, pair, real, refuse
 
@@ -118,7 +118,7 @@ def prescribe(self, nodes, vx=None, vy=None):
     requirePaused()
     chosen = chosenNodes(self, nodes)
     if not len(chosen):
-        warnings.warn('prescribe: nodes selects none of the %d nodes.' % len(self.nodes), stacklevel=2)
+        warn('prescribe: nodes selects none of the %d nodes.' % len(self.nodes))
     kinds, values = zip(*[_kind(name, value, len(chosen))
                           for name, value in (('vx', vx), ('vy', vy))])
     held = sum(axis for axis, kind in ((1, kinds[0]), (2, kinds[1])) if kind != 'none')

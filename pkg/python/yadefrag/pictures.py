@@ -6,61 +6,25 @@ import numpy
 
 from yadefrag.axes import MOST_PANELS, newAxes, newPanels, requireAxes
 from yadefrag.colours import fragmentColours, palette
+from yadefrag.crack_lines import CrackLines, damageBar
 from yadefrag.files import replacing, requireWritable, savePicture
 from yadefrag.guards import requireNoStep
-from yadefrag.shown import betweenSteps, heldCracks, requireSolver, shownMesh
-from yadefrag.values import flag, number, numbersOf, path, refuse, shown, whole
+from yadefrag.picture_fields import UNITS, fieldValues, nameOf
+from yadefrag.shown import betweenSteps, requireSolver, shownMesh
+from yadefrag.values import flag, number, numbersOf, path, refuse, whole
 from yadefrag.yade_bodies import YadeBodies
 
-_UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
-          'mises': 'von Mises stress (Pa)', 'speed': 'speed (m/s)', 'component': 'component',
-          'fragment': 'fragment'}
-
-
-HELD = 'red'  # colour of cohesive cracks
-
-
-def _stress(fe, field):
-    stress = numpy.asarray(fe.stress, dtype=float).reshape(-1, 3)
-    xx, yy, xy = stress.T
-    if field == 'mises':
-        return numpy.sqrt(xx**2 - xx * yy + yy**2 + 3 * xy**2)
-    return {'xx': xx, 'yy': yy, 'xy': xy}[field]
-
-
-def _values(fe, field):
-    """(values, True for one per node) of a field except 'fragment', both None for no field."""
-    if field is None:
-        return None, None
-    if isinstance(field, str):
-        if field == 'speed':
-            return numpy.linalg.norm(numpy.asarray(fe.velocities, dtype=float), axis=1), True
-        if field == 'component':
-            return numpy.asarray(fe.components, dtype=float), False
-        if field in _UNITS:
-            return _stress(fe, field), False
-        refuse('field', field, 'one of %s, an array or None' % ', '.join(map(repr, _UNITS)))
-    try:
-        values = numpy.asarray(field, dtype=float)
-    except (TypeError, ValueError, OverflowError):
-        refuse('field', field, 'a name, an array or None')
-    nodes, triangles = len(fe.nodes), len(fe.triangles)
-    if values.shape == (triangles,):
-        return values, False
-    if values.shape == (nodes,):
-        return values, True
-    raise ValueError('field has the shape %s, it must be one number for each of the %d triangles '
-                     'or of the %d nodes.' % (shown(values.shape), triangles, nodes))
-
-
 def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xlim=None, ylim=None,
-             spheres=True, rigidBodies=True):
-    """Draws the triangles of an FESolver at their present positions, without removed fragments;
-    cohesive cracks in red; and YADE's spheres, walls, boxes and facets. Returns Matplotlib's axes.
+             spheres=True, rigidBodies=True, scale=1):
+    """Draws the triangles of an FESolver at their present positions, without removed fragments; cracks
+    that cohesion holds, coloured by their damage, and open ones black, above them; and YADE's spheres,
+    walls, boxes and facets. Returns Matplotlib's axes.
 
     field   None (no colours), 'xx', 'yy', 'xy' (Pa), 'mises' (Pa, from these three, without the stress
-            zz), 'speed' (m/s), 'component', 'fragment' (arbitrary colours, different for adjacent
-            fragments), or an array with one number for each triangle or each node
+            zz), 'sigma1', 'sigma2' (Pa, larger and smaller principal stress in the plane; 'principal1',
+            'principal2' are the same), 'speed' (m/s), 'displacement' (m, its length), 'component',
+            'fragment' (arbitrary colours, different for adjacent fragments), or an array with one number
+            for each triangle or each node
     file    path of the picture; its ending determines the format (.png, .pdf, .svg ...)
     ax      axes to draw in; default: new ones
     limits  (lowest, highest) value of the colour scale; default: those of the field
@@ -73,6 +37,8 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xl
             radius at any distance from the plane
     rigidBodies True: draws the sections of YADE's Wall, Box and Facet with the plane z = 0, in their
             colours. They widen the drawn region by at most half of the size of bodies and spheres
+    scale   factor of the displacements from the stress-free shape in the drawn positions of nodes; 0
+            draws that shape. Spheres and rigid bodies are drawn where they are
     ValueError for any other field or limits, and for a solver without bodies.
     """
     _requireBodies(fe)
@@ -80,8 +46,9 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xl
     chosen = [field] if fields is None else _severalFields(field, fields, ax)
     limits = _limitsOfAll(limits, len(chosen)) if fields is not None else [_limits(limits)]
     window = _range('xlim', xlim), _range('ylim', ylim)
+    scale = _scale(scale)
     with betweenSteps(fe):
-        pictures = [_Picture(fe, one) for one in chosen]
+        pictures = [_Picture(fe, one, scale=scale) for one in chosen]
         others = YadeBodies(*asked)
     if ax is not None:
         panels = [requireAxes(ax)]
@@ -89,11 +56,13 @@ def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xl
         panels = [newAxes()]
     else:
         panels = newPanels(len(chosen), *_extent(pictures[0], others, window))
-    for one, picture, scale in zip(panels, pictures, limits):
-        _draw(one, picture, scale, others)
+    lines = []
+    for one, picture, ends in zip(panels, pictures, limits):
+        lines.append(_draw(one, picture, ends, others))
         if len(panels) > 1 and isinstance(picture.field, str):
-            one.set_title(_UNITS[picture.field])
+            one.set_title(UNITS[picture.field])
         one.set(**{name: ends for name, ends in zip(('xlim', 'ylim'), window) if ends})
+    damageBar(panels, lines)
     if file is not None:
         savePicture(panels[0].figure, file, dpi=150)
     return panels[0] if fields is None else panels
@@ -128,6 +97,10 @@ def _range(name, value):
     return ends
 
 
+def _scale(value):
+    return number('scale', value, lambda v: 0 <= v < math.inf, 'a positive number, or 0')
+
+
 def _extent(picture, others, window):
     """(width, height) in m of the drawn region."""
     low, high = others.extent(*picture.box())
@@ -138,21 +111,22 @@ class _Picture:
     """Data of one picture: x, y of the nodes, triangles, values of triangles or nodes.
 
     former  as in fragmentColours, which determines the colours
+    scale   factor of the displacements
     """
 
-    def __init__(self, fe, field, former=None):
-        self.field = field
+    def __init__(self, fe, field, former=None, scale=1):
+        self.field = field = nameOf(field)
         with betweenSteps(fe):
             if isinstance(field, str) and field == 'fragment':
                 self.colours = fragmentColours(fe, former)
                 values, perNode = self.colours % 20, False
             else:
-                values, perNode = _values(fe, field)
+                values, perNode = fieldValues(fe, field)
             nodes, shown, self.triangles = shownMesh(fe)
             places = numpy.asarray(fe.nodes, dtype=float)
-            sides = heldCracks(fe)[0]
-            # A cohesive crack has hardly any width: one line between its two sides.
-            self.held = (places[sides[:, :2]] + places[sides[:, 2:]]) / 2
+            if scale != 1:
+                places = places + (scale - 1) * fe.displacements
+            self.cracks = CrackLines(fe, places)
             self.x, self.y = places[nodes].T
         self.perNode = perNode
         self.values = None if values is None else values[nodes if perNode else shown]
@@ -197,12 +171,11 @@ def _corners(window):
 
 
 def _draw(ax, picture, limits, others):
+    """Returns the lines of cracks that have a colour scale, or None."""
     _drawTriangles(ax, picture, limits)
-    if len(picture.held):
-        from matplotlib.collections import LineCollection
-        ax.add_collection(LineCollection(picture.held, colors=HELD, linewidths=1, zorder=3),
-                          autolim=False)
+    lines = picture.cracks.draw(ax)
     others.draw(ax, *picture.box())
+    return lines
 
 
 def _drawTriangles(ax, picture, limits):
@@ -227,12 +200,12 @@ def _drawTriangles(ax, picture, limits):
     else:
         drawn = ax.tripcolor(x, y, triangles=triangles, facecolors=values, vmin=low, vmax=high,
                              edgecolors='k', linewidth=lines / 3)
-    label = _UNITS.get(field, '') if isinstance(field, str) else ''
+    label = UNITS.get(field, '') if isinstance(field, str) else ''
     ax.figure.colorbar(drawn, ax=ax, label=label)
 
 
 def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=20,
-            spheres=True, rigidBodies=True):
+            spheres=True, rigidBodies=True, scale=1):
     """Runs the scene for `steps` steps and writes a GIF with a frame at the start and after each
     `every` steps; returns the number of frames.
 
@@ -240,7 +213,7 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
     window         ((left, bottom), (right, top)) in m; default: all nodes of the first frame and a
                    quarter more on each side
     rate           frames per second
-    spheres, rigidBodies  as in plotMesh
+    spheres, rigidBodies, scale  as in plotMesh
     If the run is interrupted, paused or fails, the frames so far are written. ValueError, before any
     step, for counts that are not positive, a field or limits as in plotMesh, a file that is no
     .gif, an invalid window; OSError for a file that cannot be written.
@@ -251,6 +224,7 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
 
     _requireBodies(fe)
     _checkFilm(fe, field)
+    scale = _scale(scale)
     steps, every = whole('steps', steps), whole('every', every)
     rate = number('rate', rate, lambda r: .01 <= r <= 1000,
                   'a number of frames per second from 0.01 to 1000')
@@ -269,11 +243,11 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
             figure.clear()
             ax = figure.add_subplot()
             with betweenSteps(fe):
-                picture = _Picture(fe, field, colours)
+                picture = _Picture(fe, field, colours, scale)
                 others = YadeBodies(*asked)
             if field == 'fragment':  # a fragment keeps its colour from frame to frame
                 colours = picture.colours
-            _draw(ax, picture, limits, others)
+            damageBar([ax], [_draw(ax, picture, limits, others)])
             ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), title='step %d' % done)
             writer.grab_frame()
             frames += 1

@@ -2,11 +2,11 @@
 
 import sys
 import time
-import warnings
 
 from yade import wrapper
-from yadefrag import _yadefrag, lifecycle
+from yadefrag import _yadefrag, lifecycle, refusals
 from yadefrag.guards import requireNoStep
+from yadefrag.messages import warn
 from yadefrag.values import shown, whole
 
 MOST_STEPS = 2**62  # the largest number that YADE can count
@@ -65,8 +65,8 @@ def warnOfNoSolver():
         return
     if any(isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.component >= 0
            for body in omega.bodies):
-        warnings.warn('O.engines has no FESolver, so that nothing moves its bodies: '
-                      'O.engines = engines(fe) sets the engines.', stacklevel=3)
+        warn('O.engines has no FESolver, so that nothing moves its bodies: O.engines = engines(fe) sets the '
+             'engines.')
 
 
 def runPart(steps):
@@ -77,9 +77,9 @@ def runPart(steps):
     """
     omega = wrapper.Omega()
     begin, pauses = lifecycle.stepsDone(), lifecycle.pauses()
-    _yadefrag.whyStopped()
-    omega.run(steps)
-    lifecycle.waitForEnd()
+    with refusals.raisedHere():
+        omega.run(steps)
+        lifecycle.waitForEnd()
     if lifecycle.stepsDone() - begin == steps and pauses == lifecycle.pauses():
         return steps, False
     _yadefrag.stopRun()  # O.wait() does not wait for the end of a paused run's last step

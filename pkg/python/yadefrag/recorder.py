@@ -3,11 +3,11 @@
 import math
 import os
 import sys
-import warnings
 
 from yade import wrapper
 from yadefrag.export import exportVTK, fieldNames
 from yadefrag.files import appendText, requireWritable, writeText
+from yadefrag.messages import warn
 from yadefrag.progress import MOST_STEPS
 from yadefrag.shown import betweenSteps
 from yadefrag.values import path, shown, shownPath, whole
@@ -41,8 +41,8 @@ def FERecorder(iterPeriod=0, file='run', fields=None, **settings):
     every = whole('iterPeriod', iterPeriod, 0, 'a whole number of steps', MOST_STEPS)
     requireWritable(name + '.csv')
     if not every and not any(settings.get(one) for one in ('virtPeriod', 'realPeriod')):
-        warnings.warn('FERecorder: none of iterPeriod, virtPeriod and realPeriod is given; there will '
-                      'be one record, of the first step.', stacklevel=2)
+        warn('FERecorder: none of iterPeriod, virtPeriod and realPeriod is given; there will be one record, '
+             'of the first step.')
     command = '__import__("yadefrag.recorder").recorder.record(%r, %r)' % (os.path.abspath(name), chosen)
     try:
         return wrapper.PyRunner(command=command, **{'initRun': True, 'iterPeriod': every, **settings})

@@ -46,6 +46,17 @@ def principalStress(self):
     return numpy.stack([mean + radius, mean - radius, numpy.arctan2(xy, half) / 2], axis=1)
 
 
+def crackCounts(self):
+    """Numbers of the sides that are cracked at present, a dict: open (without cohesion), damaged (held by
+    cohesion; part of their fracture energy is dissipated), whole (held; nothing is dissipated: bonds, and
+    cracks that have not opened). They are the rows of crackTable: with bonds and open joints, without
+    removed fragments."""
+    cracks = self._cracks()
+    held, isDamaged = cracks['held'], cracks['damage'] > 0
+    counts = dict(open=~held, damaged=held & isDamaged, whole=held & ~isDamaged)
+    return {name: int(are.sum()) for name, are in counts.items()}
+
+
 def crackTable(fe, file=None):
     """All cracked edges, as a NumPy array with named columns (k); bonds and open joints, too.
 

@@ -6,7 +6,6 @@ was given and what is valid.
 
 import functools
 import math
-import warnings
 
 import numpy
 
@@ -15,16 +14,18 @@ from yadefrag import _yadefrag
 from yadefrag import guards
 from yadefrag._yadefrag import requirePaused
 from yadefrag.bonds import bond
+from yadefrag.calls import inWords
 from yadefrag.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.materials import Materials, interfaces, isField, oneMaterial
 from yadefrag.meshing import isIrregular, jointLines, meshOfPolygon, simplified
+from yadefrag.messages import warnOfBody
 from yadefrag.motions import keepTurning, prescribe, rotate
 from yadefrag.names import componentOf, newName, nodesOf
 from yadefrag.places import brittlePlaces, stressOfTriangles
 from yadefrag.quality import meshQuality
-from yadefrag.results import contactForce, principalStress, reaction
+from yadefrag.results import contactForce, crackCounts, principalStress, reaction
 from yadefrag.shown import betweenSteps, shownTriangles
-from yadefrag.values import (array, flag, number, pair, plain, pointsOf, positive, refuse, shown,
+from yadefrag.values import (array, flag, number, pair, plain, pointsOf, positive, real, refuse, shown,
                              whole)
 
 _ELEMENTS = ('linear', 'smoothed')
@@ -145,7 +146,7 @@ def _add(fe, mesh, smooth, materials, velocity, spin, displacement, stress, fixe
     keepTurning(fe, component, held, given, spin, present, centroid)
     problem = fe._zoneWarning(component)
     if problem:
-        warnings.warn(problem, stacklevel=3)
+        warnOfBody(problem, component)
     return component
 
 
@@ -228,10 +229,13 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     has priority
     interfaceEnergy J/m², likewise
     name            None, or a text that may replace the body's number in all functions
-    Other functions are called at the nodes of the stress-free shape. ValueError before any change,
-    also if the body would overlap another one; RuntimeError while O.run is running in the
-    background; a warning if the mesh is too coarse for the energy of a BrittleFEMat's cracks, and
-    one if short edges of the outline reduce the time step much.
+    size and material may also come by position: addPolygon(outline, size, material), or
+    addPolygon(outline, holes, size, material). Other functions are called at the nodes of the stress-free
+    shape. ValueError before any change, also if the body would overlap another one; TypeError for
+    arguments that are missing or unknown; RuntimeError while O.run is running in the background; a
+    warning if the mesh is too coarse for the energy of a BrittleFEMat's cracks, and one if short edges
+    of the outline reduce the time step much. Of several such warnings the first one is given, and before
+    the run the number of bodies that have it.
     """
     points = pointsOf('outline', outline, 3)
     try:
@@ -258,11 +262,11 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                 thickness, selfContact, element, places, name)
     costly = self._costlyStepWarning(body, made['smallestSize'])
     if costly:
-        warnings.warn('addPolygon: ' + costly, stacklevel=2)
+        warnOfBody('addPolygon: ' + costly, body)
     return body
 
 
-def addTriangles(self, nodes, triangles, *, material, smooth=False, velocity=(0, 0), spin=0,
+def addTriangles(self, nodes, triangles, material, *, smooth=False, velocity=(0, 0), spin=0,
                  displacement=None, stress=None, fixed=None, thickness=1, selfContact=True,
                  element='linear', strength=None, fractureEnergy=None, interfaceStrength=None,
                  interfaceEnergy=None, name=None):
@@ -326,9 +330,21 @@ def _boundaryLoops(count, triangles):
     return loops
 
 
+def _arrangedPolygon(self, outline=None, *others):
+    """(outline, size, material) or (outline, holes, size, material): a size is a number or a function."""
+    isSize = bool(others) and (callable(others[0]) or real(others[0]) is not None)
+    names = ('size', 'material') if isSize else ('holes', 'size', 'material')
+    first = (self,) if outline is None else (self, outline)
+    if len(others) > len(names):
+        raise TypeError('addPolygon takes outline, size and material, or outline, holes, size and material, '
+                        'by position, but %d are given: write the others with their names, smooth=...' %
+                        (1 + len(others)))
+    return first, dict(zip(names, others))
+
+
 def _guardFragments(fragments):
     @functools.wraps(fragments)
-    def guarded(self, held=False):
+    def guarded(self, held=True):
         return fragments(self, flag('held', held))
 
     guarded.__qualname__ = 'FESolver.fragments'
@@ -368,21 +384,12 @@ def rectangleMesh(low, high, nx, ny, crossed=False):
 def install():
     """Adds the methods to FESolver, and prevents O.bodies.erase and clumps from using its
     bodies."""
-    wrapper.FESolver.addPolygon = addPolygon
-    wrapper.FESolver.addTriangles = addTriangles
-    wrapper.FESolver.bond = bond
-    wrapper.FESolver.prescribe = prescribe
-    wrapper.FESolver.rotate = rotate
-    wrapper.FESolver.nodesOf = nodesOf
-    wrapper.FESolver.componentOf = componentOf
-    wrapper.FESolver.pressure = pressure
-    wrapper.FESolver.absorb = absorb
-    wrapper.FESolver.relax = relax
-    wrapper.FESolver.reaction = reaction
-    wrapper.FESolver.contactForce = contactForce
-    wrapper.FESolver.principalStress = property(principalStress, doc=principalStress.__doc__)
-    wrapper.FESolver.meshQuality = meshQuality
-    wrapper.FESolver.minAngle = property(_minAngle, doc=_minAngle.__doc__)
+    wrapper.FESolver.addPolygon = inWords(addPolygon, _arrangedPolygon)
+    for method in (addTriangles, bond, prescribe, rotate, nodesOf, componentOf, pressure, absorb, relax, reaction,
+                   contactForce, meshQuality):
+        setattr(wrapper.FESolver, method.__name__, inWords(method))
+    for name, read in (('principalStress', principalStress), ('crackCounts', crackCounts), ('minAngle', _minAngle)):
+        setattr(wrapper.FESolver, name, property(read, doc=read.__doc__))
     wrapper.FESolver.loads = property(getLoads, setLoads, doc=getLoads.__doc__)
-    wrapper.FESolver.fragments = _guardFragments(wrapper.FESolver.fragments)
+    wrapper.FESolver.fragments = inWords(_guardFragments(wrapper.FESolver.fragments))
     guards.install()

@@ -17,6 +17,7 @@ import numpy
 from yadefrag import choices as known
 from yadefrag import run_process
 from yadefrag.files import requireWritable
+from yadefrag.messages import warn
 from yadefrag.runs import Finished, jobOf, requireExecutor, requireOutside, runAll
 from yadefrag.tradeoff_table import COLUMNS, TradeoffRow, TradeoffTable, describe
 from yadefrag.values import (number, path, plain, positive, refuse, shown, shownPath, text, whole)
@@ -95,7 +96,7 @@ def writeTable(table, files):
     try:
         table.write(files)
     except OSError as error:
-        warnings.warn('the table could not be written: %s.' % error, stacklevel=3)
+        warn('the table could not be written: %s.' % error)
 
 
 def checkChoice(name, value, argument='vary', columns=COLUMNS):

@@ -10,6 +10,7 @@ import math
 import os
 import sys
 import time
+import warnings
 
 import numpy
 
@@ -20,6 +21,7 @@ from yadefrag.choices import Choices
 
 NAME = '__tradeoff__'  # module name of the loaded script: not '__main__'
 CHECK_EVERY = .5  # s of run between two checks for a blow-up
+MOST_WARNINGS = 50  # that a run passes on
 MOST_RADII = 10  # largest displacement of a sphere in one step
 
 
@@ -134,8 +136,15 @@ def measured(measure, watch, built, seen):
 def perform(job):
     """The result of a job, a dict; never raises exceptions of the scene."""
     choices = Choices(job['settings'])
-    result = attempt(job, choices)
-    return dict(result, used=dict(choices.used, threads=Omega().numThreads))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter('always', UserWarning)
+        result = attempt(job, choices)
+    said = [str(one.message) for one in caught if issubclass(one.category, UserWarning)]
+    for one in Omega().engines:
+        if type(one).__name__ == 'FESolver':
+            said += one.warnings
+    return dict(result, used=dict(choices.used, threads=Omega().numThreads),
+                warnings=list(dict.fromkeys(said))[:MOST_WARNINGS])
 
 
 def attempt(job, choices):
@@ -162,7 +171,7 @@ def attempt(job, choices):
     except Exception as error:  # a bug in the scene: the other runs continue
         return dict(result='failed', message='%s: %s' % (type(error).__name__, error))
     return dict(result='ok', message='', wall=clock.wall / simulated, cpu=clock.cpu / simulated,
-                steps=steps, value=value)
+                seconds=clock.wall, steps=steps, value=value)
 
 
 def main(jobFile, resultFile):

@@ -1,0 +1,72 @@
+"""Calls with wrong arguments: what Python refuses in its own words is refused with one sentence."""
+
+import difflib
+import functools
+import inspect
+
+from yadefrag.values import shown
+
+_BY_POSITION = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+
+
+def inWords(function, arranged=None):
+    """`function`, with a sentence as TypeError for arguments that are missing, unknown or too many.
+
+    arranged  None, or a function of the arguments by position → (arguments by position, dict of others)
+    """
+    # Behind a function of Boost.Python, which has none, inspect must not look.
+    signature = inspect.signature(function, follow_wrapped=False)
+
+    @functools.wraps(function)
+    def called(*given, **settings):
+        if arranged is not None:
+            given, more = arranged(*given)
+            twice = sorted(set(more) & set(settings))
+            if twice:
+                raise TypeError('%s has %s twice, by position and by name.' % (function.__name__, twice[0]))
+            settings.update(more)
+        try:
+            signature.bind(*given, **settings)
+        except TypeError:
+            raise TypeError(_sentence(function.__name__, signature, given, settings)) from None
+        return function(*given, **settings)
+
+    called.__signature__ = signature
+    return called
+
+
+def _sentence(name, signature, given, settings):
+    parameters = {key: one for key, one in signature.parameters.items() if key != 'self'}
+    given = given[len(signature.parameters) - len(parameters):]
+    open_ = any(one.kind == inspect.Parameter.VAR_KEYWORD for one in parameters.values())
+    for key in () if open_ else settings:
+        if key not in parameters:
+            near = difflib.get_close_matches(key, parameters, 1)
+            return '%s has no argument %s%s.' % (
+                name, shown(key), ', but %s' % near[0] if near else ': it has %s' % _listed(parameters))
+    places = [key for key, one in parameters.items() if one.kind in _BY_POSITION]
+    if len(given) > len(places):
+        if len(places) == len(parameters):
+            return '%s takes %s, but %d are given: %s(%s).' % (
+                name, _listed(places) or 'no arguments', len(given), name, ', '.join(places))
+        return '%s takes %s by position, but %d are given: write the others with their names, %s=...' % (
+            name, _listed(places), len(given), next(key for key in parameters if key not in places))
+    twice = [key for key in places[:len(given)] if key in settings]
+    if twice:
+        return '%s has %s twice, by position and by name.' % (name, twice[0])
+    missing = [key for key, one in parameters.items()
+               if one.default is one.empty and one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD)
+               and key not in places[:len(given)] and key not in settings]
+    return '%s needs %s: %s.' % (name, _listed(missing), _template(name, parameters))
+
+
+def _listed(names):
+    names = list(names)
+    return ', '.join(names[:-1]) + ' and ' + names[-1] if len(names) > 1 else ''.join(names)
+
+
+def _template(name, parameters):
+    """'addPolygon(outline, size=..., material=...)': the arguments that a call cannot lack."""
+    needed = [(key, one) for key, one in parameters.items() if one.default is one.empty
+              and one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD)]
+    return '%s(%s)' % (name, ', '.join(key if one.kind in _BY_POSITION else key + '=...' for key, one in needed))
