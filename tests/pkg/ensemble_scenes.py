@@ -2,6 +2,7 @@
 import os
 import random
 import time
+import warnings
 
 from tradeoff_scenes import block
 from yade import O
@@ -38,6 +39,18 @@ def odd(choices):
 
 def oddValue(seed):
     return float('nan') if seed == 4 else seed
+
+
+def warned(choices):
+    """All but seed 2 warn of a number; all of the same thing."""
+    seed = choices['seed']
+    block(choices)
+    if seed != 2:
+        warnings.warn('no such size, %d' % seed)
+    for _ in range(2):
+        warnings.warn('bodies lie')
+    warnings.warn('old', DeprecationWarning)
+    return seed
 
 
 def counted(choices):

@@ -38,11 +38,12 @@ def test_runsOfSeedsAndTables(folder):
     assert all(row.result == 'ok' and row.steps > 0 and row.wall > 0 for row in table.rows)
     assert sorted(os.listdir(folder)) == ['a.csv', 'a.png']
     with open(folder + '/a.csv') as lines:
-        assert next(lines).strip() == 'seed,result,value,steps,wall,message'
+        assert next(lines).strip() == 'seed,result,value,steps,wall,message,seconds,warnings'
         assert next(lines).startswith('0,ok,"[%r' % drawn(0)[0])
-    assert str(table).splitlines()[:3] == [
-        'Draws', 'seed=0: %.6g on average of %d' % (np.mean(drawn(0)), len(drawn(0))),
-        'seed=1: %.6g on average of %d' % (np.mean(drawn(1)), len(drawn(1)))]
+    assert str(table).splitlines()[:3] == ['Draws'] + [
+        'seed=%d: %.6g on average of %d; %.3g s, %.4g s per simulated second' % (
+            k, np.mean(drawn(k)), len(drawn(k)), table.rows[k].seconds, table.rows[k].wall) for k in range(2)]
+    assert all(row.seconds == pytest.approx(row.wall * scenes.DURATION, rel=.5) for row in table.rows)
     for wanted in (dict(seed=[7, 8], strength=np.array([1., 2.])),
                    [dict(seed=7, strength=1.), dict(seed=8, strength=2.)]):
         values = [row.value for row in together(scenes.flight, wanted).rows]
@@ -263,10 +264,49 @@ def test_sharesAtLeastAsLarge():
 def test_plots(folder):
     rows = table([[1., 3.], [4.], [10.], [20., 30.]], strength=[2., 2., 1., 1.])
     ax = rows.plot(folder + '/shares.png', label='size (m)')
-    assert ax.get_xlabel() == 'size (m)' and ax.get_xscale() == 'log' and len(ax.lines) == 5
+    assert ax.get_xlabel() == 'size (m)' and ax.get_xscale() == 'log' and len(ax.lines) == 6
+    # A mean for each strength.
+    assert [line.get_label() for line in (ax.lines[2], ax.lines[5])] == [
+        'strength=2.0: mean of 2 runs'.replace('.0', ''), 'strength=1: mean of 2 runs']
     ax = rows.plot(folder + '/by.png', by='strength')
     assert ax.lines[-1].get_xydata().tolist() == [[1, 17.5], [2, 3]]
     assert all(os.path.getsize(folder + name) > 5000 for name in ('/shares.png', '/by.png'))
+
+
+def test_meansAreOfRunsThatDifferInSeedsOnly():
+    settings = [dict(rate=rate, size=size, seed=seed) for rate in (1, 2) for size in (.1, .2) for seed in range(2)]
+    rows = [EnsembleRow(of, 'ok', 100. * of['rate'] + of['size'] + of['seed']) for of in settings]
+    eight = EnsembleTable(rows)
+    found = eight.statistics()
+    assert found['settings'].tolist() == ['rate=1, size=0.1', 'rate=1, size=0.2', 'rate=2, size=0.1',
+                                          'rate=2, size=0.2']
+    assert found['runs'].tolist() == [2] * 4 and np.isnan(found['by']).all()
+    assert found['mean'] == pytest.approx([100.6, 100.7, 200.6, 200.7])
+    # Over one setting: the other is not mixed.
+    assert eight.statistics('rate')['settings'].tolist() == ['size=0.1, rate=1', 'size=0.2, rate=1',
+                                                             'size=0.1, rate=2', 'size=0.2, rate=2']
+    text = str(EnsembleTable(rows[:2] + rows[4:6])).splitlines()
+    assert text[4].startswith('rate=1: Mean of 2 runs: 100.6, with') and text[5].startswith('rate=2: Mean of 2 runs')
+    assert EnsembleTable(rows[:2] + rows[4:6]).statistics()['by'].tolist() == [1, 2]
+    # Another number in each run is a sample: one mean, which says so.
+    drawn = [EnsembleRow(dict(strength=1. + k, seed=k), 'ok', 1.) for k in range(8)]
+    assert len(EnsembleTable(drawn).statistics()) == 1
+    assert str(EnsembleTable(drawn)).splitlines()[-1].startswith('Mean of 8 runs, each with another strength: 1')
+    # Kinds are none, also where each is run once.
+    kinds = [EnsembleRow(dict(kind=kind), 'ok', 1.) for kind in 'ab']
+    assert len(EnsembleTable(kinds).statistics()) == 2
+
+
+def test_warningsOfRunsArePassedOn(capsys):
+    with pytest.warns(UserWarning) as caught:
+        found = together(scenes.warned, 3, scenes.oddValue).rows
+    assert [row.warnings for row in found] == [['no such size, 0', 'bodies lie'], ['no such size, 1', 'bodies lie'],
+                                               ['bodies lie']]
+    said = [str(one.message) for one in caught]
+    assert said == ['ensemble: 2 of 3 runs gave this message: "no such size, 0" The others are in `warnings` of the '
+                    'rows.', 'ensemble: 3 of 3 runs gave this message: "bodies lie" The others are in `warnings` of '
+                    'the rows.']
+    assert all(one.filename == tool.__file__ or one.filename == __file__ for one in caught)
 
 
 def test_namesOfMpiDoNotReachTheRuns(monkeypatch):

@@ -197,16 +197,36 @@ def test_csvComesBack(folder):
 
 def test_markdown(folder):
     table = TradeoffTable(rows((2., .5), (1., .5), (4., .25)), 'Title')
+    table.rows[2].seconds = .3
     table.rows.append(TradeoffRow({'k': 'a|b'}, 'too long', message='no result within 3 s.'))
     text = table.markdown(os.path.join(folder, 'a.md'))
     with open(os.path.join(folder, 'a.md')) as f:
         assert f.read() == text
     lines = text.splitlines()
-    assert lines[0] == '# Title' and lines[6:] == [
-        '| 1 | row 1 | 2 | 1 | 1.00 | 10 | 0.5 |',
-        '| 2 | **k=1** | 1 | 0.5 | 0.50 | 10 | 0.5 |',
-        '| 3 | **k=2** | 4 | 2 | 2.00 | 10 | 0.25 |',
-        '| 4 | k=a\\|b |  |  |  |  | too long: no result within 3 s. |']
+    assert lines[0] == '# Title' and lines[8:] == [
+        '| 1 | row 1 |  | 2 | 1 | 1.00 | 10 | 0.5 |',
+        '| 2 | **k=1** |  | 1 | 0.5 | 0.50 | 10 | 0.5 |',
+        '| 3 | **k=2** | 0.3 | 4 | 2 | 2.00 | 10 | 0.25 |',
+        '| 4 | k=a\\|b |  |  |  |  |  | too long: no result within 3 s. |']
+
+
+def test_problemsHaveTheirOwnReferenceAndFront():
+    """Two rates, two sizes, two seeds: the finest of each rate and seed is the reference for the other one."""
+    settings = [dict(rate=rate, size=size, seed=seed) for rate in (1, 2) for size in (.2, .1) for seed in (0, 1)]
+    found = [TradeoffRow(dict(of), 'ok', .1 / of['size'], 1., None, 100. * of['rate'] + 10 * of['size'] + of['seed'],
+                         10, [1.], [1.]) for of in settings]
+    table = TradeoffTable(found, by='rate')
+    tool._setErrors(table, 'finest', settings)
+    assert all(row.error == 0 for row in table.references) and len(table.references) == 4
+    coarse = [row for row in found if row.settings['size'] == .2]
+    assert [row.error for row in coarse] == pytest.approx([1 / 101, 1 / 102, 1 / 201, 1 / 202])
+    assert table.front() == coarse
+    means = table.means()
+    assert [(row.settings, row.message) for row in means.rows][1] == (dict(rate=1, size=.1), '2 of 2 seeds')
+    assert means.rows[0].error == pytest.approx((1 / 101 + 1 / 102) / 2)
+    assert '| rate=1, size=0.2 | 2 of 2 seeds | 0.5 | 0.00985 |' in table.markdown()
+    assert tool._withReferences(settings[:4], dict(size=.05), ('rate',))[4:] == [
+        dict(rate=1, seed=0, size=.05), dict(rate=1, seed=1, size=.05)]
 
 
 def test_files(folder):

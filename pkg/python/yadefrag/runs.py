@@ -2,6 +2,7 @@
 
 import concurrent.futures
 import contextlib
+import inspect
 import json
 import os
 import sys
@@ -31,7 +32,7 @@ def jobOf(scene, measure, watch):
     for name, function in zip(('scene', 'measure', 'watch'), functions):
         module = sys.modules.get(getattr(function, '__module__', None))
         if not callable(function) or not hasattr(function, '__code__') \
-                or vars(module or os).get(function.__name__) is not function:
+                or inspect.unwrap(vars(module or os).get(function.__name__)) is not inspect.unwrap(function):
             refuse(name, function, 'a function at the top level of a file, which each run loads')
     modules = {function.__module__ for function in functions}
     if len(modules) > 1:

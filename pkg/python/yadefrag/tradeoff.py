@@ -17,9 +17,10 @@ import numpy
 from yadefrag import choices as known
 from yadefrag import run_process
 from yadefrag.files import requireWritable
+from yadefrag.grouping import SEED, passOn
 from yadefrag.messages import warn
 from yadefrag.runs import Finished, jobOf, requireExecutor, requireOutside, runAll
-from yadefrag.tradeoff_table import COLUMNS, TradeoffRow, TradeoffTable, describe
+from yadefrag.tradeoff_table import COLUMNS, TradeoffRow, TradeoffTable, describe, namesOfCases
 from yadefrag.values import (number, path, plain, positive, refuse, shown, shownPath, text, whole)
 
 MOST_SECONDS = 1e9  # longest time limit of a process
@@ -27,7 +28,7 @@ _REPEATABLE = ('not run', 'ok')
 
 
 def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=0., repeats=3,
-             limit=60., files=None, title='', executor=None, resume=None):
+             limit=60., files=None, title='', executor=None, resume=None, by=()):
     """Runs `scene` over a grid of choices; returns a TradeoffTable of times and errors.
 
     scene      function (choices) that builds the scene in O and sets O.engines and O.dt, with the
@@ -56,10 +57,15 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
     resume     None, or a file .jsonl of finished runs: an interrupted call continues where it
                stopped if it is repeated with the same arguments. Remove the file if the scene has
                changed
+    by         name or names of choices that make another problem, with another correct result, e.g. a
+               rate of loading: each of its values has its own reference ('finest', or the dict of
+               choices) and its own Pareto front; so has each 'seed'. The table also has the means of
+               rows that differ in the seed only
 
     Each run is a separate `yade -n -x`. Times are those of steps only: wall-clock and processor
     time over simulated time. A setting that the scene or an engine refuses, that blows up, fails or
-    takes too long is a row with that result. Ctrl-C ends the runs; the table then has the finished
+    takes too long is a row with that result. What runs warn of is in `warnings` of their rows, and is
+    passed on as a warning of this call, once for each kind. Ctrl-C ends the runs; the table then has the finished
     ones. Functions must be at the top level of a file, and the call of tradeoff in a script after
     `if __name__ == '__main__':`, since each run loads the file again. ValueError, before anything
     runs, for bad arguments, OSError for files that cannot be written; RuntimeError if the file
@@ -74,18 +80,19 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
     repeats = whole('repeats', repeats)
     job['limit'] = min(positive('limit', limit, 's'), MOST_SECONDS)
     executor = requireExecutor(executor)
-    title = text('title', title)
+    title, by = text('title', title), namesOfCases(by)
     right = _reference(reference)
-    if isinstance(right, dict) and right not in settings:
-        settings.append(right)
+    if isinstance(right, dict):
+        settings = _withReferences(settings, right, by)
     if files is not None:
         for name in TradeoffTable.namesOfFiles(files):
             requireWritable(name)
     rows = [TradeoffRow(settings=dict(setting)) for setting in settings]
     finished = Finished(resume, {key: job[key] for key in ('file', 'functions', 'duration', 'every')})
     _runAll(rows, settings, job, repeats, executor, finished)
-    table = TradeoffTable(rows, title)
+    table = TradeoffTable(rows, title, by)
     _setErrors(table, right, settings)
+    passOn('tradeoff', rows)
     if files is not None:
         writeTable(table, files)
     return table
@@ -127,6 +134,15 @@ def _grid(vary):
             setting = dict(zip(grid, combination))
             if _key(setting) not in map(_key, settings):  # with the type: True is not 1
                 settings.append(setting)
+    return settings
+
+
+def _withReferences(settings, right, by):
+    """The settings, and after them those of the reference: `right` in each problem."""
+    wanted = [{**{n: s[n] for n in (*by, SEED) if n in s}, **right} for s in settings]
+    for one in wanted:
+        if _key(one) not in map(_key, settings):
+            settings = settings + [one]
     return settings
 
 
@@ -216,34 +232,42 @@ def _take(row, found):
         raise RuntimeError('a run cannot load the scene: %s' % found['message'])
     lost = found['result'] == 'lost'  # by the executor, not by the scene
     row.result, row.message = 'failed' if lost else found['result'], found['message']
+    row.warnings += [one for one in found.get('warnings', ()) if one not in row.warnings]
     for name, value in found.get('used', {}).items():  # the scene's own choices, unless varied
         if value is not None:
             row.settings.setdefault(name, value)
     if row.result != 'ok':
-        row.walls, row.cpus, row.wall, row.cpu, row.value = [], [], None, None, None
+        row.walls, row.cpus, row.wall, row.cpu, row.value, row.seconds = [], [], None, None, None, None
         return
     row.walls.append(found['wall'])
     row.cpus.append(found['cpu'])
     row.wall, row.cpu = statistics.median(row.walls), statistics.median(row.cpus)
     row.steps, row.value = found['steps'], found['value']
+    if found.get('seconds') is not None:  # of a file of version 0.1: unknown
+        row.seconds = found['seconds'] * row.wall / found['wall']
 
 
 def _setErrors(table, right, settings):
-    """Computes the errors of all rows with a value, relative to the reference."""
-    good = [row for row in table.rows if row.result == 'ok']
-    if isinstance(right, str):
-        right = _finest(good)
-    elif isinstance(right, dict):
-        row = table.rows[[_key(s) for s in settings].index(_key(right))]
-        if row.result != 'ok':
+    """Computes the errors of all rows with a value, relative to the reference of their problem."""
+    of = {id(row): setting for row, setting in zip(table.rows, settings)}
+    for case, rows in table.cases():
+        good = [row for row in rows if row.result == 'ok']
+        if isinstance(right, str):
+            reference = _finest(good)
+        elif isinstance(right, dict):
+            wanted = _key({**case, **right})
+            reference = next(row for row in table.rows if _key(of[id(row)]) == wanted)
+        else:
+            reference = None
+        if isinstance(right, dict) and reference.result != 'ok':
             for other in good:
                 other.message = 'the reference (%s) has no value.' % describe(right)
-            return
-        table.reference, right = row, numpy.asarray(row.value)
-    if isinstance(right, TradeoffRow):
-        table.reference, right = right, numpy.asarray(right.value)
-    for row in good:
-        row.error, row.message = _error(numpy.asarray(row.value), right)
+            continue
+        if reference is not None and not table.isReference(reference):
+            table.references.append(reference)
+        value = right if reference is None else numpy.asarray(reference.value)
+        for row in good:
+            row.error, row.message = _error(numpy.asarray(row.value), value)
 
 
 def _finest(rows):

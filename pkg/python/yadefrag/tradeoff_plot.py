@@ -20,7 +20,7 @@ _SIDES = [(6, 0, 'left', 'center'), (0, 6, 'center', 'bottom'), (0, -6, 'center'
 def plot(table, file, ax, time, label, names):
     """See TradeoffTable.plot."""
     front = table.front(time)
-    shown = [row for row in table.rows if row.error is not None and row is not table.reference]
+    shown = [row for row in table.rows if row.error is not None and not table.isReference(row)]
     if not shown:
         raise ValueError('no row of the table has an error to show.')
     if ax is not None:
@@ -33,8 +33,10 @@ def plot(table, file, ax, time, label, names):
     # other one.
     floor = min((row.error for row in shown if row.error > 0), default=1e-16) / 10
     at = {id(row): (getattr(row, time), max(row.error, floor)) for row in shown}
-    x, y = zip(*(at[id(row)] for row in front))
-    ax.step(x, y, where='post', color=_FRONT, lw=1.2, alpha=.6, zorder=1)
+    for _, rows in table.cases():
+        line = [at[id(row)] for row in front if any(row is one for one in rows)]
+        if line:
+            ax.step(*zip(*line), where='post', color=_FRONT, lw=1.2, alpha=.6, zorder=1)
     for row in shown:
         colour = _FRONT if row in front else _OTHER
         ax.plot(*at[id(row)], 'o', color=colour, ms=6, zorder=2)
@@ -104,7 +106,7 @@ def _legend(ax, table, front):
     height = 1 / max(len(table.rows), 12)
     for i, row in enumerate(table.rows):
         note = '' if row.result == 'ok' else ': ' + row.result
-        note += ' (reference)' if row is table.reference else ''
+        note += ' (reference)' if table.isReference(row) else ''
         text = textwrap.shorten('%d  %s%s' % (i + 1, table.label(row), note), 62, placeholder=' …')
         ax.annotate(text, (1.03, 1 - (i + .5) * height), xycoords='axes fraction', fontsize=8.5,
                     va='center', color=_FRONT if row in front else '.15' if note == '' else '.5',

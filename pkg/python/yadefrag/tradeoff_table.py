@@ -7,9 +7,11 @@ import json
 import statistics
 
 from yadefrag.files import writeText
+from yadefrag.grouping import SEED, grouped
 from yadefrag.values import path, real, refuse, shownPath, text
 
-COLUMNS = ('result', 'wall', 'cpu', 'error', 'value', 'steps', 'walls', 'cpus', 'message')
+_FORMER = ('result', 'wall', 'cpu', 'error', 'value', 'steps', 'walls', 'cpus', 'message')  # of version 0.1
+COLUMNS = (*_FORMER, 'seconds', 'warnings')
 _TIMES = {'wall': 'wall-clock time over simulated time (s/s)',
           'cpu': 'processor time over simulated time (s/s)'}
 
@@ -26,6 +28,8 @@ class TradeoffRow:
     value       the measured value, a number or a list
     steps       of one run
     walls, cpus of the single runs (s/s), in their order
+    seconds     wall-clock time of the steps of a run (s), median
+    warnings    messages of its runs: those of fe.warnings, and Python's of the script
     """
 
     settings: dict
@@ -38,6 +42,8 @@ class TradeoffRow:
     walls: list = dataclasses.field(default_factory=list)
     cpus: list = dataclasses.field(default_factory=list)
     message: str = ''
+    seconds: float = None
+    warnings: list = dataclasses.field(default_factory=list)
 
 
 def describe(settings):
@@ -50,19 +56,52 @@ def _text(value):
 
 
 class TradeoffTable:
-    """rows (list of TradeoffRow), title, reference (a row, if one is the reference for the others).
+    """rows (list of TradeoffRow), title, by (names of choices that make another problem), references (rows
+    that are the reference for the others of their problem); reference is the first of these, or None.
 
     `read` reads a file written by `csv`; the reference's row is not marked there.
     """
 
-    def __init__(self, rows, title=''):
+    def __init__(self, rows, title='', by=()):
         try:
             self.rows = list(rows)
         except TypeError:
             refuse('rows', rows, 'a list of TradeoffRow')
         for i, row in enumerate(self.rows):
             _requireRow(row, 'rows[%d]' % i)
-        self.title, self.reference = text('title', title), None
+        self.title, self.by, self.references = text('title', title), namesOfCases(by), []
+
+    @property
+    def reference(self):
+        return self.references[0] if self.references else None
+
+    @reference.setter
+    def reference(self, row):
+        self.references = [] if row is None else [row]
+
+    def cases(self):
+        """[(dict of settings, rows)]: the rows of one problem each, by `by` and the seed."""
+        return grouped(self.rows, [*self.by, SEED])
+
+    def means(self):
+        """A table with one row for the rows that differ in the seed only: medians of times, the mean of the
+        errors, and in `message` their number; self without seeds."""
+        names = [name for name in self.names() if name != SEED]
+        if len(names) == len(self.names()):
+            return self
+        rows = []
+        for settings, group in grouped(self.rows, names):
+            good = [row for row in group if row.error is not None]
+            mean = TradeoffRow(settings, 'ok' if good else group[0].result, message='%d of %d seeds' %
+                               (len(good), len(group)))
+            for name in ('wall', 'cpu', 'steps', 'seconds') if good else ():
+                known = [getattr(row, name) for row in good if getattr(row, name) is not None]
+                setattr(mean, name, statistics.median(known) if known else None)
+            if good:
+                mean.error = statistics.fmean(row.error for row in good)
+                mean.walls, mean.cpus = ([t for row in good for t in getattr(row, n)] for n in ('walls', 'cpus'))
+            rows.append(mean)
+        return TradeoffTable(rows, self.title, self.by)
 
     def names(self):
         """Names of all choices, in the order in which they first occur."""
@@ -79,23 +118,29 @@ class TradeoffTable:
         return describe(other) if other else 'row 1'
 
     def front(self, time='wall'):
-        """The Pareto front: rows for which no other row is at least as fast and as accurate and
-        better in one of both.
+        """The Pareto front: rows for which no other row of the same problem is at least as fast and as
+        accurate and better in one of both.
 
-        `time` is 'wall' or 'cpu'. In order of time; without the reference's row.
+        `time` is 'wall' or 'cpu'. Problem by problem in order of time; without the references.
         """
-        rows = [row for row in self.rows if row.error is not None and row is not self.reference]
+        _requireTime(time)
+        return [row for _, rows in self.cases() for row in self._front(rows, time)]
+
+    def _front(self, rows, time):
+        rows = [row for row in rows if row.error is not None and not self.isReference(row)]
 
         def point(row):
             return getattr(row, time), row.error
 
-        _requireTime(time)
         best, least = [], float('inf')
         for row in sorted(rows, key=point):
             if row.error < least or best and point(row) == point(best[-1]):
                 best.append(row)
                 least = row.error
         return best
+
+    def isReference(self, row):
+        return any(row is one for one in self.references)
 
     def ratio(self, row, time='wall'):
         """Time over that of the first row, the median of adjacent runs; None without."""
@@ -123,10 +168,11 @@ class TradeoffTable:
             except csv.Error as error:
                 raise ValueError('%s is not a table: %s.' % (shownPath(name), error)) from None
         head = lines[0] if lines else []
-        if tuple(head[-len(COLUMNS):]) != COLUMNS:
+        columns = next((one for one in (COLUMNS, _FORMER) if tuple(head[-len(one):]) == one), None)
+        if columns is None:
             raise ValueError('%s does not end with the columns %s.' %
                              (shownPath(name), ', '.join(COLUMNS)))
-        rows = [_row(head, line) for line in lines[1:]]
+        rows = [_row(head, line, columns) for line in lines[1:]]
         if None in rows:
             raise ValueError('%s has a damaged row, the one after %d others.' %
                              (shownPath(name), rows.index(None)))
@@ -147,26 +193,38 @@ class TradeoffTable:
         out = ['# %s\n' % self.title] * bool(self.title)
         out += ['Row 1: %s. The others differ from row 1 as stated.\n' %
                 describe(self.rows[0].settings),
-                '| # | setting | wall, s/s | cpu, s/s | %s × | steps | error |' % time,
-                '|--:|---|--:|--:|--:|--:|--:|']
+                'Times are those of the steps: of a run, and per simulated second.\n',
+                '| # | setting | run, s | wall, s/s | cpu, s/s | %s × | steps | error |' % time,
+                '|--:|---|--:|--:|--:|--:|--:|--:|']
         for number, row in enumerate(self.rows, 1):
             bold = '**' if row in front else ''
             cells = [str(number), bold + self.label(row) + bold]
             if row.result == 'ok':
                 ratio = self.ratio(row, time)
                 error = row.message if row.error is None else '%.3g' % row.error
-                error += ' (reference)' if row is self.reference else ''
-                cells += ['%.4g' % row.wall, '%.4g' % row.cpu,
+                error += ' (reference)' if self.isReference(row) else ''
+                cells += ['' if row.seconds is None else '%.3g' % row.seconds, '%.4g' % row.wall, '%.4g' % row.cpu,
                           '' if ratio is None else '%.2f' % ratio, str(row.steps),
                           error]
             else:
-                cells += ['', '', '', '', '%s: %s' % (row.result, row.message) if row.message
+                cells += ['', '', '', '', '', '%s: %s' % (row.result, row.message) if row.message
                           else row.result]
             out.append('| ' + ' | '.join(cell.replace('|', '\\|') for cell in cells) + ' |')
-        whole = '\n'.join(out) + '\n'
+        whole = '\n'.join(out) + '\n' + self._meansText()
         if file is not None:
             writeText(path('file', file), whole)
         return whole
+
+    def _meansText(self):
+        """Means over the seeds, as Markdown; '' without seeds."""
+        means = self.means()
+        if means is self:
+            return ''
+        lines = ['', 'Means over the seeds:', '', '| setting | seeds | wall, s/s | error |', '|---|--:|--:|--:|']
+        for row in means.rows:
+            numbers = ['', ''] if row.error is None else ['%.4g' % row.wall, '%.3g' % row.error]
+            lines.append('| %s |' % ' | '.join([describe(row.settings), row.message, *numbers]).replace('\n', ' '))
+        return '\n'.join(lines) + '\n'
 
     def plot(self, file=None, ax=None, time='wall', names=True):
         """Draws error over time, with the Pareto front as a line; returns Matplotlib's axes.
@@ -192,6 +250,14 @@ class TradeoffTable:
         return [path('files', files) + ending for ending in ('.csv', '.md', '.png')]
 
 
+def namesOfCases(by):
+    """A tuple of names from one or several."""
+    names = (by,) if isinstance(by, str) else by
+    if not isinstance(names, (list, tuple)) or not all(isinstance(name, str) for name in names):
+        refuse('by', by, 'the name of a choice, or a list of names')
+    return tuple(names)
+
+
 def tableText(heading, lines):
     """A CSV file as text: a heading, then lines of values."""
     out = io.StringIO(newline='')
@@ -212,18 +278,19 @@ def _requireTime(time):
         refuse('time', time, "'wall' or 'cpu'")
 
 
-def _row(head, line):
+def _row(head, line, columns):
     """The TradeoffRow of a line below `head`; None for a line that `csv` cannot have written."""
     if len(line) != len(head):
         return None
     cells = [_decode(cell) for cell in line]
-    settings = {n: v for n, v in zip(head, cells[:-len(COLUMNS)]) if v is not None}
-    row = TradeoffRow(settings, *cells[-len(COLUMNS):])
-    row.message = row.message or ''
+    settings = {n: v for n, v in zip(head, cells[:-len(columns)]) if v is not None}
+    row = TradeoffRow(settings, **dict(zip(columns, cells[-len(columns):])))
+    row.message, row.warnings = row.message or '', row.warnings or []
     isRight = (isinstance(row.result, str) and isinstance(row.message, str)
                and all(real(value) is not None or value is None and row.result != 'ok'
                        for value in (row.wall, row.cpu, row.steps))
-               and (row.error is None or real(row.error) is not None)
+               and all(one is None or real(one) is not None for one in (row.error, row.seconds))
+               and isinstance(row.warnings, list)
                and all(isinstance(times, list) and None not in map(real, times)
                        for times in (row.walls, row.cpus)))
     return row if isRight else None
