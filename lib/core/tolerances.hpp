@@ -9,6 +9,7 @@
 #include "core/tolerances/mesh.hpp"
 #include "core/tolerances/search.hpp"
 #include "core/tolerances/solver.hpp"
+#include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
 #include "core/tolerances/surface.hpp"
 #include "core/tolerances/threads.hpp"

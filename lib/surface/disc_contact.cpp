@@ -50,8 +50,8 @@ struct Joint {
     const Vec2 out = rightOf(arrive) + rightOf(leave);
     const bool inside = dot(from, out) < 0 && (isConcave() || dot(arrive, leave) > 0);
     const Vec2 normal = distance > 0 ? (1 / distance) * from : unit(out);
-    if (inside) return {radius + distance, -normal};
-    return {radius - distance, normal};
+    const double depth = inside ? radius + distance : radius - distance;
+    return {depth, inside ? -normal : normal, depth};
   }
 
  private:
@@ -61,7 +61,8 @@ struct Joint {
 DiscContact freeEnd(Vec2 at, Vec2 outward, Vec2 centre, double radius) {
   const Vec2 from = centre - at;
   const double distance = norm(from);
-  return {radius - distance, distance > 0 ? (1 / distance) * from : outward};
+  const double depth = radius - distance;
+  return {depth, distance > 0 ? (1 / distance) * from : outward, depth};
 }
 
 /// The foot of a point that lies beside the piece.
@@ -114,7 +115,7 @@ std::optional<DiscContact> discContact(const BoundaryPiece& piece, Vec2 centre, 
   const Foot foot = footOn(piece, centre);
   const double penetration = radius - foot.gap - shared;
   if (!(penetration > 0) || foot.gap <= -radius) return {};
-  return DiscContact{penetration, foot.normal};
+  return DiscContact{penetration, foot.normal, radius - foot.gap};
 }
 
 }  // namespace yadefrag

@@ -20,6 +20,7 @@ struct BoundaryPiece {
 struct DiscContact {
   double penetration;  ///< m, positive: overlap
   Vec2 normal;         ///< unit, out of the material
+  double unshared;     ///< m, overlap with the piece alone: in a concave corner two pieces share it
 };
 
 /// The contact of this piece with a disc. No value if they do not touch, or if the contact point

@@ -40,29 +40,62 @@ void setState(yade::State& state, const Frame& frame, const Nodes& nodes, double
   state.se3.position = inSpace(combine(frame.middle, nodes.position)) - dt * state.vel;
 }
 
-/// Moment about `about` of the forces on a body. YADE's laws may treat both bodies of a contact as
-/// spheres; a force at the contact point is then applied at the body's position. If there are
-/// contacts, the moment is therefore computed from their contact points.
-double momentAbout(Vec2 about, const yade::Body& body, Vec2 force, double torque) {
-  Vec2 explained, points;
-  double moment = 0;
-  int count = 0;
-  for (const auto& [other, contact] : body.intrs) {
-    if (!contact->isReal()) continue;
-    const auto* geom = dynamic_cast<const yade::ScGeom*>(contact->geom.get());
-    const auto* phys = dynamic_cast<const yade::NormShearPhys*>(contact->phys.get());
-    if (!geom || !phys) continue;
-    const double sign = contact->getId2() == body.getId() ? 1 : -1;
-    const Vec2 part = sign * inPlane(phys->normalForce + phys->shearForce);
-    const Vec2 point = inPlane(geom->contactPoint);
-    explained += part;
-    points += point;
-    moment += cross(point - about, part);
-    ++count;
+/// Divides the forces on one body between the nodes of its piece.
+class NodeForces {
+ public:
+  NodeForces(const ContactSurfaces& surfaces, const Nodes& nodes, std::vector<Vec2>& forces)
+      : surfaces_(surfaces), nodes_(nodes), geometry_(surfaces, nodes.position), forces_(forces) {}
+
+  /// Each contact acts at its foot on the piece: its power is then that of the overlap it has, also
+  /// at a corner, which only one node moves. YADE's laws may treat both bodies of a contact as
+  /// spheres, with a torque that belongs to the body's position; with contacts, the moment is
+  /// therefore that of the contact points. The remaining force acts at the piece's middle.
+  void add(EntryId entry, const yade::Body& body, Vec2 force, double torque) {
+    const Frame frame(surfaces_, entry);
+    Vec2 explained, points;
+    double moment = 0;
+    int count = 0;
+    for (const auto& [other, contact] : body.intrs) {
+      if (!contact->isReal()) continue;
+      const auto* geom = dynamic_cast<const yade::ScGeom*>(contact->geom.get());
+      const auto* phys = dynamic_cast<const yade::NormShearPhys*>(contact->phys.get());
+      if (!geom || !phys) continue;
+      const double sign = contact->getId2() == body.getId() ? 1 : -1;
+      const Vec2 part = sign * inPlane(phys->normalForce + phys->shearForce);
+      const Vec2 point = inPlane(geom->contactPoint);
+      moment += addAt(footOf(entry, point), point, part);
+      explained += part;
+      points += point;
+      ++count;
+    }
+    const Vec2 rest = force - explained;
+    const Vec2 place = count > 0 ? (1. / count) * points : inPlane(body.state->se3.position);
+    moment += addAt(frame.middle, place, rest);
+    if (count == 0) moment += torque;
+    const Vec2 along = nodes_.position[frame.last.value] - nodes_.position[frame.first.value];
+    const Vec2 pair = (-moment / dot(along, along)) * rightOf(along);
+    forces_[frame.last.value] += pair;
+    forces_[frame.first.value] -= pair;
   }
-  if (count == 0) return torque + cross(inPlane(body.state->se3.position) - about, force);
-  return moment + cross((1. / count) * points - about, force - explained);
-}
+
+ private:
+  [[nodiscard]] Stencil footOf(EntryId entry, Vec2 point) const {
+    const PieceRange range = geometry_.range(entry);
+    return surfaces_.master(entry,
+                            std::clamp(geometry_.foot(entry, point).xi, range.begin, range.end));
+  }
+
+  /// Returns the moment (N m) that is missing if a force at `place` acts at the stencil's point.
+  double addAt(const Stencil& at, Vec2 place, Vec2 force) {
+    for (int k = 0; k < at.count; ++k) forces_[at.node[k].value] += at.weight[k] * force;
+    return cross(place - combine(at, nodes_.position), force);
+  }
+
+  const ContactSurfaces& surfaces_;
+  const Nodes& nodes_;
+  const PieceGeometry geometry_;
+  std::vector<Vec2>& forces_;
+};
 
 /// By node of the last body, if it has several materials: that of the triangle with the boundary
 /// side that begins at the node; otherwise empty.
@@ -106,6 +139,26 @@ bool isPresent(const yade::Scene& scene, yade::Body::id_t id) {
 }
 
 }  // namespace
+
+BoundaryPiece BoundaryPieces::alone(EntryId entry) const {
+  BoundaryPiece piece;
+  piece.start = geometry_.slave(entry);
+  piece.end = geometry_.slave(surfaces_.next[entry.value]);
+  piece.isArc = surfaces_.piece[entry.value] == Piece::kArc;
+  if (piece.isArc) {
+    NodeId around[3];
+    surfaces_.pieceNodes(entry, around);
+    piece.middle = positions_[around[1].value];
+  }
+  return piece;
+}
+
+BoundaryPiece BoundaryPieces::whole(EntryId entry) const {
+  BoundaryPiece piece = alone(entry);
+  piece.before = alone(surfaces_.prev[entry.value]).tangentAtEnd();
+  piece.after = alone(surfaces_.next[entry.value]).tangentAtStart();
+  return piece;
+}
 
 void EntryBodies::append(yade::Scene& scene, const World& world, EntryId entry,
                          const yade::shared_ptr<yade::Material>& material) {
@@ -287,7 +340,7 @@ void EntryBodies::findBodies(const yade::Scene& scene) {
 void EntryBodies::update(const World& world, double dt, int threads, std::size_t first) {
   const ContactSurfaces& surfaces = world.surfaces;
   const Nodes& nodes = world.model.nodes;
-  const PieceGeometry geometry(surfaces, nodes.position);
+  const BoundaryPieces pieces(surfaces, nodes.position);
   pieces_.resize(ids_.size());
   const auto inParts = [&](const auto& work) {
     forEachPart(ids_.size() - first, threads, [&](std::size_t begin, std::size_t end, int) {
@@ -295,18 +348,7 @@ void EntryBodies::update(const World& world, double dt, int threads, std::size_t
         if (hasBody(EntryId(e))) work(e);
     });
   };
-  inParts([&](std::size_t e) {
-    const EntryId entry(e);
-    BoundaryPiece& piece = pieces_[e];
-    piece.start = geometry.slave(entry);
-    piece.end = geometry.slave(surfaces.next[e]);
-    piece.isArc = surfaces.piece[e] == Piece::kArc;
-    if (piece.isArc) {
-      NodeId around[3];
-      surfaces.pieceNodes(entry, around);
-      piece.middle = nodes.position[around[1].value];
-    }
-  });
+  inParts([&](std::size_t e) { pieces_[e] = pieces.alone(EntryId(e)); });
   inParts([&](std::size_t e) {
     // Bodies are scattered in memory: prefetch.
     constexpr std::size_t ahead = 6;
@@ -343,25 +385,17 @@ double EntryBodies::halo() const {
 
 void EntryBodies::collectForces(yade::Scene& scene, const World& world,
                                 std::vector<Vec2>& forces) const {
-  const Nodes& nodes = world.model.nodes;
   forces.clear();
   scene.forces.sync();
+  NodeForces shares(world.surfaces, world.model.nodes, forces);
   for (std::size_t e = 0; e < ids_.size(); ++e) {
     if (!hasBody(EntryId(e))) continue;
     const Vec2 force = inPlane(scene.forces.getForce(ids_[e]));
     const double torque = scene.forces.getTorque(ids_[e])[2];
     if (force == Vec2{} && torque == 0) continue;
     requireWhole(e);
-    if (forces.empty()) forces.resize(nodes.size());
-    const Frame frame(world.surfaces, EntryId(e));
-    for (int k = 0; k < frame.middle.count; ++k)
-      forces[frame.middle.node[k].value] += frame.middle.weight[k] * force;
-    const Vec2 middle = combine(frame.middle, nodes.position);
-    const double moment = momentAbout(middle, *bodies_[e], force, torque);
-    const Vec2 along = nodes.position[frame.last.value] - nodes.position[frame.first.value];
-    const Vec2 pair = (-moment / dot(along, along)) * rightOf(along);
-    forces[frame.last.value] += pair;
-    forces[frame.first.value] -= pair;
+    if (forces.empty()) forces.resize(world.model.nodes.size());
+    shares.add(EntryId(e), *bodies_[e], force, torque);
   }
 }
 

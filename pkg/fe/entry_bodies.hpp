@@ -1,14 +1,32 @@
 #pragma once
 // The YADE bodies of surface entries: creation, motion, forces, removal.
 
+#include <span>
 #include <vector>
 
 #include "abi/yade.hpp"
 #include "fe/materials.hpp"
 #include "fe/surface_segment.hpp"
 #include "step/world.hpp"
+#include "surface/piece_geometry.hpp"
 
 namespace yadefrag {
+
+/// The pieces of entries at given positions (m), for contact with spheres.
+class BoundaryPieces {
+ public:
+  /// Stores references only.
+  BoundaryPieces(const ContactSurfaces& surfaces, std::span<const Vec2> positions)
+      : surfaces_(surfaces), positions_(positions), geometry_(surfaces, positions) {}
+  /// Without the tangents of the adjacent pieces.
+  [[nodiscard]] BoundaryPiece alone(EntryId entry) const;
+  [[nodiscard]] BoundaryPiece whole(EntryId entry) const;
+
+ private:
+  const ContactSurfaces& surfaces_;
+  std::span<const Vec2> positions_;
+  const PieceGeometry geometry_;
+};
 
 /// One body per entry, in the order of the entries; none for removed entries. Its state has the
 /// position of the piece's middle and the translation and rotation there, so that contacts with

@@ -50,7 +50,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 12;
+  static constexpr std::uint64_t kFormat = 13;
   /// (count) A damaged length must not exhaust the memory: values are read in parts of this size,
   /// and the archive ends before the memory is full.
   static constexpr std::uint64_t kPart = 1 << 16;

@@ -56,7 +56,6 @@ void FESolver::action() try {
   } catch (const InputError& error) {
     throw std::invalid_argument(error.what());
   }
-  countSphereEnergy();
   warn(known);
   if (rigid_.any()) {
     rigid_.giveForces(*scene, world_, length);
@@ -74,32 +73,10 @@ void FESolver::action() try {
 /// Of spheres and other bodies on the boundary.
 void FESolver::collectForces() {
   bodies_.collectForces(*scene, world_, world_.outerForces);
-  if (world_.outerForces.empty()) return rolling_.clear(), overlaps_.clear();
-  if (world_.fracture.numCracks() > 0) overlaps_.findNew(*scene, bodies_);
+  if (world_.outerForces.empty()) return rolling_.clear();
   // The forces must stay the same on both sides of each contact.
-  if (order_.spheresMoveFirst()) overlaps_.forgetNew();
-  const bool isReduced = overlaps_.reduceForces(*scene);
-  if (rolling_.carry(*scene, bodies_, world_.surfaces, order_.spheresMoveFirst()) || isReduced)
+  if (rolling_.carry(*scene, bodies_, world_.surfaces, order_.spheresMoveFirst()))
     bodies_.collectForces(*scene, world_, world_.outerForces);
-}
-
-/// Initial energy of contacts with spheres whose overlap is not tolerated. A message is given above
-/// 1 % of the bodies' energy, and once per doubling.
-void FESolver::countSphereEnergy() {
-  const double initial = order_.spheresMoveFirst() ? overlaps_.energyOfNew() : 0;
-  if (initial == 0) return;
-  const double least = tolerance::kGivenEnergy * world_.watch.most;
-  const auto doublings = [&](double energy) {
-    return energy > least ? std::ilogb(energy / least) : -1;
-  };
-  const int before = doublings(energyFromSpheres);
-  energyFromSpheres += initial;
-  if (doublings(energyFromSpheres) <= before) return;
-  world_.warnings.push_back(fmt::format(
-      "Step {}, time {:.3g} s: where cracks opened under spheres, new contacts have created "
-      "{:.3g} J, {:.3g} % of the bodies' energy; with FESolver before NewtonIntegrator in "
-      "O.engines they create none.",
-      world_.steps, world_.time, energyFromSpheres, 100 * energyFromSpheres / world_.watch.most));
 }
 
 /// Writes the new warnings.
@@ -149,7 +126,11 @@ void FESolver::followRigid(bool enginesAreNew) {
 /// is needed only if the scene has other bodies.
 void FESolver::followCracks(std::uint64_t dropped) {
   const bool wasDue = scene->doSort;
+  const std::size_t first = bodies_.ids().size();
+  crackContacts_.follow(*scene, world_, bodies_);
   bodies_.follow(*scene, world_);
+  if (bodies_.ids().size() > first)
+    crackContacts_.change(*scene, world_, bodies_, first, scene->dt);
   if (world_.dropped.count != dropped) bodies_.drop(*scene, world_);
   if (!rigid_.any() && scene->bodies->body.size() == bodies_.ids().size()) scene->doSort = wasDue;
 }

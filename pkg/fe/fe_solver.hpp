@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "abi/yade.hpp"
+#include "fe/crack_contacts.hpp"
 #include "fe/engine_order.hpp"
 #include "fe/entry_bodies.hpp"
 #include "fe/fe_archive.hpp"
@@ -15,7 +16,6 @@
 #include "fe/scene_watch.hpp"
 #include "fe/script_functions.hpp"
 #include "fe/step_lock.hpp"
-#include "fe/tolerated_overlaps.hpp"
 #include "publish/published.hpp"
 #include "step/world.hpp"
 
@@ -83,7 +83,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void checkSettings() const;
   void giveSettings();
   void collectForces();
-  void countSphereEnergy();
   void warn(std::size_t known) const;
   void checkScene(bool enginesAreNew);
   void followRigid(bool enginesAreNew);
@@ -103,7 +102,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   SceneWatch around_;
   RigidBodies rigid_;
   RollingSpheres rolling_;
-  ToleratedOverlaps overlaps_;
+  CrackContacts crackContacts_;
   bool checkedRigid_ = true;  // `rigidBodies` when the scene was last checked
   ScriptFunctions functions_;
   std::vector<BoxPair> pairs_;
@@ -172,13 +171,11 @@ constexpr auto FESolver::attributes() {
                 "Detached fragments with a smaller area (m², stress-free) are removed from "
                 "the scene, and counted in `dropped`, except held ones. 0: none is removed.",
                 triggerPostLoad),
-      attribute(
-          "energyFromSpheres", &C::energyFromSpheres,
-          "Energy (J) that contacts with spheres have created so far, if NewtonIntegrator comes "
-          "before FESolver in O.engines. Where a crack opens under a sphere, the sphere overlaps "
-          "the new corner at once, and the contact starts with a compressed spring. In the usual "
-          "order that overlap gets no force, and this is 0.",
-          yade::Attr::readonly),
+      attribute("energyFromSpheres", &C::energyFromSpheres,
+                "0, for scripts of earlier versions: contacts with faces of cracks begin without a "
+                "force, in any "
+                "order of O.engines.",
+                yade::Attr::readonly),
       attribute("rigidBodies", &C::rigidBodies,
                 "Contact with YADE's Wall, Box and Facet, also in clumps: their sections "
                 "with the plane z = 0, rigid, with the friction of their FrictMat. They move as "
@@ -197,7 +194,7 @@ void FESolver::archiveMore(Archive& archive) {
   WorldArchive<Archive>(archive).run(world_, ids);
   rigid_.archive(archive, world_);
   rolling_.archive(archive);
-  overlaps_.archive(archive);
+  crackContacts_.archive(archive);
   if constexpr (Archive::is_loading::value) bodies_.restore(std::move(ids));
 }
 

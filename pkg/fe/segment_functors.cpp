@@ -33,8 +33,10 @@ bool Ig2_Sphere_SurfaceSegment_ScGeom::go(const yade::shared_ptr<yade::Shape>& s
                                           const yade::shared_ptr<yade::Interaction>& contact) {
   const double radius = static_cast<const yade::Sphere&>(*sphere).radius;
   const Vector3r centre = state1.se3.position - shift2;
-  const auto touch = discContact(static_cast<const SurfaceSegment&>(*segment).piece(),
-                                 {centre[0], centre[1]}, radius);
+  auto& piece = static_cast<SurfaceSegment&>(*segment);
+  const auto touch = discContact(piece.piece(), {centre[0], centre[1]}, radius);
+  // A pair is evaluated by one thread.
+  const double depth = piece.depthForLaw(contact->getId1(), touch ? touch->penetration : 0);
   if (!touch) {
     if (!contact->isReal() && !force) return false;
     // Contacts without overlap are ended by the law, not here.
@@ -46,7 +48,7 @@ bool Ig2_Sphere_SurfaceSegment_ScGeom::go(const yade::shared_ptr<yade::Shape>& s
   if (isNew) contact->geom.reset(new yade::ScGeom);
   auto& geom = static_cast<yade::ScGeom&>(*contact->geom);
   geom.radius1 = geom.radius2 = radius;
-  geom.penetrationDepth = touch->penetration;
+  geom.penetrationDepth = depth;
   const Vector3r normal(-touch->normal.x, -touch->normal.y, 0);
   // In the middle of the overlap, where laws for spheres expect it.
   geom.contactPoint = state1.se3.position + (radius - .5 * touch->penetration) * normal;

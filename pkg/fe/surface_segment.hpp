@@ -2,8 +2,13 @@
 // The shape of a surface entry's body: one piece of a boundary, material on the left.
 
 #include <tuple>
+#include <vector>
+
+#include <boost/serialization/nvp.hpp>
+#include <boost/serialization/vector.hpp>
 
 #include "abi/yade.hpp"
+#include "core/errors.hpp"
 #include "publish/indexed.hpp"
 #include "publish/published.hpp"
 #include "surface/contact_surface.hpp"
@@ -30,6 +35,13 @@ class SurfaceSegment final
   double halo = 0;
   int entry = -1, component = -1;
   bool selfContact = true;
+  /// A contact with a sphere that a crack changed (crack_contacts.hpp). Its law has the overlap
+  /// share · (overlap − tolerated).
+  struct Changed {
+    yade::Body::id_t sphere;
+    double share, tolerated;  // 1, m
+  };
+  std::vector<Changed> changed;  // usually empty
 
   [[nodiscard]] bool isArc() const { return kind == static_cast<int>(Piece::kArc); }
   /// True if these two may touch each other. Pieces created by scripts are one rigid body.
@@ -41,8 +53,39 @@ class SurfaceSegment final
     return {flat(start), flat(middle), flat(end), flat(before), flat(after), isArc()};
   }
 
+  /// Null for a contact that no crack has changed.
+  [[nodiscard]] Changed* changedBy(yade::Body::id_t sphere);
+  /// A share of 1 without a tolerated overlap removes the entry.
+  void setChanged(const Changed& one);
+  /// Of an overlap of `depth` (m; 0: none) with a sphere, the part that its law has. What is
+  /// tolerated decreases with the overlap.
+  double depthForLaw(yade::Body::id_t sphere, double depth);
+
   static constexpr auto attributes();
+  template <class Archive>
+  void archiveMore(Archive& archive);
 };
+
+template <class Archive>
+void SurfaceSegment::archiveMore(Archive& archive) {
+  std::vector<int> spheres;
+  std::vector<double> values;
+  for (const Changed& one : changed) {
+    spheres.push_back(one.sphere);
+    values.insert(values.end(), {one.share, one.tolerated});
+  }
+  archive& boost::serialization::make_nvp("changedIds", spheres);
+  archive& boost::serialization::make_nvp("changedContacts", values);
+  if constexpr (Archive::is_loading::value) {
+    if (values.size() != 2 * spheres.size())
+      throw InputError(
+          "The saved state of a SurfaceSegment is damaged (its contacts with spheres are invalid); "
+          "load another save.");
+    changed.clear();
+    for (std::size_t i = 0; i < spheres.size(); ++i)
+      changed.push_back({spheres[i], values[2 * i], values[2 * i + 1]});
+  }
+}
 
 constexpr auto SurfaceSegment::attributes() {
   using C = SurfaceSegment;
