@@ -1,7 +1,11 @@
-"""Writes docs/reference.md from the docstrings; run inside YADE by scripts/docs."""
+"""Writes docs/reference.md, which is committed, from the docstrings: scripts/yade -n -x docs/make_reference.py
+
+tests/pkg/test_docs.py compares it with the docstrings.
+"""
 
 import inspect
 import os
+import re
 import sys
 
 import yadefrag
@@ -19,8 +23,38 @@ GROUPS = (
 )
 
 
+# 'size   length of …' begins an argument; the lines of the same one are indented.
+ARGUMENT = re.compile(r'([A-Za-z]\w*(?:, \w+)*)( +)(\S.*)')
+
+
+def parameters(of):
+    try:
+        return set(inspect.signature(of).parameters)
+    except (TypeError, ValueError):  # a property, or a function of Boost.Python
+        return set()
+
+
 def text(of):
-    return inspect.cleandoc(getattr(of, '__doc__', None) or '').replace('<', '&lt;')
+    """A docstring as Markdown: arguments as a list, the rest as paragraphs."""
+    known = parameters(of)
+    lines = inspect.cleandoc(getattr(of, '__doc__', None) or '').replace('<', '&lt;').splitlines()
+    out, isArgument = [], False
+    for line in lines:
+        match = None if line.startswith(' ') else re.fullmatch(ARGUMENT, line)
+        if match and (len(match[2]) > 1 or known.issuperset(match[1].split(', '))):
+            out += [''] * (not isArgument and bool(out) and out[-1] != '') + ['- `%s`: %s' % match.group(1, 3)]
+            isArgument = True
+        elif isArgument and line.startswith(' '):
+            out.append('  ' + line.strip())
+        else:
+            out += [''] * isArgument + [line]
+            isArgument = False
+    return '\n'.join(out)
+
+
+def callOf(function):
+    """Its arguments; a function as a default value by its name."""
+    return re.sub(r'<function (\w+) at 0x\w+>', r'\1', str(inspect.signature(function)))
 
 
 def ownMembers(of):
@@ -33,7 +67,7 @@ def ownMembers(of):
 
 def describe(name, of):
     try:
-        signature = str(inspect.signature(of)) if not inspect.isclass(of) else ''
+        signature = callOf(of) if not inspect.isclass(of) else ''
     except ValueError:
         signature = ''
     yield f'### `{name}{signature}`\n\n{text(of)}\n'
@@ -42,7 +76,7 @@ def describe(name, of):
     for member in ownMembers(of):
         what = vars(of)[member]
         try:
-            call = str(inspect.signature(what)) if callable(what) else ''
+            call = callOf(what) if callable(what) else ''
         except ValueError:
             call = '(…)'
         doc = text(what)
@@ -51,9 +85,11 @@ def describe(name, of):
             yield f'`{member}{call}`\n: {lines}\n'
 
 
-def main(path):
+def page():
+    """The whole text."""
     named = set()
-    lines = ['# Reference\n', 'Generated from the docstrings. Units are SI. `help(name)` shows the same in YADE.\n']
+    lines = ['# Reference\n', 'Of all names, with their arguments, from the docstrings by `docs/make_reference.py`. Units are SI. '
+             '`help(name)` shows the same in YADE.\n']
     for title, names in GROUPS:
         lines.append(f'## {title}\n')
         for name in names:
@@ -62,8 +98,9 @@ def main(path):
     lines.append('## Classes for YADE\'s engines\n')
     for name in sorted(set(yadefrag.__all__) - named):
         lines += describe(name, getattr(yadefrag, name, None) or getattr(wrapper, name))
-    with open(path, 'w') as file:
-        file.write('\n'.join(lines))
+    return '\n'.join(line.rstrip() for line in '\n'.join(lines).split('\n')).rstrip() + '\n'
 
 
-main(sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(__file__), 'reference.md'))
+if __name__ == '__main__':
+    with open(os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), 'reference.md'), 'w') as file:
+        file.write(page())

@@ -1,4 +1,5 @@
 """All Python of the manual and the README runs, as it is printed there."""
+import importlib.util
 import pathlib
 import re
 import subprocess
@@ -30,3 +31,14 @@ def test_blockRuns(folder, name):
 
 def test_thereAreBlocks():
     assert len(BLOCKS) >= 12 and any(name.startswith('getting_started') for name in BLOCKS)
+
+
+def test_referenceIsThatOfTheDocstrings():
+    """Otherwise: scripts/yade -n -x docs/make_reference.py"""
+    spec = importlib.util.spec_from_file_location('make_reference', ROOT / 'docs' / 'make_reference.py')
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    found = module.page()
+    assert found == (ROOT / 'docs' / 'reference.md').read_text()
+    for words in ('### `plotMesh(fe,', '`addPolygon(self, outline,', '- `size`: length of the triangles', '`fractureEnergy`'):
+        assert words in found

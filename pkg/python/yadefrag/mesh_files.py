@@ -2,11 +2,11 @@
 
 import dataclasses
 import os
-import warnings
 
 import numpy
 
 from yadefrag import mesh_checks
+from yadefrag.messages import warn
 from yadefrag.readers import abaqus, by_meshio, gmsh, refuseFile
 from yadefrag.readers.elements import cornersOf, counted
 from yadefrag.values import path, positive, shownPath
@@ -88,7 +88,7 @@ def readMesh(file, scale=1):
     triangles, source, told = mesh_checks.trianglesOf(elements, points, name)
     told = elements.leftOut + told + _looseLines(elements, triangles)
     if told:
-        warnings.warn('readMesh: %s: left out are %s.' % (shownPath(name), '; '.join(told)), stacklevel=2)
+        warn('readMesh: %s: left out are %s.' % (shownPath(name), '; '.join(told)))
     corners, triangles = numpy.unique(triangles, return_inverse=True)
     if len(elements.points) > len(used):
         told.append('%s in no triangle or quad' % counted(len(elements.points) - len(used), 'point'))
