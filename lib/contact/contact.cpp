@@ -11,7 +11,6 @@
 #include "core/tolerances/contact.hpp"
 #include "core/tolerances/solver.hpp"
 #include "core/tolerances/step.hpp"
-#include "mesh/mobility.hpp"
 
 namespace yadefrag {
 
@@ -71,6 +70,7 @@ void Contact::reserve(std::size_t nodes) {
 void Contact::correct(Model& model, const ContactSurfaces& surfaces,
                       const ContactSettings& settings, const ContactStep& step) {
   begin();
+  rigidLoads_.assign(step.rigid.masses.size(), {});
   entry_ = settings.entry;
   keepFlags(candidates, surfaces, step.before, entry_ == Entry::kFlags);
   deepest_ = deepestTouch(surfaces, step.before);
@@ -168,14 +168,14 @@ void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const Co
 void Contact::solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
                     bool anyNew) {
   const StageTimer timer(step.times, &StageTimes::correction);
+  const Inertia inertia{model.nodes, step.length, step.drag, step.rigid.masses};
   if (settings.correction == Correction::kPenalty)
-    penalize(rows_, model.nodes, step.length, step.drag, settings.penaltyFactor);
+    penalize(rows_, inertia, settings.penaltyFactor);
   else if (step.rubble)
-    inexact_ = lagrange_.sweep(rows_, model.nodes, step.length, step.drag, worthwhile(step));
+    inexact_ = lagrange_.sweep(rows_, inertia, worthwhile(step));
   else {
-    if (anyNew) lagrange_.setRows(rows_, model.nodes, step.length, step.drag);
-    const Lagrange::Outcome outcome =
-        lagrange_.solve(rows_, model.nodes, step.length, step.drag, worthwhile(step));
+    if (anyNew) lagrange_.setRows(rows_, inertia);
+    const Lagrange::Outcome outcome = lagrange_.solve(rows_, inertia, worthwhile(step));
     now_.residual = outcome.residual, inexact_ = outcome.change, now_.sweeps += outcome.sweeps;
   }
 }
@@ -198,6 +198,7 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
     startRow(row, model, surfaces, before, active, step);
     if (contradicts(surfaces, row)) row.friction = row.tangentForce = 0;
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
+    if (!step.rigid.empty()) joinRigid(row, model.nodes, step);
     rows_.push_back(row);  // Actives are in order.
   }
   if (rows_.size() == former) return false;
@@ -321,6 +322,7 @@ void Contact::move(Model& model, const ContactStep& step) {
   const double squared = step.length.squared();
   double largest = 0, farthest = 0;
   for (const NodeId node : touched_) {
+    if (isOfRigid(node, step)) continue;
     const Vec2 mobile = mobility(model.nodes, node, step.drag);
     const Vec2 force = forces_[node.value];
     const Vec2 u{squared * mobile.x * force.x, squared * mobile.y * force.y};
@@ -330,6 +332,7 @@ void Contact::move(Model& model, const ContactStep& step) {
     largest = std::max(largest, dot(u, u));
     farthest = std::max(farthest, dot(by, by));
   }
+  moveRigid(model, step, largest, farthest);
   sinceScan_ += std::sqrt(farthest);
   now_.largestCorrection = std::sqrt(largest);
   if (now_.largestCorrection <= 2 * tolerance::kFarthestMove * step.shortest) return;
@@ -352,8 +355,14 @@ void Contact::sumForces() {
 
 /// Sets velocities, outside flags, and the data for the next step.
 void Contact::finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
-  for (const NodeId node : touched_)
-    model.nodes.velocity[node.value] += (1 / step.length.position) * displacement_[node.value];
+  for (const NodeId node : touched_) {
+    const std::uint32_t n = node.value;
+    if (isOfRigid(node, step))
+      model.nodes.velocity[n] =
+          1 / step.length.position * (model.nodes.position[n] - step.before[n]);
+    else
+      model.nodes.velocity[n] += (1 / step.length.position) * displacement_[n];
+  }
   const StageTimer timer(step.times, &StageTimes::localSearch);
   formerTouches_.clear();
   for (const ContactRow& row : rows_)
@@ -368,7 +377,7 @@ void Contact::finish(Model& model, const ContactSurfaces& surfaces, const Contac
 
 void Contact::addTo(Footprint& footprint) const {
   footprint.add(Use::kContact, touches, formerTouches_, actives_, rows_, formerRows_, known_,
-                forces_, displacement_, touched_, isTouched_);
+                forces_, displacement_, touched_, isTouched_, rigidLoads_);
   footprint.add(Use::kSearch, formerOutside_);
   candidates.addTo(footprint);
   search_.addTo(footprint);

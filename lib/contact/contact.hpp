@@ -10,6 +10,7 @@
 #include "contact/contact_row.hpp"
 #include "contact/contact_settings.hpp"
 #include "contact/correction.hpp"
+#include "contact/inertia.hpp"
 #include "contact/local_search.hpp"
 #include "contact/touch.hpp"
 #include "core/stage_times.hpp"
@@ -30,6 +31,7 @@ struct ContactStep {
   std::span<const Vec2> before;  ///< m, xⁿ; of surface nodes only
   int threads;
   bool rubble;                  ///< true: faces of cracks are included
+  const RigidMasses& rigid;     ///< rigid boundaries that obey forces
   StageTimes* times = nullptr;  ///< null: not measured
 };
 
@@ -115,10 +117,13 @@ class Contact {
                        SlaveMaster pair, const ContactStep& step) const;
   bool contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const;
   bool addRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
+  void joinRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step);
+  [[nodiscard]] bool isOfRigid(NodeId node, const ContactStep& step) const;
   void startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
                 const PieceGeometry& before, const Active& active, const ContactStep& step) const;
   void updateGaps(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void move(Model& model, const ContactStep& step);
+  void moveRigid(Model& model, const ContactStep& step, double& largest, double& farthest);
   void rescan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void releaseUnsolved();
   void touch(NodeId node);
@@ -138,8 +143,14 @@ class Contact {
   std::vector<Vec2> displacement_;       // m, by node: the correction u so far
   std::vector<NodeId> touched_;          // nodes with a row
   std::vector<std::uint8_t> isTouched_;  // by node
-  double inexact_ = 0;                   // m, possible error of the sweeps
-  double sinceScan_ = 0;                 // m, upper bound of corrections since the last scan
+  struct RigidLoad {
+    Vec2 force = {};      // N
+    double moment = 0;    // N m, about the centre of mass
+    bool hasRow = false;  // the body moves with the correction
+  };
+  std::vector<RigidLoad> rigidLoads_;  // by rigid body
+  double inexact_ = 0;                 // m, possible error of the sweeps
+  double sinceScan_ = 0;               // m, upper bound of corrections since the last scan
   // Of the previous step, for `takeBack`; `touches` only after the step has set its own.
   std::vector<ContactRow> formerRows_;
   std::vector<Touch> formerTouches_;

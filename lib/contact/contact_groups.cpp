@@ -10,13 +10,17 @@ namespace {
 
 void listLinks(std::span<const ContactRow> rows, const Nodes& nodes, std::vector<RowNode>& links) {
   links.clear();
-  for (std::size_t r = 0; r < rows.size(); ++r)
+  for (std::uint32_t r = 0; r < rows.size(); ++r) {
     for (int k = 0; k < rows[r].count; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const NodeId node = rows[r].node[at];
       if (nodes.held[node.value] == kHeldXY) continue;
-      links.push_back({node, static_cast<std::uint32_t>(r), rows[r].weight[at]});
+      links.push_back({node, r, rows[r].weight[at]});
     }
+    const ContactRow::RigidPart& rigid = rows[r].rigid;
+    if (rigid.mass != ContactRow::kNoMass)
+      links.push_back({NodeId(nodes.size() + rigid.mass), r, rigid.weight, rigid.lever});
+  }
   std::stable_sort(links.begin(), links.end(),
                    [](const RowNode& a, const RowNode& b) { return a.node < b.node; });
 }

@@ -10,16 +10,18 @@
 
 namespace yadefrag {
 
-/// One node in one row; sorted by node, so that rows with a common node are adjacent.
+/// One node, or one rigid body with a number after those of the nodes, in one row; sorted by node,
+/// so that rows with a common node are adjacent.
 struct RowNode {
   NodeId node;
   std::uint32_t row;
   double weight;
+  Vec2 lever = {};  ///< m, of a rigid body
 };
 
 /// The links between rows and nodes, and the groups of rows.
 struct ContactGroups {
-  std::vector<RowNode> links;  ///< of free nodes
+  std::vector<RowNode> links;  ///< of free nodes and of rigid bodies
   Csr<std::uint32_t> rows;     ///< by group, rows ascending; groups by their first row
   Csr<std::uint32_t> spans;    ///< by group: index in `links` at which each of its nodes begins
 };

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 
 #include "core/ids.hpp"
 #include "core/vec2.hpp"
+#include "mesh/model.hpp"
 #include "surface/contact_surface.hpp"
 
 namespace yadefrag {
@@ -12,6 +14,14 @@ namespace yadefrag {
 /// One active: a slave that penetrates a master, as a row of its group's system. The displacement
 /// of the slave relative to the master is the sum of weight × displacement over the nodes.
 struct ContactRow {
+  static constexpr std::uint32_t kNoMass = 0xffffffff;
+  /// Its nodes on a rigid boundary that obeys forces act together, as one part of that body.
+  struct RigidPart {
+    std::uint32_t mass = kNoMass;  ///< number of the body, or none
+    double weight = 0;             ///< sum of the nodes' weights
+    Vec2 lever;                    ///< m, Σ weight × position from the centre of mass, at xⁿ
+  };
+
   EntryId slave;
   EntryId master;
   std::array<NodeId, 5> node;    ///< nodes of the slave, then of the master
@@ -27,10 +37,15 @@ struct ContactRow {
   double friction = 0;      ///< tan of the friction angle
   double normalForce = 0;   ///< N, on the slave along the normal
   double tangentForce = 0;  ///< N, on the slave along `tangent()`
+  RigidPart rigid;
 
   [[nodiscard]] Vec2 tangent() const { return {-normal.y, normal.x}; }
   [[nodiscard]] Vec2 force() const { return normalForce * normal + tangentForce * tangent(); }
   void add(const Stencil& stencil, double sign);
+  /// True for a node that moves with the row's rigid part.
+  [[nodiscard]] bool isOfRigid(const Nodes& nodes, NodeId at) const {
+    return rigid.mass != kNoMass && nodes.held[at.value] == kHeldXY;
+  }
 };
 
 /// Σ weight × field over the row's nodes.

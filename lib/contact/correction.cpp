@@ -5,7 +5,6 @@
 
 #include "core/tolerances/contact.hpp"
 #include "core/tolerances/solver.hpp"
-#include "mesh/mobility.hpp"
 
 namespace yadefrag {
 
@@ -16,7 +15,11 @@ bool isOpen(const ContactRow& row, double tolerance) {
   return row.excess > tolerance || (row.excess < -tolerance && row.normalForce > 0);
 }
 
-double weighted(Vec2 a, Vec2 mobile, Vec2 b) { return a.x * mobile.x * b.x + a.y * mobile.y * b.y; }
+/// Sweeps converge slowly where nodes on both sides of a light rigid body press on it.
+bool isPivotedForRigid(std::span<const ContactRow> rows, std::span<const std::uint32_t> members) {
+  const auto onBody = [&](std::uint32_t r) { return rows[r].rigid.mass != ContactRow::kNoMass; };
+  return members.size() <= tolerance::kPivotedRigidRows && std::ranges::any_of(members, onBody);
+}
 
 /// (N) The largest force that removes the gap or slip of one row alone.
 double forceScale(const BoxProblem& problem) {
@@ -30,19 +33,18 @@ double forceScale(const BoxProblem& problem) {
 
 }  // namespace
 
-void Lagrange::setRows(std::span<const ContactRow> rows, const Nodes& nodes, const StepLength& step,
-                       double drag) {
-  findContactGroups(rows, nodes, groups_);
+void Lagrange::setRows(std::span<const ContactRow> rows, const Inertia& inertia) {
+  findContactGroups(rows, inertia.nodes, groups_);
   normalOf_.resize(rows.size());
   const auto rubs = [](const ContactRow& row) { return row.friction > 0; };
   tangentOf_.resize(std::ranges::any_of(rows, rubs) ? rows.size() : 0);
   const std::size_t groups = groups_.rows.rows();
   if (systems_.size() < groups) systems_.resize(groups);
-  for (std::size_t group = 0; group < groups; ++group) assemble(rows, nodes, group, step, drag);
+  for (std::size_t group = 0; group < groups; ++group) assemble(rows, inertia, group);
 }
 
-Lagrange::Outcome Lagrange::solve(std::span<ContactRow> rows, const Nodes& nodes,
-                                  const StepLength& step, double drag, double tolerance) {
+Lagrange::Outcome Lagrange::solve(std::span<ContactRow> rows, const Inertia& inertia,
+                                  double tolerance) {
   const RowSweeps::Stop stop{tolerance::kSweptChange * tolerance, tolerance::kGroupSweeps};
   Outcome worst;
   for (std::size_t group = 0; group < groups_.rows.rows(); ++group) {
@@ -51,7 +53,7 @@ Lagrange::Outcome Lagrange::solve(std::span<ContactRow> rows, const Nodes& nodes
     system.outcome.sweeps = 0;
     if (std::ranges::any_of(members, [&](std::uint32_t r) { return isOpen(rows[r], tolerance); })) {
       if (system.isSwept) {
-        const double change = sweeps_.solve(rows, members, nodes, step, drag, stop);
+        const double change = sweeps_.solve(rows, members, inertia, stop);
         system.outcome = {0, change, sweeps_.sweeps()};
       } else {
         solveGroup(rows, members, system);
@@ -64,9 +66,8 @@ Lagrange::Outcome Lagrange::solve(std::span<ContactRow> rows, const Nodes& nodes
   return worst;
 }
 
-double Lagrange::sweep(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step,
-                       double drag, double change) {
-  return sweeps_.solve(rows, nodes, step, drag, {change, tolerance::contact().rowSweeps});
+double Lagrange::sweep(std::span<ContactRow> rows, const Inertia& inertia, double change) {
+  return sweeps_.solve(rows, inertia, {change, tolerance::contact().rowSweeps});
 }
 
 /// True if a group is solved by sweeps. Without friction pivoting is as fast, and exact. With
@@ -84,25 +85,27 @@ std::size_t Lagrange::numberUnknowns(std::span<const ContactRow> rows, Members m
   return count;
 }
 
-/// G = Δt² W M⁻¹ Wᵀ: two rows interact through every common node.
-void Lagrange::assemble(std::span<const ContactRow> rows, const Nodes& nodes, std::size_t group,
-                        const StepLength& step, double drag) {
+/// G = Δt² W M⁻¹ Wᵀ: two rows interact through every common node and through a common rigid body.
+void Lagrange::assemble(std::span<const ContactRow> rows, const Inertia& inertia,
+                        std::size_t group) {
   System& system = systems_[group];
   const Members members = groups_.rows.row(group);
   system.outcome = {};
-  system.isSwept = isSwept(members);
+  system.isSwept = isSwept(members) && !isPivotedForRigid(rows, members);
   if (system.isSwept) return;
   const std::size_t unknowns = numberUnknowns(rows, members);
   entries_.clear();
   const std::span<const RowNode> links(groups_.links);
   for (const std::uint32_t begin : groups_.spans.row(group)) {
     const NodeId node = links[begin].node;
-    const Vec2 mobile = step.squared() * mobility(nodes, node, drag);
+    const double squared = inertia.step.squared();
+    const Vec2 mobile = squared * inertia.mobilityOf(node);
+    const double turning = squared * inertia.turningOf(node);
     std::size_t end = begin;
     while (end < links.size() && links[end].node == node) ++end;
     for (std::size_t p = begin; p < end; ++p)
       for (std::size_t q = begin; q < end; ++q)
-        addPair(rows[links[p].row], rows[links[q].row], links[p], links[q], mobile);
+        addPair(rows[links[p].row], rows[links[q].row], links[p], links[q], mobile, turning);
   }
   system.problem.setMatrix(unknowns, entries_);
   setGaps(rows, members, system.problem);
@@ -127,16 +130,21 @@ void Lagrange::setGaps(std::span<const ContactRow> rows, Members members, BoxPro
   }
 }
 
+/// `mobile` (m/N), `turning` (rad/(N m)): displacement and rotation per force and moment.
 void Lagrange::addPair(const ContactRow& a, const ContactRow& b, const RowNode& p, const RowNode& q,
-                       Vec2 mobile) {
+                       Vec2 mobile, double turning) {
   const Vec2 scaled = p.weight * q.weight * mobile;
+  const auto coupling = [&](Vec2 e, Vec2 f) {
+    const double moved = weighted(e, scaled, f);
+    return turning == 0 ? moved : moved + turning * cross(p.lever, e) * cross(q.lever, f);
+  };
   const std::uint32_t na = normalOf_[p.row], nb = normalOf_[q.row];
   const std::uint32_t ta = tangentOf(p.row), tb = tangentOf(q.row);
-  entries_.push_back({na, nb, weighted(a.normal, scaled, b.normal)});
-  if (tb != kNone) entries_.push_back({na, tb, weighted(a.normal, scaled, b.tangent())});
+  entries_.push_back({na, nb, coupling(a.normal, b.normal)});
+  if (tb != kNone) entries_.push_back({na, tb, coupling(a.normal, b.tangent())});
   if (ta == kNone) return;
-  entries_.push_back({ta, nb, weighted(a.tangent(), scaled, b.normal)});
-  if (tb != kNone) entries_.push_back({ta, tb, weighted(a.tangent(), scaled, b.tangent())});
+  entries_.push_back({ta, nb, coupling(a.tangent(), b.normal)});
+  if (tb != kNone) entries_.push_back({ta, tb, coupling(a.tangent(), b.tangent())});
 }
 
 /// Without friction one solution. With friction, the bounds of the tangential forces depend on the
@@ -197,16 +205,26 @@ void Lagrange::addTo(Footprint& footprint) const {
   }
 }
 
-void penalize(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
-              double factor) {
+void penalize(std::span<ContactRow> rows, const Inertia& inertia, double factor) {
+  const double squared = inertia.step.squared();
   for (ContactRow& row : rows) {
     double normal = 0, tangent = 0;
-    for (int k = 0; k < row.count; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      const Vec2 mobile =
-          step.squared() * row.weight[at] * row.weight[at] * mobility(nodes, row.node[at], drag);
+    const auto add = [&](double weight, Vec2 mobility) {
+      const Vec2 mobile = squared * weight * weight * mobility;
       normal += weighted(row.normal, mobile, row.normal);
       tangent += weighted(row.tangent(), mobile, row.tangent());
+    };
+    for (int k = 0; k < row.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      add(row.weight[at], inertia.mobilityOf(row.node[at]));
+    }
+    if (row.rigid.mass != ContactRow::kNoMass) {
+      const RigidMass& body = inertia.rigid[row.rigid.mass];
+      add(row.rigid.weight, body.mobility);
+      const double across = cross(row.rigid.lever, row.normal);
+      const double along = cross(row.rigid.lever, row.tangent());
+      normal += squared * body.turning * across * across;
+      tangent += squared * body.turning * along * along;
     }
     row.normalForce = normal > 0 ? factor * std::max(0., row.toleratedGap - row.gap) / normal : 0;
     const double most = row.friction * row.normalForce;

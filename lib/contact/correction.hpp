@@ -8,10 +8,9 @@
 #include "contact/box_problem.hpp"
 #include "contact/contact_groups.hpp"
 #include "contact/contact_row.hpp"
+#include "contact/inertia.hpp"
 #include "contact/row_sweeps.hpp"
 #include "core/footprint.hpp"
-#include "core/step_length.hpp"
-#include "mesh/model.hpp"
 
 namespace yadefrag {
 
@@ -28,18 +27,14 @@ class Lagrange {
   };
   /// Must be called for new rows, or the same ones in another order: determines their groups and
   /// systems.
-  void setRows(std::span<const ContactRow> rows, const Nodes& nodes, const StepLength& step,
-               double drag);
+  void setRows(std::span<const ContactRow> rows, const Inertia& inertia);
   /// Computes the forces of all rows, starting from their present values. Groups without a
-  /// penetration (`excess`) above `tolerance` (m) keep their forces. `nodes`, `step`, `drag` as in
-  /// `setRows`.
-  Outcome solve(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
-                double tolerance);
+  /// penetration (`excess`) above `tolerance` (m) keep their forces. `inertia` as in `setRows`.
+  Outcome solve(std::span<ContactRow> rows, const Inertia& inertia, double tolerance);
   /// The same in rubble: all rows are solved by a few sweeps, independently of groups, until no gap
   /// or slip changes by more than `change` (m). Does not need `setRows`; returns the last change
   /// (m).
-  double sweep(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
-               double change);
+  double sweep(std::span<ContactRow> rows, const Inertia& inertia, double change);
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { sweeps_.reserve(nodes); }
   /// Without the memory of the solver of a group.
@@ -61,10 +56,9 @@ class Lagrange {
   }
   [[nodiscard]] bool isSwept(Members members) const;
   std::size_t numberUnknowns(std::span<const ContactRow> rows, Members members);
-  void assemble(std::span<const ContactRow> rows, const Nodes& nodes, std::size_t group,
-                const StepLength& step, double drag);
+  void assemble(std::span<const ContactRow> rows, const Inertia& inertia, std::size_t group);
   void addPair(const ContactRow& a, const ContactRow& b, const RowNode& p, const RowNode& q,
-               Vec2 mobile);
+               Vec2 mobile, double turning);
   void setGaps(std::span<const ContactRow> rows, Members members, BoxProblem& problem);
   void solveGroup(std::span<ContactRow> rows, Members members, System& system);
   bool boundFriction(std::span<const ContactRow> rows, Members members, System& system,
@@ -82,7 +76,6 @@ class Lagrange {
 
 /// Penalty: for each row separately, the force that would remove `factor` of its penetration in one
 /// step.
-void penalize(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
-              double factor);
+void penalize(std::span<ContactRow> rows, const Inertia& inertia, double factor);
 
 }  // namespace yadefrag

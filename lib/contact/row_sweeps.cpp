@@ -4,19 +4,16 @@
 #include <cmath>
 #include <type_traits>
 
-#include "mesh/mobility.hpp"
-
 namespace yadefrag {
 
-double RowSweeps::solve(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step,
-                        double drag, Stop stop) {
+double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop) {
   while (all_.size() < rows.size()) all_.push_back(static_cast<std::uint32_t>(all_.size()));
-  return solve(rows, std::span(all_).first(rows.size()), nodes, step, drag, stop);
+  return solve(rows, std::span(all_).first(rows.size()), inertia, stop);
 }
 
 double RowSweeps::solve(std::span<ContactRow> rows, std::span<const std::uint32_t> members,
-                        const Nodes& nodes, const StepLength& step, double drag, Stop stop) {
-  begin(rows, members, nodes, step, drag);
+                        const Inertia& inertia, Stop stop) {
+  begin(rows, members, inertia);
   double change = 0;
   count_ = 0;
   while (count_ < stop.most) {
@@ -34,10 +31,12 @@ double RowSweeps::solve(std::span<ContactRow> rows, std::span<const std::uint32_
 }
 
 void RowSweeps::begin(std::span<const ContactRow> rows, std::span<const std::uint32_t> members,
-                      const Nodes& nodes, const StepLength& step, double drag) {
-  numbers_.resize(nodes.size());
+                      const Inertia& inertia) {
+  numbers_.resize(inertia.size());
   nodes_.clear();
   displacement_.clear();
+  rotation_.clear();
+  turns_.clear();
   rows_.resize(members.size());
   ends_.resize(members.size());
   for (std::size_t r = 0; r < members.size(); ++r) {
@@ -47,25 +46,46 @@ void RowSweeps::begin(std::span<const ContactRow> rows, std::span<const std::uin
     swept = {};
     ends = {};
     swept.place = members[r];
-    ends.count = static_cast<std::uint32_t>(row.count);
     swept.normal = row.normal;
     swept.gap = row.gap - row.toleratedGap, swept.slip = row.slip, swept.friction = row.friction;
     swept.normalForce = row.normalForce, swept.tangentForce = row.tangentForce;
-    const Vec2 along = row.tangent();
-    for (std::uint32_t k = 0; k < ends.count; ++k) {
-      const Vec2 mobile = step.squared() * row.weight[k] * mobility(nodes, row.node[k], drag);
-      const Vec2 perNormal{mobile.x * row.normal.x, mobile.y * row.normal.y};
-      const Vec2 perTangent{mobile.x * along.x, mobile.y * along.y};
-      swept.normalResponse += row.weight[k] * dot(perNormal, row.normal);
-      swept.tangentResponse += row.weight[k] * dot(perTangent, along);
-      swept.slipPerNormal += row.weight[k] * dot(perNormal, along);
-      ends.node[k] = numberOf(row.node[k]);
-      swept.weight[k] = row.weight[k], swept.perForce[k] = mobile;
-    }
-    push(swept, ends, row.force());
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(row.count); ++k)
+      if (!row.isOfRigid(inertia.nodes, row.node[k]))
+        addEnd(swept, ends, row.node[k], row.weight[k], inertia);
+    if (row.rigid.mass != ContactRow::kNoMass) addRigid(swept, ends, row.rigid, inertia);
+    push(swept, ends, ends.count, row.force());
   }
   findRowsOfNodes();
   waiting_.fill(rows_.size());
+}
+
+void RowSweeps::addEnd(SweepRow& swept, Ends& ends, NodeId number, double weight,
+                       const Inertia& inertia) {
+  const Vec2 along{-swept.normal.y, swept.normal.x};
+  const Vec2 mobile = inertia.step.squared() * weight * inertia.mobilityOf(number);
+  const Vec2 perNormal{mobile.x * swept.normal.x, mobile.y * swept.normal.y};
+  const Vec2 perTangent{mobile.x * along.x, mobile.y * along.y};
+  swept.normalResponse += weight * dot(perNormal, swept.normal);
+  swept.tangentResponse += weight * dot(perTangent, along);
+  swept.slipPerNormal += weight * dot(perNormal, along);
+  ends.node[ends.count] = numberOf(number);
+  swept.weight[ends.count] = weight, swept.perForce[ends.count] = mobile;
+  ++ends.count;
+}
+
+void RowSweeps::addRigid(SweepRow& swept, Ends& ends, const ContactRow::RigidPart& part,
+                         const Inertia& inertia) {
+  const NodeId number(inertia.nodes.size() + part.mass);
+  addEnd(swept, ends, number, part.weight, inertia);
+  rotation_.resize(nodes_.size());
+  const double turning = inertia.step.squared() * inertia.turningOf(number);
+  const double normal = cross(part.lever, swept.normal);
+  const double tangent = cross(part.lever, Vec2{-swept.normal.y, swept.normal.x});
+  swept.normalResponse += turning * normal * normal;
+  swept.tangentResponse += turning * tangent * tangent;
+  swept.slipPerNormal += turning * normal * tangent;
+  ends.turn = static_cast<std::uint32_t>(turns_.size());
+  turns_.push_back({part.lever, turning, ends.node[ends.count - 1]});
 }
 
 std::uint32_t RowSweeps::numberOf(NodeId node) {
@@ -77,9 +97,13 @@ std::uint32_t RowSweeps::numberOf(NodeId node) {
   return number;
 }
 
-void RowSweeps::push(const SweepRow& row, const Ends& ends, Vec2 force) {
-  for (std::uint32_t k = 0; k < ends.count; ++k)
+template <class Count>
+void RowSweeps::push(const SweepRow& row, const Ends& ends, Count count, Vec2 force) {
+  for (std::uint32_t k = 0; k < count; ++k)
     displacement_[ends.node[k]] += Vec2{row.perForce[k].x * force.x, row.perForce[k].y * force.y};
+  if (ends.turn == kNone) return;
+  const Turn& turn = turns_[ends.turn];
+  rotation_[turn.number] += turn.perMoment * cross(turn.lever, force);
 }
 
 void RowSweeps::findRowsOfNodes() {
@@ -103,7 +127,8 @@ double RowSweeps::sweep(bool forwards, double tolerance) {
     if (!(moved > tolerance)) return;
     for (std::uint32_t k = 0; k < ends.count; ++k)
       for (const std::uint32_t other : rowsOfNodes_.row(ends.node[k])) waiting_.add(other);
-    waiting_.remove(r);
+    // Its own gap is 0 now, unless friction has turned a rigid body.
+    if (ends.turn == kNone) waiting_.remove(r);
   };
   if (forwards)
     waiting_.visitUp(visit);
@@ -120,6 +145,10 @@ double RowSweeps::relax(SweepRow& row, const Ends& ends, Count count) {
   const Vec2 along{-row.normal.y, row.normal.x};
   Vec2 moved;
   for (std::uint32_t k = 0; k < count; ++k) moved += row.weight[k] * displacement_[ends.node[k]];
+  if (ends.turn != kNone) {
+    const Turn& turn = turns_[ends.turn];
+    moved += rotation_[turn.number] * Vec2{-turn.lever.y, turn.lever.x};
+  }
   const double gap = row.gap + dot(moved, row.normal);
   const double normal = std::max(0., row.normalForce - gap / row.normalResponse);
   const double pushed = normal - row.normalForce;
@@ -133,9 +162,7 @@ double RowSweeps::relax(SweepRow& row, const Ends& ends, Count count) {
     row.tangentForce = tangent;
   }
   if (pushed == 0 && pulled == 0) return 0;
-  const Vec2 force = pushed * row.normal + pulled * along;
-  for (std::uint32_t k = 0; k < count; ++k)
-    displacement_[ends.node[k]] += Vec2{row.perForce[k].x * force.x, row.perForce[k].y * force.y};
+  push(row, ends, count, pushed * row.normal + pulled * along);
   return std::max(std::abs(pushed) * row.normalResponse, std::abs(pulled) * row.tangentResponse);
 }
 

@@ -16,11 +16,10 @@
 #include <vector>
 
 #include "contact/contact_row.hpp"
+#include "contact/inertia.hpp"
 #include "core/csr.hpp"
 #include "core/footprint.hpp"
-#include "core/step_length.hpp"
 #include "core/work_list.hpp"
-#include "mesh/model.hpp"
 
 namespace yadefrag {
 
@@ -32,18 +31,17 @@ class RowSweeps {
     int most;
   };
   /// Improves the forces of all rows; returns the largest change in the last sweep (m).
-  double solve(std::span<ContactRow> rows, const Nodes& nodes, const StepLength& step, double drag,
-               Stop stop);
+  double solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop);
   /// The same for the rows `members` only.
   double solve(std::span<ContactRow> rows, std::span<const std::uint32_t> members,
-               const Nodes& nodes, const StepLength& step, double drag, Stop stop);
+               const Inertia& inertia, Stop stop);
   /// Number of sweeps of the last solution.
   [[nodiscard]] int sweeps() const { return count_; }
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, rows_, ends_, all_, nodes_, numbers_, displacement_, links_,
-                  rowsOfNodes_.values, rowsOfNodes_.offsets);
+    footprint.add(use, rows_, ends_, turns_, all_, nodes_, numbers_, displacement_, rotation_,
+                  links_, rowsOfNodes_.values, rowsOfNodes_.offsets);
     waiting_.addTo(footprint, use);
   }
 
@@ -59,19 +57,31 @@ class RowSweeps {
     double normalForce, tangentForce;        // N
     std::uint32_t place;                     // index among all rows
   };
-  /// Nodes of a row.
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  /// Nodes of a row, and the rigid body of the last of these, if that is one.
   struct Ends {
     std::array<std::uint32_t, 5> node;  // index among the nodes of all rows
     std::uint32_t count;
+    std::uint32_t turn = kNone;  // index in turns_
+  };
+  /// Rotation of a rigid body in a row.
+  struct Turn {
+    Vec2 lever;        // m
+    double perMoment;  // rad/(N m)
+    std::uint32_t number;
   };
   struct Link {
     std::uint32_t node, row;
   };
 
   void begin(std::span<const ContactRow> rows, std::span<const std::uint32_t> members,
-             const Nodes& nodes, const StepLength& step, double drag);
+             const Inertia& inertia);
+  void addEnd(SweepRow& swept, Ends& ends, NodeId number, double weight, const Inertia& inertia);
+  void addRigid(SweepRow& swept, Ends& ends, const ContactRow::RigidPart& part,
+                const Inertia& inertia);
   std::uint32_t numberOf(NodeId node);
-  void push(const SweepRow& row, const Ends& ends, Vec2 force);
+  template <class Count>
+  void push(const SweepRow& row, const Ends& ends, Count count, Vec2 force);
   template <class Count>
   double relax(SweepRow& row, const Ends& ends, Count count);
   double sweep(bool forwards, double tolerance);
@@ -79,10 +89,12 @@ class RowSweeps {
 
   std::vector<SweepRow> rows_;
   std::vector<Ends> ends_;              // nodes of the rows
+  std::vector<Turn> turns_;             // of rows on rigid bodies
   std::vector<std::uint32_t> all_;      // 0, 1, 2, …
-  std::vector<NodeId> nodes_;           // nodes with a row
+  std::vector<NodeId> nodes_;           // nodes and rigid bodies with a row
   std::vector<std::uint32_t> numbers_;  // by node: index in nodes_; valid for these only
   std::vector<Vec2> displacement_;      // m, by number
+  std::vector<double> rotation_;        // rad, by number; empty without rigid bodies
   std::vector<Link> links_;
   Csr<std::uint32_t> rowsOfNodes_;  // by number
   WorkList waiting_;  // rows with a node that another row has moved by more than the tolerance

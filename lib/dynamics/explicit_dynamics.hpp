@@ -75,6 +75,10 @@ class ExplicitDynamics {
   /// if a node moves by a large part (`kLargeMove`) of the least height of an element.
   void requireUpright(const Model& model, double dt, double correction) const;
 
+  /// Must be called for a held node whose velocity contact has changed: it belongs to a rigid
+  /// boundary that obeys forces.
+  void setHeld(NodeId node, Vec2 velocity) { heldVelocity_[node.value] = velocity; }
+
   /// Undoes `predict` and all later changes of positions and velocities.
   void takeBack(Model& model);
 

@@ -75,6 +75,7 @@ void World::conclude(double dt) {
   outerForces.clear();
   givenVelocities.clear();
   rigidVelocities.clear();
+  rigidMasses.clear();
   givenPressures.clear();
   watchEnergy();
 

@@ -158,6 +158,9 @@ class World {
   std::vector<Vec2> givenVelocities;
   /// (m/s) By index in `rigidNodes`, for the next step only; empty: they do not move.
   std::vector<Vec2> rigidVelocities;
+  /// Rigid boundaries that obey forces, for the next step only: contact forces change their
+  /// velocity in the step. Empty: all have the velocities above.
+  RigidMasses rigidMasses;
   /// Values of pressures with a function, for the next step only.
   struct GivenPressure {
     std::uint32_t function;

@@ -42,9 +42,12 @@ void World::correctContact(const StepLength& length) {
                         dynamics_.previousPosition(),
                         threads,
                         fracture.numCracks() > 0,
+                        rigidMasses,
                         timesIfRequested()};
   undo_.hasCorrected = true;
   contact.correct(model, surfaces, contactSettings, now);
+  for (const RigidMasses::Member& member : rigidMasses.members)
+    dynamics_.setHeld(member.node, model.nodes.velocity[member.node.value]);
   search.addCorrection(contact.largestCorrection());
 }
 

@@ -47,7 +47,7 @@ void FESolver::action() try {
   const std::size_t known = world_.warnings.size();
   collectForces();
   functions_.giveValues(world_, scene->dt);
-  rigid_.giveVelocities(world_, scene->dt, timeToIntegrate());
+  rigid_.giveVelocities(*scene, world_, integrator(true));
   const StepLength length(scene->dt, world_.lastDt);
   try {
     world_.step(scene->dt);
@@ -111,14 +111,19 @@ void FESolver::report(std::vector<std::string> sentences) {
 void FESolver::followRigid(bool enginesAreNew) {
   bool areNew = false;
   try {
-    areNew = rigid_.follow(*scene, world_, bodies_, rigidBodies, timeToIntegrate());
+    areNew = rigid_.follow(*scene, world_, bodies_, rigidBodies, integrator(true));
   } catch (const InputError& error) {
     throw std::invalid_argument(std::string(error.what()) +
                                 " FESolver(rigidBodies=False) disables contact with it.");
   }
   report(rigid_.takeSentences());
-  if ((enginesAreNew || areNew) && rigid_.anyMovable(*scene))
-    EngineOrder::requireReturn(*scene, *this);
+  if (!(enginesAreNew || areNew) || !rigid_.anyMovable(*scene)) return;
+  EngineOrder::requireReturn(*scene, *this);
+  if (integrator(false) && !integrator(true))
+    report(
+        {"NewtonIntegrator comes before FESolver in O.engines: rigid bodies that obey forces keep "
+         "their velocity while they touch FE bodies, and light ones rebound too fast; it must come "
+         "after FESolver."});
 }
 
 /// Adds bodies for new faces, and removes those of removed fragments. FESolver already handles the

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "core/tolerances/collider.hpp"
@@ -49,42 +48,48 @@ const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
   return place < scene.bodies->body.size() ? scene.bodies->body[place].get() : nullptr;
 }
 
-/// State of the body that moves it: that of the clump for its members.
-const yade::State& mover(const yade::Scene& scene, const yade::Body& body) {
-  const yade::Body* clump = body.isClumpMember() ? bodyAt(scene, body.clumpId) : nullptr;
-  return clump ? *clump->state : *body.state;
+/// (s) Time for which the integrator, or none, moves the bodies.
+double movingTime(const yade::Scene& scene, const yade::NewtonIntegrator* newton) {
+  return newton ? scene.dt : 0;
+}
+
+yade::Body::id_t moverIdOf(const yade::Scene& scene, const yade::Body& body,
+                           const yade::NewtonIntegrator* newton) {
+  const yade::Body& mover = moverOf(scene, body);
+  return obeysForces(newton, mover) ? mover.id : RigidPart::kHeld;
 }
 
 }  // namespace
 
 bool RigidBodies::follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted,
-                         double dt) {
+                         const yade::NewtonIntegrator* newton) {
   if (!wanted) {
     if (any()) takeOut(scene, world, entries);
     members_.clear();
     seen_ = 0;
     return false;
   }
-  findBodies(scene);
+  findBodies(scene, newton);
   const yade::Body* element = entries.anyBody();
   const bool anyNew = takeNew(scene, element ? element->groupMask : 0);
-  bool isBuilt = anyNew || !holds(scene, world, dt);
-  if (isBuilt) build(scene, world, entries, dt);
+  bool isBuilt = anyNew || !holds(scene, world, newton);
+  if (isBuilt) build(scene, world, entries, newton);
   const bool mayBeShort = any() && (world.search.isDue || world.search.isVoid);
   if (mayBeShort && !slideWalls(world)) {
-    build(scene, world, entries, dt);
+    build(scene, world, entries, newton);
     isBuilt = true;
   }
   return isBuilt;
 }
 
 /// Must be called after loading.
-void RigidBodies::findBodies(const yade::Scene& scene) {
+void RigidBodies::findBodies(const yade::Scene& scene, const yade::NewtonIntegrator* newton) {
   for (std::uint32_t m = 0; m < members_.size(); ++m) {
     Member& member = members_[m];
     if (member.body || !bodyAt(scene, member.id)) continue;
     member.body = scene.bodies->body[static_cast<std::size_t>(member.id)];
     if (member.body->shape) member.form = formOf(*member.body->shape);
+    member.mover = moverIdOf(scene, *member.body, newton);
     member.isOut = std::ranges::find(corners_, m, &RigidCorner::member) == corners_.end();
   }
 }
@@ -123,14 +128,16 @@ bool RigidBodies::comesBack(Member& member) {
 
 /// True if all bodies are still in the scene and in the plane, with the same shape, at the
 /// positions to which they would have moved, and if connected facets are still connected.
-bool RigidBodies::holds(const yade::Scene& scene, const World& world, double dt) {
+bool RigidBodies::holds(const yade::Scene& scene, const World& world,
+                        const yade::NewtonIntegrator* newton) {
   for (Member& member : members_) {
     const yade::Body* body = bodyAt(scene, member.id);
     if (!body || body != member.body.get() || !body->shape) return false;
     if (formOf(*body->shape) != member.form) return false;
     if (member.isOut && comesBack(member)) return false;
+    if (!member.isOut && moverIdOf(scene, *body, newton) != member.mover) return false;
   }
-  return areInPlace(world, dt);
+  return areInPlace(world, movingTime(scene, newton));
 }
 
 /// A part of `holds`.
@@ -178,7 +185,9 @@ FormerCorners RigidBodies::formerCorners(const yade::Scene& scene, const World& 
 }
 
 /// Parts of the members in the plane, without removed bodies.
-std::vector<RigidPart> RigidBodies::parts(std::vector<std::uint32_t>& memberOf, double dt) {
+std::vector<RigidPart> RigidBodies::parts(const yade::Scene& scene,
+                                          std::vector<std::uint32_t>& memberOf,
+                                          const yade::NewtonIntegrator* newton) {
   std::vector<RigidPart> all;
   for (Member& member : members_) {
     const yade::Body& body = *member.body;
@@ -188,26 +197,34 @@ std::vector<RigidPart> RigidBodies::parts(std::vector<std::uint32_t>& memberOf, 
     member.isNew = false;
     member.position = body.state->se3.position, member.orientation = body.state->se3.orientation;
     if (!section) continue;
-    const RigidPose now(body), then(body, dt);
+    member.mover = moverIdOf(scene, body, newton);
+    if (newton && lacksInertia(*moverOf(scene, body).state))
+      sentences_.push_back(fmt::format(
+          "{} #{} is not fixed but has no mass or no inertia, and NewtonIntegrator divides by "
+          "zero; set state.mass and state.inertia, or state.blockedDOFs = 'xyzXYZ'.",
+          body.shape->getClassName(), member.id));
+    const RigidPose now(body), then(body, movingTime(scene, newton));
     std::vector<Vec2> after;
     for (const Vec2 point : section->points)
       after.push_back(inPlane(then.place(now.local(inSpace(point)))));
     all.push_back({std::move(*section), std::move(after), frictionOf(body),
-                   fmt::format("{} #{}", body.shape->getClassName(), member.id)});
+                   fmt::format("{} #{}", body.shape->getClassName(), member.id), member.mover});
     memberOf.push_back(static_cast<std::uint32_t>(&member - members_.data()));
   }
   return all;
 }
 
 /// Sides that existed before begin their motion at their previous position.
-void RigidBodies::build(yade::Scene& scene, World& world, EntryBodies& entries, double dt) {
+void RigidBodies::build(yade::Scene& scene, World& world, EntryBodies& entries,
+                        const yade::NewtonIntegrator* newton) {
+  movers_.forget();
   FormerCorners former = formerCorners(scene, world);
   std::erase_if(members_, [&](const Member& member) {
     const yade::Body* body = bodyAt(scene, member.id);
     return !body || body != member.body.get() || !body->shape;
   });
   std::vector<std::uint32_t> memberOf;
-  const std::vector<RigidPart> sections = parts(memberOf, dt);
+  const std::vector<RigidPart> sections = parts(scene, memberOf, newton);
   const Extent extent(world);
   const double farthest = farthestOf(world);
   corners_.clear();
@@ -239,7 +256,20 @@ void RigidBodies::build(yade::Scene& scene, World& world, EntryBodies& entries, 
     throw;
   }
   world.slideRigid(starts);
+  startMoving(scene, world);
   entries.addNone(world);
+}
+
+/// The work of the first contact depends on the velocity before it, too.
+void RigidBodies::startMoving(const yade::Scene& scene, World& world) const {
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const Member& member = members_[corners_[i].member];
+    if (member.mover == kHeld) continue;
+    const yade::State& state = *moverOf(scene, *member.body).state;
+    const Vector3r arm = RigidPose(*member.body).place(corners_[i].place) - state.se3.position;
+    world.model.nodes.velocity[world.rigidNodes()[i].value] =
+        inPlane(state.vel + state.angVel.cross(arm));
+  }
 }
 
 void RigidBodies::addCorners(const RigidOutline& outline,
@@ -289,99 +319,9 @@ bool RigidBodies::slideWalls(World& world) {
   return true;
 }
 
-void RigidBodies::giveVelocities(World& world, double stepDt, double dt) const {
-  world.rigidVelocities.clear();
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const Vec2 from = world.model.nodes.position[world.rigidNodes()[i].value];
-    const RigidPose pose(*members_[corners_[i].member].body, dt);
-    world.rigidVelocities.push_back(1 / stepDt * (inPlane(pose.place(corners_[i].place)) - from));
-  }
-  if (dt == 0) warnOfUnmoved();
-}
-
-/// A script that sets a velocity expects the body to move.
-void RigidBodies::warnOfUnmoved() const {
-  for (const RigidCorner& corner : corners_) {
-    const yade::Body& body = *members_[corner.member].body;
-    if (body.state->vel.isZero(0) && body.state->angVel.isZero(0)) continue;
-    sentences_.push_back(
-        fmt::format("{} #{} has a velocity, but no NewtonIntegrator behind FESolver moves it: "
-                    "engines(fe, moving=True) has one.",
-                    body.shape->getClassName(), body.id));
-    return;
-  }
-}
-
-void RigidBodies::giveForces(yade::Scene& scene, const World& world,
-                             const StepLength& length) const {
-  const ContactSurfaces& surfaces = world.surfaces;
-  const Nodes& nodes = world.model.nodes;
-  const auto isRigid = [&](EntryId entry) {
-    return world.model.components[surfaces.component[entry.value].value].rigid;
-  };
-  for (const ContactRow& row : world.contact.rows()) {
-    const bool ofSlave = isRigid(row.slave);
-    if (!ofSlave && !isRigid(row.master)) continue;
-    const EntryId entry = ofSlave ? row.slave : row.master;
-    const NodeId corner = surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
-    const auto at = std::ranges::lower_bound(world.rigidNodes(), corner);
-    const RigidCorner& own = corners_[static_cast<std::size_t>(at - world.rigidNodes().begin())];
-    const yade::Body& body = *members_[own.member].body;
-    const double sign = ofSlave ? 1 : -1;
-    // The forces act at the positions at the begin of the step.
-    Vec2 point;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
-      const std::uint32_t node = row.node[k].value;
-      if (!world.model.components[nodes.component[node].value].rigid) continue;
-      const Vec2 before = nodes.position[node] - length.position * nodes.velocity[node];
-      point += sign * row.weight[k] * before;
-    }
-    const Vec2 force = sign * length.velocity / length.position * row.force();
-    const Vec2 arm = point - inPlane(body.state->se3.position);
-    scene.forces.addForce(body.id, inSpace(force));
-    scene.forces.addTorque(body.id, Vector3r(0, 0, cross(arm, force)));
-  }
-  if (!reportedLight_) warnOfLight(scene, world);
-}
-
-/// A boundary keeps its velocity during a step, independently of forces. A body lighter than the
-/// nodes that it stops would therefore rebound faster than it came.
-void RigidBodies::warnOfLight(const yade::Scene& scene, const World& world) const {
-  const Nodes& nodes = world.model.nodes;
-  const auto isRigid = [&](NodeId node) {
-    return world.model.components[nodes.component[node.value].value].rigid;
-  };
-  std::vector<double> touched(members_.size());
-  std::set<std::pair<std::uint32_t, NodeId>> known;
-  for (const ContactRow& row : world.contact.rows()) {
-    const auto begin = row.node.begin(), end = begin + row.count;
-    const auto rigid = std::find_if(begin, end, isRigid);
-    if (rigid == end || row.normalForce == 0) continue;
-    const auto at = std::ranges::lower_bound(world.rigidNodes(), *rigid);
-    const std::uint32_t member =
-        corners_[static_cast<std::size_t>(at - world.rigidNodes().begin())].member;
-    for (auto node = begin; node != end; ++node)
-      if (!isRigid(*node) && known.emplace(member, *node).second)
-        touched[member] += nodes.mass[node->value];
-  }
-  for (std::size_t m = 0; m < touched.size(); ++m) {
-    const yade::Body& body = *members_[m].body;
-    const yade::State& state = mover(scene, body);
-    if (state.blockedDOFs == yade::State::DOF_ALL || touched[m] <= state.mass) continue;
-    sentences_.push_back(fmt::format(
-        "{} #{} has a mass of {:.3g} kg, less than the nodes of FE bodies that it touches, {:.3g} "
-        "kg: "
-        "it bounces back faster than it came; make it heavier, or the elements smaller.",
-        body.shape->getClassName(), body.id, state.mass, touched[m]));
-    reportedLight_ = true;
-    return;
-  }
-}
-
 bool RigidBodies::anyMovable(const yade::Scene& scene) const {
   return std::ranges::any_of(members_, [&](const Member& member) {
-    return member.body && !member.isOut &&
-           mover(scene, *member.body).blockedDOFs != yade::State::DOF_ALL;
+    return member.body && !member.isOut && moverOf(scene, *member.body).isDynamic();
   });
 }
 

@@ -2,9 +2,12 @@
 // YADE's Wall, Box and Facet as rigid boundaries for contact with finite-element bodies. They move
 // as YADE's bodies do, and contact forces are applied to these.
 //
-// In a step the boundary moves from its position to the position that YADE's body will reach at
-// constant velocity. NewtonIntegrator then applies the forces of this step, and the boundary
-// follows that change in the next step: momentum is conserved exactly.
+// In a step the boundary moves from its position to the position that YADE's body will reach
+// without contact with finite-element bodies. If it obeys forces (rigid_movers.hpp), contact
+// changes its velocity in the step, and NewtonIntegrator makes the same change from the forces that
+// are given to the body: momentum and energy are conserved exactly. Changes that were unknown
+// before the step (forces of engines after FESolver, the integrator's damping) follow in the next
+// step.
 
 #include <cstdint>
 #include <string>
@@ -17,6 +20,7 @@
 #include "core/step_length.hpp"
 #include "fe/entry_bodies.hpp"
 #include "fe/rigid_corners.hpp"
+#include "fe/rigid_movers.hpp"
 #include "fe/rigid_outlines.hpp"
 #include "step/world.hpp"
 
@@ -26,13 +30,14 @@ class RigidBodies {
  public:
   /// Adds new bodies and removes those no longer in the scene. Makes all boundaries again if one of
   /// them has another shape, enters or leaves the plane, is displaced from the position to which it
-  /// would have moved, or separates from the next one. `wanted`: false removes all. `dt`: time (s)
-  /// for which an integrator will move the bodies. Returns true if boundaries were made. Throws
-  /// InputError if a new one overlaps a finite-element body: there are then no boundaries.
-  bool follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted, double dt);
-  /// Sets the velocities for the next step. `dt`: time (s) for which an integrator will move the
-  /// bodies.
-  void giveVelocities(World& world, double stepDt, double dt) const;
+  /// would have moved, separates from the next one, or begins or ceases to obey forces. `wanted`:
+  /// false removes all. `newton`: the integrator that will move the bodies in this step, or null.
+  /// Returns true if boundaries were made. Throws InputError if a new one overlaps a finite-element
+  /// body: there are then no boundaries.
+  bool follow(yade::Scene& scene, World& world, EntryBodies& entries, bool wanted,
+              const yade::NewtonIntegrator* newton);
+  /// Sets the velocities and the inertia for the next step.
+  void giveVelocities(yade::Scene& scene, World& world, const yade::NewtonIntegrator* newton);
   /// Adds the forces of the last step to YADE's bodies, with their moments.
   void giveForces(yade::Scene& scene, const World& world, const StepLength& length) const;
 
@@ -47,6 +52,7 @@ class RigidBodies {
 
  private:
   using Vector3r = yade::Vector3r;
+  static constexpr yade::Body::id_t kHeld = RigidPart::kHeld;
   struct Member {
     yade::Body::id_t id;
     yade::shared_ptr<yade::Body> body = {};  // null after loading, until it has been found
@@ -54,29 +60,35 @@ class RigidBodies {
     bool isNew = true;  // or its shape changed: it must not overlap a body
     /// It was out of the plane when it was last checked; it may come back.
     bool isOut = false;
+    /// The body that moves it by forces, itself or its clump; `kHeld` if forces do not move it.
+    yade::Body::id_t mover = kHeld;
     Vector3r position = Vector3r::Zero();  // m
     yade::Quaternionr orientation = yade::Quaternionr::Identity();
   };
 
-  void findBodies(const yade::Scene& scene);
+  void findBodies(const yade::Scene& scene, const yade::NewtonIntegrator* newton);
   bool takeNew(const yade::Scene& scene, int mask);
-  [[nodiscard]] bool holds(const yade::Scene& scene, const World& world, double dt);
+  [[nodiscard]] bool holds(const yade::Scene& scene, const World& world,
+                           const yade::NewtonIntegrator* newton);
   [[nodiscard]] bool areInPlace(const World& world, double dt) const;
   [[nodiscard]] static bool comesBack(Member& member);
-  void build(yade::Scene& scene, World& world, EntryBodies& entries, double dt);
-  [[nodiscard]] std::vector<RigidPart> parts(std::vector<std::uint32_t>& memberOf, double dt);
+  void build(yade::Scene& scene, World& world, EntryBodies& entries,
+             const yade::NewtonIntegrator* newton);
+  [[nodiscard]] std::vector<RigidPart> parts(const yade::Scene& scene,
+                                             std::vector<std::uint32_t>& memberOf,
+                                             const yade::NewtonIntegrator* newton);
+  void startMoving(const yade::Scene& scene, World& world) const;
   [[nodiscard]] FormerCorners formerCorners(const yade::Scene& scene, const World& world) const;
   void addCorners(const RigidOutline& outline, const std::vector<std::uint32_t>& memberOf);
   void takeOut(yade::Scene& scene, World& world, EntryBodies& entries);
   [[nodiscard]] bool slideWalls(World& world);
-  void warnOfUnmoved() const;
-  void warnOfLight(const yade::Scene& scene, const World& world) const;
+  void warnOfUnmoved();
 
   std::vector<Member> members_;
   std::vector<RigidCorner> corners_;
   std::size_t seen_ = 0;  // number of the scene's bodies at the last check
-  mutable std::vector<std::string> sentences_;
-  mutable bool reportedLight_ = false;
+  RigidMovers movers_;
+  std::vector<std::string> sentences_;
   bool reportedFlat_ = false;
 };
 

@@ -25,7 +25,8 @@ struct Ends {
   }
 };
 
-/// By end: the only other end at the same position, of a line with the same friction; or none.
+/// By end: the only other end at the same position, of a line with the same friction that is moved
+/// by the same body or is independent of forces, too; or none.
 std::vector<Number> partnersOf(const std::vector<RigidPart>& parts) {
   const Ends ends{parts};
   std::vector<Number> sorted, partner(2 * parts.size(), kNone);
@@ -47,7 +48,8 @@ std::vector<Number> partnersOf(const std::vector<RigidPart>& parts) {
     }
   for (Number end = 0; end < partner.size(); ++end) {
     if (partner[end] == kNone) continue;
-    const bool same = parts[end / 2].friction == parts[partner[end] / 2].friction;
+    const RigidPart &one = parts[end / 2], &other = parts[partner[end] / 2];
+    const bool same = one.friction == other.friction && one.mover == other.mover;
     if (count[end] > 1 || count[partner[end]] > 1 || !same) partner[end] = kNone;
   }
   // Keep only mutual partners.

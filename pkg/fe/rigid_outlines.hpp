@@ -9,12 +9,14 @@
 
 namespace yadefrag {
 
-/// `after`: m, ends of a line after the step.
+/// `after`: m, ends of a line after the step; `mover`: the body that moves it by forces.
 struct RigidPart {
+  static constexpr yade::Body::id_t kHeld = -1;  ///< forces do not move it
   Section section;
   std::vector<Vec2> after;
   double friction;
   std::string name;
+  yade::Body::id_t mover = kHeld;
 };
 
 /// `part`, by node: the number of the part whose side begins at the node.
@@ -24,8 +26,8 @@ struct RigidOutline {
 };
 
 /// Outlines in the order of their first parts. Where more than two lines meet, or lines of
-/// different friction, each line has an end. Walls extend `reach` (m) on both sides of their point
-/// nearest to `middle`.
+/// different friction or movers, each line has an end. Walls extend `reach` (m) on both sides of
+/// their point nearest to `middle`.
 [[nodiscard]] std::vector<RigidOutline> outlinesOf(const std::vector<RigidPart>& parts, Vec2 middle,
                                                    double reach);
 

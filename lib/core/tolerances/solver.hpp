@@ -18,8 +18,9 @@ inline constexpr double kRubbleRemainder = 1e-4;
 
 /// (rows; of the penetration that needs another solution; count) A group with friction and more
 /// rows than the first value is solved by sweeps, until no gap or slip changes by more than the
-/// second, or after this number of sweeps.
-inline constexpr std::size_t kPivotedRows = 8;
+/// second, or after this number of sweeps. With a rigid body that obeys forces, sweeps need some
+/// multiple of the ratio of the nodes' mass to the body's: pivoting is used up to more rows.
+inline constexpr std::size_t kPivotedRows = 8, kPivotedRigidRows = 64;
 inline constexpr double kSweptChange = .1;
 inline constexpr int kGroupSweeps = 200;
 

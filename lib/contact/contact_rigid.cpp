@@ -1,0 +1,70 @@
+// Rigid boundaries that obey forces, as parts of the contact system.
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/contact.hpp"
+
+namespace yadefrag {
+
+/// Sets the row's part on such a boundary. All nodes of its body then move with the correction.
+void Contact::joinRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step) {
+  ContactRow::RigidPart& part = row.rigid;
+  for (int k = 0; k < row.count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const NodeId node = row.node[at];
+    if (nodes.held[node.value] != kHeldXY) continue;
+    const std::uint32_t mass = step.rigid.of(node);
+    if (mass == ContactRow::kNoMass || (part.mass != ContactRow::kNoMass && part.mass != mass))
+      continue;
+    part.mass = mass;
+    part.weight += row.weight[at];
+    part.lever += row.weight[at] * (step.before[node.value] - step.rigid.masses[mass].centre);
+  }
+  if (part.mass == ContactRow::kNoMass || rigidLoads_[part.mass].hasRow) return;
+  rigidLoads_[part.mass].hasRow = true;
+  for (const NodeId node : step.rigid.nodesOf.row(part.mass)) touch(node);
+}
+
+bool Contact::isOfRigid(NodeId node, const ContactStep& step) const {
+  return !rigidLoads_.empty() && step.rigid.of(node) != ContactRow::kNoMass;
+}
+
+/// Moves the nodes of these boundaries to their position in the body's corrected pose. The rows'
+/// linear displacement differs from it by the second order of the rotation. `largest`, `farthest`
+/// (m²): as in `move`.
+void Contact::moveRigid(Model& model, const ContactStep& step, double& largest, double& farthest) {
+  if (rigidLoads_.empty()) return;
+  for (RigidLoad& load : rigidLoads_) load.force = {}, load.moment = 0;
+  for (const ContactRow& row : rows_) {
+    if (row.rigid.mass == ContactRow::kNoMass) continue;
+    RigidLoad& load = rigidLoads_[row.rigid.mass];
+    load.force += row.rigid.weight * row.force();
+    load.moment += cross(row.rigid.lever, row.force());
+  }
+  const double squared = step.length.squared();
+  for (std::uint32_t m = 0; m < rigidLoads_.size(); ++m) {
+    const RigidLoad& load = rigidLoads_[m];
+    if (!load.hasRow) continue;
+    const RigidMass& body = step.rigid.masses[m];
+    const Vec2 shift{squared * body.mobility.x * load.force.x,
+                     squared * body.mobility.y * load.force.y};
+    const double angle = squared * body.turning * load.moment;
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    for (const NodeId node : step.rigid.nodesOf.row(m)) {
+      const std::uint32_t n = node.value;
+      const Vec2 before = step.before[n];
+      const Vec2 free = before + step.length.position * model.nodes.velocity[n];
+      const Vec2 arm = free - body.moved, atStart = before - body.centre;
+      const Vec2 place =
+          body.moved + shift + Vec2{cosine * arm.x - sine * arm.y, sine * arm.x + cosine * arm.y};
+      const Vec2 by = place - model.nodes.position[n], whole = place - free;
+      model.nodes.position[n] = place;
+      displacement_[n] = shift + angle * Vec2{-atStart.y, atStart.x};
+      largest = std::max(largest, dot(whole, whole));
+      farthest = std::max(farthest, dot(by, by));
+    }
+  }
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,95 @@
+// Rigid boundaries: what a step of the bodies gets from YADE's bodies, and what these get from it.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "fe/rigid_bodies.hpp"
+
+namespace yadefrag {
+namespace {
+
+using yade::Vector3r;
+
+Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
+Vector3r inSpace(Vec2 v) { return {v.x, v.y, 0}; }
+
+}  // namespace
+
+void RigidBodies::giveVelocities(yade::Scene& scene, World& world,
+                                 const yade::NewtonIntegrator* newton) {
+  world.rigidVelocities.clear();
+  world.rigidMasses.clear();
+  const double dt = newton ? scene.dt : 0;
+  std::map<yade::Body::id_t, std::uint32_t> numbers;
+  std::vector<FreeMotion> motions;
+  scene.forces.sync();
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const Member& member = members_[corners_[i].member];
+    const NodeId node = world.rigidNodes()[i];
+    const Vec2 from = world.model.nodes.position[node.value];
+    Vector3r place;
+    if (member.mover == kHeld) {
+      place = RigidPose(*member.body, dt).place(corners_[i].place);
+    } else {
+      const auto number = static_cast<std::uint32_t>(motions.size());
+      const auto [at, isNew] = numbers.emplace(member.mover, number);
+      if (isNew) {
+        motions.push_back(movers_.motionOf(scene, *newton, moverOf(scene, *member.body)));
+        world.rigidMasses.masses.push_back(motions.back().mass());
+      }
+      world.rigidMasses.members.push_back({node, at->second});
+      place = motions[at->second].place(RigidPose(*member.body).place(corners_[i].place));
+    }
+    world.rigidVelocities.push_back(1 / scene.dt * (inPlane(place) - from));
+  }
+  world.rigidMasses.index();
+  if (!newton) warnOfUnmoved();
+}
+
+/// A script that sets a velocity expects the body to move.
+void RigidBodies::warnOfUnmoved() {
+  for (const RigidCorner& corner : corners_) {
+    const yade::Body& body = *members_[corner.member].body;
+    if (body.state->vel.isZero(0) && body.state->angVel.isZero(0)) continue;
+    sentences_.push_back(
+        fmt::format("{} #{} has a velocity, but no NewtonIntegrator behind FESolver moves it: "
+                    "engines(fe, moving=True) has one.",
+                    body.shape->getClassName(), body.id));
+    return;
+  }
+}
+
+void RigidBodies::giveForces(yade::Scene& scene, const World& world,
+                             const StepLength& length) const {
+  const ContactSurfaces& surfaces = world.surfaces;
+  const Nodes& nodes = world.model.nodes;
+  const auto isRigid = [&](EntryId entry) {
+    return world.model.components[surfaces.component[entry.value].value].rigid;
+  };
+  for (const ContactRow& row : world.contact.rows()) {
+    const bool ofSlave = isRigid(row.slave);
+    if (!ofSlave && !isRigid(row.master)) continue;
+    const EntryId entry = ofSlave ? row.slave : row.master;
+    const NodeId corner = surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
+    const auto at = std::ranges::lower_bound(world.rigidNodes(), corner);
+    const RigidCorner& own = corners_[static_cast<std::size_t>(at - world.rigidNodes().begin())];
+    const yade::Body& body = *members_[own.member].body;
+    const double sign = ofSlave ? 1 : -1;
+    // The forces act at the positions at the begin of the step.
+    Vec2 point;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
+      const std::uint32_t node = row.node[k].value;
+      if (!world.model.components[nodes.component[node].value].rigid) continue;
+      const Vec2 before = nodes.position[node] - length.position * nodes.velocity[node];
+      point += sign * row.weight[k] * before;
+    }
+    const Vec2 force = sign * length.velocity / length.position * row.force();
+    const Vec2 arm = point - inPlane(body.state->se3.position);
+    scene.forces.addForce(body.id, inSpace(force));
+    scene.forces.addTorque(body.id, Vector3r(0, 0, cross(arm, force)));
+  }
+}
+
+}  // namespace yadefrag
