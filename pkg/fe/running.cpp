@@ -17,8 +17,12 @@
 namespace yadefrag {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 /// A check takes a few microseconds; it delays the end by a sixteenth of the run at most.
 constexpr int kRestsPerRun = 16;
+/// A check for Ctrl-C takes Python's lock.
+constexpr std::chrono::milliseconds kSignalsEvery(20);
 
 /// The address of a non-virtual member function.
 template <class Member>
@@ -73,15 +77,27 @@ void waitForStart(long iter, int subStep) {
   while (!hasBegun()) std::this_thread::yield();
 }
 
-void waitForEnd() {
-  if (isInStep()) return;
+namespace {
+
+/// Waits for the end of a run that began at `start`, but not beyond `latest`, without Python's
+/// lock.
+void restUntil(Clock::time_point start, Clock::time_point latest) {
   const WithoutGil free;
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  while (yade::Omega::instance().isRunning()) {
+  while (yade::Omega::instance().isRunning() && Clock::now() < latest) {
     const auto rest = (Clock::now() - start) / kRestsPerRun;
     std::this_thread::sleep_for(std::clamp<Clock::duration>(rest, std::chrono::microseconds(20),
                                                             std::chrono::milliseconds(2)));
+  }
+}
+
+}  // namespace
+
+void waitForEnd() {
+  if (isInStep()) return;
+  const Clock::time_point start = Clock::now();
+  while (yade::Omega::instance().isRunning()) {
+    restUntil(start, Clock::now() + kSignalsEvery);
+    if (PyErr_CheckSignals() != 0) yade::py::throw_error_already_set();
   }
 }
 

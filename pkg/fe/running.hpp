@@ -26,7 +26,7 @@ void noteStop(const char* why);
 [[nodiscard]] std::string whyStopped();
 
 /// Waits for the end of a run, if there is one, with Python's lock released; does nothing within a
-/// step.
+/// step. Python's handlers of signals are called meanwhile, and their exceptions raised.
 void waitForEnd();
 
 }  // namespace yadefrag

@@ -7,7 +7,7 @@ import functools
 import threading
 
 from yade import wrapper
-from yadefrag import _yadefrag, messages, refusals
+from yadefrag import _yadefrag, interrupts, messages, refusals
 
 _Omega = wrapper.Omega
 _saving = threading.RLock()  # held while a run is interrupted for a save
@@ -77,24 +77,26 @@ def _countSteps(resetTime):
 
 
 def _waitForAll(wait):
-    """O.wait() that does not end during the interruption for a save."""
+    """O.wait() that Ctrl-C ends, and that does not end during the interruption for a save."""
     @functools.wraps(wait)
     def waited(self):
-        while True:
-            wait(self)
-            with _saving:
-                if not self.running:
-                    return
+        with interrupts.waiting():
+            while True:
+                interrupts.aside(lambda: wait(self))
+                with _saving:
+                    if not self.running:
+                        return
     return waited
 
 
 def waitForEnd():
     """O.wait() without its delay of up to 40 ms; an exception of a step is not raised again."""
-    while True:
-        _yadefrag.waitForEnd()
-        with _saving:
-            if not _Omega().running:
-                return
+    with interrupts.waiting():
+        while True:
+            _yadefrag.waitForEnd()
+            with _saving:
+                if not _Omega().running:
+                    return
 
 
 def _runBegun(run):
@@ -102,9 +104,9 @@ def _runBegun(run):
     @functools.wraps(run)
     def runs(self, nSteps=-1, wait=False):
         messages.tellNumbers()
-        before = self.iter, self.subStep
-        _yadefrag.whyStopped()
-        with refusals.raisedHere() if wait else contextlib.nullcontext():
+        with interrupts.held(), refusals.raisedHere() if wait else contextlib.nullcontext():
+            before = self.iter, self.subStep
+            _yadefrag.whyStopped()
             run(self, nSteps, False)
             _yadefrag.waitForStart(*before)
             if wait:
@@ -114,6 +116,17 @@ def _runBegun(run):
                 if why:
                     raise RuntimeError(why)
     return runs
+
+
+def _wholeStep(step):
+    """O.step() with the messages that come before a run; Ctrl-C ends it after its last engine, not in a PyRunner,
+    which would fail."""
+    @functools.wraps(step)
+    def stepped(self):
+        messages.tellNumbers()
+        with interrupts.held():
+            step(self)
+    return stepped
 
 
 def _resetStopped(reset):
@@ -128,16 +141,6 @@ def _resetStopped(reset):
         reset(self)
         _yadefrag.freeListItems()
     return stopped
-
-
-def _stepTold(step):
-    """O.step() with the messages that come before a run."""
-    @functools.wraps(step)
-    def stepped(self):
-        messages.tellNumbers()
-        step(self)
-    return stepped
-
 
 def _underOldName(get):
     """O.energy['feExternal'], whose present name is 'feOutside'."""
@@ -155,8 +158,9 @@ def install():
     _Omega.resetTime = _countSteps(_Omega.resetTime)
     _Omega.wait = _waitForAll(_Omega.wait)
     _Omega.run = _runBegun(_Omega.run)
-    _Omega.step = _stepTold(_Omega.step)
+    _Omega.step = _wholeStep(_Omega.step)
     _Omega.reset = _resetStopped(_Omega.reset)
+    interrupts.install()
     _yadefrag.watchListItems()
     # The process must not end in the middle of a step.
     atexit.register(_yadefrag.stopRun)

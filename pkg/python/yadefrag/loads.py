@@ -1,14 +1,17 @@
 """Loads on the boundary that depend on its shape, and relaxation to a state of rest."""
 
 import math
+import sys
 
 import numpy
 
 from yade import wrapper
+from yadefrag import interrupts, lifecycle
 from yadefrag._yadefrag import requirePaused
+from yadefrag.guards import requireNoStep
 from yadefrag.messages import warn
 from yadefrag.motions import chosenNodes, packed, tableOrNumber
-from yadefrag.progress import runSteps
+from yadefrag.progress import runPart, warnOfNoSolver
 from yadefrag.shown import betweenSteps
 from yadefrag.values import array, flag, number, positive, refuse, shown, whole
 
@@ -88,29 +91,43 @@ def relax(self, tolerance=1e-6, most=10**6):
     Damping is set anew at each evaluation, so that the slowest vibration in the motion is critically
     damped, by its Rayleigh quotient (Underwood 1983, Computational Methods for Transient Analysis,
     p. 245). Afterwards `damping` has its previous value. Call it between runs, with O.dt set.
-    RuntimeError as from runSteps.
+    RuntimeError and KeyboardInterrupt as from runSteps.
     """
     tolerance = positive('tolerance', tolerance, 'a ratio of energies')
     most = whole('most', most)
-    before, done, calm, ratio = self.damping, 0, 0, math.inf
+    requireNoStep('relax')
+    warnOfNoSolver()
+    before, begin = self.damping, lifecycle.stepsDone()
     try:
-        while done < most and calm < 2:
-            wanted = min(_LOOK, most - done)
-            part = runSteps(wanted)
-            done += part
-            if part < wanted:
-                break  # O.pause()
-            energy = self.energy
-            ratio = energy['kinetic'] / energy['strain'] if energy['strain'] > 0 else math.inf
-            calm = calm + 1 if ratio <= tolerance or energy['kinetic'] == 0 else 0
-            self.damping, part = _critical(self)
-            done += part
+        with interrupts.held():
+            calm, ratio = _damped(self, tolerance, most)
+    except KeyboardInterrupt:
+        print('relax: stopped after %d steps.' % (lifecycle.stepsDone() - begin), file=sys.stderr)
+        raise
     finally:
         self.damping = before
+    done = lifecycle.stepsDone() - begin
     if calm < 2:
         warn('relax: after %d steps the kinetic energy is still %.3g of the strain energy.' %
              (done, ratio))
     return done
+
+
+def _damped(fe, tolerance, most):
+    """Runs to rest; returns the number of successive evaluations at rest, and the last ratio of energies."""
+    done, calm, ratio = 0, 0, math.inf
+    while done < most and calm < 2:
+        wanted = min(_LOOK, most - done)
+        part, _ = runPart(wanted)
+        done += part
+        if part < wanted:
+            break  # O.pause()
+        energy = fe.energy
+        ratio = energy['kinetic'] / energy['strain'] if energy['strain'] > 0 else math.inf
+        calm = calm + 1 if ratio <= tolerance or energy['kinetic'] == 0 else 0
+        fe.damping, part = _critical(fe)
+        done += part
+    return calm, ratio
 
 
 def _critical(fe):
@@ -118,7 +135,7 @@ def _critical(fe):
     angular frequency of the motion's Rayleigh quotient. The present damping if there is no motion."""
     present, speeds = fe.damping, []
     for step in range(3):
-        if runSteps(1) == 0:
+        if runPart(1)[0] == 0:
             return present, step
         with betweenSteps(fe):
             speeds.append(fe.velocities)

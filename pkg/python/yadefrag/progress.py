@@ -4,7 +4,7 @@ import sys
 import time
 
 from yade import wrapper
-from yadefrag import _yadefrag, lifecycle, refusals
+from yadefrag import _yadefrag, interrupts, lifecycle, refusals
 from yadefrag.guards import requireNoStep
 from yadefrag.messages import warn
 from yadefrag.values import shown, whole
@@ -17,9 +17,10 @@ def runSteps(steps, every=None, call=None):
 
     every, call  if given, call() is called after each `every` steps
     On a terminal a bar shows steps, simulated time and remaining time. Ctrl-C stops after a whole step
-    and leaves the scene in that state, and so does O.pause() from a PyRunner; the run can be
-    continued. RuntimeError if an engine stopped the run, with the message of FESolver; messages of
-    other engines are written by YADE.
+    and raises KeyboardInterrupt, so that it ends a script with a loop of runs, too, also one in a
+    thread; O.pause() from a PyRunner stops as well, without an exception. The scene is left in that
+    state, and the run can be continued. RuntimeError if an engine stopped the run, with the message of
+    FESolver; messages of other engines are written by YADE.
     """
     steps = whole('steps', steps, most=MOST_STEPS)
     every = None if every is None else whole('every', every, most=MOST_STEPS)
@@ -34,24 +35,23 @@ def runSteps(steps, every=None, call=None):
     try:
         portion = 1
         while done < steps:
-            now = min(portion, steps - done, every - done % every if every else steps)
-            start = time.perf_counter()
-            part, isPaused = runPart(now)
-            done += part
-            bar.show(done, omega.time)
+            with interrupts.held():
+                now = min(portion, steps - done, every - done % every if every else steps)
+                start = time.perf_counter()
+                part, isPaused = runPart(now)
+                done += part
+                bar.show(done, omega.time)
             if call is not None and part and done % every == 0:
                 call()
             if isPaused:
                 break
-            # Portions of about a tenth of a second: Ctrl-C takes effect between them.
+            # Portions of about a tenth of a second: the bar moves between them.
             portion = _portion(now, time.perf_counter() - start)
     except KeyboardInterrupt:
-        _yadefrag.stopRun()
-        done = lifecycle.stepsDone() - begin
         bar.close()
-        print('Stopped after %d of %d steps, at %.6g s.' % (done, steps, omega.time),
-              file=sys.stderr)
-        return done
+        print('Stopped after %d of %d steps, at %.6g s.' %
+              (lifecycle.stepsDone() - begin, steps, omega.time), file=sys.stderr)
+        raise
     finally:
         bar.close()
     return done
@@ -73,13 +73,18 @@ def runPart(steps):
     """Runs `steps` steps; returns the number of steps done, and whether the run was paused
     meanwhile.
 
-    RuntimeError if an engine stopped the run.
+    RuntimeError if an engine stopped the run, KeyboardInterrupt after Ctrl-C.
     """
     omega = wrapper.Omega()
     begin, pauses = lifecycle.stepsDone(), lifecycle.pauses()
-    with refusals.raisedHere():
-        omega.run(steps)
-        lifecycle.waitForEnd()
+    try:
+        with refusals.raisedHere():
+            omega.run(steps)
+            lifecycle.waitForEnd()
+    except KeyboardInterrupt:
+        _yadefrag.stopRun()
+        omega.stopAtIter = -1
+        raise
     if lifecycle.stepsDone() - begin == steps and pauses == lifecycle.pauses():
         return steps, False
     _yadefrag.stopRun()  # O.wait() does not wait for the end of a paused run's last step

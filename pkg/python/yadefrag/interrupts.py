@@ -1,0 +1,116 @@
+"""Ctrl-C: one ends the run that a script waits for, after a whole step, in whichever thread it waits.
+
+Python raises KeyboardInterrupt between any two instructions of the main thread, where code that has to
+finish may lose it, and in no other thread. Here a run keeps it until its step is complete, and then raises
+it in each thread that waits for a run."""
+
+import contextlib
+import signal
+import threading
+
+from yade import wrapper
+from yadefrag import _yadefrag
+
+_pause = wrapper.Omega.pause  # YADE's own, which does not count as a pause by the script
+_LOOK = .05  # s, from one check for signals to the next
+_count = 0  # interrupts so far
+_seen = threading.local()  # count: those of which the thread knows
+_held = {}  # by thread: number of nested held()
+_waiting = {}  # by thread: number of nested waiting()
+
+
+def install():
+    """Replaces Python's own handler; a handler of the script is kept."""
+    if threading.current_thread() is threading.main_thread() and \
+            signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _note)
+
+
+def _note(number, frame):
+    """Python calls it in the main thread."""
+    global _count
+    _count += 1
+    me = threading.get_ident()
+    if me not in _held:
+        _seen.count = _count
+        _endRun()
+        signal.default_int_handler(number, frame)
+    elif me in _waiting:
+        _endRun()
+
+
+def _endRun():
+    if _waiting:
+        _pause(wrapper.Omega())
+
+
+def _enter():
+    """The first run in this thread. Linux may deliver a signal to a thread that creates another one, as runs
+    do; the main thread, where Python handles signals, would go on waiting."""
+    _seen.count = _count
+    if threading.current_thread() is not threading.main_thread():
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+
+
+def _check():
+    if _seen.count != _count:
+        _seen.count = _count
+        raise KeyboardInterrupt
+
+
+@contextlib.contextmanager
+def _nested(depths):
+    me = threading.get_ident()
+    depths[me] = depths.get(me, 0) + 1
+    try:
+        yield
+    finally:
+        depths[me] -= 1
+        if not depths[me]:
+            del depths[me]
+
+
+@contextlib.contextmanager
+def held():
+    """Ctrl-C raises KeyboardInterrupt at the end of this context and of those within it, nowhere else."""
+    install()
+    if not hasattr(_seen, 'count'):
+        _enter()
+    with _nested(_held):
+        _check()
+        yield
+        _check()
+
+
+@contextlib.contextmanager
+def waiting():
+    """held() that also ends the run; for the time between its first step and its end."""
+    try:
+        with held(), _nested(_waiting):
+            _check()
+            yield
+    except KeyboardInterrupt:
+        _yadefrag.stopRun()
+        raise
+
+
+def aside(call):
+    """call() in another thread: this one waits where Python can handle signals, which it cannot while
+    YADE waits."""
+    if threading.current_thread() is not threading.main_thread():
+        call()
+        return
+    errors = []
+
+    def run():
+        try:
+            call()
+        except BaseException as error:
+            errors.append(error)
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    while thread.is_alive():
+        thread.join(_LOOK)
+    if errors:
+        raise errors[0]
