@@ -124,8 +124,7 @@ def test_anotherHandlerIsKept(fe):
             with pytest.raises(Mine):
                 run(fe)
             assert signal.getsignal(signal.SIGINT) is handler
-            O.pause()
-            O.wait()
+            assert not O.running
     finally:
         signal.signal(signal.SIGINT, before)
     checkAtRest()

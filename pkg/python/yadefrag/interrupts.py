@@ -89,7 +89,7 @@ def waiting():
         with held(), _nested(_waiting):
             _check()
             yield
-    except KeyboardInterrupt:
+    except BaseException:  # also that of a script's own handler
         _yadefrag.stopRun()
         raise
 

@@ -81,7 +81,7 @@ def runPart(steps):
         with refusals.raisedHere():
             omega.run(steps)
             lifecycle.waitForEnd()
-    except KeyboardInterrupt:
+    except BaseException:
         _yadefrag.stopRun()
         omega.stopAtIter = -1
         raise
