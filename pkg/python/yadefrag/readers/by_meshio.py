@@ -26,7 +26,9 @@ def read(name):
             mesh = _inTime(lambda: meshio.read(name), _LONGEST[0] + _LONGEST[1] * os.path.getsize(name))
     except KeyError as error:
         raise ValueError(_cause(told) or 'it has %s, which meshio does not know' % error) from None
-    except (Exception, SystemExit) as error:
+    except SystemExit:
+        raise ValueError(_cause(told) or 'its contents do not match its ending') from None
+    except Exception as error:
         raise ValueError(_cause(told) or str(error) or type(error).__name__) from None
     blocks, count = [], 0
     for cells in mesh.cells:

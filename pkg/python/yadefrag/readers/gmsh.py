@@ -60,8 +60,10 @@ class _Numbers:
 def read(name):
     """Elements; a file of another format with this ending is left to meshio."""
     with open(name, 'rb') as file:
-        data = file.read()
+        data = file.read().removeprefix(b'\xef\xbb\xbf')
     head = _HEAD.match(data)
+    if data.lstrip().startswith(b'$NOD'):
+        raise ValueError('its version is 1, versions 2 and 4 can be read')
     if not head:
         return by_meshio.read(name)
     version, isBinary = head[1].decode(), head[2] == b'1'
