@@ -13,6 +13,7 @@ import pytest
 import tradeoff_scenes
 import yadefrag
 from fe_scene import impact
+from yade import utils
 from yade import wrapper as w
 from yadefrag import files
 from yadefrag.tradeoff_table import TradeoffRow
@@ -119,6 +120,46 @@ def test_aLinkStaysOneAndAModeToo(folder):
     assert os.path.islink(link) and os.path.getsize(real) > 0
     assert stat.S_IMODE(os.stat(real).st_mode) == 0o640
     assert len(yadefrag.TradeoffTable.read(link).rows) == 3
+
+
+def test_noLinkOfATemporaryNameIsFollowed(folder, monkeypatch):
+    """Not even one whose name was guessed."""
+    victim, name = folder + '/victim', folder + '/t.csv'
+    with open(victim, 'w') as file:
+        file.write('kept')
+    drawn = ['a' * 16, 'b' * 16]
+    monkeypatch.setattr(files.secrets, 'token_hex', lambda count: drawn.pop(0))
+    os.symlink(victim, folder + '/.t.%s.part.csv' % drawn[0])
+    table().csv(name)
+    assert drawn == [] and len(yadefrag.TradeoffTable.read(name).rows) == 3
+    with open(victim) as file:
+        assert file.read() == 'kept'
+    assert sorted(os.listdir(folder)) == ['.t.%s.part.csv' % ('a' * 16), 't.csv', 'victim']
+
+
+def test_temporaryNamesCannotBeGuessed(folder):
+    names = set()
+    for _ in range(100):
+        with files.replacing(folder + '/run.vtu') as part:
+            names.add(os.path.basename(part))
+            assert stat.S_ISREG(os.lstat(part).st_mode) and part.endswith('.part.vtu')
+    assert len(names) == 100 and not any(str(os.getpid()) in name.split('.')[2] for name in names)
+
+
+@pytest.mark.parametrize('mask', [0o022, 0o077, 0o002])
+def test_aNewFileHasTheModeOfTheProcess(mask, folder):
+    before = os.umask(mask)
+    try:
+        table().csv(folder + '/t.csv')
+    finally:
+        os.umask(before)
+    assert stat.S_IMODE(os.stat(folder + '/t.csv').st_mode) == 0o666 & ~mask
+
+
+def test_aLongNameOfWideLettersIsWritten(folder):
+    name = folder + '/' + 'ж' * 125 + '.csv'
+    table().csv(name)
+    assert len(yadefrag.TradeoffTable.read(name).rows) == 3
 
 
 def test_aRecordGrowsByWholeLines(small):
@@ -229,10 +270,50 @@ def test_aByteOrderMarkIsSkipped(folder):
 @pytest.mark.parametrize('name', ['/dev/full', '/nowhere/x.yade', '{folder}'])
 def test_aSaveThatFailsIsReported(name, folder):
     impact()
-    sentence = '^FESolver could not be saved .*its file cannot be opened or the disk is full'
+    sentence = 'could not be saved.*its file cannot be opened or the disk is full'
     with pytest.raises(RuntimeError, match=sentence):
         O.save(name.format(folder=folder))
     assert len(O.bodies) > 0
     O.save(folder + '/whole.yade')
     O.load(folder + '/whole.yade')
     assert any(isinstance(e, w.FESolver) for e in O.engines)
+
+
+@pytest.mark.parametrize('ending', ['.yade', '.xml', '.yade.gz', '.yade.bz2', '.xml.gz', '.xml.bz2'])
+@pytest.mark.parametrize('where', ['/nowhere/x', '/proc/x', '{folder}/file/x'])
+def test_aSceneThatCannotBeSavedIsReportedFirst(where, ending, folder):
+    """YADE alone never ends for compressed files, and does not tell for others of a small scene."""
+    O.reset()
+    O.bodies.append(utils.sphere((0, 0, 0), 1))
+    open(folder + '/file', 'w').close()
+    name = where.format(folder=folder) + ending
+    with pytest.raises(RuntimeError, match='^%s could not be saved: its file cannot be opened' % name):
+        O.save(name)
+    O.save(folder + '/whole' + ending)
+    O.reset()
+    O.load(folder + '/whole' + ending)
+    assert len(O.bodies) == 1
+
+
+def test_aFolderIsNoSave(folder):
+    O.reset()
+    os.mkdir(folder + '/x.yade.gz')
+    with pytest.raises(RuntimeError, match='x.yade.gz could not be saved.*Is a directory'):
+        O.save(file=folder + '/x.yade.gz', quiet=True)
+    assert os.listdir(folder + '/x.yade.gz') == []
+
+
+def test_aSaveOnAFullDiskIsReported(small):
+    """Compressed, too, if nothing is left."""
+    O.reset()
+    O.bodies.append(utils.sphere((0, 0, 0), 1))
+    with open(small + '/rest', 'wb', buffering=0) as rest:
+        rest.write(b'x' * 8192)
+    for ending in ('.yade', '.yade.gz', '.xml.bz2'):
+        with pytest.raises(RuntimeError, match='could not be saved: its file cannot be opened or the disk is full'):
+            O.save(small + '/x' + ending)
+    with open(small + '/rest', 'wb', buffering=0) as rest:
+        rest.write(b'x' * 4096)
+    O.bodies.append([utils.sphere((i, 0, 0), 1) for i in range(20)])  # of 5 KB, for which YADE raises nothing
+    with pytest.raises(RuntimeError, match='could not be saved: its file cannot be opened or the disk is full'):
+        O.save(small + '/x.yade')

@@ -3,10 +3,13 @@ not change the old file."""
 
 import contextlib
 import os
+import secrets
 import shutil
 import stat
 
 from yadefrag.values import path
+
+_BLOCK = 4096  # bytes, of a disk
 
 
 @contextlib.contextmanager
@@ -22,16 +25,18 @@ def replacing(name):
         with _named(name):
             yield _special(target)
         return
-    part = _beside(target)
+    part = None
     try:
         with _named(name):
+            part = _newBeside(target)
             yield part
             if os.path.exists(target):
                 shutil.copymode(target, part)
             os.replace(part, target)
     finally:
-        with contextlib.suppress(OSError):
-            os.remove(part)
+        if part:
+            with contextlib.suppress(OSError):
+                os.remove(part)
 
 
 def requireWritable(name):
@@ -41,8 +46,14 @@ def requireWritable(name):
         if os.path.exists(target) and not os.path.isfile(target):
             with open(_special(target), 'ab'):
                 return
-        part = _beside(target)
-        with open(part, 'wb'):
+        if os.path.exists(target):
+            with open(target, 'ab'):
+                pass
+        part = _newBeside(target)
+        try:
+            with open(part, 'wb') as file:
+                file.write(bytes(_BLOCK))
+        finally:
             os.remove(part)
 
 
@@ -88,10 +99,16 @@ def pictureName(figure, file):
     return name if ending else name + '.' + figure.canvas.get_default_filetype()
 
 
-def _beside(target):
+def _newBeside(target):
+    """The name of a new, empty file in the same folder. Nobody can guess it, and no file or link of that
+    name existed; its mode is that of any new file of the process."""
     folder, base = os.path.split(target)
     stem, ending = os.path.splitext(base)
-    return os.path.join(folder, '.%s.%d.part%s' % (stem[:100], os.getpid(), ending))
+    while True:
+        part = os.path.join(folder, '.%s.%s.part%s' % (stem[:20], secrets.token_hex(8), ending[:20]))
+        with contextlib.suppress(FileExistsError):
+            os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+            return part
 
 
 def _special(target):

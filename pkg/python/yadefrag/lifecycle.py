@@ -8,6 +8,8 @@ import threading
 
 from yade import wrapper
 from yadefrag import _yadefrag, interrupts, messages, refusals
+from yadefrag.files import requireWritable
+from yadefrag.values import shownPath
 
 _Omega = wrapper.Omega
 _saving = threading.RLock()  # held while a run is interrupted for a save
@@ -51,6 +53,28 @@ def _savedWhole(save):
     def saved(self, *arguments, **settings):
         with _resting():
             return save(self, *arguments, **settings)
+    return saved
+
+
+def _savedOrRefused(save):
+    """O.save that names a file which cannot be written. YADE alone would not tell for a small scene, and
+    would never end for a compressed file."""
+    @functools.wraps(save)
+    def saved(self, *arguments, **settings):
+        name = (*arguments, settings.get('file'))[0]
+        isFile = isinstance(name, str) and not name.startswith(':memory:')
+        try:
+            if isFile:
+                requireWritable(name)
+            save(self, *arguments, **settings)
+            if isFile:
+                requireWritable(name)  # YADE does not tell if the last part of the file was lost
+        except (OSError, RuntimeError) as error:
+            cause = getattr(error, 'strerror', '')
+            if not cause and str(error) != 'output stream error':
+                raise
+            raise RuntimeError('%s could not be saved: its file cannot be opened or the disk is full%s.' %
+                               (shownPath(name), ' (%s)' % cause if cause else '')) from None
     return saved
 
 
@@ -154,6 +178,7 @@ def install():
     wrapper.EnergyTracker.__getitem__ = _underOldName(wrapper.EnergyTracker.__getitem__)
     for name in ('save', 'saveTmp', 'sceneToString'):
         setattr(_Omega, name, _savedWhole(getattr(_Omega, name)))
+    _Omega.save = _savedOrRefused(_Omega.save)
     _Omega.pause = _countPauses(_Omega.pause)
     _Omega.resetTime = _countSteps(_Omega.resetTime)
     _Omega.wait = _waitForAll(_Omega.wait)
