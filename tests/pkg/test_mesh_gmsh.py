@@ -153,6 +153,19 @@ $EndElements
     assert mesh.nodes[mesh.nodeSets['6']].tolist() == [[0, 0], [1, 0]]
 
 
+def test_byteOrderMarkAndWindowsLines(folder):
+    file = os.path.join(folder, 'a.msh')
+    with open(file, 'w', encoding='utf-8-sig', newline='\r\n') as out:
+        out.write(kFour.replace('my steel', 'Stähl A'))
+    mesh = readMesh(file)
+    assert areas(mesh).tolist() == [.5] * 4 and set(mesh.groups) == {'Stähl A', 'whole', '7'}
+
+
+def test_versionOneIsNamed(folder):
+    with pytest.raises(ValueError, match='its version is 1, versions 2 and 4 can be read'):
+        readMesh(written(folder, 'a.msh', '$NOD\n1\n1 0 0 0\n$ENDNOD\n$ELM\n0\n$ENDELM\n'))
+
+
 @pytest.mark.parametrize('old, new, sentence', [
     ('2 2 3 1\n', '2 2 34 1\n', "element 50 has gmsh's type 34, which is unknown"),
     ('50 12 3 6 5', '50 12 3 6 77', 'element 50 has the node 77, which does not exist'),

@@ -6,6 +6,7 @@ from yadefrag.readers.elements import cornersOf, counted, orderOf
 from yadefrag.values import shownPath
 
 FLAT = 1e-9  # of the longest distance of two corners: points nearer to a line or plane are on it
+_BESIDE = 1e-3  # of an element's height: where points beside its side are examined
 _REMEDY = 'Correct it in the program that wrote the file.'
 
 
@@ -178,6 +179,39 @@ class _Mesh:
             other, one = (other, one) if isRare[other] else (one, other)
         self._refuse([source[other]], '%s element %s, on the same side of their common side from %s to %s' %
                      (cause, self._labels[source[one]], self._at(starts[twice[0]]), self._at(ends[twice[0]])))
+
+
+def requireApart(points, triangles, loops):
+    """ValueError if parts of a mesh without common nodes overlap. Contact would not see that."""
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    if sum((points[loop] * _rightOf(points[numpy.roll(loop, -1)])).sum() > 0 for loop in loops) < 2:
+        return  # loops around material are counter-clockwise
+    starts = numpy.concatenate(loops)
+    ends = numpy.concatenate([numpy.roll(loop, -1) for loop in loops])
+    along = points[ends] - points[starts]
+    sides = (triangles * len(points) + numpy.roll(triangles, -1, axis=1)).astype(numpy.int64).T.ravel()
+    known = numpy.argsort(sides)
+    own = known[numpy.searchsorted(sides, starts * len(points) + ends, sorter=known)] % len(triangles)
+    width = _cross(b - a, c - a)[own] / numpy.maximum((along**2).sum(axis=1), 1e-300)  # height of the triangle over its side
+    low, high = numpy.minimum(numpy.minimum(a, b), c), numpy.maximum(numpy.maximum(a, b), c)
+    order = numpy.argsort(low[:, 0])
+    left, widest = low[order, 0], (high - low)[:, 0].max()
+    for part in (.02, .5, .98):
+        inside = points[starts] + part * along - _BESIDE * width[:, None] * _rightOf(along)
+        first = numpy.searchsorted(left, inside[:, 0] - widest)
+        last = numpy.searchsorted(left, inside[:, 0], side='right')
+        for place, mine, i, j in zip(inside, own, first, last):
+            near = order[i:j]
+            near = near[((low[near] <= place) & (place <= high[near])).all(axis=1) & (near != mine)]
+            arms = [place - corner[near] for corner in (a, b, c)]
+            isIn = [_cross(to[near] - at[near], arm) >= 0 for at, to, arm in zip((a, b, c), (b, c, a), arms)]
+            if numpy.all(isIn, axis=0).any():
+                raise ValueError('two parts of the mesh, without common nodes, overlap at (%g, %g) m; they may '
+                                 'touch, but not overlap.' % tuple(place))
+
+
+def _rightOf(vectors):
+    return numpy.stack([vectors[:, 1], -vectors[:, 0]], axis=1)
 
 
 def _cross(a, b):

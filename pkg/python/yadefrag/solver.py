@@ -17,6 +17,7 @@ from yadefrag.bonds import bond
 from yadefrag.calls import inWords
 from yadefrag.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.materials import Materials, interfaces, isField, oneMaterial
+from yadefrag.mesh_checks import requireApart
 from yadefrag.meshing import isIrregular, jointLines, meshOfPolygon, simplified
 from yadefrag.messages import warnOfBody
 from yadefrag.motions import keepTurning, prescribe, rotate
@@ -285,7 +286,8 @@ def addTriangles(self, nodes, triangles, material, *, smooth=False, velocity=(0,
         raise ValueError('triangles has node numbers from %d to %d, but there are %d nodes.' %
                          (corners.min(), corners.max(), len(points)))
     smooth = flag('smooth', smooth)
-    mesh = dict(nodes=points, triangles=corners, loops=_boundaryLoops(len(points), corners))
+    mesh = dict(nodes=points, triangles=corners, loops=_boundaryLoops(points, corners))
+    requireApart(points, corners, mesh['loops'])
     materials = Materials(mesh, material)
     between = interfaces(mesh, materials, interfaceStrength, interfaceEnergy)
     places = brittlePlaces(mesh, materials, between, strength, fractureEnergy)
@@ -301,9 +303,9 @@ def _withoutHeight(nodes):
     return found[:, :2] if isFlat else nodes
 
 
-def _boundaryLoops(count, triangles):
+def _boundaryLoops(points, triangles):
     """The closed loops of edges that belong to one triangle only, material on the left."""
-    used = numpy.zeros(count, dtype=bool)
+    used = numpy.zeros(len(points), dtype=bool)
     used[triangles] = True
     if not used.all():
         raise ValueError('node %d belongs to no triangle.' % int(numpy.argmin(used)))
@@ -317,7 +319,8 @@ def _boundaryLoops(count, triangles):
         if (b, a) in known:
             continue
         if a in after:
-            raise ValueError('the boundary passes twice through node %d.' % a)
+            raise ValueError('the boundary passes twice through node %d at (%g, %g): give each part that '
+                             'touches the others there only a node of its own.' % (a, *points[a]))
         after[a] = b
     loops = []
     while after:
