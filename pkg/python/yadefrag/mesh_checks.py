@@ -192,12 +192,13 @@ def requireApart(points, triangles, loops):
     sides = (triangles * len(points) + numpy.roll(triangles, -1, axis=1)).astype(numpy.int64).T.ravel()
     known = numpy.argsort(sides)
     own = known[numpy.searchsorted(sides, starts * len(points) + ends, sorter=known)] % len(triangles)
-    width = _cross(b - a, c - a)[own] / numpy.maximum((along**2).sum(axis=1), 1e-300)  # height of the triangle over its side
+    squares = numpy.maximum((along**2).sum(axis=1), 1e-300)
+    heights = _cross(b - a, c - a)[own] / squares  # of the triangles, in lengths of their sides
     low, high = numpy.minimum(numpy.minimum(a, b), c), numpy.maximum(numpy.maximum(a, b), c)
     order = numpy.argsort(low[:, 0])
     left, widest = low[order, 0], (high - low)[:, 0].max()
     for part in (.02, .5, .98):
-        inside = points[starts] + part * along - _BESIDE * width[:, None] * _rightOf(along)
+        inside = points[starts] + part * along - _BESIDE * heights[:, None] * _rightOf(along)
         first = numpy.searchsorted(left, inside[:, 0] - widest)
         last = numpy.searchsorted(left, inside[:, 0], side='right')
         for place, mine, i, j in zip(inside, own, first, last):
