@@ -26,6 +26,24 @@ double kineticEnergy(const Nodes& nodes) {
   return twice / 2;
 }
 
+double sumOfSpins(const Nodes& nodes) {
+  Vec2 centre;
+  double mass = 0;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    centre += nodes.mass[n] * nodes.position[n], mass += nodes.mass[n];
+  centre *= 1 / mass;
+  double sum = 0;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    sum += nodes.mass[n] * norm(nodes.position[n] - centre) * norm(nodes.velocity[n]);
+  return sum;
+}
+
+double moment(std::span<const Vec2> positions, std::span<const Vec2> forces) {
+  double sum = 0;
+  for (std::size_t n = 0; n < forces.size(); ++n) sum += cross(positions[n], forces[n]);
+  return sum;
+}
+
 double strainEnergy(const Model& model, double dt) {
   double sum = smoothedEnergy(model, dt);
   for (const Component& c : model.components) {

@@ -30,6 +30,9 @@ struct EnergyLedger {
   double damping = 0;   ///< mass-proportional damping and bulk viscosity
   double dropped = 0;   ///< energy of fragments that were removed
   double external = 0;  ///< gravity, loads, external forces, prescribed motion
+  /// (kg m²/s) Angular momentum that contact and cohesive tractions have created: both act between
+  /// nodes and should create none. Counted while cracks are cohesive.
+  double spin = 0;
 
   /// J, constant to the order of the scheme.
   [[nodiscard]] double total(double kinetic, double strain) const {
@@ -39,6 +42,10 @@ struct EnergyLedger {
 
 /// J, at n − ½.
 double kineticEnergy(const Nodes& nodes);
+/// kg m²/s, Σ m|r||v|, with r from the centre of mass: a bound of the angular momentum.
+double sumOfSpins(const Nodes& nodes);
+/// N m, Σ x × f, by node.
+double moment(std::span<const Vec2> positions, std::span<const Vec2> forces);
 
 /// J, at n − ½; Δt is that of the last step.
 double strainEnergy(const Model& model, double dt);

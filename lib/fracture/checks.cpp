@@ -69,25 +69,27 @@ struct Cohesive {
   double strength;        // Pa
   double fractureEnergy;  // J/m²
   std::string name;       // for messages: the energy, and the edge or body that has it
-  double sliding = 1;     // κ/β², factor of the zone's length for a sliding crack
-  [[nodiscard]] double critical() const { return 2 * fractureEnergy / strength; }
+  const SofteningCurve& curve;
+  double sliding = 1;  // κ/β², factor of the zone's length for a sliding crack
+  [[nodiscard]] double steep() const { return curve.steepOpening(strength, fractureEnergy); }
 };
 
 /// `crossed` (m): the closing of the crack in one step by its tractions.
 void requireResolved(const Cohesive& edge, double crossed, double meanLength, double dt) {
-  const double critical = edge.critical();
-  if (crossed < critical) return;
-  const double ratio = critical / crossed;
+  const double steep = edge.steep();
+  if (crossed < steep) return;
+  const double ratio = steep / crossed;
+  const bool isLine = edge.curve == SofteningCurve();
   // Masses are proportional to the size squared. With a step in proportion to the size, `crossed`
   // is proportional to the size.
-  throw InputError(
-      fmt::format("{}: a crack is cohesive up to an opening of {:.4g} m, which a step of {:.4g} s "
-                  "does not resolve; "
-                  "a step of at most {:.3g} s is sufficient, or elements of at most {:.3g} m (now "
-                  "{:.4g} m) with a "
-                  "step in proportion.",
-                  edge.name, critical, dt, atMost(dt * std::sqrt(ratio)),
-                  atMost(ratio * meanLength), meanLength));
+  throw InputError(fmt::format(
+      "{}: a crack {} an opening of {:.4g} m, which a step of {:.4g} s "
+      "does not resolve; "
+      "a step of at most {:.3g} s is sufficient, or elements of at most {:.3g} m (now "
+      "{:.4g} m) with a "
+      "step in proportion.",
+      edge.name, isLine ? "is cohesive up to" : "softens as steeply as by its strength over", steep,
+      dt, atMost(dt * std::sqrt(ratio)), atMost(ratio * meanLength), meanLength));
 }
 
 /// κ/β²: the cohesive zone of a sliding crack has the length E·κGc/(βσc)².
@@ -95,9 +97,16 @@ double slidingOf(const BrittleMaterial& brittle) {
   return brittle.shearEnergyFactor / brittle.shearFactor / brittle.shearFactor;
 }
 
+/// (m) E·Gc/σc², or κ/β² times that if it is shorter. Of a curve with a steeper part, Gc is the
+/// area below a line of that slope: the zone at the peak load is that of the line.
+double zoneLength(double young, double energy, double strength, const SofteningCurve& curve,
+                  double sliding) {
+  return young / strength * (energy * curve.steepPart()) / strength * std::min(1., sliding);
+}
+
 std::string zoneSentence(double young, const Cohesive& edge, double size) {
   const double zone =
-      young / edge.strength * edge.fractureEnergy / edge.strength * std::min(1., edge.sliding);
+      zoneLength(young, edge.fractureEnergy, edge.strength, edge.curve, edge.sliding);
   const double wanted = zone / tolerance::kZoneElements;
   if (size <= wanted) return {};
   return fmt::format(
@@ -156,9 +165,10 @@ Cohesive valuesOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
       one == other ? named(energy, one)
                    : fmt::format("energy is {:.4g} J/m² of the bond between the bodies {} and {}",
                                  energy, one.value, other.value);
+  const BrittleMaterial& brittle = materialBetween(model, a, b).brittle;
   return {edges.strength[edge.value], energy,
-          fmt::format("{} at ({:.4g}, {:.4g})", name, at.x, at.y),
-          slidingOf(materialBetween(model, a, b).brittle)};
+          fmt::format("{} at ({:.4g}, {:.4g})", name, at.x, at.y), brittle.softening,
+          slidingOf(brittle)};
 }
 
 double crossedBy(const Model& model, const CrackEdges& edges, EdgeId edge, double dt) {
@@ -170,7 +180,9 @@ double crossedBy(const Model& model, const CrackEdges& edges, EdgeId edge, doubl
 template <class Counts>
 EdgeId leastResolved(const Model& model, const CrackEdges& edges, Counts counts, double dt) {
   return leastOf(model, edges, EdgeId(std::size_t{0}), counts, [&](EdgeId edge) {
-    return edges.fractureEnergy[edge.value] / edges.strength[edge.value] /
+    const auto& [a, b] = edges.element[edge.value];
+    const SofteningCurve& curve = materialBetween(model, a, b).brittle.softening;
+    return curve.steepOpening(edges.strength[edge.value], edges.fractureEnergy[edge.value]) /
            crossedBy(model, edges, edge, dt);
   });
 }
@@ -189,12 +201,11 @@ double youngAt(const Model& model, const CrackEdges& edges, EdgeId edge) {
   return first == second ? first : 2 / (1 / first + 1 / second);
 }
 
-/// (m) E·Gc/σc², or κ/β² times that if it is shorter.
 double zoneOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
-  const double strength = edges.strength[edge.value];
   const auto [a, b] = edges.element[edge.value];
-  return youngAt(model, edges, edge) * edges.fractureEnergy[edge.value] / strength / strength *
-         std::min(1., slidingOf(materialBetween(model, a, b).brittle));
+  const BrittleMaterial& brittle = materialBetween(model, a, b).brittle;
+  return zoneLength(youngAt(model, edges, edge), edges.fractureEnergy[edge.value],
+                    edges.strength[edge.value], brittle.softening, slidingOf(brittle));
 }
 
 }  // namespace
@@ -226,7 +237,8 @@ void checkCohesiveResolution(const Model& model, ComponentId component, double d
   const double strength = likelyLargestStrength(body.brittle, sums.inner, sums.leastVolume);
   const double crossed = dt * dt * body.thickness * sums.lightest * strength / 4;
   const double energy = body.brittle.fractureEnergy;
-  requireResolved({strength, energy, named(energy, component)}, crossed, sums.meanLength, dt);
+  requireResolved({strength, energy, named(energy, component), body.brittle.softening}, crossed,
+                  sums.meanLength, dt);
 }
 
 void checkCohesiveResolution(const Model& model, const CrackEdges& edges, ComponentId component,
@@ -253,7 +265,8 @@ std::string cohesiveZoneWarning(const Model& model, ComponentId component) {
   if (!brittle.cracks() || brittle.fractureEnergy <= 0) return {};
   const std::string name = named(brittle.fractureEnergy, component);
   return zoneSentence(body.material.young,
-                      {brittle.tensileStrength, brittle.fractureEnergy, name, slidingOf(brittle)},
+                      {brittle.tensileStrength, brittle.fractureEnergy, name, brittle.softening,
+                       slidingOf(brittle)},
                       sumsOf(model, body).meanLength);
 }
 

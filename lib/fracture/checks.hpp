@@ -16,12 +16,13 @@ namespace yadefrag {
 void checkBrittle(const BrittleMaterial& material);
 
 /// Throws InputError if, between two triangles of the component, one step would close the whole
-/// opening of the cohesive law. Required: ¼k·σ/δc < 1, with δc = 2Gc/σ and σ the probable strength
-/// of the strongest edge. k = Δt²(L/2)·thickness·(1/m₁ + 1/m₂) is the closing by 1 Pa at one end of
-/// an edge of length L, which has half of the edge; m is a third of a triangle's mass, the least
-/// mass that a node can have. The factor ¼ is due to the leapfrog, which is stable up to ω = 2/Δt:
-/// ¼kσ is the smallest opening at which the slope of the law is resolved. Without a fracture energy
-/// there is no condition.
+/// opening of the cohesive law. Required: ¼k·σ/δs < 1, where δs is the opening over which the
+/// curve's steepest slope would fall from σ to 0 (for the straight line δc = 2Gc/σ) and σ the
+/// probable strength of the strongest edge. k = Δt²(L/2)·thickness·(1/m₁ + 1/m₂) is the closing by
+/// 1 Pa at one end of an edge of length L, which has half of the edge; m is a third of a triangle's
+/// mass, the least mass that a node can have. The factor ¼ is due to the leapfrog, which is stable
+/// up to ω = 2/Δt: ¼kσ is the smallest opening at which the slope of the law is resolved. Without a
+/// fracture energy there is no condition.
 void checkCohesiveResolution(const Model& model, ComponentId component, double dt);
 
 /// The same; for a body whose strength or fracture energy varies by place, edge by edge with the
@@ -35,7 +36,8 @@ void checkBondResolution(const Model& model, const CrackEdges& edges, double dt)
 /// A message if the cohesive zone is shorter than four elements, so that bodies with a notch or a
 /// crack carry too much load; otherwise empty. The length of the zone is E·Gc/σc² (Hillerborg,
 /// Modéer and Petersson 1976, Cem. Concr. Res. 6, 773), and that of a sliding crack E·κGc/(βσc)²:
-/// the shorter one is used. An element's length is the mean of the component's edges.
+/// the shorter one is used. For a softening curve with a steeper part, Gc is replaced by the area
+/// ½σcδs below a line of its slope. An element's length is the mean of the component's edges.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, ComponentId component);
 /// The same for the shortest zone of a body whose strength or fracture energy varies by place.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,

@@ -17,9 +17,8 @@ std::array<NodeId, 2> nodesAt(const Model& model, const CrackEdges& edges, EdgeI
   return {lastNode(model, first), firstNode(model, second)};
 }
 
-/// (m) δc = 2Gc/σc.
-double criticalOpening(const CrackEdges& edges, EdgeId edge) {
-  return 2 * edges.fractureEnergy[edge.value] / edges.strength[edge.value];
+double criticalOpening(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  return tensionLaw(model, edges, edge).criticalOpening;
 }
 
 CohesiveHold holdOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
@@ -75,12 +74,14 @@ void Cohesion::renumberEdges(std::span<const EdgeId> renumbered) {
 void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                        const StepLength& step, double drag) {
   points_.clear();
+  couples_.clear();
   turned_.clear();
   for (std::uint32_t c = 0; c < edge.size(); ++c) {
     const auto [a, b] = nodesAt(model, edges, edge[c], 0);
     const auto [d, e] = nodesAt(model, edges, edge[c], 1);
     if (a == b && d == e) continue;
-    const double critical = criticalOpening(edges, edge[c]);
+    const TensionLaw law = tensionLaw(model, edges, edge[c]);
+    const double critical = law.criticalOpening;
     const Vec2 first = before[d.value] - before[a.value];
     const Vec2 second = before[e.value] - before[b.value];
     // Faces at a right angle are connected at one end at most, and will soon have no common normal.
@@ -90,6 +91,11 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
     }
     const Vec2 across = rightOf(first + second);
     const Vec2 normal = (1 / norm(across)) * across;
+    const std::array<NodeId, 4> nodes{a, b, d, e};
+    std::array<Vec2, 4> rate;
+    for (std::size_t i = 0; i < 4; ++i)
+      rate[i] = step.squared() * area[c] * mobility(model.nodes, nodes[i], drag);
+    const std::size_t known = points_.size();
     for (std::uint32_t end = 0; end < 2; ++end) {
       const NodeId here = end == 0 ? a : d, there = end == 0 ? b : e;
       // An end that transmits no traction has contact like any other surface, at any later
@@ -99,21 +105,23 @@ void Cohesion::collect(const Model& model, const CrackEdges& edges, std::span<co
       Point& point = points_.emplace_back();
       point.here = here, point.there = there;
       point.normal = normal;
-      point.rateHere = step.squared() * area[c] * mobility(model.nodes, here, drag);
-      point.rateThere = step.squared() * area[c] * mobility(model.nodes, there, drag);
-      point.area = area[c], point.strength = edges.strength[edge[c].value];
+      point.rateHere = rate[2 * end], point.rateThere = rate[2 * end + 1];
+      point.area = area[c], point.strength = law.strength;
       point.critical = critical;
       point.hold = holdOf(model, edges, edge[c]);
-      point.hold.most = envelope(point.strength, critical, opening);
+      point.hold.most = envelope(law, opening);
       point.hold.largest = largest[c][end];
-      const Vec2 rate = point.rateHere + point.rateThere;
-      point.hold.compliance = byDirection(rate, normal);
-      point.isEven = rate.x == rate.y;
-      point.slid = dot(before[there.value] - before[here.value], -rightOf(normal));
+      const Vec2 both = point.rateHere + point.rateThere;
+      point.hold.compliance = byDirection(both, normal);
+      point.isEven = both.x == both.y;
+      point.apart = before[there.value] - before[here.value];
+      point.slid = dot(point.apart, -rightOf(normal));
       const Vec2 last = traction[c][end];
       point.traction = last.x * normal - last.y * rightOf(normal);
       point.crack = c, point.end = end;
+      point.couple = static_cast<std::uint32_t>(couples_.size());
     }
+    if (points_.size() > known) couples_.emplace_back(nodes, rate, before);
   }
 }
 
@@ -189,6 +197,17 @@ double Cohesion::solve(std::vector<Vec2>& position, std::span<const std::uint32_
   return worst;
 }
 
+/// Corrects the positions by the couples of the present tractions.
+void Cohesion::balance(std::vector<Vec2>& position) {
+  for (std::size_t i = 0; i < points_.size();) {
+    const std::uint32_t couple = points_[i].couple;
+    double moment = 0;
+    for (; i < points_.size() && points_[i].couple == couple; ++i)
+      moment += cross(points_[i].apart, points_[i].traction);
+    couples_[couple].balance(position, moment);
+  }
+}
+
 double Cohesion::correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                          const StepLength& step, double drag) {
   if (edge.empty()) return 0;
@@ -196,9 +215,13 @@ double Cohesion::correct(Model& model, const CrackEdges& edges, std::span<const 
   findGroups(model.nodes.size());
   std::vector<Vec2>& position = model.nodes.position;
   for (const Point& point : points_) apply(position, point, point.traction);
+  // With the last step's tractions, so that only their change remains after the sweeps: it moves
+  // nodes at which several cracks meet.
+  balance(position);
   residual_ = 0;
   for (std::size_t g = 0; g < groups_.rows(); ++g)
     residual_ = std::max(residual_, solve(position, groups_.row(g)));
+  balance(position);
   double most = 0;
   for (const Point& point : points_) {
     const Vec2 here = times(point.rateHere, point.traction);
@@ -207,13 +230,18 @@ double Cohesion::correct(Model& model, const CrackEdges& edges, std::span<const 
     model.nodes.velocity[point.there.value] -= (1 / step.position) * there;
     most = std::max({most, norm(here), norm(there)});
   }
+  for (const FaceCouple& couple : couples_)
+    most = std::max(most, couple.push(model.nodes.velocity, step.position));
   return most;
 }
 
 void Cohesion::addForces(std::vector<Vec2>& forces) const {
-  for (const Point& point : points_) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Point& point = points_[i];
     forces[point.here.value] += point.area * point.traction;
     forces[point.there.value] -= point.area * point.traction;
+    if (i == 0 || points_[i - 1].couple != point.couple)
+      couples_[point.couple].addForces(forces, point.area);
   }
 }
 
@@ -223,7 +251,10 @@ void Cohesion::addWork(EnergyLedger& ledger, const Model& model,
     return .5 * (previousVelocity[node.value] + model.nodes.velocity[node.value]);
   };
   for (const Point& point : points_) {
-    const Vec2 apart = step.velocity * point.area * (mean(point.there) - mean(point.here));
+    // Relative to the faces, which rotate: the couple's work is that of the rotation.
+    const Vec2 carried = -couples_[point.couple].rotation(mean) * rightOf(point.apart);
+    const Vec2 apart =
+        step.velocity * point.area * (mean(point.there) - mean(point.here) - carried);
     const double slip = dot(apart, -rightOf(point.normal));
     const FaceTractions& t = point.tractions;
     (t.normal < 0 ? ledger.contact : ledger.fracture) += t.normal * dot(apart, point.normal);
@@ -236,7 +267,7 @@ void Cohesion::addWork(EnergyLedger& ledger, const Model& model,
 /// opening is needed.
 void Cohesion::widenBroken(const Model& model, const CrackEdges& edges) {
   for (std::size_t c = 0; c < edge.size(); ++c) {
-    const double critical = criticalOpening(edges, edge[c]);
+    const double critical = criticalOpening(model, edges, edge[c]);
     for (const std::size_t end : {0, 1}) {
       if (largest[c][end] < critical) continue;
       const auto [here, there] = nodesAt(model, edges, edge[c], static_cast<int>(end));
@@ -258,14 +289,15 @@ void Cohesion::settle(const Model& model, const CrackEdges& edges) {
         std::max(widest, effectiveOpening(opening, point.hold.shearFactor, point.hold.shearRatio));
   }
   points_.clear();
+  couples_.clear();
   widenBroken(model, edges);
-  const auto critical = [&](std::size_t c) { return criticalOpening(edges, edge[c]); };
-  for (const std::uint32_t c : turned_) largest[c] = {critical(c), critical(c)};
+  const auto critical = [&](std::size_t c) { return criticalOpening(model, edges, edge[c]); };
+  for (const std::uint32_t c : turned_) largest[c].fill(critical(c));
   turned_.clear();  // without a crack the next step collects nothing
   released.clear();
   keepOnly([&](std::size_t c) {
-    const bool holds =
-        counted(c, 0, critical(c)) < critical(c) || counted(c, 1, critical(c)) < critical(c);
+    const double wide = critical(c);
+    const bool holds = counted(c, 0, wide) < wide || counted(c, 1, wide) < wide;
     if (!holds) released.push_back(edge[c]);
     return holds;
   });

@@ -1,14 +1,14 @@
 #pragma once
-// Tractions between the faces of cracks that have not opened wide (extrinsic linear cohesive law,
-// Camacho and Ortiz 1996).
+// Tractions between the faces of cracks that have not opened wide (extrinsic cohesive law, Camacho
+// and Ortiz 1996; linear, or with another softening curve).
 //
 // A crack that opens further has the traction of the law for the opening at the begin of the step:
-// the leapfrog then sums the work by the trapezoid rule, which is exact for a straight line. With
-// the opening at the end of the step, the dissipated energy would be lower by the part 2Δδ/δc,
-// where Δδ is the opening in a step. Unloading limits this traction: the opening must not fall
-// below the unloading line. A crack that has hardly opened has an unloading line too stiff for any
-// step; it is then treated as a contact, by the traction that keeps its opening, up to the limit of
-// the law.
+// the leapfrog then sums the work by the trapezoid rule, which is exact for a straight line, and
+// has an error of second order at a knee. With the opening at the end of the step, the dissipated
+// energy would be lower by the part 2Δδ/δc, where Δδ is the opening in a step. Unloading limits
+// this traction: the opening must not fall below the unloading line. A crack that has hardly opened
+// has an unloading line too stiff for any step; it is then treated as a contact, by the traction
+// that keeps its opening, up to the limit of the law.
 //
 // As long as one end of a crack is cohesive, its faces are opposite each other, node to node, and
 // their overlap is prevented here, too. If the law pulled the nodes together and contact pushed
@@ -27,6 +27,7 @@
 #include "dynamics/energy_ledger.hpp"
 #include "fracture/cohesive_law.hpp"
 #include "fracture/crack_edges.hpp"
+#include "fracture/face_couple.hpp"
 
 namespace yadefrag {
 
@@ -63,8 +64,8 @@ class Cohesion {
 
   std::vector<EdgeId> released;  ///< cracks that were removed in the last step
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kCohesion, edge, largest, traction, area, points_, firstAt_, groupOf_,
-                  groups_.values, groups_.offsets, turned_, released);
+    footprint.add(Use::kCohesion, edge, largest, traction, area, points_, couples_, firstAt_,
+                  groupOf_, groups_.values, groups_.offsets, turned_, released);
     sets_.addTo(footprint, Use::kCohesion);
   }
 
@@ -84,12 +85,14 @@ class Cohesion {
     Vec2 rateHere, rateThere;  // m/Pa, by axis
     double area, strength, critical;
     CohesiveHold hold;
+    Vec2 apart;   // m, the opening at the begin of the step
     double slid;  // m, slip at the begin of the step
     FaceTractions tractions{};
     Vec2 traction{};  // Pa, sum of the tractions on `here`
     Vec2 change{};    // Pa, in the last sweep
     bool isEven;      // equal compliance in all directions
     std::uint32_t crack, end;
+    std::uint32_t couple;  // that of its crack; one or two consecutive points have the same
   };
 
   template <class Keep>
@@ -102,10 +105,12 @@ class Cohesion {
                const StepLength& step, double drag);
   void findGroups(std::size_t nodes);
   double solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group);
+  void balance(std::vector<Vec2>& position);
   static void apply(std::vector<Vec2>& position, const Point& point, Vec2 change);
   static void relax(std::vector<Vec2>& position, Point& point);
 
   std::vector<Point> points_;
+  std::vector<FaceCouple> couples_;     // of the cracks with points
   std::vector<std::uint32_t> firstAt_;  // by node of a point: the first point there
   DisjointSets sets_;                   // sets of points
   std::vector<std::uint32_t> groupOf_;  // by point

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "core/tolerances/fracture.hpp"
 
@@ -56,20 +58,36 @@ double shearAt(const CohesiveHold& hold, double slid, double all) {
 
 }  // namespace
 
-double envelope(double strength, double criticalOpening, double opening) {
-  if (opening >= criticalOpening) return 0;  // also with δc = 0
-  return strength * (criticalOpening - opening) / criticalOpening;
+double envelope(const TensionLaw& law, double opening) {
+  if (opening >= law.criticalOpening) return 0;  // also with δc = 0
+  const std::vector<SofteningPoint>& points = law.curve.points();
+  std::size_t i = 1;
+  while (i + 1 < points.size() && opening >= points[i].opening * law.criticalOpening) ++i;
+  const double begin = points[i - 1].opening * law.criticalOpening;
+  const double end = points[i].opening * law.criticalOpening;
+  return law.strength *
+         (points[i - 1].traction * (end - opening) + points[i].traction * (opening - begin)) /
+         (end - begin);
 }
 
-double spentEnergy(double strength, double criticalOpening, double largestOpening) {
-  return strength * std::min(largestOpening, criticalOpening) / 2;
+double spentEnergy(const TensionLaw& law, double largestOpening) {
+  const double last = std::min(largestOpening, law.criticalOpening);
+  const double held = envelope(law, last) / law.strength;
+  // Twice the area between the axis and the line to the origin, by the polygon's vertices.
+  double sum = 0, opening = 0, traction = 1;
+  for (const SofteningPoint& point : law.curve.points()) {
+    const double next = point.opening * law.criticalOpening;
+    if (next >= last) break;
+    sum += traction * next - point.traction * opening;
+    opening = next, traction = point.traction;
+  }
+  sum += traction * last - held * opening;
+  return law.strength * sum / 2;
 }
 
-double recoverableEnergy(double strength, double criticalOpening, double largestOpening,
-                         double opening) {
+double recoverableEnergy(const TensionLaw& law, double largestOpening, double opening) {
   if (largestOpening <= 0) return 0;
-  const double held = envelope(strength, criticalOpening, largestOpening);
-  return held * opening / largestOpening * opening / 2;
+  return envelope(law, largestOpening) * opening / largestOpening * opening / 2;
 }
 
 double countedOpening(double own, double other, double criticalOpening) {

@@ -2,19 +2,27 @@
 // The cohesive law: tractions on an edge that has begun to open.
 //   against the slip.
 
+#include "mesh/softening_curve.hpp"
+
 namespace yadefrag {
 
-/// (Pa) Largest traction of an edge of strength σc (Pa) when it opens beyond its largest opening,
-/// to δ (m).
-[[nodiscard]] double envelope(double strength, double criticalOpening, double opening);
+/// The law of an edge in tension.
+struct TensionLaw {
+  const SofteningCurve& curve;
+  double strength;         ///< Pa, σc
+  double criticalOpening;  ///< m, δc
+};
 
-/// (J/m²) Dissipated energy after a largest opening of δmax: ½σcδmax, up to Gc = ½σcδc. It is the
-/// area below the envelope minus the energy that is recoverable at δmax.
-[[nodiscard]] double spentEnergy(double strength, double criticalOpening, double largestOpening);
+/// (Pa) Largest traction when the edge opens beyond its largest opening, to δ (m).
+[[nodiscard]] double envelope(const TensionLaw& law, double opening);
+
+/// (J/m²) Dissipated energy after a largest opening of δmax, up to Gc; ½σcδmax for the straight
+/// line. It is the area below the envelope minus the energy that is recoverable at δmax.
+[[nodiscard]] double spentEnergy(const TensionLaw& law, double largestOpening);
 
 /// (J/m²) Energy that is recovered by closing from δ, at or below δmax: ½T(δmax)δ²/δmax.
-[[nodiscard]] double recoverableEnergy(double strength, double criticalOpening,
-                                       double largestOpening, double opening);
+[[nodiscard]] double recoverableEnergy(const TensionLaw& law, double largestOpening,
+                                       double opening);
 
 /// (m) The effective opening of one end of an edge, as a function of the largest openings of this
 /// end and of the other one: its own opening while both are similar, the mean where they differ by
@@ -53,11 +61,12 @@ struct FaceTractions {
 /// the slip at the begin of the step, which friction retains as far as possible.
 ///
 /// While the opening grows, the traction is T(δmax), the envelope at the largest opening before the
-/// step: the leapfrog's work is then a trapezoid sum, exact for a straight line. Its direction is
-/// that of the opening at the end of the step. If T(δmax) would close the edge below the unloading
-/// line, the tractions are those that end on that line; this is implicit and therefore stable for
-/// any stiffness of the line. With δmax = 0 the tractions keep the edge closed as long as √(Tₙ² +
-/// (Tₛ/β)²) ≤ σc, and continue from there without a jump, in both directions: a bounded multiplier.
+/// step: the leapfrog's work is then a trapezoid sum, exact on each line of the curve. Its
+/// direction is that of the opening at the end of the step. If T(δmax) would close the edge below
+/// the unloading line, the tractions are those that end on that line; this is implicit and
+/// therefore stable for any stiffness of the line. With δmax = 0 the tractions keep the edge closed
+/// as long as √(Tₙ² + (Tₛ/β)²) ≤ σc, and continue from there without a jump, in both directions: a
+/// bounded multiplier.
 [[nodiscard]] FaceTractions faceTractions(const CohesiveHold& hold, AcrossAlong trial, double slid);
 
 }  // namespace yadefrag

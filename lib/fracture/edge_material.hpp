@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "fracture/cohesive_law.hpp"
+#include "fracture/crack_edges.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -29,6 +31,15 @@ struct EdgeMaterial {
     return {body.brittle, body.friction};
   return {weakerOf(model, a, b).brittle,
           std::min(model.materialOf(a).friction, model.materialOf(b).friction)};
+}
+
+/// The law of an edge with its own strength and energy; the curve is that of the weaker material.
+[[nodiscard]] inline TensionLaw tensionLaw(const Model& model, const CrackEdges& edges,
+                                           EdgeId edge) {
+  const auto [a, b] = edges.element[edge.value];
+  const SofteningCurve& curve = materialBetween(model, a, b).brittle.softening;
+  const double strength = edges.strength[edge.value];
+  return {curve, strength, curve.criticalOpening(strength, edges.fractureEnergy[edge.value])};
 }
 
 }  // namespace yadefrag

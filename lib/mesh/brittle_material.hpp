@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/softening_curve.hpp"
+
 namespace yadefrag {
 
 struct BrittleMaterial {
@@ -19,10 +21,9 @@ struct BrittleMaterial {
   double strengthScatter = 0;  ///< relative half-width of a uniform scatter; 0: no scatter
   std::uint64_t seed = 0;      ///< of the scatter
   double referenceVolume = 0;  ///< m³, V₀ of the Weibull scatter; 0: the volume has no influence
+  SofteningCurve softening{};  ///< the traction by opening, of a crack with a fracture energy
 
   [[nodiscard]] bool cracks() const { return tensileStrength > 0; }
-  /// (m) Opening at which a crack no longer transmits traction.
-  [[nodiscard]] double criticalOpening() const { return 2 * fractureEnergy / tensileStrength; }
 };
 
 /// An edge of a body's mesh that lies on a joint.

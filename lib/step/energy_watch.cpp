@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/tolerances/step.hpp"
 
@@ -110,6 +111,20 @@ std::string EnergyWatch::stepAdvice(const WatchedStep& step) const {
         leastStep, mostStep);
   return fmt::format(
       "take a shorter step: in one of {:.3g} s the bodies rotate or deform too much.", step.dt);
+}
+
+bool EnergyWatch::mayHaveSpun(const WatchedStep& step) const {
+  return std::abs(step.ledger.spin) > std::max(tolerance::kGivenSpin * mostSpin, 2 * reportedSpin);
+}
+
+std::string EnergyWatch::spinMessage(const WatchedStep& step, double sum) {
+  mostSpin = std::max(mostSpin, sum);
+  if (!mayHaveSpun(step)) return {};
+  reportedSpin = std::abs(step.ledger.spin);
+  return fmt::format(
+      "{}contact at cracks has created an angular momentum of {:.3g} kg m²/s, {:.3g} % of the sum "
+      "of m r v; take a shorter step.",
+      yadefrag::begin(step), reportedSpin, 100 * reportedSpin / mostSpin);
 }
 
 std::string EnergyWatch::depthMessage(const WatchedStep& step) {

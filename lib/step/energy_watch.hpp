@@ -51,6 +51,11 @@ class EnergyWatch {
 
   std::string depthMessage(const WatchedStep& step);
 
+  /// True if `spinMessage` needs the present sum of spins.
+  [[nodiscard]] bool mayHaveSpun(const WatchedStep& step) const;
+  /// The message about created angular momentum; `sum` (kg m²/s): as of sumOfSpins.
+  std::string spinMessage(const WatchedStep& step, double sum);
+
   double expected = 0;  ///< J, expected total of the ledger
   double gone = 0;      ///< J, part of the supplied energy that left with removed bodies
   double most = 0;      ///< J, the largest energy that the bodies could have
@@ -59,7 +64,9 @@ class EnergyWatch {
   double split = 0;     ///< J, part of the ledger's fracture: separated averages of strains
   double evaluatedCreated = 0, evaluatedGrown = 0;  ///< J, at the last evaluation
   double reportedCreated = 0, reportedGrown = 0,
-         reportedDepth = 0;                          ///< J, J, m, in the last message; 0: none
+         reportedDepth = 0;  ///< J, J, m, in the last message; 0: none
+  double mostSpin = 0;       ///< kg m²/s, largest sum of spins that was evaluated
+  double reportedSpin = 0;   ///< kg m²/s, in the last message; 0: none
   double lastStep = 0, leastStep = 0, mostStep = 0;  ///< s; 0: none so far
   std::uint64_t changes = 0;  ///< number of steps with another length than the previous one
 

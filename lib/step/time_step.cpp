@@ -107,6 +107,8 @@ void World::finish(const StepLength& length) {
     surfaceForces_.resize(model.nodes.size());
     fracture.cohesion.addForces(surfaceForces_);
     pushes_ = surfaceForces_;
+    ledger.spin +=
+        length.velocity * moment(dynamics_.previousPosition(), std::span<const Vec2>(pushes_));
   }
   dynamics_.finish(model, length, dynamicsSettings, allOuterForces(), pushes_, ledger, threads);
   if (!absorbing.segments.empty())

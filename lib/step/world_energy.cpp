@@ -49,6 +49,7 @@ void World::watchEnergy() {
   watch.count(now);
   if (watch.mayHaveCreated(now)) report(watch.contactMessage(now, roundingEnergy()));
   if (EnergyWatch::isDue(steps)) {
+    if (watch.mayHaveSpun(now)) report(watch.spinMessage(now, sumOfSpins(model.nodes)));
     const double kinetic = kineticEnergy();
     if (watch.mayHaveGrown(now, kinetic)) {
       const double energy = kinetic + strainEnergy();

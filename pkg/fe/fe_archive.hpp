@@ -92,6 +92,7 @@ class WorldArchive {
     value("contactEnergy", ledger.contact), value("frictionEnergy", ledger.friction);
     value("fractureWork", ledger.fracture), value("dampingEnergy", ledger.damping);
     value("externalEnergy", ledger.external), value("droppedEnergy", ledger.dropped);
+    value("createdSpin", ledger.spin);
     Dropped& dropped = world.dropped;
     value("droppedMass", dropped.mass), value("dropped", dropped.count);
     value("droppedMomentumX", dropped.momentum.x), value("droppedMomentumY", dropped.momentum.y);
@@ -115,6 +116,7 @@ class WorldArchive {
     value("toldDepth", watch.reportedDepth), value("lastStep", watch.lastStep);
     value("leastStep", watch.leastStep), value("mostStep", watch.mostStep);
     value("stepChanges", watch.changes);
+    value("mostSpin", watch.mostSpin), value("toldSpin", watch.reportedSpin);
     lines("complaints", world.warnings);
   }
 
@@ -246,7 +248,32 @@ class WorldArchive {
     member("strengthScatter", rows, [](C& c) -> double& { return c.brittle.strengthScatter; });
     member("seed", rows, [](C& c) -> std::uint64_t& { return c.brittle.seed; });
     member("referenceVolume", rows, [](C& c) -> double& { return c.brittle.referenceVolume; });
+    softening(rows);
     flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
+  }
+
+  template <class C>
+  void softening(std::vector<C>& rows) {
+    std::vector<std::uint32_t> counts;
+    std::vector<SofteningPoint> points;
+    for (const C& c : rows) {
+      const std::vector<SofteningPoint>& own = c.brittle.softening.points();
+      counts.push_back(static_cast<std::uint32_t>(own.size()));
+      points.insert(points.end(), own.begin(), own.end());
+    }
+    value("softeningCounts", counts), column<double>("softeningPoints", points);
+    if constexpr (Archive::is_loading::value) {
+      std::size_t at = 0;
+      if (counts.size() != rows.size()) refuse("softeningCounts has a wrong length");
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (counts[i] > points.size() - at) refuse("softeningPoints has a wrong length");
+        const auto begin = points.begin() + static_cast<std::ptrdiff_t>(at);
+        std::vector<SofteningPoint> own(begin, begin + counts[i]);
+        if (!SofteningCurve::isValid(own)) refuse("softeningPoints is invalid");
+        rows[i].brittle.softening = SofteningCurve(std::move(own));
+        at += counts[i];
+      }
+    }
   }
 
   /// For existing rows: the elements of a vector of bool cannot be referenced.

@@ -11,6 +11,7 @@
 #include "fe/fe_solver.hpp"
 #include "fe/shown_nodes.hpp"
 #include "fracture/cohesive_law.hpp"
+#include "fracture/edge_material.hpp"
 
 namespace yadefrag {
 
@@ -55,13 +56,11 @@ std::vector<std::uint32_t> holdsByEdge(const Fracture& fracture) {
 }
 
 /// Dissipated fraction of the fracture energy: the mean of both ends; 1 without cohesion.
-double damageOf(const Fracture& fracture, EdgeId edge, std::uint32_t hold) {
+double damageOf(const Model& model, const Fracture& fracture, EdgeId edge, std::uint32_t hold) {
   if (hold == kLoose) return 1;
-  const double strength = fracture.edges.strength[edge.value];
-  const double critical = 2 * fracture.edges.fractureEnergy[edge.value] / strength;
+  const TensionLaw law = tensionLaw(model, fracture.edges, edge);
   double sum = 0;
-  for (const double largest : fracture.cohesion.largest[hold])
-    sum += spentEnergy(strength, critical, largest);
+  for (const double largest : fracture.cohesion.largest[hold]) sum += spentEnergy(law, largest);
   return sum / 2 / fracture.edges.fractureEnergy[edge.value];
 }
 
@@ -94,7 +93,7 @@ struct CrackColumns {
     other.push_back(model.triangles.component[both[1].value].value);
     x.push_back(place.x), y.push_back(place.y), nx.push_back(normal.x), ny.push_back(normal.y);
     opening.push_back(dot(apart, normal)), slip.push_back(dot(apart, tangent));
-    damage.push_back(damageOf(world.fracture, edge, hold));
+    damage.push_back(damageOf(model, world.fracture, edge, hold));
     held.push_back(hold == kLoose ? 0 : 1);
     const auto& started = world.fracture.started;
     const bool isKnown = edge.value < started.size() && started[edge.value] >= 0;

@@ -220,7 +220,8 @@ BodyMaterial bodyMaterialOf(const FEMat& material) {
                    .weibullModulus = brittle->weibullModulus,
                    .strengthScatter = brittle->strengthScatter,
                    .seed = static_cast<std::uint64_t>(brittle->seed),
-                   .referenceVolume = brittle->referenceVolume};
+                   .referenceVolume = brittle->referenceVolume,
+                   .softening = brittle->softening.curve()};
     checkBrittle(one.brittle);
   }
   return one;

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "abi/yade.hpp"
+#include "fe/softening_choice.hpp"
 #include "publish/indexed.hpp"
 #include "publish/published.hpp"
 
@@ -41,6 +42,12 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
   double strengthScatter = 0;
   int seed = 0;
   double referenceVolume = 0;
+  SofteningChoice softening;
+
+  template <class PyClass>
+  static void pyExtra(PyClass& /*pyClass*/) {
+    convertSoftening();
+  }
 
   static constexpr auto attributes() {
     using C = BrittleFEMat;
@@ -78,7 +85,17 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
                   "a finer mesh is not weaker. V is thickness times a third of the areas of the "
                   "edge's two triangles, so all edges together have the body's volume. 0: the "
                   "scale is tensileStrength for edges of any size, and the more edges, the weaker "
-                  "the weakest. Without weibullModulus it has no effect."));
+                  "the weakest. Without weibullModulus it has no effect."),
+        attribute("softening", &C::softening,
+                  "How the traction of a crack decreases with its opening w; fractureEnergy Gc is "
+                  "the area below it, ft the strength, wc the opening without traction. "
+                  "'linear': to 0 at wc = 2*Gc/ft. 'bilinear' or 'petersson': by ft/3 at "
+                  "w = 0.8*Gc/ft, wc = 3.6*Gc/ft (Petersson 1981). 'ceb-fip-2010': by ft/5 at "
+                  "w = Gc/ft, wc = 5*Gc/ft (fib Model Code 2010). 'exponential': "
+                  "ft*exp(-w*ft/Gc), to 0 at 7*Gc/ft. 'reinhardt': ft*((1 + (3*w/wc)**3)*"
+                  "exp(-6.93*w/wc) - 28*exp(-6.93)*w/wc), wc = 5.14*Gc/ft (Cornelissen, Hordijk "
+                  "and Reinhardt 1986, Heron 31, 45). Or a list of points (w/wc, traction/ft) "
+                  "from (0, 1) to (1, 0). Unloading is towards the origin."));
   }
 };
 

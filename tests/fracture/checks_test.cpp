@@ -18,8 +18,8 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr ElasticMaterial kCeramic{.young = 275e9, .poisson = 0, .density = 2750};
-constexpr BrittleMaterial kBrittle{.tensileStrength = 300e6, .fractureEnergy = 100};
-constexpr BrittleMaterial kTough{.tensileStrength = 300e6, .fractureEnergy = 300};
+const BrittleMaterial kBrittle{.tensileStrength = 300e6, .fractureEnergy = 100};
+const BrittleMaterial kTough{.tensileStrength = 300e6, .fractureEnergy = 300};
 constexpr ComponentId kBody(std::size_t{0});
 
 /// The sentence of the InputError that the call throws; empty if it does not.
@@ -115,6 +115,23 @@ TEST(CheckCohesiveResolution, RefusesFromTheStepOfTheFormulaOn) {
   EXPECT_NE(saidAtStep(model, 1.0001 * limit), "");
   EXPECT_NE(saidAtStep(body(20, kBrittle, .001), 1.0001 * limit), "");  // thickness cancels
   EXPECT_EQ(saidAtStep(body(20, kBrittle, .001), .9999 * limit), "");
+}
+
+// A curve that falls three times as steeply as the strength over its critical opening, which is
+// 1.8 times that of the line: the step counts the slope, and so does the zone's length.
+TEST(CheckCohesiveResolution, CountsTheSteepestSlope) {
+  BrittleMaterial concrete = kBrittle;
+  concrete.softening = softeningNamed("petersson");
+  const Model model = body(20, concrete);
+  const double limit =
+      2e-8 / std::sqrt(crossedOf(5e-4, 1e-8, kBrittle.tensileStrength)) * std::sqrt(.6);
+  EXPECT_EQ(saidAtStep(model, .9999 * limit), "");
+  const std::string sentence = saidAtStep(model, 1.0001 * limit);
+  EXPECT_NE(sentence.find("softens as steeply as by its strength over an opening of 4e-07 m"),
+            std::string::npos)
+      << sentence;
+  EXPECT_NE(cohesiveZoneWarning(model, kBody).find("is 0.0001833 m long"), std::string::npos)
+      << cohesiveZoneWarning(model, kBody);
 }
 
 TEST(CheckCohesiveResolution, DependsOnTheStrongestEdge) {

@@ -16,14 +16,12 @@ constexpr double kStiffness = kStrength / kCritical;         // Pa/m, of the env
 constexpr double kCompliances[] = {0, .01, .3, .9, .999};    // of 1/kStiffness
 constexpr double kLargest[] = {0, 1e-9, .1, .5, .99, 1, 2};  // of kCritical
 
+const SofteningCurve kLine;
+const TensionLaw kLaw{kLine, kStrength, kCritical};
+
 CohesiveHold holdAt(double largest, AcrossAlong compliance, double beta = 1, double kappa = 1,
                     double friction = 0) {
-  return {envelope(kStrength, kCritical, largest),
-          largest,
-          beta,
-          beta * beta / kappa,
-          friction,
-          compliance};
+  return {envelope(kLaw, largest), largest, beta, beta * beta / kappa, friction, compliance};
 }
 
 double traction(double largest, double trial, double compliance) {
@@ -31,27 +29,25 @@ double traction(double largest, double trial, double compliance) {
 }
 
 TEST(CohesiveLaw, EnvelopeFallsFromTheStrengthToNothing) {
-  EXPECT_EQ(envelope(kStrength, kCritical, 0), kStrength);
-  EXPECT_DOUBLE_EQ(envelope(kStrength, kCritical, kCritical / 4), .75 * kStrength);
-  EXPECT_EQ(envelope(kStrength, kCritical, kCritical), 0);
-  EXPECT_EQ(envelope(kStrength, kCritical, 2 * kCritical), 0);
-  EXPECT_EQ(envelope(kStrength, 0, 0), 0);
+  EXPECT_EQ(envelope(kLaw, 0), kStrength);
+  EXPECT_DOUBLE_EQ(envelope(kLaw, kCritical / 4), .75 * kStrength);
+  EXPECT_EQ(envelope(kLaw, kCritical), 0);
+  EXPECT_EQ(envelope(kLaw, 2 * kCritical), 0);
+  EXPECT_EQ(envelope({kLine, kStrength, 0}, 0), 0);
 }
 
 TEST(CohesiveLaw, SpentAndRecoverableEnergyAreTheAreaBelowTheEnvelope) {
-  EXPECT_EQ(spentEnergy(kStrength, kCritical, 0), 0);
-  EXPECT_DOUBLE_EQ(spentEnergy(kStrength, kCritical, kCritical), kEnergy);
-  EXPECT_DOUBLE_EQ(spentEnergy(kStrength, kCritical, 3 * kCritical), kEnergy);
-  EXPECT_EQ(recoverableEnergy(kStrength, kCritical, 0, 0), 0);
-  EXPECT_EQ(recoverableEnergy(kStrength, kCritical, kCritical, kCritical), 0);
+  EXPECT_EQ(spentEnergy(kLaw, 0), 0);
+  EXPECT_DOUBLE_EQ(spentEnergy(kLaw, kCritical), kEnergy);
+  EXPECT_DOUBLE_EQ(spentEnergy(kLaw, 3 * kCritical), kEnergy);
+  EXPECT_EQ(recoverableEnergy(kLaw, 0, 0), 0);
+  EXPECT_EQ(recoverableEnergy(kLaw, kCritical, kCritical), 0);
   for (double part = .125; part <= 1; part += .125) {
     const double d = part * kCritical;
-    const double area = (kStrength + envelope(kStrength, kCritical, d)) / 2 * d;
-    EXPECT_NEAR(
-        spentEnergy(kStrength, kCritical, d) + recoverableEnergy(kStrength, kCritical, d, d), area,
-        1e-13 * kEnergy);
-    EXPECT_NEAR(recoverableEnergy(kStrength, kCritical, d, d / 2),
-                recoverableEnergy(kStrength, kCritical, d, d) / 4, 1e-15 * kEnergy);
+    const double area = (kStrength + envelope(kLaw, d)) / 2 * d;
+    EXPECT_NEAR(spentEnergy(kLaw, d) + recoverableEnergy(kLaw, d, d), area, 1e-13 * kEnergy);
+    EXPECT_NEAR(recoverableEnergy(kLaw, d, d / 2), recoverableEnergy(kLaw, d, d) / 4,
+                1e-15 * kEnergy);
   }
 }
 
@@ -61,7 +57,7 @@ TEST(CohesiveTraction, UnloadsOnTheLineAndOpensAlongTheEnvelope) {
   for (const double c : kCompliances)
     for (const double part : kLargest) {
       const double k = c / kStiffness, largest = part * kCritical;
-      const double most = envelope(kStrength, kCritical, largest);
+      const double most = envelope(kLaw, largest);
       for (double trial = 1. / 64; trial < 3; trial += 1. / 64) {
         const double t = traction(largest, trial * kCritical, k);
         const double opening = trial * kCritical - k * t;
@@ -132,7 +128,7 @@ TEST(CohesiveTraction, ClosedOrBrokenHoldsNothing) {
   for (const double trial : {1e-9, .5, 1., 2.}) {
     EXPECT_EQ(traction(kCritical, trial * kCritical, k), 0);
     EXPECT_EQ(traction(5 * kCritical, trial * kCritical, k), 0);
-    const CohesiveHold none{envelope(kStrength, 0, 0), 0, 1, 1, 0, {k, k}};
+    const CohesiveHold none{envelope({kLine, kStrength, 0}, 0), 0, 1, 1, 0, {k, k}};
     EXPECT_EQ(faceTractions(none, {trial * kCritical, 0}, 0).normal, 0);  // Gc = 0
   }
 }

@@ -8,8 +8,8 @@
 namespace yadefrag {
 namespace {
 
-constexpr BrittleMaterial kEven{.tensileStrength = 1e6};
-constexpr BrittleMaterial kShearProof{.tensileStrength = 1e6, .shearFactor = 2};
+const BrittleMaterial kEven{.tensileStrength = 1e6};
+const BrittleMaterial kShearProof{.tensileStrength = 1e6, .shearFactor = 2};
 constexpr double kFriction = .4;
 
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }

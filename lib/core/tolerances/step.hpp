@@ -21,6 +21,10 @@ inline constexpr double kFarthestMove = 10;
 /// than this energy. Energies are evaluated again when that amount has grown by the second value.
 inline constexpr double kGivenEnergy = .01, kEvaluateAgain = 1.1;
 
+/// (of the largest sum of m r v) A message is given if contact and cracks have created more angular
+/// momentum. Cohesive tractions create none but for rounding.
+inline constexpr double kGivenSpin = .001;
+
 /// (steps) Interval between two evaluations of the kinetic energy: each costs half a per cent of a
 /// step.
 inline constexpr std::uint64_t kStepsToCheck = 8;

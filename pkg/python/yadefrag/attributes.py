@@ -13,6 +13,10 @@ from yade.minieigenHP import Vector3
 from yadefrag.values import isWhole, numbersOf, plain, refuse
 
 _OF_NUMPY = (numpy.generic, numpy.ndarray)
+_LISTS = (list, tuple, numpy.ndarray)
+_RIGHT = {'gravity': 'two or three numbers',
+          'softening': 'a name, or a list of points (opening over critical opening, traction over '
+                       'strength)'}
 _WRONG_KIND = (TypeError, OverflowError, UnicodeError)  # as Boost.Python refuses
 
 
@@ -27,13 +31,13 @@ def __setattr__(self, name, value):
     if not hasattr(type(self), name) and not name.startswith('_'):
         _warnOfUnknown(self, name)
     value = _inSpace(self, name, value)
-    present = None if isinstance(value, (list, tuple, numpy.ndarray)) else getattr(self, name, None)
+    present = None if isinstance(value, _LISTS) else getattr(self, name, None)
     try:
         object.__setattr__(self, name, _fitting(present, value))
         if _isGravity(self, name):
             object.__setattr__(self, 'takesGravity', False)
     except _WRONG_KIND:
-        right = 'two or three numbers' if _isGravity(self, name) else _right(getattr(self, name), value)
+        right = _RIGHT.get(name) or _right(getattr(self, name), value)
         refuse('%s.%s' % (type(self).__name__, name), value, right,
                TypeError)  # as for YADE's own classes
 
@@ -117,7 +121,7 @@ def _fitting(present, value):
         return tuple(value.tolist())
     if isinstance(value, (list, tuple)) and any(isinstance(v, _OF_NUMPY) for v in value):
         return tuple(map(plain, value))
-    isWrong = (isinstance(present, str) and not isinstance(value, str)
+    isWrong = (isinstance(present, str) and not isinstance(value, (str, *_LISTS))
                or isinstance(present, bool) and not (isinstance(value, int) and value in (0, 1))
                or isinstance(present, wrapper.Dispatcher) and value is None)
     if isWrong:

@@ -13,8 +13,9 @@ def bond(self, a, b, strength, energy):
     a, b      numbers or names of two bodies that touch, with nodes at the same positions along their
               common sides, to 1e-9 of a side: give both outlines the same points there, and the same
               size
-    strength  Pa, tensile; the shear strength is shearFactor times that. shearFactor and
-              shearEnergyFactor are those of the body with the smaller tensileStrength; 1 for FEMat
+    strength  Pa, tensile; the shear strength is shearFactor times that. shearFactor,
+              shearEnergyFactor and softening are those of the body with the smaller
+              tensileStrength; 1, 1 and 'linear' for FEMat
     energy    J/m², that opens the bond in tension; positive
     A bond acts like a crack that has not opened yet, by the cohesive law. An opening dissipates
     `energy`; after that, or where the bond is closed, the faces have contact like any others.

@@ -1,0 +1,108 @@
+"""Softening curves of cracks, from Python."""
+import builtins
+import os
+
+import numpy as np
+import pytest
+
+import yadefrag
+from yade import wrapper as w
+
+O = builtins.O
+kTable = [(0, 1), (.1, .4), (.5, .3), (1, 0)]
+kCurves = ('linear', 'bilinear', 'petersson', 'ceb-fip-2010', 'exponential', 'reinhardt', kTable)
+# Of Gc/ft: the critical opening. The table's area is .07 + .14 + .075.
+kCritical = dict(zip(map(str, kCurves), (2, 3.6, 3.6, 5, 7, 5.136, 1 / .285)))
+kStrength, kEnergy, kLength, kHeight = 2e6, 100., .02, .01
+
+
+def bar(softening, speed=.5):
+    """Two halves of a stiff bar, bonded by a joint; their ends part."""
+    O.materials.append(w.BrittleFEMat(young=100e9, poisson=0, density=2500, frictionAngle=0, planeStress=True,
+                                      tensileStrength=kStrength, fractureEnergy=kEnergy, softening=softening))
+    fe = w.FESolver()
+    fe.addPolygon(yadefrag.rectangle((-kLength / 2, 0), (kLength / 2, kHeight)), size=.0025, material=0,
+                  joints=[((0, -1), (0, 1))], jointStrength=kStrength, jointEnergy=kEnergy,
+                  strength=lambda x, y: 1e3 * kStrength, fractureEnergy=lambda x, y: 0,
+                  velocity=lambda x, y: (speed * np.sign(x), 0),
+                  fixed=lambda x, y: 'x' if abs(x) > kLength / 2 - 1e-9 else False)
+    O.engines = yadefrag.engines(fe)
+    O.dt = .5 * fe.criticalTimeStep()
+    return fe
+
+
+@pytest.mark.parametrize('softening', kCurves, ids=str)
+def test_aJointOpensWithItsEnergyUpToTheCriticalOpening(softening):
+    fe = bar(softening)
+    # The ends go on: each point of the curve is passed.
+    ends = np.nonzero(abs(abs(fe.nodes[:, 0]) - kLength / 2) < 1e-9)[0]
+    fe.prescribe(ends[fe.nodes[ends, 0] > 0], vx=[(0, .5)])
+    fe.prescribe(ends[fe.nodes[ends, 0] < 0], vx=[(0, -.5)])
+    begin = fe.energy['total']
+    critical = kCritical[str(softening)] * kEnergy / kStrength
+    for _ in range(100):
+        O.run(max(1, int(critical / 60 / O.dt)), True)
+        cracks = yadefrag.crackTable(fe)
+        if len(cracks) and not cracks['held'].any():
+            break
+    assert len(cracks) == 4 and not cracks['held'].any()
+    assert cracks['opening'].min() >= .999 * critical
+    assert cracks['opening'].max() < 1.1 * critical
+    # The mesh has no other edges that may open: Gc times the section.
+    assert fe.energy['fracture'] == pytest.approx(kEnergy * kHeight, rel=2e-3)
+    assert fe.energy['total'] == pytest.approx(begin, abs=1e-3 * kEnergy * kHeight)
+    assert not fe.warnings
+
+
+def test_aNameOrPointsAreGivenAndReturned():
+    material = w.BrittleFEMat()
+    assert material.softening == 'linear'
+    for one in kCurves:
+        material.softening = one
+        assert material.softening == one
+        assert w.BrittleFEMat(softening=one).softening == one
+    material.softening = np.array(kTable)
+    assert material.softening == kTable
+    assert material.dict()['softening'] == kTable
+
+
+@pytest.mark.parametrize('given, kind, message', [
+    ('cubic', ValueError, "softening is 'cubic'; it must be one of 'linear', 'bilinear'"),
+    ('', ValueError, "softening is ''; it must be one of"),
+    ([(0, 1)], ValueError, 'softening has 1 points; it must have at least two'),
+    ([(0, .9), (1, 0)], ValueError, 'softening begins at (0, 0.9); it must begin at (0, 1)'),
+    ([(0, 1), (2e-4, 0)], ValueError, 'softening ends at (0.0002, 0); it must end at (1, 0)'),
+    ([(0, 1), (.5, .2), (.4, .1), (1, 0)], ValueError, 'softening has the opening 0.4 after 0.5'),
+    ([(0, 1), (.4, .1), (.5, .2), (1, 0)], ValueError, 'softening has the traction 0.2 after 0.1'),
+    ([(0, 1), (float('nan'), .2), (1, 0)], ValueError, 'openings must increase'),
+    (3, TypeError, 'softening is 3, it must be a name, or a list of points'),
+    (None, TypeError, 'softening is None, it must be a name'),
+    ([0, 1, 1, 0], TypeError, 'it must be a name, or a list of points'),
+    ([(0, 1), (1, 0, 0)], TypeError, 'it must be a name, or a list of points'),
+    ([(0, 'a'), (1, 0)], TypeError, 'it must be a name, or a list of points')])
+def test_othersAreRefusedByOneSentence(given, kind, message):
+    material = w.BrittleFEMat()
+    with pytest.raises(kind) as refused:
+        material.softening = given
+    assert message in str(refused.value)
+    with pytest.raises(kind):
+        w.BrittleFEMat(softening=given)
+    assert material.softening == 'linear'
+
+
+@pytest.mark.parametrize('ending', ['.yade', '.xml'])
+@pytest.mark.parametrize('softening', ['petersson', 'exponential', kTable], ids=str)
+def test_aSavedRunGoesOnWithTheSameBits(softening, ending, folder):
+    path = os.path.join(folder, 'saved' + ending)
+    fe = bar(softening)
+    O.run(300, True)
+    assert yadefrag.crackTable(fe)['held'].any()
+    O.save(path)
+    results = []
+    for _ in range(2):
+        O.run(2000, True)
+        results.append((fe.nodes.tobytes(), fe.velocities.tobytes(), repr(fe.energy)))
+        O.load(path)
+        fe = O.engines[[type(e).__name__ for e in O.engines].index('FESolver')]
+        assert O.materials[0].softening == softening
+    assert results[0] == results[1]
