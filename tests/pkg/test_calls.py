@@ -93,6 +93,31 @@ def test_aMessageOfManyBodiesIsGivenOnceWithTheirNumber():
     assert len(said) == 1 and 'component 0' in said[0]
 
 
+def test_aMessageOfManyBondsIsGivenOnceWithTheirNumber():
+    """Four strips side by side: three bonds too weak for their sides."""
+    O.materials.append(w.FEMat(young=1e9, poisson=0, density=1000, label='m'))
+    fe = w.FESolver()
+    for k in range(4):
+        fe.addPolygon(yadefrag.rectangle((k, 0), (k + 1, 1)), .5, 'm')
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter('always')
+        for k in range(3):
+            assert fe.bond(k, k + 1, 5e6, 100) == 2
+        O.engines, O.dt = [fe], 1e-7
+        yadefrag.runSteps(1)
+    said = [str(one.message) for one in caught]
+    assert len(said) == 2 and said[0].startswith('bond: energy is 100 J/m²')
+    assert said[1].startswith('3 bonds have this message') and said[1].endswith('the bonds 0-1, 1-2, 2-3.')
+
+
+def test_relaxEndsWithoutLoads():
+    fe = w.FESolver()
+    O.materials.append(w.FEMat(young=5e9, poisson=.25, density=2500, label='g'))
+    fe.addPolygon(kSquare, .4, 'g')
+    O.engines, O.dt = [fe], .5 * fe.criticalTimeStep()
+    assert fe.relax(most=500) < 200
+
+
 # The last one is a run in the background.
 kRefused = """
 from yadefrag import *

@@ -1,7 +1,7 @@
 """Bonds between bodies of FESolver."""
 
 from yadefrag._yadefrag import requirePaused
-from yadefrag.messages import warn
+from yadefrag.messages import warnOfOne
 from yadefrag.names import bodyNumber
 from yadefrag.values import positive
 
@@ -29,5 +29,5 @@ def bond(self, a, b, strength, energy):
     sides, problem = self._bond(first, second, positive('strength', strength, 'Pa'),
                                 positive('energy', energy, 'J/m²'))
     if problem:
-        warn('bond: ' + problem)
+        warnOfOne('bond: ' + problem, 'bonds', '%d-%d' % (first, second))
     return sides

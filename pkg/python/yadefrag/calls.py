@@ -43,7 +43,8 @@ def _sentence(name, signature, given, settings):
         if key not in parameters:
             near = difflib.get_close_matches(key, parameters, 1)
             return '%s has no argument %s%s.' % (
-                name, shown(key), ', but %s' % near[0] if near else ': it has %s' % _listed(parameters))
+                name, shown(key), ', but %s' % near[0] if near else
+                ': it has %s' % (_listed(parameters) or 'none'))
     places = [key for key, one in parameters.items() if one.kind in _BY_POSITION]
     if len(given) > len(places):
         if len(places) == len(parameters):

@@ -124,7 +124,8 @@ def _damped(fe, tolerance, most):
             break  # O.pause()
         energy = fe.energy
         ratio = energy['kinetic'] / energy['strain'] if energy['strain'] > 0 else math.inf
-        calm = calm + 1 if ratio <= tolerance or energy['kinetic'] == 0 else 0
+        isRounding = energy['kinetic'] <= fe._energyBalance[2]  # nothing else without loads
+        calm = calm + 1 if ratio <= tolerance or isRounding else 0
         fe.damping, part = _critical(fe)
         done += part
     return calm, ratio

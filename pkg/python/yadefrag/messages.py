@@ -1,4 +1,5 @@
-"""Warnings of the plugin, at the script's line; one that many bodies have is given once, with their number."""
+"""Warnings of the plugin, at the script's line; one that many bodies or bonds have is given once, with their
+number."""
 
 import os
 import re
@@ -7,10 +8,10 @@ import warnings
 
 _HERE = os.path.dirname(__file__) + os.sep
 _SHOWN = 90  # characters of a message that is quoted
-_LISTED = 12  # bodies in a sentence
+_LISTED = 12  # bodies or bonds in a sentence
 _NUMBER = re.compile(r'[-+]?[\d.]+(e[-+]?\d+)?')
-_repeated = {}  # {message without its numbers: (the first message, bodies that have it)}
-_untold = set()  # those of which more bodies have been added than have been told
+_repeated = {}  # {message without its numbers: (the first message, 'bodies' or 'bonds', those that have it)}
+_untold = set()  # those that more bodies or bonds have than have been told
 
 
 def warn(sentence):
@@ -21,37 +22,36 @@ def warn(sentence):
     warnings.warn(sentence, stacklevel=level)
 
 
-def warnOfBody(sentence, body):
-    """The first of several messages that differ in numbers only; tellNumbers gives the number of the others."""
+def warnOfOne(sentence, what, one):
+    """The first of several messages that differ in numbers only; tellNumbers gives the number of the others.
+
+    what, one  'bodies' and the number of one, or 'bonds' and the numbers of two bodies, 'a-b'
+    """
     kind = _NUMBER.sub('', sentence)
-    if body == 0:
-        forget(kind)  # of another solver
-    first, bodies = _repeated.setdefault(kind, (sentence, []))
-    bodies.append(body)
-    if len(bodies) == 1:
+    _, _, known = _repeated.setdefault(kind, (sentence, what, []))
+    known.append(one)
+    if len(known) == 1:
         warn(sentence)
     else:
         _untold.add(kind)
 
 
 def tellNumbers():
-    """Before a run: how many bodies have a message that was given for the first of them."""
+    """Before a run: how many bodies or bonds have a message that was given for the first of them."""
     for kind in list(_untold):
         _untold.discard(kind)
-        first, bodies = _repeated[kind]
-        warn('%d bodies have this message, which was given for the first of them only: "%s"; they are %s.' %
-             (len(bodies), first if len(first) <= _SHOWN else first[:_SHOWN] + '…', _inWords(bodies)))
+        first, what, known = _repeated[kind]
+        warn('%d %s have this message, which was given for the first of them only: "%s"; they are %s.' %
+             (len(known), what, first if len(first) <= _SHOWN else first[:_SHOWN] + '…', _inWords(what, known)))
 
 
-def forget(kind=None):
-    """After O.reset, for all kinds, or for one."""
-    for one in list(_repeated) if kind is None else [kind]:
-        _repeated.pop(one, None)
-        _untold.discard(one)
+def forget():
+    """After O.reset, or before the first body of a solver."""
+    _repeated.clear()
+    _untold.clear()
 
 
-def _inWords(bodies):
-    if bodies == list(range(bodies[0], bodies[-1] + 1)):
-        return 'the bodies %d to %d' % (bodies[0], bodies[-1])
-    text = ', '.join(map(str, bodies[:_LISTED]))
-    return 'the bodies ' + text + (' and others' if len(bodies) > _LISTED else '')
+def _inWords(what, known):
+    if what == 'bodies' and known == list(range(known[0], known[-1] + 1)):
+        return 'the bodies %d to %d' % (known[0], known[-1])
+    return 'the %s %s' % (what, ', '.join(map(str, known[:_LISTED]))) + ' and others' * (len(known) > _LISTED)

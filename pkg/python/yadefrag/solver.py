@@ -19,7 +19,7 @@ from yadefrag.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.materials import Materials, interfaces, isField, oneMaterial
 from yadefrag.mesh_checks import requireApart
 from yadefrag.meshing import isIrregular, jointLines, meshOfPolygon, simplified
-from yadefrag.messages import warnOfBody
+from yadefrag.messages import forget, warnOfOne
 from yadefrag.motions import keepTurning, prescribe, rotate
 from yadefrag.names import componentOf, newName, nodesOf
 from yadefrag.places import brittlePlaces, stressOfTriangles
@@ -136,6 +136,8 @@ def _add(fe, mesh, smooth, materials, velocity, spin, displacement, stress, fixe
     def raw(values, dtype):
         return numpy.ascontiguousarray(values, dtype=dtype).tobytes()
 
+    if not len(fe.masses):
+        forget()  # messages of another solver
     component = fe._addMesh(
         dict(nodes=raw(nodes, 'float64'), triangles=raw(triangles, 'uint32'),
              loops=[raw(loop, 'uint32') for loop in mesh['loops']],
@@ -147,7 +149,7 @@ def _add(fe, mesh, smooth, materials, velocity, spin, displacement, stress, fixe
     keepTurning(fe, component, held, given, spin, present, centroid)
     problem = fe._zoneWarning(component)
     if problem:
-        warnOfBody(problem, component)
+        warnOfOne(problem, 'bodies', component)
     return component
 
 
@@ -263,7 +265,7 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                 thickness, selfContact, element, places, name)
     costly = self._costlyStepWarning(body, made['smallestSize'])
     if costly:
-        warnOfBody('addPolygon: ' + costly, body)
+        warnOfOne('addPolygon: ' + costly, 'bodies', body)
     return body
 
 
