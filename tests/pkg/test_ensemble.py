@@ -270,6 +270,7 @@ def test_plots(folder):
         'strength=2.0: mean of 2 runs'.replace('.0', ''), 'strength=1: mean of 2 runs']
     ax = rows.plot(folder + '/by.png', by='strength')
     assert ax.lines[-1].get_xydata().tolist() == [[1, 17.5], [2, 3]]
+    assert ax.lines[-1].get_label() == 'mean of 2 runs'  # of four, at two strengths
     assert all(os.path.getsize(folder + name) > 5000 for name in ('/shares.png', '/by.png'))
 
 

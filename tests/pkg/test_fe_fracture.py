@@ -359,6 +359,27 @@ def test_neighboursHaveDifferentColours(folder):
     assert yadefrag.animate(solver, folder + '/film.gif', 6, 3, field='fragment') == 3
 
 
+def test_bodiesBesideEachOtherHaveDifferentColours():
+    """Bricks of different sizes and meshes, in contact, in four rows: also where their points lie on both
+    sides of a line of a grid, and a coarse one beside fine ones."""
+    O.materials.append(w.FEMat(young=1e9, poisson=.2, density=1000, label='m'))
+    solver, boxes = w.FESolver(), []
+    for row in range(4):
+        x = 0.
+        while x < 4:
+            length, size = 1 + .37 * ((row + int(7 * x)) % 3), (.9, .21, .35)[int(3 * x + row) % 3]
+            boxes.append((x, row * 1., x + length, row + 1.))
+            solver.addPolygon(yadefrag.rectangle(boxes[-1][:2], boxes[-1][2:]), size, 'm')
+            x += length
+    colours = fragmentColours(solver)
+    of = [set(colours[solver.components == body]) for body in range(len(boxes))]
+    assert all(len(one) == 1 for one in of) and colours.max() < 10
+    touching = [(a, b) for a in range(len(boxes)) for b in range(a)
+                if min(boxes[a][2], boxes[b][2]) - max(boxes[a][0], boxes[b][0]) >= -1e-9
+                and min(boxes[a][3], boxes[b][3]) - max(boxes[a][1], boxes[b][1]) >= -1e-9]
+    assert len(touching) > 25 and all(of[a] != of[b] for a, b in touching)
+
+
 def test_vtkHasFragments(folder):
     meshio = pytest.importorskip('meshio')
     solver = impact()

@@ -177,7 +177,7 @@ class EnsembleTable:
                 values = numpy.sort(numpy.atleast_1d(row.value))
                 ax.step(values, 1 - numpy.arange(len(values)) / len(values), where='pre', color='.75',
                         linewidth=.6, zorder=1)
-            _drawBand(ax, band['place'], band, len(group.rows), confidence, colour=colour, of=of)
+            _drawBand(ax, band['place'], band, [len(group.rows)], confidence, colour=colour, of=of)
         if lowest > 0:
             ax.set_xscale('log')
         ax.set(xlabel=label, ylabel='fraction at least as large', ylim=(0, 1.02))
@@ -190,7 +190,7 @@ class EnsembleTable:
         for (of, rows), colour in zip(grouped(self.rows, others), itertools.cycle(DISTINCT)):
             group = EnsembleTable(rows)
             table = group.statistics(by, confidence=confidence)
-            _drawBand(ax, table['by'], table, len(group.good()), confidence, 'o-', colour, of)
+            _drawBand(ax, table['by'], table, table['runs'], confidence, 'o-', colour, of)
         ax.set(xlabel=by, ylabel=label)
 
     def write(self, files):
@@ -237,12 +237,14 @@ def _measured(row):
     return '%.6g on average of %d' % (values.mean(), len(values)) if len(values) else 'no numbers'
 
 
-def _drawBand(ax, x, table, count, confidence, style='-', colour=DISTINCT[0], of=()):
-    """of: settings of these runs, if others have other ones."""
+def _drawBand(ax, x, table, counts, confidence, style='-', colour=DISTINCT[0], of=()):
+    """counts: of the runs of each mean; of: settings of these runs, if others have other ones."""
+    least, most = min(counts), max(counts)
     ax.fill_between(x, table['low'], table['high'], color=colour, alpha=.3, linewidth=0,
                     label=None if of else '%g %% band of the mean' % (100 * confidence))
     ax.plot(x, table['mean'], style, color=colour,
-            label='%smean of %d runs' % (describe(of) + ': ' if of else '', count))
+            label='%smean of %s runs' % (describe(of) + ': ' if of else '',
+                                         least if least == most else '%d to %d' % (least, most)))
 
 
 def _share(confidence):
