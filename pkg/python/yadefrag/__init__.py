@@ -24,7 +24,7 @@ _yadefrag.checkRunningYade()
 __all__ = list(_yadefrag.publish())
 
 # Only now, because these need FESolver.
-from yadefrag import attributes, lifecycle, mpy, solver  # noqa: E402
+from yadefrag import attributes, bounds, lifecycle, mpy, solver  # noqa: E402
 from yadefrag.about import about  # noqa: E402
 from yadefrag.calls import inWords  # noqa: E402
 from yadefrag.engines import engines  # noqa: E402
@@ -63,6 +63,7 @@ def _renewDispatchers():
 solver.install()
 lifecycle.install()
 mpy.install()
+bounds.install([name for name in __all__ if name.endswith('Collider')])
 _renewDispatchers()
 for _name in __all__:
     globals()[_name] = getattr(wrapper, _name)
