@@ -35,6 +35,16 @@ bool meetInConvexJoint(const ContactSurfaces& surfaces, const PieceGeometry& geo
                geometry.tangent(b, geometry.range(b).begin)) >= 0;
 }
 
+/// True if cohesion holds both sides of a row. It would undo in every step what contact does to
+/// reduce their overlap: contact would create energy, and cohesion would take it.
+bool isHeldByCohesion(const ContactRow& row, std::span<const std::uint8_t> cohesive) {
+  if (cohesive.empty()) return false;
+  bool slave = false, master = false;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k)
+    if (cohesive[row.node[k].value] != 0) (row.weight[k] > 0 ? slave : master) = true;
+  return slave && master;
+}
+
 }  // namespace
 
 void Contact::reset() {
@@ -282,20 +292,20 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
     }
     row.slip = dot(moved - corrected, row.tangent());
   }
+  const double decay = isHeldByCohesion(row, step.cohesive) ? 0 : tolerance::contact().overlapDecay;
   const auto former =
       std::lower_bound(touches.begin(), touches.end(), active.pair,
                        [](const Touch& known, SlaveMaster pair) { return known.pair < pair; });
   if (former != touches.end() && former->pair == active.pair) {
     row.toleratedGap =
-        std::min(0., former->toleratedGap + tolerance::contact().overlapDecay *
-                                                std::min(-former->toleratedGap, step.move));
+        std::min(0., former->toleratedGap + decay * std::min(-former->toleratedGap, step.move));
     row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;
     return;
   }
   // An overlap from before the step (missed by the flags, or beside an end) must not become
   // velocity at once.
   const double gap = before.foot(row.master, before.slave(row.slave)).gap;
-  row.toleratedGap = std::min(0., gap + tolerance::contact().overlapDecay * step.move);
+  row.toleratedGap = std::min(0., gap + decay * step.move);
 }
 
 /// Computes the exact gaps at the corrected positions, and transforms them back to the predicted

@@ -30,8 +30,10 @@ struct ContactStep {
   double deepest;                ///< m, maximum depth of contact with a smooth master
   std::span<const Vec2> before;  ///< m, xⁿ; of surface nodes only
   int threads;
-  bool rubble;                  ///< true: faces of cracks are included
-  const RigidMasses& rigid;     ///< rigid boundaries that obey forces
+  bool rubble;               ///< true: faces of cracks are included
+  const RigidMasses& rigid;  ///< rigid boundaries that obey forces
+  /// By node: true if a cohesive crack holds it to another node; empty without such cracks.
+  std::span<const std::uint8_t> cohesive;
   StageTimes* times = nullptr;  ///< null: not measured
 };
 

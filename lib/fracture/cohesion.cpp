@@ -245,6 +245,12 @@ void Cohesion::addForces(std::vector<Vec2>& forces) const {
   }
 }
 
+std::vector<std::uint8_t> Cohesion::heldNodes(std::size_t nodes) const {
+  std::vector<std::uint8_t> held(points_.empty() ? 0 : nodes);
+  for (const Point& point : points_) held[point.here.value] = held[point.there.value] = 1;
+  return held;
+}
+
 void Cohesion::addWork(EnergyLedger& ledger, const Model& model,
                        std::span<const Vec2> previousVelocity, const StepLength& step) const {
   const auto mean = [&](NodeId node) {

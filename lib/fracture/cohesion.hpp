@@ -17,6 +17,7 @@
 // traction along the face continues from βσc + μp, at which the crack opened.
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -58,6 +59,8 @@ class Cohesion {
 
   /// (N) Adds the forces of the present step's tractions, by node.
   void addForces(std::vector<Vec2>& forces) const;
+  /// The same nodes, as flags by node.
+  [[nodiscard]] std::vector<std::uint8_t> heldNodes(std::size_t nodes) const;
 
   /// Removes cracks between removed triangles.
   void removeDropped(const Triangles& triangles, const CrackEdges& edges);

@@ -33,6 +33,7 @@ void World::takePairs(std::span<const BoxPair> overlapping) {
 
 void World::correctContact(const StepLength& length) {
   const double most = search.largestMove();
+  const std::vector<std::uint8_t> cohesive = fracture.cohesion.heldNodes(model.nodes.size());
   const ContactStep now{length,
                         dynamicsSettings.drag(length),
                         most,
@@ -43,6 +44,7 @@ void World::correctContact(const StepLength& length) {
                         threads,
                         fracture.numCracks() > 0,
                         rigidMasses,
+                        cohesive,
                         timesIfRequested()};
   undo_.hasCorrected = true;
   contact.correct(model, surfaces, contactSettings, now);
