@@ -17,7 +17,7 @@ def engines(fe, gravity=None, spheres=False, damping=0., collider=None, moving=F
               spheres and between spheres and bodies, and NewtonIntegrator
     moving    without spheres: True if YADE's walls, boxes or facets move; adds NewtonIntegrator after
               fe, which moves them
-    damping   of NewtonIntegrator; acts on spheres only
+    damping   of NewtonIntegrator; acts on YADE's bodies only
     collider  a collider class for spheres=True; None: LebesgueCollider
     Add other engines at the end: O.engines = engines(fe) + [PyRunner(...)]. ValueError before any
     change.
