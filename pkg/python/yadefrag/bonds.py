@@ -1,8 +1,8 @@
 """Bonds between bodies of FESolver."""
 
-from yadefrag._yadefrag import requirePaused
 from yadefrag.messages import warnOfOne
 from yadefrag.names import bodyNumber
+from yadefrag.script_calls import requireBetweenSteps
 from yadefrag.values import positive
 
 
@@ -23,7 +23,7 @@ def bond(self, a, b, strength, energy):
     before any change, if no sides match or if sides coincide with different ends; a warning if
     sides are too long for the energy.
     """
-    requirePaused()
+    requireBetweenSteps()
     first, second = (bodyNumber(self, one, name, least=0)
                      for name, one in (('a', a), ('b', b)))
     sides, problem = self._bond(first, second, positive('strength', strength, 'Pa'),

@@ -7,6 +7,7 @@ from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag.calls import inWords
 from yadefrag.names import bodyNumber
+from yadefrag.script_calls import requireBetweenSteps
 
 
 def requireNoStep(what):
@@ -107,6 +108,7 @@ def _guardRemove(remove):
     """FESolver.removeBody with a message for an invalid number."""
     @functools.wraps(remove)
     def guarded(self, component):
+        requireBetweenSteps()
         return remove(self, bodyNumber(self, component))
     return guarded
 

@@ -7,11 +7,11 @@ import numpy
 
 from yade import wrapper
 from yadefrag import interrupts, lifecycle
-from yadefrag._yadefrag import requirePaused
 from yadefrag.guards import requireNoStep
 from yadefrag.messages import warn
 from yadefrag.motions import chosenNodes, packed, tableOrNumber
 from yadefrag.progress import runPart, warnOfNoSolver
+from yadefrag.script_calls import calledInStep, requireBetweenSteps
 from yadefrag.shown import betweenSteps
 from yadefrag.values import array, flag, number, positive, refuse, shown, whole
 
@@ -29,7 +29,7 @@ def getLoads(self):
 
 
 def setLoads(self, loads):
-    requirePaused()
+    requireBetweenSteps()
     forces = numpy.zeros((0, 2)) if loads is None else array(loads, float)
     if forces is None:
         refuse('loads', loads, 'an array (n, 2) of N, or None')
@@ -56,10 +56,11 @@ def pressure(self, nodes, p, intoCracks=False):
     called for these nodes again. ValueError before any change, also if no side has both ends among
     the nodes.
     """
-    requirePaused()
+    requireBetweenSteps()
     intoCracks = flag('intoCracks', intoCracks)
     chosen = chosenNodes(self, nodes)
     if callable(p):
+        @calledInStep
         def value(time):
             return number('p(%g)' % time, p(time), math.isfinite, 'a finite number (Pa)')
         self._pressure(chosen.tobytes(), b'', b'', value, intoCracks)
@@ -78,7 +79,7 @@ def absorb(self, nodes):
     load: a body that is pushed drifts. Their dissipated energy is in `energy['damping']`. Each side
     has the density and speeds of the triangle behind it. ValueError before any change.
     """
-    requirePaused()
+    requireBetweenSteps()
     self._absorb(chosenNodes(self, nodes).tobytes())
 
 

@@ -5,9 +5,9 @@ import math
 
 import numpy
 
-from yadefrag._yadefrag import requirePaused
 from yadefrag.messages import warn
 from yadefrag.names import isBody
+from yadefrag.script_calls import calledInStep, requireBetweenSteps
 from yadefrag.values import array, flag, number, pair, real, refuse
 
 _RIGHT = ('a finite number (m/s), an array of one for each of the nodes, a table of pairs (s, m/s), '
@@ -115,7 +115,7 @@ def prescribe(self, nodes, vx=None, vy=None):
     before any change, also for an array with a table or a function in the other direction; a
     warning if no node is chosen.
     """
-    requirePaused()
+    requireBetweenSteps()
     chosen = chosenNodes(self, nodes)
     if not len(chosen):
         warn('prescribe: nodes selects none of the %d nodes.' % len(self.nodes))
@@ -155,6 +155,7 @@ def _velocities(kinds, values):
             return numpy.full(len(places), numpy.interp(time, *value))
         return numpy.zeros(len(places))
 
+    @calledInStep
     def velocities(places, time):
         both = [column(name, kind, value, places, time)
                 for name, kind, value in zip(('vx', 'vy'), kinds, values)]
@@ -172,7 +173,7 @@ def rotate(self, nodes, omega, centre):
     ValueError before any change. A saved scene contains the motion; a later `prescribe` or `rotate`
     ends it.
     """
-    requirePaused()
+    requireBetweenSteps()
     chosen = self.nodesOf(nodes) if isBody(nodes) else chosenNodes(self, nodes)
     turn = tableOrNumber('omega', omega, 'rad/s')
     _move(self, chosen, 3, pair('centre', centre), ('none', 'none'), (None, None), turn)

@@ -12,7 +12,6 @@ import numpy
 from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag import guards
-from yadefrag._yadefrag import requirePaused
 from yadefrag.bonds import bond
 from yadefrag.calls import inWords
 from yadefrag.loads import absorb, getLoads, pressure, relax, setLoads
@@ -25,6 +24,7 @@ from yadefrag.names import componentOf, newName, nodesOf
 from yadefrag.places import brittlePlaces, stressOfTriangles
 from yadefrag.quality import meshQuality
 from yadefrag.results import contactForce, crackCounts, principalStress, reaction
+from yadefrag.script_calls import requireBetweenSteps
 from yadefrag.shown import betweenSteps, shownTriangles
 from yadefrag.values import (array, flag, number, pair, plain, pointsOf, positive, real, refuse, shown,
                              whole)
@@ -116,7 +116,7 @@ def _centroid(nodes, triangles):
 
 def _add(fe, mesh, smooth, materials, velocity, spin, displacement, stress, fixed, thickness,
          selfContact, element, places, name):
-    requirePaused()
+    requireBetweenSteps()
     name = newName(fe, name)
     if not isinstance(element, str) or element not in _ELEMENTS:
         refuse('element', element, "'linear' or 'smoothed'")
