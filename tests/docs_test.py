@@ -28,15 +28,18 @@ class Manual(unittest.TestCase):
 
     def test_quotedSentencesExist(self):
         text = sources()
-        table = (ROOT / 'docs' / 'troubleshooting.md').read_text()
-        quoted = re.findall(r'^\| \*(.*?)\*', table, re.M)
-        self.assertGreater(len(quoted), 10)
+        page = (ROOT / 'docs' / 'checked.md').read_text()
+        chapters = re.split(r'^## ', page, flags=re.M)
+        rows = [row for chapter in chapters if chapter.startswith(('Bodies', 'Time step', 'Colliders', 'Running'))
+                for row in re.findall(r'^\| (.*?) \|', chapter, re.M)]
+        quoted = [sentence for row in rows for sentence in re.findall(r'\*(.*?)\*', row)]
+        self.assertGreater(len(quoted), 40)
         for sentence in quoted:
             for part in sentence.split('…'):
                 part = part.strip(' .')
                 if len(part) > 3 and 'unregistered class' not in part:  # YADE's
                     with self.subTest(part=part):
-                        self.assertIn(part, text)
+                        self.assertTrue(part in text)
 
     def test_linksLeadSomewhere(self):
         count = 0

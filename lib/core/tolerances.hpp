@@ -5,6 +5,7 @@
 #include "core/tolerances/collider.hpp"
 #include "core/tolerances/contact.hpp"
 #include "core/tolerances/dynamics.hpp"
+#include "core/tolerances/elements.hpp"
 #include "core/tolerances/fracture.hpp"
 #include "core/tolerances/mesh.hpp"
 #include "core/tolerances/search.hpp"

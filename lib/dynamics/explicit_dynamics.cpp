@@ -340,6 +340,14 @@ void ExplicitDynamics::finish(const Model& model, const StepLength& length,
   }
 }
 
+double ExplicitDynamics::energyOfChange(const Model& model, const StepLength& length) const {
+  const double last = 2 * length.velocity - length.position;
+  double sum = 0;
+  for (std::size_t n = 0; n < force_.size(); ++n)
+    sum += dot(force_[n], model.nodes.velocity[n] - previousVelocity_[n]);
+  return (last - length.position) / 4 * sum;
+}
+
 void ExplicitDynamics::measureReactions(const Model& model, const StepLength& length,
                                         const StepSettings& settings,
                                         std::span<const Vec2> outerForces,

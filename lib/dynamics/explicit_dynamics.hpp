@@ -90,6 +90,11 @@ class ExplicitDynamics {
               std::span<const Vec2> outerForces, std::span<const Vec2> contactForces,
               EnergyLedger& ledger, int threads = 1) const;
 
+  /// (J) Energy that this step adds to kinetic plus strain energy because its length differs from
+  /// that of the last one: ¼(Δtⁿ⁻¹ − Δtⁿ) Σ f·(vⁿ⁺½ − vⁿ⁻½), exact for small strains. Call after
+  /// the correction of the velocities.
+  [[nodiscard]] double energyOfChange(const Model& model, const StepLength& length) const;
+
   /// True if no node was held in the last step, nor since the last `rebuild`.
   [[nodiscard]] bool holdsNone() const { return heldNodes_.empty(); }
   /// (N) Reactions by node, 0 in directions that are not held: the force, in addition to all others

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
+#include "core/tolerances/elements.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 
@@ -21,6 +23,13 @@ std::string nameOf(const Model& model, ElementId element, std::span<const Vec2> 
     centre += 1. / 3 * position[node.value];
   return fmt::format("element {} of component {} at ({:g}, {:g}) m", element.value,
                      model.triangles.component[element.value].value, centre.x, centre.y);
+}
+
+/// The smaller principal stretch.
+double leastStretch(const Matrix2& f) {
+  const double sum = std::hypot(f.xx + f.yy, f.yx - f.xy);
+  const double difference = std::hypot(f.xx - f.yy, f.yx + f.xy);
+  return (sum - difference) / 2;
 }
 
 }  // namespace
@@ -37,9 +46,17 @@ void ExplicitDynamics::handleFlat(const Model& model, const Chunk& chunk, Scratc
 void ExplicitDynamics::requireUpright(const Model& model, double dt, double correction) const {
   const auto look = [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
-      if (determinant(deformationGradient(model, ElementId(e))) > 0) continue;
-      throw RunError(fmt::format("{} is inverted in a step of {:g} s; take a shorter one.",
-                                 nameOf(model, ElementId(e), previousPosition_), dt));
+      const Matrix2 now = deformationGradient(model, ElementId(e));
+      if (determinant(now) > 0) continue;
+      const double before = leastStretch(now - deformationStep(model, ElementId(e), dt));
+      const std::string reason = fmt::format("{} is inverted in a step of {:g} s",
+                                             nameOf(model, ElementId(e), previousPosition_), dt);
+      if (before > tolerance::kCollapsed) throw RunError(reason + "; take a shorter one.");
+      throw RunError(fmt::format(
+          "{}, after it was pressed to {:.2g} of its height: an elastic element does not resist "
+          "collapse, and a shorter step does not help; set the bulk viscosity "
+          "(fe.quadraticViscosity = 1.2), or take a stiffer material or slower bodies.",
+          reason, before));
     }
   };
   if (anyLargeMove_ || correction > tolerance::kLargeMove * leastHeight_)

@@ -37,6 +37,7 @@ void EnergyWatch::begin(double energy, const EnergyLedger& ledger) {
   most = energy;
   contact = ledger.contact, friction = ledger.friction;
   evaluatedCreated = evaluatedGrown = reportedCreated = reportedGrown = 0;
+  knownGrowth = ofChanges = 0;
 }
 
 void EnergyWatch::count(const WatchedStep& step) {
@@ -91,12 +92,14 @@ bool EnergyWatch::isDue(std::uint64_t step) {
 
 bool EnergyWatch::mayHaveGrown(const WatchedStep& step, double kinetic) {
   if (step.step % tolerance::kStepsToSumUp == 0) return true;
+  if (ofChanges > 0 && knownGrowth + ofChanges > tolerated(reportedGrown)) return true;
   const double over = kinetic - (expected - step.ledger.total(0, 0));
   return mustEvaluate(over, tolerated(reportedGrown), evaluatedGrown);
 }
 
 std::string EnergyWatch::growthMessage(const WatchedStep& step, double energy, double noise) {
   const double over = step.ledger.total(energy, 0) - expected;
+  knownGrowth = over, ofChanges = 0;
   if (!(over > std::max(tolerated(reportedGrown), noise))) return {};
   reportedGrown = over;
   return fmt::format("{}the time integration has created {}; {}", yadefrag::begin(step),

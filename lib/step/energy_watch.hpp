@@ -42,9 +42,12 @@ class EnergyWatch {
 
   /// True if the kinetic energy, or all energies, must be evaluated in this step.
   [[nodiscard]] static bool isDue(std::uint64_t step);
+  /// A change of the step's length has added `energy` (J) to the sum of kinetic and strain energy.
+  void addOfChange(double energy) { ofChanges += energy; }
   /// True if the bodies may have more energy than supplied. A kinetic energy above that is no
   /// proof, since at the half step the highest modes temporarily have energy of their strain; it is
-  /// a reason to compute the strain energy.
+  /// a reason to compute the strain energy, and so is the energy that changes of the step have
+  /// added since it was last computed.
   bool mayHaveGrown(const WatchedStep& step, double kinetic);
   /// The message for the kinetic plus strain energy (J).
   std::string growthMessage(const WatchedStep& step, double energy, double noise);
@@ -67,6 +70,8 @@ class EnergyWatch {
          reportedDepth = 0;  ///< J, J, m, in the last message; 0: none
   double mostSpin = 0;       ///< kg m²/s, largest sum of spins that was evaluated
   double reportedSpin = 0;   ///< kg m²/s, in the last message; 0: none
+  /// J, growth at the last sum over all energies, and the sum of `addOfChange` since then.
+  double knownGrowth = 0, ofChanges = 0;
   double lastStep = 0, leastStep = 0, mostStep = 0;  ///< s; 0: none so far
   std::uint64_t changes = 0;  ///< number of steps with another length than the previous one
 

@@ -63,6 +63,7 @@ void World::advance(double dt) {
   // Work of all forces except contact, with the mean of both velocities.
   finish(length);
   countFractureWork(length);
+  ofChange_ = dt != lastDt && lastDt > 0 ? dynamics_.energyOfChange(model, length) : 0;
   requireFiniteEnergy();
 }
 
@@ -77,6 +78,7 @@ void World::conclude(double dt) {
   rigidVelocities.clear();
   rigidMasses.clear();
   givenPressures.clear();
+  watch.addOfChange(ofChange_);
   watchEnergy();
 
   // Cracks at xⁿ⁺¹: nodes split, surfaces are linked again, and the new faces become candidates.

@@ -137,6 +137,11 @@ class World {
   /// (J) At the last half step.
   [[nodiscard]] double kineticEnergy() const { return yadefrag::kineticEnergy(model.nodes); }
   [[nodiscard]] double strainEnergy() const { return yadefrag::strainEnergy(model, lastDt); }
+  /// (m/s) By node, at the begin of the last step; work of a force is that with the mean of these
+  /// and the present ones. Valid until bodies are added or removed.
+  [[nodiscard]] std::span<const Vec2> formerVelocities() const {
+    return dynamics_.previousVelocity();
+  }
 
   /// (J) Estimate of the energy that rounding of the coordinates has added to the bodies so far.
   [[nodiscard]] double roundingEnergy() const;
@@ -262,7 +267,8 @@ class World {
       false;  // do the arrays below fit the model: many bodies join, then one step comes
   bool severalBodies_ = false;
   StepUndo undo_;
-  double finest_ = 0;  // m, shortest stress-free segment: independent of the time of the search
+  double ofChange_ = 0;  // J, see EnergyWatch::addOfChange
+  double finest_ = 0;    // m, shortest stress-free segment: independent of the time of the search
   double droppedBelow_ = 0;  // m², no detached fragment is smaller; 0: unknown
   std::string broken_;       // reason why the state is invalid; empty: it is valid
 };

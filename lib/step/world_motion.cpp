@@ -77,7 +77,8 @@ void World::requireBoundedMotion(double dt) {
       "a node moves by {:g} m in one step, but may not by more than {:g} times the shortest "
       "segment, "
       "{:g} m; take a step of at most {:g} s.",
-      most, tolerance::kFarthestMove, finest_, dt * tolerance::kFarthestMove * finest_ / most));
+      most, tolerance::kFarthestMove, finest_,
+      tolerance::kAdvised * dt * tolerance::kFarthestMove * finest_ / most));
 }
 
 void World::requireResolvedMotion(double dt) {
@@ -101,7 +102,8 @@ void World::requireResolvedMotion(double dt) {
       "at ({:g}, {:g}) m a body moves against another by {:g} of a segment in one step, but may "
       "not by "
       "more than {:g}; otherwise contact could be missed; take a step of at most {:g} s.",
-      at.x, at.y, most, tolerance::kMostMotion, dt * tolerance::kMostMotion / most));
+      at.x, at.y, most, tolerance::kMostMotion,
+      tolerance::kAdvised * dt * tolerance::kMostMotion / most));
 }
 
 /// Forces so large that their work exceeds the range of numbers.

@@ -39,15 +39,30 @@ bool movesBefore(const Engines& engines, std::size_t from, const yade::Engine& s
 
 }  // namespace
 
-void EngineOrder::requireReturn(const yade::Scene& scene, const yade::Engine& solver) {
+void EngineOrder::requireReturn(const yade::Scene& scene, const yade::Engine& solver,
+                                bool anyMovable) {
   Engines alive;
   for (const auto& engine : scene.engines)
     if (!engine->dead) alive.push_back(engine.get());
   const auto own = std::ranges::find(alive, &solver);
   if (own == alive.end()) return;
-  for (const yade::Engine* user : alive)
-    if (isA(user, "NewtonIntegrator"))
-      requireForces(alive, static_cast<std::size_t>(own - alive.begin()), user);
+  for (auto behind = own; behind != alive.end(); ++behind)
+    if (isA(*behind, "ForceResetter"))
+      throw std::invalid_argument(
+          std::string("O.engines: ForceResetter behind FESolver deletes the forces of contact on "
+                      "walls, boxes and facets within the step, so that O.forces would show none") +
+          kOrder);
+  if (!anyMovable) return;
+  const auto isResetter = [](const yade::Engine* one) { return isA(one, "ForceResetter"); };
+  for (const yade::Engine* user : alive) {
+    if (!isA(user, "NewtonIntegrator")) continue;
+    if (std::ranges::none_of(alive, isResetter))
+      throw std::invalid_argument(
+          std::string("O.engines has a NewtonIntegrator and no ForceResetter: the forces on clumps "
+                      "of all steps would add up") +
+          kOrder);
+    requireForces(alive, static_cast<std::size_t>(own - alive.begin()), user);
+  }
 }
 
 bool EngineOrder::isKnown(const yade::Scene& scene, const yade::Engine& solver) const {

@@ -18,9 +18,9 @@ class EngineOrder {
   /// of the last `require`.
   [[nodiscard]] bool spheresMoveFirst() const { return spheresMoveFirst_; }
 
-  /// Throws std::invalid_argument if the forces of `solver` on bodies are reset before
-  /// NewtonIntegrator has used them.
-  static void requireReturn(const yade::Scene& scene, const yade::Engine& solver);
+  /// Throws std::invalid_argument if the forces of `solver` on rigid bodies are reset within the
+  /// step, or, if any of these is movable, before NewtonIntegrator has used them, or never.
+  static void requireReturn(const yade::Scene& scene, const yade::Engine& solver, bool anyMovable);
 
  private:
   struct Place {

@@ -8,7 +8,7 @@
 
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
-#include "surface/piece_geometry.hpp"
+#include "fe/entry_frame.hpp"
 
 namespace yadefrag {
 namespace {
@@ -18,21 +18,7 @@ using yade::Vector3r;
 Vector3r inSpace(Vec2 v) { return {v.x, v.y, 0}; }
 Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
 
-/// The middle of a piece, and the two nodes that determine its rotation.
-struct Frame {
-  Stencil middle;
-  NodeId first, last;
-
-  Frame(const ContactSurfaces& surfaces, EntryId entry) {
-    NodeId nodes[3];
-    const int count = surfaces.pieceNodes(entry, nodes);
-    first = nodes[0], last = nodes[count - 1];
-    const PieceRange range = pieceRange(surfaces.piece[entry.value]);
-    middle = surfaces.master(entry, .5 * (range.begin + range.end));
-  }
-};
-
-void setState(yade::State& state, const Frame& frame, const Nodes& nodes, double dt) {
+void setState(yade::State& state, const EntryFrame& frame, const Nodes& nodes, double dt) {
   const Vec2 along = nodes.position[frame.last.value] - nodes.position[frame.first.value];
   const Vec2 apart = nodes.velocity[frame.last.value] - nodes.velocity[frame.first.value];
   state.vel = inSpace(combine(frame.middle, nodes.velocity));
@@ -51,7 +37,7 @@ class NodeForces {
   /// spheres, with a torque that belongs to the body's position; with contacts, the moment is
   /// therefore that of the contact points. The remaining force acts at the piece's middle.
   void add(EntryId entry, const yade::Body& body, Vec2 force, double torque) {
-    const Frame frame(surfaces_, entry);
+    const EntryFrame frame(surfaces_, entry);
     Vec2 explained, points;
     double moment = 0;
     int count = 0;
@@ -63,7 +49,7 @@ class NodeForces {
       const double sign = contact->getId2() == body.getId() ? 1 : -1;
       const Vec2 part = sign * inPlane(phys->normalForce + phys->shearForce);
       const Vec2 point = inPlane(geom->contactPoint);
-      moment += addAt(footOf(entry, point), point, part);
+      moment += addAt(footOf(surfaces_, geometry_, entry, point), point, part);
       explained += part;
       points += point;
       ++count;
@@ -79,12 +65,6 @@ class NodeForces {
   }
 
  private:
-  [[nodiscard]] Stencil footOf(EntryId entry, Vec2 point) const {
-    const PieceRange range = geometry_.range(entry);
-    return surfaces_.master(entry,
-                            std::clamp(geometry_.foot(entry, point).xi, range.begin, range.end));
-  }
-
   /// Returns the moment (N m) that is missing if a force at `place` acts at the stencil's point.
   double addAt(const Stencil& at, Vec2 place, Vec2 force) {
     for (int k = 0; k < at.count; ++k) forces_[at.node[k].value] += at.weight[k] * force;
@@ -368,7 +348,7 @@ void EntryBodies::update(const World& world, double dt, int threads, std::size_t
     shape.middle = inSpace(piece.middle);
     shape.before = inSpace(pieces_[surfaces.prev[e].value].tangentAtEnd());
     shape.after = inSpace(pieces_[surfaces.next[e].value].tangentAtStart());
-    setState(*states_[e], Frame(surfaces, EntryId(e)), nodes, dt);
+    setState(*states_[e], EntryFrame(surfaces, EntryId(e)), nodes, dt);
   });
 }
 

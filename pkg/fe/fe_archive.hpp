@@ -50,7 +50,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 13;
+  static constexpr std::uint64_t kFormat = 14;
   /// (count) A damaged length must not exhaust the memory: values are read in parts of this size,
   /// and the archive ends before the memory is full.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -117,6 +117,7 @@ class WorldArchive {
     value("leastStep", watch.leastStep), value("mostStep", watch.mostStep);
     value("stepChanges", watch.changes);
     value("mostSpin", watch.mostSpin), value("toldSpin", watch.reportedSpin);
+    value("knownGrowth", watch.knownGrowth), value("ofChanges", watch.ofChanges);
     lines("complaints", world.warnings);
   }
 

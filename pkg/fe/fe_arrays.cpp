@@ -282,9 +282,10 @@ py::dict energyOf(const FESolver& solver) {
   result["damping"] = ledger.damping;
   if (solver.world().dropped.count > 0 || solver.world().fracture.minFragmentArea > 0)
     result["dropped"] = ledger.dropped;
-  result["external"] = ledger.external;
   result["outside"] = -ledger.external;
   result["total"] = ledger.total(kinetic, strain);
+  if (solver.balance().any())
+    result["scene"] = ledger.total(kinetic, strain) + solver.balance().created();
   return result;
 }
 

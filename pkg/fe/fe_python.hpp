@@ -29,6 +29,7 @@ inline std::string zoneWarningOf(const FESolver& solver, int component) {
   const World& world = solver.world();
   return cohesiveZoneWarning(world.model, world.fracture.edges, ComponentId(component));
 }
+inline void noteOf(FESolver& solver, std::string sentence) { solver.note(std::move(sentence)); }
 inline double timeOf(const FESolver& solver) { return solver.world().time; }
 inline std::uint64_t searchesOf(const FESolver& solver) { return solver.world().numSearches; }
 inline std::size_t activesOf(const FESolver& solver) {
@@ -73,6 +74,7 @@ void FESolver::pyExtra(PyClass& pyClass) {
           "_lock", +[](const FESolver& self) { self.betweenSteps().lock(); })
       .def(
           "_unlock", +[](const FESolver& self) { self.betweenSteps().unlock(); })
+      .def("_note", &Locked<noteOf>::call)
       .def("_meshQuality", &Locked<meshQualityOf>::call)
       .def("_costlyStepWarning", &Locked<costlyStepWarningOf>::call)
       .def("_bond", &bond)
@@ -137,15 +139,7 @@ void FESolver::valuesOf(PyClass& pyClass) {
       .add_property("dropped", &Locked<droppedOf>::call,
                     "Removed fragments (smaller than minFragmentArea), a dict: mass "
                     "(kg), momentum (kg m/s, a pair), energy (J) at their removal, count.")
-      .add_property(
-          "energy", &Locked<energyOf>::call,
-          "Dict of J: kinetic, strain, contact, friction, fracture, damping, outside (energy that "
-          "left: negative where work was done on the bodies); with minFragmentArea, dropped "
-          "(energy of removed fragments); total, their sum, is constant, except for impacts of "
-          "soft bodies that rotate, which reduce it by second order in O.dt: 5e-4 of the work in a "
-          "drum of rubber, 1.3e-4 with half the step. O.energy has the same values, with the same "
-          "signs, as feKinetic, feStrain ... feOutside, if O.trackEnergy. In addition, external is "
-          "-outside.");
+      .add_property("_energies", &Locked<energyOf>::call);
 }
 
 template <class PyClass>

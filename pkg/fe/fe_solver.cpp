@@ -26,6 +26,7 @@ namespace yadefrag {
 /// position of the boundary.
 void FESolver::action() try {
   const std::lock_guard guard(betweenSteps_);
+  given_.begin(*scene);
   if (bodies_.ids().empty()) return;
   surveyed_ = 0;
   if (scene->isPeriodic)
@@ -49,6 +50,8 @@ void FESolver::action() try {
   functions_.giveValues(world_, scene->dt);
   rigid_.giveVelocities(*scene, world_, integrator(true));
   const StepLength length(scene->dt, world_.lastDt);
+  balance_.begin(*scene, world_, bodies_,
+                 {integrator(false) != nullptr, order_.spheresMoveFirst()});
   try {
     world_.step(scene->dt);
   } catch (const TimeStepError& error) {
@@ -58,9 +61,12 @@ void FESolver::action() try {
   }
   warn(known);
   if (rigid_.any()) {
-    rigid_.giveForces(*scene, world_, length);
+    rigid_.giveForces(*scene, world_, length, given_);
+    given_.end(*scene);
     report(rigid_.takeSentences());
   }
+  balance_.end(*scene, world_, given_);
+  report({balance_.message(world_)});
   followCracks(dropped);
   bodies_.update(world_, timeToIntegrate(), world_.threads);
   prepareSearch(scene->dt);
@@ -93,8 +99,24 @@ void FESolver::checkScene(bool enginesAreNew) {
   if (takesOver()) world_.dynamicsSettings.gravity = {theirs[0], theirs[1]};
   const bool bodiesAreNew = around_.look(*scene);
   const bool rigidChanged = std::exchange(checkedRigid_, rigidBodies) != rigidBodies;
+  report(materials_.sentences());
+  if (world_.steps == 0) checkTimeStep();
   if (!bodiesAreNew && !enginesAreNew && !rigidChanged) return;
-  report(around_.sentences(theirs, rigidBodies));
+  double thickest = 0;
+  for (const Component& body : world_.model.components)
+    if (!body.rigid) thickest = std::max(thickest, body.thickness);
+  report(around_.sentences(theirs, rigidBodies, thickest));
+}
+
+/// YADE's default is much shorter than the step of most bodies; the run would only seem to stand.
+void FESolver::checkTimeStep() {
+  if (scene->dt != tolerance::kDefaultStep) return;
+  const double critical = world_.criticalTimeStep();
+  if (scene->dt > tolerance::kShortStep * critical) return;
+  report({fmt::format(
+      "O.dt has YADE's default, {:g} s, {:.3g} times shorter than the critical step, {:.3g} s; "
+      "O.dt = .8 * fe.criticalTimeStep() is usual.",
+      scene->dt, critical / scene->dt, critical)});
 }
 
 /// Reports those messages that have not been reported yet.
@@ -102,7 +124,8 @@ void FESolver::report(std::vector<std::string> sentences) {
   const std::size_t known = world_.warnings.size();
   std::vector<std::string>& warnings = world_.warnings;
   for (std::string& sentence : sentences)
-    if (std::find(warnings.begin(), warnings.end(), sentence) == warnings.end())
+    if (!sentence.empty() &&
+        std::find(warnings.begin(), warnings.end(), sentence) == warnings.end())
       warnings.push_back(std::move(sentence));
   warn(known);
 }
@@ -117,9 +140,9 @@ void FESolver::followRigid(bool enginesAreNew) {
                                 " FESolver(rigidBodies=False) disables contact with it.");
   }
   report(rigid_.takeSentences());
-  if (!(enginesAreNew || areNew) || !rigid_.anyMovable(*scene)) return;
-  EngineOrder::requireReturn(*scene, *this);
-  if (integrator(false) && !integrator(true))
+  if (!(enginesAreNew || areNew) || !rigid_.any()) return;
+  EngineOrder::requireReturn(*scene, *this, rigid_.anyMovable(*scene));
+  if (rigid_.anyMovable(*scene) && integrator(false) && !integrator(true))
     report(
         {"NewtonIntegrator comes before FESolver in O.engines: rigid bodies that obey forces keep "
          "their velocity while they touch FE bodies, and light ones rebound too fast; it must come "
@@ -247,6 +270,7 @@ int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
   scene = &here;
   const std::size_t first = bodies_.ids().size();
   bodies_.add(here, world_, materials);
+  for (const auto& one : materials) materials_.add(one);
   prepareNewcomer(first);
   return static_cast<int>(component.value);
 }

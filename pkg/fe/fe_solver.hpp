@@ -10,9 +10,11 @@
 #include "fe/engine_order.hpp"
 #include "fe/entry_bodies.hpp"
 #include "fe/fe_archive.hpp"
+#include "fe/material_watch.hpp"
 #include "fe/materials.hpp"
 #include "fe/rigid_bodies.hpp"
 #include "fe/rolling.hpp"
+#include "fe/scene_energy.hpp"
 #include "fe/scene_watch.hpp"
 #include "fe/script_functions.hpp"
 #include "fe/step_lock.hpp"
@@ -47,6 +49,9 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
     return world_;
   }
   [[nodiscard]] const EntryBodies& entryBodies() const { return bodies_; }
+  /// Adds a message that has been written already.
+  void note(std::string sentence) { world_.warnings.push_back(std::move(sentence)); }
+  [[nodiscard]] const SceneEnergy& balance() const { return balance_; }
   [[nodiscard]] ScriptFunctions& scriptFunctions() { return functions_; }
   /// Locked during each step, and during each read and change from Python.
   [[nodiscard]] StepLock& betweenSteps() const { return betweenSteps_; }
@@ -85,6 +90,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void collectForces();
   void warn(std::size_t known) const;
   void checkScene(bool enginesAreNew);
+  void checkTimeStep();
   void followRigid(bool enginesAreNew);
   void report(std::vector<std::string> sentences);
   [[nodiscard]] const yade::NewtonIntegrator* integrator(bool behind) const;
@@ -100,7 +106,10 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   EntryBodies bodies_;
   EngineOrder order_;
   SceneWatch around_;
+  MaterialWatch materials_;
   RigidBodies rigid_;
+  GivenForces given_;
+  SceneEnergy balance_;
   RollingSpheres rolling_;
   CrackContacts crackContacts_;
   bool checkedRigid_ = true;  // `rigidBodies` when the scene was last checked
@@ -195,6 +204,7 @@ void FESolver::archiveMore(Archive& archive) {
   rigid_.archive(archive, world_);
   rolling_.archive(archive);
   crackContacts_.archive(archive);
+  balance_.archive(archive);
   if constexpr (Archive::is_loading::value) bodies_.restore(std::move(ids));
 }
 

@@ -19,6 +19,7 @@
 #include "core/errors.hpp"
 #include "core/step_length.hpp"
 #include "fe/entry_bodies.hpp"
+#include "fe/given_forces.hpp"
 #include "fe/rigid_corners.hpp"
 #include "fe/rigid_movers.hpp"
 #include "fe/rigid_outlines.hpp"
@@ -39,7 +40,8 @@ class RigidBodies {
   /// Sets the velocities and the inertia for the next step.
   void giveVelocities(yade::Scene& scene, World& world, const yade::NewtonIntegrator* newton);
   /// Adds the forces of the last step to YADE's bodies, with their moments.
-  void giveForces(yade::Scene& scene, const World& world, const StepLength& length) const;
+  void giveForces(yade::Scene& scene, const World& world, const StepLength& length,
+                  GivenForces& given) const;
 
   [[nodiscard]] bool any() const { return !corners_.empty(); }
   /// True if any of them obeys forces.

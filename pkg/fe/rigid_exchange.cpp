@@ -61,8 +61,8 @@ void RigidBodies::warnOfUnmoved() {
   }
 }
 
-void RigidBodies::giveForces(yade::Scene& scene, const World& world,
-                             const StepLength& length) const {
+void RigidBodies::giveForces(yade::Scene& scene, const World& world, const StepLength& length,
+                             GivenForces& given) const {
   const ContactSurfaces& surfaces = world.surfaces;
   const Nodes& nodes = world.model.nodes;
   const auto isRigid = [&](EntryId entry) {
@@ -78,17 +78,19 @@ void RigidBodies::giveForces(yade::Scene& scene, const World& world,
     const yade::Body& body = *members_[own.member].body;
     const double sign = ofSlave ? 1 : -1;
     // The forces act at the positions at the begin of the step.
-    Vec2 point;
+    Vec2 point, velocity;
     for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k) {
       const std::uint32_t node = row.node[k].value;
       if (!world.model.components[nodes.component[node].value].rigid) continue;
       const Vec2 before = nodes.position[node] - length.position * nodes.velocity[node];
       point += sign * row.weight[k] * before;
+      velocity +=
+          sign * row.weight[k] / 2 * (world.formerVelocities()[node] + nodes.velocity[node]);
     }
     const Vec2 force = sign * length.velocity / length.position * row.force();
     const Vec2 arm = point - inPlane(body.state->se3.position);
-    scene.forces.addForce(body.id, inSpace(force));
-    scene.forces.addTorque(body.id, Vector3r(0, 0, cross(arm, force)));
+    given.add(scene, {body.id, inSpace(force), Vector3r(0, 0, cross(arm, force)),
+                      length.position * dot(force, velocity)});
   }
 }
 

@@ -40,6 +40,7 @@ bool SceneWatch::noteSphere(const yade::Body& body, double radius) {
     first = body.id;
     isNew = true;
   };
+  largest_ = std::max(largest_, radius);
   const double height = std::abs(body.state->se3.position[2]);
   note(height >= radius, beside_);
   if (body.isClumpMember() || (body.state->blockedDOFs & yade::State::DOF_Z) != 0) return isNew;
@@ -48,8 +49,8 @@ bool SceneWatch::noteSphere(const yade::Body& body, double radius) {
   return isNew;
 }
 
-std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity,
-                                               bool rigidBodies) const {
+std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity, bool rigidBodies,
+                                               double thickness) const {
   namespace py = yade::py;
   const WithGil gil;
   std::vector<std::string> result;
@@ -57,9 +58,9 @@ std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity,
     py::dict kinds;
     for (const Kind& kind : kinds_)
       if (!kinds.has_key(kind.name)) kinds[kind.name] = kind.first;
-    const py::object found =
-        py::import("yadefrag.scene_check")
-            .attr("sentences")(kinds, beside_, leaving_, loose_, gravity[2], rigidBodies);
+    const py::object found = py::import("yadefrag.scene_check")
+                                 .attr("sentences")(kinds, beside_, leaving_, loose_, gravity[2],
+                                                    rigidBodies, largest_, thickness);
     for (py::ssize_t i = 0; i < py::len(found); ++i)
       result.push_back(py::extract<std::string>(found[i]));
   } catch (const py::error_already_set&) {

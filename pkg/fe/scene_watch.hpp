@@ -16,10 +16,10 @@ class SceneWatch {
   /// Checks the bodies that were added since the last call. Returns true if there is a message.
   bool look(const yade::Scene& scene);
   /// Messages about these bodies, from yadefrag/scene_check.py; none if that fails. `gravity`:
-  /// m/s², of NewtonIntegrator; `rigidBodies`: contact with YADE's walls, boxes and facets is on.
-  /// Acquires Python's lock.
-  [[nodiscard]] std::vector<std::string> sentences(const yade::Vector3r& gravity,
-                                                   bool rigidBodies) const;
+  /// m/s², of NewtonIntegrator; `rigidBodies`: contact with YADE's walls, boxes and facets is on;
+  /// `thickness`: m, largest of the bodies of FESolver. Acquires Python's lock.
+  [[nodiscard]] std::vector<std::string> sentences(const yade::Vector3r& gravity, bool rigidBodies,
+                                                   double thickness) const;
 
  private:
   struct Kind {
@@ -34,6 +34,7 @@ class SceneWatch {
   std::vector<Kind> kinds_;
   // Spheres: one beside the plane of the bodies, one that leaves it, one that may leave it.
   yade::Body::id_t beside_ = -1, leaving_ = -1, loose_ = -1;
+  double largest_ = 0;  // m, radius
 };
 
 }  // namespace yadefrag

@@ -97,7 +97,7 @@ def test_arraysAndLedger():
     assert [len(loop) for loop in solver.surfaces][0] > 20 and len(solver.surfaces) == 2
     values = solver.energy
     assert set(values) == {'kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping',
-                           'external', 'outside', 'total'}
+                           'outside', 'total'}
     assert abs(values['total'] / energy - 1) < 1e-4
     linear, angular = momentum(solver)
     scale = np.linalg.norm(start[0])

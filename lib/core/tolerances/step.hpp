@@ -25,6 +25,26 @@ inline constexpr double kGivenEnergy = .01, kEvaluateAgain = 1.1;
 /// momentum. Cohesive tractions create none but for rounding.
 inline constexpr double kGivenSpin = .001;
 
+/// (of the longest step) The step that a message asks for: it must suffice although its digits are
+/// rounded.
+inline constexpr double kAdvised = .99;
+
+/// (of the largest energy of the bodies that touch) A message is given if contact with YADE's
+/// bodies has created more energy than this.
+inline constexpr double kGivenBySpheres = .005;
+
+/// (of the largest friction force) A contact with a larger tangential force slips: laws set it to
+/// that largest value, except for rounding.
+inline constexpr double kSlips = 1 - 1e-9;
+
+/// (of the force) The law of a contact counts as linear if its normal force deviates by less from
+/// stiffness times overlap.
+inline constexpr double kSpring = 1e-9;
+
+/// (s) YADE's O.dt until a script sets it. (of the critical step) A message is given at the first
+/// step if O.dt is still that, and is below this.
+inline constexpr double kDefaultStep = 1e-8, kShortStep = .5;
+
 /// (steps) Interval between two evaluations of the kinetic energy: each costs half a per cent of a
 /// step.
 inline constexpr std::uint64_t kStepsToCheck = 8;

@@ -7,7 +7,7 @@ import functools
 import threading
 
 from yade import wrapper
-from yadefrag import _yadefrag, interrupts, messages, refusals
+from yadefrag import _yadefrag, interrupts, messages, refusals, scene_start
 from yadefrag.files import requireWritable
 from yadefrag.values import shownPath
 
@@ -128,6 +128,7 @@ def _runBegun(run):
     @functools.wraps(run)
     def runs(self, nSteps=-1, wait=False):
         messages.tellNumbers()
+        scene_start.tell()
         with interrupts.held(), refusals.raisedHere() if wait else contextlib.nullcontext():
             before = self.iter, self.subStep
             _yadefrag.whyStopped()
@@ -148,6 +149,7 @@ def _wholeStep(step):
     @functools.wraps(step)
     def stepped(self):
         messages.tellNumbers()
+        scene_start.tell()
         with interrupts.held():
             step(self)
     return stepped

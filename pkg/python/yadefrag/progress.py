@@ -6,7 +6,6 @@ import time
 from yade import wrapper
 from yadefrag import _yadefrag, interrupts, lifecycle, refusals
 from yadefrag.guards import requireNoStep
-from yadefrag.messages import warn
 from yadefrag.values import shown, whole
 
 MOST_STEPS = 2**62  # the largest number that YADE can count
@@ -28,7 +27,6 @@ def runSteps(steps, every=None, call=None):
         raise ValueError('call is %s with every=%s: give a function and the number of steps between its '
                          'calls.' % (shown(call), shown(every)))
     requireNoStep('runSteps')
-    warnOfNoSolver()
     omega = wrapper.Omega()
     done, begin = 0, lifecycle.stepsDone()
     bar = _Bar(steps)
@@ -55,18 +53,6 @@ def runSteps(steps, every=None, call=None):
     finally:
         bar.close()
     return done
-
-
-def warnOfNoSolver():
-    """Before the first step: FE bodies without an engine that moves them are a slip of the script."""
-    omega = wrapper.Omega()
-    if omega.iter > 0 or any(isinstance(one, (wrapper.FESolver, wrapper.ParallelEngine))
-                             for one in omega.engines):
-        return
-    if any(isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.component >= 0
-           for body in omega.bodies):
-        warn('O.engines has no FESolver, so that nothing moves its bodies: O.engines = engines(fe) sets the '
-             'engines.')
 
 
 def runPart(steps):

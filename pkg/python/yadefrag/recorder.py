@@ -13,7 +13,7 @@ from yadefrag.shown import betweenSteps
 from yadefrag.values import path, shown, shownPath, whole
 
 _ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped', 'outside',
-             'total')
+             'total', 'scene')
 _FIRST = ('step', 'time (s)', 'cracks', 'fragments') + tuple('%s (J)' % e for e in _ENERGIES) + \
     ('reaction x (N)', 'reaction y (N)')
 _NAMED = 'reaction %s of %s (N)'
@@ -106,7 +106,7 @@ def _isEarlier(line, now):
 def _row(fe, names):
     energy = fe.energy
     numbers = [wrapper.Omega().iter, fe.time, fe.numCracks, len(fe.fragments())]
-    numbers += [energy.get(one, 0.) for one in _ENERGIES]
+    numbers += [energy.get(one, 0.) for one in _ENERGIES[:-1]] + [energy.get('scene', energy['total'])]
     forces = fe.reactions
     sums = [forces.sum(axis=0)] + [forces[fe.nodesOf(one)].sum(axis=0) if not fe._isGone(
         fe._names.index(one)) else (math.nan, math.nan) for one in names]

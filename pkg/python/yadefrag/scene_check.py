@@ -6,6 +6,7 @@ from yade import wrapper
 _WITHOUT_FORCES = (wrapper.FESolver, wrapper.Collider, wrapper.PeriodicEngine, wrapper.NewtonIntegrator)
 
 
+_THICK = 10  # thickness over the diameter of spheres above which one of the two is likely to be a mistake
 _RIGID = ('Wall', 'Box', 'Facet')  # shapes that FE bodies touch as rigid bodies
 
 
@@ -19,7 +20,7 @@ def _takes(functor, *shapes):
     return all(shape in functor.bases for shape in shapes)
 
 
-def sentences(kinds, beside, leaving, loose, gravityZ, rigidBodies):
+def sentences(kinds, beside, leaving, loose, gravityZ, rigidBodies, largest=0., thickness=0.):
     """List of sentences about the scene; FESolver calls it when bodies or engines are new.
 
     kinds                   {name of a shape: a body with it}, without surface segments; spheres of all
@@ -27,6 +28,8 @@ def sentences(kinds, beside, leaving, loose, gravityZ, rigidBodies):
     beside, leaving, loose  a sphere that is beside the plane z = 0, leaves it, may leave it; -1: none
     gravityZ                m/s², of NewtonIntegrator
     rigidBodies             True: FESolver's bodies have contact with those of _RIGID
+    largest                 m, radius of the largest sphere
+    thickness               m, largest thickness of FESolver's bodies
     """
     engines = [engine for engine in wrapper.Omega().engines if not engine.dead]
     geometry = _functors(engines, wrapper.InteractionLoop, 'geomDispatcher')
@@ -42,12 +45,15 @@ def sentences(kinds, beside, leaving, loose, gravityZ, rigidBodies):
         if not any(_takes(one, 'SurfaceSegment') for one in bounds):
             found.append('Spheres go through FE bodies: the collider has no Bo1_SurfaceSegment_Aabb.')
         found += _outOfPlane(beside, leaving, loose, gravityZ)
+        if thickness > _THICK * 2 * largest:
+            found.append('FE bodies are %g m thick, and the largest sphere has a diameter of %g m: masses and '
+                         'forces of FE bodies are those of their whole thickness; addPolygon(thickness=%g) '
+                         'fits these spheres.' % (thickness, 2 * largest, 2 * largest))
     if gravityZ and loose < 0:
         found.append('The gravity of NewtonIntegrator along z does not act on FE bodies: they move in '
                      'the plane z = 0 only.')
     if not any(isinstance(one, wrapper.ForceResetter) for one in engines):
-        other = [one for one in engines if not isinstance(one, _WITHOUT_FORCES)
-                 or rigid and isinstance(one, wrapper.FESolver)]
+        other = [one for one in engines if not isinstance(one, _WITHOUT_FORCES)]
         if other:
             found.append('O.engines has no ForceResetter: the forces of %s on bodies add up from step '
                          'to step.' % type(other[0]).__name__)

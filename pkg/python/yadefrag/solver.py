@@ -14,6 +14,7 @@ from yadefrag import _yadefrag
 from yadefrag import guards
 from yadefrag.bonds import bond
 from yadefrag.calls import inWords
+from yadefrag.energies import energy
 from yadefrag.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.materials import Materials, interfaces, isField, oneMaterial
 from yadefrag.mesh_checks import requireApart
@@ -24,6 +25,7 @@ from yadefrag.names import componentOf, newName, nodesOf
 from yadefrag.places import brittlePlaces, stressOfTriangles
 from yadefrag.quality import meshQuality
 from yadefrag.results import contactForce, crackCounts, principalStress, reaction
+from yadefrag.scene_start import addSolver
 from yadefrag.script_calls import requireBetweenSteps
 from yadefrag.shown import betweenSteps, shownTriangles
 from yadefrag.values import (array, flag, number, pair, plain, pointsOf, positive, real, refuse, shown,
@@ -146,6 +148,7 @@ def _add(fe, mesh, smooth, materials, velocity, spin, displacement, stress, fixe
              thickness=thickness, selfContact=selfContact, smoothed=element == 'smoothed',
              name=name, materials=materials.of, materialOf=raw(materials.numbers, 'uint32'),
              **{name: raw(values, kind) for name, (values, kind) in places.items()}))
+    addSolver(fe)
     keepTurning(fe, component, held, given, spin, present, centroid)
     problem = fe._zoneWarning(component)
     if problem:
@@ -393,7 +396,8 @@ def install():
     for method in (addTriangles, bond, prescribe, rotate, nodesOf, componentOf, pressure, absorb, relax, reaction,
                    contactForce, meshQuality):
         setattr(wrapper.FESolver, method.__name__, inWords(method))
-    for name, read in (('principalStress', principalStress), ('crackCounts', crackCounts), ('minAngle', _minAngle)):
+    for name, read in (('principalStress', principalStress), ('crackCounts', crackCounts), ('minAngle', _minAngle),
+                       ('energy', energy)):
         setattr(wrapper.FESolver, name, property(read, doc=read.__doc__))
     wrapper.FESolver.loads = property(getLoads, setLoads, doc=getLoads.__doc__)
     wrapper.FESolver.fragments = inWords(_guardFragments(wrapper.FESolver.fragments))

@@ -1,0 +1,34 @@
+#pragma once
+// Forces that FESolver adds to YADE's bodies: they remain until the next reset of forces, and there
+// may be none before the next step.
+
+#include <vector>
+
+#include "abi/yade.hpp"
+
+namespace yadefrag {
+
+class GivenForces {
+ public:
+  struct Given {
+    yade::Body::id_t id;
+    yade::Vector3r force, torque;  ///< N, N m
+    double work;                   ///< J, on a boundary that has moved by its own velocity
+  };
+
+  /// Takes back the forces of the last step, unless they have been reset since.
+  void begin(yade::Scene& scene);
+  void add(yade::Scene& scene, const Given& one);
+  /// Must be called after all forces of a step: YADE's reset deletes only forces that have been
+  /// synchronised, which NewtonIntegrator does, if there is one.
+  void end(yade::Scene& scene);
+
+  /// Forces of the last step, in the order of `add`: several for one body.
+  [[nodiscard]] const std::vector<Given>& all() const { return all_; }
+
+ private:
+  std::vector<Given> all_;
+  long lastReset_ = 0;  // step of the last reset when they were added
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,67 @@
+#include "fe/material_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace yadefrag {
+namespace {
+
+using Values = std::vector<std::pair<const char*, double>>;
+
+template <class Material, class Attributes>
+void add(Values& all, const Material& material, const Attributes& attributes) {
+  const auto addOne = [&](const auto& one) {
+    if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(material.*one.member)>>)
+      all.emplace_back(one.name, static_cast<double>(material.*one.member));
+  };
+  std::apply([&](const auto&... each) { (addOne(each), ...); }, attributes);
+}
+
+Values valuesOf(const FEMat& material) {
+  Values all = {{"young", material.young},
+                {"poisson", material.poisson},
+                {"density", material.density},
+                {"frictionAngle", material.frictionAngle}};
+  add(all, material, FEMat::attributes());
+  if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(&material))
+    add(all, *brittle, BrittleFEMat::attributes());
+  return all;
+}
+
+std::vector<double> numbersOf(const FEMat& material) {
+  std::vector<double> numbers;
+  for (const auto& [name, value] : valuesOf(material)) numbers.push_back(value);
+  return numbers;
+}
+
+}  // namespace
+
+void MaterialWatch::add(const yade::shared_ptr<FEMat>& material) {
+  std::vector<double> values = numbersOf(*material);
+  for (const Used& used : used_)
+    if (used.material == material && used.values == values) return;
+  used_.push_back({material, std::move(values)});
+}
+
+std::vector<std::string> MaterialWatch::sentences() const {
+  std::vector<std::string> found;
+  for (const Used& used : used_) {
+    if (numbersOf(*used.material) == used.values) continue;
+    const Values now = valuesOf(*used.material);
+    std::size_t i = 0;
+    while (now[i].second == used.values[i]) ++i;
+    const std::string label = used.material->label.empty()
+                                  ? fmt::format("number {}", used.material->id)
+                                  : fmt::format("'{}'", used.material->label);
+    found.push_back(fmt::format(
+        "{} of material {} was changed from {:g} to {:g} after bodies had been made of it: they "
+        "keep {:g}; set it before addPolygon, or remove these bodies and add them again.",
+        now[i].first, label, used.values[i], now[i].second, used.values[i]));
+  }
+  return found;
+}
+
+}  // namespace yadefrag

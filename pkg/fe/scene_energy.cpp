@@ -1,0 +1,292 @@
+#include "fe/scene_energy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "core/tolerances/step.hpp"
+#include "fe/sphere_contact.hpp"
+#include "surface/disc_contact.hpp"
+
+namespace yadefrag {
+namespace {
+
+using yade::Vector3r;
+
+Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
+Vec2 leftOf(Vec2 v) { return {-v.y, v.x}; }
+
+const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
+  const auto place = static_cast<std::size_t>(id);
+  return place < scene.bodies->body.size() ? scene.bodies->body[place].get() : nullptr;
+}
+
+/// (rad/s) About z.
+double spinBetween(const yade::Quaternionr& before, const yade::Quaternionr& after, double dt) {
+  const yade::Quaternionr turn = after * before.conjugate();
+  return std::remainder(2 * std::atan2(turn.z(), turn.w()), 2 * M_PI) / dt;
+}
+
+/// The spring of a sphere and a piece. Pieces that share an overlap at a joint have a share of its
+/// stiffness each, and so may pieces that a crack has separated.
+struct Spring {
+  double share = 1;  // of the law's stiffness
+  double depth = 0;  // m, compression
+
+  Spring(const yade::ScGeom& geom, SurfaceSegment& piece, const yade::Body& body) {
+    const auto* sphere = dynamic_cast<const yade::Sphere*>(body.shape.get());
+    depth = geom.penetrationDepth;
+    if (!sphere) return;
+    const auto touch =
+        discContact(piece.piece(), inPlane(body.state->se3.position), sphere->radius);
+    if (!touch || !(touch->penetration > 0)) return;
+    const auto* changed = piece.changedBy(body.id);
+    const double shared = touch->penetration / touch->unshared;
+    share = shared * (changed ? changed->share : 1);
+    depth /= share;
+  }
+};
+
+/// Bodies are in this order, spheres first.
+template <class Touching>
+std::pair<bool, yade::Body::id_t> orderOf(const Touching& one) {
+  return {one.isRigid, one.id};
+}
+
+template <class All>
+auto find(All& all, yade::Body::id_t id, bool isRigid) {
+  using Touching = std::ranges::range_value_t<All>;
+  const auto at = std::ranges::lower_bound(all, std::pair(isRigid, id), {}, orderOf<Touching>);
+  return at != all.end() && orderOf(*at) == std::pair(isRigid, id) ? at : all.end();
+}
+
+}  // namespace
+
+/// Its motion before the step is known if it had contact in the last one.
+SceneEnergy::Touching SceneEnergy::touchingOf(const yade::Body& body, bool isRigid) const {
+  Touching one;
+  one.id = body.id, one.isRigid = isRigid;
+  const yade::State& state = *body.state;
+  one.place = inPlane(state.se3.position), one.orientation = state.se3.orientation;
+  const auto known = find(former_, body.id, isRigid);
+  if (known != former_.end())
+    one.velocity = known->velocity, one.spin = known->spin;
+  else if (integrator_.exists)
+    one.velocity = inPlane(state.vel), one.spin = state.angVel[2];
+  return one;
+}
+
+void SceneEnergy::addContact(const yade::Scene& scene, const PieceGeometry& geometry,
+                             const World& world, EntryId entry, const yade::Interaction& contact,
+                             const yade::Body& piece, std::vector<Touching>& found) {
+  const auto* geom = dynamic_cast<const yade::ScGeom*>(contact.geom.get());
+  const auto* phys = dynamic_cast<const yade::NormShearPhys*>(contact.phys.get());
+  const bool isSecond = contact.getId2() == piece.id;
+  const yade::Body* body = bodyAt(scene, isSecond ? contact.getId1() : contact.getId2());
+  if (!geom || !phys || !body) return;
+  if (found.empty() || found.back().id != body->id) found.push_back(touchingOf(*body, false));
+  Touching& own = found.back();
+  const double sign = isSecond ? 1 : -1;
+  const EntryFrame frame(world.surfaces, entry);
+  const auto& nodes = world.model.nodes.position;
+  const Vec2 point = inPlane(geom->contactPoint);
+  const Stencil foot = footOf(world.surfaces, geometry, entry, point);
+  pieces_.push_back({found.size() - 1, foot, frame.first, frame.last,
+                     nodes[frame.last.value] - nodes[frame.first.value],
+                     point - combine(foot, nodes), sign * inPlane(phys->normalForce),
+                     sign * inPlane(phys->shearForce)});
+  for (const auto& [part, force] :
+       {std::pair{&own.normal, pieces_.back().normal}, {&own.tangent, pieces_.back().tangent}}) {
+    part->force += force;
+    part->moment += cross(point - own.place, force);
+  }
+  const double normal = phys->normalForce.norm(), shear = phys->shearForce.norm();
+  const Spring spring(*geom, static_cast<SurfaceSegment&>(*piece.shape), *body);
+  own.normal.elastic += normal * spring.depth / 2;
+  if (phys->ks > 0) own.tangent.elastic += shear * shear / (2 * phys->ks * spring.share);
+  const double expected = phys->kn * geom->penetrationDepth;
+  own.isSpring = own.isSpring && std::abs(normal - expected) <= tolerance::kSpring * normal;
+  const double most = smallerFriction(scene, contact.getId1(), contact.getId2()) * normal;
+  own.slips = own.slips || (shear > 0 && shear >= tolerance::kSlips * most);
+}
+
+std::vector<SceneEnergy::Touching> SceneEnergy::contactsOf(const yade::Scene& scene,
+                                                           const World& world,
+                                                           const EntryBodies& entries) {
+  std::vector<Touching> found;
+  pieces_.clear();
+  if (world.outerForces.empty()) return found;
+  std::vector<std::tuple<yade::Body::id_t, EntryId, const yade::Interaction*>> contacts;
+  for (std::size_t e = 0; e < entries.ids().size(); ++e) {
+    if (!entries.hasBody(EntryId(e))) continue;
+    for (const auto& [other, contact] : entries.body(EntryId(e)).intrs)
+      if (contact->isReal()) contacts.emplace_back(other, EntryId(e), contact.get());
+  }
+  std::ranges::stable_sort(contacts, {}, [](const auto& one) { return std::get<0>(one); });
+  const PieceGeometry geometry(world.surfaces, world.model.nodes.position);
+  for (const auto& [other, entry, contact] : contacts)
+    addContact(scene, geometry, world, entry, *contact, entries.body(entry), found);
+  return found;
+}
+
+/// How YADE's bodies have moved since the last step, and the work of its forces on them.
+void SceneEnergy::measureMotion(const yade::Scene& scene, const World& world) {
+  const double dt = world.lastDt;
+  for (Touching& one : touching_) {
+    const yade::Body* body = bodyAt(scene, one.id);
+    if (!body || one.isSettled) continue;
+    const Vec2 way = inPlane(body->state->se3.position) - one.place;
+    const Vec2 velocity = inPlane(body->state->vel);
+    const double spin = spinBetween(one.orientation, body->state->se3.orientation, dt);
+    // A script may have brought it to another place.
+    const bool isMoved = norm(way - dt * velocity) > tolerance::kMostMotion * world.search.shortest;
+    const Vec2 after = isMoved ? velocity : 1 / dt * way;
+    const Vec2 mean = isMoved ? one.velocity : .5 * (one.velocity + after);
+    for (Part* part : {&one.normal, &one.tangent})
+      part->ownWork = -dt * (dot(part->force, mean) + part->moment * (one.spin + spin) / 2);
+    one.velocity = after, one.spin = spin;
+  }
+}
+
+void SceneEnergy::begin(const yade::Scene& scene, const World& world, const EntryBodies& entries,
+                        Integrator integrator) {
+  integrator_ = integrator;
+  if (std::exchange(isOpen_, true)) {
+    // Nothing has moved; but the script may have changed the bodies.
+    std::vector<Touching> again = contactsOf(scene, world, entries);
+    for (Touching& one : again) {
+      const auto former = find(touching_, one.id, false);
+      if (former == touching_.end()) continue;
+      one.normal.held = former->normal.held, one.tangent.held = former->tangent.held;
+    }
+    touching_ = std::move(again);
+    return;
+  }
+  const bool wasAway = step_ + 1 != scene.iter;
+  if (wasAway) {
+    // The engine was not in every step: the motion in between is not known.
+    sums_.work += std::exchange(sums_.elastic, 0);
+    touching_.clear();
+  }
+  measureMotion(scene, world);
+  former_ = std::move(touching_);
+  std::ranges::sort(former_, {}, orderOf<Touching>);
+  touching_ = contactsOf(scene, world, entries);
+  for (Touching& one : touching_) {
+    if (!integrator.isFirst) continue;
+    const yade::State& state = *bodyAt(scene, one.id)->state;
+    const Vec2 velocity = inPlane(state.vel), mean = .5 * (one.velocity + velocity);
+    for (Part* part : {&one.normal, &one.tangent}) {
+      // The moments are those before the motion.
+      part->moment += scene.dt * cross(velocity, part->force);
+      part->ownWork =
+          -scene.dt * (dot(part->force, mean) + part->moment * (one.spin + state.angVel[2]) / 2);
+    }
+    one.velocity = velocity, one.spin = state.angVel[2];
+    one.isSettled = true;
+  }
+  settle(touching_);
+  // Overlaps that were there before the first step are no energy of contact.
+  if (world.steps == 0 || wasAway)
+    for (const Touching& one : touching_) sums_.work -= one.normal.elastic + one.tangent.elastic;
+}
+
+/// Adds the works of the last step, and the elastic energies between that step and this one.
+void SceneEnergy::settle(std::vector<Touching>& now) {
+  for (const Touching& one : former_) {
+    const double normalWork = one.normal.work + one.normal.ownWork;
+    const double tangentWork = one.tangent.work + one.tangent.ownWork;
+    if (one.isRigid) {
+      sums_.rigid += normalWork;
+      continue;
+    }
+    const auto next = find(now, one.id, false);
+    const bool isSpring = one.isSpring && (next == now.end() || next->isSpring);
+    // Like the strain energy of elements: with this product the leapfrog of a spring is exact. Of
+    // other laws only what the contact has received is known; it must not return more.
+    const auto stored = [&](Part Touching::*part, double work) {
+      const double former = (one.*part).held;
+      if (next == now.end()) return -former;
+      double& held = ((*next).*part).held;
+      held = isSpring ? std::sqrt((one.*part).elastic * ((*next).*part).elastic)
+                      : std::max(0., former - work);
+      return held - former;
+    };
+    const double tangent = stored(&Touching::tangent, tangentWork);
+    sums_.work += normalWork + tangentWork;
+    sums_.elastic += stored(&Touching::normal, normalWork) + tangent;
+    if (one.slips && isSpring) sums_.friction -= tangentWork + tangent;
+  }
+  sums_.least = std::min(sums_.least, bySpheres());
+}
+
+void SceneEnergy::end(const yade::Scene& scene, const World& world, const GivenForces& given) {
+  step_ = scene.iter;
+  isOpen_ = false;
+  const auto before = world.formerVelocities();
+  const auto& after = world.model.nodes.velocity;
+  const auto mean = [&](NodeId node) { return .5 * (before[node.value] + after[node.value]); };
+  for (const Piece& piece : pieces_) {
+    Vec2 velocity;
+    for (int k = 0; k < piece.foot.count; ++k)
+      velocity += piece.foot.weight[k] * mean(piece.foot.node[k]);
+    const Vec2 apart = mean(piece.last) - mean(piece.first);
+    velocity += cross(piece.along, apart) / dot(piece.along, piece.along) * leftOf(piece.arm);
+    touching_[piece.touching].normal.work += world.lastDt * dot(piece.normal, velocity);
+    touching_[piece.touching].tangent.work += world.lastDt * dot(piece.tangent, velocity);
+  }
+  std::map<yade::Body::id_t, std::size_t> rigid;
+  for (const GivenForces::Given& one : given.all()) {
+    const yade::Body* body = bodyAt(scene, one.id);
+    if (!body) continue;
+    const auto [own, isNew] = rigid.emplace(one.id, touching_.size());
+    if (isNew) touching_.push_back(touchingOf(*body, true));
+    // Of others the boundary follows a prescribed motion, if need be a step later.
+    const yade::Body* const mover = body->isClumpMember() ? bodyAt(scene, body->clumpId) : body;
+    if (!mover || !mover->isDynamic()) continue;
+    Part& part = touching_[own->second].normal;
+    part.force += -inPlane(one.force), part.moment -= one.torque[2];
+    part.work -= one.work;
+  }
+  if (touching_.empty()) return;
+  const double supplied = world.watch.expected + world.ledger.external - world.watch.gone;
+  sums_.most = std::max(sums_.most, supplied + kineticEnergy(scene));
+}
+
+/// (J) Of the bodies that touch, without those that obey no forces.
+double SceneEnergy::kineticEnergy(const yade::Scene& scene) const {
+  double twice = 0;
+  std::set<const yade::State*> counted;
+  for (const Touching& one : touching_) {
+    const yade::Body* body = bodyAt(scene, one.id);
+    if (body && body->isClumpMember()) body = bodyAt(scene, body->clumpId);
+    if (!body || !body->isDynamic() || !counted.insert(body->state.get()).second) continue;
+    const yade::State& state = *body->state;
+    twice += state.mass * state.vel.squaredNorm() +
+             state.inertia.dot(state.angVel.cwiseProduct(state.angVel));
+  }
+  return twice / 2;
+}
+
+std::string SceneEnergy::message(const World& world) {
+  const double spheres = bySpheres() - sums_.least, rigid = sums_.rigid;
+  const double amount = std::max(spheres, std::abs(rigid));
+  const double least = std::max(tolerance::kGivenBySpheres * sums_.most, 2 * sums_.reported);
+  if (!(amount > least) || !(amount > world.roundingEnergy())) return {};
+  sums_.reported = amount;
+  const bool byRigid = std::abs(rigid) >= spheres;
+  return fmt::format(
+      "Step {}, time {:.3g} s: contact with YADE's {} has {} {:.3g} J, {:.3g} % of the energy of "
+      "the bodies that touch; {}",
+      world.steps, world.time, byRigid ? "walls, boxes or facets" : "spheres",
+      byRigid && rigid < 0 ? "lost" : "created", amount, 100 * amount / sums_.most,
+      byRigid ? "make these bodies heavier, or the elements that they touch smaller."
+              : "take a shorter step, or a smaller stiffness (young) of the spheres.");
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,150 @@
+#pragma once
+// Energy balance of contact between finite-element bodies and YADE's bodies.
+//
+// A contact does work on both. In the leapfrog of both sides the force of step n does the work
+// F·v̄Δt, v̄ = ½(vⁿ⁻½ + vⁿ⁺½), whatever gravity, damping, prescribed motion or other forces do. The
+// sum of the works on both sides, of the elastic energy of the contacts and of what their friction
+// has dissipated must not increase. Contact with rigid boundaries stores no energy: its works on
+// both sides must be opposite.
+
+#include <string>
+#include <vector>
+
+#include <boost/serialization/nvp.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include "abi/yade.hpp"
+#include "core/errors.hpp"
+#include "fe/entry_bodies.hpp"
+#include "fe/entry_frame.hpp"
+#include "fe/given_forces.hpp"
+
+namespace yadefrag {
+
+class SceneEnergy {
+ public:
+  /// What moves YADE's bodies.
+  struct Integrator {
+    bool exists;
+    bool isFirst;  ///< it has already used the forces of spheres of this step
+  };
+  /// Before a step of the bodies, when their forces are known: settles the last step, in which
+  /// YADE's bodies have moved.
+  void begin(const yade::Scene& scene, const World& world, const EntryBodies& entries,
+             Integrator integrator);
+  /// After it. `given`: forces on rigid boundaries.
+  void end(const yade::Scene& scene, const World& world, const GivenForces& given);
+  /// The message about created energy; empty if there is none.
+  [[nodiscard]] std::string message(const World& world);
+
+  /// (J) Energy that the contacts have created so far; negative: lost, but not by friction.
+  [[nodiscard]] double created() const { return bySpheres() + sums_.rigid; }
+  /// True if there has been any contact.
+  [[nodiscard]] bool any() const { return sums_.most > 0; }
+
+  template <class Archive>
+  void archive(Archive& archive);
+
+ private:
+  /// The normal or tangential forces of one body's contacts.
+  struct Part {
+    Vec2 force;          // N, on finite-element bodies
+    double moment = 0;   // N m, about the place of YADE's body
+    double elastic = 0;  // J, at present
+    double held = 0;     // J, the same between the last two steps
+    double work = 0;     // J, on finite-element bodies in this step
+    double ownWork = 0;  // J, on YADE's body, if that is known before the next step
+  };
+  /// One of YADE's bodies with contact in the last step.
+  struct Touching {
+    yade::Body::id_t id = yade::Body::ID_NONE;
+    bool isRigid = false, slips = false, isSettled = false;
+    bool isSpring = true;  // the law is linear: the elastic energy is known
+    Vec2 place, velocity;  // m, m/s, before its motion
+    double spin = 0;       // rad/s
+    yade::Quaternionr orientation = yade::Quaternionr::Identity();
+    Part normal, tangent;
+  };
+  /// One contact in this step.
+  struct Piece {
+    std::size_t touching;
+    Stencil foot;
+    NodeId first, last;
+    Vec2 along, arm, normal, tangent;  // m, m, N, N
+  };
+  struct Sums {
+    double work = 0, elastic = 0, friction = 0;  // J, of spheres
+    double least = 0;                            // J, the smallest value of bySpheres()
+    double rigid = 0;                            // J, of rigid boundaries
+    double most = 0;                             // J, the largest energy that was there
+    double reported = 0;                         // J, in the last message
+  };
+
+  [[nodiscard]] double bySpheres() const { return sums_.work + sums_.elastic + sums_.friction; }
+  [[nodiscard]] Touching touchingOf(const yade::Body& body, bool isRigid) const;
+  [[nodiscard]] std::vector<Touching> contactsOf(const yade::Scene& scene, const World& world,
+                                                 const EntryBodies& entries);
+  void addContact(const yade::Scene& scene, const PieceGeometry& geometry, const World& world,
+                  EntryId entry, const yade::Interaction& contact, const yade::Body& piece,
+                  std::vector<Touching>& found);
+  void measureMotion(const yade::Scene& scene, const World& world);
+  void settle(std::vector<Touching>& now);
+  [[nodiscard]] double kineticEnergy(const yade::Scene& scene) const;
+
+  Sums sums_;
+  std::vector<Touching> touching_, former_;
+  std::vector<Piece> pieces_;
+  Integrator integrator_ = {true, false};
+  long step_ = -1;       // of the scene, at the last `end`
+  bool isOpen_ = false;  // `begin` has been called without `end`: the step was refused
+};
+
+template <class Archive>
+void SceneEnergy::archive(Archive& archive) {
+  std::vector<double> sums = {sums_.work,  sums_.elastic, sums_.friction, sums_.least,
+                              sums_.rigid, sums_.most,    sums_.reported};
+  std::vector<int> ids;
+  std::vector<double> numbers;
+  const auto flatten = [&](Touching& one, auto&& each) {
+    for (Vec2* v : {&one.place, &one.velocity}) each(v->x), each(v->y);
+    each(one.spin);
+    for (int i = 0; i < 4; ++i) each(one.orientation.coeffs()[i]);
+    for (Part* part : {&one.normal, &one.tangent}) {
+      each(part->force.x), each(part->force.y), each(part->moment), each(part->elastic);
+      each(part->held), each(part->work), each(part->ownWork);
+    }
+  };
+  constexpr std::size_t kFlags = 5, kEach = 23;
+  for (Touching& one : touching_) {
+    ids.insert(ids.end(), {one.id, one.isRigid, one.slips, one.isSettled, one.isSpring});
+    flatten(one, [&](double& value) { numbers.push_back(value); });
+  }
+  archive& boost::serialization::make_nvp("sceneEnergies", sums);
+  archive& boost::serialization::make_nvp("sceneContacts", ids);
+  archive& boost::serialization::make_nvp("sceneContactValues", numbers);
+  archive& boost::serialization::make_nvp("sceneStep", step_);
+  int open = isOpen_ ? 1 : 0;
+  archive& boost::serialization::make_nvp("sceneIsOpen", open);
+  if constexpr (Archive::is_loading::value) {
+    if (sums.size() != 7 || ids.size() % kFlags != 0 ||
+        numbers.size() != ids.size() / kFlags * kEach)
+      throw InputError(
+          "The saved state of FESolver is damaged (its energy balance is invalid); load another "
+          "save.");
+    const long step = step_;
+    *this = {};
+    step_ = step, isOpen_ = open != 0;
+    sums_ = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]};
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < ids.size(); i += kFlags) {
+      Touching one;
+      one.id = ids[i];
+      one.isRigid = ids[i + 1] != 0, one.slips = ids[i + 2] != 0, one.isSettled = ids[i + 3] != 0;
+      one.isSpring = ids[i + 4] != 0;
+      flatten(one, [&](double& value) { value = numbers[next++]; });
+      touching_.push_back(one);
+    }
+  }
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,164 @@
+"""fe.energy['scene']: contact with YADE's bodies creates no energy, or a message tells how much."""
+import builtins
+import math
+
+import numpy as np
+import pytest
+
+import yadefrag
+from fe_scene import fe, finder, run
+from yade import utils
+from yade import wrapper as w
+
+O = builtins.O
+G = 9.81
+
+
+def ball(place, radius=.1, velocity=(0, 0), young=1e7, density=1000, angle=.3, spin=0):
+    sphere = utils.sphere((*place, 0), radius, material=w.FrictMat(young=young, density=density, frictionAngle=angle))
+    sphere.state.vel, sphere.state.angVel = (*velocity, 0), (0, 0, spin)
+    sphere.state.blockedDOFs = 'zXY'
+    return sphere
+
+
+def block(solver, **settings):
+    settings = dict(size=.125, fixed=lambda x, y: y < 1e-9) | settings
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), material='m', **settings)
+
+
+def energyOf(*bodies):
+    return builtins.sum(.5 * b.state.mass * b.state.vel.squaredNorm() + .5 * b.state.inertia[2] * b.state.angVel[2]**2
+                        for b in bodies)
+
+
+def drift(solver, count, portion=20):
+    """Largest change of the scene's energy, over its first value (J), and the messages."""
+    values = []
+    for _ in range(count // portion):
+        O.run(portion, True)
+        values.append(solver.energy.get('scene', solver.energy['total']))
+    return np.abs(np.array(values) - values[0]).max(), solver.warnings
+
+
+def falling(damping=0, factor=.1, name='LebesgueCollider', **settings):
+    """Spheres that fall on a block and roll there."""
+    solver = fe(gravity=(0, -G))
+    block(solver)
+    for i, x in enumerate((.2, .45, .8)):
+        O.bodies.append(ball((x, .65 + .3 * i), velocity=(.5, -2), spin=4 * i - 4, **settings))
+    run(solver, finder(name), spheres=True, factor=factor)
+    O.engines[-1].gravity, O.engines[-1].damping = (0, -G, 0), damping
+    return solver
+
+
+@pytest.mark.parametrize('damping', [0, .4])
+@pytest.mark.parametrize('angle', [0, .5])
+def test_spheresThatFallGiveNoMessage(damping, angle):
+    solver = falling(damping, angle=angle)
+    given = energyOf(*[b for b in O.bodies if isinstance(b.shape, w.Sphere)])
+    # Young's moduli of 1e7: the spheres bounce, roll and come to rest within .4 s.
+    off, messages = drift(solver, int(.4 / O.dt))
+    assert messages == []
+    assert off < 2e-3 * given
+    assert solver.energy['outside'] < 0
+
+
+def test_clumpAndBlockedSpheresGiveNoMessage():
+    solver = fe(gravity=(0, -G))
+    block(solver)
+    clump, _ = O.bodies.appendClumped([ball((.3, .65)), ball((.42, .7)), ball((.3, .8))])
+    O.bodies[clump].state.vel, O.bodies[clump].state.blockedDOFs = (1, -3, 0), 'zXY'
+    pusher = O.bodies[O.bodies.append(ball((.8, .602), velocity=(.1, -.05)))]
+    pusher.state.blockedDOFs = 'xyzXYZ'
+    run(solver, finder('LebesgueCollider'), spheres=True, factor=.1)
+    O.engines[-1].gravity = (0, -G, 0)
+    off, messages = drift(solver, int(.3 / O.dt))
+    # The clump has 63 J.
+    assert messages == [] and off < .3
+    # The pusher has done work, which is no change of energy by contact.
+    assert -solver.energy['outside'] > 2
+
+
+@pytest.mark.parametrize('move', ['constant', 'oscillating', 'by its position'])
+def test_movingWallGivesNoMessage(move):
+    solver = fe()
+    block(solver)
+    wall = O.bodies[O.bodies.append(utils.wall(.501, axis=1, sense=-1, material='m'))]
+    run(solver, factor=.5)
+    builtins._wall, builtins._period = wall, 400 * O.dt
+    commands = {
+        'constant': '_wall.state.vel = (0, -.2, 0)',
+        'oscillating': '_wall.state.vel = (0, -.5 * __import__("math").cos(6.28 * O.time / _period), 0)',
+        'by its position': '_wall.state.pos = (0, .501 - .2 * O.time, 0)'}
+    O.engines = [w.PyRunner(command=commands[move], iterPeriod=1)] + O.engines
+    off, messages = drift(solver, 2000)
+    work = -solver.energy['outside']
+    assert messages == [] and abs(work) > .1
+    assert off < 5e-3 * max(work, solver.energy['strain'])
+
+
+def test_aSphereThatIsTooLightForTheStepIsReported():
+    """The step is stable for the bodies, not for the sphere; the shorter step that is advised is for both."""
+    found = {}
+    for factor in (.8, .01):
+        O.reset()
+        solver = fe()
+        block(solver)
+        O.bodies.append(ball((.44, .51), .0101, velocity=(0, -1), young=1e9, density=300))
+        run(solver, finder('LebesgueCollider'), spheres=True, factor=factor)
+        O.run(int(.004 / O.dt), True)
+        found[factor] = [one for one in solver.warnings if "contact with YADE's spheres has created" in one]
+    assert found[.8] and 'take a shorter step' in found[.8][0]
+    assert not found[.01]
+
+
+def test_createdEnergyIsThatOfTheBodies():
+    """The number in `scene` is the kinetic energy that the sphere and the bodies have got from nothing."""
+    solver = fe()
+    block(solver, fixed=None)
+    sphere = ball((.44, .51), .0101, velocity=(0, -1), young=1e9, density=300)
+    O.bodies.append(sphere)
+    run(solver, finder('LebesgueCollider'), spheres=True, factor=.8)
+    before = energyOf(sphere)
+    O.run(int(.002 / O.dt), True)
+    O.run(2, True)
+    gained = energyOf(sphere) - before - solver.energy['outside']
+    assert gained > .1 * before
+    assert solver.energy['scene'] - solver.energy['total'] == pytest.approx(gained, rel=.05)
+
+
+def test_balanceIsSavedAndRecorded(tmp_path):
+    def go():
+        solver = falling(angle=.3, factor=.2)
+        O.engines = O.engines + [yadefrag.FERecorder(iterPeriod=50, file=str(tmp_path / 'run'), fields=[])]
+        return solver
+    solver = go()
+    O.run(2000, True)
+    O.save(str(tmp_path / 'x.yade'))
+    O.run(500, True)
+    wanted = solver.energy
+    assert 'scene' in wanted and wanted['scene'] != wanted['total']
+    O.reset()
+    O.load(str(tmp_path / 'x.yade'))
+    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
+    O.run(500, True)
+    assert solver.energy == wanted
+    head, *rows = (tmp_path / 'run.csv').read_text().splitlines()
+    place = head.split(',').index('scene (J)')
+    # The last record is of a step before the end of the run, or of that.
+    assert float(rows[-1].split(',')[place]) == pytest.approx(wanted['scene'], abs=1e-3 * abs(wanted['outside']))
+
+
+def test_externalIsAnAlias():
+    solver = fe(gravity=(0, -G))
+    block(solver, fixed=None)
+    run(solver)
+    O.run(10, True)
+    energy = solver.energy
+    assert energy['external'] == -energy['outside'] > 0 and energy.get('external') == energy['external']
+    assert 'external' in energy and 'external' not in list(energy)
+    assert builtins.sum(value for name, value in energy.items() if name != 'total') == \
+        pytest.approx(energy['total'], abs=1e-12)
+    with pytest.raises(KeyError):
+        energy['nothing']
+    assert energy.get('nothing', 3) == 3 and not math.isnan(energy['total'])

@@ -1,0 +1,335 @@
+"""Messages of a step: for each the scene that provokes it, and the same scene with its advice followed.
+
+Rows of docs/checked.md. A cause and a remedy build a scene and run it; the cause must give the message, by an
+exception or in fe.warnings, the remedy must not.
+"""
+import builtins
+import math
+import random
+import re
+
+import pytest
+
+import yadefrag
+from fe_scene import finder
+from yade import utils
+from yade import wrapper as w
+
+O = builtins.O
+
+
+def ran(solver, steps, each=None):
+    """The messages of a run: those of fe.warnings, and that of the exception that ended it."""
+    try:
+        for _ in range(steps):
+            if each:
+                each()
+            O.step()
+    except (RuntimeError, ValueError) as error:
+        return solver.warnings + [str(error)]
+    return solver.warnings
+
+
+def steel(**settings):
+    O.materials.append(w.FEMat(young=2e11, poisson=.3, density=7800, frictionAngle=.2, label='steel'))
+    return w.FESolver(**settings)
+
+
+def advised(sentence):
+    """The step that a message asks for."""
+    return float(re.search(r'a step of at most ([-+.e\d]+) s', sentence).group(1))
+
+
+# --- the step
+
+def aboveCritical(factor):
+    solver = steel()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.04, .02)), size=.01, material='steel')
+    O.engines = yadefrag.engines(solver)
+    O.dt = factor * solver.criticalTimeStep()
+    return ran(solver, 10)
+
+
+def varying(draw, factor=.9):
+    solver = steel()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.04, .02)), size=2e-3, material='steel',
+                      velocity=lambda x, y: (10 * math.sin(300 * x), 5 * y))
+    O.engines = yadefrag.engines(solver)
+    critical, drawn = solver.criticalTimeStep(), random.Random(1)
+
+    def each():
+        O.dt = factor * critical * draw(drawn)
+    return ran(solver, 1000, each)
+
+
+def rotor(factor):
+    """A soft disc that rotates fast."""
+    O.materials.append(w.FEMat(young=1e6, poisson=.3, density=1000, label='soft'))
+    solver = w.FESolver()
+    solver.addPolygon(yadefrag.circle((0, 0), .1, 16), size=.04, material='soft', spin=150)
+    solver.addPolygon(yadefrag.rectangle((.101, -.1), (.2, .1)), size=.04, material='soft', velocity=(-8, 0))
+    O.engines = yadefrag.engines(solver)
+    O.dt = factor * solver.criticalTimeStep()
+    return ran(solver, int(.03 / O.dt))
+
+
+def bullet(speed, dt=None, shape=None):
+    """Two blocks of which one is faster than waves."""
+    solver = steel()
+    shape = shape or [(0, 0), (.01, 0), (.01, .01), (0, .01)]
+    solver.addPolygon(shape, size=5e-3, material='steel', velocity=(speed, 0))
+    solver.addPolygon(yadefrag.rectangle((.0105, 0), (.03, .01)), size=5e-3, material='steel')
+    O.engines = yadefrag.engines(solver)
+    O.dt = dt or .8 * solver.criticalTimeStep()
+    return ran(solver, 1)
+
+
+def followed(scene, pattern):
+    """A scene whose message states a step: the message, and those with that step."""
+    found = scene(None)
+    [sentence] = [one for one in found if re.search(pattern, one)]
+    O.reset()
+    return scene(advised(sentence))
+
+
+# --- elements
+
+def rubber(factor=.8, young=5e6, viscosity=0., speed=100, element='linear'):
+    O.materials.append(w.FEMat(young=210e9, poisson=.3, density=7800, frictionAngle=.2, label='steel'))
+    O.materials.append(w.FEMat(young=young, poisson=.4, density=1100, frictionAngle=.2, label='rubber'))
+    solver = w.FESolver(quadraticViscosity=viscosity)
+    nodes, triangles = yadefrag.rectangleMesh((-.03, 0), (.03, .002), 30, 1)
+    solver.addTriangles(nodes, triangles, material='rubber', element=element, fixed=lambda x, y: abs(x) > .03 - 1e-9)
+    solver.addPolygon(yadefrag.circle((0, .0071), .005, 32), size=1.2e-3, material='steel', velocity=(0, -speed))
+    O.engines = yadefrag.engines(solver)
+    O.dt = factor * solver.criticalTimeStep()
+    return ran(solver, int(6e-5 / O.dt))
+
+
+def torn(dt):
+    """A side that is moved nearly through its elements in one step."""
+    solver = steel()
+    nodes, triangles = yadefrag.rectangleMesh((0, 0), (.02, .01), 4, 2)
+    solver.addTriangles(nodes, triangles, material='steel', selfContact=False)
+    O.engines = yadefrag.engines(solver)
+    critical = solver.criticalTimeStep()
+    solver.prescribe(lambda x, y: x < 1e-9, vx=.9 * .005 / critical, vy=0)
+    O.dt = dt or .9 * critical
+    return ran(solver, 2 if dt is None else int(1.8 * critical / dt))
+
+
+# --- contact
+
+def blow(**settings):
+    solver = steel(**settings)
+    for k in range(2):
+        nodes, triangles = yadefrag.rectangleMesh((.01 * k, -.001 * k), (.01 * k + .01, -.001 * k + .01), 6 + k, 6 + k)
+        solver.addTriangles(nodes, triangles, material='steel', velocity=(20 * (1 - k), 0))
+    O.engines = yadefrag.engines(solver)
+    O.dt = .8 * solver.criticalTimeStep()
+    return ran(solver, 400)
+
+
+# --- YADE's bodies
+
+def withSpheres(make, engines=None, gravity=None, thickness=.1, blocked='zXY', radius=.05, z=0):
+    solver = steel()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel', thickness=thickness)
+    sphere = utils.sphere((.2, .3, z), radius, material='steel')
+    sphere.state.blockedDOFs = blocked
+    O.bodies.append(sphere)
+    O.engines = make(solver)
+    O.dt = .1 * solver.criticalTimeStep()
+    return ran(solver, 3)
+
+
+def usual(solver):
+    return yadefrag.engines(solver, spheres=True)
+
+
+def withoutFunctor(solver):
+    made = usual(solver)
+    made[2] = w.InteractionLoop([w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                                [w.Law2_ScGeom_FrictPhys_CundallStrack()])
+    return made
+
+
+def withoutBound(solver):
+    made = usual(solver)
+    made[1] = w.LebesgueCollider([w.Bo1_Sphere_Aabb()])
+    return made
+
+
+def withoutResetter(solver):
+    return usual(solver)[1:]
+
+
+def resetterLate(solver):
+    made = usual(solver)
+    return [*made[1:3], made[0], *made[3:]]
+
+
+def moving(flag):
+    solver = steel()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    wall = O.bodies[O.bodies.append(utils.wall(.3, axis=1, material='steel'))]
+    wall.state.vel = (0, -1, 0)
+    O.engines = yadefrag.engines(solver, moving=flag)
+    O.dt = .1 * solver.criticalTimeStep()
+    return ran(solver, 3)
+
+
+def facets(corners):
+    solver = steel()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    O.bodies.append(utils.facet(corners, material='steel'))
+    O.engines = yadefrag.engines(solver)
+    O.dt = .1 * solver.criticalTimeStep()
+    return ran(solver, 3)
+
+
+def otherShape(isFE):
+    solver = steel()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    if isFE:
+        solver.addPolygon(yadefrag.rectangle((0, -1), (1, -.5)), size=.5, material='steel', fixed=lambda x, y: True)
+    else:
+        O.bodies.append(utils.tetra([(0, -1, 0), (0, -2, 0), (1, -1, 0), (0, -1, 1)], material='steel'))
+    O.engines = yadefrag.engines(solver)
+    O.dt = .1 * solver.criticalTimeStep()
+    return ran(solver, 3)
+
+
+def rigidOff(flag):
+    solver = steel(rigidBodies=flag)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    O.bodies.append(utils.wall(-1, axis=1, material='steel'))
+    O.engines = yadefrag.engines(solver)
+    O.dt = .1 * solver.criticalTimeStep()
+    return ran(solver, 3)
+
+
+def forceEngine(engines):
+    solver = steel()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    O.engines = engines(solver)
+    O.dt = .1 * solver.criticalTimeStep()
+    return ran(solver, 3)
+
+
+# --- the first step
+
+def defaultStep(dt):
+    solver = steel()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    O.engines = yadefrag.engines(solver)
+    O.dt = dt or .8 * solver.criticalTimeStep()
+    return ran(solver, 2)
+
+
+def changedMaterial(when):
+    solver = steel()
+    if when == 'before':
+        O.materials['steel'].young = 1e9
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    if when != 'before':
+        O.materials['steel'].young = 1e9
+    if when == 'again':
+        solver.removeBody(0)
+        solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    O.engines = yadefrag.engines(solver)
+    O.dt = .5 * solver.criticalTimeStep()
+    return ran(solver, 2)
+
+
+def withoutSolver(isIn):
+    solver = steel()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    O.engines = yadefrag.engines(solver) if isIn else [w.ForceResetter(), w.NewtonIntegrator()]
+    O.dt = .5 * solver.criticalTimeStep()
+    return ran(solver, 2)
+
+
+def uniform(low):
+    return lambda draw: low + (1 - low) * draw.random()
+
+
+UPRIGHT = [(-1, -1, 1), (1, -1, 1), (0, -1, -2)]
+TABLE = {
+    'step above the critical one': (
+        'O.dt: The time step is .* the critical step', lambda: aboveCritical(1.05), lambda: aboveCritical(.8)),
+    'steps that vary: a constant one': (
+        'time integration has created .* keep the time step constant, or', lambda: varying(uniform(.3)),
+        lambda: varying(lambda draw: 1)),
+    'steps that vary: below a third': (
+        'time integration has created .* or below a third', lambda: varying(uniform(.3)),
+        lambda: varying(uniform(.3), .9 / 3)),
+    'a body moves too far against another': (
+        'a body moves against another by', lambda: bullet(5e4),
+        lambda: followed(lambda dt: bullet(5e4, dt), 'a body moves against another by')),
+    'a node moves too far': (
+        'a node moves by', lambda: bullet(1e6),
+        lambda: followed(lambda dt: bullet(1e6, dt), 'a node moves by')),
+    'an element is inverted by one step': (
+        'is inverted in a step of .*; take a shorter one', lambda: torn(None), lambda: torn(2e-8)),
+    'an element collapses: viscosity': (
+        'does not resist collapse, and a shorter step does not help; set the bulk viscosity', rubber,
+        lambda: rubber(viscosity=1.2)),
+    'an element collapses: another material': ('a stiffer material', rubber, lambda: rubber(young=5e7)),
+    'an element collapses: slower': ('or slower bodies', rubber, lambda: rubber(speed=30)),
+    'a soft penalty: Lagrange': (
+        'bodies overlap by .*take the Lagrangian correction', lambda: blow(correction='penalty', penaltyFactor=1e-4),
+        blow),
+    'a soft penalty: a larger factor': (
+        'or a larger penalty factor', lambda: blow(correction='penalty', penaltyFactor=1e-4),
+        lambda: blow(correction='penalty')),
+    'spheres without their functor': (
+        'no InteractionLoop has an Ig2_Sphere_SurfaceSegment', lambda: withSpheres(withoutFunctor),
+        lambda: withSpheres(usual)),
+    'spheres without bounds': (
+        'has no Bo1_SurfaceSegment_Aabb', lambda: withSpheres(withoutBound), lambda: withSpheres(usual)),
+    'no ForceResetter': (
+        'and no ForceResetter.*the order is', lambda: withSpheres(withoutResetter), lambda: withSpheres(usual)),
+    'ForceResetter too late': (
+        'ForceResetter deletes the forces of InteractionLoop', lambda: withSpheres(resetterLate),
+        lambda: withSpheres(usual)),
+    'a force engine without a resetter': (
+        'O.engines has no ForceResetter: the forces of ForceEngine',
+        lambda: forceEngine(lambda fe: [w.ForceEngine(ids=[0]), fe]),
+        lambda: forceEngine(lambda fe: [w.ForceResetter(), w.ForceEngine(ids=[0]), fe])),
+    'a sphere beside the plane': (
+        'is beside the plane', lambda: withSpheres(usual, z=.2), lambda: withSpheres(usual)),
+    'a sphere that leaves the plane': (
+        "'z' among its blockedDOFs", lambda: withSpheres(usual, z=.01, blocked=''), lambda: withSpheres(usual)),
+    'a thick body beside small spheres': (
+        r'FE bodies are 1 m thick.*addPolygon\(thickness=0.04\)', lambda: withSpheres(usual, thickness=1, radius=.02),
+        lambda: withSpheres(usual, thickness=.04, radius=.02)),
+    'a velocity without an integrator': (
+        r'no NewtonIntegrator behind FESolver moves it: engines\(fe, moving=True\)', lambda: moving(False),
+        lambda: moving(True)),
+    'a facet in the plane': (
+        'FE bodies go through facets that lie in their plane',
+        lambda: facets([(-1, -1, 0), (1, -1, 0), (0, -2, 0)]), lambda: facets(UPRIGHT)),
+    'another shape': (
+        'of the shape Tetra.*a body of FESolver with fixed nodes can take its place', lambda: otherShape(False),
+        lambda: otherShape(True)),
+    'rigidBodies off': (
+        'FESolver.rigidBodies is False', lambda: rigidOff(False), lambda: rigidOff(True)),
+    'O.dt is the default': (
+        "O.dt has YADE's default, 1e-08 s, .*criticalTimeStep", lambda: defaultStep(1e-8), lambda: defaultStep(None)),
+    'a changed material: earlier': (
+        "young of material 'steel' was changed from 2e.11 to 1e.09", lambda: changedMaterial('after'),
+        lambda: changedMaterial('before')),
+    'no solver in the engines': (
+        'O.engines has no FESolver', lambda: withoutSolver(False), lambda: withoutSolver(True)),
+}
+
+
+@pytest.mark.parametrize('name', TABLE)
+def test_messageComesAndItsAdviceHelps(name):
+    pattern, cause, remedy = TABLE[name]
+    found = cause()
+    assert [one for one in found if re.search(pattern, one)], found
+    O.reset()
+    left = [one for one in remedy() if re.search(pattern, one)]
+    assert left == []
