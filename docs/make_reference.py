@@ -14,8 +14,8 @@ from yade import wrapper
 GROUPS = (
     ('Solver', ('FESolver', 'engines', 'runSteps', 'FERecorder')),
     ('Materials', ('FEMat', 'BrittleFEMat')),
-    ('Geometry', ('rectangle', 'circle', 'ring', 'voronoi', 'grainJoints', 'rectangleMesh', 'readPolygon',
-                  'readOutline', 'readMesh', 'outlineReport')),
+    ('Geometry', ('rectangle', 'circle', 'ring', 'voronoi', 'grainJoints', 'snapOutlines', 'rectangleMesh',
+                  'readPolygon', 'readOutline', 'readMesh', 'outlineReport')),
     ('Results and pictures', ('plotMesh', 'animate', 'exportVTK', 'crackTable', 'fragmentTable', 'plotFragmentSizes',
                               'recordFracture', 'plotFracture')),
     ('Many runs', ('tradeoff', 'TradeoffTable', 'ensemble', 'EnsembleTable')),

@@ -82,7 +82,7 @@ std::string costlyStepWarning(const TriangleMesh& mesh, const Component& compone
       "m, "
       "since at ({:g}, {:g}) the outline or a joint requires a triangle with an edge of {:.3g} m "
       "and a "
-      "height of {:.3g} m; simplify= removes redundant points.",
+      "height of {:.3g} m.",
       factor, size, worst.centre.x, worst.centre.y, worst.shortest, worst.altitude);
 }
 

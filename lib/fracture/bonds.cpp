@@ -54,10 +54,13 @@ bool match(const Line& a, const Line& b) {
   return norm(a.begin - b.end) <= gap && norm(a.end - b.begin) <= gap;
 }
 
-/// True if two sides are parallel and coincide along a part of the shorter one.
-bool runAlong(const Line& a, const Line& b) {
-  const double size = std::min(a.length(), b.length());
-  const double near = tolerance::kProbableBond * size;
+double reachOf(double length, double reach) {
+  return reach > 0 ? reach : tolerance::kProbableBond * length;
+}
+
+/// True if two sides are parallel and run beside each other, up to `reach` (m) apart.
+bool runAlong(const Line& a, const Line& b, double reach) {
+  const double near = reachOf(std::min(a.length(), b.length()), reach);
   const Vec2 along = (1 / a.length()) * (a.end - a.begin);
   const auto aside = [&](Vec2 x) { return std::abs(cross(along, x - a.begin)); };
   const double from = dot(along, b.end - a.begin), to = dot(along, b.begin - a.begin);
@@ -65,10 +68,10 @@ bool runAlong(const Line& a, const Line& b) {
          std::min(to, a.length()) - std::max(from, 0.) > near;
 }
 
-std::vector<BoxPair> nearPairs(const std::vector<Line>& lines) {
+std::vector<BoxPair> nearPairs(const std::vector<Line>& lines, double reach) {
   std::vector<Box> boxes;
   for (const Line& l : lines) {
-    const double by = tolerance::kProbableBond * l.length();
+    const double by = reachOf(l.length(), reach);
     boxes.push_back({{std::min(l.begin.x, l.end.x) - by, std::min(l.begin.y, l.end.y) - by, 0},
                      {std::max(l.begin.x, l.end.x) + by, std::max(l.begin.y, l.end.y) + by, 0}});
   }
@@ -81,40 +84,61 @@ std::string named(ComponentId a, ComponentId b) {
   return fmt::format("the bodies {} and {}", a.value, b.value);
 }
 
-[[noreturn]] void refuseMismatch(ComponentId a, ComponentId b, Vec2 at) {
-  throw InputError(
-      fmt::format("At ({:g}, {:g}) sides of {} coincide but have different ends; bonded sides must "
-                  "have the same "
-                  "ends. Give both outlines the same points there and the same size, or add one "
-                  "body with joints.",
-                  at.x, at.y, named(a, b)));
-}
-
 }  // namespace
 
-std::vector<std::array<Side, 2>> matchingSides(const Model& model, const CrackEdges& edges,
-                                               ComponentId a, ComponentId b) {
-  std::vector<Side> sides = freeSides(model, edges, a);
-  const std::size_t count = sides.size();
-  for (const Side side : freeSides(model, edges, b)) sides.push_back(side);
+CommonSides commonSides(const Model& model, const CrackEdges& edges,
+                        std::span<const ComponentId> bodies, double reach) {
+  std::vector<Side> sides;
+  std::vector<ComponentId> owners;
+  for (const ComponentId body : bodies) {
+    const std::vector<Side> own = freeSides(model, edges, body);
+    sides.insert(sides.end(), own.begin(), own.end());
+    owners.resize(sides.size(), body);
+  }
   std::vector<Line> lines;
   lines.reserve(sides.size());
   for (const Side side : sides) lines.push_back(lineOf(model, side));
-  std::vector<std::array<Side, 2>> result;
-  for (const auto& [first, second] : nearPairs(lines)) {
-    if (first.value >= count || second.value < count) continue;
-    const Line &x = lines[first.value], &y = lines[second.value];
-    if (match(x, y))
-      result.push_back({sides[first.value], sides[second.value]});
-    else if (runAlong(x, y))
-      refuseMismatch(a, b, .5 * (x.begin + x.end));
+  CommonSides result;
+  std::vector<std::uint8_t> isMatched(sides.size());
+  std::vector<BoxPair> others;
+  for (const BoxPair& pair : nearPairs(lines, reach)) {
+    const std::size_t i = pair.first.value, k = pair.second.value;
+    if (owners[i] == owners[k]) continue;
+    if (isMatched[i] == 0 && isMatched[k] == 0 && match(lines[i], lines[k])) {
+      result.pairs.push_back({sides[i], sides[k]});
+      isMatched[i] = isMatched[k] = 1;
+    } else if (runAlong(lines[i], lines[k], reach)) {
+      others.push_back(pair);
+    }
   }
-  if (result.empty())
+  for (const auto& [first, second] : others)
+    for (const std::size_t i : {first.value, second.value}) {
+      if (isMatched[i] != 0) continue;
+      isMatched[i] = 1;  // counted once
+      if (result.unmatched++ > 0) continue;
+      result.bodies = {owners[first.value], owners[second.value]};
+      result.place = .5 * (lines[i].begin + lines[i].end);
+    }
+  return result;
+}
+
+std::vector<std::array<Side, 2>> matchingSides(const Model& model, const CrackEdges& edges,
+                                               ComponentId a, ComponentId b) {
+  const std::array bodies{a, b};
+  CommonSides found = commonSides(model, edges, bodies);
+  if (found.unmatched > 0)
+    throw InputError(fmt::format(
+        "At ({:g}, {:g}) sides of {} coincide but have different ends; bonded sides must have the "
+        "same ends. Before adding them, give both outlines the same points there by snapOutlines, "
+        "and both bodies the same size, or the second one snap= and the larger size; or add one "
+        "body with joints.",
+        found.place.x, found.place.y, named(a, b)));
+  if (found.pairs.empty())
     throw InputError(fmt::format(
         "No sides of {} that are not bonded yet lie on each other; bodies to be bonded must touch "
         "along sides with the same ends.",
         named(a, b)));
-  return result;
+  return std::move(found.pairs);
 }
 
 void checkBond(double strength, double energy) {

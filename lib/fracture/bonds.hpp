@@ -3,16 +3,30 @@
 // from the start, by the cohesive law. Each body keeps its own nodes.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "fracture/crack_edges.hpp"
 
 namespace yadefrag {
 
-/// Pairs of boundary sides, the first of body `a` and the second of `b`, whose ends coincide, to
-/// kBondGap of a side. Sides that are bonded already and faces of cracks are excluded. Throws
-/// InputError, with the remedy, if there are none, or if sides of the two coincide elsewhere
-/// (kProbableBond) with different ends.
+/// Boundary sides of several bodies that lie on each other.
+struct CommonSides {
+  std::vector<std::array<Side, 2>> pairs;  ///< whose ends coincide, to kBondGap of a side
+  /// (count) Sides along another one with other ends, or farther from it; a pair of bodies, and a
+  /// place (m), of which this is true.
+  std::size_t unmatched = 0;
+  std::array<ComponentId, 2> bodies;
+  Vec2 place;
+};
+
+/// Sides that are bonded already and faces of cracks are excluded. `reach` (m): sides along each
+/// other up to this distance are compared; if it is 0, up to kProbableBond of a side.
+[[nodiscard]] CommonSides commonSides(const Model& model, const CrackEdges& edges,
+                                      std::span<const ComponentId> bodies, double reach = 0);
+
+/// The common sides of two bodies. Throws InputError, with the remedy, if there are none, or if
+/// sides do not match.
 [[nodiscard]] std::vector<std::array<Side, 2>> matchingSides(const Model& model,
                                                              const CrackEdges& edges, ComponentId a,
                                                              ComponentId b);

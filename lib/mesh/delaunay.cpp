@@ -96,7 +96,7 @@ class Builder {
     throw InputError(fmt::format(
         "Polygon: near ({:g}, {:g}) two edges are so near each other that dividing them makes them "
         "meet; move them apart or make the size larger than the edges.",
-        boundary_.nodes[node].x, boundary_.nodes[node].y));
+        boundary_.given[node].x, boundary_.given[node].y));
   }
 
   /// Numbers the faces inside, which are reached from the left of the boundary without crossing it;

@@ -78,9 +78,13 @@ Vec2 pointOnEdge(Vec2 a, Vec2 b, std::uint32_t part, std::uint32_t parts) {
   return 2 * part < parts ? a + (b - a) * (part / n) : b + (a - b) * ((parts - part) / n);
 }
 
+/// Halves are rounded up, also those that rounding makes a little less: the number must not depend
+/// on the unit of length.
+double partsOf(double sizes) { return std::max(1., std::floor(sizes + .5 + tolerance::kHalf)); }
+
 /// The points that divide an edge into equal parts.
 std::vector<Vec2> evenPoints(Vec2 a, Vec2 b, double size) {
-  const auto parts = static_cast<std::uint32_t>(std::max(1., std::round(norm(b - a) / size)));
+  const auto parts = static_cast<std::uint32_t>(partsOf(norm(b - a) / size));
   std::vector<Vec2> points;
   for (std::uint32_t k = 1; k < parts; ++k) points.push_back(pointOnEdge(a, b, k, parts));
   return points;
@@ -97,7 +101,7 @@ std::vector<Vec2> gradedPoints(Vec2 a, Vec2 b, const SizeField& size) {
     sums.push_back(sums.back() + (end - ends.back()) / size.at(a + (b - a) * (end / length)));
     ends.push_back(end);
   }
-  const double parts = std::max(1., std::round(sums.back()));
+  const double parts = partsOf(sums.back());
   std::vector<Vec2> points;
   std::size_t k = 1;
   for (double part = 1; part < parts; ++part) {
@@ -172,18 +176,21 @@ class Divider {
 }  // namespace
 
 DividedBoundary divideBoundary(const Polygon& given, const SizeField& size, double mostBytes,
-                               const JointLines& joints) {
+                               const JointLines& joints, double jointTolerance) {
   if (!(size.smallest() > 0) || !std::isfinite(size.largest()))
     throw InputError(fmt::format("Size {:.4g} m must be positive and finite.", size.smallest()));
   const Polygon polygon = checkPolygon(given);
   checkSize(polygon, size, mostBytes);
-  const CutLines lines = cutAtJoints(polygon, joints, size);
+  const CutLines lines = cutAtJoints(polygon, joints, size, jointTolerance);
   Divider divider(lines, size);
   divider.appendLoop(0, polygon.outline, given.outline);
   for (std::size_t i = 0; i < polygon.holes.size(); ++i)
     divider.appendLoop(i + 1, polygon.holes[i], given.holes[i]);
   for (const CutLines::Piece& piece : lines.pieces) divider.appendPiece(piece);
-  return divider.take();
+  DividedBoundary boundary = divider.take();
+  boundary.given = boundary.nodes;
+  boundary.joined = lines.joined;
+  return boundary;
 }
 
 }  // namespace yadefrag

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/joint_lines.hpp"
 #include "mesh/size_field.hpp"
 #include "mesh/triangle_mesh.hpp"
 
@@ -14,9 +15,11 @@ namespace yadefrag {
 
 struct DividedBoundary {
   std::vector<Vec2> nodes;  ///< m, loop by loop, material on the left; then those on joints
+  std::vector<Vec2> given;  ///< m, the same, also where triangulate has scaled and rounded `nodes`
   std::vector<std::uint32_t> first;   ///< first node of each loop, and one past the last
   std::vector<std::uint32_t> vertex;  ///< vertex of each loop node, see TriangleMesh::loopVertices
   std::vector<std::array<std::uint32_t, 3>> joints;  ///< see TriangleMesh
+  JoinedTraces joined;
 
   [[nodiscard]] std::size_t numLoops() const { return first.size() - 1; }
 
@@ -36,6 +39,7 @@ struct DividedBoundary {
 /// for the rounding of the coordinates, or for `mostBytes` of memory.
 [[nodiscard]] DividedBoundary divideBoundary(const Polygon& given, const SizeField& size,
                                              double mostBytes = INFINITY,
-                                             const JointLines& joints = {});
+                                             const JointLines& joints = {},
+                                             double jointTolerance = 0);
 
 }  // namespace yadefrag

@@ -6,11 +6,13 @@
 #include <CGAL/Polygon_2_algorithms.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 
 #include "core/errors.hpp"
 #include "core/tolerances/mesh.hpp"
+#include "mesh/joint_network.hpp"
 
 namespace yadefrag {
 namespace {
@@ -18,112 +20,87 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Loop = std::vector<Vec2>;
 
-struct Line {
-  Vec2 begin, end;
+[[noreturn]] void refuse(std::size_t joint, const std::array<Vec2, 2>& line, const char* right) {
+  throw InputError(fmt::format("joints[{}] from ({:g}, {:g}) to ({:g}, {:g}) {}.", joint, line[0].x,
+                               line[0].y, line[1].x, line[1].y, right));
+}
 
-  [[nodiscard]] Vec2 along() const { return end - begin; }
-  /// Position along the line, from 0 to 1, of the line's point nearest to p.
-  [[nodiscard]] double shareOf(Vec2 p) const {
-    return std::clamp(dot(p - begin, along()) / dot(along(), along()), 0., 1.);
+void check(const JointLines& joints) {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (!isFinite(joints[i][0]) || !isFinite(joints[i][1]))
+      refuse(i, joints[i], "must have finite ends");
+    if (joints[i][0] == joints[i][1]) refuse(i, joints[i], "must have two different ends");
   }
-  [[nodiscard]] double distanceTo(Vec2 p) const { return norm(p - begin - shareOf(p) * along()); }
-};
-
-[[noreturn]] void refuse(std::size_t joint, const Line& line, const char* right) {
-  throw InputError(fmt::format("joints[{}] from ({:g}, {:g}) to ({:g}, {:g}) {}.", joint,
-                               line.begin.x, line.begin.y, line.end.x, line.end.y, right));
 }
 
 class Cutter {
  public:
-  Cutter(const Polygon& polygon, const JointLines& joints, const SizeField& size) : size_(size) {
+  Cutter(const Polygon& polygon, const JointLines& joints, const SizeField& size, double tolerance)
+      : joints_(joints), size_(size) {
     loops_.push_back(&polygon.outline);
     for (const Loop& hole : polygon.holes) loops_.push_back(&hole);
-    for (const Loop* loop : loops_)
-      for (std::size_t i = 0; i < loop->size(); ++i) {
-        cut_.points.push_back((*loop)[i]);
-        edges_.push_back({(*loop)[i], (*loop)[(i + 1) % loop->size()]});
-      }
-    for (const auto& [begin, end] : joints) {
-      if (!isFinite(begin) || !isFinite(end))
-        refuse(joints_.size(), {begin, end}, "must have finite ends");
-      if (begin == end) refuse(joints_.size(), {begin, end}, "must have two different ends");
-      joints_.push_back({begin, end});
-    }
+    JointNetwork network(loops_, joints, size, tolerance);
+    network.join();
+    points_ = network.points();
+    onEdges_ = network.pointsOnEdges();
+    chains_ = network.chains();
+    joined_ = network.joined();
+    edges_ = network.edges();
   }
 
   CutLines cut() {
-    const auto numVertices = static_cast<std::uint32_t>(cut_.points.size());
-    for (const Line& joint : joints_) addPoint(joint.begin), addPoint(joint.end);
-    for (std::size_t i = 0; i < joints_.size(); ++i) {
-      for (const Line& edge : edges_) addCrossing(joints_[i], edge);
-      for (std::size_t k = i + 1; k < joints_.size(); ++k) addCrossing(joints_[i], joints_[k]);
-    }
+    CutLines result;
     std::size_t edge = 0;
     std::uint32_t vertex = 0;
     for (const Loop* loop : loops_) {
-      auto& corners = cut_.loops.emplace_back();
+      auto& corners = result.loops.emplace_back();
       for (std::uint32_t i = 0; i < loop->size(); ++i) {
         corners.push_back({vertex++, i});
-        for (const std::uint32_t point : pointsOn(edges_[edge++], numVertices))
-          corners.push_back({point, i});
+        for (const std::uint32_t point : onEdges_[edge]) corners.push_back({point, i});
+        ++edge;
       }
     }
-    for (std::size_t i = 0; i < joints_.size(); ++i) addPieces(i);
-    return std::move(cut_);
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      requireInside(i);
+      addPieces(result, i);
+    }
+    result.points = std::move(points_);
+    result.joined = joined_;
+    return result;
   }
 
  private:
-  [[nodiscard]] double near(Vec2 p) const { return tolerance::kJointMeets * size_.at(p); }
-
-  void addPoint(Vec2 p) {
-    const double reach = near(p);
-    const bool known = std::any_of(cut_.points.begin(), cut_.points.end(),
-                                   [&](Vec2 other) { return norm(p - other) <= reach; });
-    if (!known) cut_.points.push_back(p);
-  }
-
-  void addCrossing(const Line& a, const Line& b) {
-    const double sine = cross(a.along(), b.along());
-    if (sine == 0) return;  // parallel lines meet at the end of one of them
-    const double share = cross(b.begin - a.begin, b.along()) / sine;
-    const Vec2 p = a.begin + std::clamp(share, 0., 1.) * a.along();
-    if (b.distanceTo(p) <= near(p)) addPoint(p);
-  }
-
-  /// The points on a line, from its begin to its end, out of the points with numbers from `first`
-  /// on.
-  [[nodiscard]] std::vector<std::uint32_t> pointsOn(const Line& line, std::uint32_t first) const {
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t i = first; i < cut_.points.size(); ++i)
-      if (line.distanceTo(cut_.points[i]) <= near(cut_.points[i])) found.push_back(i);
-    std::sort(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return line.shareOf(cut_.points[a]) < line.shareOf(cut_.points[b]);
-    });
-    return found;
-  }
-
-  void addPieces(std::size_t joint) {
-    const std::size_t before = cut_.pieces.size();
-    const std::vector<std::uint32_t> on = pointsOn(joints_[joint], 0);
-    bool isOnEarlier = false;
-    for (std::size_t i = 1; i < on.size(); ++i) {
-      const std::uint32_t a = on[i - 1], b = on[i];
-      if (!isInside((cut_.points[a] + cut_.points[b]) * .5)) continue;
+  void addPieces(CutLines& result, std::size_t joint) {
+    const std::vector<std::uint32_t>& chain = chains_[joint];
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      const std::uint32_t a = chain[i - 1], b = chain[i];
+      if (!isInside((points_[a] + points_[b]) * .5)) continue;
       if (taken_.insert(std::minmax(a, b)).second)
-        cut_.pieces.push_back({{a, b}, static_cast<std::uint32_t>(joint)});
-      else
-        isOnEarlier = true;
+        result.pieces.push_back({{a, b}, static_cast<std::uint32_t>(joint)});
     }
-    if (cut_.pieces.size() == before && !isOnEarlier)
-      refuse(joint, joints_[joint], "must run inside the outline");
+  }
+
+  /// A joint inside may vanish in an earlier one, in an edge or in a point, to which it is joined.
+  void requireInside(std::size_t joint) const {
+    const JointNetwork::Line line{joints_[joint][0], joints_[joint][1]};
+    std::vector<double> shares{0, 1};
+    for (const JointNetwork::Line& edge : edges_) {
+      const double sine = cross(line.along(), edge.along());
+      if (sine != 0) shares.push_back(cross(edge.begin - line.begin, edge.along()) / sine);
+    }
+    std::sort(shares.begin(), shares.end());
+    for (std::size_t i = 1; i < shares.size(); ++i) {
+      const double middle = (shares[i - 1] + shares[i]) / 2;
+      if (middle > 0 && middle < 1 && isInside(line.begin + middle * line.along())) return;
+    }
+    refuse(joint, joints_[joint], "must run inside the outline");
   }
 
   /// True if p is inside and not on an edge.
   [[nodiscard]] bool isInside(Vec2 p) const {
-    const double reach = near(p);
+    const double reach = tolerance::kJointMeets * size_.at(p);
     if (std::any_of(edges_.begin(), edges_.end(),
-                    [&](const Line& edge) { return edge.distanceTo(p) <= reach; }))
+                    [&](const JointNetwork::Line& edge) { return edge.distanceTo(p) <= reach; }))
       return false;
     for (std::size_t i = 0; i < loops_.size(); ++i)
       if (surrounds(*loops_[i], p) != (i == 0)) return false;
@@ -138,17 +115,22 @@ class Cutter {
                                 Kernel()) == CGAL::ON_BOUNDED_SIDE;
   }
 
+  const JointLines& joints_;
   const SizeField& size_;
   std::vector<const Loop*> loops_;
-  std::vector<Line> edges_, joints_;
-  CutLines cut_;
+  std::vector<Vec2> points_;
+  std::vector<std::vector<std::uint32_t>> onEdges_, chains_;
+  std::vector<JointNetwork::Line> edges_;
+  JoinedTraces joined_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> taken_;
 };
 
 }  // namespace
 
-CutLines cutAtJoints(const Polygon& polygon, const JointLines& joints, const SizeField& size) {
-  return Cutter(polygon, joints, size).cut();
+CutLines cutAtJoints(const Polygon& polygon, const JointLines& joints, const SizeField& size,
+                     double tolerance) {
+  check(joints);
+  return Cutter(polygon, joints, size, tolerance).cut();
 }
 
 }  // namespace yadefrag

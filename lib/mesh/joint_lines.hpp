@@ -10,6 +10,12 @@
 
 namespace yadefrag {
 
+/// What has been joined by a tolerance.
+struct JoinedTraces {
+  std::size_t count = 0;  ///< places: ends, intersections, and points to which other lines bend
+  double farthest = 0;    ///< m, largest displacement
+};
+
 struct CutLines {
   /// A point on a loop, and the vertex at which its edge begins.
   struct Corner {
@@ -25,14 +31,17 @@ struct CutLines {
   std::vector<Vec2> points;                ///< m
   std::vector<std::vector<Corner>> loops;  ///< the outline, then the holes
   std::vector<Piece> pieces;               ///< in the order of the joints
+  JoinedTraces joined;
 };
 
 /// `polygon` must be a result of checkPolygon. Joints may cross each other and the polygon's edges.
-/// Parts of a joint outside the polygon, on an edge, or on an earlier joint are removed. Two ends
-/// or intersections, or an end and a line, that are nearer than tolerance::kJointMeets of the local
-/// size count as meeting. Throws InputError for a joint without a remaining part, and for ends that
-/// are not finite.
+/// Parts of a joint outside the polygon, on an edge, or on an earlier joint are removed. Ends and
+/// intersections, and lines, that are nearer to each other than `tolerance` (m; at least
+/// tolerance::kJointMeets of the local size) are joined: joints end at, and bend to, common points.
+/// So do two lines that leave a point at so small an angle, as far as they are that near. Edges of
+/// the polygon keep their places. Throws InputError for a joint without a remaining part, and for
+/// ends that are not finite.
 [[nodiscard]] CutLines cutAtJoints(const Polygon& polygon, const JointLines& joints,
-                                   const SizeField& size);
+                                   const SizeField& size, double tolerance = 0);
 
 }  // namespace yadefrag

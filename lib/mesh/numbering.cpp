@@ -41,8 +41,8 @@ std::vector<std::uint32_t> orderAlongCurve(std::span<const Vec2> points) {
   return order;
 }
 
-void numberAlongCurve(TriangleMesh& mesh) {
-  const std::vector<std::uint32_t> order = orderAlongCurve(mesh.nodes);
+std::vector<std::uint32_t> numberAlongCurve(TriangleMesh& mesh) {
+  std::vector<std::uint32_t> order = orderAlongCurve(mesh.nodes);
   std::vector<std::uint32_t> numberOf(order.size());
   std::vector<Vec2> nodes;
   nodes.reserve(order.size());
@@ -66,6 +66,7 @@ void numberAlongCurve(TriangleMesh& mesh) {
   triangles.reserve(mesh.triangles.size());
   for (const std::uint32_t i : orderAlongCurve(centroids)) triangles.push_back(mesh.triangles[i]);
   mesh.triangles = std::move(triangles);
+  return order;
 }
 
 }  // namespace yadefrag

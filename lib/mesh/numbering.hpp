@@ -14,7 +14,7 @@ namespace yadefrag {
 [[nodiscard]] std::vector<std::uint32_t> orderAlongCurve(std::span<const Vec2> points);
 
 /// Renumbers the nodes by position and the triangles by centroid. Each triangle then begins with
-/// its lowest node, each loop, too.
-void numberAlongCurve(TriangleMesh& mesh);
+/// its lowest node, each loop, too. Returns the former number of each node.
+std::vector<std::uint32_t> numberAlongCurve(TriangleMesh& mesh);
 
 }  // namespace yadefrag

@@ -10,7 +10,6 @@
 #include <CGAL/Polyline_simplification_2/simplify.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -37,21 +36,27 @@ using Loop = std::vector<Vec2>;
 /// the order of their memory addresses.
 class Cost {
  public:
-  explicit Cost(double squaredTolerance) : share_(tolerance::kEqualCosts * squaredTolerance) {}
+  /// `farthest`: the largest coordinate.
+  Cost(double squaredTolerance, double farthest)
+      : share_(tolerance::kEqualCosts * squaredTolerance), farthest_(farthest) {}
 
   /// The optional is that of Boost; since CGAL 6, that of std.
   template <class Constrained, class Iterator>
   auto operator()(const Constrained& triangulation, Iterator vertex) const {
     auto distance = simplification::Squared_distance_cost()(triangulation, vertex);
     const Kernel::Point_2& p = (*vertex)->point();
-    const std::uint64_t bits =
-        mixBits(mixBits(std::bit_cast<std::uint64_t>(p.x())) + std::bit_cast<std::uint64_t>(p.y()));
+    const std::uint64_t bits = mixBits(mixBits(placeOf(p.x())) + placeOf(p.y()));
     *distance += share_ * (static_cast<double>(bits >> 12) * 0x1p-52);
     return distance;
   }
 
  private:
-  double share_;
+  /// The same in any unit of length.
+  [[nodiscard]] std::uint64_t placeOf(double x) const {
+    return static_cast<std::uint64_t>(std::llround(x / farthest_ * 0x1p26));
+  }
+
+  double share_, farthest_;
 };
 
 void checkTolerance(const Loop& loop, const std::string& name, double tolerance) {
@@ -78,7 +83,10 @@ class Simplification {
     for (const Loop* loop : loops_) {
       std::vector<Kernel::Point_2> points;
       points.reserve(loop->size());
-      for (const Vec2 p : *loop) points.push_back(scaled(p));
+      for (const Vec2 p : *loop) {
+        points.push_back(scaled(p));
+        farthest_ = std::max({farthest_, std::abs(p.x * scale), std::abs(p.y * scale)});
+      }
       constraints_.push_back(triangulation_.insert_constraint(points.begin(), points.end(), true));
     }
     auto vertex = triangulation_.vertices_in_constraint_begin(constraints_.front());
@@ -86,7 +94,7 @@ class Simplification {
   }
 
   void run(double squaredTolerance) {
-    simplification::simplify(triangulation_, Cost(squaredTolerance),
+    simplification::simplify(triangulation_, Cost(squaredTolerance, farthest_),
                              simplification::Stop_above_cost_threshold(squaredTolerance), true);
   }
 
@@ -107,7 +115,7 @@ class Simplification {
   [[nodiscard]] Kernel::Point_2 scaled(Vec2 p) const { return {p.x * scale_, p.y * scale_}; }
 
   const std::vector<const Loop*>& loops_;
-  double scale_;
+  double scale_, farthest_ = 0;
   Triangulation triangulation_;
   std::vector<Triangulation::Constraint_id> constraints_;
 };

@@ -24,6 +24,14 @@ SizeField::SizeField(Vec2 low, double cell, std::uint32_t columns, std::vector<d
   largest_ = *most;
 }
 
+SizeField SizeField::inUnits(double unit, Vec2 low) const {
+  SizeField field = *this;
+  field.smallest_ /= unit, field.largest_ /= unit, field.cell_ /= unit;
+  field.low_ = (1 / unit) * (low_ - low);
+  for (double& value : field.values_) value /= unit;
+  return field;
+}
+
 /// Repeats forward and backward passes, as for a distance transform, until no value changes.
 void SizeField::limitGrowth() {
   std::vector<double> before;

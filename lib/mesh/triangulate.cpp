@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/errors.hpp"
@@ -31,15 +32,42 @@ void checkThinnest(const TriangleMesh& mesh) {
                   p.x, p.y));
 }
 
+/// Coordinates in sizes, from the lower left corner of the boundary on.
+struct MeshUnits {
+  explicit MeshUnits(const DividedBoundary& boundary, const SizeField& size)
+      : unit(size.smallest()), low(boundary.nodes[0]) {
+    double shortest = unit;
+    for (const Vec2 p : boundary.nodes) low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    boundary.forEachEdge([&](std::uint32_t a, std::uint32_t b) {
+      shortest = std::min(shortest, norm(boundary.nodes[b] - boundary.nodes[a]));
+    });
+    // A power of two; halves of it are told apart from rounding, too.
+    place = tolerance::kMeshPlaces *
+            std::exp2(std::floor(std::log2(shortest / unit) + tolerance::kHalf));
+  }
+
+  [[nodiscard]] Vec2 rounded(Vec2 p) const {
+    const auto one = [&](double x) { return std::round(x / unit / place) * place; };
+    return {one(p.x - low.x), one(p.y - low.y)};
+  }
+
+  double unit;  // m
+  Vec2 low;     // m
+  double place = 0;
+};
+
 }  // namespace
 
-TriangleMesh triangulate(const Polygon& polygon, const SizeField& size, MeshLayout layout,
-                         double mostBytes, const JointLines& joints) {
-  const DividedBoundary boundary = divideBoundary(polygon, size, mostBytes, joints);
-  LinkedTriangles linked = triangulateNodes(boundary, fillInterior(boundary, size, layout));
+PolygonMesh triangulate(const Polygon& polygon, const SizeField& size, MeshLayout layout,
+                        double mostBytes, const JointLines& joints, double jointTolerance) {
+  DividedBoundary boundary = divideBoundary(polygon, size, mostBytes, joints, jointTolerance);
+  const MeshUnits units(boundary, size);
+  for (Vec2& p : boundary.nodes) p = units.rounded(p);
+  const SizeField field = size.inUnits(units.unit, units.low);
+  LinkedTriangles linked = triangulateNodes(boundary, fillInterior(boundary, field, layout));
   improve(linked, layout.nodes == NodeLayout::kScattered);
 
-  TriangleMesh mesh;
+  PolygonMesh mesh;
   mesh.nodes = std::move(linked.nodes);
   mesh.triangles = std::move(linked.triangles);
   for (std::size_t i = 0; i < boundary.numLoops(); ++i) {
@@ -49,7 +77,11 @@ TriangleMesh triangulate(const Polygon& polygon, const SizeField& size, MeshLayo
     mesh.loopVertices.emplace_back(boundary.vertex.begin() + begin, boundary.vertex.begin() + end);
   }
   mesh.joints = boundary.joints;
-  numberAlongCurve(mesh);
+  mesh.joined = boundary.joined;
+  const std::vector<std::uint32_t> order = numberAlongCurve(mesh);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    mesh.nodes[i] = order[i] < boundary.given.size() ? boundary.given[order[i]]
+                                                     : units.low + units.unit * mesh.nodes[i];
   mesh.minAngle = minAngle(mesh.nodes, mesh.triangles);
   checkThinnest(mesh);
   return mesh;

@@ -71,18 +71,21 @@ double margin(const Corners& triangle, Vec2 from, Vec2 to) {
   return std::max(.5 * tolerance::kTouching * shortest, tolerance::kTouchRounding * farthest);
 }
 
-/// A point inside both.
-std::optional<Vec2> meet(const BoundarySide& side, const Facet& facet) {
-  if (side.held && facet.held) return std::nullopt;
+/// Points inside both, at least one if they overlap: the ends and the middle of the side's part in
+/// the triangle.
+std::vector<Vec2> meet(const BoundarySide& side, const Facet& facet) {
+  if (side.held && facet.held) return {};
   const Vec2 along = side.to - side.from;
   const double touching = margin(facet.corners, side.from, side.to);
   const Part part = partInside(side.from, side.to, facet.corners, touching);
-  if (!part.isEmpty()) return side.from + (part.begin + part.end) / 2 * along;
+  if (!part.isEmpty())
+    return {side.from + (part.begin + part.end) / 2 * along, side.from + part.begin * along,
+            side.from + part.end * along};
   // If two bodies have the same outline, no side is inside the other one; the material beside it
   // is.
   const Vec2 beside = .5 * (side.from + side.to) - (touching / norm(along)) * rightOf(along);
-  if (partInside(beside, beside, facet.corners, .5 * touching).isEmpty()) return std::nullopt;
-  return beside;
+  if (partInside(beside, beside, facet.corners, .5 * touching).isEmpty()) return {};
+  return {beside, (1. / 3) * (facet.corners[0] + facet.corners[1] + facet.corners[2])};
 }
 
 /// A triangle beside the left side of a line.
@@ -94,25 +97,25 @@ struct Along {
 
 /// The same for lines, which may touch triangles with either side: a point at which triangles of
 /// one body lie on both sides of the line. `known`: all triangles so far.
-std::optional<Vec2> meetLine(const BoundarySide& side, const Facet& facet,
-                             std::vector<Along>& known) {
-  if (side.held && facet.held) return std::nullopt;
+std::vector<Vec2> meetLine(const BoundarySide& side, const Facet& facet,
+                           std::vector<Along>& known) {
+  if (side.held && facet.held) return {};
   const Vec2 along = side.to - side.from;
   const double touching = margin(facet.corners, side.from, side.to);
   Part part = partInside(side.from, side.to, facet.corners, touching);
-  if (!part.isEmpty()) return side.from + (part.begin + part.end) / 2 * along;
+  if (!part.isEmpty()) return {side.from + (part.begin + part.end) / 2 * along};
   const Vec2 left = -(2 * touching / norm(along)) * rightOf(along);
   part = partInside(side.from + left, side.to + left, facet.corners, .5 * touching);
-  if (part.isEmpty()) return std::nullopt;
+  if (part.isEmpty()) return {};
   known.push_back({side, part, facet.body});
   for (const Along& other : known) {
     if (other.body != facet.body || other.side.from != side.to || other.side.to != side.from)
       continue;
     const Part both{std::max(part.begin, 1 - other.part.end),
                     std::min(part.end, 1 - other.part.begin)};
-    if (both.end - both.begin > tolerance::kTouching) return side.from + both.begin * along;
+    if (both.end - both.begin > tolerance::kTouching) return {side.from + both.begin * along};
   }
-  return std::nullopt;
+  return {};
 }
 
 /// Sides and triangles of the bodies that may overlap, within a common box.
@@ -128,23 +131,42 @@ class OverlapSearch {
     std::vector<Box> boxes;
     for (const BoundarySide& side : sides_) boxes.push_back(boxOf(side));
     for (const Facet& facet : facets_) boxes.push_back(boxOf(facet));
-    for (const BoxPair& pair :
-         overlappingPairs(boxes)) {  // first < second: sides come before triangles
-      const std::size_t a = pair.first.value, b = pair.second.value;
-      if (a >= sides_.size() || b < sides_.size()) continue;
-      const BoundarySide& side = sides_[a];
-      const Facet& facet = facets_[b - sides_.size()];
+    std::vector<BoxPair> pairs = overlappingPairs(boxes);  // sides come before triangles
+    std::sort(pairs.begin(), pairs.end());
+    std::optional<Overlap> deepest;
+    double enough = INFINITY;  // a deeper overlap is no matter of rounded coordinates
+    for (const auto& [first, second] : pairs) {
+      if (first.value >= sides_.size() || second.value < sides_.size()) continue;
+      const BoundarySide& side = sides_[first.value];
+      const Facet& facet = facets_[second.value - sides_.size()];
       if ((side.body == newBody) == (facet.body == newBody)) continue;
-      if (const auto place = side.isLine ? meetLine(side, facet, known) : meet(side, facet))
-        return Overlap{std::min(side.body, facet.body), *place};
+      for (const Vec2 place : side.isLine ? meetLine(side, facet, known) : meet(side, facet)) {
+        const double depth = distanceTo(facet.body, place);
+        enough = std::min(enough, norm(side.to - side.from));
+        if (!deepest || depth > deepest->depth)
+          deepest = Overlap{std::min(side.body, facet.body), place, depth};
+      }
+      if (deepest && deepest->depth > enough) break;
     }
-    return std::nullopt;
+    return deepest;
   }
 
  private:
   template <class Shape>
   void add(std::vector<Shape>& shapes, const Shape& shape) const {
     if (overlaps(boxOf(shape), within_)) shapes.push_back(shape);
+  }
+
+  /// (m) Distance of a point from the sides of a body.
+  [[nodiscard]] double distanceTo(ComponentId body, Vec2 point) const {
+    double least = INFINITY;
+    for (const BoundarySide& side : sides_) {
+      if (side.body != body) continue;
+      const Vec2 along = side.to - side.from;
+      const double share = std::clamp(dot(point - side.from, along) / dot(along, along), 0., 1.);
+      least = std::min(least, norm(side.from + share * along - point));
+    }
+    return least;
   }
 
   std::vector<BoundarySide> sides_;

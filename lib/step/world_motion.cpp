@@ -50,15 +50,17 @@ double chord(const PieceEnds& ends) { return norm(ends.end - ends.begin); }
 /// Contact prevents new overlaps only; bodies that overlap initially would pass through each other.
 void World::requireApart(const TriangleMesh& mesh, const BodySpec& spec,
                          const std::string& subject) {
+  if (isBuilt_) places_.clear();  // a step may have moved bodies; between steps they are only added
   places_.update(model, surfaces);
   const auto overlap = findOverlap(model, surfaces, places_, mesh, spec);
   if (!overlap) return;
   const Component& other = model.components[overlap->body.value];
-  throw InputError(
-      fmt::format("{} overlaps {} at ({:.9g}, {:.9g}) m; it may touch others at the start, but not "
-                  "overlap them.",
+  throw OverlapError(
+      fmt::format("{} overlaps {} at ({:.9g}, {:.9g}) m by {:.3g} m; it may touch others at the "
+                  "start, but not overlap them.",
                   subject, other.rigid ? other.name : fmt::format("body {}", overlap->body.value),
-                  overlap->place.x, overlap->place.y));
+                  overlap->place.x, overlap->place.y, overlap->depth),
+      overlap->depth);
 }
 
 /// With larger displacements neither the search nor the deformation would be meaningful.

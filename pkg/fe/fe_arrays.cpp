@@ -7,7 +7,9 @@
 #include "fe/fragments.hpp"
 #include "fe/running.hpp"
 #include "fe/shown_nodes.hpp"
+#include "fe/snap_python.hpp"
 #include "fracture/checks.hpp"
+#include "step/overlap_check.hpp"
 
 namespace yadefrag {
 
@@ -84,7 +86,13 @@ int addMesh(FESolver& solver, const py::dict& input) {
   materials.reserve(static_cast<std::size_t>(count));
   for (py::ssize_t i = 0; i < count; ++i)
     materials.push_back(py::extract<yade::shared_ptr<FEMat>>(given[i]));
-  return change(solver, [&] { return solver.addBody(mesh, std::move(spec), materials); });
+  return change(solver, [&] {
+    try {
+      return solver.addBody(mesh, std::move(spec), materials);
+    } catch (const OverlapError& error) {
+      throw OverlapFound(error.what(), error.depth);
+    }
+  });
 }
 
 py::tuple bond(FESolver& solver, int a, int b, double strength, double energy) {

@@ -8,6 +8,7 @@
 #include "fe/fe_results.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/mesh_python.hpp"
+#include "fe/snap_python.hpp"
 #include "fracture/checks.hpp"
 #include "step/overlap_depth.hpp"
 
@@ -47,7 +48,7 @@ inline std::uint64_t numCracksOf(const FESolver& solver) {
 
 template <class PyClass>
 void FESolver::pyExtra(PyClass& pyClass) {
-  pyClass.def("_addMesh", &addMesh)
+  pyClass.def("_addMesh", &addMeshIfApart)
       .def(
           "removeBody", &takeBody, yade::py::args("component"),
           "Removes a whole body, and the bodies of its surface, from the scene; the numbers of the "
@@ -75,9 +76,12 @@ void FESolver::pyExtra(PyClass& pyClass) {
       .def(
           "_unlock", +[](const FESolver& self) { self.betweenSteps().unlock(); })
       .def("_note", &Locked<noteOf>::call)
+      .def("_snap", &snapOf)
+      .def("_costOfMesh", &Locked<costOfMesh>::call)
       .def("_meshQuality", &Locked<meshQualityOf>::call)
       .def("_costlyStepWarning", &Locked<costlyStepWarningOf>::call)
       .def("_bond", &bond)
+      .def("_bondAll", &bondAllOf)
       .def("_nodesOf", &Locked<nodesOfBody>::call)
       .def("_isGone", &Locked<isGone>::call)
       .def("_setLoads", &setLoads)

@@ -35,13 +35,6 @@ py::dict toDict(const TriangleMesh& mesh) {
   return result;
 }
 
-Polygon polygonOf(const py::object& outline, const py::list& holes) {
-  Polygon polygon;
-  polygon.outline = fromBytes<Vec2>(outline);
-  for (int i = 0; i < py::len(holes); ++i) polygon.holes.push_back(fromBytes<Vec2>(holes[i]));
-  return polygon;
-}
-
 SizeField sizeField(const py::tuple& size) {
   if (py::len(size) == 1) return py::extract<double>(size[0])();
   const Vec2 low = {py::extract<double>(size[0]), py::extract<double>(size[1])};
@@ -51,15 +44,25 @@ SizeField sizeField(const py::tuple& size) {
 
 }  // namespace
 
+Polygon polygonOf(const py::object& outline, const py::list& holes) {
+  Polygon polygon;
+  polygon.outline = fromBytes<Vec2>(outline);
+  for (int i = 0; i < py::len(holes); ++i) polygon.holes.push_back(fromBytes<Vec2>(holes[i]));
+  return polygon;
+}
+
 py::dict meshOfPolygon(const py::object& outline, const py::list& holes, const py::tuple& size,
-                       bool irregular, std::uint64_t seed, const py::object& joints) {
+                       bool irregular, std::uint64_t seed, const py::object& joints,
+                       double jointTolerance) {
   return asValueError([&] {
     const MeshLayout layout{irregular ? NodeLayout::kScattered : NodeLayout::kRows, seed};
     const Polygon polygon = checkPolygon(polygonOf(outline, holes));
     const SizeField field = sizeField(size);
     const auto lines = fromBytes<std::array<Vec2, 2>>(joints);
-    py::dict mesh = toDict(triangulate(polygon, field, layout, memoryOfMachine(), lines));
-    mesh["smallestSize"] = field.smallest();
+    const PolygonMesh made =
+        triangulate(polygon, field, layout, memoryOfMachine(), lines, jointTolerance);
+    py::dict mesh = toDict(made);
+    mesh["joined"] = py::make_tuple(made.joined.count, made.joined.farthest);
     return mesh;
   });
 }
@@ -108,6 +111,15 @@ std::string costlyStepWarningOf(const FESolver& solver, int component, double si
   const ComponentId id(component);
   return costlyStepWarning(stressFreeMesh(world.model, world.reference, id),
                            world.model.components[component], size);
+}
+
+double costOfMesh(const FESolver& solver, int component, double size, const py::object& nodes,
+                  const py::object& triangles) {
+  TriangleMesh mesh;
+  mesh.nodes = fromBytes<Vec2>(nodes);
+  mesh.triangles = fromBytes<std::array<std::uint32_t, 3>>(triangles);
+  const Component& body = solver.world().model.components[component];
+  return latticeTimeStep(body, size) / meshTimeStep(mesh, body);
 }
 
 double latticeTimeStepOf(double young, double poisson, double density, bool planeStress,

@@ -13,6 +13,7 @@
 #include "fe/running.hpp"
 #include "fe/section_python.hpp"
 #include "fe/segment_functors.hpp"
+#include "fe/snap_python.hpp"
 #include "fe/surface_segment.hpp"
 #include "publish/publish.hpp"
 #include "python/list_items.hpp"
@@ -61,6 +62,7 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("latticeTimeStep", &yadefrag::latticeTimeStepOf);
   py::def("meshOfRectangle", &yadefrag::meshOfRectangle);
   py::def("polygonOfText", &yadefrag::polygonOfText);
+  py::def("snapTogether", &yadefrag::snapTogetherOf);
   py::def("sectionsOfScene", &yadefrag::sectionsOfScene);
   py::def("voronoiOf", &yadefrag::voronoiOf);
   py::def("isInStep", &yadefrag::isInStep);

@@ -47,6 +47,14 @@ inline constexpr double kShortestLine = .6, kLongestPath = 1.3;
 /// (m/m) Growth of the desired edge length with the distance from a boundary with shorter edges.
 inline constexpr double kEdgeGrowth = .25;
 
+/// (of a part) An edge whose length in sizes is a half up to this has the larger number of parts.
+inline constexpr double kHalf = 1e-9;
+
+/// (of the size, or of the shortest edge of the boundary if that is less) The places of nodes on
+/// the boundary are rounded to this before a mesh is made inside: rounding of coordinates, which
+/// differs between metres and millimetres, then does not decide between equally good triangles.
+inline constexpr double kMeshPlaces = 0x1p-30;
+
 /// (count) Integration steps in each part of an edge.
 inline constexpr double kStepsPerPart = 8;
 
@@ -66,9 +74,28 @@ inline constexpr int kNodeTries = 30;
 /// differ by this, so that the order of their removal is the same in every run.
 inline constexpr double kEqualCosts = 1e-6;
 
-/// (of the size there) A joint that ends this near to the outline or to another joint ends on it:
-/// intersections of lines are known only up to rounding.
+/// (of the size there) Ends and intersections of joints that are nearer than this are joined in any
+/// case: intersections are known only up to rounding.
 inline constexpr double kJointMeets = 1e-6;
+
+/// (count) Rounds in which joints bend to near points, until none is left. Four are usual.
+inline constexpr int kJointRounds = 50;
+
+/// (of the largest coordinate) Vertices of outlines nearer than this are equal up to rounding: four
+/// roundings of a coordinate.
+inline constexpr double kSnapRounding = 0x1p-50;
+
+/// (of the size) An outline that overlaps others by no more than this is moved onto them without a
+/// request: rounding to three digits gives .03 in masonry with four elements per brick.
+inline constexpr double kSnappedOverlap = .05;
+
+/// (ratio) Tolerance of that, in overlaps: in sharp corners vertices are farther from each other
+/// than the outlines overlap.
+inline constexpr double kSnapReach = 2;
+
+/// (of the size) Vertices of the neighbours nearer than this to each other give one vertex of the
+/// outline: otherwise rounding would make short edges.
+inline constexpr double kSnapSpacing = .2;
 
 /// (of an edge's length) A point this near to an edge of the boundary may lie on it and divide it.
 inline constexpr double kOnEdge = 1e-9;

@@ -43,6 +43,7 @@ from yadefrag.pictures import animate, plotMesh  # noqa: E402
 from yadefrag.progress import runSteps  # noqa: E402
 from yadefrag.recorder import FERecorder  # noqa: E402
 from yadefrag.results import crackTable  # noqa: E402
+from yadefrag.snapping import snapOutlines  # noqa: E402
 from yadefrag.solver import rectangleMesh  # noqa: E402
 from yadefrag.tradeoff import tradeoff  # noqa: E402
 from yadefrag.tradeoff_table import TradeoffTable  # noqa: E402
@@ -71,7 +72,7 @@ for _name in __all__:
     attributes.install(globals()[_name])
 
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMesh',
-            'outlineReport', 'voronoi', 'grainJoints', 'rectangleMesh', 'plotMesh', 'animate',
+            'outlineReport', 'snapOutlines', 'voronoi', 'grainJoints', 'rectangleMesh', 'plotMesh', 'animate',
             'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
             'plotFracture', 'crackTable', 'engines', 'FERecorder', 'tradeoff', 'TradeoffTable',
             'ensemble', 'EnsembleTable', 'inCurveOrder', 'about']

@@ -31,3 +31,34 @@ def bond(self, a, b, strength, energy):
     if problem:
         warnOfOne('bond: ' + problem, 'bonds', '%d-%d' % (first, second))
     return sides
+
+
+def bondAll(self, tolerance, strength, energy):
+    """Bonds all bodies, from the next step on, along all sides that lie on each other at present, as
+    `bond` does; returns the number of bonded sides (int).
+
+    tolerance  m: sides up to this distance apart that run along each other are neighbours. Those
+               without the same ends are not bonded, and a warning states their number, two bodies
+               and a place. snapOutlines, before the bodies are added, gives neighbours the same ends
+    strength   Pa, as in bond
+    energy     J/m², as in bond
+    ValueError, before any change, if no sides match.
+    """
+    requirePaused()
+    tolerance = positive('tolerance', tolerance, 'm')
+    sides, unmatched, bodies, place, problem = self._bondAll(
+        tolerance, positive('strength', strength, 'Pa'), positive('energy', energy, 'J/m²'))
+    if not sides and not unmatched:
+        raise ValueError('bondAll: no sides that are not bonded yet are within %g m of another body; '
+                         'bodies to be bonded must touch.' % tolerance)
+    if unmatched:
+        problem = ' '.join(filter(None, [
+            '%d sides within %g m of another body are not bonded, since its sides there have other '
+            'ends, as between the bodies %d and %d at (%g, %g) m. Give the outlines the same points '
+            'by snapOutlines before they are added, and the bodies the same size.' %
+            (unmatched, tolerance, *bodies, *place), problem]))
+    if not sides:
+        raise ValueError('bondAll: ' + problem)
+    if problem:
+        warnings.warn('bondAll: ' + problem, stacklevel=2)
+    return sides

@@ -73,13 +73,22 @@ def _listOf(value):
         return None
 
 
-def meshOfPolygon(points, holes, size, irregular, seed, joints):
-    """The dict of arrays that _add takes, with `loopVertices`, `joints` and `smallestSize` (m)."""
-    seed = whole('meshSeed', seed, least=0, right='a whole number, 0 or more', most=2**63 - 1)
+def sizeOf(size, points):
+    """addPolygon's `size`, as _yadefrag.meshOfPolygon takes it: (m,), or a sampled function."""
     if callable(size):
-        wanted = _sampledSize(size, points)
-    else:
-        wanted = (number('size', size, lambda v: math.isfinite(v) and v > 0,
-                         'a positive number (m) or a function (x, y) that returns one'),)
+        return _sampledSize(size, points)
+    return (number('size', size, lambda v: math.isfinite(v) and v > 0,
+                   'a positive number (m) or a function (x, y) that returns one'),)
+
+
+def leastSize(wanted):
+    """(m) The smallest size of a result of sizeOf."""
+    return wanted[0] if len(wanted) == 1 else float(numpy.frombuffer(wanted[4]).min())
+
+
+def meshOfPolygon(points, holes, wanted, irregular, seed, joints, jointTolerance):
+    """The dict of arrays that _add takes, with `loopVertices`, `joints`, and `joined`, the number of
+    joined places of joints and their largest displacement (m); `wanted`: sizeOf."""
+    seed = whole('meshSeed', seed, least=0, right='a whole number, 0 or more', most=2**63 - 1)
     return _yadefrag.meshOfPolygon(points.tobytes(), [h.tobytes() for h in holes], wanted,
-                                   irregular, seed, joints.tobytes())
+                                   irregular, seed, joints.tobytes(), jointTolerance)

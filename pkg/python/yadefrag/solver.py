@@ -12,13 +12,13 @@ import numpy
 from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag import guards
-from yadefrag.bonds import bond
+from yadefrag.bonds import bond, bondAll
 from yadefrag.calls import inWords
 from yadefrag.energies import energy
 from yadefrag.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.materials import Materials, interfaces, isField, oneMaterial
 from yadefrag.mesh_checks import requireApart
-from yadefrag.meshing import isIrregular, jointLines, meshOfPolygon, simplified
+from yadefrag.meshing import isIrregular, jointLines, leastSize, meshOfPolygon, sizeOf
 from yadefrag.messages import forget, warnOfOne
 from yadefrag.motions import keepTurning, prescribe, rotate
 from yadefrag.names import componentOf, newName, nodesOf
@@ -28,6 +28,8 @@ from yadefrag.results import contactForce, crackCounts, principalStress, reactio
 from yadefrag.scene_start import addSolver
 from yadefrag.script_calls import requireBetweenSteps
 from yadefrag.shown import betweenSteps, shownTriangles
+from yadefrag.snapping import (Outline, Overlap, addSnapped, costAdvice, isClockwise,
+                               jointToleranceOf, snapTolerance, tellJoined)
 from yadefrag.values import (array, flag, number, pair, plain, pointsOf, positive, real, refuse, shown,
                              whole)
 
@@ -81,7 +83,7 @@ def _smoothNodes(smooth, mesh, outline=()):
         chosen = [(loop, numpy.ones(len(loop), dtype=bool)) for loop in mesh['loops']]
     else:
         flags, count = smooth, len(outline)
-        if _isClockwise(outline):  # the mesh has it reversed, with the same first point
+        if isClockwise(outline):  # the mesh has it reversed, with the same first point
             flags = flags[-numpy.arange(count) % count]
         loop, vertices = mesh['loops'][0], mesh['loopVertices'][0]
         # A node within an edge is smooth if both ends of the edge are.
@@ -102,11 +104,6 @@ def _flags(values):
         return None
     isRight = all(isinstance(f, int) and f in (0, 1) for f in flags)
     return numpy.array(flags, dtype=bool) if isRight else None
-
-
-def _isClockwise(points):
-    x, y = (points - points[0]).T
-    return float((x * numpy.roll(y, -1) - y * numpy.roll(x, -1)).sum()) < 0
 
 
 def _centroid(nodes, triangles):
@@ -140,7 +137,7 @@ def _add(fe, mesh, smooth, materials, velocity, spin, displacement, stress, fixe
 
     if not len(fe.masses):
         forget()  # messages of another solver
-    component = fe._addMesh(
+    component, overlap, depth = fe._addMesh(
         dict(nodes=raw(nodes, 'float64'), triangles=raw(triangles, 'uint32'),
              loops=[raw(loop, 'uint32') for loop in mesh['loops']],
              velocity=raw(speed, 'float64'), displacement=raw(moved, 'float64'),
@@ -148,6 +145,8 @@ def _add(fe, mesh, smooth, materials, velocity, spin, displacement, stress, fixe
              thickness=thickness, selfContact=selfContact, smoothed=element == 'smoothed',
              name=name, materials=materials.of, materialOf=raw(materials.numbers, 'uint32'),
              **{name: raw(values, kind) for name, (values, kind) in places.items()}))
+    if overlap:
+        raise Overlap(overlap, depth)
     addSolver(fe)
     keepTurning(fe, component, held, given, spin, present, centroid)
     problem = fe._zoneWarning(component)
@@ -160,7 +159,7 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                displacement=None, stress=None, fixed=None, thickness=1, selfContact=True,
                element='linear', mesh=None, meshSeed=0, simplify=None, strength=None, fractureEnergy=None,
                joints=(), jointStrength=0, jointEnergy=None, interfaceStrength=None,
-               interfaceEnergy=None, name=None):
+               interfaceEnergy=None, name=None, snap=None):
     """Adds a plane body, meshed with triangles; returns its number (int).
 
     outline, holes  list of points (x, y) in m, and a list of such lists
@@ -223,7 +222,9 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     fractureEnergy  None: that of the BrittleFEMat; or a function (x, y) → J/m², or an array,
                     likewise; where it is 0, cracks open at once
     joints          list of pairs of points ((x, y), (x, y)) in m: sides of triangles lie on these
-                    lines. Lines may cross each other and the outline; parts outside are ignored
+                    lines. Lines may cross each other and the outline; parts outside are ignored.
+                    Ends and crossings nearer than `snap` to each other, to another line or to the
+                    outline are joined; a warning states how many and how far
     jointStrength   Pa, for all joints or one for each, of a BrittleFEMat, without scatter; 0: open
                     from the start, an existing crack, not counted by numCracks; None: that of the
                     adjacent triangles; the joint then only shapes the mesh
@@ -235,6 +236,13 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     has priority
     interfaceEnergy J/m², likewise
     name            None, or a text that may replace the body's number in all functions
+    snap            None: an outline that overlaps the bodies beside it by at most 0.05 of `size`, as by
+                    rounded coordinates, is moved off them, by at most twice that; 0: it is refused.
+                    Or m: vertices within this distance of the bodies that are there are moved onto
+                    their nearest node, or else onto their nearest side, and the outline gets their
+                    nodes on its edges; gaps are closed, too. A warning states how many vertices
+                    were moved and how far. For a set of outlines, see also snapOutlines. It is
+                    also the tolerance of `joints`: for None, 0.1 of `size`; for 0, rounding only
     size and material may also come by position: addPolygon(outline, size, material), or
     addPolygon(outline, holes, size, material). Other functions are called at the nodes of the stress-free
     shape. ValueError before any change, also if the body would overlap another one; TypeError for
@@ -253,22 +261,37 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     holePoints = [pointsOf('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
     smooth = _smoothFlags(smooth, len(points))
     material = material if isField(material) else oneMaterial(material)
+    outline = Outline(points, holePoints, smooth)
     if simplify is not None:
-        flags = None if isinstance(smooth, bool) else smooth
-        points, holePoints, flags = simplified(points, holePoints, simplify, flags)
-        smooth = smooth if flags is None else flags
+        outline = outline.simplified(simplify)
     lines = jointLines(joints)
-    made = meshOfPolygon(points, holePoints, size, isIrregular(mesh, material), meshSeed, lines)
-    smoothed = _smoothNodes(smooth, made, points)
-    materials = Materials(made, material)
-    between = interfaces(made, materials, interfaceStrength, interfaceEnergy)
-    places = brittlePlaces(made, materials, between, strength, fractureEnergy, lines, jointStrength,
-                           jointEnergy)
-    body = _add(self, made, smoothed, materials, velocity, spin, displacement, stress, fixed,
-                thickness, selfContact, element, places, name)
-    costly = self._costlyStepWarning(body, made['smallestSize'])
+    irregular = isIrregular(mesh, material)
+    wanted = sizeOf(size, outline.points)
+    snap = snapTolerance(snap, displacement)
+    smallest = leastSize(wanted)
+    jointTolerance = jointToleranceOf(snap, smallest)
+    used = []
+
+    def meshOf(shape, tolerance):
+        return meshOfPolygon(shape.points, shape.holes, wanted, irregular, meshSeed, lines, tolerance)
+
+    def add(shape):
+        made = meshOf(shape, jointTolerance)
+        used[:] = shape, made
+        smoothed = _smoothNodes(shape.smooth, made, shape.points)
+        materials = Materials(made, material)
+        between = interfaces(made, materials, interfaceStrength, interfaceEnergy)
+        places = brittlePlaces(made, materials, between, strength, fractureEnergy, lines,
+                               jointStrength, jointEnergy)
+        return _add(self, made, smoothed, materials, velocity, spin, displacement, stress, fixed,
+                    thickness, selfContact, element, places, name)
+
+    body = addSnapped(self, outline, snap, smallest, displacement, add)
+    tellJoined(body, *used[1]['joined'], smallest)
+    costly = self._costlyStepWarning(body, smallest)
     if costly:
-        warnOfOne('addPolygon: ' + costly, 'bodies', body)
+        advice = costAdvice(self, body, smallest, used[0], len(lines) > 0, jointTolerance, meshOf)
+        warnOfOne('addPolygon: %s %s' % (costly, advice), 'bodies', body)
     return body
 
 
@@ -393,7 +416,7 @@ def install():
     """Adds the methods to FESolver, and prevents O.bodies.erase and clumps from using its
     bodies."""
     wrapper.FESolver.addPolygon = inWords(addPolygon, _arrangedPolygon)
-    for method in (addTriangles, bond, prescribe, rotate, nodesOf, componentOf, pressure, absorb, relax, reaction,
+    for method in (addTriangles, bond, bondAll, prescribe, rotate, nodesOf, componentOf, pressure, absorb, relax, reaction,
                    contactForce, meshQuality):
         setattr(wrapper.FESolver, method.__name__, inWords(method))
     for name, read in (('principalStress', principalStress), ('crackCounts', crackCounts), ('minAngle', _minAngle),

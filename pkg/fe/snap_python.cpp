@@ -1,0 +1,78 @@
+#include "fe/snap_python.hpp"
+
+#include <mutex>
+
+#include "fe/fe_arrays.hpp"
+#include "fe/fe_solver.hpp"
+#include "fe/mesh_python.hpp"
+#include "fe/running.hpp"
+#include "fracture/checks.hpp"
+#include "step/coverage.hpp"
+#include "step/overlap_check.hpp"
+
+namespace yadefrag {
+
+namespace py = yade::py;
+
+namespace {
+
+py::tuple toTuple(const Snapped& snapped) {
+  py::list loops;
+  for (const SnappedLoop& loop : snapped.loops)
+    loops.append(py::make_tuple(toArray(loop.points, "float64", 2),
+                                toArray(loop.vertex, "uint32", 0),
+                                toArray(loop.isInserted, "uint8", 0)));
+  const SnapCount& count = snapped.count;
+  return py::make_tuple(loops, count.moved, count.inserted, count.farthest);
+}
+
+}  // namespace
+
+py::tuple snapOf(const FESolver& solver, const py::object& outline, const py::list& holes,
+                 const py::tuple& rule) {
+  requirePaused();
+  const std::lock_guard guard(solver.betweenSteps());
+  return asValueError([&] {
+    return toTuple(snapOnBodies(
+        solver.world(), polygonOf(outline, holes),
+        {py::extract<double>(rule[0]), py::extract<double>(rule[1]), py::extract<bool>(rule[2])}));
+  });
+}
+
+py::tuple addMeshIfApart(FESolver& solver, const py::dict& input) {
+  try {
+    return py::make_tuple(addMesh(solver, input), "", 0.);
+  } catch (const OverlapFound& overlap) {
+    return py::make_tuple(-1, overlap.what(), overlap.depth);
+  }
+}
+
+py::tuple bondAllOf(FESolver& solver, double reach, double strength, double energy) {
+  requirePaused();
+  const std::lock_guard guard(solver.betweenSteps());
+  return asValueError([&] {
+    World& world = solver.changeWorld();
+    const EdgeId first(world.fracture.edges.size());
+    const CommonSides found = bondAll(world, reach, strength, energy);
+    const std::string problem = found.pairs.empty()
+                                    ? std::string()
+                                    : bondZoneWarning(world.model, world.fracture.edges, first);
+    return py::make_tuple(found.pairs.size(), found.unmatched,
+                          py::make_tuple(found.bodies[0].value, found.bodies[1].value),
+                          py::make_tuple(found.place.x, found.place.y), problem);
+  });
+}
+
+py::list snapTogetherOf(const py::list& polygons, double tolerance) {
+  return asValueError([&] {
+    std::vector<Polygon> given;
+    for (int i = 0; i < py::len(polygons); ++i)
+      given.push_back(polygonOf(polygons[i][0], py::list(polygons[i][1])));
+    py::list result;
+    for (const Snapped& one : snapTogether(std::move(given), tolerance))
+      result.append(toTuple(one));
+    return result;
+  });
+}
+
+}  // namespace yadefrag
