@@ -97,7 +97,7 @@ class Snapper {
   [[nodiscard]] const SnapCount& count() const { return count_; }
 
  private:
-  static constexpr int kRetreats = 4;
+  static constexpr int kRetreats = 8;
 
   /// The nearest vertex within the tolerance, or else the nearest point of a side, or else p.
   [[nodiscard]] Vec2 movedOnto(Vec2 p) const {
@@ -198,13 +198,25 @@ class Snapper {
           Vec2 &a = chain[i].at, &b = chain[next].at;
           const double in = leftOf(p, a, b), share = shareOf(p, a, b);
           if (in <= rounding_ || in > rule_.tolerance || !(share > 0 && share < 1)) continue;
-          const double most = std::max(share, 1 - share);
+          const std::size_t beyond =
+              share < .5 ? (i + chain.size() - 1) % chain.size() : (next + 1) % chain.size();
           Vec2& end = share < .5 ? a : b;
-          end += (-(in + rounding_) / (most * norm(b - a))) * rightOf(b - a);
+          const Vec2 other = chain[beyond].at - end;
+          const bool isAcute = dot((share < .5 ? b : a) - end, other) > 0;
+          end += inwards(b - a, other, isAcute, (in + rounding_) / std::max(share, 1 - share));
           any = true;
         }
     }
     return any;
+  }
+
+  /// A displacement by `by` (m) to the left of an edge. In an acute corner it runs along the other
+  /// edge there, which would otherwise be moved outwards.
+  static Vec2 inwards(Vec2 edge, Vec2 other, bool isAcute, double by) {
+    const Vec2 left = (-1 / norm(edge)) * rightOf(edge);
+    const Vec2 along = (1 / norm(other)) * other;
+    const double sine = dot(left, along);
+    return isAcute && sine > 0 ? (by / sine) * along : by * left;
   }
 
   Neighbours near_;

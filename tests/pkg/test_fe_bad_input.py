@@ -143,8 +143,8 @@ def test_bodyThatOverlapsIsNotAdded():
     bodies, nodes = len(O.bodies), solver.nodes
     inside = yadefrag.rectangle((.4, .4), (.6, .6))
     for outline in (kSquare, yadefrag.rectangle((.9, .2), (2, .8)), inside):
-        with pytest.raises(ValueError, match=r'^The new body overlaps body %d at \(.*\) m; it may '
-                           'touch others at the start, but not overlap them.$' % first):
+        with pytest.raises(ValueError, match=r'^The new body overlaps body %d at \(.*\) m by \S+ m; '
+                           'it may touch others at the start, but not overlap them.' % first):
             solver.addPolygon(outline, size=.5, material='m')
     with pytest.raises(ValueError, match='overlaps body 0'):
         solver.addPolygon(yadefrag.rectangle((2, 0), (3, 1)), size=.5, material='m',

@@ -191,7 +191,7 @@ def test_aContourOfPixelsFromAFileIsSimplified(tmp_path):
     file.write_text('\n'.join('%r %r' % p for p in contour))
     outline, holes = yadefrag.readPolygon(str(file))
     wanted = dict(outline=outline, holes=holes, size=9., material=elastic())
-    with pytest.warns(UserWarning, match=r'addPolygon: the critical time step .* simplify= removes'):
+    with pytest.warns(UserWarning, match=r'addPolygon: the critical time step .* simplify=2.7 reduces'):
         rough = added(**wanted)
     with warnings.catch_warnings():
         warnings.simplefilter('error')

@@ -10,6 +10,7 @@ from yadefrag.values import number, pointsOf, positive, refuse
 
 OVERLAP = .05    # of the size: overlaps up to this are removed without a request
 _REACH = 2       # tolerance of that, in overlaps: vertices may be farther apart than the outlines
+_MOVES = 12      # most moves in sequence
 _SPACING = .2    # of the size: nearer vertices of the neighbours give one vertex
 _CLOSABLE = .5   # of the size: overlaps up to this may be rounding, and snap= is advised
 _JOINTS = .1     # of the size: default tolerance of joints
@@ -80,7 +81,7 @@ def addSnapped(fe, outline, snap, size, displacement, add):
         body = add(outline)
     except Overlap as overlap:
         if snap is not None or displacement is not None or overlap.depth > OVERLAP * size:
-            raise ValueError(_advised(overlap, snap, size, displacement)) from None
+            raise ValueError(_advised(fe, outline, overlap, snap, size, displacement)) from None
         body, count = _withoutOverlap(fe, outline, size, overlap, add)
     if count:
         _tell(body, *count, size)
@@ -88,22 +89,43 @@ def addSnapped(fe, outline, snap, size, displacement, add):
 
 
 def _withoutOverlap(fe, outline, size, overlap, add):
-    try:
-        moved, *count = outline.snapped(fe, _REACH * overlap.depth, size, matches=False)
-        return add(moved), count
-    except ValueError as error:
-        raise ValueError('%s Its vertices were moved by up to %.3g m, which does not suffice: %s' %
-                         (overlap, _REACH * overlap.depth, error)) from None
+    """(body, [moved, inserted, farthest]) of the outline moved off the bodies; where several of these
+    meet with gaps, what is left of the overlap needs further moves."""
+    first, total, depth = overlap, [0, 0, 0.], overlap.depth
+    for _ in range(_MOVES):
+        try:
+            outline, *count = outline.snapped(fe, _REACH * depth, size, matches=False)
+            total = [max(total[0], count[0]), total[1] + count[1], total[2] + count[2]]
+            return add(outline), total
+        except Overlap as left:
+            overlap, depth = left, left.depth
+            if depth > OVERLAP * size:
+                break
+        except ValueError as error:
+            overlap = error
+            break
+    raise ValueError('%s Its vertices were moved by up to %.3g m, which does not suffice: %s '
+                     'snapOutlines, for all outlines before they are added, moves both sides.' %
+                     (first, total[2], overlap)) from None
 
 
-def _advised(overlap, snap, size, displacement):
+def _advised(fe, outline, overlap, snap, size, displacement):
     least = float('%.1e' % (1.1 * _REACH * overlap.depth))
-    if overlap.depth > _CLOSABLE * size or displacement is not None:
+    if overlap.depth > _CLOSABLE * size or displacement is not None or \
+            not _changes(fe, outline, least, size):
         return '%s Move it by that, or more where it is deeper elsewhere.' % overlap
     if snap is None or snap < least:
         return '%s snap=%g moves its vertices onto the bodies beside it.' % (overlap, least)
     return ('%s snap= has moved its vertices by up to %g m, which does not suffice: move it.' %
             (overlap, snap))
+
+
+def _changes(fe, outline, tolerance, size):
+    try:
+        _, moved, inserted, _ = outline.snapped(fe, tolerance, size, matches=True)
+    except ValueError:  # it would collapse
+        return False
+    return moved + inserted > 0
 
 
 def _tell(body, moved, inserted, farthest, size):

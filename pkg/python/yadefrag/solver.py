@@ -237,7 +237,7 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     interfaceEnergy J/m², likewise
     name            None, or a text that may replace the body's number in all functions
     snap            None: an outline that overlaps the bodies beside it by at most 0.05 of `size`, as by
-                    rounded coordinates, is moved off them, by at most twice that; 0: it is refused.
+                    rounded coordinates, is moved off them, by at most 0.1 of it; 0: it is refused.
                     Or m: vertices within this distance of the bodies that are there are moved onto
                     their nearest node, or else onto their nearest side, and the outline gets their
                     nodes on its edges; gaps are closed, too. A warning states how many vertices
