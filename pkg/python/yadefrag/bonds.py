@@ -1,6 +1,6 @@
 """Bonds between bodies of FESolver."""
 
-from yadefrag.messages import warnOfOne
+from yadefrag.messages import warn, warnOfOne
 from yadefrag.names import bodyNumber
 from yadefrag.script_calls import requireBetweenSteps
 from yadefrag.values import positive
@@ -44,7 +44,7 @@ def bondAll(self, tolerance, strength, energy):
     energy     J/m², as in bond
     ValueError, before any change, if no sides match.
     """
-    requirePaused()
+    requireBetweenSteps()
     tolerance = positive('tolerance', tolerance, 'm')
     sides, unmatched, bodies, place, problem = self._bondAll(
         tolerance, positive('strength', strength, 'Pa'), positive('energy', energy, 'J/m²'))
@@ -60,5 +60,5 @@ def bondAll(self, tolerance, strength, energy):
     if not sides:
         raise ValueError('bondAll: ' + problem)
     if problem:
-        warnings.warn('bondAll: ' + problem, stacklevel=2)
+        warn('bondAll: ' + problem)
     return sides

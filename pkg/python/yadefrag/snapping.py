@@ -1,11 +1,10 @@
 """Outlines moved onto their neighbours: rounded coordinates make gaps and overlaps."""
 
-import warnings
-
 import numpy
 
 from yadefrag import _yadefrag
 from yadefrag.meshing import simplified
+from yadefrag.messages import warnOfOne
 from yadefrag.values import number, pointsOf, positive, refuse
 
 OVERLAP = .05    # of the size: overlaps up to this are removed without a request
@@ -122,7 +121,7 @@ def _advised(fe, outline, overlap, snap, size, displacement):
 
 def _changes(fe, outline, tolerance, size):
     try:
-        _, moved, inserted, _ = outline.snapped(fe, tolerance, size, matches=True)
+        _, moved, inserted, _ = outline.snapped(fe, tolerance, size, matches=False)
     except ValueError:  # it would collapse
         return False
     return moved + inserted > 0
@@ -131,9 +130,9 @@ def _changes(fe, outline, tolerance, size):
 def _tell(body, moved, inserted, farthest, size):
     if farthest <= _TOLD * size:
         return
-    warnings.warn('addPolygon: of body %d, %d vertices were moved onto the bodies beside it, and %d '
+    warnOfOne('addPolygon: of body %d, %d vertices were moved onto the bodies beside it, and %d '
                   'of theirs were inserted; the outline has changed by at most %.3g m (snap=).' %
-                  (body, moved, inserted, farthest), stacklevel=4)
+                  (body, moved, inserted, farthest), 'bodies', body)
 
 
 def jointToleranceOf(snap, size):
@@ -143,9 +142,9 @@ def jointToleranceOf(snap, size):
 
 def tellJoined(body, count, farthest, size):
     if count:
-        warnings.warn('addPolygon: of the joints of body %d, %d ends, crossings and bends near another '
+        warnOfOne('addPolygon: of the joints of body %d, %d ends, crossings and bends near another '
                       'line were joined with it, and moved by at most %.3g m, %.2g of the size (snap=).'
-                      % (body, count, farthest, farthest / size), stacklevel=3)
+                      % (body, count, farthest, farthest / size), 'bodies', body)
 
 
 def costAdvice(fe, body, size, outline, hasJoints, jointTolerance, meshOf):

@@ -416,8 +416,8 @@ def install():
     """Adds the methods to FESolver, and prevents O.bodies.erase and clumps from using its
     bodies."""
     wrapper.FESolver.addPolygon = inWords(addPolygon, _arrangedPolygon)
-    for method in (addTriangles, bond, bondAll, prescribe, rotate, nodesOf, componentOf, pressure, absorb, relax, reaction,
-                   contactForce, meshQuality):
+    for method in (addTriangles, bond, bondAll, prescribe, rotate, nodesOf, componentOf, pressure, absorb,
+                   relax, reaction, contactForce, meshQuality):
         setattr(wrapper.FESolver, method.__name__, inWords(method))
     for name, read in (('principalStress', principalStress), ('crackCounts', crackCounts), ('minAngle', _minAngle),
                        ('energy', energy)):
