@@ -181,7 +181,7 @@ bool JointNetwork::bend() {
   const auto numPoints = static_cast<std::uint32_t>(points_.size());
   std::vector<Box> boxes;
   for (const std::vector<Side>* sides : {&own, &fixed})
-    for (const Side side : *sides) boxes.push_back(boxOf(lineOf(side), 0));
+    for (const Side& side : *sides) boxes.push_back(boxOf(lineOf(side), 0));
   for (const Vec2 p : points_) boxes.push_back(boxOf({p, p}, reachAt(p)));
   const std::size_t firstFixed = own.size(), firstPoint = firstFixed + fixed.size();
   for (const auto& [first, second] : sortedPairs(boxes)) {

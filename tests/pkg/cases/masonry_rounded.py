@@ -1,7 +1,7 @@
 """Running bond, turned by an angle, with the coordinates that a file has (rounded to so many digits): each brick's corner
 lies on the middle of a side of another one, so rounding makes overlaps of 10^-digits m.
-Expected: touching bodies from a file can be added, or the message states the overlap and the remedy. Once seen: refused in 18 to
-20 of 20 angles for 2 to 10 digits; the message has neither; no argument permits it.
+Expected: touching bodies from a file can be added, or the message states the overlap and the remedy. Once seen: refused in
+18 to 20 of 20 angles for 2 to 10 digits; the message has neither; no argument permits it.
     scripts/yade -n -x tests/pkg/cases/masonry_rounded.py"""
 import numpy as np
 from yadefrag import *
