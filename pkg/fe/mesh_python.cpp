@@ -6,6 +6,7 @@
 #include "fe/fe_arrays.hpp"
 #include "fe/fe_solver.hpp"
 #include "mesh/mesh_quality.hpp"
+#include "mesh/narrowest.hpp"
 #include "mesh/polygon.hpp"
 #include "mesh/simplify.hpp"
 #include "mesh/structured.hpp"
@@ -76,6 +77,13 @@ py::list keptVertices(const py::object& outline, const py::list& holes, double t
       kept.append(toArray(loop, "uint32", 0));
     return kept;
   });
+}
+
+py::tuple narrowestOf(const py::list& loops) {
+  std::vector<std::vector<Vec2>> points;
+  for (int i = 0; i < py::len(loops); ++i) points.push_back(fromBytes<Vec2>(loops[i]));
+  const NarrowPlace place = narrowestPlace(points);
+  return py::make_tuple(place.distance, place.corner);
 }
 
 py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,

@@ -25,6 +25,8 @@ yade::py::dict meshOfPolygon(const yade::py::object& outline, const yade::py::li
 /// (mesh/simplify.hpp). `pinned` has a byte for each point of the outline, or is empty.
 yade::py::list keptVertices(const yade::py::object& outline, const yade::py::list& holes,
                             double tolerance, const yade::py::object& pinned);
+/// (m, corner counted over all loops) of mesh/narrowest.hpp; each loop is the bytes of its points.
+yade::py::tuple narrowestOf(const yade::py::list& loops);
 /// A regular mesh of a rectangle, as meshOfPolygon.
 yade::py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
                                bool crossed);

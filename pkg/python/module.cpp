@@ -61,6 +61,7 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("keptVertices", &yadefrag::keptVertices);
   py::def("latticeTimeStep", &yadefrag::latticeTimeStepOf);
   py::def("meshOfRectangle", &yadefrag::meshOfRectangle);
+  py::def("narrowestOf", &yadefrag::narrowestOf);
   py::def("polygonOfText", &yadefrag::polygonOfText);
   py::def("snapTogether", &yadefrag::snapTogetherOf);
   py::def("sectionsOfScene", &yadefrag::sectionsOfScene);

@@ -1,8 +1,10 @@
 """What the tests of readOutline share: files, and how far loops are from curves."""
 import os
+import warnings
 
 import numpy as np
 
+from yadefrag import readOutline
 from yadefrag.readers import loops
 
 kSquare = [(0, 0), (4, 0), (4, 4), (0, 4)]
@@ -49,3 +51,17 @@ def offEllipse(loop, centre, a, b):
     curve = np.stack([centre[0] + a * np.cos(t), centre[1] + b * np.sin(t)], axis=1)
     points = np.array(loop)
     return offLine(points, curve), offLine((points + np.roll(points, -1, axis=0)) / 2, curve)
+
+
+def read(file, tolerance=None, **more):
+    """(outlines, words of readOutline's message or '')."""
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter('always')
+        found = readOutline(file, tolerance, **more)
+    assert len(seen) < 2
+    return found, str(seen[0].message) if seen else ''
+
+
+def net(shapes):
+    """Area of outlines without their holes."""
+    return sum(area(outline) - sum(map(area, holes)) for outline, holes in shapes)

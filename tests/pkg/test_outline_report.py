@@ -7,6 +7,7 @@ import pytest
 
 import yadefrag
 from fe_scene import fe
+from outline_files import svg
 from yadefrag import outlineReport
 
 O = builtins.O
@@ -90,3 +91,56 @@ def test_wrongArguments(call, sentence):
     fe()
     with pytest.raises(ValueError, match=sentence):
         call()
+
+
+def byAllPairs(loops):
+    """(least distance of a corner to a side that does not end there, the corner)."""
+    starts = np.concatenate(loops)
+    ends = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
+    sides = ends - starts
+    best = (np.inf, None)
+    for corner in starts:
+        arms = corner - starts
+        along = np.clip((arms * sides).sum(1) / (sides**2).sum(1), 0, 1)
+        distance = np.linalg.norm(arms - along[:, None] * sides, axis=1)
+        distance[(starts == corner).all(axis=1) | (ends == corner).all(axis=1)] = np.inf
+        best = min(best, (float(distance.min()), tuple(corner)), key=lambda one: one[0])
+    return best
+
+
+@pytest.mark.parametrize('seed', range(6))
+def test_narrowestPlaceAsByAllPairs(seed):
+    """A coast with bays, and islands; also where the finest part is a small one of the whole."""
+    fe()
+    random = np.random.default_rng(seed)
+    angles = np.sort(np.concatenate([np.linspace(0, 6.2, 300), 1 + 10.**-random.integers(2, 6) * np.arange(100)]))
+    radii = 5 + random.random(len(angles))
+    coast = np.stack([radii * np.cos(angles), radii * np.sin(angles)], axis=1)
+    holes = []
+    for i, k in enumerate(random.integers(3, 20, 4)):
+        a = np.arange(k) * 2 * np.pi / k
+        star = np.stack([np.cos(a), np.sin(a)], axis=1) * random.uniform(.3, .9, (k, 1))
+        holes.append(star + (2 * (i % 2) - 1, 2 * (i // 2) - 1))
+    found = report(coast, holes)
+    distance, corner = byAllPairs([coast, *holes])
+    assert found['narrowest'] == pytest.approx(distance, rel=1e-9)
+    assert found['narrowestAt'] == corner
+
+
+def test_reportOfAFile(folder):
+    fe()
+    file = svg(folder, '<rect width="1" height="1"/><path d="M2 0h1v1h-.4v-.5h-.003v.5h-.597z"/><text>a</text>'
+               '<rect width="1" height="9" fill="none"/>')
+    found = report(file, tolerance=1e-3)
+    assert found['outlines'] == 2 and found['points'] == 12 and found['finest'] == pytest.approx(.003)
+    assert found['leftOut'] == {'texts': 1, 'shapes that are not painted': 1}
+    assert 'an edge of 0.003 m' in found['words']
+    assert found['words'].endswith('The file is read without: texts (1), shapes that are not painted (1).')
+    assert report(file, scale=2)['finest'] == pytest.approx(.006)
+    assert report(svg(folder, '<rect width="1" height="1"/>'))['leftOut'] == {}
+    with pytest.raises(TypeError, match='^scale is given, but outline is not the path of a file.$'):
+        report(kSquare, scale=2)
+    with pytest.raises(TypeError, match='^byLayer is given, but outlineReport reports on all layers'):
+        report(file, byLayer=True)
+    with pytest.raises(TypeError, match="unexpected keyword argument 'scales'"):
+        report(file, scales=2)

@@ -9,7 +9,7 @@ import pytest
 from fe_scene import fe
 from outline_files import area, corners, kSquare, offEllipse, offLine, svg, written
 from yadefrag import readOutline
-from yadefrag.readers import loops
+from yadefrag.readers import nesting
 
 
 def test_svgPolygonsAndTransforms(folder):
@@ -90,7 +90,7 @@ def test_holesAndIslands(folder):
 def test_lettersTouchingNeighboursAreNotNested():
     left, right = np.array(kSquare, dtype=float), np.array(kSquare) + (4., 0)
     low = np.array([(0, -2), (8, -2), (8, 0), (0, 0)], dtype=float)
-    assert [len(holes) for _, holes in loops.nested([left, right, low])] == [0, 0, 0]
+    assert [len(holes) for _, holes in nesting.nested([(loop, []) for loop in (left, right, low)])] == [0, 0, 0]
 
 
 def test_geoJson(folder):

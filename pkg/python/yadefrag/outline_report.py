@@ -1,23 +1,25 @@
 """Effect of an outline's finest feature on the time step, before a mesh is made."""
 
-import math
+import os
 
 import numpy
 
 from yadefrag import _yadefrag
 from yadefrag.materials import oneMaterial
 from yadefrag.meshing import simplified
+from yadefrag.outlines import outlinesOf
+from yadefrag.readers import leftOutWords
 from yadefrag.values import pointsOf, positive, refuse
 
-_CHUNK = 2 * 10**6  # pairs of a point and an edge per block
 
-
-def outlineReport(outline, holes=(), *, size, material, simplify=None):
+def outlineReport(outline, holes=(), *, size, material, simplify=None, **reading):
     """A dict with the effect of an outline's finest features on the time step; no mesh is made.
 
-    outline, holes, simplify  as in addPolygon
+    outline, holes, simplify  as in addPolygon; or `outline` is the path of a file, of whose outlines the
+              finest one is reported
     size      m, desired length of the triangles' edges
     material  an FEMat, its label or its number in O.materials
+    reading   for a file: `tolerance`, `scale`, `gap`, `leastArea`, `layers` of readOutline
     points        number of points of the outline and the holes, after `simplify`
     shortestEdge  m; shortestEdgeAt: its middle (x, y)
     narrowest     m, least distance between a corner and a side that does not end there, through the
@@ -26,26 +28,48 @@ def outlineReport(outline, holes=(), *, size, material, simplify=None):
     timeStep      s, critical time step of equilateral triangles with edges `finest`
     ratio         critical time step for `size` over timeStep: factor of the number of steps
     words         all this in one sentence
+    outlines, leftOut  of a file: the number of outlines; and what is not read, as a dict {what: number}
     A mesh has triangles with such edges there, but of other shapes: its critical time step is
-    between half and three times timeStep. ValueError as addPolygon.
+    between half and three times timeStep. ValueError as addPolygon and readOutline.
     """
-    points = pointsOf('outline', outline, 3)
     size = positive('size', size, 'm')
     material = oneMaterial(material)
+    if isinstance(outline, (str, os.PathLike)):
+        return _ofFile(outline, size, material, {**reading, 'simplify': simplify})
+    if reading:
+        raise TypeError('%s is given, but outline is not the path of a file.' % ', '.join(reading))
+    points = pointsOf('outline', outline, 3)
     if isinstance(holes, (str, bytes, dict, set)) or not hasattr(holes, '__iter__'):
         refuse('holes', holes, 'a list of loops of points (x, y) in m')
     loops = [points] + [pointsOf('holes[%d]' % i, hole, 3) for i, hole in enumerate(holes)]
     if simplify is not None:
         outline, holes, _ = simplified(points, loops[1:], simplify, None)
         loops = [outline, *holes]
-    starts = numpy.concatenate(loops)
-    ends = numpy.concatenate([numpy.roll(loop, -1, axis=0) for loop in loops])
+    return _report([loops], size, material)
+
+
+def _ofFile(file, size, material, reading):
+    if 'byLayer' in reading:
+        raise TypeError('byLayer is given, but outlineReport reports on all layers, or on those of layers=.')
+    shapes, leftOut = outlinesOf(file, **reading)
+    report = _report([[numpy.array(loop) for loop in (outline, *holes)] for outline, holes in shapes],
+                     size, material)
+    report.update(outlines=len(shapes), leftOut=leftOut)
+    if leftOut:
+        report['words'] += ' The file is read without: %s.' % leftOutWords(leftOut)
+    return report
+
+
+def _report(shapes, size, material):
+    """Of a list of lists of loops."""
+    starts = numpy.concatenate([loop for loops in shapes for loop in loops])
+    ends = numpy.concatenate([part for loops in shapes for loop in loops for part in (loop[1:], loop[:1])])
     lengths = numpy.linalg.norm(ends - starts, axis=1)
     shortest = int(lengths.argmin())
-    narrowest, corner = _narrowest(starts, ends)
+    narrowest, place = min((_narrowest(loops) for loops in shapes), key=lambda one: one[0])
     report = dict(points=len(starts), shortestEdge=float(lengths[shortest]),
                   shortestEdgeAt=tuple(((starts + ends) / 2)[shortest].tolist()),
-                  narrowest=narrowest, narrowestAt=tuple(starts[corner].tolist()))
+                  narrowest=narrowest, narrowestAt=place)
     report['finest'] = finest = min(size, report['shortestEdge'], narrowest)
     if finest == 0:
         at = 'shortestEdgeAt' if report['shortestEdge'] == 0 else 'narrowestAt'
@@ -57,23 +81,10 @@ def outlineReport(outline, holes=(), *, size, material, simplify=None):
     return report
 
 
-def _narrowest(starts, ends):
-    """(least distance of a corner to a side that does not end there, number of the corner)."""
-    sides = ends - starts
-    squares = (sides**2).sum(axis=1)
-    least, corner = math.inf, 0
-    part = max(1, _CHUNK // len(starts))
-    for first in range(0, len(starts), part):
-        points = starts[first:first + part, None]
-        arms = points - starts
-        along = numpy.clip((arms * sides).sum(axis=2) / numpy.maximum(squares, 1e-300), 0, 1)
-        distance = numpy.linalg.norm(arms - along[:, :, None] * sides, axis=2)
-        own = (points == starts).all(axis=2) | (points == ends).all(axis=2)
-        distance[own] = math.inf
-        nearest = int(distance.min(axis=1).argmin())
-        if distance[nearest].min() < least:
-            least, corner = float(distance[nearest].min()), first + nearest
-    return least, corner
+def _narrowest(loops):
+    """(least distance of a corner to a side that does not end there, the corner's place)."""
+    distance, corner = _yadefrag.narrowestOf([loop.tobytes() for loop in loops])
+    return distance, tuple(numpy.concatenate(loops)[corner].tolist())
 
 
 def _words(report, size):

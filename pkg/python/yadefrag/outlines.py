@@ -2,17 +2,19 @@
 
 import math
 import os
+import warnings
 
 import numpy
 
 from yadefrag.meshing import simplified
-from yadefrag.readers import dxf, loops, picture, plain, svg
+from yadefrag.readers import Found, dxf, leftOutWords, loops, nesting, picture, plain, svg
 from yadefrag.values import flag, number, path, positive, refuse, shown, shownPath
 
 _GAP = 1e-6  # of the longer side of the drawing: drawings have six digits
-_LINES = {'.svg': svg.lines, '.dxf': dxf.lines, '.csv': plain.csvLines, '.wkt': plain.wktLines,
-          '.json': plain.geoJsonLines, '.geojson': plain.geoJsonLines,
-          **{ending: picture.lines for ending in picture.ENDINGS}}
+_FLAT = 1e-12  # of the square of its extent: the area of a loop that is a line
+_READERS = {'.svg': svg.read, '.dxf': dxf.readLayers, '.csv': plain.readCsv, '.wkt': plain.readWkt,
+            '.json': plain.readGeoJson, '.geojson': plain.readGeoJson,
+            **{ending: picture.read for ending in picture.ENDINGS}}
 
 
 def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None, leastArea=0., layers=None,
@@ -21,14 +23,17 @@ def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None, leastAre
 
     `for shape in readOutline('plate.svg', 1e-5, scale=1e-3): fe.addPolygon(*shape, size=...)`.
     file       its ending determines the format:
-               .svg      visible paths and basic shapes with their transforms, in units of the viewBox;
-                         y upwards, so that the page is below the origin
-               .dxf      lines, polylines with bulges, arcs, circles, ellipses, splines, also in
-                         blocks, seen from above; layers may be chosen
-               .geojson, .json, .wkt  polygons, and closed lines
-               .csv      `x, y` on each line, an empty line between two loops, # before comments
+               .svg      paths and basic shapes that are painted, with styles, transforms and clipping;
+                         a filled shape is a region by its fill rule, any other one a line; in units of
+                         the viewBox, y upwards, so that the page is below the origin
+               .dxf      lines, polylines with bulges, arcs, circles, ellipses, splines of the model
+                         space, also in blocks, seen from above; layers may be chosen
+               .geojson, .json, .wkt  polygons, and closed lines; one text, or several, e.g. one on
+                         each line
+               .csv      `x, y` on each line, an empty line between two loops, # before comments, one
+                         heading without numbers
                .png, .jpg, .jpeg, .bmp, .tif, .tiff  areas darker than middle grey; transparent areas
-                         count as white; in pixels from the lower left corner of the picture
+                         count as white; in pixels from the lower left corner of the upright picture
     tolerance  m, permitted deviation of outlines: curves get so many points that the chords are
                within it (for splines in .dxf: at the chords' middles), and the contour of a picture
                is reduced as by `simplify`. Not needed for files without curves
@@ -37,20 +42,34 @@ def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None, leastAre
                of the longer side of the drawing
     simplify   None, or m: as in addPolygon, on what has been read
     leastArea  m²: smaller loops, e.g. specks in a picture, are left out
-    layers     of a .dxf: None: all of them; or the name of one or a list of names: only those
+    layers     of a .dxf: None: all that are neither off nor frozen; or the name of one or a list of
+               names: only those, even if they are off
     byLayer    of a .dxf: True returns a dict {layer: list of (outline, holes)} instead of the list;
                lines are joined, and loops are holes, within their own layer only
-    Points inside an odd number of loops are inside: a loop within an outline is a hole, one within
-    a hole is a separate outline. All are counter-clockwise lists of (x, y) in m. ValueError with
+    What is read is what the usual viewer shows. A warning gives the number of what is left out: what
+    the file contains and a viewer hides, and what a viewer shows and is no outline, such as texts.
+    Points inside an odd number of regions are inside: a loop within an outline is a hole, one within
+    a hole is a separate outline, also if it fills the hole. What is drawn twice is read once. All are
+    counter-clockwise lists of (x, y) in m. ValueError with
     the file for an unknown format, for lines that are not closed and for a missing tolerance;
     ImportError with the name of Debian's package if a library is missing (svgelements, ezdxf,
     shapely, scikit-image); OSError for a file that cannot be read.
     """
+    found, leftOut = outlinesOf(file, tolerance, scale, gap, simplify, leastArea, layers, byLayer)
+    if leftOut:
+        warnings.warn('readOutline: %s is read without: %s.' %
+                      (shownPath(os.fspath(file)), leftOutWords(leftOut)), stacklevel=2)
+    return found
+
+
+def outlinesOf(file, tolerance=None, scale=1, gap=None, simplify=None, leastArea=0., layers=None,
+               byLayer=False):
+    """(what readOutline returns, {what is left out: number})."""
     name = path('file', file)
     ending = os.path.splitext(name)[1].lower()
-    if ending not in _LINES:
+    if ending not in _READERS:
         raise ValueError('file ends with %r, an outline can be read from one of %s.' %
-                         (ending[:20], ', '.join(_LINES)))
+                         (ending[:20], ', '.join(_READERS)))
     scale = positive('scale', scale, 'm per unit of the file')
     tolerance = None if tolerance is None else positive('tolerance', tolerance, 'm')
     gap = None if gap is None else positive('gap', gap, 'm')
@@ -65,20 +84,23 @@ def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None, leastAre
     with open(name, 'rb'):  # OSError, before a library raises another exception
         pass
     units = None if tolerance is None else tolerance / scale
-    parts = _chosen(name, dxf.linesByLayer(name, units), wanted) if ending == '.dxf' else \
-        {'': _LINES[ending](name, units)}
+    parts = _layers(name, units, wanted) if ending == '.dxf' else {'': _READERS[ending](name, units)}
+    whole = Found()
+    for part in parts.values():
+        whole.add(part)
     if not byLayer:
-        parts = {'': [line for part in parts.values() for line in part]}
+        parts = {'': whole}
+    shapesOf = {layer: _shapes(name, part, scale, gap, leastArea, whole.leftOut)
+                for layer, part in parts.items() if part.lines or part.regions or not byLayer}
     found = {}
-    for layer, part in parts.items():
-        shapes = _shapes(name, [scale * line for line in part if len(line)], gap, leastArea)
+    for layer, shapes in shapesOf.items():
         if ending in picture.ENDINGS:
             shapes = [_simplified(name, 'tolerance', tolerance, *shape) for shape in shapes]
         if simplify is not None:
             shapes = [_simplified(name, 'simplify', simplify, *shape) for shape in shapes]
         found[layer] = [(_pairs(outline), [_pairs(hole) for hole in holes])
                         for outline, holes in shapes]
-    return found if byLayer else found['']
+    return (found if byLayer else found['']), dict(whole.leftOut)
 
 
 def _names(layers):
@@ -92,40 +114,65 @@ def _names(layers):
     return names
 
 
-def _chosen(file, parts, wanted):
-    """The chosen layers of {layer: lines}; names are case-insensitive, as in the format."""
+def _layers(file, tolerance, wanted):
+    """{layer: Found} of a .dxf, or of the wanted layers; names are case-insensitive, as in the format.
+    """
     if wanted is None:
-        return parts
-    known = {layer.casefold(): layer for layer in parts}
+        return dxf.readLayers(file, tolerance, frozenset())
+    parts = dxf.readLayers(file, tolerance, frozenset(one.casefold() for one in wanted))
+    known = {layer.casefold(): layer for layer, part in parts.items() if part.lines}
     for one in wanted:
         if one.casefold() not in known:
             raise ValueError('layers has %s, but the layers with lines of %s are %s.' %
                              (shown(one), shownPath(file),
-                              ', '.join(map(repr, list(parts)[:10])) or 'none'))
+                              ', '.join(map(repr, list(known.values())[:10])) or 'none'))
     return {known[one.casefold()]: parts[known[one.casefold()]] for one in wanted}
 
 
-def _shapes(name, lines, gap, leastArea):
-    """[(outline, holes)] of arrays (n, 2)."""
-    if not lines:
-        raise ValueError('%s has no lines that could be an outline.' % shownPath(name))
-    points = numpy.concatenate(lines)
+def _shapes(name, found, scale, gap, leastArea, leftOut):
+    """[(outline, holes)] of arrays (n, 2), in m. Adds to leftOut the lines that are drawn twice."""
+    lines = [scale * line for line in found.lines if len(line)]
+    regions = [(scale * outline, [scale * hole for hole in holes]) for outline, holes in found.regions]
+    every = lines + [loop for outline, holes in regions for loop in (outline, *holes)]
+    if not every:
+        words = leftOutWords(leftOut)
+        raise ValueError('%s has no lines that could be an outline%s.' %
+                         (shownPath(name), words and '; it is read without: ' + words))
+    points = numpy.concatenate(every)
     if not numpy.isfinite(points).all():
         raise ValueError('%s has points that are not finite.' % shownPath(name))
     side = float((points.max(axis=0) - points.min(axis=0)).max())
+    gap = gap or _GAP * side or 1
     try:
-        closed = loops.joined(lines, gap or _GAP * side or 1)
+        lines = [line for line, in _once([[line] for line in lines], gap, leftOut)]
+        joined = loops.joined(lines, gap)
     except ValueError as error:
         raise ValueError('%s: %s' % (shownPath(name), error)) from None
-    closed = [loop for loop in closed if abs(loops.area(loop)) >= leastArea]
-    flat = [loop for loop in closed if abs(loops.area(loop)) <= 1e-12 * side * side]
-    if flat:
+    rings = [[loops.withoutDoubles(loops.closed(loop), gap) for loop in (outline, *holes)]
+             for outline, holes in regions] + [[loops.closed(loop)] for loop in joined]
+    rings = [[ring[:-1] for ring in those] for those in _once(rings, gap, leftOut)]
+    every = [ring for those in rings for ring in those]
+    sizes = abs(loops.areas(every))
+    flat = (sizes <= _FLAT * loops.extents(every)**2) & (sizes >= leastArea)
+    if flat.any():
         raise ValueError('%s has a loop without area at (%g, %g).' %
-                         (shownPath(name), *flat[0][0]))
-    if not closed:
+                         (shownPath(name), *every[int(flat.argmax())][0]))
+    large = iter(sizes >= leastArea)
+    rings = [[(ring, next(large)) for ring in those] for those in rings]
+    regions = [(outline, [hole for hole, isLarge in holes if isLarge])
+               for (outline, isLarge), *holes in rings if isLarge]
+    if not regions:
         raise ValueError('%s has no closed line%s.' %
                          (shownPath(name), ' around leastArea' if leastArea else ''))
-    return loops.nested(closed)
+    return nesting.nested(regions)
+
+
+def _once(shapes, gap, leftOut):
+    """The shapes, lists of lines, without those that are drawn twice."""
+    shapes, copies = loops.withoutCopies(shapes, gap)
+    if copies:
+        leftOut['second copies of a line'] += copies
+    return shapes
 
 
 def _simplified(name, argument, distance, outline, holes):

@@ -1,13 +1,37 @@
-"""Lines from files of other programs, for readOutline: one module for each kind of file.
+"""Lines and regions from files of other programs, for readOutline: one module for each kind of file.
 
-Each has `lines(name, tolerance)`, which returns a list of arrays (n, 2) in the units of the file: the
-points of an unbroken line, closed if the last point equals the first one. `tolerance` is in these
-units, None if none was given.
+Each has `read(name, tolerance)`, which returns a Found, in the units of the file. `tolerance` is in
+these units, None if none was given. What is read is what the usual viewer shows.
 """
 
+import collections
 import importlib
 
 from yadefrag.values import shownPath
+
+
+class Found:
+    """Contents of a file, or of one of its layers.
+
+    lines    arrays (n, 2), the points of an unbroken line, closed if the last equals the first one
+    regions  (outline, [holes]) of arrays (n, 2) without the first point repeated at the end
+    leftOut  {what, in the plural: number}: what a viewer shows and the reader does not read, and what
+             the file contains and a viewer does not show
+    """
+
+    def __init__(self, lines=(), regions=()):
+        self.lines, self.regions = list(lines), list(regions)
+        self.leftOut = collections.Counter()
+
+    def add(self, other):
+        self.lines += other.lines
+        self.regions += other.regions
+        self.leftOut += other.leftOut
+
+
+def leftOutWords(leftOut):
+    """'texts (3), masks (1)'."""
+    return ', '.join('%s (%d)' % pair for pair in leftOut.items())
 
 
 def needed(module, package, file):

@@ -1,10 +1,42 @@
-"""Joins lines to loops, and loops to outlines with holes."""
+"""Joins lines to loops; lines that are drawn twice."""
 
 import math
 
 import numpy
 
 from yadefrag.values import shown
+
+
+def withoutCopies(shapes, gap):
+    """(shapes, number of omitted ones): without those that repeat another one's lines, in any
+    direction. A shape is a list of lines (n, 2)."""
+    lines = [line for shape in shapes for line in shape]
+    if not lines:
+        return [], 0
+    boxes = iter(map(tuple, numpy.round(numpy.hstack(_boxes(lines)) / gap).tolist()))
+    candidates = {}
+    for i, shape in enumerate(shapes):
+        candidates.setdefault(tuple(sorted(next(boxes) for _ in shape)), []).append(i)
+    kept = []
+    for those in candidates.values():
+        found = {} if len(those) > 1 else {None: those[0]}
+        for i in those if not found else ():
+            found.setdefault(tuple(sorted(_segments(line, gap) for line in shapes[i])), i)
+        kept += found.values()
+    return [shapes[i] for i in sorted(kept)], len(shapes) - len(kept)
+
+
+def _starts(lines):
+    return numpy.cumsum([0] + [len(line) for line in lines[:-1]])
+
+
+def _segments(line, gap):
+    """The line's segments, rounded, in any direction and order, as bytes."""
+    points = numpy.round(line / gap) + 0.  # no -0
+    starts, ends = points[:-1], points[1:]
+    isTurned = (starts[:, 0] > ends[:, 0]) | (starts[:, 0] == ends[:, 0]) & (starts[:, 1] > ends[:, 1])
+    pairs = numpy.where(isTurned[:, None], numpy.hstack([ends, starts]), numpy.hstack([starts, ends]))
+    return pairs[numpy.lexsort(pairs.T)].tobytes()
 
 
 def joined(lines, gap):
@@ -16,7 +48,7 @@ def joined(lines, gap):
     """
     loops, chains = [], []
     for line in lines:
-        line = _withoutDoubles(line, gap)
+        line = withoutDoubles(line, gap)
         if len(line) < 2:
             continue
         isLoop = len(line) > 3 and math.dist(line[0], line[-1]) <= gap
@@ -28,14 +60,16 @@ def joined(lines, gap):
     return [line[:-1] for line in loops]
 
 
-def _withoutDoubles(line, gap):
+def withoutDoubles(line, gap):
     """The line without points within `gap` of the previous one; its last point is kept."""
-    kept = [0]
-    for i in range(1, len(line)):
-        if math.dist(line[i], line[kept[-1]]) > gap:
+    points, kept = line.tolist(), [0]
+    for i in range(1, len(points)):
+        if math.dist(points[i], points[kept[-1]]) > gap:
             kept.append(i)
+    if len(kept) == len(points):
+        return line
     if len(kept) > 1:
-        kept[-1] = len(line) - 1
+        kept[-1] = len(points) - 1
     return line[kept]
 
 
@@ -83,54 +117,35 @@ def _walk(chains, partner, left):
 
 def area(loop):
     """Signed area, positive for counter-clockwise loops."""
-    x, y = (loop - loop[0]).T
-    return float(x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1)) / 2
+    return float(areas([loop])[0])
 
 
-def nested(loops):
-    """[(outline, [holes])], all counter-clockwise: points inside an odd number of loops are inside.
-
-    In the order of those loops that are outlines.
-    """
-    loops = [loop if area(loop) >= 0 else loop[::-1] for loop in loops]
-    areas = [area(loop) for loop in loops]
-    places = [_inside(loop) for loop in loops]
-    boxes = [(loop.min(axis=0), loop.max(axis=0)) for loop in loops]
-
-    def holds(outer, inner):
-        low, high = boxes[outer]
-        return areas[outer] > areas[inner] and (low <= places[inner]).all() and \
-            (places[inner] <= high).all() and _isIn(places[inner], loops[outer])
-
-    around = [[o for o in range(len(loops)) if holds(o, i)] for i in range(len(loops))]
-    holes = {i: [] for i, those in enumerate(around) if len(those) % 2 == 0}
-    for i, those in enumerate(around):
-        if i not in holes:
-            holes[min(those, key=lambda o: areas[o])].append(loops[i])
-    return [(loops[i], those) for i, those in holes.items()]
+def areas(loops):
+    """Signed areas of a list of loops (n, 2)."""
+    if not loops:
+        return numpy.zeros(0)
+    starts, lengths = _starts(loops), [len(loop) for loop in loops]
+    points = numpy.concatenate(loops)
+    points = points - numpy.repeat(points[starts], lengths, axis=0)
+    after = numpy.arange(1, len(points) + 1)
+    after[numpy.append(starts[1:], len(points)) - 1] = starts
+    (x, y), (nextX, nextY) = points.T, points[after].T
+    return numpy.add.reduceat(x * nextY - y * nextX, starts) / 2
 
 
-def _inside(loop):
-    """A point inside a loop: the middle of the first widest interval on a horizontal line."""
-    heights = numpy.unique(loop[:, 1])
-    steps = numpy.diff(heights)
-    if not len(steps):
-        return loop[0]
-    widest = int(steps.argmax())
-    y = (heights[widest] + heights[widest + 1]) / 2
-    x = numpy.sort(_crossings(loop, y))
-    gaps = numpy.diff(x)[::2]
-    best = 2 * int(gaps.argmax())
-    return numpy.array([(x[best] + x[best + 1]) / 2, y])
+def extents(loops):
+    """The longer side of the box around each of a list of loops."""
+    if not loops:
+        return numpy.zeros(0)
+    low, high = _boxes(loops)
+    return (high - low).max(axis=1)
 
 
-def _crossings(loop, y):
-    """x of the points where the loop crosses the height y."""
-    after = numpy.roll(loop, -1, axis=0)
-    crosses = (loop[:, 1] > y) != (after[:, 1] > y)
-    a, b = loop[crosses], after[crosses]
-    return a[:, 0] + (y - a[:, 1]) * (b[:, 0] - a[:, 0]) / (b[:, 1] - a[:, 1])
+def _boxes(lines):
+    points, starts = numpy.concatenate(lines), _starts(lines)
+    return numpy.minimum.reduceat(points, starts), numpy.maximum.reduceat(points, starts)
 
 
-def _isIn(place, loop):
-    return int((_crossings(loop, place[1]) > place[0]).sum()) % 2 == 1
+def closed(loop):
+    """The loop as a line that ends where it begins."""
+    return numpy.concatenate([loop, loop[:1]])

@@ -1,18 +1,20 @@
-"""Lines from files without curves: CSV, GeoJSON, WKT."""
+"""Contents of files without curves: CSV, GeoJSON, WKT."""
 
 import json
 import re
 
 import numpy
 
-from yadefrag.readers import needed, refuseFile
+from yadefrag.readers import Found, needed, refuseFile
 from yadefrag.values import shown, shownPath
 
 _PACKAGE = 'python3-shapely'
+_WKT = re.compile(r'\s*;*\s*(?:SRID\s*=\s*\d+\s*;)?\s*([A-Z]+[^()]*?(?:EMPTY|(?=\()))', re.IGNORECASE)
 
 
-def csvLines(name, tolerance):
-    """`x, y` on each line, an empty line between two loops, # before a comment, one heading."""
+def readCsv(name, tolerance):
+    """`x, y` on each line, an empty line between two loops, # before a comment, one heading without
+    numbers. Numbers with a decimal comma are separated by semicolons."""
     with open(name, encoding='utf-8-sig', errors='replace') as file:
         rows = file.read().splitlines()
     loops, mayBeHeading = [[]], True
@@ -22,62 +24,120 @@ def csvLines(name, tolerance):
             if not row.strip():
                 loops.append([])
             continue
-        point = _point(words)
-        if point is None and not mayBeHeading:
+        cells = _cells(words)
+        numbers = list(map(_number, cells))
+        if len(cells) == 2 and None not in numbers:
+            loops[-1].append(numbers)
+        elif not mayBeHeading or numbers.count(None) < len(numbers):
             raise ValueError('%s, line %d: %s, it must be two numbers x, y.' %
                              (shownPath(name), number, shown(words)))
         mayBeHeading = False
-        if point is not None:
-            loops[-1].append(point)
-    return [numpy.array(loop + loop[:1]) for loop in loops if loop]
+    return Found([numpy.array(loop + loop[:1]) for loop in loops if loop])
 
 
-def _point(words):
-    """(x, y), or None."""
-    cells = [cell for cell in re.split(r'[\s,;]+', words) if cell]
+def _cells(words):
+    if ';' in words and re.search(r'\d,\d', words):
+        words = words.replace(',', '.')
+    return words.replace(',', ' ').replace(';', ' ').split()
+
+
+def _number(cell):
     try:
-        point = tuple(map(float, cells))
+        return float(cell)
     except ValueError:
         return None
-    return point if len(point) == 2 else None
 
 
-def geoJsonLines(name, tolerance):
+def readGeoJson(name, tolerance):
+    """One GeoJSON text, or one on each line."""
     geometry = needed('shapely.geometry', _PACKAGE, name)
+    found = Found()
     try:
         with open(name, encoding='utf-8-sig') as file:
-            data = json.load(file)
-        return [line for one in _geometries(data) for line in _linesOf(geometry.shape(one))]
+            text = file.read()
+        for data in _texts(text):
+            for one in _geometries(data, found.leftOut):
+                _add(found, geometry.shape(one))
     except Exception as error:  # of the library, of JSON and of missing members
         refuseFile(name, 'GeoJSON file', error)
+    return found
 
 
-def _geometries(data):
+def _texts(text):
+    """All JSON values of a text; RFC 8142 separates them by the character 30."""
+    decoder, place, values = json.JSONDecoder(), 0, []
+    text = text.replace('\x1e', ' ').strip()
+    while place < len(text) or not values:
+        value, place = decoder.raw_decode(text, place)
+        values += value if isinstance(value, list) else [value]
+        while place < len(text) and text[place].isspace():
+            place += 1
+    return values
+
+
+def _geometries(data, leftOut):
     """The geometries of a collection of features, of one feature, or of a geometry itself."""
     kind = data['type']
     if kind == 'FeatureCollection':
-        return [one for feature in data['features'] for one in _geometries(feature)]
+        return [one for feature in data['features'] for one in _geometries(feature, leftOut)]
     if kind == 'Feature':
-        return [] if data['geometry'] is None else [data['geometry']]
+        if data['geometry'] is None:
+            leftOut['features without geometry'] += 1
+            return []
+        data = data['geometry']
+    if data['type'] == 'GeometryCollection':
+        return [one for part in data['geometries'] for one in _geometries(part, leftOut)]
     return [data]
 
 
-def wktLines(name, tolerance):
+def readWkt(name, tolerance):
+    """Geometries one after another, e.g. one on each line."""
     wkt = needed('shapely.wkt', _PACKAGE, name)
     with open(name, encoding='utf-8-sig', errors='replace') as file:
         text = file.read()
+    found = Found()
     try:
-        return _linesOf(wkt.loads(text))
+        for one in _wktTexts(text):
+            _add(found, wkt.loads(one))
     except Exception as error:  # of the library
         refuseFile(name, 'WKT file', error)
+    return found
 
 
-def _linesOf(shape):
-    """[(n, 2)] of shapely's shapes; points give no lines."""
+def _wktTexts(text):
+    """The text of each geometry: up to the bracket that closes its first one."""
+    place, texts = 0, []
+    while text[place:].strip(' \t\r\n;,'):
+        start = _WKT.match(text, place)
+        if not start:
+            raise ValueError('%s is not the beginning of a geometry' % shown(text[place:].strip()))
+        place = start.end()
+        depth = 0
+        if not start.group(1).upper().endswith('EMPTY'):
+            for place in range(start.end(), len(text)):
+                depth += (text[place] == '(') - (text[place] == ')')
+                if depth == 0:
+                    break
+            place += 1
+        texts.append(text[start.start(1):place])
+    return texts
+
+
+def _add(found, shape):
+    """Adds shapely's shapes; points are left out."""
     if hasattr(shape, 'geoms'):
-        return [line for part in shape.geoms for line in _linesOf(part)]
-    if shape.geom_type == 'Polygon':
-        return [line for ring in (shape.exterior, *shape.interiors) for line in _linesOf(ring)]
-    if shape.geom_type not in ('LineString', 'LinearRing') or shape.is_empty:
-        return []
-    return [numpy.array(shape.coords, dtype=float)[:, :2]]
+        for part in shape.geoms:
+            _add(found, part)
+    elif shape.is_empty:
+        found.leftOut['empty geometries'] += 1
+    elif shape.geom_type == 'Polygon':
+        outline, *holes = (_plane(ring)[:-1] for ring in (shape.exterior, *shape.interiors))
+        found.regions.append((outline, holes))
+    elif shape.geom_type in ('LineString', 'LinearRing'):
+        found.lines.append(_plane(shape))
+    else:
+        found.leftOut['points'] += 1
+
+
+def _plane(line):
+    return numpy.array(line.coords, dtype=float)[:, :2]

@@ -1,0 +1,235 @@
+"""Style of SVG elements: attributes, style sheets, inheritance; which paint can be seen."""
+
+import re
+
+INITIAL = {'fill': 'black', 'stroke': 'none', 'fill-rule': 'nonzero', 'clip-rule': 'nonzero',
+           'visibility': 'visible', 'fill-opacity': '1', 'stroke-opacity': '1', 'stroke-width': '1',
+           'color': 'black', 'marker-start': 'none', 'marker-mid': 'none', 'marker-end': 'none',
+           'stroke-dasharray': 'none', 'font-size': '16'}
+_OWN = {'display': 'inline', 'opacity': '1', 'clip-path': 'none', 'mask': 'none', 'filter': 'none',
+        'transform': '', 'transform-origin': '', 'transform-box': 'view-box', 'overflow': 'hidden'}
+_PAINTS = ('fill', 'stroke')
+_SERVERS = ('linearGradient', 'radialGradient', 'pattern')
+_HREFS = ('href', '{http://www.w3.org/1999/xlink}href')
+_WHITE = 0xffffffff
+_NAME = r'[\w\u0080-\uffff-]+'
+_PART = re.compile(r'(?P<type>%s|\*)|#(?P<id>%s)|\.(?P<class>%s)|:(?P<first>first-child)(?![\w(-])'
+                   r'|\[\s*(?P<key>%s)\s*(?:(?P<how>[~|^$*]?=)\s*["\']?(?P<value>[^"\'\]]*)["\']?\s*)?\]'
+                   % ((_NAME,) * 4))
+_MATCHES = {None: lambda has, value: True, '=': lambda has, value: has == value,
+            '~=': lambda has, value: value in has.split(),
+            '|=': lambda has, value: has == value or has.startswith(value + '-'),
+            '^=': lambda has, value: bool(value) and has.startswith(value),
+            '$=': lambda has, value: bool(value) and has.endswith(value),
+            '*=': lambda has, value: bool(value) and value in has}
+
+
+def tagOf(element):
+    """The name without SVG's namespace; '' for comments and elements of other namespaces."""
+    if not isinstance(element.tag, str):
+        return ''
+    space, _, tag = element.tag.rpartition('}')
+    return tag if space in ('', '{http://www.w3.org/2000/svg') else ''
+
+
+def declarations(text):
+    """[(property, value, is important)]."""
+    found = []
+    for one in re.sub(r'/\*.*?\*/', '', text, flags=re.DOTALL).split(';'):
+        key, colon, value = one.partition(':')
+        value, important, _ = value.partition('!')
+        if colon:
+            found.append((key.strip().lower(), value.strip(), bool(important)))
+    return found
+
+
+class Sheets:
+    """The style sheets of a document."""
+
+    def __init__(self, root, leftOut):
+        self.parents = {child: parent for parent in root.iter() for child in parent}
+        self._rules, self._leftOut = [], leftOut
+        for element in root.iter():
+            if tagOf(element) == 'style' and element.get('type', 'text/css') in ('text/css', ''):
+                self._read(''.join(element.itertext()))
+        self._rules.sort(key=lambda rule: rule[0])  # stable: of equal ones, the last one holds
+
+    def _read(self, text):
+        text = re.sub(r'/\*.*?\*/|<!--|-->', '', text, flags=re.DOTALL)
+        imports = re.findall(r'@import[^;]*;?', text)
+        if imports:
+            self._leftOut['imported style sheets'] += len(imports)
+        text = re.sub(r'@(import|charset|namespace)[^;]*;', '', text)
+        # Of blocks of rules only those for a screen; of other blocks, such as fonts, none.
+        text = re.sub(r'@media\b([^{]*)\{((?:[^{}]*\{[^{}]*\})*)[^{}]*\}', lambda found: found[2] if re.search(
+            r'^\s*$|\b(all|screen)\b', found[1]) else '', text)
+        text = re.sub(r'@[^{]*\{(?:[^{}]*\{[^{}]*\})*[^{}]*\}', '', text)
+        for selectors, block in re.findall(r'([^{}]+)\{([^{}]*)\}', text):
+            for selector in selectors.split(','):
+                steps = _steps(selector.strip())
+                if steps is None:
+                    self._leftOut['style rules with an unusual selector'] += 1
+                else:
+                    self._rules.append((_specificity(steps), steps, declarations(block)))
+
+    def own(self, element):
+        """{property: value} of the element itself."""
+        cascade = [(key, value, 0) for key, value in element.attrib.items()]
+        cascade += [(key, value, 2 * isImportant + 1) for _, steps, block in self._rules
+                    if self._matches(element, steps) for key, value, isImportant in block]
+        cascade += [(key, value, 2 * isImportant + 1)
+                    for key, value, isImportant in declarations(element.get('style', ''))]
+        cascade.sort(key=lambda one: one[2])
+        found = {}
+        for key, value, _ in cascade:
+            value = value.strip()
+            for one in ('marker-start', 'marker-mid', 'marker-end') if key == 'marker' else (key,):
+                if one not in _PAINTS or value == 'inherit' or isPaint(value):
+                    found[one] = value
+        return found
+
+    def computed(self, element, parent):
+        """{property: value} with what the element inherits from `parent`, a dict like it."""
+        style = {**_OWN, **{key: parent[key] for key in INITIAL}}
+        for key, value in self.own(element).items():
+            style[key] = parent.get(key, '') if value == 'inherit' else value
+        for key in _PAINTS:
+            if style[key].lower() == 'currentcolor':
+                style[key] = style['color']
+        return style
+
+    def around(self, element):
+        """What the element inherits from its own parents."""
+        parent = self.parents.get(element)
+        return INITIAL if parent is None else self.computed(parent, self.around(parent))
+
+    def _matches(self, element, steps):
+        """True if the element matches the last of the steps (combinator, parts)."""
+        (combinator, parts), *before = steps[::-1]
+        if element is None or not all(self._has(element, part) for part in parts):
+            return False
+        before = before[::-1]
+        if combinator == '':
+            return True
+        if combinator in '+~':
+            siblings = list(self.parents.get(element, ()))
+            earlier = siblings[:siblings.index(element)] if siblings else []
+            return any(self._matches(one, before) for one in earlier[-1 if combinator == '+' else 0:])
+        parent = self.parents.get(element)
+        while parent is not None:
+            if self._matches(parent, before):
+                return True
+            parent = None if combinator == '>' else self.parents.get(parent)
+        return False
+
+    def _has(self, element, part):
+        if part['type']:
+            return part['type'] in ('*', tagOf(element))
+        if part['id']:
+            return element.get('id') == part['id']
+        if part['class']:
+            return part['class'] in element.get('class', '').split()
+        if part['first']:
+            parent = self.parents.get(element)
+            return parent is None or parent[0] is element
+        has = element.get(part['key'])
+        return has is not None and _MATCHES[part['how']](has, part['value'] or '')
+
+
+def _steps(selector):
+    """[(combinator with what is before, parts)], or None for other selectors."""
+    steps = []
+    for word in re.findall(r'[>+~]|(?:\[[^\]]*\]|[^\s>+~\[])+', selector):
+        if word in '>+~':
+            if not steps or isinstance(steps[-1], str):
+                return None
+            steps.append(word)
+            continue
+        combinator = ''
+        if steps:
+            combinator = steps.pop() if isinstance(steps[-1], str) else ' '
+        parts, place = [], 0
+        while place < len(word):
+            part = _PART.match(word, place)
+            if part is None or part['type'] and place:
+                return None
+            parts.append(part.groupdict())
+            place = part.end()
+        steps.append((combinator, parts))
+    return steps if steps and not isinstance(steps[-1], str) else None
+
+
+def _specificity(steps):
+    parts = [part for _, those in steps for part in those]
+    types = sum(bool(part['type']) and part['type'] != '*' for part in parts)
+    ids = sum(bool(part['id']) for part in parts)
+    return ids, sum(not part['type'] and not part['id'] for part in parts), types
+
+
+def urlOf(value):
+    """The id in url(#id), or None."""
+    found = re.match(r'url\(\s*["\']?#([^"\')]+)["\']?\s*\)', value)
+    return found and found[1].strip()
+
+
+def isPaint(value):
+    return value.lower() in ('none', 'transparent', 'currentcolor', 'context-fill', 'context-stroke') \
+        or value.startswith('url(') or colour(value) is not None
+
+
+def colour(value):
+    """0xrrggbbaa, or None if it is no colour."""
+    from svgelements import Color
+    value = value.strip().lower().partition(' icc-color')[0]
+    try:
+        found = Color.parse(value)
+    except ValueError:  # svgelements accepts no fractions in rgb()
+        found = 255
+    black = re.match(r'black$|#0{3,4}$|#0{6}|#000f$|rgba?\(|hsla?\(', value)
+    return None if found is None or found == 255 and not black else found & 0xffffffff
+
+
+def isSeen(paint, opacity, ids):
+    """True if a paint of that opacity leaves a trace."""
+    if fraction(opacity) <= 0:
+        return False
+    if paint.startswith('url('):
+        fallback = paint.partition(')')[2].strip()
+        server = ids.get(urlOf(paint))
+        if server is None or tagOf(server) not in _SERVERS:
+            return bool(fallback) and isSeen(fallback, '1', ids)
+        return tagOf(server) == 'pattern' or _hasStops(server, ids)
+    found = colour(paint)
+    return found is not None and found & 0xff > 0
+
+
+def isPattern(paint, ids):
+    server = ids.get(urlOf(paint))
+    return server is not None and tagOf(server) == 'pattern'
+
+
+def _hasStops(gradient, ids):
+    """A gradient may refer to another one that has its colours."""
+    known = []
+    while gradient is not None and gradient not in known:
+        if any(tagOf(child) == 'stop' for child in gradient):
+            return True
+        known.append(gradient)
+        gradient = ids.get(hrefOf(gradient)[1:])
+    return False
+
+
+def hrefOf(element):
+    return next((element.get(key) for key in _HREFS if key in element.attrib), '').strip()
+
+
+def isWhite(paint):
+    return colour(paint) == _WHITE
+
+
+def fraction(text):
+    """An opacity: a number or a percentage; 1 for anything else."""
+    try:
+        return float(text[:-1]) / 100 if text.endswith('%') else float(text)
+    except ValueError:
+        return 1.
