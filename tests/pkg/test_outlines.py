@@ -90,7 +90,7 @@ def test_holesAndIslands(folder):
 def test_lettersTouchingNeighboursAreNotNested():
     left, right = np.array(kSquare, dtype=float), np.array(kSquare) + (4., 0)
     low = np.array([(0, -2), (8, -2), (8, 0), (0, 0)], dtype=float)
-    assert [len(holes) for _, holes in nesting.nested([(loop, []) for loop in (left, right, low)])] == [0, 0, 0]
+    assert [len(holes) for _, holes in nesting.nested([(loop, []) for loop in (left, right, low)], '')] == [0, 0, 0]
 
 
 def test_geoJson(folder):

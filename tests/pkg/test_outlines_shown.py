@@ -259,6 +259,15 @@ def test_csvDecimalComma(folder):
     assert corners(outline) == [(x + .5, y) for x, y in kSquare]
 
 
+@pytest.mark.parametrize('encoding', ['utf-8', 'utf-8-sig', 'utf-16'])
+def test_csvOfSpreadsheets(folder, encoding):
+    file = os.path.join(folder, 'a.csv')
+    with open(file, 'w', encoding=encoding) as out:
+        out.write('"Länge";"y"\n"0";"0"\n"4";"0"\n"4";"4"\n"0,5";"4"\n')
+    (outline, _), = readOutline(file)
+    assert corners(outline) == [(0, 0), (4, 0), (4, 4), (.5, 4)]
+
+
 def flag(x, y):
     """An L: of the eight positions of a picture no two are equal."""
     return (x < 8) & (y < 28) & (x > 2) & (y > 2) | (x < 18) & (y < 7) & (x > 2) & (y > 2)

@@ -147,7 +147,9 @@ def _shapes(name, found, scale, gap, leastArea, leftOut):
         lines = [line for line, in _once([[line] for line in lines], gap, leftOut)]
         joined = loops.joined(lines, gap)
     except ValueError as error:
-        raise ValueError('%s: %s' % (shownPath(name), error)) from None
+        words = leftOutWords(leftOut)
+        raise ValueError('%s: %s%s' % (shownPath(name), error,
+                                       words and ' The file is read without: %s.' % words)) from None
     rings = [[loops.withoutDoubles(loops.closed(loop), gap) for loop in (outline, *holes)]
              for outline, holes in regions] + [[loops.closed(loop)] for loop in joined]
     rings = [[ring[:-1] for ring in those] for those in _once(rings, gap, leftOut)]
@@ -164,7 +166,7 @@ def _shapes(name, found, scale, gap, leastArea, leftOut):
     if not regions:
         raise ValueError('%s has no closed line%s.' %
                          (shownPath(name), ' around leastArea' if leastArea else ''))
-    return nesting.nested(regions)
+    return nesting.nested(regions, name)
 
 
 def _once(shapes, gap, leftOut):

@@ -6,16 +6,18 @@ A region is (outline, [holes]) of arrays (n, 2). Points inside an odd number of 
 import numpy
 
 from yadefrag.readers.loops import areas
+from yadefrag.values import shownPath
 
 _CHUNK = 2 * 10**6  # pairs of an edge and a place per block
 
 
-def nested(regions):
+def nested(regions, file):
     """[(outline, [holes])], all counter-clockwise, in the order of the regions whose outlines are
     outlines.
 
     A region inside another one is a hole of it, and its own holes are outlines. A region in a hole of
-    another one is outside that one, even if it fills the hole.
+    another one is outside that one, even if it fills the hole. ValueError, with the file and a place,
+    for some of the regions that cross one another; others are not noticed.
     """
     signed = iter(areas([loop for outline, holes in regions for loop in (outline, *holes)]) >= 0)
     regions = [(_turned(outline, next(signed)), [_turned(hole, next(signed)) for hole in holes])
@@ -23,13 +25,18 @@ def nested(regions):
     inside = around(regions)
     if any(len(those) % 2 and regions[i][1] for i, those in enumerate(inside)):
         return nested([one for i, region in enumerate(regions)
-                       for one in _parts(*region, len(inside[i]) % 2)])
+                       for one in _parts(*region, len(inside[i]) % 2)], file)
     sizes = areas([outline for outline, _ in regions])
     shapes = {i: (regions[i][0], list(regions[i][1])) for i, those in enumerate(inside)
               if len(those) % 2 == 0}
     for i, those in enumerate(inside):
         if i not in shapes:
-            shapes[min(those, key=lambda o: sizes[o])][1].append(regions[i][0])
+            outer = min(those, key=lambda o: sizes[o])
+            if outer not in shapes:
+                raise ValueError('%s: an outline crosses another one near (%g, %g): draw one outline around '
+                                 'both, or put them on different layers or into different files.' %
+                                 (shownPath(file), *regions[i][0][0]))
+            shapes[outer][1].append(regions[i][0])
     return list(shapes.values())
 
 

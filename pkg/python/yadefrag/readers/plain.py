@@ -9,14 +9,21 @@ from yadefrag.readers import Found, needed, refuseFile
 from yadefrag.values import shown, shownPath
 
 _PACKAGE = 'python3-shapely'
+_BETWEEN = str.maketrans(',;"', '   ')
 _WKT = re.compile(r'\s*;*\s*(?:SRID\s*=\s*\d+\s*;)?\s*([A-Z]+[^()]*?(?:EMPTY|(?=\()))', re.IGNORECASE)
+
+
+def _contents(name):
+    """The text, in UTF-8, or in UTF-16 as of spreadsheets."""
+    with open(name, 'rb') as file:
+        data = file.read()
+    return data.decode('utf-16' if data[:2] in (b'\xff\xfe', b'\xfe\xff') else 'utf-8-sig', errors='replace')
 
 
 def readCsv(name, tolerance):
     """`x, y` on each line, an empty line between two loops, # before a comment, one heading without
-    numbers. Numbers with a decimal comma are separated by semicolons."""
-    with open(name, encoding='utf-8-sig', errors='replace') as file:
-        rows = file.read().splitlines()
+    numbers. Numbers may be quoted; those with a decimal comma are separated by semicolons."""
+    rows = _contents(name).splitlines()
     loops, mayBeHeading = [[]], True
     for number, row in enumerate(rows, 1):
         words = row.partition('#')[0].strip()
@@ -38,7 +45,7 @@ def readCsv(name, tolerance):
 def _cells(words):
     if ';' in words and re.search(r'\d,\d', words):
         words = words.replace(',', '.')
-    return words.replace(',', ' ').replace(';', ' ').split()
+    return words.translate(_BETWEEN).split()
 
 
 def _number(cell):
@@ -53,9 +60,7 @@ def readGeoJson(name, tolerance):
     geometry = needed('shapely.geometry', _PACKAGE, name)
     found = Found()
     try:
-        with open(name, encoding='utf-8-sig') as file:
-            text = file.read()
-        for data in _texts(text):
+        for data in _texts(_contents(name)):
             for one in _geometries(data, found.leftOut):
                 _add(found, geometry.shape(one))
     except Exception as error:  # of the library, of JSON and of missing members
@@ -93,11 +98,9 @@ def _geometries(data, leftOut):
 def readWkt(name, tolerance):
     """Geometries one after another, e.g. one on each line."""
     wkt = needed('shapely.wkt', _PACKAGE, name)
-    with open(name, encoding='utf-8-sig', errors='replace') as file:
-        text = file.read()
     found = Found()
     try:
-        for one in _wktTexts(text):
+        for one in _wktTexts(_contents(name)):
             _add(found, wkt.loads(one))
     except Exception as error:  # of the library
         refuseFile(name, 'WKT file', error)

@@ -73,16 +73,18 @@ class _Walk:
         box, style = _box(self.root), self.sheets.computed(self.root, INITIAL)
         size = [None if (text := style.get(side, '100%')).endswith('%') else
                 self._length(text, 0, style) for side in ('width', 'height')]
-        if box:
+        if box and 0 not in box[2:] and 0 not in size:
             width, height = (mine or whole for mine, whole in zip(size, box[2:]))
             across, down = _ratios(box, width, height, self.root.get('preserveAspectRatio', ''))
             self.page = (box[0] - across[1] / across[0], box[1] - down[1] / down[0],
                          box[0] + (width - across[1]) / across[0],
                          box[1] + (height - down[1]) / down[0])
-        elif None not in size:
+        elif not box and None not in size:
             self.page = (0, 0, *size)
         view = box[2:] if box else tuple(side or 100. for side in size)
-        if not (0 in size or box and 0 in box[2:]):
+        if 0 in size or box and 0 in box[2:]:
+            self._hide(self.root, 'shapes on a page without extent')
+        else:
             self._visit(self.root, _Place(INITIAL, numpy.eye(3), view))
         return self.found
 

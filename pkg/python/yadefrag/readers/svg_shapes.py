@@ -75,13 +75,13 @@ def _painted(item, tolerance, name):
             found.lines.append(line)
         else:
             found.leftOut['shapes that are not painted'] += 1
-    found.regions, covered = _filled(loops, item.rule)
+    found.regions, covered = _filled(loops, item.rule, name)
     if covered:
         found.leftOut['inner lines that the fill covers'] += covered
     return _clipped(found, item, tolerance, name) if item.clips else found
 
 
-def _filled(loops, rule):
+def _filled(loops, rule, name):
     """([(outline, holes)], number of loops on both sides of which there is paint)."""
     if len(loops) < 2:
         return [(loop, []) for loop in loops], 0
@@ -92,7 +92,7 @@ def _filled(loops, rule):
         outside = [sum(turns[j] for j in those) for those in nesting.around([(one, []) for one in loops])]
         kept = [loop for loop, turn, around in zip(loops, turns, outside)
                 if around == 0 or around + turn == 0]
-    return nesting.nested([(loop, []) for loop in kept]), len(loops) - len(kept)
+    return nesting.nested([(loop, []) for loop in kept], name), len(loops) - len(kept)
 
 
 def _clipped(found, item, tolerance, name):

@@ -94,8 +94,7 @@ class Sheets:
         for key, value in self.own(element).items():
             style[key] = parent.get(key, '') if value == 'inherit' else value
         for key in _PAINTS:
-            if style[key].lower() == 'currentcolor':
-                style[key] = style['color']
+            style[key] = re.sub(r'\bcurrentcolor$', style['color'], style[key], flags=re.IGNORECASE)
         return style
 
     def around(self, element):
@@ -211,7 +210,7 @@ def isPattern(paint, ids):
 def _hasStops(gradient, ids):
     """A gradient may refer to another one that has its colours."""
     known = []
-    while gradient is not None and gradient not in known:
+    while gradient is not None and gradient not in known and tagOf(gradient) in _SERVERS:
         if any(tagOf(child) == 'stop' for child in gradient):
             return True
         known.append(gradient)
