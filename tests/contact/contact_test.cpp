@@ -37,8 +37,9 @@ struct ContactScene {
   /// From where the nodes were at the end of the last step, and where they have been put since.
   void correct() {
     constexpr double kDt = 1, kShortest = 1;
+    const RigidMasses none;
     contact.correct(model, scene.surfaces, {},
-                    {kDt, 0, move, 2 * move, kShortest, 1, before, 1, rubble});
+                    {kDt, 0, move, 2 * move, kShortest, 1, before, 1, rubble, none, {}});
     before = model.nodes.position;
   }
   [[nodiscard]] const ContactRow* rowOf(SlaveMaster pair) const {
