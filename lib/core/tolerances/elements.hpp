@@ -5,8 +5,7 @@ namespace yadefrag::tolerance {
 
 /// (smaller principal stretch) An element that is inverted from below this has collapsed over many
 /// steps: its law has no limit of compression, and resists with less than 2μ + λ however flat it
-/// is. From above this it was inverted by the displacements of one step. Measured: collapses from
-/// 0.02 to 0.3 in impacts on rubber, steps that are too long from 0.7 to 1.
+/// is. From above this it was inverted by the displacements of one step.
 inline constexpr double kCollapsed = .5;
 
 }  // namespace yadefrag::tolerance

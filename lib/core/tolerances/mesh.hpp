@@ -85,18 +85,6 @@ inline constexpr int kJointRounds = 50;
 /// roundings of a coordinate.
 inline constexpr double kSnapRounding = 0x1p-50;
 
-/// (of the size) An outline that overlaps others by no more than this is moved onto them without a
-/// request: rounding to three digits gives .03 in masonry with four elements per brick.
-inline constexpr double kSnappedOverlap = .05;
-
-/// (ratio) Tolerance of that, in overlaps: in sharp corners vertices are farther from each other
-/// than the outlines overlap.
-inline constexpr double kSnapReach = 2;
-
-/// (of the size) Vertices of the neighbours nearer than this to each other give one vertex of the
-/// outline: otherwise rounding would make short edges.
-inline constexpr double kSnapSpacing = .2;
-
 /// (of an edge's length) A point this near to an edge of the boundary may lie on it and divide it.
 inline constexpr double kOnEdge = 1e-9;
 

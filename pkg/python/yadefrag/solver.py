@@ -22,88 +22,19 @@ from yadefrag.meshing import isIrregular, jointLines, leastSize, meshOfPolygon, 
 from yadefrag.messages import forget, warnOfOne
 from yadefrag.motions import keepTurning, prescribe, rotate
 from yadefrag.names import componentOf, newName, nodesOf
+from yadefrag.node_values import field, heldNodes, smoothFlags, smoothNodes
 from yadefrag.places import brittlePlaces, stressOfTriangles
 from yadefrag.quality import meshQuality
 from yadefrag.results import contactForce, crackCounts, principalStress, reaction
 from yadefrag.scene_start import addSolver
 from yadefrag.script_calls import requireBetweenSteps
 from yadefrag.shown import betweenSteps, shownTriangles
-from yadefrag.snapping import (Outline, Overlap, addSnapped, costAdvice, isClockwise,
-                               jointToleranceOf, snapTolerance, tellJoined)
-from yadefrag.values import (array, flag, number, pair, plain, pointsOf, positive, real, refuse, shown,
+from yadefrag.snapping import (Outline, Overlap, addSnapped, costAdvice, jointToleranceOf, snapTolerance,
+                               tellJoined)
+from yadefrag.values import (array, flag, number, pair, pointsOf, positive, real, refuse, shown,
                              whole)
 
 _ELEMENTS = ('linear', 'smoothed')
-_HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
-
-
-def _field(name, value, nodes, isOptional=True):
-    """(n, 2) from a pair or a function (x, y) → pair; empty for None."""
-    if value is None and isOptional:
-        return numpy.empty((0, 2))
-    if not callable(value):
-        return numpy.tile(pair(name, value), (len(nodes), 1))
-    return numpy.array([pair('%s(%g, %g)' % (name, x, y), value(x, y)) for x, y in nodes])
-
-
-def _heldNodes(fixed, nodes):
-    """(n) of 0 free, 1 held in x, 2 in y, 3 in both."""
-    if fixed is None:
-        return numpy.empty(0, dtype=numpy.uint8)
-    if not callable(fixed):
-        refuse('fixed', fixed, "a function (x, y) that returns False, True, 'x' or 'y'")
-    held = numpy.zeros(len(nodes), dtype=numpy.uint8)
-    for i, (x, y) in enumerate(nodes):
-        value = plain(fixed(x, y))
-        if not isinstance(value, (bool, str, type(None))) or value not in _HELD:
-            refuse('fixed(%g, %g)' % (x, y), value, "False, True, 'x' or 'y'")
-        held[i] = _HELD[value]
-    return held
-
-
-def _smoothFlags(smooth, count):
-    """True, False, or an array with a flag for each of the outline's `count` points."""
-    smooth = plain(smooth)
-    if isinstance(smooth, bool):
-        return smooth
-    flags = _flags(smooth)
-    if flags is None:
-        refuse('smooth', smooth, 'True, False or a flag for each point of the outline')
-    if len(flags) != count:
-        raise ValueError('smooth has %d flags, it must have one for each of the %d points of '
-                         'the outline.' % (len(flags), count))
-    return flags
-
-
-def _smoothNodes(smooth, mesh, outline=()):
-    """(n) of 0 or 1: 1 for a node on a smooth part of the boundary; empty if there are none."""
-    if isinstance(smooth, bool):
-        if not smooth:
-            return numpy.empty(0, dtype=numpy.uint8)
-        chosen = [(loop, numpy.ones(len(loop), dtype=bool)) for loop in mesh['loops']]
-    else:
-        flags, count = smooth, len(outline)
-        if isClockwise(outline):  # the mesh has it reversed, with the same first point
-            flags = flags[-numpy.arange(count) % count]
-        loop, vertices = mesh['loops'][0], mesh['loopVertices'][0]
-        # A node within an edge is smooth if both ends of the edge are.
-        isVertex = vertices != numpy.roll(vertices, 1)
-        ends = flags[vertices] & flags[(vertices.astype(int) + 1) % count]
-        chosen = [(loop, numpy.where(isVertex, flags[vertices], ends))]
-    marks = numpy.zeros(len(mesh['nodes']), dtype=numpy.uint8)
-    for loop, flags in chosen:
-        marks[loop] = flags
-    return marks
-
-
-def _flags(values):
-    """(n) of bool; None if it is not a list of True and False, or of 1 and 0."""
-    try:
-        flags = [plain(value) for value in values]
-    except TypeError:
-        return None
-    isRight = all(isinstance(f, int) and f in (0, 1) for f in flags)
-    return numpy.array(flags, dtype=bool) if isRight else None
 
 
 def _centroid(nodes, triangles):
@@ -123,14 +54,14 @@ def _add(fe, mesh, smooth, materials, velocity, spin, displacement, stress, fixe
     spin = number('spin', spin, math.isfinite, 'a finite number (rad/s)')
     selfContact = flag('selfContact', selfContact)
     thickness = positive('thickness', thickness, 'm')
-    moved = _field('displacement', displacement, nodes)
+    moved = field('displacement', displacement, nodes)
     stressed = stressOfTriangles(stress, mesh)
-    given = _field('velocity', velocity, nodes, isOptional=False)
+    given = field('velocity', velocity, nodes, isOptional=False)
     present = nodes + moved if len(moved) else nodes
     centroid = _centroid(present, triangles) if spin else numpy.zeros(2)
     arm = present - centroid
     speed = given + spin * numpy.stack([-arm[:, 1], arm[:, 0]], axis=1) if spin else given
-    held = _heldNodes(fixed, nodes)
+    held = heldNodes(fixed, nodes)
 
     def raw(values, dtype):
         return numpy.ascontiguousarray(values, dtype=dtype).tobytes()
@@ -259,7 +190,7 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     if loops is None:
         refuse('holes', holes, 'a list of loops of points (x, y) in m')
     holePoints = [pointsOf('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
-    smooth = _smoothFlags(smooth, len(points))
+    smooth = smoothFlags(smooth, len(points))
     material = material if isField(material) else oneMaterial(material)
     outline = Outline(points, holePoints, smooth)
     if simplify is not None:
@@ -278,7 +209,7 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     def add(shape):
         made = meshOf(shape, jointTolerance)
         used[:] = shape, made
-        smoothed = _smoothNodes(shape.smooth, made, shape.points)
+        smoothed = smoothNodes(shape.smooth, made, shape.points)
         materials = Materials(made, material)
         between = interfaces(made, materials, interfaceStrength, interfaceEnergy)
         places = brittlePlaces(made, materials, between, strength, fractureEnergy, lines,
@@ -319,7 +250,7 @@ def addTriangles(self, nodes, triangles, material, *, smooth=False, velocity=(0,
     materials = Materials(mesh, material)
     between = interfaces(mesh, materials, interfaceStrength, interfaceEnergy)
     places = brittlePlaces(mesh, materials, between, strength, fractureEnergy)
-    return _add(self, mesh, _smoothNodes(smooth, mesh), materials, velocity, spin, displacement,
+    return _add(self, mesh, smoothNodes(smooth, mesh), materials, velocity, spin, displacement,
                 stress, fixed, thickness, selfContact, element, places, name)
 
 
