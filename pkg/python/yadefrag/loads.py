@@ -10,7 +10,7 @@ from yadefrag import interrupts, lifecycle
 from yadefrag.guards import requireNoStep
 from yadefrag.messages import warn
 from yadefrag.motions import chosenNodes, packed, tableOrNumber
-from yadefrag.progress import runPart, warnOfNoSolver
+from yadefrag.progress import runPart
 from yadefrag.script_calls import calledInStep, requireBetweenSteps
 from yadefrag.shown import betweenSteps
 from yadefrag.values import array, flag, number, positive, refuse, shown, whole
@@ -97,7 +97,6 @@ def relax(self, tolerance=1e-6, most=10**6):
     tolerance = positive('tolerance', tolerance, 'a ratio of energies')
     most = whole('most', most)
     requireNoStep('relax')
-    warnOfNoSolver()
     before, begin = self.damping, lifecycle.stepsDone()
     try:
         with interrupts.held():
