@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.657381946929974);
-  expectNear(places.y, 1.4496491693811717);
-  expectNear(speeds, 4506.9534904611501);
-  expectNear(totalEnergy(world), 89.999313687396452);
-  expectNear(world.ledger.contact, 4.8107610605985487);
+  expectNear(places.x, 3.6572608158270685);
+  expectNear(places.y, 1.4585980196656507);
+  expectNear(speeds, 4522.855044476144);
+  expectNear(totalEnergy(world), 89.999335712563521);
+  expectNear(world.ledger.contact, 4.474922795765254);
 }
 
 }  // namespace

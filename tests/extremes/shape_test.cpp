@@ -129,8 +129,10 @@ TEST(ExtremeShape, BodiesThatOverlapAreRefused) {
             "");
   EXPECT_NE(refusal(block, structuredRectangle({.41, .41}, {.44, .44}, 1, 1)), "");
   EXPECT_NE(refusal(structuredRectangle({.41, .41}, {.44, .44}, 1, 1), block), "");
-  limit("overlap of two bodies at the start, of a segment", kNone, most,
-        "refused when added, with the other body and the place");
+  limit(
+      "overlap of two bodies at the start, of a segment", kNone, most,
+      "up to 0.05 of `size` removed, else refused when added, with the other body, the place, the "
+      "amount and a remedy");
 }
 
 /// Bodies are where they are now, not where they were; those that went are no matter.

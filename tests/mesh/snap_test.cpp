@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -58,6 +59,7 @@ TEST(Snap, VerticesThatAreNearEachOtherGiveOneVertexBehindBoth) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec2 a = points[i], b = points[(i + 1) % points.size()];
     EXPECT_GT(norm(b - a), .02);
+    if (std::max(a.x, b.x) > 1.5) continue;  // not beside the two bodies
     for (const Vec2 p : {Vec2{1.003, .5}, Vec2{1.006, .501}}) EXPECT_LT(cross(b - a, p - a), 1e-9);
   }
 }
