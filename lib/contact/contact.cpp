@@ -35,14 +35,17 @@ bool meetInConvexJoint(const ContactSurfaces& surfaces, const PieceGeometry& geo
                geometry.tangent(b, geometry.range(b).begin)) >= 0;
 }
 
-/// True if cohesion holds both sides of a row. It would undo in every step what contact does to
-/// reduce their overlap: contact would create energy, and cohesion would take it.
-bool isHeldByCohesion(const ContactRow& row, std::span<const std::uint8_t> cohesive) {
+/// True if cohesion holds both sides of a row to each other. It would undo in every step what
+/// contact does to reduce their overlap: contact would create energy, and cohesion would take it.
+bool isHeldByCohesion(const ContactRow& row, std::span<const std::uint32_t> cohesive) {
   if (cohesive.empty()) return false;
-  bool slave = false, master = false;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(row.count); ++k)
-    if (cohesive[row.node[k].value] != 0) (row.weight[k] > 0 ? slave : master) = true;
-  return slave && master;
+  const auto groupOf = [&](std::size_t k) { return cohesive[row.node[k].value]; };
+  const auto count = static_cast<std::size_t>(row.count);
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t m = 0; m < count; ++m)
+      if (row.weight[k] > 0 && row.weight[m] < 0 && groupOf(k) != 0 && groupOf(k) == groupOf(m))
+        return true;
+  return false;
 }
 
 }  // namespace

@@ -32,8 +32,9 @@ struct ContactStep {
   int threads;
   bool rubble;               ///< true: faces of cracks are included
   const RigidMasses& rigid;  ///< rigid boundaries that obey forces
-  /// By node: true if a cohesive crack holds it to another node; empty without such cracks.
-  std::span<const std::uint8_t> cohesive;
+  /// By node: number of the nodes that cohesive cracks hold to each other; 0: none. Empty without
+  /// such cracks.
+  std::span<const std::uint32_t> cohesive;
   StageTimes* times = nullptr;  ///< null: not measured
 };
 

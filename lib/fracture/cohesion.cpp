@@ -245,10 +245,11 @@ void Cohesion::addForces(std::vector<Vec2>& forces) const {
   }
 }
 
-std::vector<std::uint8_t> Cohesion::heldNodes(std::size_t nodes) const {
-  std::vector<std::uint8_t> held(points_.empty() ? 0 : nodes);
-  for (const Point& point : points_) held[point.here.value] = held[point.there.value] = 1;
-  return held;
+std::vector<std::uint32_t> Cohesion::groupsOfNodes(std::size_t nodes) const {
+  std::vector<std::uint32_t> groups(points_.empty() ? 0 : nodes);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    groups[points_[i].here.value] = groups[points_[i].there.value] = groupOf_[i] + 1;
+  return groups;
 }
 
 void Cohesion::addWork(EnergyLedger& ledger, const Model& model,

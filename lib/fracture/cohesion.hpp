@@ -59,8 +59,9 @@ class Cohesion {
 
   /// (N) Adds the forces of the present step's tractions, by node.
   void addForces(std::vector<Vec2>& forces) const;
-  /// The same nodes, as flags by node.
-  [[nodiscard]] std::vector<std::uint8_t> heldNodes(std::size_t nodes) const;
+  /// By node: number, from 1 on, of the nodes that the present step's tractions connect; 0: none.
+  /// Empty without tractions.
+  [[nodiscard]] std::vector<std::uint32_t> groupsOfNodes(std::size_t nodes) const;
 
   /// Removes cracks between removed triangles.
   void removeDropped(const Triangles& triangles, const CrackEdges& edges);
