@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -49,9 +50,11 @@ void ExplicitDynamics::requireUpright(const Model& model, double dt, double corr
       const Matrix2 now = deformationGradient(model, ElementId(e));
       if (determinant(now) > 0) continue;
       const double before = leastStretch(now - deformationStep(model, ElementId(e), dt));
+      const double change = before - leastStretch(now);
       const std::string reason = fmt::format("{} is inverted in a step of {:g} s",
                                              nameOf(model, ElementId(e), previousPosition_), dt);
-      if (before > tolerance::kCollapsed) throw RunError(reason + "; take a shorter one.");
+      if (std::max(before, change) > tolerance::kCollapsed)
+        throw RunError(reason + "; take a shorter one.");
       throw RunError(fmt::format(
           "{}, after it was pressed to {:.2g} of its height: an elastic element does not resist "
           "collapse, and a shorter step does not help; set the bulk viscosity "

@@ -36,21 +36,31 @@ Spring springOf(EntryId entry, const DiscContact& touch) {
   return {entry, touch.normal, touch.penetration / touch.unshared, touch.unshared};
 }
 
+/// True only if the two cannot touch.
+bool isFar(const BoundaryPiece& piece, const yade::Body& sphere) {
+  const auto& at = sphere.state->se3.position;
+  const double radius = static_cast<const yade::Sphere&>(*sphere.shape).radius;
+  double reach = norm(piece.end - piece.start);
+  if (piece.isArc) reach += norm(piece.middle - piece.start);
+  return norm(Vec2{at[0], at[1]} - piece.start) > radius + reach;
+}
+
 SurfaceSegment& shapeOf(const EntryBodies& bodies, EntryId entry) {
   return static_cast<SurfaceSegment&>(*bodies.body(entry).shape);
 }
 
-/// The springs of all spheres with the pieces before `last`, as these were before the step.
+/// The springs of all spheres near the boundary, touching or not, with the pieces before `last`, as
+/// these were before the step.
 std::map<BodyId, Springs> springsBefore(const yade::Scene& scene, const EntryBodies& bodies,
                                         std::size_t last) {
   std::map<BodyId, Springs> found;
   for (std::size_t e = 0; e < last; ++e) {
     if (!bodies.hasBody(EntryId(e))) continue;
     SurfaceSegment& piece = shapeOf(bodies, EntryId(e));
-    for (const auto& [id, contact] : bodies.body(EntryId(e)).intrs) {
+    for (const auto& [id, interaction] : bodies.body(EntryId(e)).intrs) {
       const yade::Body* const other = bodyOf(scene, id);
-      if (!contact->isReal() || !other || !dynamic_cast<const yade::Sphere*>(other->shape.get()))
-        continue;
+      if (!other || !dynamic_cast<const yade::Sphere*>(other->shape.get())) continue;
+      Springs& springs = found[id];
       const auto touch = contactOf(piece.piece(), *other);
       if (!touch) continue;
       const SurfaceSegment::Changed* const known = piece.changedBy(id);
@@ -59,7 +69,8 @@ std::map<BodyId, Springs> springsBefore(const yade::Scene& scene, const EntryBod
         spring.depth -= known->tolerated / spring.share;
         spring.share *= known->share;
       }
-      if (spring.depth > 0) found[id].push_back(spring);
+      spring.depth = std::max(spring.depth, 0.);
+      springs.push_back(spring);
     }
   }
   return found;
@@ -124,6 +135,7 @@ void CrackContacts::change(const yade::Scene& scene, const World& world, const E
     Springs after;
     const auto evaluate = [&](EntryId entry) {
       if (!bodies.hasBody(entry) || world.surfaces.isGone(entry)) return;
+      if (isFar(pieces.alone(entry), sphere)) return;
       const auto touch = contactOf(pieces.whole(entry), sphere);
       if (touch) after.push_back(springOf(entry, *touch));
     };

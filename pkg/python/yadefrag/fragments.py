@@ -61,6 +61,7 @@ def plotFragmentSizes(fe, file=None, ax=None, components=None):
                 bonded ones that have come apart
     ValueError if there is no such body.
     """
+    requireSolver(fe)
     if components is not None:
         components = _componentNumbers(fe, components)
     with betweenSteps(fe):
