@@ -10,6 +10,11 @@ import sys
 import pytest
 
 
+# They take minutes: begun last, one of them would run alone.
+kLongest = ['test_yade_own.py', 'test_threads.py', 'test_fe_valgrind.py', 'test_valgrind.py', 'test_cases.py',
+            'test_published.py', 'test_collider_use.py', 'test_ensemble.py']
+
+
 class Shared:
     """Pytest plugin: of the files that several processes collect, each runs those that it takes first.
 
@@ -27,6 +32,11 @@ class Shared:
         except FileExistsError:
             return False
         return True
+
+    def pytest_collection_modifyitems(self, items):
+        """The files of kLongest first, in its order."""
+        rank = {name: number for number, name in enumerate(kLongest)}
+        items.sort(key=lambda item: rank.get(item.path.name, len(rank)))
 
     @pytest.hookimpl(tryfirst=True)
     def pytest_runtest_protocol(self, item, nextitem):
@@ -49,7 +59,7 @@ def main():
     signal.signal(signal.SIGINT, signal.default_int_handler)
     if not any(os.path.exists(a.split('::')[0]) for a in arguments if not a.startswith('-')):
         arguments.append(here)
-    options = ['-q', '-p', 'no:cacheprovider', '--rootdir', here]
+    options = ['-q', '-p', 'no:cacheprovider', '--rootdir', here, '--durations=20', '--durations-min=10']
     code = int(pytest.main([*options, *arguments], plugins=plugins))
     sys.stdout.flush()
     sys.stderr.flush()

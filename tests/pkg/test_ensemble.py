@@ -57,7 +57,7 @@ def test_whatFailsIsARow():
     assert all(word in row.message for word, row in zip(words, found))
     assert [row.value for row in found] == [0, None, None, None, None]
     table = EnsembleTable(found)
-    assert str(table).splitlines()[0] == 'seed=0: 0'
+    assert str(table).splitlines()[0].startswith('seed=0: 0')  # and its time, if the machine is slow
     assert str(table).splitlines()[2] == 'seed=2: refused, no such strength.'
     assert str(table).splitlines()[-1] == 'Mean of 1 run: 0; 4 have no value.'
     line, = table.statistics()

@@ -65,7 +65,8 @@ def test_blastBeginsWithLamesSolution(folder):
     assert theory == pytest.approx(1e5 * .02 / 30e9 * (.8 * .02**2 + 1.2 * .2**2) / (.2**2 - .02**2), rel=1e-4)
     assert found['hoop stress at two radii'][0] == pytest.approx(found['hoop stress at two radii'][1], rel=.01)
     cracks, fragments, change = found['cracks']
-    assert cracks > 100 and fragments > 5 and change < 1e-4
+    # Most cracks are still held by cohesion: few parts have come apart.
+    assert cracks > 100 and fragments > 1 and change < 1e-4
 
 
 def test_paneBreaksWhereAndWhenBeamTheoryRequires(folder):

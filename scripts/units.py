@@ -1,0 +1,89 @@
+"""Sources that can be compiled as one unit: python3 scripts/units.py FILE..., one unit a line, by `;`.
+
+Most of the time of a file is spent on the headers that it includes. Several sources in one unit read
+them once. They must not have private names in common.
+"""
+import functools
+import os
+import re
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+FOLDERS = ('lib', 'pkg', 'tests')
+MOST = 8  # sources in a unit: more save little, and both cores should have work to the end
+PRIVATE = re.compile(r'^namespace \{\n(.*?)^\}  // namespace\n', re.M | re.S)
+# What a line at the left margin defines: a type, a function, constants.
+DEFINITIONS = [re.compile(pattern, re.M) for pattern in (
+    r'^(?:struct|class|enum class|enum|using) (\w+)',
+    r'^(?!using|return|namespace|[A-Z_]+\()\w[^(\n]*?\b(\w+)\(',
+    r'^(?=\w)[^(;\n]*?\b(\w+)(?=(?:\[.*\])?(?: =|\{|;))',
+    r'\b(k[A-Z]\w*)(?=(?:\[.*\])?(?: =|\{))')]
+STATIC = re.compile(r'^(?:static .*?|int (?=main))(\w+)\(', re.M)
+INCLUDE = re.compile(r'^#include "(.*)"', re.M)
+
+
+def definedIn(text):
+    """Names that the text defines at the left margin."""
+    return {name for pattern in DEFINITIONS for name in pattern.findall(text)}
+
+
+@functools.cache
+def textOf(path):
+    """The whole file."""
+    with open(path) as file:
+        return file.read()
+
+
+def headersOf(path):
+    """This project's headers that a file includes, and those that they include."""
+    found, open_ = set(), [path]
+    while open_:
+        names = INCLUDE.findall(textOf(open_.pop()))
+        paths = {os.path.join(ROOT, folder, name) for name in names for folder in FOLDERS}
+        new = {path for path in paths - found if os.path.exists(path)}
+        found |= new
+        open_ += new
+    return found
+
+
+class Unit:
+    """Sources with no private name that another source or its headers define, too."""
+
+    def __init__(self, path=None):
+        self.sources, self.private, self.own, self.seen = [], set(), set(), set()
+        if path:
+            self.sources = [path]
+            self.private = set(STATIC.findall(textOf(path))).union(
+                *map(definedIn, PRIVATE.findall(textOf(path))))
+            self.seen = set().union(*(definedIn(textOf(header)) for header in headersOf(path)))
+            self.own = self.private - self.seen  # the others are none: the source compiles alone
+
+    def accepts(self, other):
+        """True if both can be one unit."""
+        return len(self.sources) < MOST and not (
+            self.private & other.private or self.own & other.seen or other.own & self.seen)
+
+    def add(self, other):
+        """Take the sources of another unit."""
+        self.sources += other.sources
+        self.private |= other.private
+        self.own |= other.own
+        self.seen |= other.seen
+
+
+def unitsOf(paths):
+    """Lists of sources."""
+    units = []
+    for path in sorted(paths):
+        new = Unit(path)
+        for unit in units:
+            if unit.accepts(new):
+                unit.add(new)
+                break
+        else:
+            units.append(new)
+    return [unit.sources for unit in units]
+
+
+if __name__ == '__main__':
+    print('\n'.join(';'.join(sources) for sources in unitsOf(map(os.path.abspath, sys.argv[1:]))))
