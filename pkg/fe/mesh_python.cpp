@@ -80,8 +80,8 @@ py::list keptVertices(const py::object& outline, const py::list& holes, double t
 }
 
 py::tuple narrowestOf(const py::list& loops) {
-  std::vector<std::vector<Vec2>> points;
-  for (int i = 0; i < py::len(loops); ++i) points.push_back(fromBytes<Vec2>(loops[i]));
+  std::vector<std::vector<Vec2>> points(static_cast<std::size_t>(py::len(loops)));
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = fromBytes<Vec2>(loops[i]);
   const NarrowPlace place = narrowestPlace(points);
   return py::make_tuple(place.distance, place.corner);
 }

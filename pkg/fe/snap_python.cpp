@@ -65,9 +65,9 @@ py::tuple bondAllOf(FESolver& solver, double reach, double strength, double ener
 
 py::list snapTogetherOf(const py::list& polygons, double tolerance) {
   return asValueError([&] {
-    std::vector<Polygon> given;
-    for (int i = 0; i < py::len(polygons); ++i)
-      given.push_back(polygonOf(polygons[i][0], py::list(polygons[i][1])));
+    std::vector<Polygon> given(static_cast<std::size_t>(py::len(polygons)));
+    for (std::size_t i = 0; i < given.size(); ++i)
+      given[i] = polygonOf(polygons[i][0], py::list(polygons[i][1]));
     py::list result;
     for (const Snapped& one : snapTogether(std::move(given), tolerance))
       result.append(toTuple(one));

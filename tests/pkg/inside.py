@@ -59,7 +59,9 @@ def main():
     signal.signal(signal.SIGINT, signal.default_int_handler)
     if not any(os.path.exists(a.split('::')[0]) for a in arguments if not a.startswith('-')):
         arguments.append(here)
-    options = ['-q', '-p', 'no:cacheprovider', '--rootdir', here, '--durations=20', '--durations-min=10']
+    options = ['-q', '-p', 'no:cacheprovider', '--rootdir', here, '--durations=20', '--durations-min=10',
+               # A test that hangs ends the process with the stacks of its threads.
+               '--timeout=1200', '--timeout-method=thread']
     code = int(pytest.main([*options, *arguments], plugins=plugins))
     sys.stdout.flush()
     sys.stderr.flush()
