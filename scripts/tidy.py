@@ -14,13 +14,15 @@ import sys
 
 from units import unitsOf
 
+MOST = 16  # sources in a unit: the checks spend most of their time on the headers
+
 
 def byCommand(commands):
     """Lists of sources with the same compile command, each one unit."""
     groups = collections.defaultdict(list)
     for path in commands:
         groups[re.sub(r' -o \S+ -c \S+', '', commands[path]['command'])].append(path)
-    return [sources for paths in groups.values() for sources in unitsOf(paths)]
+    return [sources for paths in groups.values() for sources in unitsOf(paths, MOST)]
 
 
 def tidy(folder, path):

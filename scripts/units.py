@@ -60,7 +60,7 @@ class Unit:
 
     def accepts(self, other):
         """True if both can be one unit."""
-        return len(self.sources) < MOST and not (
+        return not (
             self.private & other.private or self.own & other.seen or other.own & self.seen)
 
     def add(self, other):
@@ -71,13 +71,13 @@ class Unit:
         self.seen |= other.seen
 
 
-def unitsOf(paths):
-    """Lists of sources."""
+def unitsOf(paths, most=MOST):
+    """Lists of `most` sources or fewer."""
     units = []
     for path in sorted(paths):
         new = Unit(path)
         for unit in units:
-            if unit.accepts(new):
+            if len(unit.sources) < most and unit.accepts(new):
                 unit.add(new)
                 break
         else:

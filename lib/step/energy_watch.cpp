@@ -140,4 +140,17 @@ std::string EnergyWatch::depthMessage(const WatchedStep& step) {
       step.isPenalty ? "the Lagrangian correction, or a larger penalty factor" : "a shorter step");
 }
 
+bool EnergyWatch::isOverlapDue(std::uint64_t step) {
+  return step % tolerance::kStepsToOverlap == 0;
+}
+
+std::string EnergyWatch::overlapMessage(const WatchedStep& step, double overlap) {
+  if (overlap <= std::max(tolerance::kDeep * step.shortest, 2 * reportedDepth)) return {};
+  reportedDepth = overlap;
+  return fmt::format(
+      "{}bodies overlap by {:.3g} m, {:.3g} of the shortest segment, at points that are not "
+      "checked: with passes=1 only those of the finer boundary are; take passes=2.",
+      yadefrag::begin(step), overlap, overlap / step.shortest);
+}
+
 }  // namespace yadefrag

@@ -54,6 +54,11 @@ class EnergyWatch {
 
   std::string depthMessage(const WatchedStep& step);
 
+  /// True if overlaps that single passing cannot detect must be checked in this step.
+  [[nodiscard]] static bool isOverlapDue(std::uint64_t step);
+  /// The message about an overlap of triangles (m) that is not at a point in contact.
+  std::string overlapMessage(const WatchedStep& step, double overlap);
+
   /// True if `spinMessage` needs the present sum of spins.
   [[nodiscard]] bool mayHaveSpun(const WatchedStep& step) const;
   /// The message about created angular momentum; `sum` (kg m²/s): as of sumOfSpins.

@@ -43,11 +43,20 @@ double overlapOf(const Corners& a, const Corners& b) {
 }
 
 double deepestOverlap(const Model& model, int threads) {
+  return deepestOverlap(model, std::vector<std::uint8_t>(model.nodes.size(), 1), threads);
+}
+
+double deepestOverlap(const Model& model, std::span<const std::uint8_t> among, int threads) {
   const Triangles& triangles = model.triangles;
+  const auto isAmong = [&](std::size_t t) {
+    return !triangles.isDropped(t) && std::ranges::any_of(triangles.nodes[t], [&](NodeId node) {
+      return among[node.value] != 0;
+    });
+  };
   std::vector<Box> boxes;
   boxes.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
-    boxes.push_back(triangles.isDropped(t) ? Box::absent() : boxOf(cornersOf(model, t)));
+    boxes.push_back(isAmong(t) ? boxOf(cornersOf(model, t)) : Box::absent());
   double deepest = 0;
   for (const auto& [first, second] : overlappingPairs(boxes, threads))
     if (!shareNode(triangles.nodes[first.value], triangles.nodes[second.value]))

@@ -4,6 +4,8 @@
 // node of one inside the other. No cost unless it is called.
 
 #include <array>
+#include <cstdint>
+#include <span>
 
 #include "mesh/model.hpp"
 
@@ -16,5 +18,8 @@ namespace yadefrag {
 /// (m) The deepest overlap of any two triangles without a common node; at most a triangle's height,
 /// since the triangles are separated one by one.
 [[nodiscard]] double deepestOverlap(const Model& model, int threads = 1);
+/// The same of the triangles with a node that `among` marks, by node.
+[[nodiscard]] double deepestOverlap(const Model& model, std::span<const std::uint8_t> among,
+                                    int threads = 1);
 
 }  // namespace yadefrag

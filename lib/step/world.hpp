@@ -240,6 +240,7 @@ class World {
   void cohere(const StepLength& length);
   void countFractureWork(const StepLength& length);
   void watchEnergy();
+  [[nodiscard]] double overlapOfBoundaries() const;
   [[nodiscard]] double energyOf(ComponentId body, NodeId first, double dt) const;
   bool crack();
   void dropFragments(bool split);

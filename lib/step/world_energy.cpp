@@ -6,6 +6,7 @@
 
 #include "core/tolerances/step.hpp"
 #include "dynamics/critical_time_step.hpp"
+#include "step/overlap_depth.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -31,6 +32,16 @@ double World::energyOf(ComponentId body, NodeId first, double dt) const {
   for (std::size_t e = component.firstTriangle; e < component.lastTriangle; ++e)
     elements.emplace_back(e);
   return twice / 2 + yadefrag::strainEnergy(model, dt, elements);
+}
+
+/// (m) The deepest overlap of straight boundaries, at any point; arcs deviate from the triangles.
+double World::overlapOfBoundaries() const {
+  std::vector<std::uint8_t> straight(model.nodes.size());
+  for (std::size_t n = 0; n < straight.size(); ++n) {
+    const SegmentId segment = surfaces.nodeSegment[n];
+    straight[n] = segment != SegmentId::none() && !surfaces.isSmooth(segment) ? 1 : 0;
+  }
+  return deepestOverlap(model, straight, threads);
 }
 
 /// Gives messages, but does not stop the run: only the user knows its purpose.
@@ -60,6 +71,8 @@ void World::watchEnergy() {
     }
   }
   report(watch.depthMessage(now));
+  if (contactSettings.passes == 1 && EnergyWatch::isOverlapDue(steps) && !contact.rows().empty())
+    report(watch.overlapMessage(now, overlapOfBoundaries()));
 }
 
 }  // namespace yadefrag

@@ -2,6 +2,7 @@
 fe.maxPenetration says, for elements of 1:1 to 1:5, turned bodies, regular and irregular meshes."""
 
 import builtins
+import contextlib
 import math
 
 import numpy as np
@@ -79,3 +80,26 @@ def test_onePassOverlapsUnseen():
     """Only the triangles show it, as fe.deepestOverlap() does."""
     found, told = deepestOfImpact('discs', 3.26, 'regular', .3, passes=1)
     assert found > .005 * SIZE and told < 1e-6 * SIZE
+
+
+@pytest.mark.parametrize('passes', [None, 2])
+def test_deepOverlapsOfOnePassAreTold(passes):
+    """A corner of fine elements beside a corner of coarse ones: with the default the coarse points enter; the
+    message's advice prevents it."""
+    clear()
+    O.materials.append(w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.3, label='m'))
+    fe = w.FESolver(**({} if passes is None else dict(passes=passes)))
+    fe.addPolygon(disc(0, -.0205, .02, SIZE), size=SIZE, material='m', velocity=(0, 30))
+    fe.addPolygon(disc(.003, .0155, .015, SIZE / 3.26), size=SIZE / 3.26, material='m', velocity=(0, -30))
+    O.engines = yadefrag.engines(fe)
+    O.dt = .5 * fe.criticalTimeStep()
+    deepest = 0
+    with pytest.warns(UserWarning) if passes is None else contextlib.nullcontext():
+        for _ in range(40):
+            runSteps(16)
+            deepest = max(deepest, fe.deepestOverlap())
+    told = [one for one in fe.warnings if 'passes=2' in one]
+    if passes == 2:
+        assert not fe.warnings and deepest < 1e-3 * SIZE / 3.26
+    else:
+        assert told and deepest > .1 * SIZE / 3.26

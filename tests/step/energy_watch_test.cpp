@@ -191,6 +191,21 @@ TEST(EnergyWatch, ReportsDepth) {
   EXPECT_NE(deep(.04), "") << "soon lost by a smooth surface";
 }
 
+TEST(EnergyWatch, ReportsOverlapsThatOnePassDoesNotDetect) {
+  EnergyWatch watch;
+  const EnergyLedger ledger;
+  const WatchedStep step = stepOf(ledger, false);
+  EXPECT_EQ(watch.overlapMessage(step, .09), "");
+  EXPECT_EQ(watch.overlapMessage(step, .2),
+            "Step 7, time 0.5 s: bodies overlap by 0.2 m, 0.2 of the shortest segment, at points "
+            "that are not checked: with passes=1 only those of the finer boundary are; take "
+            "passes=2.");
+  EXPECT_EQ(watch.overlapMessage(step, .3), "");
+  EXPECT_NE(watch.overlapMessage(step, .5), "");
+  EXPECT_FALSE(EnergyWatch::isOverlapDue(7));
+  EXPECT_TRUE(EnergyWatch::isOverlapDue(256));
+}
+
 /// Two blocks that meet at 20 m/s, of which one stands.
 World blow(const ContactSettings& settings, int steps) {
   World world;

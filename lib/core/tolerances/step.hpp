@@ -64,6 +64,10 @@ inline constexpr double kRounding = 0x1p-53;
 /// this, or half a halo if that is less: beyond the halo, smooth surfaces have no contact.
 inline constexpr double kDeep = .1;
 
+/// (steps) Interval between two checks of the triangles themselves, with one pass: each costs less
+/// than half a step, and an overlap lasts for as many steps.
+inline constexpr std::uint64_t kStepsToOverlap = 32;
+
 /// (of the shortest segment) Limits of the halo's width. At most half, so that three adjacent halos
 /// do not overlap (paper §4.1); at least a twentieth, below which no search is saved.
 inline constexpr double kWidestHalo = .5, kNarrowestHalo = .05;
