@@ -2,7 +2,6 @@
 fe.maxPenetration says, for elements of 1:1 to 1:5, turned bodies, regular and irregular meshes."""
 
 import builtins
-import contextlib
 import math
 
 import numpy as np
@@ -94,10 +93,9 @@ def test_deepOverlapsOfOnePassAreTold(passes):
     O.engines = yadefrag.engines(fe)
     O.dt = .5 * fe.criticalTimeStep()
     deepest = 0
-    with pytest.warns(UserWarning) if passes is None else contextlib.nullcontext():
-        for _ in range(40):
-            runSteps(16)
-            deepest = max(deepest, fe.deepestOverlap())
+    for _ in range(60):
+        runSteps(16)
+        deepest = max(deepest, fe.deepestOverlap())
     told = [one for one in fe.warnings if 'passes=2' in one]
     if passes == 2:
         assert not fe.warnings and deepest < 1e-3 * SIZE / 3.26
