@@ -174,8 +174,8 @@ def test_aBondHoldsAndBreaks():
     engines(solver, factor=.4)
     O.run(1000, True)
     assert len(solver.fragments(held=False)) == 2 and len(solver.fragments()) == 1
-    counts = solver.crackCounts
-    assert counts['open'] == 0 and counts['damaged'] + counts['whole'] == sides
+    # Below its strength a bond is whole, although rounding opens its faces.
+    assert solver.crackCounts == dict(open=0, damaged=0, whole=sides)
     assert abs(solver.energy['fracture']) < 1e-6 * 100 * kHeight
     O.reset()
     solver = pair(velocity=20)

@@ -8,6 +8,10 @@ from yadefrag.names import existingBody, isBody
 from yadefrag.shown import betweenSteps, requireSolver
 from yadefrag.values import path
 
+# (of the fracture energy) Rounding opens the faces of a loaded crack, such as a bond under its weight,
+# without damaging it.
+_ROUNDING = 1e-9
+
 _CRACKS = (('component', '', int), ('other', '', int), ('x', 'm', float), ('y', 'm', float),
            ('nx', '', float), ('ny', '', float), ('opening', 'm', float), ('slip', 'm', float),
            ('damage', '', float), ('held', '', bool), ('start', 's', float))
@@ -52,7 +56,7 @@ def crackCounts(self):
     cracks that have not opened). They are the rows of crackTable: with bonds and open joints, without
     removed fragments."""
     cracks = self._cracks()
-    held, isDamaged = cracks['held'], cracks['damage'] > 0
+    held, isDamaged = cracks['held'], cracks['damage'] > _ROUNDING
     counts = dict(open=~held, damaged=held & isDamaged, whole=held & ~isDamaged)
     return {name: int(are.sum()) for name, are in counts.items()}
 

@@ -43,7 +43,8 @@ def sentences(kinds, beside, leaving, loose, gravityZ, rigidBodies, largest=0., 
     if 'Sphere' in kinds:
         bounds = _functors(engines, wrapper.Collider, 'boundDispatcher')
         if not any(_takes(one, 'SurfaceSegment') for one in bounds):
-            found.append('Spheres go through FE bodies: the collider has no Bo1_SurfaceSegment_Aabb.')
+            found.append('Spheres go through FE bodies: the collider has no Bo1_SurfaceSegment_Aabb; '
+                         'engines(fe, spheres=True) has it.')
         found += _outOfPlane(beside, leaving, loose, gravityZ)
         if thickness > _THICK * 2 * largest:
             found.append('FE bodies are %g m thick, and the largest sphere has a diameter of %g m: masses and '
@@ -62,8 +63,8 @@ def sentences(kinds, beside, leaving, loose, gravityZ, rigidBodies, largest=0., 
 
 def _untouched(shape, body):
     if shape == 'Sphere':
-        return ('Spheres go through FE bodies: no InteractionLoop has an '
-                'Ig2_Sphere_SurfaceSegment_ScGeom.')
+        return ('Spheres go through FE bodies: no InteractionLoop has an Ig2_Sphere_SurfaceSegment_ScGeom; '
+                'engines(fe, spheres=True) has it.')
     if shape in _RIGID:
         return ('FE bodies go through bodies of the shape %s, such as #%d: FESolver.rigidBodies is '
                 'False.' % (shape, body))
