@@ -1,5 +1,6 @@
 // World: check of energies and depths.
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,11 +36,20 @@ double World::energyOf(ComponentId body, NodeId first, double dt) const {
 }
 
 /// (m) The deepest overlap of straight boundaries, at any point; arcs deviate from the triangles.
+/// All points of bodies that can crack are slaves: only the other bodies, if two or more, are
+/// checked.
 double World::overlapOfBoundaries() const {
+  const auto isChecked = [&](const Component& body) {
+    return !body.rigid && !body.brittle.cracks();
+  };
+  if (std::ranges::count_if(model.components, isChecked) < 2) return 0;
   std::vector<std::uint8_t> straight(model.nodes.size());
   for (std::size_t n = 0; n < straight.size(); ++n) {
     const SegmentId segment = surfaces.nodeSegment[n];
-    straight[n] = segment != SegmentId::none() && !surfaces.isSmooth(segment) ? 1 : 0;
+    straight[n] = segment != SegmentId::none() && !surfaces.isSmooth(segment) &&
+                          isChecked(model.components[model.nodes.component[n].value])
+                      ? 1
+                      : 0;
   }
   return deepestOverlap(model, straight, threads);
 }

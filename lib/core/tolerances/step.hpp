@@ -64,8 +64,9 @@ inline constexpr double kRounding = 0x1p-53;
 /// this, or half a halo if that is less: beyond the halo, smooth surfaces have no contact.
 inline constexpr double kDeep = .1;
 
-/// (steps) Interval between two checks of the triangles themselves, with one pass: each costs less
-/// than half a step, and an overlap lasts for as many steps.
+/// (steps) Interval between two checks of the triangles themselves, with one pass: each takes 0.4
+/// of a step of 36 blocks. An interval of 128 missed the overlaps above kDeep of two impacts in
+/// four.
 inline constexpr std::uint64_t kStepsToOverlap = 32;
 
 /// (of the shortest segment) Limits of the halo's width. At most half, so that three adjacent halos
