@@ -129,9 +129,8 @@ std::vector<std::array<Side, 2>> matchingSides(const Model& model, const CrackEd
   if (found.unmatched > 0)
     throw InputError(fmt::format(
         "At ({:g}, {:g}) sides of {} coincide but have different ends; bonded sides have the same "
-        "ends: use snapOutlines and one size for both outlines, or snap= and the larger size for "
-        "the "
-        "second one, or one body with joints.",
+        "ends: give both outlines the same points by snapOutlines, and one size, or the second one "
+        "snap= and the larger size; or add one body with joints.",
         found.place.x, found.place.y, named(a, b)));
   if (found.pairs.empty())
     throw InputError(fmt::format(
