@@ -58,7 +58,7 @@ double deepestOverlap(const Model& model, std::span<const std::uint8_t> among, i
   for (std::size_t t = 0; t < triangles.size(); ++t)
     boxes.push_back(isAmong(t) ? boxOf(cornersOf(model, t)) : Box::absent());
   double deepest = 0;
-  for (const auto& [first, second] : overlappingPairs(boxes, threads))
+  for (const auto& [first, second] : overlappingPairs(boxes, threads, SearchMethod::kFastest))
     if (!shareNode(triangles.nodes[first.value], triangles.nodes[second.value]))
       deepest = std::max(deepest,
                          overlapOf(cornersOf(model, first.value), cornersOf(model, second.value)));

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -61,20 +62,38 @@ void requirePaused() {
   replaceLoop();
 }
 
+namespace {
+
+/// `iter` and `subStep` are the scene's values before the start.
 void waitForStart(long iter, int subStep) {
   yade::Omega& omega = yade::Omega::instance();
-  if (isInStep()) return;
   const auto hasBegun = [&] {
     const volatile yade::Scene& scene = *omega.getScene();
     return !omega.isRunning() || scene.iter != iter || scene.subStep != subStep;
   };
-  // No other thread may pause the run meanwhile, so the GIL is kept. The rest of a failed step may
-  // need it.
-  if (subStep != -1) {
-    const WithoutGil free;
-    while (!hasBegun()) std::this_thread::yield();
-  }
   while (!hasBegun()) std::this_thread::yield();
+}
+
+}  // namespace
+
+void beginRun(const yade::py::object& run, const yade::py::object& wait,
+              const yade::py::object& scene, long steps) {
+  // A paused run may still be in its last step: its progress is not that of the new run.
+  if (!isInStep() && !yade::Omega::instance().isRunning()) replaceLoop();
+  const yade::Scene& before = *yade::Omega::instance().getScene();
+  const long iter = before.iter;
+  const int subStep = before.subStep;
+  const bool isWaiting = wait.ptr() != Py_None;
+  run(scene, steps, false);
+  // The rest of a failed step may need Python's lock. YADE's O.wait() then lasts long enough, 40
+  // ms, for the thread to begin.
+  const bool isRest = subStep != -1;
+  if (!isInStep() && !(isRest && isWaiting)) {
+    std::optional<WithoutGil> free;
+    if (isRest) free.emplace();
+    waitForStart(iter, subStep);
+  }
+  if (isWaiting) wait(scene);
 }
 
 namespace {

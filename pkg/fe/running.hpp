@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "abi/basics.hpp"
+
 namespace yadefrag {
 
 /// True if this thread is within a step of the scene, e.g. in a PyRunner's command.
@@ -12,10 +14,13 @@ bool isInStep();
 /// which YADE's O.wait() does not. Throws std::runtime_error if another thread runs the scene.
 void requirePaused();
 
-/// Must be called after a run was started: returns when its thread is in its first step. Before
-/// that, YADE must not stop or reset the run, since its thread would find its loop destroyed.
-/// `iter` and `subStep` are the scene's values before the start.
-void waitForStart(long iter, int subStep);
+/// Calls run(scene, steps), YADE's O.run(), and returns when its thread is in its first step:
+/// before that, YADE must not stop or reset the run, since its thread would find its loop
+/// destroyed. Then calls wait(scene), YADE's O.wait(), unless it is None. Python's lock is kept
+/// until then, so that no engine that needs it, such as a PyRunner, can fail before YADE waits for
+/// its error.
+void beginRun(const yade::py::object& run, const yade::py::object& wait,
+              const yade::py::object& scene, long steps);
 
 /// Stops a run of another thread; returns after its last step. Python's lock is released meanwhile.
 void stopRun();

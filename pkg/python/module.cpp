@@ -69,7 +69,7 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("isInStep", &yadefrag::isInStep);
   py::def("requirePaused", &yadefrag::requirePaused,
           "Raises RuntimeError if another thread runs the scene.");
-  py::def("waitForStart", &yadefrag::waitForStart);
+  py::def("beginRun", &yadefrag::beginRun);
   py::def(
       "waitForEnd", &yadefrag::waitForEnd,
       "Waits for the end of a run, with checks at intervals in proportion to its length: O.wait() "

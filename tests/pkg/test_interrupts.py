@@ -9,7 +9,7 @@ import time
 import pytest
 
 import yadefrag
-from yade import wrapper as w
+from yade import utils, wrapper as w
 from yadefrag import runSteps
 
 O = builtins.O
@@ -132,4 +132,38 @@ def test_anotherHandlerIsKept(fe):
             assert not O.running
     finally:
         signal.signal(signal.SIGINT, before)
+    checkAtRest()
+
+
+def test_errorsOfAFirstStepAreRaised():
+    """However soon after the begin of the run."""
+    for _ in range(30):
+        O.reset()
+        O.engines = [w.PyRunner(command='missing()', iterPeriod=1, initRun=True)]
+        for _ in range(2):  # the second run begins with the rest of the failed step
+            with pytest.raises(RuntimeError, match="'missing' is not defined"):
+                O.run(5, True)
+
+
+def test_errorsOfAnyEngineAreRaised():
+    """YADE's own O.wait() may be too late for those of engines in C++."""
+    for _ in range(30):
+        O.reset()
+        O.bodies.append(utils.sphere((0, 0, 0), 1))
+        O.engines = [w.InsertionSortCollider([w.Bo1_Sphere_Aabb()])]
+        with pytest.raises(RuntimeError, match='unable to locate NewtonIntegrator|An engine has failed in step 0'):
+            O.run(5, True)
+
+
+def test_oneEndsRunsThatArePausedAndBegunAnew(fe):
+    """O.run() and O.pause(), each soon after the other, and Ctrl-C in between: nothing runs on."""
+    for k in range(40):
+        latest = time.monotonic() + 60
+        interruptAfter(.01 + .0007 * k)
+        with pytest.raises(KeyboardInterrupt):
+            while time.monotonic() < latest:
+                O.run(10**9)
+                O.pause()
+        O.pause()  # in vain, unless the interrupt came between the two
+        assert not O.running
     checkAtRest()

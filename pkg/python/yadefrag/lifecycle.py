@@ -105,12 +105,18 @@ def _waitForAll(wait):
     @functools.wraps(wait)
     def waited(self):
         with interrupts.waiting():
-            while True:
-                interrupts.aside(lambda: wait(self))
-                with _saving:
-                    if not self.running:
-                        return
+            interrupts.aside(lambda: wait(self))
+            _waitOn(self, wait)
     return waited
+
+
+def _waitOn(omega, wait):
+    """After a first wait: until no save interrupts the run any more."""
+    while True:
+        with _saving:
+            if not omega.running:
+                return
+        interrupts.aside(lambda: wait(omega))
 
 
 def waitForEnd():
@@ -123,24 +129,39 @@ def waitForEnd():
                     return
 
 
-def _runBegun(run):
-    """O.run() that returns after the run has begun: YADE may crash if a run is stopped before."""
+def _runBegun(run, wait):
+    """O.run() that returns after the run has begun: YADE may crash if a run is stopped before. If the script
+    waits, each error of a step is raised, not only those for which YADE's O.wait() is in time."""
+    def begin(omega, nSteps):
+        try:
+            with interrupts.held():
+                _yadefrag.beginRun(run, None, omega, nSteps)
+        except KeyboardInterrupt:
+            _yadefrag.stopRun()
+            raise
+
+    def beginAndWait(omega, nSteps):
+        with interrupts.waiting(), refusals.raisedHere():
+            interrupts.aside(lambda: _yadefrag.beginRun(run, wait, omega, nSteps))
+            _waitOn(omega, wait)
+            _raiseError(omega)
+
     @functools.wraps(run)
     def runs(self, nSteps=-1, wait=False):
         messages.tellNumbers()
         scene_start.tell()
-        with interrupts.held(), refusals.raisedHere() if wait else contextlib.nullcontext():
-            before = self.iter, self.subStep
-            _yadefrag.whyStopped()
-            run(self, nSteps, False)
-            _yadefrag.waitForStart(*before)
-            if wait:
-                self.wait()
-                # YADE's O.wait() raises no error of a run that has ended before.
-                why = _yadefrag.whyStopped()
-                if why:
-                    raise RuntimeError(why)
+        _yadefrag.whyStopped()
+        (beginAndWait if wait else begin)(self, nSteps)
     return runs
+
+
+def _raiseError(omega):
+    """YADE's O.wait() raises no error of a run that has ended before it was called."""
+    why = _yadefrag.whyStopped()
+    if not why and omega.subStep != -1:
+        why = 'An engine has failed in step %d; YADE has written the reason to stderr.' % omega.iter
+    if why:
+        raise RuntimeError(why)
 
 
 def _wholeStep(step):
@@ -168,6 +189,7 @@ def _resetStopped(reset):
         _yadefrag.freeListItems()
     return stopped
 
+
 def _underOldName(get):
     """O.energy['feExternal'], whose present name is 'feOutside'."""
     @functools.wraps(get)
@@ -183,8 +205,8 @@ def install():
     _Omega.save = _savedOrRefused(_Omega.save)
     _Omega.pause = _countPauses(_Omega.pause)
     _Omega.resetTime = _countSteps(_Omega.resetTime)
+    _Omega.run = _runBegun(_Omega.run, _Omega.wait)
     _Omega.wait = _waitForAll(_Omega.wait)
-    _Omega.run = _runBegun(_Omega.run)
     _Omega.step = _wholeStep(_Omega.step)
     _Omega.reset = _resetStopped(_Omega.reset)
     interrupts.install()

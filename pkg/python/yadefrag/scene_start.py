@@ -21,8 +21,10 @@ def addSolver(solver):
 def _isWithoutSolver():
     """True, once for each scene and number of bodies, if there are FE bodies and no engine moves them."""
     global _looked
+    if not _solvers:
+        return False
     omega = wrapper.Omega()
-    if not _solvers or any(isinstance(one, (wrapper.FESolver, wrapper.ParallelEngine)) for one in omega.engines):
+    if any(isinstance(one, (wrapper.FESolver, wrapper.ParallelEngine)) for one in omega.engines):
         return False
     present = omega.tags['id'], len(omega.bodies)
     if present == _looked:
