@@ -106,22 +106,31 @@ def waiting():
 
 
 def aside(call):
-    """call() in another thread: this one waits where Python can handle signals, which it cannot while
-    YADE waits."""
+    """call(), which waits for a run, in another thread: this one waits where Python can handle signals, which
+    it cannot while YADE waits."""
     if threading.current_thread() is not threading.main_thread():
         call()
         return
-    errors = []
+    errors, ended = [], threading.Event()
 
     def run():
         try:
             call()
         except BaseException as error:
             errors.append(error)
+        finally:
+            ended.set()
 
     thread = threading.Thread(target=run, daemon=True)
-    thread.start()
-    while thread.is_alive():
-        thread.join(_LOOK)
+    try:
+        thread.start()
+        # Rejected: Thread.join, which takes the thread as ended if a signal's handler raises an exception.
+        while not ended.wait(_LOOK):
+            pass
+    except BaseException:  # of a script's own handler
+        if thread.ident is not None:
+            _pause(wrapper.Omega())
+            ended.wait()  # else it would wait for the next run, and take its error
+        raise
     if errors:
         raise errors[0]

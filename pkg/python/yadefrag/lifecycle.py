@@ -159,6 +159,8 @@ def _raiseError(omega):
     """YADE's O.wait() raises no error of a run that has ended before it was called."""
     why = _yadefrag.whyStopped()
     if not why and omega.subStep != -1:
+        _yadefrag.stopRun()  # if paused, the last step may not be complete
+    if not why and omega.subStep != -1:
         why = 'An engine has failed in step %d; YADE has written the reason to stderr.' % omega.iter
     if why:
         raise RuntimeError(why)
