@@ -107,7 +107,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
       if (!anyNew && now_.maxPenetration <= 2 * inexact_) break;
       if (!anyNew && settings.correction == Correction::kPenalty) break;
     }
-    solve(model, settings, step, anyNew);
+    sinceScan_ += solve(model, settings, step, anyNew);
     // Nodes that the correction moved beyond the reach of the scan are scanned again.
     move(model, step);
     gapsAreKnown = false;
@@ -178,19 +178,27 @@ void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const Co
   sinceScan_ = 0;
 }
 
-void Contact::solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
-                    bool anyNew) {
+/// Returns a bound of the displacements by the coupled forces (m).
+double Contact::solve(Model& model, const ContactSettings& settings, const ContactStep& step,
+                      bool anyNew) {
   const StageTimer timer(step.times, &StageTimes::correction);
   const Inertia inertia{model.nodes, step.length, step.drag, step.rigid.masses};
-  if (settings.correction == Correction::kPenalty)
+  if (settings.correction == Correction::kPenalty) {
     penalize(rows_, inertia, settings.penaltyFactor);
-  else if (step.rubble)
-    inexact_ = lagrange_.sweep(rows_, inertia, worthwhile(step));
-  else {
+  } else if (step.rubble) {
+    if (step.coupled == nullptr) {
+      inexact_ = lagrange_.sweep(rows_, inertia, worthwhile(step), nullptr);
+      return 0;
+    }
+    Coupling coupling{*step.coupled, step.cohesive, model.nodes.position, displacement_};
+    inexact_ = lagrange_.sweep(rows_, inertia, worthwhile(step), &coupling);
+    return coupling.moved;
+  } else {
     if (anyNew) lagrange_.setRows(rows_, inertia);
     const Lagrange::Outcome outcome = lagrange_.solve(rows_, inertia, worthwhile(step));
     now_.residual = outcome.residual, inexact_ = outcome.change, now_.sweeps += outcome.sweeps;
   }
+  return 0;
 }
 
 /// Adds a row for every active without one; returns true if there was any.
@@ -276,6 +284,17 @@ bool Contact::contradicts(const ContactSurfaces& surfaces, const ContactRow& row
          anyRowOf(surfaces.next[row.master.value], pushesAlike);
 }
 
+/// (m) Slip in the step without contact.
+double Contact::slipOf(const ContactRow& row, const Model& model, const ContactStep& step) const {
+  Vec2 moved;
+  for (int k = 0; k < row.count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const std::uint32_t node = row.node[at].value;
+    moved += row.weight[at] * (model.nodes.position[node] - step.before[node]);
+  }
+  return dot(moved - relative(row, displacement_), row.tangent());
+}
+
 /// Sets friction, slip, and the values stored for this contact in the last step.
 void Contact::startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
                        const PieceGeometry& before, const Active& active,
@@ -284,17 +303,8 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
     return model.components[surfaces.component[entry.value].value].friction;
   };
   row.friction = std::min(friction(row.slave), friction(row.master));
-  const Vec2 corrected = relative(row, displacement_);
-  row.gap -= dot(corrected, row.normal);
-  if (row.friction > 0) {
-    Vec2 moved;
-    for (int k = 0; k < row.count; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      const std::uint32_t node = row.node[at].value;
-      moved += row.weight[at] * (model.nodes.position[node] - step.before[node]);
-    }
-    row.slip = dot(moved - corrected, row.tangent());
-  }
+  row.gap -= dot(relative(row, displacement_), row.normal);
+  if (row.friction > 0) row.slip = slipOf(row, model, step);
   const double decay = isHeldByCohesion(row, step.cohesive) ? 0 : tolerance::contact().overlapDecay;
   const auto former =
       std::lower_bound(touches.begin(), touches.end(), active.pair,
@@ -323,6 +333,7 @@ void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces,
       now_.maxPenetration = std::max(now_.maxPenetration, row.toleratedGap - gap);
       if (std::isfinite(row.excess)) row.excess = row.toleratedGap - gap;
       row.gap = gap - dot(relative(row, displacement_), row.normal);
+      if (step.coupled != nullptr && row.friction > 0) row.slip = slipOf(row, model, step);
     }
   });
 }

@@ -10,6 +10,7 @@
 #include "contact/contact_row.hpp"
 #include "contact/contact_settings.hpp"
 #include "contact/correction.hpp"
+#include "contact/coupled_forces.hpp"
 #include "contact/inertia.hpp"
 #include "contact/local_search.hpp"
 #include "contact/touch.hpp"
@@ -35,7 +36,8 @@ struct ContactStep {
   /// By node: number of the nodes that cohesive cracks hold to each other; 0: none. Empty without
   /// such cracks.
   std::span<const std::uint32_t> cohesive;
-  StageTimes* times = nullptr;  ///< null: not measured
+  StageTimes* times = nullptr;       ///< null: not measured
+  CoupledForces* coupled = nullptr;  ///< cohesion; null: none
 };
 
 /// Forces by node; 0 everywhere before the first contact, without an allocated array.
@@ -109,8 +111,7 @@ class Contact {
   void clearForces();
   void scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
             double reach, double moved = 0);
-  void solve(const Model& model, const ContactSettings& settings, const ContactStep& step,
-             bool anyNew);
+  double solve(Model& model, const ContactSettings& settings, const ContactStep& step, bool anyNew);
   [[nodiscard]] double deepestTouch(const ContactSurfaces& surfaces,
                                     std::span<const Vec2> before) const;
   template <class Test>
@@ -124,6 +125,8 @@ class Contact {
   [[nodiscard]] bool isOfRigid(NodeId node, const ContactStep& step) const;
   void startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
                 const PieceGeometry& before, const Active& active, const ContactStep& step) const;
+  [[nodiscard]] double slipOf(const ContactRow& row, const Model& model,
+                              const ContactStep& step) const;
   void updateGaps(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void move(Model& model, const ContactStep& step);
   void moveRigid(Model& model, const ContactStep& step, double& largest, double& farthest);

@@ -66,8 +66,9 @@ Lagrange::Outcome Lagrange::solve(std::span<ContactRow> rows, const Inertia& ine
   return worst;
 }
 
-double Lagrange::sweep(std::span<ContactRow> rows, const Inertia& inertia, double change) {
-  return sweeps_.solve(rows, inertia, {change, tolerance::contact().rowSweeps});
+double Lagrange::sweep(std::span<ContactRow> rows, const Inertia& inertia, double change,
+                       Coupling* coupling) {
+  return sweeps_.solve(rows, inertia, {change, tolerance::contact().rowSweeps}, coupling);
 }
 
 /// True if a group is solved by sweeps. Without friction pivoting is as fast, and exact. With

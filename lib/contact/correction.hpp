@@ -34,7 +34,8 @@ class Lagrange {
   /// The same in rubble: all rows are solved by a few sweeps, independently of groups, until no gap
   /// or slip changes by more than `change` (m). Does not need `setRows`; returns the last change
   /// (m).
-  double sweep(std::span<ContactRow> rows, const Inertia& inertia, double change);
+  double sweep(std::span<ContactRow> rows, const Inertia& inertia, double change,
+               Coupling* coupling);
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { sweeps_.reserve(nodes); }
   /// Without the memory of the solver of a group.

@@ -4,23 +4,36 @@
 #include <cmath>
 #include <type_traits>
 
+#include "core/tolerances/solver.hpp"
+
 namespace yadefrag {
 
-double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop) {
+double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
+                        Coupling* coupling) {
   while (all_.size() < rows.size()) all_.push_back(static_cast<std::uint32_t>(all_.size()));
-  return solve(rows, std::span(all_).first(rows.size()), inertia, stop);
+  begin(rows, std::span(all_).first(rows.size()), inertia);
+  share(coupling, inertia.nodes.size());
+  return finish(rows, stop, coupling);
 }
 
 double RowSweeps::solve(std::span<ContactRow> rows, std::span<const std::uint32_t> members,
                         const Inertia& inertia, Stop stop) {
   begin(rows, members, inertia);
+  shared_.clear();
+  return finish(rows, stop, nullptr);
+}
+
+double RowSweeps::finish(std::span<ContactRow> rows, Stop stop, Coupling* coupling) {
   double change = 0;
   count_ = 0;
   while (count_ < stop.most) {
     // Alternating directions: forces are transmitted along chains of pieces.
     change = sweep(count_++ % 2 == 0, stop.change);
+    if (!shared_.empty() && count_ % tolerance::kSweepsToCouple == 1)
+      change = std::max(change, sweepCoupled(*coupling, stop.change));
     if (!(change > stop.change)) break;
   }
+  if (!shared_.empty()) (void)sweepCoupled(*coupling, stop.change, true);
   for (const SweepRow& swept : rows_) {
     ContactRow& row = rows[swept.place];
     row.normalForce = swept.normalForce;
@@ -28,6 +41,43 @@ double RowSweeps::solve(std::span<ContactRow> rows, std::span<const std::uint32_
     row.excess = 0;
   }
   return change;
+}
+
+/// Finds the nodes of rows that coupled forces move, too.
+void RowSweeps::share(const Coupling* coupling, std::size_t modelNodes) {
+  shared_.clear();
+  if (coupling == nullptr) return;
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i)
+    if (nodes_[i].value < modelNodes && coupling->group[nodes_[i].value] != 0)
+      shared_.push_back({i, nodes_[i]});
+  if (!shared_.empty()) coupling->forces.begin(coupling->position);
+}
+
+/// One sweep of the coupled forces, at the positions with the present contact forces; in the `last`
+/// one they converge. Returns the largest displacement (m).
+double RowSweeps::sweepCoupled(Coupling& coupling, double tolerance, bool last) {
+  for (SharedNode& one : shared_) {
+    const Vec2 byContact = displacement_[one.number] - one.byOthers;
+    if (norm(byContact - one.byContact) > (last ? 0 : tolerance) || !one.isKnown)
+      coupling.forces.noteMoved(one.node);
+    one.byContact = byContact, one.isKnown = true;
+    Vec2& at = coupling.position[one.node.value];
+    at += byContact - coupling.displaced[one.node.value];
+    one.at = at;
+  }
+  const double most = last ? coupling.forces.converge(coupling.position)
+                           : coupling.forces.sweep(coupling.position, tolerance);
+  for (SharedNode& one : shared_) {
+    Vec2& at = coupling.position[one.node.value];
+    const Vec2 change = at - one.at;
+    at = at - (one.byContact - coupling.displaced[one.node.value]);
+    one.byOthers += change;
+    displacement_[one.number] += change;
+    if (norm(change) > tolerance)
+      for (const std::uint32_t row : rowsOfNodes_.row(one.number)) waiting_.add(row);
+  }
+  if (last) coupling.moved = most;
+  return most;
 }
 
 void RowSweeps::begin(std::span<const ContactRow> rows, std::span<const std::uint32_t> members,

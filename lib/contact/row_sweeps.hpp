@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "contact/contact_row.hpp"
+#include "contact/coupled_forces.hpp"
 #include "contact/inertia.hpp"
 #include "core/csr.hpp"
 #include "core/footprint.hpp"
@@ -30,8 +31,10 @@ class RowSweeps {
     double change;
     int most;
   };
-  /// Improves the forces of all rows; returns the largest change in the last sweep (m).
-  double solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop);
+  /// Improves the forces of all rows, and those that are coupled to them; returns the largest
+  /// change in the last sweep (m).
+  double solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
+               Coupling* coupling = nullptr);
   /// The same for the rows `members` only.
   double solve(std::span<ContactRow> rows, std::span<const std::uint32_t> members,
                const Inertia& inertia, Stop stop);
@@ -41,7 +44,7 @@ class RowSweeps {
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
     footprint.add(use, rows_, ends_, turns_, all_, nodes_, numbers_, displacement_, rotation_,
-                  links_, rowsOfNodes_.values, rowsOfNodes_.offsets);
+                  shared_, links_, rowsOfNodes_.values, rowsOfNodes_.offsets);
     waiting_.addTo(footprint, use);
   }
 
@@ -84,7 +87,10 @@ class RowSweeps {
   void push(const SweepRow& row, const Ends& ends, Count count, Vec2 force);
   template <class Count>
   double relax(SweepRow& row, const Ends& ends, Count count);
+  double finish(std::span<ContactRow> rows, Stop stop, Coupling* coupling);
   double sweep(bool forwards, double tolerance);
+  void share(const Coupling* coupling, std::size_t modelNodes);
+  double sweepCoupled(Coupling& coupling, double tolerance, bool last = false);
   void findRowsOfNodes();
 
   std::vector<SweepRow> rows_;
@@ -95,6 +101,16 @@ class RowSweeps {
   std::vector<std::uint32_t> numbers_;  // by node: index in nodes_; valid for these only
   std::vector<Vec2> displacement_;      // m, by number
   std::vector<double> rotation_;        // rad, by number; empty without rigid bodies
+  /// A node that coupled forces move, too.
+  struct SharedNode {
+    std::uint32_t number;
+    NodeId node;
+    Vec2 byOthers = {};   // m, part of the displacement
+    Vec2 byContact = {};  // m, the rest, at the last sweep of the other forces
+    Vec2 at = {};         // m, position then
+    bool isKnown = false;
+  };
+  std::vector<SharedNode> shared_;
   std::vector<Link> links_;
   Csr<std::uint32_t> rowsOfNodes_;  // by number
   WorkList waiting_;  // rows with a node that another row has moved by more than the tolerance

@@ -19,6 +19,8 @@ class WorkList {
     words_.assign((count + 63) / 64, ~std::uint64_t{0});
     if (count % 64 != 0) words_.back() = (std::uint64_t{1} << count % 64) - 1;
   }
+  /// Removes all, and makes room for numbers below `count`.
+  void clear(std::size_t count) { words_.assign((count + 63) / 64, 0); }
   void add(std::size_t number) { words_[number / 64] |= bit(number); }
   void remove(std::size_t number) { words_[number / 64] &= ~bit(number); }
 

@@ -21,10 +21,12 @@
 #include <span>
 #include <vector>
 
+#include "contact/coupled_forces.hpp"
 #include "core/csr.hpp"
 #include "core/disjoint_sets.hpp"
 #include "core/footprint.hpp"
 #include "core/step_length.hpp"
+#include "core/work_list.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "fracture/cohesive_law.hpp"
 #include "fracture/crack_edges.hpp"
@@ -32,7 +34,7 @@
 
 namespace yadefrag {
 
-class Cohesion {
+class Cohesion final : public CoupledForces {
  public:
   /// Makes a crack cohesive. `reference`: m, stress-free, by node.
   void add(const Model& model, const CrackEdges& edges, EdgeId edge,
@@ -40,11 +42,16 @@ class Cohesion {
   /// Changes edge numbers; none(): the edge was removed.
   void renumberEdges(std::span<const EdgeId> renumbered);
 
-  /// Corrects the predicted x* and v* by the cohesive tractions; `before`: m, xⁿ, for the normals.
-  /// Returns the largest correction of a position (m). The stored openings of the cracks change
-  /// only in `settle`.
-  double correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
-                 const StepLength& step, double drag);
+  /// Corrects the predicted x* by the cohesive tractions; `before`: m, xⁿ, for the normals. The
+  /// stored openings of the cracks change only in `settle`.
+  void correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
+               const StepLength& step, double drag);
+  void begin(std::span<const Vec2> position) override;
+  void noteMoved(NodeId node) override;
+  double sweep(std::vector<Vec2>& position, double tolerance) override;
+  double converge(std::vector<Vec2>& position) override;
+  /// Corrects v* by the final tractions.
+  void finish(Nodes& nodes, const StepLength& step);
 
   /// Largest change of a traction, divided by the strength, in the last sweep of the last step.
   [[nodiscard]] double residual() const { return residual_; }
@@ -69,8 +76,10 @@ class Cohesion {
   std::vector<EdgeId> released;  ///< cracks that were removed in the last step
   void addTo(Footprint& footprint) const {
     footprint.add(Use::kCohesion, edge, largest, traction, area, points_, couples_, firstAt_,
-                  groupOf_, groups_.values, groups_.offsets, turned_, released);
+                  groupOf_, groups_.values, groups_.offsets, pointsAt_.values, pointsAt_.offsets,
+                  improved_, start_, turned_, released);
     sets_.addTo(footprint, Use::kCohesion);
+    waiting_.addTo(footprint, Use::kCohesion);
   }
 
   // By cohesive crack; each end of an edge has its own opening (see countedOpening).
@@ -110,6 +119,8 @@ class Cohesion {
   void findGroups(std::size_t nodes);
   double solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group);
   void balance(std::vector<Vec2>& position);
+  template <class Matters>
+  double improve(std::vector<Vec2>& position, Matters matters);
   static void apply(std::vector<Vec2>& position, const Point& point, Vec2 change);
   static void relax(std::vector<Vec2>& position, Point& point);
 
@@ -120,6 +131,12 @@ class Cohesion {
   std::vector<std::uint32_t> groupOf_;  // by point
   Csr<std::uint32_t> groups_;           // groups of points that share nodes
   double residual_ = 0;
+  // While contact is solved:
+  Csr<std::uint32_t> pointsAt_;             // by firstAt_: all points of a node
+  WorkList waiting_;                        // points whose tractions are to be improved
+  std::vector<std::uint32_t> improved_;     // points that were visited
+  std::vector<std::array<Vec2, 2>> start_;  // m, by point, before contact
+  bool isCoupled_ = false;
   std::vector<std::uint32_t> turned_;  // cracks whose faces enclose a right angle or more
 };
 

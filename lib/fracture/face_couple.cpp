@@ -28,14 +28,9 @@ void FaceCouple::balance(std::vector<Vec2>& position, double moment) {
   moment_ = moment;
 }
 
-double FaceCouple::push(std::vector<Vec2>& velocity, double duration) const {
-  double most = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vec2 change = moved(i, moment_);
-    velocity[nodes_[i].value] += (1 / duration) * change;
-    most = std::max(most, norm(change));
-  }
-  return most;
+void FaceCouple::push(std::vector<Vec2>& velocity, double duration) const {
+  for (std::size_t i = 0; i < 4; ++i)
+    velocity[nodes_[i].value] += (1 / duration) * moved(i, moment_);
 }
 
 void FaceCouple::addForces(std::vector<Vec2>& forces, double area) const {

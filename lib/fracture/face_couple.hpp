@@ -31,8 +31,8 @@ class FaceCouple {
 
   /// Sets the moment of the tractions, Σ o × t (Pa m), and corrects the positions by its change.
   void balance(std::vector<Vec2>& position, double moment);
-  /// Corrects the velocities; `duration`: s, of the step. Returns the largest change of a position.
-  double push(std::vector<Vec2>& velocity, double duration) const;
+  /// Corrects the velocities; `duration`: s, of the step.
+  void push(std::vector<Vec2>& velocity, double duration) const;
   /// (N) `area`: m², of each end.
   void addForces(std::vector<Vec2>& forces, double area) const;
   /// (rad/s) Rotation of the line, for velocities by node.

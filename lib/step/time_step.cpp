@@ -56,8 +56,9 @@ void World::advance(double dt) {
     requireResolvedMotion(dt);
     // Local search and correction, from x*, v* to xⁿ⁺¹, vⁿ⁺½. Contact forces act at xⁿ.
     correctContact(length);
-    countContactWork(length);
   }
+  fracture.cohesion.finish(model.nodes, length);
+  if (canTouch()) countContactWork(length);
   requireUpright(dt);
 
   // Work of all forces except contact, with the mean of both velocities.

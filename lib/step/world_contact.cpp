@@ -42,10 +42,11 @@ void World::correctContact(const StepLength& length) {
                         tolerance::kWidestHalo * finest_ + 2 * most,
                         dynamics_.previousPosition(),
                         threads,
-                        fracture.numCracks() > 0,
+                        fracture.numCracks() > 0 || !cohesive.empty(),
                         rigidMasses,
                         cohesive,
-                        timesIfRequested()};
+                        timesIfRequested(),
+                        cohesive.empty() ? nullptr : &fracture.cohesion};
   undo_.hasCorrected = true;
   contact.correct(model, surfaces, contactSettings, now);
   for (const RigidMasses::Member& member : rigidMasses.members)

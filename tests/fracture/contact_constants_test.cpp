@@ -56,7 +56,7 @@ TEST_P(ContactConstants, MayBeHalvedAndDoubled) {
           ImpactSetting{.fractureEnergy = 100, .speed = 50, .every = 20},
           ImpactSetting{
               .fractureEnergy = 100, .speed = 200, .every = 20, .nodes = NodeLayout::kScattered}}) {
-      const Course course = runImpact(setting);
+      const ImpactCourse course = runImpact(setting);
       deepest = std::max(deepest, course.triangles);
       given = std::max(given, course.given);
       EXPECT_GT(course.growth, 2);

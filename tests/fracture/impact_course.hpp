@@ -24,7 +24,7 @@ struct ImpactSetting {
   NodeLayout nodes = NodeLayout::kRows;
 };
 
-struct Course {
+struct ImpactCourse {
   double growth = 0;     ///< of the number of segments
   double deepest = 0;    ///< of the shortest segment: a node in another piece or its own
   double triangles = 0;  ///< the same of two triangles, which may cross without a node in either
@@ -67,13 +67,13 @@ inline World impact(const ImpactSetting& setting) {
   return world;
 }
 
-inline Course runImpact(const ImpactSetting& setting) {
+inline ImpactCourse runImpact(const ImpactSetting& setting) {
   World world = impact(setting);
   const double dt = .8 * world.criticalTimeStep();
   const double energy = world.kineticEnergy();
   const auto segments = static_cast<double>(world.surfaces.segments());
   const Sums start = sumsOf(world.model);
-  Course course;
+  ImpactCourse course;
   for (int i = 0; i < setting.steps; ++i) {
     const double taken = world.ledger.contact;
     world.step(dt);

@@ -15,7 +15,7 @@ namespace yadefrag::test {
 namespace {
 
 /// What must hold in any case. `given`: most that contact may give.
-void expectSound(const Course& course, double given = .003, Entry entry = Entry::kPath) {
+void expectSound(const ImpactCourse& course, double given = .003, Entry entry = Entry::kPath) {
   record("cracks", static_cast<double>(course.cracks));
   record("growth", course.growth);
   // What sweeps leave that end before all is solved, a part of a step's motion; entry by the path
@@ -36,7 +36,7 @@ void expectSound(const Course& course, double given = .003, Entry entry = Entry:
 }
 
 TEST(Impact, ABlockFallsToPieces) {
-  const Course course = runImpact({.size = 8e-4});
+  const ImpactCourse course = runImpact({.size = 8e-4});
   expectSound(course);
   EXPECT_GT(course.growth, 7);
   EXPECT_EQ(course.fracture, 0);
@@ -44,20 +44,20 @@ TEST(Impact, ABlockFallsToPieces) {
 
 /// As `addPolygon` meshes what can crack; the fastest, which flags let overlap by a tenth.
 TEST(Impact, OnAnIrregularMesh) {
-  const Course course = runImpact({.speed = 200, .nodes = NodeLayout::kScattered});
+  const ImpactCourse course = runImpact({.speed = 200, .nodes = NodeLayout::kScattered});
   expectSound(course);
   EXPECT_GT(course.growth, 7);
 }
 
 /// The paper's criterion of entry, for comparison.
 TEST(Impact, EntryByFlags) {
-  const Course course = runImpact({.size = 8e-4, .entry = Entry::kFlags});
+  const ImpactCourse course = runImpact({.size = 8e-4, .entry = Entry::kFlags});
   expectSound(course, .003, Entry::kFlags);
   EXPECT_GT(course.growth, 7);
 }
 
 TEST(Impact, CohesionTakesItsEnergy) {
-  const Course course = runImpact({.fractureEnergy = 500});
+  const ImpactCourse course = runImpact({.fractureEnergy = 500});
   // The tractions that keep the faces of a crack apart do not include what contact does afterwards
   // in the same step: one gives what the other takes. 0.013 measured, a third and a ninth of it
   // with half and a quarter of the step.
@@ -67,7 +67,7 @@ TEST(Impact, CohesionTakesItsEnergy) {
 }
 
 TEST(Impact, AFreeBlockKeepsTheMomentum) {
-  const Course course = runImpact({.held = false});
+  const ImpactCourse course = runImpact({.held = false});
   expectSound(course);
   // Rounding: forces are summed by node in any order of size, 10³ nodes and 500 steps.
   figure("momentum_error", course.momentumError, 0, 1e-12);

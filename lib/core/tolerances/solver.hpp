@@ -16,6 +16,11 @@ inline constexpr int kFrictionRounds = 8;
 inline constexpr int kRubbleDetections = 4;
 inline constexpr double kRubbleRemainder = 1e-4;
 
+/// (count) Sweeps of contact to one of the cohesive tractions at the same nodes. A block that
+/// breaks on a wall takes 1.9 times the time with 1, 1.45 times with 4, 8 or more, of that without
+/// common sweeps; `contact` falls by at most 2e-5 of the energy with 4, 1.6e-4 with 16.
+inline constexpr int kSweepsToCouple = 4;
+
 /// (rows; of the penetration that needs another solution; count) A group with friction and more
 /// rows than the first value is solved by sweeps, until no gap or slip changes by more than the
 /// second, or after this number of sweeps. With a rigid body that obeys forces, sweeps need some

@@ -1,15 +1,14 @@
 """A brittle block with cohesion and friction falls on a YADE wall at 15 m/s, with shorter and shorter steps.
-Expected: fe.energy['contact'], which can only grow if contact creates no energy, falls by less than 1 % of the 1412 J with .4
-of the critical step, by at most half of that with half the step, and by less than 2.5e-3 (to 2e-4 s; once by 33 J with .2).
-    scripts/yade -n -x -j1 contact_energy_shorter_step.py"""
+Expected: contact creates no energy: fe.energy['contact'] never falls by more than 1e-3 of the 1412 J (once by 37, 12, 2 J).
+    scripts/yade -n -x -j1 contact_energy_and_step.py"""
 import os
 import warnings
 
 from yadefrag import *
 
 warnings.simplefilter('ignore')
-falls = []
-for part in (.4, .2):
+worst = 0
+for part in (.8, .4, .2):
     O.reset()
     O.materials.append(BrittleFEMat(young=30e9, poisson=.2, density=2500, frictionAngle=.5, tensileStrength=5e6,
                                     fractureEnergy=50, weibullModulus=10, label='rock'))
@@ -21,10 +20,11 @@ for part in (.4, .2):
     O.dt = part * fe.criticalTimeStep()
     highest = drop = 0
     for _ in range(40):
-        O.run(max(1, int(2e-4 / O.dt) // 40), True)
+        O.run(max(1, int(6.8e-4 / O.dt) // 40), True)
         highest = max(highest, fe.energy['contact'])
         drop = max(drop, highest - fe.energy['contact'])
-    falls.append(drop / 1412)
+    worst = max(worst, drop / 1412)
     print('%.2f of the critical step: %d cracks, contact %+.1f J, fell by %.1f J, %d messages' % (
         part, fe.numCracks, fe.energy['contact'], drop, len(fe.warnings)))
-os._exit(0 if falls[0] < 1e-2 and falls[1] < 2.5e-3 and falls[1] < falls[0] / 2 else 1)
+print('largest fall %.2g of the energy (1e-3 wanted)' % worst)
+os._exit(0 if worst < 1e-3 else 1)

@@ -1,0 +1,39 @@
+#pragma once
+// Forces of another kind between nodes that contact moves, too: the tractions of cohesive cracks.
+// Both are improved in the same sweeps. If the tractions were found before contact and then kept,
+// closed faces would be pushed against each other by contact, and their pressure would do work.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/vec2.hpp"
+
+namespace yadefrag {
+
+class CoupledForces {
+ public:
+  virtual ~CoupledForces() = default;
+  /// Before the sweeps, at `position` (m, by node).
+  virtual void begin(std::span<const Vec2> position) = 0;
+  /// Contact has moved a node: the forces there must be improved.
+  virtual void noteMoved(NodeId node) = 0;
+  /// Improves them, which changes positions, and those that this affects by more than `tolerance`
+  /// (m). Returns the largest displacement (m).
+  virtual double sweep(std::vector<Vec2>& position, double tolerance) = 0;
+  /// Sweeps until no force changes any more, except for their own tolerance. Returns the largest
+  /// displacement since the begin (m).
+  virtual double converge(std::vector<Vec2>& position) = 0;
+};
+
+/// What the sweeps need for them.
+struct Coupling {
+  CoupledForces& forces;
+  std::span<const std::uint32_t> group;  ///< by node; 0: without such forces
+  std::vector<Vec2>& position;           ///< m, by node
+  std::span<const Vec2> displaced;       ///< m, by node: by contact, included in `position`
+  double moved = 0;                      ///< m, bound of the displacements by these forces
+};
+
+}  // namespace yadefrag
