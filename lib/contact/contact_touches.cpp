@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "contact/contact.hpp"
+#include "core/tolerances/contact.hpp"
 
 namespace yadefrag {
 
@@ -44,7 +45,57 @@ Candidates renumbered(const Candidates& candidates, std::span<const EntryId> num
   return kept;
 }
 
+/// True if cohesion holds both sides of a row to each other. It would undo in every step what
+/// contact does to reduce their overlap: contact would create energy, and cohesion would take it.
+bool isHeldByCohesion(const ContactRow& row, std::span<const std::uint32_t> cohesive) {
+  if (cohesive.empty()) return false;
+  const auto groupOf = [&](std::size_t k) { return cohesive[row.node[k].value]; };
+  const auto count = static_cast<std::size_t>(row.count);
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t m = 0; m < count; ++m)
+      if (row.weight[k] > 0 && row.weight[m] < 0 && groupOf(k) != 0 && groupOf(k) == groupOf(m))
+        return true;
+  return false;
+}
+
 }  // namespace
+
+/// (m) Slip in the step without contact.
+double Contact::slipOf(const ContactRow& row, const Model& model, const ContactStep& step) const {
+  Vec2 moved;
+  for (int k = 0; k < row.count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const std::uint32_t node = row.node[at].value;
+    moved += row.weight[at] * (model.nodes.position[node] - step.before[node]);
+  }
+  return dot(moved - relative(row, displacement_), row.tangent());
+}
+
+/// Sets friction, slip, and the values stored for this contact in the last step.
+void Contact::startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
+                       const PieceGeometry& before, const Active& active,
+                       const ContactStep& step) const {
+  const auto friction = [&](EntryId entry) {
+    return model.components[surfaces.component[entry.value].value].friction;
+  };
+  row.friction = std::min(friction(row.slave), friction(row.master));
+  row.gap -= dot(relative(row, displacement_), row.normal);
+  if (row.friction > 0) row.slip = slipOf(row, model, step);
+  const double decay = isHeldByCohesion(row, step.cohesive) ? 0 : tolerance::contact().overlapDecay;
+  const auto former =
+      std::lower_bound(touches.begin(), touches.end(), active.pair,
+                       [](const Touch& known, SlaveMaster pair) { return known.pair < pair; });
+  if (former != touches.end() && former->pair == active.pair) {
+    row.toleratedGap =
+        std::min(0., former->toleratedGap + decay * std::min(-former->toleratedGap, step.move));
+    row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;
+    return;
+  }
+  // An overlap from before the step (missed by the flags, or beside an end) must not become
+  // velocity at once.
+  const double gap = before.foot(row.master, before.slave(row.slave)).gap;
+  row.toleratedGap = std::min(0., gap + decay * step.move);
+}
 
 /// (m) Largest depth at xⁿ of the contacts of the last step.
 double Contact::deepestTouch(const ContactSurfaces& surfaces, std::span<const Vec2> before) const {

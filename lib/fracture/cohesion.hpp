@@ -46,6 +46,7 @@ class Cohesion final : public CoupledForces {
   /// stored openings of the cracks change only in `settle`.
   void correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                const StepLength& step, double drag);
+  // While contact is solved (cohesion_coupled.cpp):
   void begin(std::span<const Vec2> position) override;
   void noteMoved(NodeId node) override;
   double sweep(std::vector<Vec2>& position, double tolerance) override;
@@ -123,6 +124,8 @@ class Cohesion final : public CoupledForces {
   double improve(std::vector<Vec2>& position, Matters matters);
   static void apply(std::vector<Vec2>& position, const Point& point, Vec2 change);
   static void relax(std::vector<Vec2>& position, Point& point);
+  /// (m) Displacement by the last change of a traction.
+  static double moved(const Point& point);
 
   std::vector<Point> points_;
   std::vector<FaceCouple> couples_;     // of the cracks with points
