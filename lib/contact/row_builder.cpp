@@ -41,6 +41,17 @@ FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, 
   return {master, foot};
 }
 
+/// The foot of a slave that has passed the end of its master within the step: the one at xⁿ if the
+/// slave was over the master then. With the end instead, each such contact would create angular
+/// momentum.
+FootOn footAtCorner(const PieceGeometry& before, const Active& active, Vec2 slave) {
+  const EntryId master = active.pair.master;
+  const Foot start = before.foot(master, slave);
+  const PieceRange range = before.range(master);
+  const bool wasOver = start.xi >= range.begin && start.xi <= range.end;
+  return {master, wasOver ? start : active.foot};
+}
+
 /// A foot past the end of a straight piece is extrapolated a little; otherwise it is at the end.
 double usableXi(const PieceGeometry& before, EntryId master, double xi, bool atCorner) {
   const PieceRange range = before.range(master);
@@ -70,7 +81,7 @@ ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
                     active.foot.xi > range.end + tolerance::kFootRange;
   const bool atCorner =
       past && !goesOn(surfaces, before, active.pair.master, active.foot.xi, point);
-  const FootOn on = atCorner ? FootOn{active.pair.master, active.foot}
+  const FootOn on = atCorner ? footAtCorner(before, active, point)
                              : footBefore(surfaces, before, active.pair, point);
   ContactRow row;
   row.slave = active.pair.slave;
