@@ -12,6 +12,7 @@ from yade import wrapper
 from yadefrag import _yadefrag
 
 _pause = wrapper.Omega.pause  # YADE's own, which does not count as a pause by the script
+_identify = threading.get_ident
 _LOOK = .05  # s, from one check for signals to the next
 _count = 0  # interrupts so far
 _seen = threading.local()  # count: those of which the thread knows
@@ -70,9 +71,7 @@ def _remove(depths, me):
 
 
 class held:
-    """A context: Ctrl-C raises KeyboardInterrupt at its beginning and at its end, nowhere within it.
-
-    A class, since O.step() of an empty scene takes some microseconds longer with a generator."""
+    """A context: Ctrl-C raises KeyboardInterrupt at its beginning and at its end, nowhere within it."""
 
     def __enter__(self):
         if not hasattr(_seen, 'count'):
@@ -84,6 +83,25 @@ class held:
         _remove(_held, threading.get_ident())
         if error is None:
             _check()
+
+
+def during(call, argument):
+    """`with held(): call(argument)`, in a third of the time: for O.step(), whose steps may be short."""
+    if getattr(_seen, 'count', None) != _count:
+        with held():
+            pass
+    me = _identify()
+    depth = _held.get(me, 0)
+    _held[me] = depth + 1
+    try:
+        call(argument)
+    finally:
+        if depth:
+            _held[me] = depth
+        else:
+            del _held[me]
+    if _seen.count != _count:
+        _check()
 
 
 @contextlib.contextmanager

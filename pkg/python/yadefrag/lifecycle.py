@@ -171,10 +171,12 @@ def _wholeStep(step):
     which would fail."""
     @functools.wraps(step)
     def stepped(self):
-        messages.tellNumbers()
-        scene_start.tell()
-        with interrupts.held():
-            step(self)
+        if untold:
+            messages.tellNumbers()
+        if solvers.data:
+            scene_start.tell()
+        during(step, self)
+    untold, solvers, during = messages.untold, scene_start.solvers, interrupts.during
     return stepped
 
 

@@ -11,7 +11,7 @@ _SHOWN = 90  # characters of a message that is quoted
 _LISTED = 12  # bodies or bonds in a sentence
 _NUMBER = re.compile(r'[-+]?[\d.]+(e[-+]?\d+)?')
 _repeated = {}  # {message without its numbers: (the first message, 'bodies' or 'bonds', those that have it)}
-_untold = set()  # those that more bodies or bonds have than have been told
+untold = set()  # those that more bodies or bonds have than have been told
 
 
 def warn(sentence):
@@ -33,13 +33,13 @@ def warnOfOne(sentence, what, one):
     if len(known) == 1:
         warn(sentence)
     else:
-        _untold.add(kind)
+        untold.add(kind)
 
 
 def tellNumbers():
     """Before a run: how many bodies or bonds have a message that was given for the first of them."""
-    for kind in list(_untold):
-        _untold.discard(kind)
+    for kind in list(untold):
+        untold.discard(kind)
         first, what, known = _repeated[kind]
         warn('%d %s have this message, which was given for the first of them only: "%s"; they are %s.' %
              (len(known), what, first if len(first) <= _SHOWN else first[:_SHOWN] + '…', _inWords(what, known)))
@@ -48,7 +48,7 @@ def tellNumbers():
 def forget():
     """After O.reset, or before the first body of a solver."""
     _repeated.clear()
-    _untold.clear()
+    untold.clear()
 
 
 def _inWords(what, known):

@@ -9,19 +9,19 @@ from yadefrag.messages import warn
 _SENTENCE = ('O.engines has no FESolver, so that nothing moves its bodies: O.engines = engines(fe) sets the '
              'engines.')
 
-_solvers = weakref.WeakSet()  # with bodies
+solvers = weakref.WeakSet()  # with bodies
 _looked = None  # scene and number of its bodies when they were last searched
 
 
 def addSolver(solver):
     """Must be called for every solver to which a body is added."""
-    _solvers.add(solver)
+    solvers.add(solver)
 
 
 def _isWithoutSolver():
     """True, once for each scene and number of bodies, if there are FE bodies and no engine moves them."""
     global _looked
-    if not _solvers:
+    if not solvers:
         return False
     omega = wrapper.Omega()
     if any(isinstance(one, (wrapper.FESolver, wrapper.ParallelEngine)) for one in omega.engines):
@@ -38,6 +38,6 @@ def tell():
     """Before a run: a warning, which is also in the `warnings` of all solvers with bodies."""
     if not _isWithoutSolver():
         return
-    for solver in _solvers:
+    for solver in solvers:
         solver._note(_SENTENCE)
     warn(_SENTENCE)
