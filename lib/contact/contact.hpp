@@ -125,6 +125,8 @@ class Contact {
   [[nodiscard]] bool isOfRigid(NodeId node, const ContactStep& step) const;
   void startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
                 const PieceGeometry& before, const Active& active, const ContactStep& step) const;
+  [[nodiscard]] static double frictionOf(SlaveMaster pair, const Model& model,
+                                         const ContactSurfaces& surfaces);
   [[nodiscard]] double slipOf(const ContactRow& row, const Model& model,
                               const ContactStep& step) const;
   void updateGaps(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);

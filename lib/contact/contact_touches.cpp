@@ -71,14 +71,18 @@ double Contact::slipOf(const ContactRow& row, const Model& model, const ContactS
   return dot(moved - relative(row, displacement_), row.tangent());
 }
 
+double Contact::frictionOf(SlaveMaster pair, const Model& model, const ContactSurfaces& surfaces) {
+  const auto friction = [&](EntryId entry) {
+    return model.components[surfaces.component[entry.value].value].friction;
+  };
+  return std::min(friction(pair.slave), friction(pair.master));
+}
+
 /// Sets friction, slip, and the values stored for this contact in the last step.
 void Contact::startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
                        const PieceGeometry& before, const Active& active,
                        const ContactStep& step) const {
-  const auto friction = [&](EntryId entry) {
-    return model.components[surfaces.component[entry.value].value].friction;
-  };
-  row.friction = std::min(friction(row.slave), friction(row.master));
+  row.friction = frictionOf(active.pair, model, surfaces);
   row.gap -= dot(relative(row, displacement_), row.normal);
   if (row.friction > 0) row.slip = slipOf(row, model, step);
   const double decay = isHeldByCohesion(row, step.cohesive) ? 0 : tolerance::contact().overlapDecay;

@@ -42,14 +42,15 @@ FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, 
 }
 
 /// The foot of a slave that has passed the end of its master within the step: the one at xⁿ if the
-/// slave was over the master then. With the end instead, each such contact would create angular
-/// momentum.
+/// slave was over the master then, near its end. With the end instead, each such contact would
+/// create angular momentum. Rejected with friction, which has a moment anyway: a wedge of 10°
+/// driven into a notch with μ = 100 gains 8 % of its energy.
 FootOn footAtCorner(const PieceGeometry& before, const Active& active, Vec2 slave) {
   const EntryId master = active.pair.master;
   const Foot start = before.foot(master, slave);
   const PieceRange range = before.range(master);
-  const bool wasOver = start.xi >= range.begin && start.xi <= range.end;
-  return {master, wasOver ? start : active.foot};
+  const double inside = std::min(start.xi - range.begin, range.end - start.xi);
+  return {master, inside >= 0 && inside <= tolerance::kFootWithin ? start : active.foot};
 }
 
 /// A foot past the end of a straight piece is extrapolated a little; otherwise it is at the end.
@@ -72,7 +73,7 @@ bool goesOn(const ContactSurfaces& surfaces, const PieceGeometry& before, EntryI
 }  // namespace
 
 ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
-                   const Active& active) {
+                   const Active& active, bool hasFriction) {
   const Stencil slave = surfaces.slave(active.pair.slave);
   const Vec2 point = before.slave(active.pair.slave);
   const PieceRange range = before.range(active.pair.master);
@@ -81,8 +82,11 @@ ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
                     active.foot.xi > range.end + tolerance::kFootRange;
   const bool atCorner =
       past && !goesOn(surfaces, before, active.pair.master, active.foot.xi, point);
-  const FootOn on = atCorner ? footAtCorner(before, active, point)
-                             : footBefore(surfaces, before, active.pair, point);
+  FootOn on{active.pair.master, active.foot};
+  if (!atCorner)
+    on = footBefore(surfaces, before, active.pair, point);
+  else if (!hasFriction)
+    on = footAtCorner(before, active, point);
   ContactRow row;
   row.slave = active.pair.slave;
   row.master = active.pair.master;

@@ -140,9 +140,17 @@ TEST(RowBuilder, FootBeforePastASharpCorner) {
   EXPECT_NEAR(far.masterPoint(clamped).x, 0, 1e-15);
 }
 
-/// In a concave corner without an orthogonal foot the corner's node takes each row's force.
+/// In a concave corner without an orthogonal foot the corner's node takes each row's force, unless
+/// the slave was over the piece at the begin of the step, near the corner.
 TEST(RowBuilder, ConcaveCornerIsCorrectedToItsNode) {
-  const Approach a({{-1, -1}, {1, -1}, {1, 1}, {0, 0}, {-1, 1}}, {}, {0, .01}, {.001, -.02});
+  const std::vector<Vec2> notch{{-1, -1}, {1, -1}, {1, 1}, {0, 0}, {-1, 1}};
+  const Approach near(notch, {}, {0, .002}, {.001, -.02});
+  const Approach a(notch, {}, {0, .1}, {.001, -.02});
+  for (const EntryId master : {near.body + 2, near.body + 3}) {
+    const ContactRow row = near.row(master);
+    ASSERT_EQ(row.count, 3);
+    EXPECT_NEAR(std::min(row.weight[1], row.weight[2]), -.999, 1e-12);
+  }
   for (const EntryId master : {a.body + 2, a.body + 3}) {
     const ContactRow row = a.row(master);
     ASSERT_EQ(row.count, 2);
