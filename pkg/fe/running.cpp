@@ -77,7 +77,7 @@ void waitForStart(long iter, int subStep) {
 }  // namespace
 
 void beginRun(const yade::py::object& run, const yade::py::object& wait,
-              const yade::py::object& scene, long steps) {
+              const yade::py::object& scene, const yade::py::object& steps) {
   // A paused run may still be in its last step: its progress is not that of the new run.
   if (!isInStep() && !yade::Omega::instance().isRunning()) replaceLoop();
   const yade::Scene& before = *yade::Omega::instance().getScene();

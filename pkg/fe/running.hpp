@@ -20,7 +20,7 @@ void requirePaused();
 /// until then, so that no engine that needs it, such as a PyRunner, can fail before YADE waits for
 /// its error.
 void beginRun(const yade::py::object& run, const yade::py::object& wait,
-              const yade::py::object& scene, long steps);
+              const yade::py::object& scene, const yade::py::object& steps);
 
 /// Stops a run of another thread; returns after its last step. Python's lock is released meanwhile.
 void stopRun();
