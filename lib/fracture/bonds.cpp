@@ -2,83 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "core/errors.hpp"
-#include "core/tolerances/fracture.hpp"
-#include "search/overlapping_pairs.hpp"
+#include "fracture/side_lines.hpp"
 
 namespace yadefrag {
 namespace {
-
-/// Sides of one triangle only, which are no edge of CrackEdges.
-std::vector<Side> freeSides(const Model& model, const CrackEdges& edges, ComponentId component) {
-  const std::vector<KeyedSide> sides = sidesByNodes(model, model.components[component.value]);
-  std::vector<Side> result;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (i + 1 < sides.size() && sides[i].joins(sides[i + 1])) {
-      ++i;
-      continue;
-    }
-    const Side side = sides[i].side;
-    if (side.element.value >= edges.ofElement.size() ||
-        edges.ofElement[side.element.value][side.corner] == EdgeId::none())
-      result.push_back(side);
-  }
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
-struct Line {
-  Vec2 begin, end;
-  [[nodiscard]] double length() const { return norm(end - begin); }
-};
-
-Line lineOf(const Model& model, Side side) {
-  return {model.nodes.position[firstNode(model, side).value],
-          model.nodes.position[lastNode(model, side).value]};
-}
-
-/// Boundary sides have the material on the left: sides of two bodies match if they run in opposite
-/// directions.
-bool match(const Line& a, const Line& b) {
-  double farthest = 0;
-  for (const Vec2 x : {a.begin, a.end})
-    farthest = std::max({farthest, std::abs(x.x), std::abs(x.y)});
-  // Equal outlines may differ by some roundings of their coordinates.
-  const double gap = std::max(tolerance::kBondGap * std::min(a.length(), b.length()),
-                              8 * std::numeric_limits<double>::epsilon() * farthest);
-  return norm(a.begin - b.end) <= gap && norm(a.end - b.begin) <= gap;
-}
-
-double reachOf(double length, double reach) {
-  return reach > 0 ? reach : tolerance::kProbableBond * length;
-}
-
-/// True if two sides are parallel and run beside each other, up to `reach` (m) apart.
-bool runAlong(const Line& a, const Line& b, double reach) {
-  const double near = reachOf(std::min(a.length(), b.length()), reach);
-  const Vec2 along = (1 / a.length()) * (a.end - a.begin);
-  const auto aside = [&](Vec2 x) { return std::abs(cross(along, x - a.begin)); };
-  const double from = dot(along, b.end - a.begin), to = dot(along, b.begin - a.begin);
-  return from < to && aside(b.begin) <= near && aside(b.end) <= near &&
-         std::min(to, a.length()) - std::max(from, 0.) > near;
-}
-
-std::vector<BoxPair> nearPairs(const std::vector<Line>& lines, double reach) {
-  std::vector<Box> boxes;
-  for (const Line& l : lines) {
-    const double by = reachOf(l.length(), reach);
-    boxes.push_back({{std::min(l.begin.x, l.end.x) - by, std::min(l.begin.y, l.end.y) - by, 0},
-                     {std::max(l.begin.x, l.end.x) + by, std::max(l.begin.y, l.end.y) + by, 0}});
-  }
-  std::vector<BoxPair> pairs = overlappingPairs(boxes);
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
 
 std::string named(ComponentId a, ComponentId b) {
   return fmt::format("the bodies {} and {}", a.value, b.value);
@@ -88,16 +19,8 @@ std::string named(ComponentId a, ComponentId b) {
 
 CommonSides commonSides(const Model& model, const CrackEdges& edges,
                         std::span<const ComponentId> bodies, double reach) {
-  std::vector<Side> sides;
-  std::vector<ComponentId> owners;
-  for (const ComponentId body : bodies) {
-    const std::vector<Side> own = freeSides(model, edges, body);
-    sides.insert(sides.end(), own.begin(), own.end());
-    owners.resize(sides.size(), body);
-  }
-  std::vector<Line> lines;
-  lines.reserve(sides.size());
-  for (const Side side : sides) lines.push_back(lineOf(model, side));
+  const auto [sides, owners] = FreeSides(model, edges, bodies);
+  const std::vector<Line> lines = linesOf(model, model.nodes.position, sides);
   CommonSides result;
   std::vector<std::uint8_t> isMatched(sides.size());
   std::vector<BoxPair> others;
@@ -122,22 +45,18 @@ CommonSides commonSides(const Model& model, const CrackEdges& edges,
   return result;
 }
 
-std::vector<std::array<Side, 2>> matchingSides(const Model& model, const CrackEdges& edges,
-                                               ComponentId a, ComponentId b) {
-  const std::array bodies{a, b};
-  CommonSides found = commonSides(model, edges, bodies);
+void requireMatch(const CommonSides& found, ComponentId a, ComponentId b) {
   if (found.unmatched > 0)
     throw InputError(fmt::format(
-        "At ({:g}, {:g}) sides of {} coincide but have different ends; bonded sides have the same "
-        "ends: give both outlines the same points by snapOutlines, and one size, or the second one "
-        "snap= and the larger size; or add one body with joints.",
+        "At ({:g}, {:g}) sides of {} coincide but have different ends, and these cannot be moved "
+        "onto each other: they are too near each other, or nodes of other bonds; bondAll with a "
+        "tolerance of that distance, or snapOutlines before the bodies are added, may help.",
         found.place.x, found.place.y, named(a, b)));
   if (found.pairs.empty())
-    throw InputError(fmt::format(
-        "No sides of {} that are not bonded yet lie on each other; bodies to be bonded must touch "
-        "along sides with the same ends.",
-        named(a, b)));
-  return std::move(found.pairs);
+    throw InputError(
+        fmt::format("No sides of {} that are not bonded yet lie on each other; bodies to be bonded "
+                    "must touch along sides.",
+                    named(a, b)));
 }
 
 void checkBond(double strength, double energy) {

@@ -25,11 +25,9 @@ struct CommonSides {
 [[nodiscard]] CommonSides commonSides(const Model& model, const CrackEdges& edges,
                                       std::span<const ComponentId> bodies, double reach = 0);
 
-/// The common sides of two bodies. Throws InputError, with the remedy, if there are none, or if
-/// sides do not match.
-[[nodiscard]] std::vector<std::array<Side, 2>> matchingSides(const Model& model,
-                                                             const CrackEdges& edges, ComponentId a,
-                                                             ComponentId b);
+/// Throws InputError, with the remedy, if two bodies have no common sides, or any that do not
+/// match.
+void requireMatch(const CommonSides& found, ComponentId a, ComponentId b);
 
 /// Throws InputError unless strength (Pa) and energy (J/m²) are valid for a bond.
 void checkBond(double strength, double energy);

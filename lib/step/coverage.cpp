@@ -35,10 +35,4 @@ Snapped snapOnBodies(const World& world, const Polygon& polygon, const SnapRule&
   return snapOnto(polygon, sides, rule);
 }
 
-CommonSides bondAll(World& world, double reach, double strength, double energy) {
-  CommonSides found = commonSides(world.model, world.fracture.edges, bodiesOf(world.model), reach);
-  (void)world.bond(ComponentId::none(), ComponentId::none(), strength, energy);
-  return found;
-}
-
 }  // namespace yadefrag

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,8 +17,11 @@
 #include "dynamics/energy_ledger.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "dynamics/surface_loads.hpp"
+#include "fracture/bonds.hpp"
+#include "fracture/conform.hpp"
 #include "fracture/fracture.hpp"
 #include "fracture/loose_pieces.hpp"
+#include "fracture/side_splitting.hpp"
 #include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "search/contact_search.hpp"
@@ -88,9 +92,14 @@ class World {
   /// `places` (m) by index in `rigidNodes`.
   void slideRigid(std::span<const Vec2> places);
   /// Bonds the bodies from the next step on along all their present common sides, by cohesive
-  /// cracks of this strength (Pa) and energy (J/m²). Returns the number of these sides. Throws
+  /// cracks of this strength (Pa) and energy (J/m²). Sides with different ends get the same ones
+  /// before (fracture/conform.hpp); `done`: by what. Returns the number of these sides. Throws
   /// InputError before anything is changed.
-  std::size_t bond(ComponentId a, ComponentId b, double strength, double energy);
+  std::size_t bond(ComponentId a, ComponentId b, double strength, double energy,
+                   ConformPlan* done = nullptr);
+  /// The same for all bodies whose sides are up to `reach` (m) apart. Those that cannot get the
+  /// same ends are counted in the result, and not bonded.
+  CommonSides bondAll(double reach, double strength, double energy, ConformPlan* done = nullptr);
 
   /// (N) Constant external forces by node; empty: none. InputError unless one per node, all finite.
   void setLoads(std::vector<Vec2> loads);
@@ -224,6 +233,11 @@ class World {
   void takeBack();
   void conclude(double dt);
   void requireBody(ComponentId component, const char* purpose) const;
+  CommonSides conformedSides(std::span<const ComponentId> bodies, double reach,
+                             const std::function<void(const CommonSides&)>& check,
+                             ConformPlan* done);
+  void followDivision(const DividedSides& divided);
+  void bond(const CommonSides& sides, double strength, double energy);
   void requireApart(const TriangleMesh& mesh, const BodySpec& spec, const std::string& subject);
   [[nodiscard]] Vec2 rigidVelocity(NodeId node) const;
   std::uint32_t rigidMotion();

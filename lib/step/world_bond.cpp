@@ -1,29 +1,88 @@
 // World: bonds between bodies.
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "core/errors.hpp"
-#include "fracture/bonds.hpp"
 #include "step/coverage.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
 
-/// none() for both: all bodies, as far as their sides match.
-std::size_t World::bond(ComponentId a, ComponentId b, double strength, double energy) {
+std::size_t World::bond(ComponentId a, ComponentId b, double strength, double energy,
+                        ConformPlan* done) {
   checkBond(strength, energy);
-  std::vector<std::array<Side, 2>> sides;
-  if (a == ComponentId::none() && b == ComponentId::none()) {
-    sides = commonSides(model, fracture.edges, bodiesOf(model)).pairs;
-    if (sides.empty()) return 0;
-  } else {
-    requireBody(a, "bond");
-    requireBody(b, "bond");
-    if (a == b) throw InputError("A body cannot be bonded to itself; joints= is for that.");
-    sides = matchingSides(model, fracture.edges, a, b);
+  requireBody(a, "bond");
+  requireBody(b, "bond");
+  if (a == b) throw InputError("A body cannot be bonded to itself; joints= is for that.");
+  const CommonSides found = conformedSides(
+      std::array{a, b}, 0, [&](const CommonSides& sides) { requireMatch(sides, a, b); }, done);
+  bond(found, strength, energy);
+  return found.pairs.size();
+}
+
+CommonSides World::bondAll(double reach, double strength, double energy, ConformPlan* done) {
+  checkBond(strength, energy);
+  CommonSides found = conformedSides(bodiesOf(model), reach, {}, done);
+  if (!found.pairs.empty()) bond(found, strength, energy);
+  return found;
+}
+
+/// The common sides after those with different ends got the same ones, if that lets more of them
+/// match. `check` may refuse the result; nothing is changed then.
+CommonSides World::conformedSides(std::span<const ComponentId> bodies, double reach,
+                                  const std::function<void(const CommonSides&)>& check,
+                                  ConformPlan* done) {
+  CommonSides found = commonSides(model, fracture.edges, bodies, reach);
+  const auto accept = [&](const CommonSides& sides) {
+    if (check) check(sides);
+  };
+  if (found.unmatched == 0) {
+    accept(found);
+    return found;
   }
-  fracture.bond(model, sides, strength, energy, reference);
+  ConformPlan plan = planConforming(model, fracture.edges, bodies, reach);
+  Model changed = model;
+  CrackEdges edges = fracture.edges;
+  std::vector<Vec2> places = reference;
+  const DividedSides divided = conform(changed, edges, places, surfaces, plan);
+  found = commonSides(changed, edges, bodies, reach);
+  accept(found);
+  if (found.pairs.empty()) return found;
+  model = std::move(changed), fracture.edges = std::move(edges), reference = std::move(places);
+  followDivision(divided);
+  if (done != nullptr) *done = std::move(plan);
+  return found;
+}
+
+/// Updates all arrays by node, segment or entry.
+void World::followDivision(const DividedSides& divided) {
+  const auto first = static_cast<std::uint32_t>(surfaces.segments());
+  (void)relink(surfaces, divided.sides);
+  const auto inherit = [&](std::vector<SegmentId>& segments) {
+    const std::vector<SegmentId> former = segments;
+    for (std::size_t i = 0; i < divided.parents.size(); ++i)
+      if (std::ranges::count(former, divided.parents[i]) > 0) segments.emplace_back(first + i);
+  };
+  for (Pressure& pressure : pressures) {
+    inherit(pressure.segments);
+    // The new segments are no faces of cracks.
+    if (pressure.firstNew == first)
+      pressure.firstNew = static_cast<std::uint32_t>(surfaces.segments());
+  }
+  inherit(absorbing.segments);
+  std::ranges::sort(absorbing.segments);
+  search.invalidate();
+  places_.clear();
+  rebuild();
+  watch.begin(kineticEnergy() + strainEnergy(), ledger);
+}
+
+void World::bond(const CommonSides& sides, double strength, double energy) {
+  fracture.bond(model, sides.pairs, strength, energy, reference);
   stableStep = 0;
   isBuilt_ = false;
-  return sides.size();
 }
 
 }  // namespace yadefrag

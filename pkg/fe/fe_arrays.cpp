@@ -95,17 +95,6 @@ int addMesh(FESolver& solver, const py::dict& input) {
   });
 }
 
-py::tuple bond(FESolver& solver, int a, int b, double strength, double energy) {
-  return change(solver, [&] {
-    World& world = solver.changeWorld();
-    const EdgeId first(world.fracture.edges.size());
-    const std::size_t sides =
-        world.bond(ComponentId(static_cast<std::size_t>(a)),
-                   ComponentId(static_cast<std::size_t>(b)), strength, energy);
-    return py::make_tuple(sides, bondZoneWarning(world.model, world.fracture.edges, first));
-  });
-}
-
 void takeBody(FESolver& solver, int component) {
   change(solver, [&] { solver.removeBody(component); });
 }

@@ -39,10 +39,6 @@ int addMesh(FESolver& solver, const yade::py::dict& input);
 
 void takeBody(FESolver& solver, int component);
 
-/// `FESolver._bond`, likewise; returns the number of sides and a message about the mesh, or an
-/// empty one.
-yade::py::tuple bond(FESolver& solver, int a, int b, double strength, double energy);
-
 /// `FESolver._setLoads` and `_prescribe`, likewise; one velocity for each node.
 void setLoads(FESolver& solver, const yade::py::object& loads);
 void prescribe(FESolver& solver, const yade::py::object& nodes, int held,

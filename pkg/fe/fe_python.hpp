@@ -4,6 +4,7 @@
 
 #include <mutex>
 
+#include "fe/bonds_python.hpp"
 #include "fe/fe_arrays.hpp"
 #include "fe/fe_results.hpp"
 #include "fe/fe_solver.hpp"
@@ -80,7 +81,7 @@ void FESolver::pyExtra(PyClass& pyClass) {
       .def("_costOfMesh", &Locked<costOfMesh>::call)
       .def("_meshQuality", &Locked<meshQualityOf>::call)
       .def("_costlyStepWarning", &Locked<costlyStepWarningOf>::call)
-      .def("_bond", &bond)
+      .def("_bond", &bondOf)
       .def("_bondAll", &bondAllOf)
       .def("_nodesOf", &Locked<nodesOfBody>::call)
       .def("_isGone", &Locked<isGone>::call)

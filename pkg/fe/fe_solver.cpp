@@ -275,6 +275,13 @@ int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
   return static_cast<int>(component.value);
 }
 
+/// Nodes have moved, or sides were divided.
+void FESolver::followBonds() {
+  bodies_.follow(*yade::Omega::instance().getScene(), world_);
+  bodies_.update(world_, 0, 1);
+  prepareNewcomer(0);
+}
+
 void FESolver::removeBody(int component) {
   yade::Scene& here = *yade::Omega::instance().getScene();
   bodies_.requireAll(here);

@@ -41,6 +41,10 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   int addBody(const TriangleMesh& mesh, BodySpec spec,
               const std::vector<yade::shared_ptr<FEMat>>& materials);
   void removeBody(int component);
+  /// Runs `work`, which bonds bodies of the world; `done` of its result (a ConformPlan) tells what
+  /// it changed on the boundary, which the scene's bodies then follow.
+  template <class Work>
+  auto bond(const Work& work);
 
   [[nodiscard]] double criticalTimeStep();
   [[nodiscard]] const World& world() const { return world_; }
@@ -98,6 +102,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void followCracks(std::uint64_t dropped);
   void prepareSearch(double dt);
   void prepareNewcomer(std::size_t first);
+  void followBonds();
   [[nodiscard]] double timeToIntegrate() const;
   void trackEnergy() const;
   [[nodiscard]] int threadsToUse() const;
@@ -121,6 +126,14 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   std::string formerView_ = view;
   mutable StepLock betweenSteps_;
 };
+
+template <class Work>
+auto FESolver::bond(const Work& work) {
+  if (!bodies_.ids().empty()) bodies_.requireAll(*yade::Omega::instance().getScene());
+  auto result = work(changeWorld());
+  if (!result.done.isEmpty()) followBonds();
+  return result;
+}
 
 constexpr auto FESolver::contactAttributes() {
   using C = FESolver;

@@ -6,7 +6,6 @@
 #include "fe/fe_solver.hpp"
 #include "fe/mesh_python.hpp"
 #include "fe/running.hpp"
-#include "fracture/checks.hpp"
 #include "step/coverage.hpp"
 #include "step/overlap_check.hpp"
 
@@ -45,22 +44,6 @@ py::tuple addMeshIfApart(FESolver& solver, const py::dict& input) {
   } catch (const OverlapFound& overlap) {
     return py::make_tuple(-1, overlap.what(), overlap.depth);
   }
-}
-
-py::tuple bondAllOf(FESolver& solver, double reach, double strength, double energy) {
-  requirePaused();
-  const std::lock_guard guard(solver.betweenSteps());
-  return asValueError([&] {
-    World& world = solver.changeWorld();
-    const EdgeId first(world.fracture.edges.size());
-    const CommonSides found = bondAll(world, reach, strength, energy);
-    const std::string problem = found.pairs.empty()
-                                    ? std::string()
-                                    : bondZoneWarning(world.model, world.fracture.edges, first);
-    return py::make_tuple(found.pairs.size(), found.unmatched,
-                          py::make_tuple(found.bodies[0].value, found.bodies[1].value),
-                          py::make_tuple(found.place.x, found.place.y), problem);
-  });
 }
 
 py::list snapTogetherOf(const py::list& polygons, double tolerance) {

@@ -26,10 +26,6 @@ yade::py::tuple addMeshIfApart(FESolver& solver, const yade::py::dict& input);
 yade::py::tuple snapOf(const FESolver& solver, const yade::py::object& outline,
                        const yade::py::list& holes, const yade::py::tuple& rule);
 
-/// `FESolver._bondAll`: the number of bonded sides, that of sides that do not match, two bodies and
-/// a place (m) of which this is true, and a message about the mesh.
-yade::py::tuple bondAllOf(FESolver& solver, double reach, double strength, double energy);
-
 /// The same for a list of (outline, holes): a list of such tuples.
 yade::py::list snapTogetherOf(const yade::py::list& polygons, double tolerance);
 

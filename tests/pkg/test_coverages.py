@@ -228,29 +228,13 @@ def test_bondsOfASnappedWallCarryLoadAsOneBodyDoes():
     assert solver.energy['total'] == pytest.approx(energy, rel=1e-4)
 
 
-def test_sidesThatDoNotMatchAreCounted():
-    solver, _ = addAll(coverages.bricks(2, 2), .035)
-    with pytest.warns(UserWarning, match=r'bondAll: \d+ sides within 0.001 m .* other ends, as between '
-                      r'the bodies \d and \d .*snapOutlines'):
-        assert solver.bondAll(.001, 1e6, 100) >= 4
-    # Its advice followed.
-    shapes, _ = yadefrag.snapOutlines(coverages.bricks(2, 2), .001)
-    solver, _ = addAll(shapes, .035)
-    with warnings.catch_warnings():
-        warnings.simplefilter('error')
-        solver.bondAll(.001, 1e6, 1e4)
-
-
 def test_aCoarserBodyIsGivenTheNodesOfAFinerOne():
-    """The advice of a bond that is refused for different sizes."""
+    """Its mesh then is even, other than where bond divides its sides."""
     solver = solverOf()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.05, material='m')
-    solver.addPolygon(yadefrag.rectangle((1, 0), (2, 1)), size=.08, material='m')
-    with pytest.raises(ValueError, match='snapOutlines, .* the second one snap= and the larger size'):
-        solver.bond(0, 1, 1e6, 1e4)
-    solver.removeBody(1)
     solver.addPolygon(yadefrag.rectangle((1, 0), (2, 1)), size=.08, material='m', snap=1e-6)
-    assert solver.bond(0, 2, 1e6, 1e4) == 20
+    triangles = len(solver.triangles)
+    assert solver.bond(0, 1, 1e6, 1e4) == 20 and len(solver.triangles) == triangles
 
 
 @pytest.mark.parametrize('given, sentence', [

@@ -242,10 +242,7 @@ def test_wrongBondsAreRefused(given, sentence):
     assert solver.bond(0, 1, 1e6, 100) > 0
 
 
-def test_meshesThatDoNotMatchAreRefused():
-    with pytest.raises(ValueError, match='different ends'):
-        pair(sizes=(.002, .003)).bond(0, 1, 1e6, 100)
-    O.reset()
+def test_bodiesThatDoNotTouchAreRefused():
     with pytest.raises(ValueError, match='No sides of the bodies 0 and 1'):
         pair(gap=.01).bond(0, 1, 1e6, 100)
 

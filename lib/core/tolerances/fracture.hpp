@@ -20,6 +20,17 @@ inline constexpr double kBondGap = 1e-9;
 /// be bonded: a message is given.
 inline constexpr double kProbableBond = .01;
 
+/// (of the shorter side of its own) To bond sides with different ends, a node slides along its side
+/// onto a node of the other body up to this distance: its neighbour may do the same from the other
+/// end, and a third of the side is left.
+inline constexpr double kSlide = 1. / 3;
+/// (of the shorter side) Corners of two outlines that are nearer are joined, and a new node has at
+/// least this distance from the ends of the side that it divides. The critical time step falls in
+/// this ratio; with .1 that of rubble masonry fell to .08 at worst.
+inline constexpr double kJoinedCorners = .2;
+/// (of a triangle's area) A node does not slide if it would leave less.
+inline constexpr double kLeastSqueezed = .25;
+
 /// (of the strength; count) The sweeps over cohesive tractions with common nodes end when no
 /// traction changes by more, or after this number of sweeps. With ten times the first value the
 /// dissipated energy of a plate's cracks is 0.2 % lower; with thirty times the second it is the

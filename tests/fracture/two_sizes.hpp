@@ -1,0 +1,80 @@
+#pragma once
+// Bodies whose nodes differ along their common sides, for the tests of their bonds.
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "step/bodies.hpp"
+
+namespace yadefrag::test {
+
+inline constexpr ElasticMaterial kMaterial{10e9, 0, 1000, true};
+inline constexpr double kHeight = .02;  // m
+inline const ComponentId kFirst(std::size_t{0}), kSecond(std::size_t{1}), kThird(std::size_t{2});
+
+inline TriangleMesh blockOf(Vec2 low, Vec2 high, double size) {
+  const auto parts = [&](double length) {
+    return std::max(1, static_cast<int>(length / size + .5));
+  };
+  return structuredRectangle(low, high, parts(high.x - low.x), parts(high.y - low.y),
+                             QuadPattern::kCrossed);
+}
+
+inline TriangleMesh barFrom(double begin, double end, int rows) {
+  return blockOf({begin, 0}, {end, kHeight}, kHeight / rows);
+}
+
+inline BodySpec resting(const TriangleMesh& mesh) { return moving(mesh, kMaterial, {}); }
+
+inline double bondedLength(const World& world) {
+  double sum = 0;
+  for (const double area : world.fracture.cohesion.area) sum += 2 * area;
+  return sum;
+}
+
+inline double wholeMass(const World& world) {
+  double sum = 0;
+  for (const double mass : world.model.nodes.mass) sum += mass;
+  return sum;
+}
+
+inline Vec2 wholeMomentum(const World& world) {
+  Vec2 sum;
+  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
+    sum += world.model.nodes.mass[n] * world.model.nodes.velocity[n];
+  return sum;
+}
+
+/// About the origin; positions at the mean of the two half steps would be needed with forces only.
+inline double wholeSpin(const World& world) {
+  double sum = 0;
+  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
+    sum += world.model.nodes.mass[n] *
+           cross(world.model.nodes.position[n], world.model.nodes.velocity[n]);
+  return sum;
+}
+
+/// A brick on two half bricks that are shifted by `part` of an element, turned by `angle`.
+inline World tJunction(double part, double angle, double upperSize, bool isFree = true) {
+  constexpr double size = .01;
+  World world;
+  const double shift = part * size;
+  for (const auto& [low, high, own] : {std::tuple{Vec2{0, 0}, Vec2{.06, .04}, size},
+                                       {Vec2{.06, 0}, Vec2{.12, .04}, size},
+                                       {Vec2{shift, .04}, Vec2{.12 + shift, .08}, upperSize}}) {
+    TriangleMesh mesh = blockOf(low, high, own);
+    BodySpec spec = resting(mesh);
+    spec.friction = .5;
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+      const Vec2 at = mesh.nodes[n];
+      if (isFree) spec.velocity[n] = {-3 * at.y, 5 * at.x};
+      mesh.nodes[n] = {at.x * std::cos(angle) - at.y * std::sin(angle),
+                       at.x * std::sin(angle) + at.y * std::cos(angle)};
+    }
+    world.addBody(mesh, spec);
+  }
+  return world;
+}
+
+}  // namespace yadefrag::test
