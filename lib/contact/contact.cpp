@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "contact/row_builder.hpp"
@@ -173,13 +174,13 @@ double Contact::solve(Model& model, const ContactSettings& settings, const Conta
   if (settings.correction == Correction::kPenalty) {
     penalize(rows_, inertia, settings.penaltyFactor);
   } else if (step.rubble) {
-    if (step.coupled == nullptr) {
-      inexact_ = lagrange_.sweep(rows_, inertia, worthwhile(step), nullptr);
-      return 0;
-    }
-    Coupling coupling{*step.coupled, step.cohesive, model.nodes.position, displacement_};
-    inexact_ = lagrange_.sweep(rows_, inertia, worthwhile(step), &coupling);
-    return coupling.moved;
+    const double change = tolerance::kRubbleChange * worthwhile(step);
+    std::optional<Coupling> coupling =
+        step.coupled == nullptr ? std::nullopt
+                                : std::optional(Coupling{*step.coupled, step.cohesive,
+                                                         model.nodes.position, displacement_});
+    inexact_ = lagrange_.sweep(rows_, inertia, change, coupling ? &*coupling : nullptr);
+    return coupling ? coupling->moved : 0;
   } else {
     if (anyNew) lagrange_.setRows(rows_, inertia);
     const Lagrange::Outcome outcome = lagrange_.solve(rows_, inertia, worthwhile(step));

@@ -15,6 +15,7 @@ namespace yadefrag {
 /// of the slave relative to the master is the sum of weight × displacement over the nodes.
 struct ContactRow {
   static constexpr std::uint32_t kNoMass = 0xffffffff;
+  static constexpr std::uint32_t kNone = 0xffffffff;
   /// Its nodes on a rigid boundary that obeys forces act together, as one part of that body.
   struct RigidPart {
     std::uint32_t mass = kNoMass;  ///< number of the body, or none
@@ -38,6 +39,7 @@ struct ContactRow {
   double normalForce = 0;   ///< N, on the slave along the normal
   double tangentForce = 0;  ///< N, on the slave along `tangent()`
   RigidPart rigid;
+  std::uint32_t swept = kNone;  ///< number in the sweeps of this step; kNone: not swept yet
 
   [[nodiscard]] Vec2 tangent() const { return {-normal.y, normal.x}; }
   [[nodiscard]] Vec2 force() const { return normalForce * normal + tangentForce * tangent(); }

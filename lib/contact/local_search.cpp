@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "contact/slave_normals.hpp"
 #include "core/parallel.hpp"
@@ -61,6 +62,7 @@ void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
   if (candidates.idleDistance.size() != rows || !std::isfinite(way_))
     candidates.idleDistance.assign(rows, 0), way_ = 0;
   near_.clear();
+  triedAt_.clear();
   parts_.resize(static_cast<std::size_t>(std::max(threads, 1)));
   const int parts = withGeometry(surfaces, positions, [&](const auto& geometry) {
     findChords(candidates, surfaces, geometry);
@@ -88,21 +90,26 @@ void LocalSearch::scanRows(Candidates& candidates, const ContactSurfaces& surfac
     const std::size_t first = part.near.size();
     const auto row = static_cast<std::uint32_t>(r);
     candidates.idleDistance[r] = way_ + scanRow(candidates, geometry, row, chord, part.near);
-    if (byPath_ && part.near.size() > first)
-      findEnterable(candidates, before, std::span(part.near).subspan(first));
+    if (byPath_ && part.near.size() > first &&
+        !findEnterable(candidates, before, std::span(part.near).subspan(first)))
+      part.near.resize(first);
   }
 }
 
 /// With entry by the path, a slave that was behind a straight piece at xⁿ cannot enter it, unless
-/// it was in contact.
+/// it was in contact. Returns true if it can enter any.
 template <class Geometry>
-void LocalSearch::findEnterable(const Candidates& candidates, const Geometry& before,
+bool LocalSearch::findEnterable(const Candidates& candidates, const Geometry& before,
                                 std::span<Near> row) const {
   const EntryId slave = candidates.slaves[row.front().row];
   const Vec2 point = before.slave(slave);
+  bool any = false;
   for (Near& near : row) {
     const EntryId master = candidates.masters[near.candidate];
-    if (before.isArc(master)) continue;
+    if (before.isArc(master)) {
+      any = true;
+      continue;
+    }
     const PieceEnds ends = before.ends(master);
     const Vec2 along = ends.end - ends.begin;
     // Twice the depth, since the piece may be longer at the end of the step. If the piece rotates
@@ -112,7 +119,9 @@ void LocalSearch::findEnterable(const Candidates& candidates, const Geometry& be
     near.canEnter =
         inside <= 2 * start_.depth * norm(along) ||
         std::ranges::binary_search(start_.touches, SlaveMaster{slave, master}, {}, &Touch::pair);
+    any = any || near.canEnter;
   }
+  return any;
 }
 
 /// In rubble nearly every slave must be checked, and every piece is the master of several.
@@ -172,7 +181,8 @@ void LocalSearch::findActives(const Candidates& candidates, const ContactSurface
                               std::span<const Vec2> positions, double deepest,
                               std::vector<Active>& actives, std::span<const SlaveMaster> known,
                               double moved) {
-  const Query query{candidates, surfaces, deepest, known, moved};
+  findMoved(surfaces, positions);
+  const Query query{candidates, surfaces, deepest, known, moved, moved_};
   const int parts = withGeometry(surfaces, positions, [&]<class Geometry>(const Geometry& plain) {
     findPoints(plain, chords_.size(), points_);
     const Geometry geometry(surfaces, positions, points_);
@@ -185,6 +195,33 @@ void LocalSearch::findActives(const Candidates& candidates, const ContactSurface
     const auto& found = parts_[static_cast<std::size_t>(part)].actives;
     actives.insert(actives.end(), found.begin(), found.end());
   }
+}
+
+/// Finds the entries whose geometry differs from that at the last detection.
+void LocalSearch::findMoved(const ContactSurfaces& surfaces, std::span<const Vec2> positions) {
+  moved_.clear();
+  // Where only few slaves are near, all of them are tried: fewer than there are entries.
+  if (chords_.empty()) return;
+  const bool first = triedAt_.empty();
+  triedAt_.resize(surfaces.entries());
+  if (!first) moved_.resize(surfaces.entries());
+  for (std::size_t e = 0; e < surfaces.entries(); ++e) {
+    const SegmentId segment = surfaces.entrySegment[e];
+    const Vec2 at = positions[surfaces.segmentNode[segment.value].value];
+    if (std::exchange(triedAt_[e], at) == at || first) continue;
+    // An arc has the nodes of three segments, and a corner the normals of both sides.
+    const EntryId former = surfaces.prev[e];
+    for (const EntryId entry : {EntryId(e), former, surfaces.next[e], surfaces.prev[former.value]})
+      moved_[entry.value] = 1;
+  }
+}
+
+bool LocalSearch::mustTry(const Query& query, std::span<const Near> row) const {
+  const auto differs = [&](EntryId entry) { return query.mayDiffer[entry.value] != 0; };
+  return query.mayDiffer.empty() || differs(query.slaveOf(row.front())) ||
+         std::ranges::any_of(row, [&](const Near& near) {
+           return differs(query.candidates.masters[near.candidate]);
+         });
 }
 
 /// Index of the first near pair at or after this one that is the first of its slave.
@@ -203,6 +240,7 @@ void LocalSearch::tryRows(const Query& query, const Geometry& geometry, std::siz
     while (end < to && near[end].row == near[begin].row) ++end;
     part.trials.clear();
     const std::span<const Near> row = near.subspan(begin, end - begin);
+    if (!mustTry(query, row)) continue;
     if (byPath_)
       tryByPath(query, geometry, row, part);
     else

@@ -46,7 +46,9 @@ class LocalSearch {
   /// smooth master beyond `deepest` (m) are ignored, for any width of the halo; but a slave deeper
   /// than the halo at a search, as a penalty may leave it, is no candidate at all. Excluded are
   /// slaves `known` (ascending) to be active on all their near masters, and pairs that a
-  /// displacement of at most `moved` (m) since the scan cannot have brought into penetration.
+  /// displacement of at most `moved` (m) since the scan cannot have brought into penetration. After
+  /// the first call for a scan, slaves may be excluded if neither they nor their near masters have
+  /// moved since the last call.
   void findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
                    std::span<const Vec2> positions, double deepest, std::vector<Active>& actives,
                    std::span<const SlaveMaster> known = {}, double moved = INFINITY);
@@ -60,7 +62,7 @@ class LocalSearch {
 
   [[nodiscard]] bool anyNear() const { return !near_.empty(); }
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kSearch, near_, parts_, chords_, pointsBefore_, points_);
+    footprint.add(Use::kSearch, near_, parts_, chords_, pointsBefore_, points_, triedAt_, moved_);
     for (const Part& part : parts_) {
       footprint.add(Use::kSearch, part.near, part.actives, part.trials);
       part.rules.addTo(footprint);
@@ -81,6 +83,7 @@ class LocalSearch {
     double deepest;
     std::span<const SlaveMaster> known;
     double moved;
+    std::span<const std::uint8_t> mayDiffer;  ///< by entry; empty: all are tried
     [[nodiscard]] EntryId slaveOf(const Near& near) const { return candidates.slaves[near.row]; }
     [[nodiscard]] bool isKnown(SlaveMaster pair) const {
       return std::ranges::binary_search(known, pair);
@@ -107,8 +110,10 @@ class LocalSearch {
   double scanRow(Candidates& candidates, const Geometry& geometry, std::uint32_t row,
                  ChordOf chordOfEntry, std::vector<Near>& found) const;
   template <class Geometry>
-  void findEnterable(const Candidates& candidates, const Geometry& before,
+  bool findEnterable(const Candidates& candidates, const Geometry& before,
                      std::span<Near> row) const;
+  void findMoved(const ContactSurfaces& surfaces, std::span<const Vec2> positions);
+  [[nodiscard]] bool mustTry(const Query& query, std::span<const Near> row) const;
   [[nodiscard]] std::size_t beginOfRow(std::size_t at) const;
   template <class Geometry>
   void tryRows(const Query& query, const Geometry& geometry, std::size_t from, std::size_t to,
@@ -130,6 +135,10 @@ class LocalSearch {
   // By entry; empty if only few are needed. Points (m): the slaves', at xⁿ and at present.
   std::vector<Chord> chords_;
   std::vector<Vec2> pointsBefore_, points_;
+  // By entry: position of its node (m) at the last detection, and 1 if the entry or a neighbour has
+  // moved since then. The second is empty if all slaves are tried.
+  std::vector<Vec2> triedAt_;
+  std::vector<std::uint8_t> moved_;
 };
 
 }  // namespace yadefrag

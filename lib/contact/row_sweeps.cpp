@@ -1,6 +1,7 @@
 #include "contact/row_sweeps.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <type_traits>
 
@@ -10,15 +11,32 @@ namespace yadefrag {
 
 double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
                         Coupling* coupling) {
-  while (all_.size() < rows.size()) all_.push_back(static_cast<std::uint32_t>(all_.size()));
-  begin(rows, std::span(all_).first(rows.size()), inertia);
+  const auto isNew = [](const ContactRow& row) { return row.swept == ContactRow::kNone; };
+  if (std::ranges::all_of(rows, isNew)) clear(inertia.size());
+  const std::size_t former = rows_.size();
+  waiting_.grow(rows.size());
+  for (std::uint32_t r = 0; r < rows.size(); ++r) {
+    if (!isNew(rows[r])) {
+      update(rows[r], r, stop.change);
+      continue;
+    }
+    rows[r].swept = static_cast<std::uint32_t>(rows_.size());
+    add(rows[r], r, inertia);
+  }
+  assert(rows_.size() == rows.size());
+  if (rows_.size() > former) findRowsOfNodes();
+  pushAll();
   share(coupling, inertia.nodes.size());
   return finish(rows, stop, coupling);
 }
 
 double RowSweeps::solve(std::span<ContactRow> rows, std::span<const std::uint32_t> members,
                         const Inertia& inertia, Stop stop) {
-  begin(rows, members, inertia);
+  clear(inertia.size());
+  waiting_.grow(members.size());
+  for (const std::uint32_t r : members) add(rows[r], r, inertia);
+  findRowsOfNodes();
+  pushAll();
   shared_.clear();
   return finish(rows, stop, nullptr);
 }
@@ -80,33 +98,47 @@ double RowSweeps::sweepCoupled(Coupling& coupling, double tolerance, bool last) 
   return most;
 }
 
-void RowSweeps::begin(std::span<const ContactRow> rows, std::span<const std::uint32_t> members,
-                      const Inertia& inertia) {
-  numbers_.resize(inertia.size());
+void RowSweeps::clear(std::size_t nodes) {
+  numbers_.resize(nodes);
   nodes_.clear();
-  displacement_.clear();
-  rotation_.clear();
   turns_.clear();
-  rows_.resize(members.size());
-  ends_.resize(members.size());
-  for (std::size_t r = 0; r < members.size(); ++r) {
-    const ContactRow& row = rows[members[r]];
-    SweepRow& swept = rows_[r];
-    Ends& ends = ends_[r];
-    swept = {};
-    ends = {};
-    swept.place = members[r];
-    swept.normal = row.normal;
-    swept.gap = row.gap - row.toleratedGap, swept.slip = row.slip, swept.friction = row.friction;
-    swept.normalForce = row.normalForce, swept.tangentForce = row.tangentForce;
-    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(row.count); ++k)
-      if (!row.isOfRigid(inertia.nodes, row.node[k]))
-        addEnd(swept, ends, row.node[k], row.weight[k], inertia);
-    if (row.rigid.mass != ContactRow::kNoMass) addRigid(swept, ends, row.rigid, inertia);
-    push(swept, ends, ends.count, row.force());
+  rows_.clear();
+  ends_.clear();
+  waiting_.clear(0);
+}
+
+void RowSweeps::add(const ContactRow& row, std::uint32_t place, const Inertia& inertia) {
+  SweepRow& swept = rows_.emplace_back();
+  Ends& ends = ends_.emplace_back();
+  swept.place = place;
+  swept.normal = row.normal;
+  swept.gap = row.gap - row.toleratedGap, swept.slip = row.slip, swept.friction = row.friction;
+  swept.normalForce = row.normalForce, swept.tangentForce = row.tangentForce;
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(row.count); ++k)
+    if (!row.isOfRigid(inertia.nodes, row.node[k]))
+      addEnd(swept, ends, row.node[k], row.weight[k], inertia);
+  if (row.rigid.mass != ContactRow::kNoMass) addRigid(swept, ends, row.rigid, inertia);
+  waiting_.add(rows_.size() - 1);
+}
+
+/// A row that was swept in an earlier detection of the step.
+void RowSweeps::update(const ContactRow& row, std::uint32_t place, double tolerance) {
+  SweepRow& swept = rows_[row.swept];
+  const double gap = row.gap - row.toleratedGap;
+  if (std::abs(gap - swept.gap) > tolerance || std::abs(row.slip - swept.slip) > tolerance)
+    waiting_.add(row.swept);
+  swept.gap = gap, swept.slip = row.slip, swept.friction = row.friction, swept.place = place;
+}
+
+/// Displacements by the forces of all rows.
+void RowSweeps::pushAll() {
+  displacement_.assign(nodes_.size(), {});
+  rotation_.assign(turns_.empty() ? 0 : nodes_.size(), 0);
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const SweepRow& row = rows_[r];
+    push(row, ends_[r], ends_[r].count,
+         row.normalForce * row.normal + row.tangentForce * Vec2{-row.normal.y, row.normal.x});
   }
-  findRowsOfNodes();
-  waiting_.fill(rows_.size());
 }
 
 void RowSweeps::addEnd(SweepRow& swept, Ends& ends, NodeId number, double weight,
@@ -127,7 +159,6 @@ void RowSweeps::addRigid(SweepRow& swept, Ends& ends, const ContactRow::RigidPar
                          const Inertia& inertia) {
   const NodeId number(inertia.nodes.size() + part.mass);
   addEnd(swept, ends, number, part.weight, inertia);
-  rotation_.resize(nodes_.size());
   const double turning = inertia.step.squared() * inertia.turningOf(number);
   const double normal = cross(part.lever, swept.normal);
   const double tangent = cross(part.lever, Vec2{-swept.normal.y, swept.normal.x});
@@ -143,7 +174,6 @@ std::uint32_t RowSweeps::numberOf(NodeId node) {
   if (number < nodes_.size() && nodes_[number] == node) return number;
   number = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(node);
-  displacement_.emplace_back();
   return number;
 }
 

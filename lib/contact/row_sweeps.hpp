@@ -32,7 +32,8 @@ class RowSweeps {
     int most;
   };
   /// Improves the forces of all rows, and those that are coupled to them; returns the largest
-  /// change in the last sweep (m).
+  /// change in the last sweep (m). Rows that were swept before (`swept`) have the nodes and the
+  /// normal they had then: only their gaps are read, and they are visited if these have changed.
   double solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
                Coupling* coupling = nullptr);
   /// The same for the rows `members` only.
@@ -43,8 +44,8 @@ class RowSweeps {
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, rows_, ends_, turns_, all_, nodes_, numbers_, displacement_, rotation_,
-                  shared_, links_, rowsOfNodes_.values, rowsOfNodes_.offsets);
+    footprint.add(use, rows_, ends_, turns_, nodes_, numbers_, displacement_, rotation_, shared_,
+                  links_, rowsOfNodes_.values, rowsOfNodes_.offsets);
     waiting_.addTo(footprint, use);
   }
 
@@ -77,8 +78,10 @@ class RowSweeps {
     std::uint32_t node, row;
   };
 
-  void begin(std::span<const ContactRow> rows, std::span<const std::uint32_t> members,
-             const Inertia& inertia);
+  void clear(std::size_t nodes);
+  void add(const ContactRow& row, std::uint32_t place, const Inertia& inertia);
+  void update(const ContactRow& row, std::uint32_t place, double tolerance);
+  void pushAll();
   void addEnd(SweepRow& swept, Ends& ends, NodeId number, double weight, const Inertia& inertia);
   void addRigid(SweepRow& swept, Ends& ends, const ContactRow::RigidPart& part,
                 const Inertia& inertia);
@@ -96,7 +99,6 @@ class RowSweeps {
   std::vector<SweepRow> rows_;
   std::vector<Ends> ends_;              // nodes of the rows
   std::vector<Turn> turns_;             // of rows on rigid bodies
-  std::vector<std::uint32_t> all_;      // 0, 1, 2, …
   std::vector<NodeId> nodes_;           // nodes and rigid bodies with a row
   std::vector<std::uint32_t> numbers_;  // by node: index in nodes_; valid for these only
   std::vector<Vec2> displacement_;      // m, by number

@@ -21,6 +21,8 @@ class WorkList {
   }
   /// Removes all, and makes room for numbers below `count`.
   void clear(std::size_t count) { words_.assign((count + 63) / 64, 0); }
+  /// Makes room for numbers below `count`.
+  void grow(std::size_t count) { words_.resize((count + 63) / 64); }
   void add(std::size_t number) { words_[number / 64] |= bit(number); }
   void remove(std::size_t number) { words_[number / 64] &= ~bit(number); }
 

@@ -81,6 +81,51 @@ void compareOneStep(Random& random, int kind, Counts& counts) {
   }
 }
 
+/// After some nodes have moved, slaves are tried again only where something near has moved: with
+/// the actives of earlier detections, the result is that of a search that tries all.
+void compareTriedAgain(Random& random, int kind, Counts& counts) {
+  SurfaceScene scene = randomScene(random, kind);
+  Candidates candidates;
+  std::vector<SlaveMaster> pairs = allPairs(scene.surfaces, false);
+  replaceCandidates(candidates, pairs, scene.surfaces, scene.at, false);
+  const std::vector<Vec2> before = scene.at;
+  const PathStart start{before, {}, Chase::kDepth, 0};
+  moveAll(scene, random, kMove);
+  LocalSearch search, all;
+  // Twice as far as the nodes may move in all detections.
+  const double reach = 2 * (kMove + 3 * kCorrection);
+  search.scan(candidates, scene.surfaces, scene.at, reach, 1, INFINITY, &start);
+  all.scan(candidates, scene.surfaces, scene.at, reach, 1, INFINITY, &start);
+  std::vector<SlaveMaster> known;
+  for (int detection = 0; detection < 3; ++detection) {
+    std::vector<Active> found, wanted;
+    search.findActives(candidates, scene.surfaces, scene.at, kUnlimited, found);
+    all.findActives(candidates, scene.surfaces, scene.at, kUnlimited, wanted);
+    const std::vector<SlaveMaster> now = pairsOf(found), each = pairsOf(wanted);
+    ASSERT_TRUE(std::ranges::includes(each, now)) << "kind " << kind << ", " << detection;
+    known.insert(known.end(), now.begin(), now.end());
+    std::ranges::sort(known);
+    known.erase(std::ranges::unique(known).begin(), known.end());
+    ASSERT_TRUE(std::ranges::includes(known, each)) << "kind " << kind << ", " << detection;
+    (detection == 0 ? counts.actives : counts.later) += each.size() - now.size();
+    Vec2& one = scene.at[random() % scene.at.size()];
+    one += kCorrection * Vec2{even(random, -1, 1), even(random, -1, 1)};
+  }
+}
+
+TEST(PathSearch, TriesAgainWhatHasMoved) {
+  Random random(78);
+  for (int kind = 0; kind < 4; ++kind) {
+    Counts counts;
+    for (int scene = 0; scene < 1000; ++scene) {
+      compareTriedAgain(random, kind, counts);
+      if (HasFatalFailure()) return;
+    }
+    EXPECT_EQ(counts.actives, 0U) << "the first detection tries all";
+    EXPECT_GT(counts.later, 100U) << kind;
+  }
+}
+
 TEST(PathSearch, LeavesOutNothingThatEnters) {
   Random random(77);
   for (int kind = 0; kind < 4; ++kind) {

@@ -118,6 +118,28 @@ TEST(RigidRows, BothSolversAgreeWithTheBodysEquations) {
     }
 }
 
+/// Rows of a later detection, among those that were swept before, whose gaps have changed.
+TEST(RigidRows, SweepsGoOnWithFurtherRows) {
+  for (const double friction : {0., .4}) {
+    const RigidMass body{{}, {}, {1, 1}, 3};
+    Scene scene({-.9, -.3, .1, .5, 1.}, {-1e-5, 2e-6, -3e-5, -1e-6, -2e-5}, body, friction);
+    const std::vector<ContactRow> all = scene.rows;
+    RowSweeps sweeps;
+    scene.rows = {all[1], all[3], all[4]};
+    sweeps.solve(scene.rows, scene.inertia(), {1e-16, 100000});
+    scene.expectSolved(1e-11);
+    const int first = sweeps.sweeps();
+    sweeps.solve(scene.rows, scene.inertia(), {1e-16, 100000});
+    EXPECT_LE(sweeps.sweeps(), 1) << "nothing has changed";
+    EXPECT_GT(first, 1);
+    for (const std::size_t r : {0, 2})
+      scene.rows.insert(scene.rows.begin() + static_cast<std::ptrdiff_t>(r), all[r]);
+    scene.rows[3].gap -= 2e-5;
+    sweeps.solve(scene.rows, scene.inertia(), {1e-16, 100000});
+    scene.expectSolved(1e-11);
+  }
+}
+
 /// Two nodes without a common one are one group through the body, and two without it.
 TEST(RigidRows, ABodyJoinsGroups) {
   Scene scene({-.5, .5}, {-1e-5, -1e-5}, {{}, {}, {1, 1}, 1});

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "fracture/open_edges.hpp"
 #include "mesh/triangulate.hpp"
@@ -79,18 +80,10 @@ Crack crackOf(const World& world) {
   return crack;
 }
 
-class KalthoffWinkler : public testing::TestWithParam<Plate> {};
-
-/// Measured in the experiment: 70°. Angles are from the notch's tip to the point where the crack
-/// leaves the plate at the top, on meshes with four elements in a cohesive zone of 3.7 mm. Twelve
-/// meshes: 67.5° to 73.6°, mean 70.4°, standard deviation 2.1°, of which the tolerance is the
-/// double; an element at the top is 0.5°. The line that fits all edges has 63.3° to 68.6°, since a
-/// crack starts at a smaller angle and turns upwards. Speeds, in 10 µs: .63 to .72 of that of
-/// Rayleigh's waves; they must be below .75. With three elements or fewer (1.25, 1.5 mm) angles are
-/// 65° to 72.4°.
-TEST_P(KalthoffWinkler, CracksAtTheKnownAngle) {
+/// The angle (°) at which the crack leaves the plate.
+double angleOf(const Plate& plate) {
   World world;
-  addPlate(world, GetParam());
+  addPlate(world, plate);
   const double start = world.kineticEnergy();
   const double dt = .8 * world.criticalTimeStep();
   constexpr double kWindow = 10e-6;  // s
@@ -105,19 +98,34 @@ TEST_P(KalthoffWinkler, CracksAtTheKnownAngle) {
     former = crack.highest;
   }
   const Crack crack = crackOf(world);
-  figure("angle", crack.chord, 70, 4.2);
-  record("fitted_angle", crack.fit);
-  record("speed_over_rayleigh", fastest / kRayleigh);
+  const std::string mesh = std::to_string(plate.seed);
+  record("fitted_angle_" + mesh, crack.fit);
+  record("speed_over_rayleigh_" + mesh, fastest / kRayleigh);
   EXPECT_LT(fastest, .75 * kRayleigh);
   EXPECT_GT(crack.highest, .095) << "it runs through";
   // Measured 6·10⁻⁶ to 1.2·10⁻⁵: strains of a percent behind the shock, of second order in Δt.
   EXPECT_NEAR(world.ledger.total(world.kineticEnergy(), world.strainEnergy()), start,
               1e-4 * world.ledger.external);
+  return crack.chord;
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, KalthoffWinkler,
-                         testing::Values(Plate{.9e-3, 1}, Plate{.9e-3, 2}, Plate{.9e-3, 3},
-                                         Plate{.9e-3, 4}, Plate{.9e-3, 5}));
+/// Measured in the experiment: 70°. Angles are from the notch's tip to the point where the crack
+/// leaves the plate at the top, on meshes with four elements in a cohesive zone of 3.7 mm. Twelve
+/// meshes: 67.5° to 73.6°, mean 70.4°, standard deviation 2.1°: each mesh must be within three of
+/// these, the mean of five within 2.1°, 2.2 times its own; an element at the top is 0.5°. The line
+/// that fits all edges has 63.3° to 68.6°, since a crack starts at a smaller angle and turns
+/// upwards. Speeds, in 10 µs: .63 to .72 of that of Rayleigh's waves; they must be below .75. With
+/// three elements or fewer (1.25, 1.5 mm) angles are 65° to 72.4°.
+TEST(KalthoffWinkler, CracksAtTheKnownAngle) {
+  constexpr std::uint64_t kMeshes = 5;
+  double sum = 0;
+  for (std::uint64_t seed = 1; seed <= kMeshes; ++seed) {
+    const double angle = angleOf({.9e-3, seed});
+    figure("angle_" + std::to_string(seed), angle, 70, 6.3);
+    sum += angle;
+  }
+  figure("mean_angle", sum / kMeshes, 70, 2.1);
+}
 
 }  // namespace
 }  // namespace yadefrag::test
