@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "core/parallel.hpp"
+#include "core/tolerances/barrier.hpp"
+#include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
 
 namespace yadefrag {
@@ -67,6 +69,25 @@ Masses massShares(const Model& model, const std::vector<double>& nodeStiffness,
   return shares;
 }
 
+/// (1/s²) Bound of ω² of the barrier against collapse, with a margin: of its curvature along ∇J,
+/// and of its slope, as the largest curvature of J is √3/(2A).
+double squaredBarrierFrequency(const ElasticMaterial& material, const Matrix2& f,
+                               const std::array<Vec2, 3>& gradient, const Masses& mass) {
+  const CollapseBarrier barrier(determinant(f), material.waveModulus());
+  if (barrier.curvature == 0) return 0;
+  const Matrix2 c = cofactor(f);
+  double sum = 0;  // Σ|∂J/∂xᵢ|²/m
+  for (int i = 0; i < 3; ++i) {
+    const Vec2 g{c.xx * gradient[i].x + c.xy * gradient[i].y,
+                 c.yx * gradient[i].x + c.yy * gradient[i].y};
+    sum += dot(g, g) / mass[i];
+  }
+  const double turn = std::sqrt(3.) * std::abs(cross(gradient[1], gradient[2])) /
+                      std::min({mass[0], mass[1], mass[2]});
+  return tolerance::kBarrierGrowth * (barrier.curvature * sum - barrier.slope * turn) /
+         material.density;
+}
+
 /// ω² of the highest mode of one element. The elastic law is linear in F except for the rotation,
 /// so that its stiffness is that of the stress-free shape. With S = Σ∇N∇Nᵀ/m the modes are two
 /// pairs: stretch modes, and shear with rotation, which is stiffer in a stretched element.
@@ -92,7 +113,8 @@ double squaredFrequency(const Model& model, std::size_t element, const Masses& m
   const Matrix2 f = deformationGradient(model, ElementId(element));
   const double drawn = std::hypot(f.xx + f.yy, f.yx - f.xy);  // 2 without stretch
   const double turn = (shear + std::max(0., (lame + shear) * (1 - 2 / drawn))) * trace;
-  return std::max(stretch, turn) / material.density;
+  return std::max(stretch, turn) / material.density +
+         squaredBarrierFrequency(material, f, gradient, mass);
 }
 
 /// (1/s) The fastest decay rate of the element's bulk viscosity, in its present shape.

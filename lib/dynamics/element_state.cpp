@@ -1,5 +1,6 @@
 #include "dynamics/element_state.hpp"
 
+#include "dynamics/collapse_barrier.hpp"
 #include "dynamics/smoothed_state.hpp"
 
 namespace yadefrag {
@@ -15,10 +16,12 @@ Matrix2 gradient(const Model& model, ElementId element, const std::vector<Vec2>&
                              inverse[3]);
 }
 
-/// σ = P Fᵀ / det F
-std::array<double, 3> cauchy(const Matrix2& p, const Matrix2& f) {
+/// σ = P Fᵀ / det F. The barrier adds ∂B/∂J to its mean.
+std::array<double, 3> cauchy(const Matrix2& f, const Moduli& m) {
+  const Matrix2 p = firstPiola(f, m.lame, m.shear);
   const double det = determinant(f);
-  return {(p.xx * f.xx + p.xy * f.xy) / det, (p.yx * f.yx + p.yy * f.yy) / det,
+  const double mean = CollapseBarrier(det, m.lame + 2 * m.shear).slope;
+  return {(p.xx * f.xx + p.xy * f.xy) / det + mean, (p.yx * f.yx + p.yy * f.yy) / det + mean,
           (p.xx * f.yx + p.xy * f.yy) / det};
 }
 
@@ -34,9 +37,7 @@ Matrix2 deformationStep(const Model& model, ElementId element, double dt) {
 }
 
 std::array<double, 3> stressOf(const Model& model, ElementId element) {
-  const ElasticMaterial& material = model.materialOf(element).material;
-  const Matrix2 f = deformationGradient(model, element);
-  return cauchy(firstPiola(f, material.lame(), material.shearModulus()), f);
+  return cauchy(deformationGradient(model, element), Moduli(model.materialOf(element).material));
 }
 
 std::vector<std::array<double, 3>> stresses(const Model& model) {
@@ -46,8 +47,7 @@ std::vector<std::array<double, 3>> stresses(const Model& model) {
     Moduli m(c.material);
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
       m.take(model, c, ElementId(e));
-      const Matrix2 f = deformationGradient(model, ElementId(e));
-      result[e] = cauchy(firstPiola(f, m.lame, m.shear), f);
+      result[e] = cauchy(deformationGradient(model, ElementId(e)), m);
     }
   }
   setSmoothedStresses(model, result);
@@ -61,8 +61,10 @@ std::vector<double> elementEnergies(const Model& model) {
     Moduli m(c.material);
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
       m.take(model, c, ElementId(e));
+      const Matrix2 f = deformationGradient(model, ElementId(e));
       result[e] = c.thickness * model.triangles.area[e] *
-                  energyDensity(deformationGradient(model, ElementId(e)), m.lame, m.shear);
+                  (energyDensity(f, m.lame, m.shear) +
+                   CollapseBarrier(determinant(f), m.lame + 2 * m.shear).energy);
     }
   }
   setSmoothedEnergies(model, result);

@@ -1,5 +1,6 @@
 #include "dynamics/energy_ledger.hpp"
 
+#include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/smoothed_state.hpp"
 
@@ -14,7 +15,7 @@ double twiceEnergy(const Model& model, ElementId element, const Moduli& moduli, 
   const Matrix2 stress = firstPiola(now, lame, shear) - firstPiola(before, lame, shear);
   return model.triangles.area[element.value] *
          (energyDensity(now, lame, shear) + energyDensity(before, lame, shear) -
-          contract(stress, now - before) / 2);
+          contract(stress, now - before) / 2 + twiceBarrierEnergy(now, before, lame + 2 * shear));
 }
 
 }  // namespace

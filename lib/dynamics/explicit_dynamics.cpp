@@ -141,6 +141,9 @@ void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
             : addElasticForces(set_, chunk, lanes, laws, position, force);
     if (!upright) handleFlat(model, chunk, scratch);
   }
+  if (std::ranges::find(scratch.flat, chunk.firstElement, &ElementRange::firstElement) !=
+      scratch.flat.end())
+    addBarrierForces(model, chunk, force);
   if (viscosity.isOn()) {
     Vec2* velocity = force + elements_.mostNodes;
     Vec2* viscous = velocity + elements_.mostNodes;

@@ -70,10 +70,19 @@ class ExplicitDynamics {
   void predict(Model& model, const StepLength& length, const StepSettings& settings,
                std::span<const Vec2> outerForces, int threads);
 
+  /// The most compressed of the elements that the barrier against collapse acts on, and the part
+  /// of its area that is left; none() if there is none.
+  struct Flattest {
+    ElementId element = ElementId::none();
+    double area = tolerance::kBarrierBegin;
+  };
   /// Throws RunError if the step so far has inverted an element. `correction` (m): the largest
   /// displacement of a node since `predict`. Elements are checked only if some were flat at xⁿ, or
   /// if a node moves by a large part (`kLargeMove`) of the least height of an element.
-  void requireUpright(const Model& model, double dt, double correction) const;
+  Flattest requireUpright(const Model& model, double dt, double correction) const;
+  /// Throws RunError; `stable` (s): a sufficient step.
+  [[noreturn]] void refuseFlat(const Model& model, const Flattest& flattest, double dt,
+                               double stable) const;
 
   /// Must be called for a held node whose velocity contact has changed: it belongs to a rigid
   /// boundary that obeys forces.
@@ -129,6 +138,7 @@ class ExplicitDynamics {
   void sumChunk(const Model& model, const Chunk& chunk, const BulkViscosity& viscosity,
                 Scratch& scratch);
   void handleFlat(const Model& model, const Chunk& chunk, Scratch& scratch);
+  void addBarrierForces(const Model& model, const Chunk& chunk, Vec2* force) const;
   Vec2 applyHeld(const Nodes& nodes, std::size_t node, Vec2& velocity);
   void exchangeHeld(Nodes& nodes);
   void sumShared(const BulkViscosity& viscosity, NodeId begin, NodeId end);

@@ -10,7 +10,7 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
-#include "core/tolerances/elements.hpp"
+#include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 
@@ -26,13 +26,6 @@ std::string nameOf(const Model& model, ElementId element, std::span<const Vec2> 
                      model.triangles.component[element.value].value, centre.x, centre.y);
 }
 
-/// The smaller principal stretch.
-double leastStretch(const Matrix2& f) {
-  const double sum = std::hypot(f.xx + f.yy, f.yx - f.xy);
-  const double difference = std::hypot(f.xx - f.yy, f.yx + f.xy);
-  return (sum - difference) / 2;
-}
-
 }  // namespace
 
 /// Handles a chunk with an element that is flat, inverted or not finite.
@@ -44,28 +37,55 @@ void ExplicitDynamics::handleFlat(const Model& model, const Chunk& chunk, Scratc
       badElement_ = true;
 }
 
-void ExplicitDynamics::requireUpright(const Model& model, double dt, double correction) const {
+/// (N) Forces of the chunk's elements that resist collapse.
+void ExplicitDynamics::addBarrierForces(const Model& model, const Chunk& chunk, Vec2* force) const {
+  for (std::uint32_t e = chunk.firstElement; e < chunk.lastElement; ++e) {
+    const Matrix2 f = deformationGradient(model, ElementId(e));
+    const ElasticMaterial& material = model.materialOf(ElementId(e)).material;
+    const CollapseBarrier barrier(determinant(f), material.waveModulus());
+    if (barrier.slope == 0) continue;
+    const Matrix2 c = cofactor(f);
+    const auto& inverse = model.triangles.inverseEdges[e];
+    const double pull = -barrier.slope * model.triangles.area[e] * chunk.thickness;
+    const Vec2 f1{pull * (c.xx * inverse[0] + c.xy * inverse[1]),
+                  pull * (c.yx * inverse[0] + c.yy * inverse[1])};
+    const Vec2 f2{pull * (c.xx * inverse[2] + c.xy * inverse[3]),
+                  pull * (c.yx * inverse[2] + c.yy * inverse[3])};
+    const std::uint32_t i = e - chunk.firstElement;
+    const auto& corner = elements_.lanes[chunk.firstLanes + i / kLanes].corner;
+    force[corner[0][i % kLanes]] -= f1 + f2;
+    force[corner[1][i % kLanes]] += f1;
+    force[corner[2][i % kLanes]] += f2;
+  }
+}
+
+ExplicitDynamics::Flattest ExplicitDynamics::requireUpright(const Model& model, double dt,
+                                                            double correction) const {
+  Flattest found;
   const auto look = [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
-      const Matrix2 now = deformationGradient(model, ElementId(e));
-      if (determinant(now) > 0) continue;
-      const double before = leastStretch(now - deformationStep(model, ElementId(e), dt));
-      const double change = before - leastStretch(now);
-      const std::string reason = fmt::format("{} is inverted in a step of {:g} s",
-                                             nameOf(model, ElementId(e), previousPosition_), dt);
-      if (std::max(before, change) > tolerance::kCollapsed)
-        throw RunError(reason + "; take a shorter one.");
-      throw RunError(fmt::format(
-          "{}, after it was pressed to {:.2g} of its height: an elastic element does not resist "
-          "collapse, and a shorter step does not help; set the bulk viscosity "
-          "(fe.quadraticViscosity = 1.2), or take a stiffer material or slower bodies.",
-          reason, before));
+      const double area = determinant(deformationGradient(model, ElementId(e)));
+      if (!(area > 0))
+        throw RunError(fmt::format("{} is inverted in a step of {:g} s; take a shorter one.",
+                                   nameOf(model, ElementId(e), previousPosition_), dt));
+      if (area < found.area) found = {ElementId(e), area};
     }
   };
   if (anyLargeMove_ || correction > tolerance::kLargeMove * leastHeight_)
-    return look(0, model.triangles.size());
-  for (const Scratch& scratch : scratch_)
-    for (const ElementRange& range : scratch.flat) look(range.firstElement, range.lastElement);
+    look(0, model.triangles.size());
+  else
+    for (const Scratch& scratch : scratch_)
+      for (const ElementRange& range : scratch.flat) look(range.firstElement, range.lastElement);
+  return found;
+}
+
+void ExplicitDynamics::refuseFlat(const Model& model, const Flattest& flattest, double dt,
+                                  double stable) const {
+  throw RunError(fmt::format(
+      "{} is pressed to {:.2g} of its area in a step of {:g} s; the flatter an element is, the "
+      "stiffer it gets: take a step of at most {:g} s, or a stiffer material, slower bodies or "
+      "smaller loads.",
+      nameOf(model, flattest.element, previousPosition_), flattest.area, dt, stable));
 }
 
 /// Exchanges the prescribed velocities of held directions with the nodes' previous velocities.

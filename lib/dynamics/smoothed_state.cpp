@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
 
 namespace yadefrag {
@@ -18,10 +19,13 @@ double volumeOf(const Model& model, ElementId element) {
 /// (J) Twice the triangle's own energy at the half step.
 double twiceOwnEnergy(const Model& model, ElementId element, double dt) {
   const Matrix2 f = deformationGradient(model, element);
+  const Matrix2 last = f - deformationStep(model, element, dt);
   const SplitGradient now = splitGradient(f);
-  const SplitGradient before = splitGradient(f - deformationStep(model, element, dt));
-  return (1 - kSmoothedShare) * bodyOf(model, element).material.shearModulus() *
-         volumeOf(model, element) * (now.part[2] * before.part[2] + now.part[3] * before.part[3]);
+  const SplitGradient before = splitGradient(last);
+  const ElasticMaterial& material = bodyOf(model, element).material;
+  return (1 - kSmoothedShare) * material.shearModulus() * volumeOf(model, element) *
+             (now.part[2] * before.part[2] + now.part[3] * before.part[3]) +
+         volumeOf(model, element) * twiceBarrierEnergy(f, last, material.waveModulus());
 }
 
 bool isSmoothed(const Component& body) { return body.element == ElementKind::kSmoothed; }
@@ -133,7 +137,9 @@ void setSmoothedStresses(const Model& model, std::vector<std::array<double, 3>>&
     const Matrix2 p = piolaOf(stress);
     const double det = determinant(f);
     // σ = P Fᵀ / det F; its two shear components differ if neighbours rotate differently.
-    stresses[element.value] = {(p.xx * f.xx + p.xy * f.xy) / det, (p.yx * f.yx + p.yy * f.yy) / det,
+    const double mean = CollapseBarrier(det, material.waveModulus()).slope;
+    stresses[element.value] = {(p.xx * f.xx + p.xy * f.xy) / det + mean,
+                               (p.yx * f.yx + p.yy * f.yy) / det + mean,
                                (p.xx * f.yx + p.xy * f.yy + p.yx * f.xx + p.yy * f.xy) / (2 * det)};
   });
 }

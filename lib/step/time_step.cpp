@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "core/tolerances/barrier.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -98,7 +99,13 @@ void World::predict(const StepLength& length) {
 
 void World::requireUpright(double dt) {
   const StageTimer timer(timesIfRequested(), &StageTimes::forces);
-  dynamics_.requireUpright(model, dt, canTouch() ? contact.largestCorrection() : 0);
+  const auto flattest =
+      dynamics_.requireUpright(model, dt, canTouch() ? contact.largestCorrection() : 0);
+  if (flattest.element == ElementId::none()) return;
+  stableStep = dt;  // a longer step must be checked anew
+  const double critical = criticalTimeStep();
+  if (dt > critical)
+    dynamics_.refuseFlat(model, flattest, dt, tolerance::kBarrierAdvised * critical);
 }
 
 void World::finish(const StepLength& length) {

@@ -154,8 +154,8 @@ double World::criticalTimeStep() const {
 }
 
 /// Checked only before the first step, and when the step or the viscosity has changed or bodies
-/// were added or removed. The reduction of the critical step in a very compressed mesh must be
-/// checked by the user.
+/// were added or removed. The reduction of the critical step by elements that nearly collapse is
+/// checked in every step (requireUpright).
 void World::requireStableStep(double dt) {
   const BulkViscosity& viscosity = dynamicsSettings.viscosity;
   if (dt > 0 && dt <= stableStep && viscosity == stableViscosity) return;

@@ -67,8 +67,9 @@ inline void stepOrShorter(World& world, double& dt, bool shorten) {
   for (;;) try {
       return world.step(dt);
     } catch (const RunError& error) {
-      const bool isTooLong =
-          std::string(error.what()).find("take a step of at most") != std::string::npos;
+      const std::string text = error.what();
+      const bool isTooLong = text.find("take a step of at most") != std::string::npos &&
+                             text.find("is pressed to") == std::string::npos;
       if (!shorten || !isTooLong || dt < 1e-12) throw;
       dt *= .5;
     }

@@ -42,7 +42,7 @@ TriangleMesh square(Vec2 at, double angle = 0) {
 }
 
 Vec2 meanVelocity(const World& world, ComponentId body) {
-  return (1 / mass(world, body)) * momentum(world, body);
+  return (1 / mass(world, body)) * test::momentum(world, body);
 }
 
 /// The floor as a line, and as a body of two triangles that are held.

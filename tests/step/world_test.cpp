@@ -219,7 +219,7 @@ TEST(WorldStep, MoreViscosityLowersTheLimit) {
   EXPECT_EQ(world.steps, 2U);
 }
 
-TEST(WorldStep, AnElementTurnedInsideOutStopsTheRun) {
+TEST(WorldStep, AnElementThatCollapsesStopsTheRun) {
   World world;
   const TriangleMesh mesh = block({0, 0}, 6);
   BodySpec spec = moving(mesh, rubber(), {0, 0});
@@ -237,7 +237,7 @@ TEST(WorldStep, AnElementTurnedInsideOutStopsTheRun) {
     }
   ASSERT_FALSE(text.empty());
   EXPECT_TRUE(contains(text, "Step " + std::to_string(world.steps))) << text;
-  EXPECT_TRUE(contains(text, "element ") && contains(text, "is inverted")) << text;
+  EXPECT_TRUE(contains(text, "element ") && contains(text, "is pressed to")) << text;
   std::ostringstream when;
   when << "time " << world.time << " s";
   EXPECT_TRUE(contains(text, when.str())) << text;

@@ -19,7 +19,11 @@ inline constexpr double kMostViscosity = 1e6;
 /// (det F; of the least stress-free height) An element compressed to `kFlat` of its area is flat.
 /// An element can be inverted in one step only if it is flat or if one of its nodes moves by
 /// `kLargeMove` or more; elements that are also stretched in one direction are the exception.
-inline constexpr double kFlat = .2, kLargeMove = .1;
+inline constexpr double kFlat = .3, kLargeMove = .1;
+
+/// (det F) Below this part of its area the barrier against collapse acts on an element. It is below
+/// kFlat, so that a step without large moves that ends in the barrier starts flat.
+inline constexpr double kBarrierBegin = .2;
 
 /// (count) Elements per block in the sum of forces. The nodes of a block stay in the first-level
 /// cache, and few of them belong to another block.
