@@ -314,7 +314,7 @@ void Contact::move(Model& model, const ContactStep& step) {
   if (now_.largestCorrection <= 2 * tolerance::kFarthestMove * step.shortest) return;
   throw RunError(fmt::format(
       "contact moves a surface node by {:g} m, which is many times the shortest segment, "
-      "{:g} m; take a shorter step.",
+      "{:g} m; take a shorter step, or slower bodies.",
       now_.largestCorrection, step.shortest));
 }
 

@@ -89,7 +89,8 @@ void requireResolved(const Cohesive& edge, double crossed, double meanLength, do
       "{:.4g} m) with a "
       "step in proportion.",
       edge.name, isLine ? "is cohesive up to" : "softens as steeply as by its strength over", steep,
-      dt, atMost(dt * std::sqrt(ratio)), atMost(ratio * meanLength), meanLength));
+      dt, atMost(dt * std::sqrt(ratio)), atMost(tolerance::kAdvisedSize * ratio * meanLength),
+      meanLength));
 }
 
 /// κ/β²: the cohesive zone of a sliding crack has the length E·κGc/(βσc)².
@@ -113,7 +114,8 @@ std::string zoneSentence(double young, const Cohesive& edge, double size) {
       "{}: the cohesive zone {}is {:.4g} m long, less than four elements of {:.4g} m; notched or "
       "cracked "
       "bodies carry too much load; elements of at most {:.3g} m are sufficient.",
-      edge.name, edge.sliding < 1 ? "of a sliding crack " : "", zone, size, atMost(wanted));
+      edge.name, edge.sliding < 1 ? "of a sliding crack " : "", zone, size,
+      atMost(tolerance::kAdvisedSize * wanted));
 }
 
 /// (m²/kg) (L/2)(1/m₁ + 1/m₂) of an edge, where m is the least mass of a node with one triangle

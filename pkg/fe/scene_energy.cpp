@@ -285,7 +285,8 @@ std::string SceneEnergy::message(const World& world) {
       "the bodies that touch; {}",
       world.steps, world.time, byRigid ? "walls, boxes or facets" : "spheres",
       byRigid && rigid < 0 ? "lost" : "created", amount, 100 * amount / sums_.most,
-      byRigid ? "make these bodies heavier, or the elements that they touch smaller."
+      byRigid ? "NewtonIntegrator must come after FESolver, with damping = 0, or make these bodies "
+                "heavier."
               : "take a shorter step, or a smaller stiffness (young) of the spheres.");
 }
 

@@ -160,7 +160,7 @@ TEST(CheckCohesiveResolution, TheSentenceStatesWhatSufficesAndItSuffices) {
   const double size = numberAfter(sentence, "elements of at most ");
   const int side = static_cast<int>(std::ceil(20 * now / size));
   EXPECT_EQ(saidAtStep(body(side, kBrittle), dt * 20 / side), "");
-  const int coarse = static_cast<int>(.95 * side);
+  const int coarse = static_cast<int>(.85 * side);
   EXPECT_NE(saidAtStep(body(coarse, kBrittle), dt * 20 / coarse), "");
 }
 
@@ -205,10 +205,10 @@ TEST(CohesiveZoneWarning, StatesZoneElementAndWhatSuffices) {
             "less than four elements of 0.0005668 m");
   const double wanted = numberAfter(sentence, "at most ");
   EXPECT_LT(wanted, zone / 4);
-  EXPECT_GT(wanted, .98 * zone / 4);
+  EXPECT_GT(wanted, .88 * zone / 4);
   const double legToMean = (2 + std::sqrt(2.)) / 3;
   EXPECT_EQ(cohesiveZoneWarning(body(std::ceil(.01 * legToMean / wanted), kBrittle), kBody), "");
-  EXPECT_NE(cohesiveZoneWarning(body(.01 * legToMean / wanted * .95, kBrittle), kBody), "");
+  EXPECT_NE(cohesiveZoneWarning(body(.01 * legToMean / wanted * .85, kBrittle), kBody), "");
 }
 
 TEST(CohesiveZoneWarning, UsesTheZoneOfASlidingCrackIfThatIsShorter) {
@@ -219,7 +219,7 @@ TEST(CohesiveZoneWarning, UsesTheZoneOfASlidingCrackIfThatIsShorter) {
   const double zone = 275e9 * 300 / 9e16 * 2 / 9;
   const std::string sentence = cohesiveZoneWarning(body(kSide, material), kBody);
   EXPECT_NEAR(numberAfter(sentence, "the cohesive zone of a sliding crack is "), zone, 1e-3 * zone);
-  EXPECT_NEAR(numberAfter(sentence, "at most "), zone / 4, .02 * zone / 4);
+  EXPECT_NEAR(numberAfter(sentence, "at most "), .9 * zone / 4, .02 * zone / 4);
   material.shearEnergyFactor = 9;
   EXPECT_EQ(cohesiveZoneWarning(body(kSide, material), kBody), "");
 }

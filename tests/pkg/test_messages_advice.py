@@ -1,0 +1,298 @@
+"""Messages about cracks, spheres and rigid bodies, the order of engines, adding bodies and saving: for each the
+scene that provokes it, and the same scene with its advice followed, as in test_messages.py."""
+import builtins
+import math
+import re
+import warnings
+
+import numpy as np
+import pytest
+
+import yadefrag
+from test_messages import advised, ran, steel
+from yade import utils
+from yade import wrapper as w
+
+O = builtins.O
+
+
+def reported(scene):
+    """All messages of a scene: returned ones, Python's warnings, and that of the exception that ended it."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter('always')
+        try:
+            found = list(scene() or [])
+        except (RuntimeError, ValueError) as error:
+            found = [str(error)]
+    return found + [str(one.message) for one in caught]
+
+
+def number(sentence, words):
+    return float(re.search(words + r' ([-+.e\d]+)', sentence).group(1))
+
+
+def follow(scene, pattern, take):
+    """The scene with what its message asks for: `take` reads it from the sentence."""
+    [sentence] = [one for one in reported(scene) if re.search(pattern, one)]
+    O.reset()
+    return scene(take(sentence))
+
+
+def soft(**settings):
+    O.materials.append(w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.2, label='m'))
+    return w.FESolver(**settings)
+
+
+# --- deformation and cracks
+
+def spreading(factor):
+    """A square of four triangles that rotates and spreads faster than waves."""
+    solver = steel()
+    nodes, triangles = yadefrag.rectangleMesh((-.5, -.5), (.5, .5), 1, 1, True)
+    rate = 1.5 * math.sqrt(2e11 * .7 / 1.3 / .4 / 7800 * 2)
+    solver.addTriangles(nodes, triangles, material='steel', selfContact=False,
+                        velocity=lambda x, y: (rate * (x - y), rate * (.3 * y + x)))
+    O.engines = yadefrag.engines(solver)
+    O.dt = factor * solver.criticalTimeStep()
+    return ran(solver, int(200 / factor))
+
+
+def plate(size=2e-3, dt=None, element='linear', strain=0, **settings):
+    """A plate of concrete that flies apart, or that is held stretched."""
+    settings = dict(young=32e9, poisson=.2, density=2450, tensileStrength=3e6, strengthScatter=.1) | settings
+    O.materials.append(w.BrittleFEMat(label='concrete', **settings))
+    solver = w.FESolver()
+    held = dict(displacement=lambda x, y: (strain * x, 0), fixed=lambda x, y: x < 1e-9 or x > .04 - 1e-9) if strain \
+        else dict(velocity=lambda x, y: (100 * (x - .02), 20 * y))
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.04, .02)), size=size, material='concrete', element=element, **held)
+    O.engines = yadefrag.engines(solver)
+    O.dt = dt or .5 * solver.criticalTimeStep()
+    return ran(solver, 300)
+
+
+def unresolved(dt=None, size=2e-3):
+    return plate(dt=dt or .5 * 2e-3 / 4000, size=size, fractureEnergy=.1)
+
+
+def thrown(factor=.9, speed=.1):
+    """A wedge hits a sliver, whose nodes are so light that contact would throw them over many segments."""
+    O.materials.append(w.FEMat(young=1e3, poisson=.3, density=1000, frictionAngle=0, label='m'))
+    solver = w.FESolver()
+    nodes = [(-1, 0), (-1, -1), (0, -1), (0, 0), (1, 0), (0, -1e-3)]
+    solver.addTriangles(nodes, [(0, 1, 3), (1, 5, 3), (1, 2, 5), (5, 4, 3)], material='m', selfContact=False)
+    solver.addTriangles([(.08, .5), (.1, 1e-5), (.12, .5)], [(0, 1, 2)], material='m', selfContact=False)
+    O.engines = yadefrag.engines(solver)
+    critical = solver.criticalTimeStep()
+    solver.prescribe(lambda x, y: y > 1e-9, vx=0, vy=-speed / critical)
+    O.dt = factor * critical
+    return ran(solver, int(3 / factor))
+
+
+# --- YADE's bodies
+
+def small(factor=.8, young=1e9):
+    """A sphere that is too light for the step of the bodies."""
+    solver = soft()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.125, material='m', fixed=lambda x, y: y < 1e-9)
+    ball = utils.sphere((.44, .51, 0), .0101, material=w.FrictMat(young=young, density=300, frictionAngle=.3))
+    ball.state.vel, ball.state.blockedDOFs = (0, -1, 0), 'zXY'
+    O.bodies.append(ball)
+    O.engines = yadefrag.engines(solver, spheres=True)
+    O.dt = factor * solver.criticalTimeStep()
+    return ran(solver, int(.004 / O.dt))
+
+
+def box(mass=100, damping=0., isFirst=False, speed=3, steps=100):
+    """A box hits a block that rotates."""
+    solver = soft()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.125, material='m', velocity=(0, -.5), spin=2)
+    one = utils.box((.5, -.15, 0), (.1, .1, .5), material='m')
+    one.state.vel, one.state.blockedDOFs = (0, speed, 0), 'zXY'
+    one.state.mass, one.state.inertia = mass, (.01 * mass,) * 3
+    O.bodies.append(one)
+    integrator = w.NewtonIntegrator(damping=damping)
+    O.engines = [integrator, w.ForceResetter(), solver] if isFirst else [w.ForceResetter(), solver, integrator]
+    O.dt = .8 * solver.criticalTimeStep()
+    return ran(solver, steps)
+
+
+def ordered(engines):
+    """A free box beside a block."""
+    solver = soft()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.25, material='m')
+    one = utils.box((-.2, 0, 0), (.1, .1, .5), material='m')
+    one.state.blockedDOFs = 'zXY'
+    O.bodies.append(one)
+    O.engines = engines(solver)
+    O.dt = .5 * solver.criticalTimeStep()
+    return ran(solver, 3)
+
+
+def usual(solver):
+    return [w.ForceResetter(), solver, w.NewtonIntegrator(damping=0)]
+
+
+def facet(**state):
+    solver = soft()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.25, material='m')
+    O.bodies.append(utils.facet([(-.2, 0, 1), (-.2, 0, -1), (-.2, .1, 0)], material='m', fixed=False))
+    for name, value in state.items():
+        setattr(O.bodies[-1].state, name, value)
+    O.engines = usual(solver)
+    O.dt = .5 * solver.criticalTimeStep()
+    return ran(solver, 3)
+
+
+def falling(gravity, withSphere=False):
+    solver = soft()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.25, material='m', thickness=.2)
+    if withSphere:
+        ball = utils.sphere((.5, .7, 0), .1, material='m')
+        ball.state.blockedDOFs = '' if gravity[2] else 'zXY'
+        O.bodies.append(ball)
+    O.engines = yadefrag.engines(solver, spheres=withSphere, moving=True)
+    O.engines[-1].gravity = gravity
+    O.dt = .1 * solver.criticalTimeStep()
+    return ran(solver, 3)
+
+
+# --- adding bodies
+
+def added(low=(0, 0), corners=None, label='m', settings=(), **how):
+    """A second body; `how` it is added."""
+    solver = soft()
+    O.materials.append(w.BrittleFEMat(young=1e9, tensileStrength=1e6, label='b', **dict(settings)))
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    x, y = low
+    solver.addPolygon(corners or yadefrag.rectangle((x, y), (x + 1, y + 1)), size=.5, material=label, **how)
+    O.engines = yadefrag.engines(solver)
+    O.dt = .5 * solver.criticalTimeStep()
+    return ran(solver, 2)
+
+
+def bySolvers(count):
+    solvers = [soft()] + [w.FESolver() for _ in range(count - 1)]
+    for k in range(2):
+        solvers[k % count].addPolygon(yadefrag.rectangle((2 * k, 0), (2 * k + 1, 1)), size=.5, material='m')
+
+
+def periodic(flag):
+    O.periodic = flag
+    solver = soft()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+
+
+def rested(most, isHeld=True):
+    solver = soft(gravity=(0, -1))
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m',
+                      fixed=(lambda x, y: y < 1e-9) if isHeld else None)
+    O.engines = yadefrag.engines(solver)
+    O.dt = .5 * solver.criticalTimeStep()
+    solver.relax(most=most)
+
+
+def heavy(gravity):
+    solver = soft(gravity=(0, gravity))
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
+    O.engines = yadefrag.engines(solver)
+    O.dt = .5 * solver.criticalTimeStep()
+    return ran(solver, 3)
+
+
+# --- running and saving
+
+def saved(name):
+    steel().addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='steel')
+    O.save(name)
+
+
+def failing(isComplete):
+    O.bodies.append(utils.sphere((0, 0, 0), 1))
+    O.engines = [w.InsertionSortCollider([w.Bo1_Sphere_Aabb()])] + [w.NewtonIntegrator()] * isComplete
+    O.dt = 1e-6
+    O.run(5, True)
+
+
+ENERGY = "contact with YADE's walls, boxes or facets has created"
+TABLE = {
+    'too fast a rotation': (
+        'time integration has created .*take a shorter step: .* the bodies rotate or deform too much',
+        lambda: spreading(.99), lambda: spreading(.25)),
+    'smoothed cracks': (
+        "cracks in bodies with element='smoothed' have created .*element='linear' avoids this",
+        lambda: plate(.01, element='smoothed', strain=1.2e-4), lambda: plate(.01, strain=1.2e-4)),
+    'a crack opens faster than the step: step': (
+        'does not resolve', unresolved, lambda: follow(unresolved, 'does not resolve', advised)),
+    'a crack opens faster than the step: size': (
+        'does not resolve', unresolved, lambda: follow(
+            lambda size=2e-3: unresolved(size=size, dt=.5 * size / 4000), 'does not resolve',
+            lambda said: number(said, 'elements of at most'))),
+    'coarse cohesive zone': (
+        'less than four elements', lambda: plate(fractureEnergy=1),
+        lambda: follow(lambda size=2e-3: plate(size, fractureEnergy=1), 'less than four elements',
+                       lambda said: number(said, 'elements of at most'))),
+    'contact moves a node: step': ('contact moves a surface node by', thrown, lambda: thrown(.02)),
+    'contact moves a node: slower': ('contact moves a surface node by', thrown, lambda: thrown(speed=.01)),
+    'a sphere that is too light: step': (
+        "contact with YADE's spheres has created .*take a shorter step", small, lambda: small(.01)),
+    'a sphere that is too light: stiffness': (
+        "contact with YADE's spheres has created .*a smaller stiffness", small, lambda: small(young=1e4)),
+    'rigid bodies get energy: order': (ENERGY, lambda: box(isFirst=True), box),
+    'rigid bodies get energy: heavier': (ENERGY, lambda: box(isFirst=True), lambda: box(1e4, isFirst=True)),
+    'rigid bodies get energy: damping': (ENERGY, lambda: box(1, .2, speed=8), lambda: box(1, speed=8)),
+    'the integrator first': (
+        'NewtonIntegrator comes before FESolver', lambda: box(isFirst=True, steps=3), lambda: box(steps=3)),
+    'a facet without mass: mass': (
+        'has no mass or no inertia', facet, lambda: facet(mass=1, inertia=(1, 1, 1))),
+    'a facet without mass: blocked': (
+        'has no mass or no inertia', facet, lambda: facet(blockedDOFs='xyzXYZ')),
+    'forces on rigid bodies that add up': (
+        'has a NewtonIntegrator and no ForceResetter', lambda: ordered(lambda fe: usual(fe)[1:]),
+        lambda: ordered(usual)),
+    'a resetter behind the solver': (
+        'ForceResetter behind FESolver deletes', lambda: ordered(lambda fe: [fe, w.NewtonIntegrator(), w.ForceResetter()]),
+        lambda: ordered(usual)),
+    'the solver twice': (
+        'the same FESolver more than once', lambda: ordered(lambda fe: [w.ForceResetter(), fe, fe]),
+        lambda: ordered(usual)),
+    'gravity along z': (
+        'gravity of NewtonIntegrator along z does not act', lambda: falling((0, 0, -9.81)), lambda: falling((0, -9.81, 0))),
+    'gravity along z on a sphere': (
+        'Gravity along z moves sphere', lambda: falling((0, 0, -9.81), True), lambda: falling((0, -9.81, 0), True)),
+    'an overlap at the start': (
+        'it may touch others at the start', lambda: added((.5, 0)), lambda: added((1, 0))),
+    'far from the origin': (
+        'is lost in the rounding of coordinates', lambda: added((1e14, 0)), lambda: added((10, 0))),
+    'a displacement that inverts': (
+        'inverts the triangle', lambda: added((2, 0), displacement=lambda x, y: (-1.2 * x, 0)),
+        lambda: added((2, 0), displacement=lambda x, y: (-.1 * x, 0))),
+    'too large an initial stress': (
+        'would be strained by more than half', lambda: added((2, 0), stress=(-1e7, 0, 0)),
+        lambda: added((2, 0), stress=(-1e5, 0, 0))),
+    'brittle without self-contact: with': (
+        'selfContact is False, but', lambda: added((2, 0), label='b', selfContact=False),
+        lambda: added((2, 0), label='b', selfContact=True)),
+    'brittle without self-contact: not brittle': (
+        'selfContact is False, but', lambda: added((2, 0), label='b', selfContact=False),
+        lambda: added((2, 0), selfContact=False)),
+    'loads beyond numbers': ('for any step|not finite', lambda: heavy(-1e200), lambda: heavy(-10)),
+    'two solvers': ('bodies of another FESolver', lambda: bySolvers(2), lambda: bySolvers(1)),
+    'a periodic scene': ('FE bodies cannot be', lambda: periodic(True), lambda: periodic(False)),
+    'no rest': ('relax: after .* steps', lambda: rested(5), lambda: rested(10**5)),
+    'a file that cannot be written': (
+        'could not be saved: its file cannot be opened', lambda: saved('/nowhere/x.yade'), lambda: saved('x.yade')),
+    'an engine that fails': (
+        'unable to locate NewtonIntegrator|An engine has failed in step 0; YADE has written the reason to stderr',
+        lambda: failing(False), lambda: failing(True)),
+}
+
+
+@pytest.mark.parametrize('name', TABLE)
+def test_messageComesAndItsAdviceHelps(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    pattern, cause, remedy = TABLE[name]
+    found = reported(cause)
+    assert [one for one in found if re.search(pattern, one)], found
+    O.reset()
+    left = reported(remedy)
+    assert not [one for one in left if re.search(pattern, one)], left
