@@ -68,12 +68,9 @@ void Contact::reserve(std::size_t nodes) {
   lagrange_.reserve(nodes);
 }
 
-void Contact::correct(Model& model, const ContactSurfaces& surfaces,
-                      const ContactSettings& settings, const ContactStep& step) {
+void Contact::correct(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   begin();
   rigidLoads_.assign(step.rigid.masses.size(), {});
-  entry_ = settings.entry;
-  keepFlags(candidates, surfaces, step.before, entry_ == Entry::kFlags);
   deepest_ = deepestTouch(surfaces, step.before);
   bool gapsAreKnown = false;
   // Corrections are mostly as large as those of the previous step.
@@ -93,9 +90,8 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
         break;
       }
       if (!anyNew && now_.maxPenetration <= 2 * inexact_) break;
-      if (!anyNew && settings.correction == Correction::kPenalty) break;
     }
-    sinceScan_ += solve(model, settings, step, anyNew);
+    sinceScan_ += solve(model, step, anyNew);
     // Nodes that the correction moved beyond the reach of the scan are scanned again.
     move(model, step);
     gapsAreKnown = false;
@@ -106,15 +102,13 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces,
   }
   if (step.rubble && !gapsAreKnown) rescan(model, surfaces, step);
   if (!rows_.empty() && !gapsAreKnown) updateGaps(model, surfaces, step);
-  finish(model, surfaces, step);
+  finish(model, step);
 }
 
 void Contact::begin() {
-  hasBegun_ = false;
-  formerOutside_.assign(candidates.outside.begin(), candidates.outside.end());
   rows_.swap(formerRows_);
   former_ = std::exchange(now_, {});
-  hasBegun_ = true, isFinished_ = false;
+  isFinished_ = false;
   rows_.clear();
   known_.clear();
   inexact_ = 0;
@@ -130,8 +124,6 @@ void Contact::clearForces() {
 }
 
 void Contact::takeBack() {
-  if (!hasBegun_) return;
-  candidates.outside.swap(formerOutside_);
   candidates.idleDistance.clear();
   if (isFinished_) touches.swap(formerTouches_), lastCorrection = formerCorrection_;
   rows_.swap(formerRows_);
@@ -142,8 +134,8 @@ void Contact::takeBack() {
   sumForces();
 }
 
-/// Penetrations caused by the last correction of a step are left to the next one, which needs the
-/// information that the slaves came from outside.
+/// Penetrations caused by the last correction of a step are left to the next one, which needs these
+/// contacts: the slaves are behind their masters by then.
 void Contact::rescan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   if (addRows(model, surfaces, step)) releaseUnsolved();
 }
@@ -161,19 +153,16 @@ void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const Co
   const StageTimer timer(step.times, &StageTimes::localSearch);
   const PathStart start{step.before, touches, tolerance::contact().entryDepth * step.shortest,
                         deepest_};
-  search_.scan(candidates, surfaces, model.nodes.position, reach, step.threads, moved + sinceScan_,
-               entry_ == Entry::kPath ? &start : nullptr);
+  search_.scan(candidates, surfaces, model.nodes.position, start, reach, step.threads,
+               moved + sinceScan_);
   sinceScan_ = 0;
 }
 
 /// Returns a bound of the displacements by the coupled forces (m).
-double Contact::solve(Model& model, const ContactSettings& settings, const ContactStep& step,
-                      bool anyNew) {
+double Contact::solve(Model& model, const ContactStep& step, bool anyNew) {
   const StageTimer timer(step.times, &StageTimes::correction);
   const Inertia inertia{model.nodes, step.length, step.drag, step.rigid.masses};
-  if (settings.correction == Correction::kPenalty) {
-    penalize(rows_, inertia, settings.penaltyFactor);
-  } else if (step.rubble) {
+  if (step.rubble) {
     const double change = tolerance::kRubbleChange * worthwhile(step);
     std::optional<Coupling> coupling =
         step.coupled == nullptr ? std::nullopt
@@ -181,11 +170,10 @@ double Contact::solve(Model& model, const ContactSettings& settings, const Conta
                                                          model.nodes.position, displacement_});
     inexact_ = lagrange_.sweep(rows_, inertia, change, coupling ? &*coupling : nullptr);
     return coupling ? coupling->moved : 0;
-  } else {
-    if (anyNew) lagrange_.setRows(rows_, inertia);
-    const Lagrange::Outcome outcome = lagrange_.solve(rows_, inertia, worthwhile(step));
-    now_.residual = outcome.residual, inexact_ = outcome.change, now_.sweeps += outcome.sweeps;
   }
+  if (anyNew) lagrange_.setRows(rows_, inertia);
+  const Lagrange::Outcome outcome = lagrange_.solve(rows_, inertia, worthwhile(step));
+  now_.residual = outcome.residual, inexact_ = outcome.change, now_.sweeps += outcome.sweeps;
   return 0;
 }
 
@@ -247,9 +235,8 @@ bool Contact::hasRow(const ContactSurfaces& surfaces, const PieceGeometry& befor
   });
 }
 
-/// A smooth master takes a slave without a flag. Where the slave's own body is thinner than the
-/// halo, the master may be on the other side of that body: the slave was as deep before, and was
-/// not in contact.
+/// Where the slave's own body is thinner than the halo, a smooth master may be on the other side of
+/// that body: the slave was as deep before, and was not in contact.
 bool Contact::isThroughItself(const ContactSurfaces& surfaces, const PieceGeometry& before,
                               SlaveMaster pair, const ContactStep& step) const {
   if (surfaces.component[pair.slave.value] != surfaces.component[pair.master.value] ||
@@ -329,8 +316,8 @@ void Contact::sumForces() {
   }
 }
 
-/// Sets velocities, outside flags, and the data for the next step.
-void Contact::finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
+/// Sets velocities, and the data for the next step.
+void Contact::finish(Model& model, const ContactStep& step) {
   for (const NodeId node : touched_) {
     const std::uint32_t n = node.value;
     if (isOfRigid(node, step))
@@ -346,15 +333,11 @@ void Contact::finish(Model& model, const ContactSurfaces& surfaces, const Contac
   touches.swap(formerTouches_);
   formerCorrection_ = std::exchange(lastCorrection, now_.largestCorrection);
   isFinished_ = true;
-  const double restored = step.rubble ? tolerance::kRestoredDepth * step.reach : 0;
-  if (entry_ == Entry::kFlags && search_.anyNear())
-    search_.settle(candidates, surfaces, model.nodes.position, known_, restored);
 }
 
 void Contact::addTo(Footprint& footprint) const {
   footprint.add(Use::kContact, touches, formerTouches_, actives_, rows_, formerRows_, known_,
                 forces_, displacement_, touched_, isTouched_, rigidLoads_);
-  footprint.add(Use::kSearch, formerOutside_);
   candidates.addTo(footprint);
   search_.addTo(footprint);
   lagrange_.addTo(footprint);

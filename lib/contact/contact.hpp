@@ -8,7 +8,6 @@
 
 #include "contact/candidates.hpp"
 #include "contact/contact_row.hpp"
-#include "contact/contact_settings.hpp"
 #include "contact/correction.hpp"
 #include "contact/coupled_forces.hpp"
 #include "contact/inertia.hpp"
@@ -52,8 +51,7 @@ struct ContactForces {
 class Contact {
  public:
   /// From the predicted x* and v* of `model` to xⁿ⁺¹ and vⁿ⁺½.
-  void correct(Model& model, const ContactSurfaces& surfaces, const ContactSettings& settings,
-               const ContactStep& step);
+  void correct(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   /// Undoes the last `correct`, complete or ended by an exception, except for positions and
   /// velocities. Allocates no memory.
   void takeBack();
@@ -62,7 +60,7 @@ class Contact {
   /// contacts.
   void reset();
   /// After entries were renumbered: `numbers` by former number; none() of removed ones. Contacts
-  /// are kept: a contact that is deep, such as with a penalty, would be lost otherwise.
+  /// are kept: a deep one would be lost otherwise.
   void renumber(std::span<const EntryId> numbers);
   /// Must be called after nodes were added.
   void resize(std::size_t nodes);
@@ -73,10 +71,9 @@ class Contact {
   void removeGone(const ContactSurfaces& surfaces);
 
   /// Tolerates overlaps at `positions` (m, by node) of masters that approached their slaves by a
-  /// change of shape, and of single pairs (ascending) whose flag became outside: these overlaps are
-  /// reduced over many steps, not in one.
+  /// change of shape: these overlaps are reduced over many steps, not in one.
   void allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
-                     std::span<const EntryId> masters, std::span<const SlaveMaster> pairs);
+                     std::span<const EntryId> masters);
 
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
   /// (N) By node, in the last step.
@@ -111,7 +108,7 @@ class Contact {
   void clearForces();
   void scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
             double reach, double moved = 0);
-  double solve(Model& model, const ContactSettings& settings, const ContactStep& step, bool anyNew);
+  double solve(Model& model, const ContactStep& step, bool anyNew);
   [[nodiscard]] double deepestTouch(const ContactSurfaces& surfaces,
                                     std::span<const Vec2> before) const;
   template <class Test>
@@ -136,9 +133,8 @@ class Contact {
   void releaseUnsolved();
   void touch(NodeId node);
   void sumForces();
-  void finish(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
+  void finish(Model& model, const ContactStep& step);
 
-  Entry entry_ = Entry::kPath;
   double deepest_ = 0;  // m, of the touches at the begin of the step
   LocalSearch search_;
   Lagrange lagrange_;
@@ -162,10 +158,9 @@ class Contact {
   // Of the previous step, for `takeBack`; `touches` only after the step has set its own.
   std::vector<ContactRow> formerRows_;
   std::vector<Touch> formerTouches_;
-  std::vector<std::uint8_t> formerOutside_;
   double formerCorrection_ = 0;  // m
   Figures former_;
-  bool hasBegun_ = false, isFinished_ = false;
+  bool isFinished_ = false;
 };
 
 }  // namespace yadefrag

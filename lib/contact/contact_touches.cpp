@@ -21,30 +21,6 @@ std::vector<Touch> renumbered(std::vector<Touch> touches, std::span<const EntryI
   return touches;
 }
 
-/// Only the flags are needed until the next search.
-Candidates renumbered(const Candidates& candidates, std::span<const EntryId> numbers) {
-  std::vector<std::pair<SlaveMaster, std::uint8_t>> flags;
-  for (std::size_t r = 0; r < candidates.slaves.size() && !candidates.outside.empty(); ++r)
-    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
-      const SlaveMaster pair{numbers[candidates.slaves[r].value],
-                             numbers[candidates.masters[c].value]};
-      if (pair.slave != EntryId::none() && pair.master != EntryId::none())
-        flags.emplace_back(pair, candidates.outside[c]);
-    }
-  Candidates kept;
-  if (flags.empty()) return kept;
-  std::ranges::sort(flags);
-  for (const auto& [pair, outside] : flags) {
-    if (kept.slaves.empty() || kept.slaves.back() != pair.slave) {
-      kept.slaves.push_back(pair.slave);
-      kept.offsets.push_back(static_cast<std::uint32_t>(kept.masters.size()));
-    }
-    kept.masters.push_back(pair.master), kept.outside.push_back(outside);
-  }
-  kept.offsets.push_back(static_cast<std::uint32_t>(kept.masters.size()));
-  return kept;
-}
-
 /// True if cohesion holds both sides of a row to each other. It would undo in every step what
 /// contact does to reduce their overlap: contact would create energy, and cohesion would take it.
 bool isHeldByCohesion(const ContactRow& row, std::span<const std::uint32_t> cohesive) {
@@ -95,8 +71,7 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
     row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;
     return;
   }
-  // An overlap from before the step (missed by the flags, or beside an end) must not become
-  // velocity at once.
+  // An overlap from before the step, as beside an end, must not become velocity at once.
   const double gap = before.foot(row.master, before.slave(row.slave)).gap;
   row.toleratedGap = std::min(0., gap + decay * step.move);
 }
@@ -113,10 +88,9 @@ double Contact::deepestTouch(const ContactSurfaces& surfaces, std::span<const Ve
 }
 
 void Contact::renumber(std::span<const EntryId> numbers) {
-  std::vector<Touch> keptTouches = renumbered(std::move(touches), numbers);
-  Candidates keptCandidates = renumbered(candidates, numbers);
+  std::vector<Touch> kept = renumbered(std::move(touches), numbers);
   reset();
-  touches = std::move(keptTouches), candidates = std::move(keptCandidates);
+  touches = std::move(kept);
 }
 
 void Contact::removeGone(const ContactSurfaces& surfaces) {
@@ -127,22 +101,18 @@ void Contact::removeGone(const ContactSurfaces& surfaces) {
 }
 
 void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
-                            std::span<const EntryId> masters, std::span<const SlaveMaster> pairs) {
-  if (masters.empty() && pairs.empty()) return;
+                            std::span<const EntryId> masters) {
+  if (masters.empty()) return;
   const PieceGeometry geometry(surfaces, positions);
   for (std::size_t r = 0; r < candidates.slaves.size(); ++r)
     for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
       const SlaveMaster pair{candidates.slaves[r], candidates.masters[c]};
-      if (!candidates.outside.empty() && candidates.outside[c] == 0) continue;
-      if (std::ranges::find(masters, pair.master) == masters.end() &&
-          !std::ranges::binary_search(pairs, pair))
-        continue;
+      if (std::ranges::find(masters, pair.master) == masters.end()) continue;
       const Foot foot = geometry.foot(pair.master, geometry.slave(pair.slave));
       const double gap = foot.gap;
-      if (gap >= 0) continue;
-      // Without flags: a change of shape is a fraction of a piece's length only.
-      if (candidates.outside.empty() &&
-          (!isOver(geometry, pair.master, foot) || gap < -.25 * geometry.length(pair.master)))
+      // A change of shape is a fraction of a piece's length only.
+      if (gap >= 0 || !isOver(geometry, pair.master, foot) ||
+          gap < -.25 * geometry.length(pair.master))
         continue;
       const auto at =
           std::lower_bound(touches.begin(), touches.end(), pair,

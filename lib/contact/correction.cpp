@@ -206,31 +206,4 @@ void Lagrange::addTo(Footprint& footprint) const {
   }
 }
 
-void penalize(std::span<ContactRow> rows, const Inertia& inertia, double factor) {
-  const double squared = inertia.step.squared();
-  for (ContactRow& row : rows) {
-    double normal = 0, tangent = 0;
-    const auto add = [&](double weight, Vec2 mobility) {
-      const Vec2 mobile = squared * weight * weight * mobility;
-      normal += weighted(row.normal, mobile, row.normal);
-      tangent += weighted(row.tangent(), mobile, row.tangent());
-    };
-    for (int k = 0; k < row.count; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      add(row.weight[at], inertia.mobilityOf(row.node[at]));
-    }
-    if (row.rigid.mass != ContactRow::kNoMass) {
-      const RigidMass& body = inertia.rigid[row.rigid.mass];
-      add(row.rigid.weight, body.mobility);
-      const double across = cross(row.rigid.lever, row.normal);
-      const double along = cross(row.rigid.lever, row.tangent());
-      normal += squared * body.turning * across * across;
-      tangent += squared * body.turning * along * along;
-    }
-    row.normalForce = normal > 0 ? factor * std::max(0., row.toleratedGap - row.gap) / normal : 0;
-    const double most = row.friction * row.normalForce;
-    row.tangentForce = tangent > 0 ? std::clamp(-factor * row.slip / tangent, -most, most) : 0;
-  }
-}
-
 }  // namespace yadefrag

@@ -75,8 +75,4 @@ class Lagrange {
   std::vector<double> start_;
 };
 
-/// Penalty: for each row separately, the force that would remove `factor` of its penetration in one
-/// step.
-void penalize(std::span<ContactRow> rows, const Inertia& inertia, double factor);
-
 }  // namespace yadefrag

@@ -1,5 +1,5 @@
 #pragma once
-// Entry by the path: a slave enters where its path in the step crosses the moving piece.
+// A slave enters where its path in the step crosses the moving piece.
 
 #include <optional>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "contact/slave_normals.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/contact.hpp"
 
@@ -12,8 +11,7 @@ namespace yadefrag {
 
 namespace {
 
-/// True if flags are needed beside an arc: for an adjacent straight piece it must be known on which
-/// side of the arc a slave was.
+/// True if no end of an arc is shared with a straight piece.
 template <class Geometry>
 bool isArcAmongArcs(const ContactSurfaces& surfaces, const Geometry& geometry, EntryId entry) {
   return geometry.isArc(entry) && geometry.isArc(surfaces.next[entry.value]) &&
@@ -51,12 +49,11 @@ Chord chordOf(const Geometry& geometry, EntryId entry) {
 }  // namespace
 
 void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
-                       std::span<const Vec2> positions, double reach, int threads, double moved,
-                       const PathStart* start) {
+                       std::span<const Vec2> positions, const PathStart& start, double reach,
+                       int threads, double moved) {
+  start_ = start;
   reach_ = reach;
   threads_ = threads;
-  byPath_ = start != nullptr;
-  if (start) start_ = *start;
   const std::size_t rows = candidates.slaves.size();
   way_ += moved;
   if (candidates.idleDistance.size() != rows || !std::isfinite(way_))
@@ -90,14 +87,14 @@ void LocalSearch::scanRows(Candidates& candidates, const ContactSurfaces& surfac
     const std::size_t first = part.near.size();
     const auto row = static_cast<std::uint32_t>(r);
     candidates.idleDistance[r] = way_ + scanRow(candidates, geometry, row, chord, part.near);
-    if (byPath_ && part.near.size() > first &&
+    if (part.near.size() > first &&
         !findEnterable(candidates, before, std::span(part.near).subspan(first)))
       part.near.resize(first);
   }
 }
 
-/// With entry by the path, a slave that was behind a straight piece at xⁿ cannot enter it, unless
-/// it was in contact. Returns true if it can enter any.
+/// A slave that was behind a straight piece at xⁿ cannot enter it, unless it was in contact.
+/// Returns true if it can enter any.
 template <class Geometry>
 bool LocalSearch::findEnterable(const Candidates& candidates, const Geometry& before,
                                 std::span<Near> row) const {
@@ -136,7 +133,7 @@ void LocalSearch::findChords(const Candidates& candidates, const ContactSurfaces
   forEachPart(count, threads_, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t e = begin; e < end; ++e) chords_[e] = chordOf(geometry, EntryId(e));
   });
-  if (byPath_) findPoints(Geometry(surfaces, start_.positions), count, pointsBefore_);
+  findPoints(Geometry(surfaces, start_.positions), count, pointsBefore_);
 }
 
 template <class Geometry>
@@ -149,29 +146,24 @@ void LocalSearch::findPoints(const Geometry& geometry, std::size_t count,
 }
 
 template <class Geometry, class ChordOf>
-double LocalSearch::scanRow(Candidates& candidates, const Geometry& geometry, std::uint32_t row,
-                            ChordOf chordOfEntry, std::vector<Near>& found) const {
+double LocalSearch::scanRow(const Candidates& candidates, const Geometry& geometry,
+                            std::uint32_t row, ChordOf chordOfEntry,
+                            std::vector<Near>& found) const {
   const Vec2 point = geometry.slave(candidates.slaves[row]);
-  const double deepest = byPath_ ? start_.deepest : INFINITY;
+  const double deepest = start_.deepest;
   double clear = INFINITY;
   for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c) {
     const EntryId master = candidates.masters[c];
     const Chord chord = chordOfEntry(master);
     const Beside beside = besideChord(chord, point);
     const double wide = reach_ + chord.bulge;
-    const double aside = byPath_ ? 6 * (wide + deepest) : 4 * wide;
-    const bool arc = geometry.isArc(master);
-    const double leverage = beside.leverage(arc);
+    const double leverage = beside.leverage(geometry.isArc(master));
     const double before = beside.gap - chord.bulge;
-    if (beside.gap < wide && beside.gap > -wide - deepest && beside.beyond < aside)
+    if (beside.gap < wide && beside.gap > -wide - deepest && beside.beyond < 6 * (wide + deepest))
       found.push_back({row, c, true, (before - tolerance::kTouching / chord.inverse) / leverage});
-    else if (!byPath_)
-      candidates.outside[c] = beside.gap >= 0 ? 1 : 0;
-    // By flags, a straight master behind whose line the slave is cannot become active before the
-    // slave has come out; by the path, any master in which the slave is deeper cannot.
-    const bool behind = byPath_ ? beside.gap < -deepest : !arc && candidates.outside[c] == 0;
-    const double open =
-        behind ? std::abs(beside.gap) - (byPath_ ? deepest : 0) - chord.bulge : before;
+    // A master in which the slave is deeper than any contact cannot become active.
+    const bool behind = beside.gap < -deepest;
+    const double open = behind ? std::abs(beside.gap) - deepest - chord.bulge : before;
     clear = std::min(clear, open / leverage);
   }
   return clear;
@@ -241,10 +233,7 @@ void LocalSearch::tryRows(const Query& query, const Geometry& geometry, std::siz
     part.trials.clear();
     const std::span<const Near> row = near.subspan(begin, end - begin);
     if (!mustTry(query, row)) continue;
-    if (byPath_)
-      tryByPath(query, geometry, row, part);
-    else
-      tryByFlags(query, geometry, row, part);
+    tryRow(query, geometry, row, part);
     for (const Trial& trial : part.trials)
       if (trial.active) part.actives.push_back({{slave, trial.master}, trial.foot});
   }
@@ -252,8 +241,8 @@ void LocalSearch::tryRows(const Query& query, const Geometry& geometry, std::siz
 
 /// Most slaves are not behind the line of any master that they can cross.
 template <class Geometry>
-void LocalSearch::tryByPath(const Query& query, const Geometry& geometry, std::span<const Near> row,
-                            Part& part) const {
+void LocalSearch::tryRow(const Query& query, const Geometry& geometry, std::span<const Near> row,
+                         Part& part) const {
   const EntryId slave = query.slaveOf(row.front());
   const Vec2 point = geometry.slave(slave);
   bool allKnown = true;
@@ -266,7 +255,7 @@ void LocalSearch::tryByPath(const Query& query, const Geometry& geometry, std::s
       const bool quick =
           !geometry.isArc(master) || isArcAmongArcs(query.surfaces, geometry, master);
       if (quick && !geometry.mayPenetrate(master, point)) continue;
-      part.trials.push_back({master, {}, canEnter, false, false, false});
+      part.trials.push_back({master});
       allKnown = allKnown && query.isKnown({slave, master});
     }
   };
@@ -279,62 +268,6 @@ void LocalSearch::tryByPath(const Query& query, const Geometry& geometry, std::s
   addTrials(false);
   std::ranges::sort(part.trials, {}, &Trial::master);
   decideByPath(query.surfaces, step, part.trials);
-}
-
-/// Independently of the rules, masters without a flag are not activated unless there is an arc in
-/// the row.
-template <class Geometry>
-void LocalSearch::tryByFlags(const Query& query, const Geometry& geometry,
-                             std::span<const Near> row, Part& part) const {
-  const Candidates& candidates = query.candidates;
-  const EntryId slave = query.slaveOf(row.front());
-  const Vec2 point = geometry.slave(slave);
-  const auto isKnown = [&](const Near& near) {
-    return query.isKnown({slave, candidates.masters[near.candidate]});
-  };
-  if (std::ranges::all_of(row, isKnown)) return;
-  bool anyOutside = false, anyNear = false;
-  for (const Near& near : row) {
-    const EntryId master = candidates.masters[near.candidate];
-    const bool arc = geometry.isArc(master);
-    anyOutside = anyOutside || arc || candidates.outside[near.candidate] != 0;
-    anyNear = anyNear || arc || geometry.mayPenetrate(master, point);
-  }
-  if (!anyOutside || !anyNear) return;
-  const SlaveNormals normals = slaveNormals(query.surfaces, geometry, slave);
-  bool anyInside = false;
-  for (const Near& near : row) {
-    const EntryId master = candidates.masters[near.candidate];
-    // The quick test saves the iteration.
-    if (isArcAmongArcs(query.surfaces, geometry, master) && !geometry.mayPenetrate(master, point))
-      continue;
-    const Foot foot = geometry.foot(master, point);
-    const bool opposed = normals.oppose(foot.normal);
-    anyInside = anyInside || (opposed && foot.gap < 0);
-    part.trials.push_back(
-        {master, foot, candidates.outside[near.candidate] != 0, opposed, false, true});
-  }
-  if (anyInside)
-    part.rules.decide(query.surfaces, geometry, part.trials, query.deepest, reach_);
-  else
-    part.trials.clear();
-}
-
-void LocalSearch::settle(Candidates& candidates, const ContactSurfaces& surfaces,
-                         std::span<const Vec2> positions, std::span<const SlaveMaster> touched,
-                         double tolerated) const {
-  withGeometry(surfaces, positions, [&](const auto& geometry) {
-    auto next = touched.begin();
-    for (const Near& near : near_) {
-      const SlaveMaster pair{candidates.slaves[near.row], candidates.masters[near.candidate]};
-      while (next != touched.end() && *next < pair) ++next;
-      const bool active = next != touched.end() && *next == pair;
-      std::uint8_t& outside = candidates.outside[near.candidate];
-      const double least = outside != 0 ? -tolerated : 0;
-      const double gap = geometry.foot(pair.master, geometry.slave(pair.slave)).gap;
-      outside = active || gap >= least ? 1 : 0;
-    }
-  });
 }
 
 }  // namespace yadefrag

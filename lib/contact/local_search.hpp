@@ -1,6 +1,6 @@
 #pragma once
 // From candidates to actives (paper §5): a scan of all candidates selects the few near pairs; then,
-// for each slave, the masters are determined on which it is active (joint_rules.hpp).
+// for each slave, the masters are determined on which it is active (path_rules.hpp).
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "contact/candidates.hpp"
-#include "contact/joint_rules.hpp"
 #include "contact/path_rules.hpp"
 #include "core/tolerances/threads.hpp"
 #include "surface/piece_geometry.hpp"
@@ -33,47 +32,35 @@ class LocalSearch {
  public:
   /// First phase (§5.1) at `positions` (m, by node). A candidate is near if its slave is within
   /// `reach` (m) of the master's line, or inside it by no more than that plus the largest depth at
-  /// the start, and beside the piece by no more than a few `reach`. With flags, depth is not
-  /// limited, and the flags of all pairs that are not near are updated. `moved` (m): upper bound of
-  /// the displacement of surface nodes since the last scan; infinite: unknown. Rows that cannot
-  /// have become near by all displacements since their last check are skipped. Entry is by the path
-  /// from `start`, or by the candidates' flags without it.
+  /// the start, and beside the piece by no more than a few `reach`. `moved` (m): upper bound of the
+  /// displacement of surface nodes since the last scan; infinite: unknown. Rows that cannot have
+  /// become near by all displacements since their last check are skipped.
   void scan(Candidates& candidates, const ContactSurfaces& surfaces,
-            std::span<const Vec2> positions, double reach, int threads, double moved = INFINITY,
-            const PathStart* start = nullptr);
+            std::span<const Vec2> positions, const PathStart& start, double reach, int threads,
+            double moved = INFINITY);
 
   /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master. Depths in a
-  /// smooth master beyond `deepest` (m) are ignored, for any width of the halo; but a slave deeper
-  /// than the halo at a search, as a penalty may leave it, is no candidate at all. Excluded are
-  /// slaves `known` (ascending) to be active on all their near masters, and pairs that a
-  /// displacement of at most `moved` (m) since the scan cannot have brought into penetration. After
-  /// the first call for a scan, slaves may be excluded if neither they nor their near masters have
-  /// moved since the last call.
+  /// smooth master beyond `deepest` (m) are ignored, for any width of the halo. Excluded are slaves
+  /// `known` (ascending) to be active on all their near masters, and pairs that a displacement of
+  /// at most `moved` (m) since the scan cannot have brought into penetration. After the first call
+  /// for a scan, slaves may be excluded if neither they nor their near masters have moved since the
+  /// last call.
   void findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
                    std::span<const Vec2> positions, double deepest, std::vector<Active>& actives,
                    std::span<const SlaveMaster> known = {}, double moved = INFINITY);
 
-  /// Sets the outside flags of the near pairs after the step, in which `touched` (ascending) were
-  /// active: those stay outside, independently of rounding, and so do pairs that were outside and
-  /// are inside by no more than `tolerated` (m).
-  void settle(Candidates& candidates, const ContactSurfaces& surfaces,
-              std::span<const Vec2> positions, std::span<const SlaveMaster> touched,
-              double tolerated = 0) const;
-
   [[nodiscard]] bool anyNear() const { return !near_.empty(); }
   void addTo(Footprint& footprint) const {
     footprint.add(Use::kSearch, near_, parts_, chords_, pointsBefore_, points_, triedAt_, moved_);
-    for (const Part& part : parts_) {
+    for (const Part& part : parts_)
       footprint.add(Use::kSearch, part.near, part.actives, part.trials);
-      part.rules.addTo(footprint);
-    }
   }
 
  private:
   struct Near {
     std::uint32_t row;
     std::uint32_t candidate;
-    bool canEnter;  ///< with entry by the path
+    bool canEnter;  ///< false: the slave was behind the piece at xⁿ, without contact
     double clear;   ///< m, displacement of all nodes up to which the slave is in front of the piece
   };
   /// The arguments of `findActives`.
@@ -94,7 +81,6 @@ class LocalSearch {
     std::vector<Near> near;
     std::vector<Active> actives;
     std::vector<Trial> trials;
-    JointRules rules;
   };
 
   template <class Geometry>
@@ -107,7 +93,7 @@ class LocalSearch {
                 std::size_t begin, std::size_t end, Part& part) const;
   /// Scans one slave; returns the displacement of all nodes before which it cannot be near.
   template <class Geometry, class ChordOf>
-  double scanRow(Candidates& candidates, const Geometry& geometry, std::uint32_t row,
+  double scanRow(const Candidates& candidates, const Geometry& geometry, std::uint32_t row,
                  ChordOf chordOfEntry, std::vector<Near>& found) const;
   template <class Geometry>
   bool findEnterable(const Candidates& candidates, const Geometry& before,
@@ -119,16 +105,12 @@ class LocalSearch {
   void tryRows(const Query& query, const Geometry& geometry, std::size_t from, std::size_t to,
                Part& part) const;
   template <class Geometry>
-  void tryByPath(const Query& query, const Geometry& geometry, std::span<const Near> row,
-                 Part& part) const;
-  template <class Geometry>
-  void tryByFlags(const Query& query, const Geometry& geometry, std::span<const Near> row,
-                  Part& part) const;
+  void tryRow(const Query& query, const Geometry& geometry, std::span<const Near> row,
+              Part& part) const;
 
   double way_ = 0;    // m, distance travelled by the fastest node since the candidates were found
   double reach_ = 0;  // m, of the last scan
-  bool byPath_ = false;
-  PathStart start_;  // of the last scan
+  PathStart start_;   // of the last scan
   std::vector<Near> near_;
   std::vector<Part> parts_;  // by thread
   int threads_ = 1;

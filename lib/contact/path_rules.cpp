@@ -101,7 +101,7 @@ void decideByPath(const ContactSurfaces& surfaces, const SlaveStep<Geometry>& st
     path.findFoot(trial);
     trial.opposed = normals.oppose(trial.foot.normal);
     trial.active = trial.active && trial.opposed && trial.foot.gap < 0;
-    trial.outside = trial.active;
+    trial.entered = trial.active;
   }
   decideJoints(surfaces, step.now, trials);
 }

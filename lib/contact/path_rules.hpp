@@ -1,6 +1,5 @@
 #pragma once
-// Entry by the path: a slave is active on a piece that its path from xⁿ to its present position
-// crosses.
+// Entry: a slave is active on a piece that its path from xⁿ to its present position crosses.
 //
 // No sides have to be stored. A slave that is behind a piece by no more than `depth` at xⁿ counts
 // as in front of it: rounding and unfinished corrections leave less. Only an active of the previous
@@ -21,7 +20,7 @@
 
 namespace yadefrag {
 
-/// Data of the previous step for entry by the path. The arrays must outlive the search.
+/// Data of the previous step. The arrays must outlive the search.
 struct PathStart {
   std::span<const Vec2> positions;  ///< m, xⁿ, by node; of surface nodes only
   std::span<const Touch> touches;   ///< by pair

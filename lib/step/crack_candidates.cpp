@@ -1,7 +1,6 @@
 #include "step/crack_candidates.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "search/overlapping_pairs.hpp"
 #include "step/entry_pairs.hpp"
@@ -30,28 +29,6 @@ std::vector<Twin> twinsOf(std::span<const NodeId> originals, std::size_t nodeCou
   std::sort(twins.begin(), twins.end());
   twins.erase(std::unique(twins.begin(), twins.end()), twins.end());
   return twins;
-}
-
-/// [begin, end) of a slave's candidates; empty if it has none.
-std::pair<std::uint32_t, std::uint32_t> rowOf(const Candidates& candidates, EntryId slave) {
-  const auto at = std::lower_bound(candidates.slaves.begin(), candidates.slaves.end(), slave);
-  if (at == candidates.slaves.end() || *at != slave) return {0, 0};
-  const auto row = static_cast<std::size_t>(at - candidates.slaves.begin());
-  return {candidates.offsets[row], candidates.offsets[row + 1]};
-}
-
-/// Sets the flags of `to` that are set in `from`.
-void takeFlags(Candidates& candidates, EntryId from, EntryId to, std::vector<SlaveMaster>& raised) {
-  auto [a, aEnd] = rowOf(candidates, from);
-  for (auto [b, bEnd] = rowOf(candidates, to); b < bEnd; ++b) {
-    while (a < aEnd && candidates.masters[a] < candidates.masters[b]) ++a;
-    if (a == aEnd) return;
-    if (candidates.masters[a] != candidates.masters[b] || candidates.outside[a] == 0 ||
-        candidates.outside[b] != 0)
-      continue;
-    candidates.outside[b] = 1;
-    raised.push_back({to, candidates.masters[b]});
-  }
 }
 
 }  // namespace
@@ -91,23 +68,6 @@ std::vector<BoxPair> overlapsAmong(const ContactSurfaces& surfaces, std::span<co
     pair = orderedPair(BoxId(entries[pair.first.value].value),
                        BoxId(entries[pair.second.value].value));
   return pairs;
-}
-
-std::vector<SlaveMaster> inheritFlags(Candidates& candidates, const ContactSurfaces& surfaces,
-                                      std::span<const NodeId> originals, std::size_t nodeCount) {
-  std::vector<SlaveMaster> raised;
-  const auto slaveAt = [&](NodeId node) {
-    return surfaces.segmentEntry[surfaces.nodeSegment[node.value].value];
-  };
-  const std::vector<Twin> twins = twinsOf(originals, nodeCount);
-  for (std::size_t begin = 0, end = 0; begin < twins.size(); begin = end) {
-    while (end < twins.size() && twins[end].original == twins[begin].original) ++end;
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t k = begin; k < end; ++k)
-        if (i != k) takeFlags(candidates, slaveAt(twins[i].node), slaveAt(twins[k].node), raised);
-  }
-  std::sort(raised.begin(), raised.end());
-  return raised;
 }
 
 void inheritTouches(std::vector<Touch>& touches, const ContactSurfaces& surfaces,

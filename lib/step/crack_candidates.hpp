@@ -20,13 +20,6 @@ std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, const Candid
 std::vector<BoxPair> overlapsAmong(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
                                    std::span<const EntryId> entries, double halo);
 
-/// The slaves that result from a split node inherit flags: each is outside all masters for which
-/// one of them was outside before. They are at the same position; if that is inside a master by the
-/// error of the last correction, the geometry would classify the new slaves as inside permanently.
-/// Returns the pairs whose flag became outside, ascending.
-std::vector<SlaveMaster> inheritFlags(Candidates& candidates, const ContactSurfaces& surfaces,
-                                      std::span<const NodeId> originals, std::size_t nodeCount);
-
 /// The slaves that result from a split node inherit contacts: each is in contact with all masters
 /// of any of them. They are at the same position, and a slave's number may now belong to another of
 /// these nodes.

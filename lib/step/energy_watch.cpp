@@ -47,13 +47,13 @@ void EnergyWatch::count(const WatchedStep& step) {
   mostStep = std::max(mostStep, step.dt);
   // Includes energy that the bodies had or received, even if it has been dissipated since.
   most = std::max(most, expected + step.ledger.external - gone);
-  if (!step.isPenalty) contact = std::max(contact, step.ledger.contact);
+  contact = std::max(contact, step.ledger.contact);
   friction = std::max(friction, step.ledger.friction);
 }
 
 /// (J) Energy created. A quantity that can only be dissipated has created as much as its sum has
-/// decreased. A penalty and a cohesive crack release stored energy: they have created energy only
-/// if the sum is below zero.
+/// decreased. A cohesive crack releases stored energy: it has created energy only if the sum is
+/// below zero.
 double EnergyWatch::created(const EnergyLedger& ledger) const {
   return std::max(0., contact - ledger.contact) + std::max(0., friction - ledger.friction) +
          std::max(0., -ledger.fracture);
@@ -77,11 +77,10 @@ std::string EnergyWatch::contactMessage(const WatchedStep& step, double noise) {
                             : byCracks ? "cohesive cracks have"
                                        : "contact has";
   const char* const advice =
-      bySplits         ? "the strains of elements that a crack separates are no longer averaged; "
-                         "element='linear' avoids this."
-      : byCracks       ? "take a shorter step, or smaller elements."
-      : step.isPenalty ? "take the Lagrangian correction, or a shorter step."
-                       : "take a shorter step, or smaller elements where bodies touch.";
+      bySplits   ? "the strains of elements that a crack separates are no longer averaged; "
+                   "element='linear' avoids this."
+      : byCracks ? "take a shorter step, or smaller elements."
+                 : "take a shorter step, or smaller elements where bodies touch.";
   return fmt::format("{}{} created {}; {}", yadefrag::begin(step), cause, amountText(amount, most),
                      advice);
 }
@@ -135,9 +134,8 @@ std::string EnergyWatch::depthMessage(const WatchedStep& step) {
   if (step.depth <= std::max(deep, 2 * reportedDepth)) return {};
   reportedDepth = step.depth;
   return fmt::format(
-      "{}bodies overlap by {:.3g} m, {:.3g} of the shortest segment; take {}.",
-      yadefrag::begin(step), step.depth, step.depth / step.shortest,
-      step.isPenalty ? "the Lagrangian correction, or a larger penalty factor" : "a shorter step");
+      "{}bodies overlap by {:.3g} m, {:.3g} of the shortest segment; take a shorter step.",
+      yadefrag::begin(step), step.depth, step.depth / step.shortest);
 }
 
 bool EnergyWatch::isOverlapDue(std::uint64_t step) {

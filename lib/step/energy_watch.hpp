@@ -18,7 +18,6 @@ struct WatchedStep {
   std::uint64_t step;
   double time;      ///< s
   double dt;        ///< s
-  bool isPenalty;   ///< contact stores energy, and releases it
   double depth;     ///< m, deepest remaining penetration
   double shortest;  ///< m, shortest segment
   double halo;      ///< m, a smooth master loses deeper contacts

@@ -231,18 +231,15 @@ void HaloWatch::takePairs(const Scene& scene, std::span<const BoxPair> overlappi
   }
   updateSpeedLimit(scene, lastDt);
   chooseWatched(scene);
-  considerPairs(scene, overlapping, scene.model.nodes.position);
+  considerPairs(scene, overlapping);
 }
 
-/// `before`: m, by node, at the end of the last step.
-void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overlapping,
-                              std::span<const Vec2> before) {
+void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overlapping) {
   passRule_.update(scene.surfaces, scene.reference, scene.settings.passes, scene.hasRigid);
   pairs_.clear();
   selectPairs(scene.model, scene.surfaces, passRule_, scene.model.nodes.position, halo, overlapping,
               pairs_);
-  former_.candidates = replaceCandidates(scene.contact.candidates, pairs_, scene.surfaces, before,
-                                         scene.settings.entry == Entry::kFlags);
+  former_.candidates = replaceCandidates(scene.contact.candidates, pairs_);
   former_.hasCandidates = true;
   positions.resize(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -293,7 +290,7 @@ void HaloWatch::searchNow(const Scene& scene, double dt) {
   search_->update(boxes_);
   overlapping_.clear();
   search_->findPairs(overlapping_);
-  considerPairs(scene, overlapping_, scene.dynamics.previousPosition());
+  considerPairs(scene, overlapping_);
 }
 
 void HaloWatch::addCorrection(double most) {
@@ -322,8 +319,7 @@ void HaloWatch::addCandidatesAround(const Scene& scene, std::span<const EntryId>
   pairs_.clear();
   selectPairs(scene.model, scene.surfaces, passRule_, places, halo,
               overlapsAmong(scene.surfaces, places, around, halo), pairs_);
-  addCandidates(scene.contact.candidates, pairs_, scene.surfaces, places,
-                scene.settings.entry == Entry::kFlags);
+  addCandidates(scene.contact.candidates, pairs_);
 }
 
 void HaloWatch::addTo(Footprint& footprint) const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "contact/contact_settings.hpp"
 #include "contact/pass_rule.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "search/contact_search.hpp"
@@ -131,8 +132,7 @@ class HaloWatch : public SearchState {
   [[nodiscard]] double wideHalo(const ContactSettings& settings, double move) const;
   void keep(const Scene& scene);
   void searchNow(const Scene& scene, double dt);
-  void considerPairs(const Scene& scene, std::span<const BoxPair> overlapping,
-                     std::span<const Vec2> before);
+  void considerPairs(const Scene& scene, std::span<const BoxPair> overlapping);
 
   MotionBounds motion_;
   ApartBodies apart_;

@@ -1,6 +1,6 @@
 #pragma once
 // Depth of overlaps between bodies, from their triangles only: a check of contact that is
-// independent of surfaces, slaves, masters and flags. Tips that pass each other overlap without a
+// independent of surfaces, slaves and masters. Tips that pass each other overlap without a
 // node of one inside the other. No cost unless it is called.
 
 #include <array>

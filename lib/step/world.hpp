@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "contact/contact_settings.hpp"
 #include "contact/pass_rule.hpp"
 #include "core/stage_times.hpp"
 #include "dynamics/energy_ledger.hpp"

@@ -48,7 +48,7 @@ void World::correctContact(const StepLength& length) {
                         timesIfRequested(),
                         cohesive.empty() ? nullptr : &fracture.cohesion};
   undo_.hasCorrected = true;
-  contact.correct(model, surfaces, contactSettings, now);
+  contact.correct(model, surfaces, now);
   for (const RigidMasses::Member& member : rigidMasses.members)
     dynamics_.setHeld(member.node, model.nodes.velocity[member.node.value]);
   search.addCorrection(contact.largestCorrection());

@@ -56,14 +56,8 @@ double World::overlapOfBoundaries() const {
 
 /// Gives messages, but does not stop the run: only the user knows its purpose.
 void World::watchEnergy() {
-  const WatchedStep now{steps,
-                        time,
-                        lastDt,
-                        contactSettings.correction == Correction::kPenalty,
-                        contact.maxPenetration(),
-                        finest_,
-                        search.halo,
-                        ledger};
+  const WatchedStep now{steps,   time,        lastDt, contact.maxPenetration(),
+                        finest_, search.halo, ledger};
   const auto report = [this](std::string sentence) {
     if (!sentence.empty()) warnings.push_back(std::move(sentence));
   };

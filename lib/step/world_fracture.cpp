@@ -66,12 +66,8 @@ void World::followSplit() {
   // may be in the halo of a new one.
   search.addCandidatesAround(searchScene(),
                              entriesAround(surfaces, contact.candidates, split_.sides));
-  std::vector<SlaveMaster> inherited;
-  if (contactSettings.entry == Entry::kFlags)
-    inherited = inheritFlags(contact.candidates, surfaces, split_.originals, count);
-  else
-    inheritTouches(contact.touches, surfaces, split_.originals, count);
-  contact.allowOverlaps(surfaces, model.nodes.position, changed, inherited);
+  inheritTouches(contact.touches, surfaces, split_.originals, count);
+  contact.allowOverlaps(surfaces, model.nodes.position, changed);
 }
 
 }  // namespace yadefrag

@@ -327,7 +327,8 @@ class WorldArchive {
     Candidates& candidates = contact.candidates;
     column<Index>("slaves", candidates.slaves), column<Index>("offsets", candidates.offsets);
     column<Index>("masters", candidates.masters);
-    column<std::uint8_t>("outside", candidates.outside);
+    std::vector<std::uint8_t> unused;  // flags of another rule of entry, in former states
+    value("outside", unused);
     auto& rows = contact.touches;
     member("touchSlave", rows, [](Touch& t) -> Index& { return t.pair.slave.value; });
     member("touchMaster", rows, [](Touch& t) -> Index& { return t.pair.master.value; });

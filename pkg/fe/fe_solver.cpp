@@ -91,8 +91,26 @@ void FESolver::warn(std::size_t known) const {
     std::cerr << "WARN  FESolver: " << world_.warnings[i] << std::endl;
 }
 
+namespace {
+
+/// One sentence for each setting of earlier versions that a script has changed.
+std::vector<std::string> unusedSettings(const FESolver& fe) {
+  std::vector<std::string> found;
+  const auto add = [&](const std::string& setting, const char* reason) {
+    found.push_back(fmt::format("{} has no effect: {} (docs/contact.md).", setting, reason));
+  };
+  const char* const noPenalty = "forces of contact just prevent interpenetration";
+  if (fe.correction != "lagrange") add(fmt::format("correction='{}'", fe.correction), noPenalty);
+  if (fe.penaltyFactor != FESolver::kPenaltyFactor)
+    add(fmt::format("penaltyFactor={:g}", fe.penaltyFactor), noPenalty);
+  if (fe.entry != "path") add(fmt::format("entry='{}'", fe.entry), "points enter by their path");
+  return found;
+}
+
+}  // namespace
+
 /// Takes over the gravity of the scene, and reports contacts and forces that the bodies will not
-/// have.
+/// have, and settings without an effect.
 void FESolver::checkScene(bool enginesAreNew) {
   const yade::NewtonIntegrator* newton = integrator(false);
   const yade::Vector3r theirs = newton ? newton->gravity : yade::Vector3r::Zero();
@@ -100,6 +118,7 @@ void FESolver::checkScene(bool enginesAreNew) {
   const bool bodiesAreNew = around_.look(*scene);
   const bool rigidChanged = std::exchange(checkedRigid_, rigidBodies) != rigidBodies;
   report(materials_.sentences());
+  report(unusedSettings(*this));
   if (world_.steps == 0) checkTimeStep();
   if (!bodiesAreNew && !enginesAreNew && !rigidChanged) return;
   double thickest = 0;
@@ -343,11 +362,11 @@ void FESolver::postLoad(FESolver& /*self*/) {
   } catch (const std::invalid_argument&) {
     // The world still has the previous values.
     const StepSettings& step = world_.dynamicsSettings;
-    correction = world_.contactSettings.correction == Correction::kPenalty ? "penalty" : "lagrange";
-    entry = world_.contactSettings.entry == Entry::kFlags ? "flags" : "path";
+    correction = formerCorrection_;
+    entry = formerEntry_;
     view = formerView_;
     passes = world_.contactSettings.passes;
-    penaltyFactor = world_.contactSettings.penaltyFactor;
+    penaltyFactor = formerPenaltyFactor_;
     halo = world_.contactSettings.halo;
     damping = step.damping;
     gravity = formerGravity_;
@@ -361,15 +380,12 @@ void FESolver::postLoad(FESolver& /*self*/) {
 }
 
 void FESolver::giveSettings() {
-  world_.contactSettings.correction =
-      correction == "penalty" ? Correction::kPenalty : Correction::kLagrange;
-  world_.contactSettings.entry = entry == "flags" ? Entry::kFlags : Entry::kPath;
   world_.contactSettings.passes = passes;
-  world_.contactSettings.penaltyFactor = penaltyFactor;
   world_.contactSettings.halo = halo;
   world_.dynamicsSettings.damping = damping;
   formerGravity_ = gravity;
   formerView_ = view;
+  formerCorrection_ = correction, formerEntry_ = entry, formerPenaltyFactor_ = penaltyFactor;
   // Gravity that was taken over is kept until the next step takes it over again.
   if (!takesOver()) world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
   world_.dynamicsSettings.viscosity = {linearViscosity, quadraticViscosity};

@@ -63,7 +63,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   std::string correction = "lagrange";
   std::string entry = "path";
   int passes = 1;
-  double penaltyFactor = ContactSettings().penaltyFactor;
+  static constexpr double kPenaltyFactor = .2;  // of earlier versions
+  double penaltyFactor = kPenaltyFactor;
   double halo = ContactSettings().halo;
   double damping = 0;
   yade::Vector3r gravity = yade::Vector3r::Zero();
@@ -123,7 +124,9 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   /// Number of segments for which the halo was chosen, and that have not moved since.
   std::size_t surveyed_ = 0;
   yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // value of `gravity` before it was set
-  std::string formerView_ = view;
+  // Of settings that only this class has, likewise.
+  std::string formerView_ = view, formerCorrection_ = correction, formerEntry_ = entry;
+  double formerPenaltyFactor_ = penaltyFactor;
   mutable StepLock betweenSteps_;
 };
 
@@ -140,31 +143,26 @@ constexpr auto FESolver::contactAttributes() {
   using yade::Attr::triggerPostLoad;
   return std::tuple(
       attribute("correction", &C::correction,
-                "'lagrange': contact by forces that just prevent interpenetration; 'penalty': by "
-                "forces in proportion to it, for comparison.",
+                "'lagrange': contact by forces that just prevent interpenetration. 'penalty' is "
+                "accepted for scripts of earlier versions, and has no effect.",
                 triggerPostLoad),
       attribute("entry", &C::entry,
-                "Criterion for a point to become active on a surface. 'path': its path in the step "
-                "crosses the moving surface; 'flags': a flag says that it was outside the line of "
-                "the surface's segment (Diekmann et al. 2000, section 5), for comparison; if "
-                "bodies crack, fragments then overlap by up to 0.004 of a segment, seldom 0.1.",
+                "'path': a point becomes active on a surface that its path in the step crosses. "
+                "'flags' is accepted for scripts of earlier versions, and has no effect.",
                 triggerPostLoad),
       attribute("passes", &C::passes,
                 "1: of two surfaces the points of the finer one and the sharp corners of the other "
                 "must not "
                 "penetrate; 2: the points of both. Where a body can crack, it is 2 in any case.",
                 triggerPostLoad),
-      attribute(
-          "penaltyFactor", &C::penaltyFactor,
-          "For correction='penalty': the stiffness, as a fraction of the one that would remove a "
-          "penetration within a step.",
-          triggerPostLoad),
+      attribute("penaltyFactor", &C::penaltyFactor,
+                "Accepted for scripts of earlier versions, above 0 and at most 1; no effect.",
+                triggerPostLoad),
       attribute(
           "halo", &C::halo,
           "Width of the strip around a boundary in which contact is expected, relative to the "
           "shortest segment, at most 0.5; 0: as wide as the bodies' speed requires. Results "
-          "do not depend on it, but the number of searches does; with "
-          "correction='penalty' points deeper than the halo have no contact.",
+          "do not depend on it, but the number of searches does.",
           triggerPostLoad));
 }
 

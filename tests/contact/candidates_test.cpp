@@ -1,123 +1,58 @@
-// Rows of candidates, and where their outside flags come from (fig. 8).
+// Rows of candidates.
 
 #include "contact/candidates.hpp"
 
 #include <gtest/gtest.h>
 #include <algorithm>
-
-#include <map>
+#include <iterator>
 
 #include "contact/contact_scenes.hpp"
 
 namespace yadefrag::test {
 namespace {
 
-constexpr std::uint8_t kOutside = 1, kInside = 0;
-
-std::vector<Vec2> square(Vec2 low, double edge) {
-  return {low, low + Vec2{edge, 0}, low + Vec2{edge, edge}, low + Vec2{0, edge}};
-}
-
-std::map<SlaveMaster, std::uint8_t> flags(const Candidates& candidates) {
-  std::map<SlaveMaster, std::uint8_t> found;
-  for (std::size_t row = 0; row < candidates.slaves.size(); ++row)
-    for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c)
-      found[{candidates.slaves[row], candidates.masters[c]}] = candidates.outside[c];
-  return found;
-}
-
-void expectRows(const Candidates& candidates) {
-  ASSERT_EQ(candidates.offsets.size(), candidates.slaves.size() + 1);
-  ASSERT_EQ(candidates.offsets.back(), candidates.masters.size());
-  ASSERT_EQ(candidates.outside.size(), candidates.masters.size());
-  ASSERT_TRUE(std::is_sorted(candidates.slaves.begin(), candidates.slaves.end()));
+/// Ascending, if the rows are as they must be.
+std::vector<SlaveMaster> pairsIn(const Candidates& candidates) {
+  std::vector<SlaveMaster> pairs;
+  EXPECT_EQ(candidates.offsets.size(), candidates.slaves.size() + 1);
+  EXPECT_EQ(candidates.offsets.back(), candidates.masters.size());
   for (std::size_t row = 0; row < candidates.slaves.size(); ++row) {
-    const auto begin = candidates.masters.begin() + candidates.offsets[row];
-    const auto end = candidates.masters.begin() + candidates.offsets[row + 1];
-    ASSERT_LT(begin, end);
-    ASSERT_EQ(std::adjacent_find(begin, end, std::greater_equal<>()), end);
+    EXPECT_LT(candidates.offsets[row], candidates.offsets[row + 1]);
+    for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c)
+      pairs.push_back({candidates.slaves[row], candidates.masters[c]});
   }
+  return pairs;
 }
 
-TEST(Candidates, FlagsOfNewPairsComeFromTheSideBefore) {
-  SurfaceScene scene;
-  const EntryId body = scene.addBody(square({0, 0}, 1));
-  const EntryId tip = scene.addNeedle({0, -1});
-  scene.moveNeedle(tip, {.5, 1.1});
-  Candidates candidates;
-  std::vector<SlaveMaster> pairs{{tip, body + 3}, {tip, body + 2}, {tip, body}, {tip, body + 1}};
-  replaceCandidates(candidates, pairs, scene.surfaces, scene.at);
-  expectRows(candidates);
-  EXPECT_EQ(candidates.size(), 4U);
-  // A point above the square is behind the lines of all other faces (B of fig. 8).
-  EXPECT_EQ(candidates.outside, (std::vector<std::uint8_t>{kInside, kInside, kOutside, kInside}));
-}
-
-TEST(Candidates, LaidExactlyOnOneAnotherCountsAsOutside) {
-  SurfaceScene scene;
-  const EntryId body = scene.addBody(square({0, 0}, 1));
-  const EntryId tip = scene.addNeedle({0, -1});
-  for (const double gap : {0., -1e-16, -1e-10, -1e-8}) {
-    scene.moveNeedle(tip, {.3, 1 + gap});
-    Candidates candidates;
-    std::vector<SlaveMaster> pairs{{tip, body + 2}};
-    replaceCandidates(candidates, pairs, scene.surfaces, scene.at);
-    EXPECT_EQ(candidates.outside.front(), gap > -1e-9 ? kOutside : kInside) << gap;
-  }
-}
-
-TEST(Candidates, AnArcsFlagIsThatOfItsCurve) {
-  SurfaceScene scene;
-  const EntryId body = scene.addBody({{2, 0}, {0, 2}, {-2, 0}, {0, -2}}, {1, 1, 1, 1});
-  const EntryId tip = scene.addNeedle({0, -1});
-  const EntryId arc = body;  // around (0, 2), its summit at y = 2·h₂(½) = 1.375
-  for (const double y : {1.38, 1.37}) {
-    scene.moveNeedle(tip, {0, y});
-    Candidates candidates;
-    std::vector<SlaveMaster> pairs{{tip, arc}};
-    replaceCandidates(candidates, pairs, scene.surfaces, scene.at);
-    EXPECT_EQ(candidates.outside.front(), y > 1.375 ? kOutside : kInside);
-  }
-}
-
-/// Whatever pairs come, go and stay: the flags of those that stay are kept though they contradict
-/// the positions, the others' are from the positions.
-TEST(Candidates, FlagsAreKeptOverNewSearches) {
+/// Whatever pairs come, go and stay.
+TEST(Candidates, RowsContainTheGivenPairs) {
   Random random(5);
   SurfaceScene scene;
   scene.addBody(star(random, {0, 0}, 1, 9, .4));
   scene.addBody(star(random, {1.5, .2}, 1, 7, .4), {1, 1, 0, 1, 0, 0, 1});
   const std::vector<SlaveMaster> all = allPairs(scene.surfaces, true);
-  Candidates candidates;
-  for (int round = 0; round < 200; ++round) {
+  const auto anyOf = [&](std::size_t one) {
     std::vector<SlaveMaster> pairs;
     for (const SlaveMaster& pair : all)
-      if (random() % 3 != 0) pairs.push_back(pair);
-    if (round % 20 == 7) pairs.clear();
+      if (random() % one != 0) pairs.push_back(pair);
     std::shuffle(pairs.begin(), pairs.end(), random);
-    const auto former = flags(candidates);
-    const std::size_t count = pairs.size();
-    replaceCandidates(candidates, pairs, scene.surfaces, scene.at);
-    expectRows(candidates);
-    const auto now = flags(candidates);
-    ASSERT_EQ(now.size(), count);
-    for (const auto& [pair, flag] : now) {
-      const auto known = former.find(pair);
-      const double gap = scene.geometry().foot(pair.master, scene.geometry().slave(pair.slave)).gap;
-      ASSERT_EQ(flag, known != former.end() ? known->second : gap >= -1e-12 ? kOutside : kInside);
-    }
-    for (std::uint8_t& flag : candidates.outside) flag = random() % 2;
-  }
-}
-
-TEST(Candidates, NoneAtAll) {
-  SurfaceScene scene;
-  scene.addBody(square({0, 0}, 1));
+    return pairs;
+  };
   Candidates candidates;
-  std::vector<SlaveMaster> pairs;
-  replaceCandidates(candidates, pairs, scene.surfaces, scene.at);
-  expectRows(candidates);
-  EXPECT_EQ(candidates.size(), 0U);
+  std::vector<SlaveMaster> former;
+  for (int round = 0; round < 200; ++round) {
+    std::vector<SlaveMaster> pairs = round % 20 == 7 ? anyOf(1) : anyOf(3), more = anyOf(2);
+    const Candidates replaced = replaceCandidates(candidates, pairs);
+    if (round > 0) {
+      ASSERT_EQ(pairsIn(replaced), former);
+    }
+    ASSERT_EQ(pairsIn(candidates), pairs) << "sorted by the call";
+    addCandidates(candidates, more);
+    former.clear();
+    std::set_union(pairs.begin(), pairs.end(), more.begin(), more.end(),
+                   std::back_inserter(former));
+    ASSERT_EQ(pairsIn(candidates), former);
+  }
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "contact/contact_scenes.hpp"
-#include "contact/contact_settings.hpp"
 #include "contact/local_search.hpp"
 
 namespace yadefrag::test {
@@ -25,8 +24,7 @@ inline std::vector<SlaveMaster> pairsOf(const std::vector<Active>& actives) {
 class Chase {
  public:
   Chase(const std::vector<Vec2>& points, const std::vector<std::uint8_t>& smooth, Vec2 direction,
-        Vec2 from, Entry entry = Entry::kFlags)
-      : entry_(entry) {
+        Vec2 from) {
     body_ = scene_.addBody(points, smooth);
     tip_ = scene_.addNeedle(direction);
     scene_.moveNeedle(tip_, from);
@@ -34,7 +32,7 @@ class Chase {
     std::vector<SlaveMaster> pairs;
     for (EntryId master = body_; master < tip_; master = master + 1)
       pairs.push_back({tip_, master});
-    replaceCandidates(candidates_, pairs, scene_.surfaces, scene_.at, entry == Entry::kFlags);
+    replaceCandidates(candidates_, pairs);
   }
 
   /// The actives where the tip is predicted to be; it ends the step at `corrected`.
@@ -50,8 +48,6 @@ class Chase {
     at_ = corrected;
     touches_.clear();
     for (const Active& active : actives) touches_.push_back({active.pair, 0, 0, 0});
-    if (entry_ == Entry::kPath) return actives;
-    search_.settle(candidates_, scene_.surfaces, scene_.at, pairsOf(actives), left);
     return actives;
   }
   std::vector<Active> step(Vec2 to) { return step(to, to); }
@@ -65,25 +61,20 @@ class Chase {
   }
   std::vector<std::size_t> masters(Vec2 to) { return masters(to, to); }
 
-  void setFlags(std::uint8_t outside) { candidates_.outside.assign(candidates_.size(), outside); }
   [[nodiscard]] const SurfaceScene& scene() const { return scene_; }
   [[nodiscard]] EntryId body() const { return body_; }
   [[nodiscard]] EntryId tip() const { return tip_; }
 
   double halo = kUnlimited;
-  static constexpr double kDepth = 1e-4;  ///< m, entry by the path
-  double left = 0;                        ///< m, what a correction may leave inside
+  static constexpr double kDepth = 1e-4;  ///< m, of PathStart
 
  private:
-  Entry entry_;
   std::vector<Vec2> before_;
   std::vector<Touch> touches_;
   std::vector<Active> find(Candidates& candidates, double reach) {
     std::vector<Active> actives;
     const PathStart start{before_, touches_, kDepth, .1};
-    const bool path = entry_ == Entry::kPath;
-    search_.scan(candidates, scene_.surfaces, scene_.at, reach, 1, INFINITY,
-                 path ? &start : nullptr);
+    search_.scan(candidates, scene_.surfaces, scene_.at, start, reach, 1);
     search_.findActives(candidates, scene_.surfaces, scene_.at, halo, actives);
     return actives;
   }

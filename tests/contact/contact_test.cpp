@@ -26,7 +26,7 @@ struct ContactScene {
     model.nodes.position = before = scene.at;
     model.components.resize(scene.components);
     for (Component& component : model.components) component.friction = friction;
-    replaceCandidates(contact.candidates, pairs, scene.surfaces, scene.at);
+    replaceCandidates(contact.candidates, pairs);
   }
   void hold(EntryId first, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) model.nodes.held[nodeOf(first + k)] = kHeldXY;
@@ -38,7 +38,7 @@ struct ContactScene {
   void correct() {
     constexpr double kDt = 1, kShortest = 1;
     const RigidMasses none;
-    contact.correct(model, scene.surfaces, {},
+    contact.correct(model, scene.surfaces,
                     {kDt, 0, move, 2 * move, kShortest, 1, before, 1, rubble, none, {}});
     before = model.nodes.position;
   }
@@ -59,7 +59,6 @@ TEST(Contact, ARowThatContradictsAnotherCarriesNoFriction) {
     const EntryId b = s.scene.addBody({{-.1, 0}, {1, -.2}, {1, .15}});
     const SlaveMaster first{a, b + 2}, second{b, a};
     s.build(.5, {first, second});
-    s.contact.candidates.outside.assign(2, 1);
     s.contact.touches = {{first, 1, .4, 0}, {second, 1, .4, 0}};
     s.correct();
     ASSERT_NE(s.rowOf(first), nullptr);

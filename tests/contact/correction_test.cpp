@@ -256,32 +256,5 @@ TEST(Correction, GroupsAreSolvedByThemselves) {
   EXPECT_EQ(both[1].tangentForce, second[0].tangentForce);
 }
 
-TEST(Correction, PenaltyUndoesItsFactorOfThePenetration) {
-  const Nodes nodes = threeNodes();
-  for (const double factor : {.1, .2, 1.}) {
-    std::vector<ContactRow> rows{onSegment(0, 1, 2, .25, -1e-4)};
-    penalize(rows, {nodes, kDt}, factor);
-    EXPECT_NEAR(gapAfter(rows[0], displacements(rows, nodes)), -1e-4 * (1 - factor), 1e-18);
-    EXPECT_EQ(rows[0].tangentForce, 0);
-    rows[0].gap = 1e-5;
-    penalize(rows, {nodes, kDt}, factor);
-    EXPECT_EQ(rows[0].normalForce, 0);
-  }
-}
-
-TEST(Correction, PenaltyWithFrictionAndHeldNodes) {
-  Nodes nodes = threeNodes();
-  std::vector<ContactRow> rows{onSegment(0, 1, 2, .25, -1e-4, .5, 2e-5)};
-  penalize(rows, {nodes, kDt}, .2);
-  EXPECT_NEAR(slipAfter(rows[0], displacements(rows, nodes)), 2e-5 * .8, 1e-18);
-  rows[0].slip = 1e-3;
-  penalize(rows, {nodes, kDt}, .2);
-  EXPECT_NEAR(rows[0].tangentForce, -.5 * rows[0].normalForce, 1e-14 * rows[0].normalForce);
-  nodes.held.assign(3, kHeldXY);
-  penalize(rows, {nodes, kDt}, .2);
-  EXPECT_EQ(rows[0].normalForce, 0);
-  EXPECT_EQ(rows[0].tangentForce, 0);
-}
-
 }  // namespace
 }  // namespace yadefrag::test

@@ -18,30 +18,30 @@ std::vector<Vec2> circle(int count) {
   return star(none, {}, 1, count, 0);
 }
 
-/// §5.3: a smooth master needs no flag, its normal is always there.
-TEST(LocalSearch, ArcsNeedNoFlags) {
+/// §5.3: the normal of a smooth master is always there.
+TEST(LocalSearch, ArcsHoldPointsUpToADepth) {
   const std::vector<std::uint8_t> smooth(12, 1);
   for (int i = 0; i < 100; ++i) {
     const double angle = .0628 * i + .01;
     const Vec2 out{std::cos(angle), std::sin(angle)};
     Chase chase(circle(12), smooth, -out, 1.1 * out);
     chase.halo = .2;
-    chase.setFlags(0);
     EXPECT_TRUE(chase.masters(1.01 * out).empty());
     const std::vector<Active> actives = chase.step(.95 * out, 1.1 * out);
     ASSERT_EQ(actives.size(), 1U) << angle;
     EXPECT_TRUE(actives[0].foot.inside);
     EXPECT_GT(dot(actives[0].foot.normal, out), .99);
-    chase.setFlags(0);
     chase.step(.6 * out, .6 * out);
     EXPECT_TRUE(chase.masters(.6 * out).empty()) << "deeper than the halo is on another side";
   }
 }
 
 std::vector<Active> find(LocalSearch& search, Candidates& candidates, const SurfaceScene& scene,
-                         double reach, double halo, double moved = INFINITY) {
+                         const std::vector<Vec2>& before, double reach, double halo,
+                         double moved = INFINITY) {
   std::vector<Active> actives;
-  search.scan(candidates, scene.surfaces, scene.at, reach, 1, moved);
+  const PathStart start{before, {}, Chase::kDepth, 0};
+  search.scan(candidates, scene.surfaces, scene.at, start, reach, 1, moved);
   search.findActives(candidates, scene.surfaces, scene.at, halo, actives);
   return actives;
 }
@@ -64,10 +64,11 @@ TEST(LocalSearch, EveryPieceOfAnySurfaceKeepsPointsOut) {
       std::vector<SlaveMaster> pairs = nearPairs(with, false, .1);
       std::erase_if(pairs, [&](SlaveMaster pair) { return pair.slave != tip; });
       Candidates candidates;
-      replaceCandidates(candidates, pairs, with.surfaces, with.at);
+      replaceCandidates(candidates, pairs);
+      const std::vector<Vec2> before = with.at;
       with.moveNeedle(tip, on - 1e-5 * normal);
       LocalSearch search;
-      const std::vector<Active> actives = find(search, candidates, with, 2.2e-4, .1);
+      const std::vector<Active> actives = find(search, candidates, with, before, 2.2e-4, .1);
       ASSERT_EQ(actives.size(), 1U) << "scene " << scene << ", piece " << k;
       EXPECT_EQ(actives[0].pair.master, body + k);
       EXPECT_NEAR(actives[0].foot.gap, -1e-5, 1e-12);
@@ -98,10 +99,11 @@ TEST(LocalSearch, JointsAtHalfpointsAreTight) {
         std::vector<SlaveMaster> pairs = nearPairs(with, false, .1);
         std::erase_if(pairs, [&](SlaveMaster pair) { return pair.slave != tip; });
         Candidates candidates;
-        replaceCandidates(candidates, pairs, with.surfaces, with.at);
+        replaceCandidates(candidates, pairs);
+        const std::vector<Vec2> before = with.at;
         with.moveNeedle(tip, on - 1e-6 * normal);
         LocalSearch search;
-        const std::vector<Active> actives = find(search, candidates, with, 2.2e-4, .1);
+        const std::vector<Active> actives = find(search, candidates, with, before, 2.2e-4, .1);
         ASSERT_GE(actives.size(), 1U) << "scene " << scene << ", piece " << k << ' ' << beside;
         for (const Active& active : actives) EXPECT_NEAR(active.foot.gap, -1e-6, 1e-9);
       }
@@ -119,12 +121,13 @@ class TwoSearches {
       model_.components.back().selfContact = selfContact;
     }
     std::vector<SlaveMaster> pairs = allPairs(scene.surfaces, selfContact);
-    replaceCandidates(all_, pairs, scene.surfaces, scene.at);
+    replaceCandidates(all_, pairs);
     rule_.update(scene.surfaces, scene.at, 2);
-    renew(scene.at);
+    renew();
   }
 
-  /// From the scene's positions to `now`; the actives, which must be the same.
+  /// From the scene's positions to `now`; the actives, which must be the same. None may be left
+  /// from a step before.
   std::vector<Active> step(const std::vector<Vec2>& now) {
     const std::vector<Vec2> before = std::exchange(scene_.at, now);
     double moved = 0, left = 0;
@@ -132,20 +135,19 @@ class TwoSearches {
       moved = std::max(moved, norm(now[n] - before[n]));
       left = std::max(left, norm(now[n] - searched_[n]));
     }
-    if (left > halo_ / 2) renew(before);
+    if (left > halo_ / 2) renew();
     std::vector<Active> actives =
-        find(search_, candidates_, scene_, 2 * moved + 1e-9, halo_, moved);
-    const std::vector<Active> wanted = find(searchAll_, all_, scene_, 2 * moved + 1e-9, halo_);
+        find(search_, candidates_, scene_, before, 2 * moved + 1e-9, halo_, moved);
+    const std::vector<Active> wanted =
+        find(searchAll_, all_, scene_, before, 2 * moved + 1e-9, halo_);
     EXPECT_EQ(pairsOf(actives), pairsOf(wanted));
-    search_.settle(candidates_, scene_.surfaces, scene_.at, pairsOf(actives));
-    searchAll_.settle(all_, scene_.surfaces, scene_.at, pairsOf(wanted));
     return actives;
   }
 
   int searches = 0;
 
  private:
-  void renew(const std::vector<Vec2>& before) {
+  void renew() {
     std::vector<Box> boxes;
     for (std::size_t e = 0; e < scene_.surfaces.entries(); ++e)
       boxes.push_back(entryBox(scene_.surfaces, scene_.at, EntryId(e), halo_));
@@ -155,7 +157,7 @@ class TwoSearches {
     brute->findPairs(overlapping);
     std::vector<SlaveMaster> pairs;
     selectPairs(model_, scene_.surfaces, rule_, scene_.at, halo_, overlapping, pairs);
-    replaceCandidates(candidates_, pairs, scene_.surfaces, before);
+    replaceCandidates(candidates_, pairs);
     searched_ = scene_.at;
     ++searches;
   }

@@ -1,4 +1,4 @@
-// Entry by the path: what the scan and its bounds leave out within a step, compared with a search
+// What the scan and its bounds leave out within a step, compared with a search
 // that leaves out nothing.
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ void compareOneStep(Random& random, int kind, Counts& counts) {
   SurfaceScene scene = randomScene(random, kind);
   Candidates candidates;
   std::vector<SlaveMaster> pairs = allPairs(scene.surfaces, false);
-  replaceCandidates(candidates, pairs, scene.surfaces, scene.at, false);
+  replaceCandidates(candidates, pairs);
   moveAll(scene, random, kLeft);
   const std::vector<Vec2> before = scene.at;
   const std::vector<Touch> touches = someTouches(nearPairs(scene, false, kLeft), random);
@@ -66,13 +66,13 @@ void compareOneStep(Random& random, int kind, Counts& counts) {
   moveAll(scene, random, kMove);
 
   LocalSearch search, all;
-  search.scan(candidates, scene.surfaces, scene.at, 2 * kMove, 1, INFINITY, &start);
+  search.scan(candidates, scene.surfaces, scene.at, start, 2 * kMove, 1);
   double moved = 0;
   for (int detection = 0; detection < 3; ++detection) {
     std::vector<Active> found, wanted;
     search.findActives(candidates, scene.surfaces, scene.at, kUnlimited, found, {}, moved);
     Candidates fresh = candidates;
-    all.scan(fresh, scene.surfaces, scene.at, kUnlimited, 1, INFINITY, &start);
+    all.scan(fresh, scene.surfaces, scene.at, start, kUnlimited, 1);
     all.findActives(fresh, scene.surfaces, scene.at, kUnlimited, wanted);
     ASSERT_EQ(pairsOf(found), pairsOf(wanted)) << "kind " << kind << ", detection " << detection;
     (detection == 0 ? counts.actives : counts.later) += found.size();

@@ -151,11 +151,5 @@ TEST(RigidRows, ABodyJoinsGroups) {
   EXPECT_EQ(groups.rows.rows(), 2);
 }
 
-TEST(RigidRows, PenaltyUsesTheBodysInertia) {
-  Scene scene({.4}, {-1e-5}, {{}, {}, {2, 2}, 5});
-  penalize(scene.rows, scene.inertia(), .2);
-  EXPECT_NEAR(scene.left(scene.rows[0]).x, -1e-5 * .8, 1e-18);
-}
-
 }  // namespace
 }  // namespace yadefrag::test

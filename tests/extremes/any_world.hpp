@@ -46,7 +46,6 @@ class AnyWorld {
     wave_ = chance_.power(1, 4);
     calm_ = !chance_.oneIn(4);
     world.contactSettings.passes = 1 + chance_.below(2);
-    if (chance_.oneIn(8)) world.contactSettings.correction = Correction::kPenalty;
     if (chance_.oneIn(4)) drive();
   }
 

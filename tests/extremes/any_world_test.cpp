@@ -147,13 +147,8 @@ class SceneRun {
     return sentence.empty();
   }
 
-  /// (J) What a penalty and cracks that still hold may give back, and more.
-  [[nodiscard]] double stored() const {
-    const World& world = any_.world;
-    const bool isPenalty = world.contactSettings.correction == Correction::kPenalty;
-    return std::max(0., world.ledger.fracture) +
-           (isPenalty ? std::max(0., world.ledger.contact) : 0);
-  }
+  /// (J) What cracks that still hold may give back, and more.
+  [[nodiscard]] double stored() const { return std::max(0., any_.world.ledger.fracture); }
 
   /// In a complaint, or at the end of the run, mostly about an inverted element.
   [[nodiscard]] bool hasSaidSo() const { return !goesOn_ || !any_.world.warnings.empty(); }

@@ -115,7 +115,7 @@ TEST(CrackSpin, TheLedgerCountsWhatIsCreated) {
 TEST(EnergyWatch, TellsOfCreatedAngularMomentumOnce) {
   EnergyLedger ledger;
   EnergyWatch watch;
-  const WatchedStep step{8, 1e-6, 1e-7, false, 0, 1e-3, 1e-3, ledger};
+  const WatchedStep step{8, 1e-6, 1e-7, 0, 1e-3, 1e-3, ledger};
   EXPECT_FALSE(watch.mayHaveSpun(step));
   ledger.spin = 5e-4;
   EXPECT_TRUE(watch.mayHaveSpun(step));

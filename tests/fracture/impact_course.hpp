@@ -20,7 +20,6 @@ struct ImpactSetting {
   bool held = true;            // the block, at its bottom
   int steps = 500, every = 5;  // steps between two looks at all overlaps
   int threads = 1;
-  Entry entry = Entry::kPath;
   NodeLayout nodes = NodeLayout::kRows;
 };
 
@@ -42,7 +41,6 @@ inline World impact(const ImpactSetting& setting) {
   World world;
   world.contactSettings.passes = 2;
   world.threads = setting.threads;
-  world.contactSettings.entry = setting.entry;
   const TriangleMesh block = triangulate(
       {{{-kWidth / 2, -kHeight}, {kWidth / 2, -kHeight}, {kWidth / 2, 0}, {-kWidth / 2, 0}}, {}},
       setting.size, {setting.nodes});

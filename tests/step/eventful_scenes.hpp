@@ -32,7 +32,6 @@ inline State stateOf(World& world) {
   for (const Vec2 force : world.outerForces) add("outer forces", force);
   for (const Vec2 position : world.model.nodes.position) add("position", position);
   for (const Vec2 velocity : world.model.nodes.velocity) add("velocity", velocity);
-  for (const std::uint8_t outside : world.contact.candidates.outside) add("outside", outside);
   for (const EntryId master : world.contact.candidates.masters) add("masters", master);
   for (const NodeId node : world.search.nodes) add("search", node);
   add("search", world.search.halo), add("search", world.search.isDue);
@@ -84,11 +83,6 @@ inline void shatter(BodySpec& spec, double fractureEnergy) {
 inline std::map<std::string, Scene> scenes() {
   std::map<std::string, Scene> all;
   all["contact"] = [] { return row(3, .002, 6, nothing); };
-  all["penalty"] = [] {
-    World world = row(3, .002, 6, nothing);
-    world.contactSettings.correction = Correction::kPenalty;
-    return world;
-  };
   all["smooth"] = [] {
     return row(3, .002, 6,
                [](int, BodySpec& spec, const TriangleMesh& mesh) { smoothAll(spec, mesh); });

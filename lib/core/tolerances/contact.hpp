@@ -4,13 +4,13 @@
 
 namespace yadefrag::tolerance {
 
-/// The constants on which the outcome of contact depends besides rounding (with entry by the path
-/// the only ones). Overlaps in the following are the largest ones of any two triangles in 24
-/// impacts, in parts of the shortest segment: 7e-5 with these values.
+/// The constants on which the outcome of contact depends besides rounding. Overlaps in the
+/// following are the largest ones of any two triangles in 24 impacts, in parts of the shortest
+/// segment: 7e-5 with these values.
 struct Contact {
-  /// (of the shortest segment) Applies to entry by the path. A slave no deeper than this behind a
-  /// piece at the start of a step counts as outside. It must exceed the errors of a step's
-  /// corrections, otherwise a contact is lost.
+  /// (of the shortest segment) A slave no deeper than this behind a piece at the start of a step
+  /// counts as outside. It must exceed the errors of a step's corrections, otherwise a contact is
+  /// lost.
   double entryDepth = 4e-4;
 
   /// (sine) Two adjacent pieces whose normals differ by less than this angle, 20°, are one face for
@@ -45,8 +45,8 @@ inline Contact& contact() {
   return values;
 }
 
-/// (of a piece's length) A slave no deeper than this inside a master at its first detection counts
-/// as outside: bodies placed exactly on each other differ by rounding.
+/// (of a piece's length) A slave no deeper than this inside a master counts as outside: bodies
+/// placed exactly on each other differ by rounding.
 inline constexpr double kTouching = 1e-9;
 
 /// (of the coordinates) The same for large coordinates: some roundings of a coordinate.
@@ -63,14 +63,6 @@ inline constexpr double kFinenessSteps = 8;
 /// (ξ) A foot this far beyond a piece's end is still on the piece: rounding must not leave a gap
 /// between two pieces at their joint.
 inline constexpr double kFootRange = 1e-9;
-
-/// (of the search reach, which is twice the largest displacement) Applies to entry by flags, in
-/// rubble. A slave that was outside its master and is inside by less than this, because of rounding
-/// or of other contacts' corrections, still belongs to the master. With half or twice the value one
-/// impact in twelve had pieces that overlap by more than half a segment. With ten times the value
-/// corners that had passed a master's end were pushed back, and contact created ten times as much
-/// energy.
-inline constexpr double kRestoredDepth = .02;
 
 /// (cosine) Two adjacent sides whose normals have a cosine below this are the two sides of one
 /// line: its ends are corners with all normals in between.
