@@ -56,7 +56,6 @@ def right():
 
 VARY = [{},
         {'size': [2e-3, 5e-4, 2.5e-4]},
-        {'correction': ['penalty:1', 'penalty:0.2', 'penalty:0.02', 'penalty:0.002']},
         {'passes': [2]},
         {'smooth': [True]},
         {'bulkViscosity': [1.]},
@@ -67,7 +66,6 @@ VARY = [{},
         {'plane': ['stress']},
         {'threads': [2]},
         {'mesh': ['regular', 'irregular']},
-        {'element': ['smoothed']},
-        {'entry': ['flags']}]
+        {'element': ['smoothed']}]
 ARGUMENTS = dict(duration=DURATION, reference=right(), watch=watch,
                  title='Two bars: error of the contact stress, rms')

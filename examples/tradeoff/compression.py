@@ -58,7 +58,6 @@ VARY = [{},
         {'fracture': ['instant'], 'size': [2.5e-3, 8e-4]},
         {'meshSeed': [2, 3]},
         {'timeStep': [.95, .4]},
-        {'correction': ['penalty:0.2']},
         {'collider': ['none', 'InsertionSortCollider']},
         {'threads': [2]}]
 ARGUMENTS = dict(duration=DURATION, reference=1., watch=watch, every=EVERY,

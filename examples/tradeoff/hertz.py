@@ -90,7 +90,6 @@ VARY = [{},
         {'smooth': [True], 'passes': [1]},
         {'size': [2e-3, 5e-4]},
         {'size': [2e-3], 'smooth': [False], 'passes': [1]},
-        {'correction': ['penalty:1', 'penalty:0.2', 'penalty:0.02', 'penalty:0.002']},
         {'timeStep': [.95, .4]},
         {'plane': ['stress']},
         {'bulkViscosity': [1.]},
@@ -98,6 +97,5 @@ VARY = [{},
         {'collider': ['none', 'InsertionSortCollider']},
         {'threads': [2]},
         {'mesh': ['irregular']},
-        {'element': ['smoothed']},
-        {'entry': ['flags']}]
+        {'element': ['smoothed']}]
 ARGUMENTS = dict(duration=.7e-3, title='Hertz: error of the pressure, rms')

@@ -87,15 +87,15 @@ void compareTriedAgain(Random& random, int kind, Counts& counts) {
   SurfaceScene scene = randomScene(random, kind);
   Candidates candidates;
   std::vector<SlaveMaster> pairs = allPairs(scene.surfaces, false);
-  replaceCandidates(candidates, pairs, scene.surfaces, scene.at, false);
+  replaceCandidates(candidates, pairs);
   const std::vector<Vec2> before = scene.at;
   const PathStart start{before, {}, Chase::kDepth, 0};
   moveAll(scene, random, kMove);
   LocalSearch search, all;
   // Twice as far as the nodes may move in all detections.
   const double reach = 2 * (kMove + 3 * kCorrection);
-  search.scan(candidates, scene.surfaces, scene.at, reach, 1, INFINITY, &start);
-  all.scan(candidates, scene.surfaces, scene.at, reach, 1, INFINITY, &start);
+  search.scan(candidates, scene.surfaces, scene.at, start, reach, 1);
+  all.scan(candidates, scene.surfaces, scene.at, start, reach, 1);
   std::vector<SlaveMaster> known;
   for (int detection = 0; detection < 3; ++detection) {
     std::vector<Active> found, wanted;

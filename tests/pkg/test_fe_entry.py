@@ -1,4 +1,4 @@
-"""entry='path' and entry='flags': both hold bodies apart, are saved, and may be changed in a run."""
+"""Points enter by their path; settings of earlier versions are accepted, and have no effect."""
 import builtins
 import os
 
@@ -10,6 +10,12 @@ from fe_scene import impact, run, steps
 from yade import wrapper as w
 
 O = builtins.O
+
+FORMER = [('entry', 'flags', "entry='flags' has no effect: points enter by their path (docs/contact.md)."),
+          ('correction', 'penalty', "correction='penalty' has no effect: forces of contact just prevent "
+           'interpenetration (docs/contact.md).'),
+          ('penaltyFactor', .5, 'penaltyFactor=0.5 has no effect: forces of contact just prevent interpenetration '
+           '(docs/contact.md).')]
 
 
 def solverOfScene():
@@ -28,52 +34,58 @@ def drop(**settings):
     return solver
 
 
-def test_theDefaultIsThePath():
-    assert w.FESolver().entry == 'path'
-    assert w.FESolver(entry='flags').entry == 'flags'
-
-
-@pytest.mark.parametrize('value', ['', 'Path', 'flag'])
-def test_othersAreRefused(value):
-    with pytest.raises(ValueError, match="FESolver.entry is '%s', it must be 'path' or" % value):
-        w.FESolver(entry=value)
-
-
-# What the next step's motion brings in, of a segment; flags leave corners that came in aside.
-@pytest.mark.parametrize('entry, most', [('path', 1e-3), ('flags', .02)])
-def test_piecesStayApart(entry, most):
-    solver = drop(entry=entry)
+def test_piecesStayApart():
+    solver = drop()
     deepest = 0
     for _ in range(20):
         steps(20)
         deepest = max(deepest, solver.deepestOverlap())
     assert solver.numCracks > 20
-    assert deepest < most * .02       # m; sides have some .03
+    assert deepest < 2e-5             # m; sides have some .03
 
 
-def test_bothGiveTheSameBlowOfTwoElasticBodies():
-    """Nothing slides past an end here, so the two agree."""
-    places = []
-    for entry in ('path', 'flags'):
-        O.reset()
-        solver = impact(entry=entry)
-        steps(300)
-        places.append(np.array(solver.nodes))
-    assert np.abs(places[0] - places[1]).max() < 1e-6
+def test_defaults():
+    solver = w.FESolver()
+    assert (solver.entry, solver.correction, solver.penaltyFactor) == ('path', 'lagrange', .2)
 
 
-def test_itIsSavedAndMayChangeInARun(tmp_path):
-    solver = drop(entry='flags')
-    steps(100)
-    solver.entry = 'path'
-    steps(100)
-    solver.entry = 'flags'
-    steps(100)
+@pytest.mark.parametrize('name, value, wrong', [('entry', 'flags', ''), ('entry', 'flags', 'Path'),
+                                                ('correction', 'penalty', 'Lagrange'),
+                                                ('penaltyFactor', .5, 0), ('penaltyFactor', .5, 1.1)])
+def test_othersAreRefusedAndChangeNothing(name, value, wrong):
+    with pytest.raises(ValueError, match='FESolver.%s is ' % name):
+        w.FESolver(**{name: wrong})
+    solver = w.FESolver(**{name: value})
+    with pytest.raises(ValueError, match='FESolver.%s is ' % name):
+        setattr(solver, name, wrong)
+    assert getattr(solver, name) == value
+
+
+@pytest.mark.parametrize('name, value, sentence', FORMER)
+def test_formerValueHasNoEffectAndIsReportedOnce(name, value, sentence, tmp_path, capfd):
+    impact()
+    steps(300)
+    wanted = np.array(solverOfScene().nodes)
+    O.reset()
+    solver = impact(**{name: value})
+    steps(1)
+    assert solver.warnings == [sentence]
+    assert capfd.readouterr().err.count('WARN  FESolver: ' + sentence) == 1
+    steps(199)
     file = os.path.join(str(tmp_path), 'scene.yade')
     O.save(file, quiet=True)
-    steps(50)
-    wanted = np.array(solver.nodes)
     O.load(file, quiet=True)
-    assert solverOfScene().entry == 'flags'
-    steps(50)
-    assert (np.array(solverOfScene().nodes) == wanted).all()
+    solver = solverOfScene()
+    assert getattr(solver, name) == value
+    steps(100)
+    assert (np.array(solver.nodes) == wanted).all()
+    assert solver.warnings == [sentence] and 'WARN  FESolver' not in capfd.readouterr().err
+
+
+def test_formerValueMayBeSetInARun():
+    solver = impact()
+    steps(10)
+    assert solver.warnings == []
+    solver.entry = 'flags'
+    steps(2)
+    assert solver.warnings == [FORMER[0][2]]

@@ -48,7 +48,7 @@ def onSurface(make, smooth=False, **settings):
     return solver
 
 
-WAYS = [{}, {'entry': 'flags'}, {'passes': 2}, {'passes': 2, 'entry': 'flags'}, {'smooth': True}]
+WAYS = [{}, {'passes': 2}, {'smooth': True}]
 SURFACES = {
     'wall': lambda: O.bodies.append(wall(0)),
     'wall of one side': lambda: O.bodies.append(wall(0, sense=1)),

@@ -14,7 +14,7 @@ from yade.minieigenHP import Vector3
 
 O = builtins.O
 
-WAYS = [{'passes': passes, 'entry': entry} for passes in (1, 2) for entry in ('path', 'flags')]
+WAYS = [{'passes': passes} for passes in (1, 2)]
 
 
 def force(number):
@@ -68,26 +68,24 @@ def onRidge(rigid, steep, smooth, friction, **way):
 
 
 @pytest.mark.filterwarnings('ignore:addPolygon')  # the fixed body is as coarse as can be
-@pytest.mark.parametrize('entry', ['path', 'flags'])
 @pytest.mark.parametrize('soft', [False, True])
 @pytest.mark.parametrize('steep, friction', [(.15, 0), (.7, .3)])
-def test_bodyThatDropsOnARidgeIsThatOnAFixedBody(entry, soft, steep, friction):
+def test_bodyThatDropsOnARidgeIsThatOnAFixedBody(soft, steep, friction):
     """To the last bits, for the same rows are solved: 1e-12 m."""
-    _, found = onRidge(True, steep, soft, friction, entry=entry)
+    _, found = onRidge(True, steep, soft, friction)
     O.reset()
-    _, wanted = onRidge(False, steep, soft, friction, entry=entry)
+    _, wanted = onRidge(False, steep, soft, friction)
     assert np.abs(found - wanted).max() < 1e-12
     assert np.diff(found.mean(axis=1)[:, 1])[-1] > 0  # it came back
 
 
-@pytest.mark.parametrize('entry', ['path', 'flags'])
-def test_edgeOfARidgeStaysOutInTwoPasses(entry):
+def test_edgeOfARidgeStaysOutInTwoPasses():
     """Its kink of 0.3 rad is no sharp corner: a single pass leaves it to the block's points, which sag over
     it by up to half a side times the slope; two passes keep it out, to 1e-4 of a side."""
     deepest = {}
     for passes in (1, 2):
         O.reset()
-        solver, path = onRidge(True, .15, False, 0, entry=entry, passes=passes)
+        solver, path = onRidge(True, .15, False, 0, passes=passes)
         low = np.argsort(path[0, :, 1])[:11]
         low = low[np.argsort(path[0, low, 0])]
         deepest[passes] = max(-np.interp(0, nodes[low, 0], nodes[low, 1]) for nodes in path)
@@ -159,10 +157,9 @@ def shelf(kind):
     return body
 
 
-@pytest.mark.parametrize('entry', ['path', 'flags'])
 @pytest.mark.parametrize('kind', ['box', 'facet', 'clump'])
-def test_boundaryThatLeavesThePlaneLetsABlockFallAndCatchesItWhenItIsBack(kind, entry):
-    solver = fe(gravity=(0, -G), entry=entry)
+def test_boundaryThatLeavesThePlaneLetsABlockFallAndCatchesItWhenItIsBack(kind):
+    solver = fe(gravity=(0, -G))
     block(solver, (-.05, 0))
     body = shelf(kind)
     run(solver)

@@ -206,21 +206,17 @@ def test_bodiesJoinARun():
     assert solver.fragments()[2]['velocity'][0] > -2.9
 
 
-@pytest.mark.parametrize('entry', ['path', 'flags'])
-@pytest.mark.parametrize('correction', ['lagrange', 'penalty'])
-@pytest.mark.filterwarnings('ignore:.*penalty')
-def test_contactGoesOnWhenAThirdBodyIsRemoved(correction, entry):
-    """A block that lies on another one, as deep in it as the correction leaves it, and sticks to it."""
+def test_contactGoesOnWhenAThirdBodyIsRemoved():
+    """A block that lies on another one, and sticks to it."""
     def heights(removes):
         O.reset()
-        solver = fe(correction=correction, entry=entry, gravity=(0, -9.81), damping=200.)
+        solver = fe(gravity=(0, -9.81), damping=200.)
         still = dict(material='m', size=.02, fixed=lambda x, y: y < -.09 or y > 1)
         solver.addPolygon(yadefrag.rectangle((2, 2), (2.1, 2.1)), **still, name='third')
         solver.addPolygon(yadefrag.rectangle((-.2, -.1), (.2, 0)), **still, name='floor')
         solver.addPolygon(yadefrag.rectangle((-.1, 0), (.1, .3)), **still, name='block')
         run(solver)
         O.run(1500, True)
-        deep = solver.maxPenetration
         if removes:
             solver.removeBody('third')
         found = []
@@ -229,8 +225,6 @@ def test_contactGoesOnWhenAThirdBodyIsRemoved(correction, entry):
             found.append(solver.nodes[solver.nodesOf('block'), 1].mean())
         weight = .2 * .3 * 1000 * 9.81
         assert solver.contactForce('floor', 'block')[1] == pytest.approx(-weight, rel=1e-2)
-        return np.array(found), deep
+        return np.array(found)
 
-    (found, deep), (wanted, _) = heights(True), heights(False)
-    assert correction == 'lagrange' or deep > 4e-6
-    assert np.abs(found - wanted).max() < 1e-12
+    assert np.abs(heights(True) - heights(False)).max() < 1e-12

@@ -278,12 +278,9 @@ TABLE = {
     'smoothed elements nearly collapse: step': (
         PRESSED + 'take a step of at most', lambda: rubber(element='smoothed'),
         lambda: rubber(asked=6, element='smoothed')),
-    'a soft penalty: Lagrange': (
-        'bodies overlap by .*take the Lagrangian correction', lambda: blow(correction='penalty', penaltyFactor=1e-4),
-        blow),
-    'a soft penalty: a larger factor': (
-        'or a larger penalty factor', lambda: blow(correction='penalty', penaltyFactor=1e-4),
-        lambda: blow(correction='penalty')),
+    'a penalty': ("correction='penalty' has no effect", lambda: blow(correction='penalty'), blow),
+    'its factor': ('penaltyFactor=0.1 has no effect', lambda: blow(penaltyFactor=.1), blow),
+    'entry by flags': ("entry='flags' has no effect", lambda: blow(entry='flags'), blow),
     'spheres without their functor': (
         'no InteractionLoop has an Ig2_Sphere_SurfaceSegment', lambda: withSpheres(withoutFunctor),
         lambda: withSpheres(usual)),

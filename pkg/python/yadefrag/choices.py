@@ -39,9 +39,10 @@ def _isOneOf(*allowed):
 
 # name: (function that checks a value, description of valid values)
 KNOWN = {
+    'passes': (_isOneOf(1, 2), '1 or 2'),
+    # Of earlier versions; FESolver reports that they have no effect.
     'correction': (lambda v: v == 'lagrange' or _isPenalty(v),
                    "'lagrange', 'penalty', or 'penalty:F' with a factor F above 0 and at most 1"),
-    'passes': (_isOneOf(1, 2), '1 or 2'),
     'entry': (_isOneOf('path', 'flags'), "'path' or 'flags'"),
     'smooth': (_isOneOf(True, False), 'True or False'),
     'size': (lambda v: _isNumber(v) and v > 0, 'a positive length (m)'),
@@ -116,19 +117,16 @@ class Choices:
                                         KNOWN['timeStep'][1])
 
     def solver(self, **settings):
-        """An FESolver with `settings`; correction, entry, passes, halo and bulk viscosity as in the
-        setting.
-
-        'penalty:F' is correction='penalty' with penaltyFactor=F. ValueError as FESolver.
-        """
-        correction = values.text('correction',
-                                 self.get('correction', settings.pop('correction', 'lagrange')))
-        kind, _, factor = correction.partition(':')
-        settings.update(correction=kind, passes=self.get('passes', settings.get('passes', 1)),
-                        entry=self.get('entry', settings.get('entry', 'path')),
+        """An FESolver with `settings`; passes, halo and bulk viscosity as in the setting. ValueError as
+        FESolver."""
+        settings.update(passes=self.get('passes', settings.get('passes', 1)),
                         halo=self.get('halo', settings.get('halo', 0)))
-        if factor:
-            settings['penaltyFactor'] = float(factor)
+        settings.update((name, self[name]) for name in ('correction', 'entry') if name in self._settings)
+        if 'correction' in settings:
+            kind, _, factor = values.text('correction', settings['correction']).partition(':')
+            settings['correction'] = kind
+            if factor:
+                settings['penaltyFactor'] = float(factor)
         times = self.get('bulkViscosity')
         if times is not None:
             settings.update(linearViscosity=times * LINEAR_VISCOSITY,

@@ -36,9 +36,8 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
                `measure`
     vary       dict {name: [values]}: all combinations are run; or a list of such dicts, whose grids
                are run one after the other ([{}, {'passes': [1, 2]}]: the scene's own choices,
-               then the varied ones). Known names: correction, entry, passes, smooth, size, timeStep,
-               halo, collider, verletDist, plane, bulkViscosity, fracture, threads; others are
-               passed on.
+               then the varied ones). Known names: passes, smooth, size, timeStep, halo, collider,
+               verletDist, plane, bulkViscosity, fracture, threads; others are passed on.
     measure    function (built) of the scene's return value → number or numbers (n), after the run
     duration   s, simulated
     reference  the correct result: a number or numbers (n), in the unit of `measure`; a file of numbers
