@@ -12,11 +12,12 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FOLDERS = ('lib', 'pkg', 'tests')
 MOST = 8  # sources in a unit: more save little, and both cores should have work to the end
 PRIVATE = re.compile(r'^namespace \{\n(.*?)^\}  // namespace\n', re.M | re.S)
-# What a line at the left margin defines: a type, a function, constants.
+# What a line at the left margin defines: a type, a function, constants. Several sources may name the same
+# `using yade::Vector3r;` or alias of a namespace.
 DEFINITIONS = [re.compile(pattern, re.M) for pattern in (
-    r'^(?:struct|class|enum class|enum|using) (\w+)',
-    r'^(?!using|return|namespace|[A-Z_]+\()\w[^(\n]*?\b(\w+)\(',
-    r'^(?=\w)[^(;\n]*?\b(\w+)(?=(?:\[.*\])?(?: =|\{|;))',
+    r'^(?:struct|class|enum class|enum) (\w+)', r'^using (\w+) =',
+    r'^(?!using|return|namespace|[A-Z_]+\()\w[^(=\n]*?\b(\w+)\(',
+    r'^(?=\w)(?!using |namespace )[^(;\n]*?\b(\w+)(?=(?:\[.*\])?(?: =|\{|;))',
     r'\b(k[A-Z]\w*)(?=(?:\[.*\])?(?: =|\{))')]
 STATIC = re.compile(r'^(?:static .*?|int (?=main))(\w+)\(', re.M)
 INCLUDE = re.compile(r'^#include "(.*)"', re.M)

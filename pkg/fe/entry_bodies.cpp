@@ -9,14 +9,12 @@
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "fe/entry_frame.hpp"
+#include "fe/plane.hpp"
 
 namespace yadefrag {
 namespace {
 
 using yade::Vector3r;
-
-Vector3r inSpace(Vec2 v) { return {v.x, v.y, 0}; }
-Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
 
 void setState(yade::State& state, const EntryFrame& frame, const Nodes& nodes, double dt) {
   const Vec2 along = nodes.position[frame.last.value] - nodes.position[frame.first.value];

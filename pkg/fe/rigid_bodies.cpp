@@ -8,6 +8,7 @@
 
 #include "core/tolerances/collider.hpp"
 #include "core/tolerances/step.hpp"
+#include "fe/plane.hpp"
 #include "step/body_places.hpp"
 
 namespace yadefrag {
@@ -15,9 +16,6 @@ namespace {
 
 using yade::Quaternionr;
 using yade::Vector3r;
-
-Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
-Vector3r inSpace(Vec2 v) { return {v.x, v.y, 0}; }
 
 /// Extent of all finite-element bodies.
 struct Extent {

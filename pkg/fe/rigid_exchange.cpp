@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <map>
 
+#include "fe/plane.hpp"
 #include "fe/rigid_bodies.hpp"
 
 namespace yadefrag {
 namespace {
 
 using yade::Vector3r;
-
-Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
-Vector3r inSpace(Vec2 v) { return {v.x, v.y, 0}; }
 
 }  // namespace
 

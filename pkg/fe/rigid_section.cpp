@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "core/tolerances/collider.hpp"
+#include "fe/plane.hpp"
 
 namespace yadefrag {
 namespace {
 
 using yade::Vector3r;
-
-Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
 
 Vector3r placed(const yade::Body& body, const Vector3r& local) {
   const auto& place = body.state->se3;

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "contact/slave_normals.hpp"
+#include "fe/plane.hpp"
 #include "fe/sphere_contact.hpp"
 
 namespace yadefrag {
@@ -12,8 +13,6 @@ namespace {
 
 using yade::Vector3r;
 
-Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
-Vector3r inSpace(Vec2 v) { return {v.x, v.y, 0}; }
 Vec2 leftOf(Vec2 v) { return {-v.y, v.x}; }
 
 bool areNeighbours(const ContactSurfaces& surfaces, EntryId a, EntryId b) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/tolerances/step.hpp"
+#include "fe/plane.hpp"
 #include "fe/sphere_contact.hpp"
 #include "surface/disc_contact.hpp"
 
@@ -18,7 +19,6 @@ namespace {
 
 using yade::Vector3r;
 
-Vec2 inPlane(const Vector3r& v) { return {v[0], v[1]}; }
 Vec2 leftOf(Vec2 v) { return {-v.y, v.x}; }
 
 const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
