@@ -31,8 +31,9 @@ TEST(LocalSearch, ArcsHoldPointsUpToADepth) {
     ASSERT_EQ(actives.size(), 1U) << angle;
     EXPECT_TRUE(actives[0].foot.inside);
     EXPECT_GT(dot(actives[0].foot.normal, out), .99);
-    chase.step(.6 * out, .6 * out);
-    EXPECT_TRUE(chase.masters(.6 * out).empty()) << "deeper than the halo is on another side";
+    Chase deep(circle(12), smooth, -out, 1.1 * out);
+    deep.halo = .2;
+    EXPECT_TRUE(deep.masters(.6 * out).empty()) << "deeper than the halo is on another side";
   }
 }
 

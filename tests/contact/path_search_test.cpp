@@ -91,16 +91,19 @@ void compareTriedAgain(Random& random, int kind, Counts& counts) {
   const std::vector<Vec2> before = scene.at;
   const PathStart start{before, {}, Chase::kDepth, 0};
   moveAll(scene, random, kMove);
-  LocalSearch search, all;
+  LocalSearch search;
   // Twice as far as the nodes may move in all detections.
   const double reach = 2 * (kMove + 3 * kCorrection);
   search.scan(candidates, scene.surfaces, scene.at, start, reach, 1);
-  all.scan(candidates, scene.surfaces, scene.at, start, reach, 1);
   std::vector<SlaveMaster> known;
   for (int detection = 0; detection < 3; ++detection) {
     std::vector<Active> found, wanted;
     search.findActives(candidates, scene.surfaces, scene.at, kUnlimited, found);
-    all.findActives(candidates, scene.surfaces, scene.at, kUnlimited, wanted);
+    LocalSearch all;
+    Candidates fresh = candidates;
+    fresh.idleDistance.clear();
+    all.scan(fresh, scene.surfaces, scene.at, start, kUnlimited, 1);
+    all.findActives(fresh, scene.surfaces, scene.at, kUnlimited, wanted);
     const std::vector<SlaveMaster> now = pairsOf(found), each = pairsOf(wanted);
     ASSERT_TRUE(std::ranges::includes(each, now)) << "kind " << kind << ", " << detection;
     known.insert(known.end(), now.begin(), now.end());

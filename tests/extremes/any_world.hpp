@@ -46,6 +46,7 @@ class AnyWorld {
     wave_ = chance_.power(1, 4);
     calm_ = !chance_.oneIn(4);
     world.contactSettings.passes = 1 + chance_.below(2);
+    (void)chance_.oneIn(8);  // A choice of earlier versions: each seed keeps its scene.
     if (chance_.oneIn(4)) drive();
   }
 

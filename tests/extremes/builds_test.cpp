@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.650293784611423);
-  expectNear(places.y, 1.4530560710747848);
-  expectNear(speeds, 4355.4041957406562);
-  expectNear(totalEnergy(world), 89.999452219756137);
-  expectNear(world.ledger.contact, 5.2475512841298233);
+  expectNear(places.x, 3.6502978130507238);
+  expectNear(places.y, 1.4530357764027755);
+  expectNear(speeds, 4353.4403908027361);
+  expectNear(totalEnergy(world), 89.999455038505232);
+  expectNear(world.ledger.contact, 5.2579745605591368);
 }
 
 }  // namespace
