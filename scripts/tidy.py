@@ -14,7 +14,7 @@ import sys
 
 from units import unitsOf
 
-MOST = 32  # sources in a unit: the checks spend most of their time on the headers
+MOST = 16  # sources in a unit: the checks spend most of their time on the headers
 
 
 def byCommand(commands):
