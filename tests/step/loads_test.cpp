@@ -30,7 +30,7 @@ std::vector<NodeId> nodesWhere(const World& world, auto isChosen) {
   return nodes;
 }
 
-Vec2 momentum(const World& world) {
+Vec2 totalMomentum(const World& world) {
   Vec2 sum;
   const Nodes& nodes = world.model.nodes;
   for (std::size_t n = 0; n < nodes.size(); ++n) sum += nodes.mass[n] * nodes.velocity[n];
@@ -46,7 +46,7 @@ TEST(Pressure, PushesAlongTheNormalAndChangesInTime) {
   for (const double pressure : {100, 200, 300, 300}) {
     world.step(dt);
     sum += pressure * dt;  // on 1 m²
-    EXPECT_NEAR(momentum(world).x, sum, 1e-5 * sum);
+    EXPECT_NEAR(totalMomentum(world).x, sum, 1e-5 * sum);
   }
 }
 
@@ -68,7 +68,7 @@ TEST(Pressure, StaysWithItsBodyWhenAnotherLeaves) {
   world.removeBody(ComponentId(0));
   const double dt = .1 * world.criticalTimeStep();
   world.step(dt);
-  EXPECT_NEAR(momentum(world).x, 10 * dt, 1e-9 * dt);
+  EXPECT_NEAR(totalMomentum(world).x, 10 * dt, 1e-9 * dt);
   EXPECT_EQ(world.absorbing.segments.size(), 3U);
   world.removeBody(ComponentId(1));
   EXPECT_TRUE(world.pressures.empty());
@@ -96,10 +96,10 @@ TEST(Pressure, SpreadsAlongNewSides) {
 TEST(Absorbing, TakesImpedanceTimesVelocity) {
   World world = oneBlock({0, 0}, {.1, .2});
   world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1; }));
-  const Vec2 before = momentum(world);
+  const Vec2 before = totalMomentum(world);
   const double dt = 1e-6 * world.criticalTimeStep();
   world.step(dt);
-  const Vec2 force = (1 / dt) * (momentum(world) - before);
+  const Vec2 force = (1 / dt) * (totalMomentum(world) - before);
   EXPECT_NEAR(force.x, -.1 * std::sqrt(1000 * kRubber.waveModulus()), 1e-2);
   EXPECT_NEAR(force.y, -.2 * std::sqrt(1000 * kRubber.shearModulus()), 1e-2);
   EXPECT_NEAR(world.ledger.damping, -dot(force, {.1, .2}) * dt, 1e-5 * world.ledger.damping);
@@ -120,10 +120,10 @@ TEST(Absorbing, TakesTheImpedanceOfTheTriangleBehind) {
   World world;
   world.addBody(mesh, spec);
   world.setAbsorbing(nodesWhere(world, [](Vec2 x) { return x.x == 1; }));
-  const Vec2 before = momentum(world);
+  const Vec2 before = totalMomentum(world);
   const double dt = 1e-6 * world.criticalTimeStep();
   world.step(dt);
-  const Vec2 force = (1 / dt) * (momentum(world) - before);
+  const Vec2 force = (1 / dt) * (totalMomentum(world) - before);
   const auto mean = [&](double a, double b) {
     return (std::sqrt(1000 * a) + std::sqrt(4000 * b)) / 2;
   };
