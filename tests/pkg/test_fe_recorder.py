@@ -95,6 +95,24 @@ def test_takenUpAgainWithoutDoubles(folder, ending):
     assert len(table(file)) == len(series(file)) == 2
 
 
+def test_recordsOfBodiesThatComeAndGoStay(folder):
+    file = folder + '/run'
+    solver = scene(file, fields=())
+    solver.addPolygon(yadefrag.rectangle((3, 0), (4, 1)), size=.5, material='m', name='first')
+    O.run(20, True)
+    solver.addPolygon(yadefrag.rectangle((5, 0), (6, 1)), size=.5, material='m', name='second')
+    O.run(20, True)
+    before = table(file)
+    solver.removeBody('first')
+    O.run(20, True)
+    rows = table(file)
+    assert [int(row['step']) for row in rows] == [0, 10, 20, 30, 40, 50]
+    assert rows[:4] == before
+    column = 'reaction x of %s (N)'
+    assert [row[column % 'first'] == 'nan' for row in rows] == [False] * 4 + [True] * 2
+    assert [row[column % 'second'] == 'nan' for row in rows] == [True] * 2 + [False] * 4
+
+
 def test_otherFilesOfThisNameAreReplaced(folder):
     file = folder + '/run'
     for ending in ('.csv', '.pvd'):

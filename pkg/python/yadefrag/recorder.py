@@ -27,8 +27,9 @@ def FERecorder(iterPeriod=0, file='run', fields=None, **settings):
                 of a PyRunner, as further arguments
     file        path without an ending: file.csv has a line for each record, with the step, fe.time
                 (s), the numbers of cracks and fragments, the energies (J), and the reactions (N) of
-                all held nodes and of each body with a name; file.pvd, for ParaView, is the series
-                of the pictures file_000000.vtu, …, which have the format of exportVTK
+                all held nodes and of each body with a name, nan while there is no such body; file.pvd,
+                for ParaView, is the series of the pictures file_000000.vtu, …, which have the format
+                of exportVTK
     fields      fields of exportVTK in the pictures; None: all; (): no pictures
     O.save keeps it. Existing files are continued: records of the present fe.time and later, which
     belong to a run that is now repeated from an earlier save, are removed. If a file cannot be
@@ -75,17 +76,23 @@ def _before(time, now):
 # --- the table
 
 def _appendLine(fe, name, _):
+    """Columns of bodies that have come are added, those of bodies that have gone stay; nan: no body."""
     file = name + '.csv'
     lines = _lines(file)
     names = [one for one in fe._names if one]
-    wanted = ','.join(_FIRST + tuple(_NAMED % (axis, one.replace(',', ' ')) for one in names
-                                     for axis in 'xy'))
-    kept = [line for line in lines[1:] if _isEarlier(line, fe.time)] if lines[:1] == [wanted] else []
-    row = _row(fe, names)
-    if lines and len(kept) == len(lines) - 1 and lines[0] == wanted:
-        appendText(file, row + '\n')
+    columns = [*_FIRST, *(_NAMED % (axis, one.replace(',', ' ')) for one in names for axis in 'xy')]
+    row, old = _row(fe, names), lines[0].split(',') if lines else []
+    isOurs = old[:len(_FIRST)] == list(_FIRST)
+    kept = [line for line in lines[1:] if _isEarlier(line, fe.time)] if isOurs else []
+    if kept and old != columns:
+        values = dict(zip(columns, row))
+        columns = old + [one for one in columns if one not in old]
+        row = [values.get(one, 'nan') for one in columns]
+        kept = [line + ',nan' * (len(columns) - len(old)) for line in kept]
+    if isOurs and columns == old and len(kept) == len(lines) - 1:
+        appendText(file, ','.join(row) + '\n')
     else:
-        writeText(file, '\n'.join([wanted, *kept, row, '']))
+        writeText(file, '\n'.join([','.join(columns), *kept, ','.join(row), '']))
 
 
 def _lines(file):
@@ -111,7 +118,7 @@ def _row(fe, names):
     sums = [forces.sum(axis=0)] + [forces[fe.nodesOf(one)].sum(axis=0) if not fe._isGone(
         fe._names.index(one)) else (math.nan, math.nan) for one in names]
     numbers += [float(value) for force in sums for value in force]
-    return ','.join(map(repr, numbers))
+    return list(map(repr, numbers))
 
 
 # --- the pictures
