@@ -62,12 +62,12 @@ void FESolver::action() try {
   warn(known);
   if (rigid_.any()) {
     rigid_.giveForces(*scene, world_, length, given_);
-    given_.end(*scene);
     report(rigid_.takeSentences());
   }
   balance_.end(*scene, world_, given_);
   report({balance_.message(world_)});
   followCracks(dropped);
+  given_.end(*scene);
   bodies_.update(world_, timeToIntegrate(), world_.threads);
   prepareSearch(scene->dt);
   if (scene->trackEnergy) trackEnergy();

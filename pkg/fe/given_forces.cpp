@@ -24,7 +24,7 @@ void GivenForces::add(yade::Scene& scene, const Given& one) {
 
 void GivenForces::end(yade::Scene& scene) {
   lastReset_ = lastReset(scene.forces);
-  if (!all_.empty()) scene.forces.sync();
+  scene.forces.sync();
 }
 
 }  // namespace yadefrag

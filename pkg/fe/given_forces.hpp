@@ -19,8 +19,9 @@ class GivenForces {
   /// Takes back the forces of the last step, unless they have been reset since.
   void begin(yade::Scene& scene);
   void add(yade::Scene& scene, const Given& one);
-  /// Must be called after all forces of a step: YADE's reset deletes only forces that have been
-  /// synchronised, which NewtonIntegrator does, if there is one.
+  /// Must be called after all forces and all new bodies of a step: YADE's reset deletes, and
+  /// O.forces.f shows, only forces that have been synchronised since the last new body.
+  /// NewtonIntegrator does that, too, if there is one.
   void end(yade::Scene& scene);
 
   /// Forces of the last step, in the order of `add`: several for one body.

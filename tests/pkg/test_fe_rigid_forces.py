@@ -110,3 +110,23 @@ def test_clumpNeedsAResetter():
     O.engines = [w.ForceResetter(), solver, integrator]
     steps(3000)
     assert 1.05 < O.bodies[clump].state.pos[1] < 1.15
+
+
+@pytest.mark.parametrize('order', ['RF', 'F', 'RFN'])
+def test_forcesOfAStepThatOpensCracks(order):
+    """A crack adds bodies to the scene after the forces of the step are known."""
+    O.materials.append(w.BrittleFEMat(young=1e10, poisson=.2, density=2500, tensileStrength=4e6, label='rock'))
+    solver = w.FESolver()
+    ground = O.bodies.append(utils.wall(0, axis=1))
+    solver.addPolygon(yadefrag.rectangle((-.1, 0), (.1, .15)), size=.02, material='rock', thickness=.05, name='block')
+    solver.addPolygon([(0, .1505), (.02, .2), (-.02, .2)], size=.02, material='rock', thickness=.05, velocity=(0, -20))
+    O.engines = [dict(R=w.ForceResetter, F=lambda: solver, N=w.NewtonIntegrator)[letter]() for letter in order]
+    O.dt = .4 * solver.criticalTimeStep()
+    touched = 0
+    for _ in range(600):
+        cracks = solver.numCracks
+        O.step()
+        onBlock = solver.contactForces[:, 1].sum()
+        assert O.forces.f(ground)[1] == pytest.approx(-onBlock, rel=1e-9, abs=1e-9)
+        touched += onBlock > 1 and solver.numCracks > cracks
+    assert touched > 5
