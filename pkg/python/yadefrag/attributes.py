@@ -10,7 +10,7 @@ import numpy
 
 from yade import wrapper
 from yade.minieigenHP import Vector3
-from yadefrag.values import isWhole, numbersOf, plain, refuse
+from yadefrag.values import isWhole, numbersOf, plain, refuse, shown
 
 _OF_NUMPY = (numpy.generic, numpy.ndarray)
 _LISTS = (list, tuple, numpy.ndarray)
@@ -87,6 +87,7 @@ def updateAttrs(self, attributes):
     if any(_isGravity(self, name) for name in attributes):
         attributes.setdefault('takesGravity', False)
     change, known = wrapper.Serializable.updateAttrs, self.dict()
+    _findMisspelt(self, known, attributes)
     before = {name: value for name, value in known.items() if name in attributes}
     try:
         change(self, {name: _fitting(known.get(name), value) for name, value in attributes.items()})
@@ -95,6 +96,14 @@ def updateAttrs(self, attributes):
         if isinstance(error, _WRONG_KIND):
             _findWrong(type(self)(), attributes)
         raise
+
+
+def _findMisspelt(self, known, attributes):
+    """AttributeError for a name that is like a known one; YADE refuses others."""
+    for name in attributes:
+        near = difflib.get_close_matches(str(name), known, 1)
+        if near and not hasattr(self, str(name)):
+            raise AttributeError('%s has no attribute %s, but %s.' % (type(self).__name__, shown(name), near[0]))
 
 
 def _findWrong(scratch, settings):

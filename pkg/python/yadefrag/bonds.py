@@ -1,5 +1,7 @@
 """Bonds between bodies of FESolver."""
 
+import numpy
+
 from yadefrag.messages import warn, warnOfOne
 from yadefrag.names import bodyNumber
 from yadefrag.script_calls import requireBetweenSteps
@@ -13,6 +15,18 @@ def _ofCorners(corners, farthest):
     return ('%s moved by up to %.3g m onto a corner of the other body, since a side between them would have been '
             'less than 0.2 of an element.' % (
                 'a corner of an outline was' if corners == 1 else '%d corners of outlines were' % corners, farthest))
+
+
+def _requireNear(self, tolerance):
+    """The arguments of bondAll are three numbers, and may be given in another order."""
+    nodes = self.nodes
+    if not len(nodes):
+        return
+    largest = max(float(numpy.ptp(nodes[self.triangles[self.components == body]].reshape(-1, 2), axis=0).max())
+                  for body in set(self.components))
+    if tolerance > largest:
+        raise ValueError('bondAll: tolerance is %g m, but the largest body has only %g m; the order is '
+                         'bondAll(tolerance, strength, energy).' % (tolerance, largest))
 
 
 def bond(self, a, b, strength, energy):
@@ -57,6 +71,7 @@ def bondAll(self, tolerance, strength, energy):
     """
     requireBetweenSteps()
     tolerance = positive('tolerance', tolerance, 'm')
+    _requireNear(self, tolerance)
     (sides, corners, farthest, problem), unmatched, bodies, place = self._bondAll(
         tolerance, positive('strength', strength, 'Pa'), positive('energy', energy, 'J/m²'))
     if not sides and not unmatched:

@@ -13,7 +13,7 @@ from yadefrag.motions import chosenNodes, packed, tableOrNumber
 from yadefrag.progress import runPart
 from yadefrag.script_calls import calledInStep, requireBetweenSteps
 from yadefrag.shown import betweenSteps
-from yadefrag.values import array, flag, number, positive, refuse, shown, whole
+from yadefrag.values import array, flag, number, positive, refuse, requireTakes, shown, whole
 
 _LOOK = 25  # steps from one evaluation of the motion to the next
 
@@ -60,6 +60,7 @@ def pressure(self, nodes, p, intoCracks=False):
     intoCracks = flag('intoCracks', intoCracks)
     chosen = chosenNodes(self, nodes)
     if callable(p):
+        requireTakes('p', p, 't')
         @calledInStep
         def value(time):
             return number('p(%g)' % time, p(time), math.isfinite, 'a finite number (Pa)')

@@ -5,7 +5,7 @@ import math
 import numpy
 
 from yade import wrapper
-from yadefrag.values import array, isWhole, number, plain, positive, real, refuse, shown
+from yadefrag.values import array, isWhole, number, plain, positive, real, refuse, requireTakes, shown
 
 _RIGHT = 'an FEMat, its label or its number in O.materials'
 _SEVERAL = _RIGHT + ('; or a function (x, y) that returns one, a list of one for each triangle, or '
@@ -76,6 +76,7 @@ class Materials:
     def _ofTriangles(self, mesh, material):
         nodes, triangles = mesh['nodes'], mesh['triangles']
         if callable(material):
+            requireTakes('material', material, 'x', 'y')
             return [self._number(material(x, y), 'material(%g, %g)' % (x, y))
                     for x, y in nodes[triangles].mean(axis=1)]
         values = list(material)
@@ -123,6 +124,7 @@ def _values(name, value, mesh, sides, both, materials):
     if real(value) is not None:
         return numpy.full(len(sides), number(name, value, _isValue, right))
     if callable(value):
+        requireTakes(name, value, 'x', 'y')
         return numpy.array([number('%s(%g, %g)' % (name, x, y), value(x, y), _isValue, right)
                             for x, y in mesh['nodes'][sides].mean(axis=1)])
     if not isinstance(value, dict):

@@ -7,7 +7,7 @@ import numpy
 from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag.materials import isField
-from yadefrag.values import number, pair, positive, refuse, whole
+from yadefrag.values import number, pair, positive, refuse, requireTakes, whole
 
 _LEAST_SAMPLES, _MOST_SAMPLES = 128, 1024  # of a size function, along the outline's longer side
 
@@ -76,6 +76,7 @@ def _listOf(value):
 def sizeOf(size, points):
     """addPolygon's `size`, as _yadefrag.meshOfPolygon takes it: (m,), or a sampled function."""
     if callable(size):
+        requireTakes('size', size, 'x', 'y')
         return _sampledSize(size, points)
     return (number('size', size, lambda v: math.isfinite(v) and v > 0,
                    'a positive number (m) or a function (x, y) that returns one'),)

@@ -11,7 +11,8 @@ _SHOWN = 90  # characters of a message that is quoted
 _LISTED = 12  # bodies or bonds in a sentence
 _NUMBER = re.compile(r'[-+]?[\d.]+(e[-+]?\d+)?')
 _repeated = {}  # {message without its numbers: (the first message, 'bodies' or 'bonds', those that have it)}
-untold = set()  # those that more bodies or bonds have than have been told
+untold = set()  # those that more bodies or bonds have than have been told, and functions of _nowhere
+_nowhere = {}  # {a function `fixed`: the bodies of which it selects no node; None: it selects some of another one}
 
 
 def warn(sentence):
@@ -36,10 +37,27 @@ def warnOfOne(sentence, what, one):
         untold.add(kind)
 
 
+def noteFixed(fixed, body, isAny):
+    """A function that selects no node is told before the run: it may select nodes of a later body."""
+    function = getattr(fixed, '__code__', None) or id(fixed)
+    bodies = _nowhere.setdefault(function, [])
+    if isAny:
+        _nowhere[function] = None
+        untold.discard(function)
+    elif bodies is not None:
+        bodies.append(body)
+        untold.add(function)
+
+
 def tellNumbers():
     """Before a run: how many bodies or bonds have a message that was given for the first of them."""
     for kind in list(untold):
         untold.discard(kind)
+        if kind in _nowhere:
+            bodies = _nowhere.pop(kind)
+            warn('fixed selects none of the nodes of %s.' % (
+                'body %d' % bodies[0] if len(bodies) == 1 else _inWords('bodies', bodies)))
+            continue
         first, what, known = _repeated[kind]
         warn('%d %s have this message, which was given for the first of them only: "%s"; they are %s.' %
              (len(known), what, first if len(first) <= _SHOWN else first[:_SHOWN] + '…', _inWords(what, known)))
@@ -48,6 +66,7 @@ def tellNumbers():
 def forget():
     """After O.reset, or before the first body of a solver."""
     _repeated.clear()
+    _nowhere.clear()
     untold.clear()
 
 

@@ -8,7 +8,7 @@ import numpy
 from yadefrag.messages import warn
 from yadefrag.names import isBody
 from yadefrag.script_calls import calledInStep, requireBetweenSteps
-from yadefrag.values import array, flag, number, pair, real, refuse
+from yadefrag.values import array, flag, number, pair, real, refuse, requireTakes
 
 _RIGHT = ('a finite number (m/s), an array of one for each of the nodes, a table of pairs (s, m/s), '
           'a function (x, y, t) or None')
@@ -21,6 +21,7 @@ def chosenNodes(fe, nodes):
     invalid."""
     places = fe.nodes
     if callable(nodes):
+        requireTakes('nodes', nodes, 'x', 'y')
         chosen = numpy.array([flag('nodes(%g, %g)' % (x, y), nodes(x, y)) for x, y in places],
                              dtype=bool)
     elif isinstance(nodes, str):
@@ -82,6 +83,7 @@ def _kind(name, value, count):
     if value is None:
         return 'none', numpy.zeros(count)
     if callable(value):
+        requireTakes(name, value, 'x', 'y', 't')
         return 'function', value
     if real(value) is not None:
         return 'each', numpy.full(count, number(name, value, math.isfinite, _RIGHT))

@@ -3,7 +3,7 @@
 import numpy
 
 from yadefrag.snapping import isClockwise
-from yadefrag.values import pair, plain, refuse
+from yadefrag.values import pair, plain, refuse, requireTakes
 
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
 
@@ -14,6 +14,7 @@ def field(name, value, nodes, isOptional=True):
         return numpy.empty((0, 2))
     if not callable(value):
         return numpy.tile(pair(name, value), (len(nodes), 1))
+    requireTakes(name, value, 'x', 'y')
     return numpy.array([pair('%s(%g, %g)' % (name, x, y), value(x, y)) for x, y in nodes])
 
 
@@ -23,6 +24,7 @@ def heldNodes(fixed, nodes):
         return numpy.empty(0, dtype=numpy.uint8)
     if not callable(fixed):
         refuse('fixed', fixed, "a function (x, y) that returns False, True, 'x' or 'y'")
+    requireTakes('fixed', fixed, 'x', 'y')
     held = numpy.zeros(len(nodes), dtype=numpy.uint8)
     for i, (x, y) in enumerate(nodes):
         value = plain(fixed(x, y))

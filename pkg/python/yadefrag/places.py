@@ -4,7 +4,7 @@ import math
 
 import numpy
 
-from yadefrag.values import array, number, real, refuse, shown
+from yadefrag.values import array, number, real, refuse, requireTakes, shown
 
 # name: (unit, function that checks a value, description of valid values)
 _BRITTLE = {
@@ -25,6 +25,7 @@ def _ofTriangles(name, value, mesh):
     unit, isRight, right = _BRITTLE[name]
     nodes, triangles = mesh['nodes'], mesh['triangles']
     if callable(value):
+        requireTakes(name, value, 'x', 'y')
         return numpy.array([number('%s(%g, %g)' % (name, x, y), value(x, y), isRight, right)
                             for x, y in nodes[triangles].mean(axis=1)])
     values = array(value)
@@ -92,6 +93,7 @@ def stressOfTriangles(stress, mesh):
     if stress is None:
         return numpy.empty((0, 3))
     if callable(stress):
+        requireTakes('stress', stress, 'x', 'y')
         return numpy.array([_triple('stress(%g, %g)' % (x, y), stress(x, y))
                             for x, y in nodes[triangles].mean(axis=1)])
     values = array(stress)

@@ -147,6 +147,16 @@ def tellJoined(body, count, farthest, size):
                       % (body, count, farthest, farthest / size), 'bodies', body)
 
 
+def tooLarge(size, points):
+    """The sentence about a size that the body is too small for; empty if it is not."""
+    width, height = numpy.ptp(points, axis=0)
+    least = min(width, height)
+    if size <= least:
+        return ''
+    return ('size is %g m, but the body has only %g m by %g m: its outline requires smaller triangles, which '
+            'determine the critical time step; take a size of at most %g m.' % (size, width, height, least))
+
+
 def costAdvice(fe, body, size, outline, hasJoints, jointTolerance, meshOf):
     """A sentence about a mesh with a short time step: what has been tried, and helps."""
     def cost(shape, tolerance):

@@ -19,7 +19,7 @@ from yadefrag.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.materials import Materials, interfaces, isField, oneMaterial
 from yadefrag.mesh_checks import requireApart
 from yadefrag.meshing import isIrregular, jointLines, leastSize, meshOfPolygon, sizeOf
-from yadefrag.messages import forget, warnOfOne
+from yadefrag.messages import forget, noteFixed, warnOfOne
 from yadefrag.motions import keepTurning, prescribe, rotate
 from yadefrag.names import componentOf, newName, nodesOf
 from yadefrag.node_values import field, heldNodes, smoothFlags, smoothNodes
@@ -30,7 +30,7 @@ from yadefrag.scene_start import addSolver
 from yadefrag.script_calls import requireBetweenSteps
 from yadefrag.shown import betweenSteps, shownTriangles
 from yadefrag.snapping import (Outline, Overlap, addSnapped, costAdvice, jointToleranceOf, snapTolerance,
-                               tellJoined)
+                               tellJoined, tooLarge)
 from yadefrag.values import (array, flag, number, pair, pointsOf, positive, real, refuse, shown,
                              whole)
 
@@ -79,6 +79,8 @@ def _add(fe, mesh, smooth, materials, velocity, spin, displacement, stress, fixe
     if overlap:
         raise Overlap(overlap, depth)
     addSolver(fe)
+    if fixed is not None:
+        noteFixed(fixed, component, held.any())
     keepTurning(fe, component, held, given, spin, present, centroid)
     problem = fe._zoneWarning(component)
     if problem:
@@ -221,8 +223,9 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     tellJoined(body, *used[1]['joined'], smallest)
     costly = self._costlyStepWarning(body, smallest)
     if costly:
-        advice = costAdvice(self, body, smallest, used[0], len(lines) > 0, jointTolerance, meshOf)
-        warnOfOne('addPolygon: %s %s' % (costly, advice), 'bodies', body)
+        sentence = tooLarge(smallest, used[0].points) or '%s %s' % (costly, costAdvice(
+            self, body, smallest, used[0], len(lines) > 0, jointTolerance, meshOf))
+        warnOfOne('addPolygon: ' + sentence, 'bodies', body)
     return body
 
 

@@ -3,6 +3,7 @@
 NumPy's numbers are accepted: scalars of any width, and arrays of dimension 0.
 """
 
+import inspect
 import itertools
 import math
 import numbers
@@ -59,6 +60,18 @@ def plain(value):
 def refuse(name, value, right, error=ValueError):
     """Raises `error` with the value of the argument `name` and the valid values."""
     raise error('%s is %s, it must be %s.' % (name, shown(value), right)) from None
+
+
+def requireTakes(name, function, *arguments):
+    """TypeError if a script's function, the argument `name`, cannot be called with these arguments by position."""
+    try:
+        inspect.signature(function).bind(*arguments)
+    except TypeError:
+        raise TypeError('%s is a function that cannot be called as %s(%s): it must take %s.' % (
+            name, name, ', '.join(arguments), '%d arguments' % len(arguments) if len(arguments) > 1
+            else 'one argument')) from None
+    except ValueError:
+        pass  # a built-in function without a signature
 
 
 def real(value):
