@@ -35,7 +35,7 @@ void EnergyWatch::begin(double energy, const EnergyLedger& ledger) {
   expected = energy + ledger.total(0, 0);
   gone = expected + ledger.external - energy;
   most = energy;
-  contact = ledger.contact, friction = ledger.friction;
+  dissipated = ledger.contact + ledger.friction;
   evaluatedCreated = evaluatedGrown = reportedCreated = reportedGrown = 0;
   knownGrowth = ofChanges = 0;
 }
@@ -47,15 +47,15 @@ void EnergyWatch::count(const WatchedStep& step) {
   mostStep = std::max(mostStep, step.dt);
   // Includes energy that the bodies had or received, even if it has been dissipated since.
   most = std::max(most, expected + step.ledger.external - gone);
-  contact = std::max(contact, step.ledger.contact);
-  friction = std::max(friction, step.ledger.friction);
+  dissipated = std::max(dissipated, step.ledger.contact + step.ledger.friction);
 }
 
 /// (J) Energy created. A quantity that can only be dissipated has created as much as its sum has
-/// decreased. A cohesive crack releases stored energy: it has created energy only if the sum is
-/// below zero.
+/// decreased. Contact and friction are one such quantity: a force of friction may reverse the
+/// motion of a body, and then receives what the normal force gives, and the other way round. A
+/// cohesive crack releases stored energy: it has created energy only if the sum is below zero.
 double EnergyWatch::created(const EnergyLedger& ledger) const {
-  return std::max(0., contact - ledger.contact) + std::max(0., friction - ledger.friction) +
+  return std::max(0., dissipated - ledger.contact - ledger.friction) +
          std::max(0., -ledger.fracture);
 }
 

@@ -63,12 +63,11 @@ class EnergyWatch {
   /// The message about created angular momentum; `sum` (kg m²/s): as of sumOfSpins.
   std::string spinMessage(const WatchedStep& step, double sum);
 
-  double expected = 0;  ///< J, expected total of the ledger
-  double gone = 0;      ///< J, part of the supplied energy that left with removed bodies
-  double most = 0;      ///< J, the largest energy that the bodies could have
-  double contact = 0,
-         friction = 0;  ///< J, largest values in the ledger: a decrease is created energy
-  double split = 0;     ///< J, part of the ledger's fracture: separated averages of strains
+  double expected = 0;    ///< J, expected total of the ledger
+  double gone = 0;        ///< J, part of the supplied energy that left with removed bodies
+  double most = 0;        ///< J, the largest energy that the bodies could have
+  double dissipated = 0;  ///< J, largest contact + friction in the ledger: a decrease is created
+  double split = 0;       ///< J, part of the ledger's fracture: separated averages of strains
   double evaluatedCreated = 0, evaluatedGrown = 0;  ///< J, at the last evaluation
   double reportedCreated = 0, reportedGrown = 0,
          reportedDepth = 0;  ///< J, J, m, in the last message; 0: none

@@ -50,7 +50,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 14;
+  static constexpr std::uint64_t kFormat = 15;
   /// (count) A damaged length must not exhaust the memory: values are read in parts of this size,
   /// and the archive ends before the memory is full.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -109,7 +109,7 @@ class WorldArchive {
     EnergyWatch& watch = world.watch;
     value("expectedEnergy", watch.expected), value("goneEnergy", watch.gone);
     value("mostEnergy", watch.most);
-    value("watchedContact", watch.contact), value("watchedFriction", watch.friction);
+    value("watchedContact", watch.dissipated);
     value("watchedSplit", watch.split);
     value("lookedCreated", watch.evaluatedCreated), value("lookedGrown", watch.evaluatedGrown);
     value("toldCreated", watch.reportedCreated), value("toldGrown", watch.reportedGrown);

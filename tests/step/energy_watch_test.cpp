@@ -67,6 +67,19 @@ TEST(EnergyWatch, EarlierDissipationByContactHidesNothing) {
   EXPECT_NE(message(watch, stepOf(ledger)), "") << "friction";
 }
 
+TEST(EnergyWatch, FrictionMayTakeWhatContactGives) {
+  EnergyWatch watch = watchOf(100);
+  EnergyLedger ledger;
+  ledger.contact = 30, ledger.friction = -5;
+  EXPECT_EQ(message(watch, stepOf(ledger)), "");
+  ledger.contact = 25, ledger.friction = .5;
+  EXPECT_EQ(message(watch, stepOf(ledger)), "");
+  ledger.contact = 30, ledger.friction = -4.6;
+  EXPECT_EQ(message(watch, stepOf(ledger)), "") << "the other way round";
+  ledger.contact = 28;
+  EXPECT_NE(message(watch, stepOf(ledger)).find("contact has created 2.1 J"), std::string::npos);
+}
+
 TEST(EnergyWatch, CracksAreDistinguishedFromContact) {
   EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
