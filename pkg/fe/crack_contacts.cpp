@@ -50,9 +50,9 @@ SurfaceSegment& shapeOf(const EntryBodies& bodies, EntryId entry) {
 }
 
 /// The springs of all spheres near the boundary, touching or not, with the pieces before `last`, as
-/// these were before the step.
-std::map<BodyId, Springs> springsBefore(const yade::Scene& scene, const EntryBodies& bodies,
-                                        std::size_t last) {
+/// these were before the step. Those of fragments that this step has removed leave with them.
+std::map<BodyId, Springs> springsBefore(const yade::Scene& scene, const ContactSurfaces& surfaces,
+                                        const EntryBodies& bodies, std::size_t last) {
   std::map<BodyId, Springs> found;
   for (std::size_t e = 0; e < last; ++e) {
     if (!bodies.hasBody(EntryId(e))) continue;
@@ -62,7 +62,7 @@ std::map<BodyId, Springs> springsBefore(const yade::Scene& scene, const EntryBod
       if (!other || !dynamic_cast<const yade::Sphere*>(other->shape.get())) continue;
       Springs& springs = found[id];
       const auto touch = contactOf(piece.piece(), *other);
-      if (!touch) continue;
+      if (!touch || surfaces.isGone(EntryId(e))) continue;
       const SurfaceSegment::Changed* const known = piece.changedBy(id);
       Spring spring = springOf(EntryId(e), *touch);
       if (known) {
@@ -122,7 +122,7 @@ EntryId nearestAlong(const ContactSurfaces& surfaces, EntryId entry,
 
 void CrackContacts::change(const yade::Scene& scene, const World& world, const EntryBodies& bodies,
                            std::size_t first, double dt) {
-  std::map<BodyId, Springs> known = springsBefore(scene, bodies, first);
+  std::map<BodyId, Springs> known = springsBefore(scene, world.surfaces, bodies, first);
   if (known.empty()) return;
   const Nodes& nodes = world.model.nodes;
   std::vector<Vec2> former(nodes.size());
@@ -170,9 +170,16 @@ void CrackContacts::follow(const yade::Scene& scene, const World& world,
     const yade::Body* const sphere = bodyOf(scene, id);
     if (!sphere || !dynamic_cast<const yade::Sphere*>(sphere->shape.get())) continue;
     const std::vector<EntryId> near = piecesNear(*sphere, bodies);
+    // A piece whose overlap is tolerated has no contact, which must not begin while the overlap is
+    // there, also after the fragment that the sphere has touched was removed.
+    const auto isTolerated = [&](EntryId entry) {
+      SurfaceSegment& piece = shapeOf(bodies, entry);
+      return piece.changedBy(id) && contactOf(piece.piece(), *sphere);
+    };
     std::set<std::uint32_t> touching;
     for (const EntryId entry : near)
-      if (sphere->intrs.at(bodies.ids()[entry.value])->isReal()) touching.insert(entry.value);
+      if (sphere->intrs.at(bodies.ids()[entry.value])->isReal() || isTolerated(entry))
+        touching.insert(entry.value);
     for (const EntryId entry : near) {
       const EntryId from =
           touching.contains(entry.value) ? entry : nearestAlong(world.surfaces, entry, touching);

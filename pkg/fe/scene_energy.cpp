@@ -9,8 +9,10 @@
 #include <tuple>
 #include <utility>
 
+#include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
 #include "fe/plane.hpp"
+#include "fe/rigid_movers.hpp"
 #include "fe/sphere_contact.hpp"
 #include "surface/disc_contact.hpp"
 
@@ -51,6 +53,20 @@ struct Spring {
     depth /= share;
   }
 };
+
+/// (1/kg) Inverse of the mass that a force between the body and a piece moves.
+double mobilityOf(const yade::Scene& scene, const World& world, const yade::Body& body,
+                  const Stencil& foot) {
+  const yade::Body& mover = moverOf(scene, body);
+  const double mass = mover.state->mass;
+  double mobility = mover.isDynamic() && mass > 0 ? 1 / mass : 0;
+  const Nodes& nodes = world.model.nodes;
+  for (int k = 0; k < foot.count; ++k) {
+    const std::size_t node = foot.node[k].value;
+    if (nodes.held[node] == 0) mobility += foot.weight[k] * foot.weight[k] / nodes.mass[node];
+  }
+  return mobility;
+}
 
 /// Bodies are in this order, spheres first.
 template <class Touching>
@@ -96,19 +112,22 @@ void SceneEnergy::addContact(const yade::Scene& scene, const PieceGeometry& geom
   const auto& nodes = world.model.nodes.position;
   const Vec2 point = inPlane(geom->contactPoint);
   const Stencil foot = footOf(world.surfaces, geometry, entry, point);
-  pieces_.push_back({found.size() - 1, foot, frame.first, frame.last,
-                     nodes[frame.last.value] - nodes[frame.first.value],
-                     point - combine(foot, nodes), sign * inPlane(phys->normalForce),
-                     sign * inPlane(phys->shearForce)});
+  const double rate = phys->kn * scene.dt * scene.dt * mobilityOf(scene, world, *body, foot);
+  sums_.stiffest = std::max(sums_.stiffest, rate);
+  const double normal = phys->normalForce.norm(), shear = phys->shearForce.norm();
+  const Spring spring(*geom, static_cast<SurfaceSegment&>(*piece.shape), *body);
+  pieces_.push_back(
+      {found.size() - 1, foot, entry, frame.first, frame.last, normal * spring.depth / 2,
+       phys->ks > 0 ? shear * shear / (2 * phys->ks * spring.share) : 0,
+       nodes[frame.last.value] - nodes[frame.first.value], point - combine(foot, nodes),
+       sign * inPlane(phys->normalForce), sign * inPlane(phys->shearForce)});
   for (const auto& [part, force] :
        {std::pair{&own.normal, pieces_.back().normal}, {&own.tangent, pieces_.back().tangent}}) {
     part->force += force;
     part->moment += cross(point - own.place, force);
   }
-  const double normal = phys->normalForce.norm(), shear = phys->shearForce.norm();
-  const Spring spring(*geom, static_cast<SurfaceSegment&>(*piece.shape), *body);
-  own.normal.elastic += normal * spring.depth / 2;
-  if (phys->ks > 0) own.tangent.elastic += shear * shear / (2 * phys->ks * spring.share);
+  own.normal.elastic += pieces_.back().normalElastic;
+  own.tangent.elastic += pieces_.back().tangentElastic;
   const double expected = phys->kn * geom->penetrationDepth;
   own.isSpring = own.isSpring && std::abs(normal - expected) <= tolerance::kSpring * normal;
   const double most = smallerFriction(scene, contact.getId1(), contact.getId2()) * normal;
@@ -218,9 +237,11 @@ void SceneEnergy::settle(std::vector<Touching>& now) {
       return held - former;
     };
     const double tangent = stored(&Touching::tangent, tangentWork);
-    sums_.work += normalWork + tangentWork;
-    sums_.elastic += stored(&Touching::normal, normalWork) + tangent;
-    if (one.slips && isSpring) sums_.friction -= tangentWork + tangent;
+    const double normal = stored(&Touching::normal, normalWork);
+    sums_.elastic += normal + tangent;
+    // The energy of contacts that were removed has left with the fragments.
+    sums_.work += one.isRemoved ? -(normal + tangent) : normalWork + tangentWork;
+    if (one.slips && isSpring && !one.isRemoved) sums_.friction -= tangentWork + tangent;
   }
   sums_.least = std::min(sums_.least, bySpheres());
 }
@@ -237,8 +258,13 @@ void SceneEnergy::end(const yade::Scene& scene, const World& world, const GivenF
       velocity += piece.foot.weight[k] * mean(piece.foot.node[k]);
     const Vec2 apart = mean(piece.last) - mean(piece.first);
     velocity += cross(piece.along, apart) / dot(piece.along, piece.along) * leftOf(piece.arm);
-    touching_[piece.touching].normal.work += world.lastDt * dot(piece.normal, velocity);
-    touching_[piece.touching].tangent.work += world.lastDt * dot(piece.tangent, velocity);
+    Touching& own = touching_[piece.touching];
+    own.normal.work += world.lastDt * dot(piece.normal, velocity);
+    own.tangent.work += world.lastDt * dot(piece.tangent, velocity);
+    if (!world.surfaces.isGone(piece.entry)) continue;
+    own.isRemoved = true;
+    own.normal.elastic = std::max(0., own.normal.elastic - piece.normalElastic);
+    own.tangent.elastic = std::max(0., own.tangent.elastic - piece.tangentElastic);
   }
   std::map<yade::Body::id_t, std::size_t> rigid;
   for (const GivenForces::Given& one : given.all()) {
@@ -280,6 +306,11 @@ std::string SceneEnergy::message(const World& world) {
   if (!(amount > least) || !(amount > world.roundingEnergy())) return {};
   sums_.reported = amount;
   const bool byRigid = std::abs(rigid) >= spheres;
+  const auto isStraight = [&](const Piece& piece) {
+    return !world.surfaces.isSmooth(world.surfaces.entrySegment[piece.entry.value]);
+  };
+  const bool byCorners =
+      sums_.stiffest < tolerance::kStiffContact && std::ranges::any_of(pieces_, isStraight);
   return fmt::format(
       "Step {}, time {:.3g} s: contact with YADE's {} has {} {:.3g} J, {:.3g} % of the energy of "
       "the bodies that touch; {}",
@@ -287,7 +318,9 @@ std::string SceneEnergy::message(const World& world) {
       byRigid && rigid < 0 ? "lost" : "created", amount, 100 * amount / sums_.most,
       byRigid ? "NewtonIntegrator must come after FESolver, with damping = 0, or make these bodies "
                 "heavier."
-              : "take a shorter step, or a smaller stiffness (young) of the spheres.");
+      : byCorners ? "the step is short enough, but the overlap of a sphere with a polygon changes "
+                    "where a corner bends: take smooth=True for the bodies that bend."
+                  : "take a shorter step, or a smaller stiffness (young) of the spheres.");
 }
 
 }  // namespace yadefrag

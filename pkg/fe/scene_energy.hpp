@@ -59,9 +59,10 @@ class SceneEnergy {
   struct Touching {
     yade::Body::id_t id = yade::Body::ID_NONE;
     bool isRigid = false, slips = false, isSettled = false;
-    bool isSpring = true;  // the law is linear: the elastic energy is known
-    Vec2 place, velocity;  // m, m/s, before its motion
-    double spin = 0;       // rad/s
+    bool isSpring = true;    // the law is linear: the elastic energy is known
+    bool isRemoved = false;  // some of its contacts were with fragments that this step removed
+    Vec2 place, velocity;    // m, m/s, before its motion
+    double spin = 0;         // rad/s
     yade::Quaternionr orientation = yade::Quaternionr::Identity();
     Part normal, tangent;
   };
@@ -69,8 +70,10 @@ class SceneEnergy {
   struct Piece {
     std::size_t touching;
     Stencil foot;
+    EntryId entry;
     NodeId first, last;
-    Vec2 along, arm, normal, tangent;  // m, m, N, N
+    double normalElastic, tangentElastic;  // J
+    Vec2 along, arm, normal, tangent;      // m, m, N, N
   };
   struct Sums {
     double work = 0, elastic = 0, friction = 0;  // J, of spheres
@@ -78,6 +81,7 @@ class SceneEnergy {
     double rigid = 0;                            // J, of rigid boundaries
     double most = 0;                             // J, the largest energy that was there
     double reported = 0;                         // J, in the last message
+    double stiffest = 0;  // (ω Δt)² of the stiffest contact of a sphere so far
   };
 
   [[nodiscard]] double bySpheres() const { return sums_.work + sums_.elastic + sums_.friction; }
@@ -102,7 +106,7 @@ class SceneEnergy {
 template <class Archive>
 void SceneEnergy::archive(Archive& archive) {
   std::vector<double> sums = {sums_.work,  sums_.elastic, sums_.friction, sums_.least,
-                              sums_.rigid, sums_.most,    sums_.reported};
+                              sums_.rigid, sums_.most,    sums_.reported, sums_.stiffest};
   std::vector<int> ids;
   std::vector<double> numbers;
   const auto flatten = [&](Touching& one, auto&& each) {
@@ -114,9 +118,10 @@ void SceneEnergy::archive(Archive& archive) {
       each(part->held), each(part->work), each(part->ownWork);
     }
   };
-  constexpr std::size_t kFlags = 5, kEach = 23;
+  constexpr std::size_t kFlags = 6, kEach = 23;
   for (Touching& one : touching_) {
-    ids.insert(ids.end(), {one.id, one.isRigid, one.slips, one.isSettled, one.isSpring});
+    ids.insert(ids.end(),
+               {one.id, one.isRigid, one.slips, one.isSettled, one.isSpring, one.isRemoved});
     flatten(one, [&](double& value) { numbers.push_back(value); });
   }
   archive& boost::serialization::make_nvp("sceneEnergies", sums);
@@ -126,7 +131,7 @@ void SceneEnergy::archive(Archive& archive) {
   int open = isOpen_ ? 1 : 0;
   archive& boost::serialization::make_nvp("sceneIsOpen", open);
   if constexpr (Archive::is_loading::value) {
-    if (sums.size() != 7 || ids.size() % kFlags != 0 ||
+    if (sums.size() != 8 || ids.size() % kFlags != 0 ||
         numbers.size() != ids.size() / kFlags * kEach)
       throw InputError(
           "The saved state of FESolver is damaged (its energy balance is invalid); load another "
@@ -134,13 +139,13 @@ void SceneEnergy::archive(Archive& archive) {
     const long step = step_;
     *this = {};
     step_ = step, isOpen_ = open != 0;
-    sums_ = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]};
+    sums_ = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7]};
     std::size_t next = 0;
     for (std::size_t i = 0; i < ids.size(); i += kFlags) {
       Touching one;
       one.id = ids[i];
       one.isRigid = ids[i + 1] != 0, one.slips = ids[i + 2] != 0, one.isSettled = ids[i + 3] != 0;
-      one.isSpring = ids[i + 4] != 0;
+      one.isSpring = ids[i + 4] != 0, one.isRemoved = ids[i + 5] != 0;
       flatten(one, [&](double& value) { value = numbers[next++]; });
       touching_.push_back(one);
     }

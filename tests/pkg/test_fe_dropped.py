@@ -8,6 +8,7 @@ import pytest
 import yadefrag
 from fe_impact import areSame, heapSpheres, impact, requireBodiesAreEntries, state, steps
 from yadefrag.colours import fragmentColours
+from yade import utils
 from yade import wrapper as w
 
 O = builtins.O
@@ -184,3 +185,26 @@ def test_picturesLeaveThemOut(folder):
     assert len(yadefrag.fragmentTable(solver)) == len(solver.fragments())
     assert yadefrag.animate(solver, folder + '/film.gif', 6, 3, field='fragment') == 3
     assert solver.minAngle > .1
+
+
+@pytest.mark.parametrize('young', [5e8, 5e7])
+def test_contactsOfASphereWithWhatGoesLeaveWithIt(young):
+    """A fragment that a sphere presses on takes along the elastic energy of their contacts, and what is then
+    exposed below the sphere begins no contact at once."""
+    O.materials.append(w.BrittleFEMat(young=5e8, poisson=.2, density=2000, frictionAngle=.4, tensileStrength=2e5,
+                                      weibullModulus=6, seed=5, label='plate'))
+    solver = w.FESolver(minFragmentArea=3e-4)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.5, .05)), size=.02, material='plate', thickness=.06,
+                      fixed=lambda x, y: x < 1e-9 or x > .4999)
+    ball = utils.sphere((.25, .081, 0), .03, material=w.FrictMat(young=young, poisson=.2, density=4000, frictionAngle=.4))
+    ball.state.vel, ball.state.blockedDOFs = (0, -20, 0), 'zXY'
+    O.bodies.append(ball)
+    impactEnergy = .5 * ball.state.mass * 20**2
+    O.engines = yadefrag.engines(solver, spheres=True)
+    O.dt = .3 * solver.criticalTimeStep()
+    steps(10)
+    start = solver.energy['total']
+    while solver.time < .003:
+        steps(10)
+        assert abs(solver.energy.get('scene', start) - start) < .005 * impactEnergy
+    assert solver.dropped['count'] > 10 and not solver.warnings
