@@ -62,6 +62,7 @@ void FESolver::action() try {
   warn(known);
   if (rigid_.any()) {
     rigid_.giveForces(*scene, world_, length, given_);
+    rigid_.warnOfArcs(world_);
     report(rigid_.takeSentences());
   }
   balance_.end(*scene, world_, given_);

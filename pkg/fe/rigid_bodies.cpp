@@ -196,11 +196,7 @@ std::vector<RigidPart> RigidBodies::parts(const yade::Scene& scene,
     member.position = body.state->se3.position, member.orientation = body.state->se3.orientation;
     if (!section) continue;
     member.mover = moverIdOf(scene, body, newton);
-    if (newton && lacksInertia(*moverOf(scene, body).state))
-      sentences_.push_back(fmt::format(
-          "{} #{} is not fixed but has no mass or no inertia, and NewtonIntegrator divides by "
-          "zero; set state.mass and state.inertia, or state.blockedDOFs = 'xyzXYZ'.",
-          body.shape->getClassName(), member.id));
+    if (newton) warnOfMoments(member, moverOf(scene, body), *newton);
     const RigidPose now(body), then(body, movingTime(scene, newton));
     std::vector<Vec2> after;
     for (const Vec2 point : section->points)
@@ -210,6 +206,26 @@ std::vector<RigidPart> RigidBodies::parts(const yade::Scene& scene,
     memberOf.push_back(static_cast<std::uint32_t>(&member - members_.data()));
   }
   return all;
+}
+
+void RigidBodies::warnOfMoments(const Member& member, const yade::Body& mover,
+                                const yade::NewtonIntegrator& newton) {
+  if (lacksInertia(*mover.state)) {
+    sentences_.push_back(fmt::format(
+        "{} #{} is not fixed but has no mass or no inertia, and NewtonIntegrator divides by "
+        "zero; set state.mass and state.inertia, or state.blockedDOFs = 'xyzXYZ'.",
+        member.body->shape->getClassName(), member.id));
+    return;
+  }
+  if (reportedMoment_ || member.mover == kHeld) return;
+  const auto moment = neglectedMoment(newton, mover);
+  if (!moment) return;
+  reportedMoment_ = true;
+  sentences_.push_back(fmt::format(
+      "YADE rotates body #{} about z by the moment of inertia of another axis, {:.6g} instead of "
+      "{:.6g} kg m²: if rotations about x or y are blocked, it uses state.inertia[2], the third of "
+      "the principal moments; set state.inertia = ({:.6g}, {:.6g}, {:.6g}).",
+      mover.id, mover.state->inertia[2], *moment, *moment, *moment, *moment));
 }
 
 /// Sides that existed before begin their motion at their previous position.

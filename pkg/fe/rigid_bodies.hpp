@@ -42,6 +42,8 @@ class RigidBodies {
   /// Adds the forces of the last step to YADE's bodies, with their moments.
   void giveForces(yade::Scene& scene, const World& world, const StepLength& length,
                   GivenForces& given) const;
+  /// Gives a message if a smooth body rests on them with two points beside an arc that enters.
+  void warnOfArcs(const World& world);
 
   [[nodiscard]] bool any() const { return !corners_.empty(); }
   /// True if any of them obeys forces.
@@ -84,14 +86,17 @@ class RigidBodies {
   void addCorners(const RigidOutline& outline, const std::vector<std::uint32_t>& memberOf);
   void takeOut(yade::Scene& scene, World& world, EntryBodies& entries);
   [[nodiscard]] bool slideWalls(World& world);
+  [[nodiscard]] const RigidCorner& cornerOf(const World& world, EntryId entry) const;
   void warnOfUnmoved();
+  void warnOfMoments(const Member& member, const yade::Body& mover,
+                     const yade::NewtonIntegrator& newton);
 
   std::vector<Member> members_;
   std::vector<RigidCorner> corners_;
   std::size_t seen_ = 0;  // number of the scene's bodies at the last check
   RigidMovers movers_;
   std::vector<std::string> sentences_;
-  bool reportedFlat_ = false;
+  bool reportedFlat_ = false, reportedMoment_ = false, reportedArc_ = false;
 };
 
 template <class Archive>

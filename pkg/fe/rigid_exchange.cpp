@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/tolerances/spheres.hpp"
 #include "fe/plane.hpp"
 #include "fe/rigid_bodies.hpp"
 
@@ -59,6 +60,14 @@ void RigidBodies::warnOfUnmoved() {
   }
 }
 
+/// The corner at which a piece of a rigid boundary begins.
+const RigidCorner& RigidBodies::cornerOf(const World& world, EntryId entry) const {
+  const ContactSurfaces& surfaces = world.surfaces;
+  const NodeId corner = surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
+  const auto at = std::ranges::lower_bound(world.rigidNodes(), corner);
+  return corners_[static_cast<std::size_t>(at - world.rigidNodes().begin())];
+}
+
 void RigidBodies::giveForces(yade::Scene& scene, const World& world, const StepLength& length,
                              GivenForces& given) const {
   const ContactSurfaces& surfaces = world.surfaces;
@@ -70,9 +79,7 @@ void RigidBodies::giveForces(yade::Scene& scene, const World& world, const StepL
     const bool ofSlave = isRigid(row.slave);
     if (!ofSlave && !isRigid(row.master)) continue;
     const EntryId entry = ofSlave ? row.slave : row.master;
-    const NodeId corner = surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
-    const auto at = std::ranges::lower_bound(world.rigidNodes(), corner);
-    const RigidCorner& own = corners_[static_cast<std::size_t>(at - world.rigidNodes().begin())];
+    const RigidCorner& own = cornerOf(world, entry);
     const yade::Body& body = *members_[own.member].body;
     const double sign = ofSlave ? 1 : -1;
     // The forces act at the positions at the begin of the step.
@@ -89,6 +96,37 @@ void RigidBodies::giveForces(yade::Scene& scene, const World& world, const StepL
     const Vec2 arm = point - inPlane(body.state->se3.position);
     given.add(scene, {body.id, inSpace(force), Vector3r(0, 0, cross(arm, force)),
                       length.position * dot(force, velocity)});
+  }
+}
+
+void RigidBodies::warnOfArcs(const World& world) {
+  const ContactSurfaces& surfaces = world.surfaces;
+  if (reportedArc_ || !surfaces.anySmooth()) return;
+  std::map<std::uint32_t, const ContactRow*> pressed;  // by slave: at the begin of an arc
+  for (const ContactRow& row : world.contact.rows())
+    if (row.normalForce > 0 && surfaces.piece[row.slave.value] == Piece::kArc &&
+        world.model.components[surfaces.component[row.master.value].value].rigid)
+      pressed.emplace(row.slave.value, &row);
+  const auto& places = world.model.nodes.position;
+  for (const auto& [slave, row] : pressed) {
+    const EntryId entry(slave);
+    if (!pressed.contains(surfaces.next[slave].value)) continue;
+    const Vec2 from = combine(surfaces.slave(entry), places);
+    const double depth = dot(row->normal, from - combine(surfaces.master(entry, .5), places));
+    const SegmentId segment = surfaces.entrySegment[slave];
+    const NodeId begin = surfaces.segmentNode[segment.value],
+                 end = surfaces.segmentNode[surfaces.segmentNext[segment.value].value];
+    const double side = norm(places[end.value] - places[begin.value]);
+    if (depth <= tolerance::kArcDepth * side) continue;
+    reportedArc_ = true;
+    const yade::Body& body = *members_[cornerOf(world, row->master).member].body;
+    sentences_.push_back(fmt::format(
+        "Body {} has smooth=True, but rests on {} #{} with two points of its curve, which enters "
+        "by {:.3g} m between them, {:.3g} of a side: walls, boxes and facets have no points of "
+        "their own, so that the body rolls like a polygon. A body of FESolver with fixed nodes, "
+        "sides like those of the smooth one and passes=2 can take their place.",
+        surfaces.component[slave].value, body.shape->getClassName(), body.id, depth, depth / side));
+    return;
   }
 }
 

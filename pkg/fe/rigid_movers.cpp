@@ -1,5 +1,9 @@
 #include "fe/rigid_movers.hpp"
 
+#include <cmath>
+
+#include "core/tolerances/spheres.hpp"
+
 namespace yadefrag {
 namespace {
 
@@ -14,6 +18,13 @@ Vector3r freePart(const State& state, Vector3r vector, unsigned first) {
   for (int i = 0; i < 3; ++i)
     if (!isFree(state, first << i)) vector[i] = 0;
   return vector;
+}
+
+/// The integrator uses the tensor of inertia only if all rotations are free.
+bool usesTensor(const yade::NewtonIntegrator& newton, const yade::Body& mover) {
+  const unsigned rotations = State::DOF_RX | State::DOF_RY | State::DOF_RZ;
+  return newton.exactAsphericalRot && (mover.flags & yade::Body::FLAG_ASPHERICAL) != 0 &&
+         (mover.state->blockedDOFs & rotations) == 0;
 }
 
 /// M⁻¹ of the rotation about the centre, for a vector in the scene's frame.
@@ -46,6 +57,16 @@ bool lacksInertia(const State& state) {
     if (isFree(state, State::DOF_RX << i) && !(state.inertia[i] > 0)) return true;
   }
   return false;
+}
+
+std::optional<double> neglectedMoment(const yade::NewtonIntegrator& newton,
+                                      const yade::Body& mover) {
+  const State& state = *mover.state;
+  if (!isFree(state, State::DOF_RZ) || usesTensor(newton, mover)) return std::nullopt;
+  const Vector3r z = state.se3.orientation.conjugate() * Vector3r::UnitZ();
+  const double moment = z.cwiseAbs2().dot(state.inertia);
+  if (std::abs(moment - state.inertia[2]) <= tolerance::kSameMoment * moment) return std::nullopt;
+  return moment;
 }
 
 Vector3r FreeMotion::place(const Vector3r& before) const {
@@ -92,11 +113,7 @@ FreeMotion RigidMovers::motionOf(yade::Scene& scene, const yade::NewtonIntegrato
   motion.mobility = {isFree(state, State::DOF_X) ? 1 / state.mass : 0,
                      isFree(state, State::DOF_Y) ? 1 / state.mass : 0};
   if (isWall || !(state.inertia.minCoeff() > 0)) return motion;
-  // The integrator uses the tensor of inertia only if all rotations are free.
-  const unsigned rotations = State::DOF_RX | State::DOF_RY | State::DOF_RZ;
-  const bool aspherical = newton.exactAsphericalRot &&
-                          (mover.flags & yade::Body::FLAG_ASPHERICAL) != 0 &&
-                          (state.blockedDOFs & rotations) == 0;
+  const bool aspherical = usesTensor(newton, mover);
   const Vector3r gained = scene.dt * freePart(state, moment, State::DOF_RX);
   motion.spin = aspherical ? turned(mover, true, state.angMom + gained)
                            : Vector3r(state.angVel + turned(mover, false, gained));

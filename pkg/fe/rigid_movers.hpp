@@ -4,6 +4,7 @@
 // step.
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "abi/yade.hpp"
@@ -19,6 +20,12 @@ namespace yadefrag {
 
 /// True if NewtonIntegrator would divide by zero: a direction is free, but has no mass or inertia.
 [[nodiscard]] bool lacksInertia(const yade::State& state);
+
+/// (kg m²) The moment of inertia about z of a body that NewtonIntegrator rotates by another one: if
+/// rotations are blocked it uses the third of the principal moments, whose axes YADE sorts. No
+/// value if the two are the same.
+[[nodiscard]] std::optional<double> neglectedMoment(const yade::NewtonIntegrator& newton,
+                                                    const yade::Body& mover);
 
 /// Motion of a body in a step, without contact with finite-element bodies.
 struct FreeMotion {

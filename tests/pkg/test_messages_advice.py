@@ -102,6 +102,38 @@ def small(factor=.8, young=1e9):
     return ran(solver, int(.004 / O.dt))
 
 
+def bent(smooth=False, factor=.5):
+    """Soft spheres fall on a thin wire, which bends under them."""
+    O.materials.append(w.FEMat(young=5e7, poisson=.3, density=1100, frictionAngle=.3, label='wire'))
+    solver = w.FESolver()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .006)), size=.003, material='wire', element='smoothed',
+                      smooth=smooth, thickness=.02, fixed=lambda x, y: x < 1e-9 or x > .3999)
+    soft = w.FrictMat(young=3e6, poisson=.2, density=1500, frictionAngle=.3)
+    for i in range(5):
+        ball = utils.sphere((.08 + .06 * i, .05 + .03 * (i % 2), 0), .02, material=soft)
+        ball.state.vel, ball.state.blockedDOFs = (0, -3, 0), 'zXY'
+        O.bodies.append(ball)
+    O.engines = yadefrag.engines(solver, gravity=(0, -9.81), spheres=True)
+    O.dt = factor * solver.criticalTimeStep()
+    O.run(int(.02 / O.dt), True)
+    return solver.warnings
+
+
+def clump(moment=None, blocked='zXY'):
+    """A clump whose third principal axis is not z, beside a block."""
+    solver = soft()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.25, material='m')
+    number, _ = O.bodies.appendClumped([utils.box((-.2, .1, 0), (.02, .01, .02), material='m'),
+                                        utils.box((-.2, .12, 0), (.01, .012, .02), material='m')])
+    state = O.bodies[number].state
+    state.blockedDOFs = blocked
+    if moment:
+        state.inertia = (moment,) * 3
+    O.engines = yadefrag.engines(solver, moving=True)
+    O.dt = .1 * solver.criticalTimeStep()
+    return ran(solver, 1)
+
+
 def box(mass=100, damping=0., isFirst=False, speed=3, steps=100):
     """A box hits a block that rotates."""
     solver = soft()
@@ -213,6 +245,24 @@ def failing(isComplete):
     O.run(5, True)
 
 
+def standing(onWall=True):
+    """A smooth disc on a slope of 0.04."""
+    O.materials.append(w.FEMat(young=1e8, poisson=.3, density=1000, frictionAngle=.4, label='m'))
+    solver = w.FESolver(linearViscosity=.1, passes=1 if onWall else 2)
+    solver.addPolygon(yadefrag.circle((0, .05), .05, 48), size=.0066, material='m', smooth=True)
+    if onWall:
+        O.bodies.append(utils.wall(0, axis=1, material='m'))
+    else:
+        solver.addPolygon(yadefrag.rectangle((-.1, -.02), (.1, 0)), size=.0066, material='m', fixed=lambda x, y: y < -.0199)
+    O.engines = yadefrag.engines(solver, gravity=(.04 * 9.81, -9.81))
+    O.dt = .8 * solver.criticalTimeStep()
+    body = solver.nodesOf(0)
+    O.run(int(.2 / O.dt), True)
+    share = solver.masses[body] @ solver.velocities[body][:, 0] / solver.masses[body].sum() / (2 / 3 * .04 * 9.81 * .2)
+    assert share < .2 if onWall else share == pytest.approx(1, abs=.05)
+    return solver.warnings
+
+
 ENERGY = "contact with YADE's walls, boxes or facets has created"
 TABLE = {
     'too fast a rotation': (
@@ -237,6 +287,14 @@ TABLE = {
         "contact with YADE's spheres has created .*take a shorter step", small, lambda: small(.01)),
     'a sphere that is too light: stiffness': (
         "contact with YADE's spheres has created .*a smaller stiffness", small, lambda: small(young=1e4)),
+    'spheres on corners that bend': (
+        "contact with YADE's spheres has created .*take smooth=True", bent, lambda: bent(True)),
+    'a clump that rotates by another axis: inertia': (
+        'by the moment of inertia of another axis', clump,
+        lambda: follow(clump, 'of another axis', lambda said: number(said, 'instead of'))),
+    'a clump that rotates by another axis: free': (
+        'by the moment of inertia of another axis', clump, lambda: clump(blocked='z')),
+    'a smooth body on a wall': ('rests on Wall #', standing, lambda: standing(False)),
     'rigid bodies get energy: order': (ENERGY, lambda: box(isFirst=True), box),
     'rigid bodies get energy: heavier': (ENERGY, lambda: box(isFirst=True), lambda: box(1e4, isFirst=True)),
     'rigid bodies get energy: damping': (ENERGY, lambda: box(1, .2, speed=8), lambda: box(1, speed=8)),
