@@ -11,7 +11,7 @@ import yadefrag
 from fe_scene import fe, run, steps
 from yade import utils
 from yade import wrapper as w
-from yade.minieigenHP import Quaternion
+from yade.minieigenHP import Quaternion, Vector3
 
 O = builtins.O
 
@@ -168,6 +168,9 @@ def clump(kind):
         parts = [utils.box((-.061, .08, 0), (.06, .02, .5), material=material),
                  utils.sphere((-.14, .08, 0), .02, material=material)]
     number, _ = O.bodies.appendClumped(parts)
+    state = O.bodies[number].state
+    z = state.ori.conjugate() * Vector3(0, 0, 1)
+    state.inertia = (sum(z[k]**2 * state.inertia[k] for k in range(3)),) * 3  # about z: YADE uses only the third
     return O.bodies[number]
 
 
