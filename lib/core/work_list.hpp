@@ -14,11 +14,6 @@ namespace yadefrag {
 /// one added behind it in the next pass.
 class WorkList {
  public:
-  /// Adds all numbers below `count`.
-  void fill(std::size_t count) {
-    words_.assign((count + 63) / 64, ~std::uint64_t{0});
-    if (count % 64 != 0) words_.back() = (std::uint64_t{1} << count % 64) - 1;
-  }
   /// Removes all, and makes room for numbers below `count`.
   void clear(std::size_t count) { words_.assign((count + 63) / 64, 0); }
   /// Makes room for numbers below `count`.

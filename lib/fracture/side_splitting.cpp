@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "dynamics/element_state.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
 
@@ -40,13 +41,13 @@ class Conformed {
     std::vector<std::vector<ElementId>> fans(moves.size());
     std::map<NodeId, std::size_t> moveOf;
     for (std::size_t i = 0; i < moves.size(); ++i) moveOf[moves[i].node] = i;
-    std::map<ElementId, Gradient> changed;
+    std::map<ElementId, Matrix2> changed;
     for (std::size_t e = 0; e < t_.size(); ++e)
       for (const NodeId node : t_.nodes[e]) {
         const auto found = moveOf.find(node);
         if (found == moveOf.end() || t_.isDropped(e)) continue;
         fans[found->second].emplace_back(e);
-        changed[ElementId(e)] = gradientOf(ElementId(e));
+        changed[ElementId(e)] = deformationGradient(model_, ElementId(e));
       }
     std::vector<std::array<Vec2, 2>> carried;  // velocity and reference position
     for (std::size_t i = 0; i < moves.size(); ++i) carried.push_back(valuesAt(fans[i], moves[i]));
@@ -66,7 +67,7 @@ class Conformed {
     const std::size_t e = side.element.value, c = side.corner, c1 = afterCorner(side.corner),
                       c2 = beforeCorner(side.corner);
     const std::array<NodeId, 3> corners = t_.nodes[e];
-    const Gradient gradient = gradientOf(side.element);
+    const Matrix2 gradient = deformationGradient(model_, side.element);
     const NodeId node = addNode(corners, corners[c], corners[c1], asked);
     const ElementId added(t_.size());
     t_.nodes[e][c1] = node;
@@ -113,31 +114,21 @@ class Conformed {
   }
 
  private:
-  using Gradient = std::array<double, 4>;  // F, row by row
-
   [[nodiscard]] std::array<Vec2, 3> placesOf(ElementId element) const {
     const auto& nodes = t_.nodes[element.value];
     const auto& at = model_.nodes.position;
     return {at[nodes[0].value], at[nodes[1].value], at[nodes[2].value]};
   }
 
-  [[nodiscard]] Gradient gradientOf(ElementId element) const {
-    const auto [x0, x1, x2] = placesOf(element);
-    const Vec2 a = x1 - x0, b = x2 - x0;
-    const auto& i = t_.inverseEdges[element.value];
-    return {a.x * i[0] + b.x * i[2], a.x * i[1] + b.x * i[3], a.y * i[0] + b.y * i[2],
-            a.y * i[1] + b.y * i[3]};
-  }
-
   /// The stress-free shape with this gradient at the present places: D⁻¹ = d⁻¹·F.
-  void setShape(ElementId element, const Gradient& f) {
+  void setShape(ElementId element, const Matrix2& f) {
     const auto [x0, x1, x2] = placesOf(element);
     const Vec2 a = x1 - x0, b = x2 - x0;
     const double det = cross(a, b);
     t_.inverseEdges[element.value] = {
-        (b.y * f[0] - b.x * f[2]) / det, (b.y * f[1] - b.x * f[3]) / det,
-        (a.x * f[2] - a.y * f[0]) / det, (a.x * f[3] - a.y * f[1]) / det};
-    t_.area[element.value] = det / 2 / (f[0] * f[3] - f[1] * f[2]);
+        (b.y * f.xx - b.x * f.yx) / det, (b.y * f.xy - b.x * f.yy) / det,
+        (a.x * f.yx - a.y * f.xx) / det, (a.x * f.yy - a.y * f.xy) / det};
+    t_.area[element.value] = det / 2 / determinant(f);
   }
 
   /// Of the triangle in which the place lies, or out of which it lies least.

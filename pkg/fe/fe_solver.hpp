@@ -91,6 +91,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   static void countersOf(PyClass& pyClass);
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
+  [[nodiscard]] std::vector<std::string> unusedSettings() const;
   void giveSettings();
   void collectForces();
   void warn(std::size_t known) const;

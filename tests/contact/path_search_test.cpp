@@ -116,14 +116,18 @@ void compareTriedAgain(Random& random, int kind, Counts& counts) {
   }
 }
 
+template <class Compare>
+Counts thousandScenes(Random& random, int kind, Compare compare) {
+  Counts counts;
+  for (int scene = 0; scene < 1000 && !testing::Test::HasFatalFailure(); ++scene)
+    compare(random, kind, counts);
+  return counts;
+}
+
 TEST(PathSearch, TriesAgainWhatHasMoved) {
   Random random(78);
   for (int kind = 0; kind < 4; ++kind) {
-    Counts counts;
-    for (int scene = 0; scene < 1000; ++scene) {
-      compareTriedAgain(random, kind, counts);
-      if (HasFatalFailure()) return;
-    }
+    const Counts counts = thousandScenes(random, kind, compareTriedAgain);
     EXPECT_EQ(counts.actives, 0U) << "the first detection tries all";
     EXPECT_GT(counts.later, 100U) << kind;
   }
@@ -132,11 +136,7 @@ TEST(PathSearch, TriesAgainWhatHasMoved) {
 TEST(PathSearch, LeavesOutNothingThatEnters) {
   Random random(77);
   for (int kind = 0; kind < 4; ++kind) {
-    Counts counts;
-    for (int scene = 0; scene < 1000; ++scene) {
-      compareOneStep(random, kind, counts);
-      if (HasFatalFailure()) return;
-    }
+    const Counts counts = thousandScenes(random, kind, compareOneStep);
     EXPECT_GT(counts.actives, 200U) << kind;
     EXPECT_GT(counts.later, 400U) << kind;
   }

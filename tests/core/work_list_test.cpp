@@ -31,7 +31,8 @@ TEST(WorkList, VisitsAsAListOfMarksDoes) {
     const std::size_t count = 1 + random() % 200;
     std::vector<bool> marks(count, true);
     WorkList list;
-    list.fill(count);
+    list.clear(count);
+    for (std::size_t i = 0; i < count; ++i) list.add(i);
     for (int pass = 0; pass < 6; ++pass) {
       std::vector<std::vector<std::size_t>> added(count);
       for (auto& some : added)

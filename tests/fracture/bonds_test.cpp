@@ -1,45 +1,21 @@
 // Bodies that are bonded along the sides that they have in common.
 
 #include <gtest/gtest.h>
-#include <functional>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "core/errors.hpp"
 #include "core/same_bits.hpp"
+#include "extremes/limits.hpp"
 #include "extremes/saved_world.hpp"
+#include "fracture/two_sizes.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {
 namespace {
-
-constexpr ElasticMaterial kMaterial{10e9, 0, 1000, true};
-constexpr double kHeight = .02, kThickness = .01;  // m
-const ComponentId kLeft(std::size_t{0}), kRight(std::size_t{1});
-
-TriangleMesh barFrom(double begin, double end, int rows = 4) {
-  const int columns = static_cast<int>(std::lround((end - begin) / kHeight * rows));
-  return structuredRectangle({begin, 0}, {end, kHeight}, columns, rows, QuadPattern::kCrossed);
-}
-
-BodySpec resting(const TriangleMesh& mesh) {
-  BodySpec spec = moving(mesh, kMaterial, {});
-  spec.thickness = kThickness;
-  return spec;
-}
-
-std::string complaintOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 // --- strength and energy
 
@@ -52,7 +28,7 @@ struct Pull {
 
 /// Two blocks of a bar, pulled apart so slowly that the stress is even.
 Pull pullApart(double strength, double energy, bool canCrack) {
-  const TriangleMesh left = barFrom(0, .04), right = barFrom(.04, .08);
+  const TriangleMesh left = barFrom(0, .04, 4), right = barFrom(.04, .08, 4);
   World world;
   for (const TriangleMesh* mesh : {&left, &right}) {
     BodySpec spec = resting(*mesh);
@@ -65,7 +41,7 @@ Pull pullApart(double strength, double energy, bool canCrack) {
     }
     world.addBody(*mesh, spec);
   }
-  EXPECT_EQ(world.bond(kLeft, kRight, strength, energy), 4U);
+  EXPECT_EQ(world.bond(kFirst, kSecond, strength, energy), 4U);
   world.dynamicsSettings.damping = 2e4;
   const double dt = .5 * world.criticalTimeStep();
   Pull pull;
@@ -77,7 +53,7 @@ Pull pullApart(double strength, double energy, bool canCrack) {
       for (const Vec2 one : traction) sum += one.x;
     pull.most = std::max(pull.most, sum / 8);
   }
-  const double whole = energy * kHeight * kThickness;
+  const double whole = energy * kHeight;
   pull.spent = world.ledger.fracture / whole;
   pull.excess = (totalEnergy(world) - start) / whole;
   pull.held = world.fracture.cohesion.edge.size();
@@ -98,24 +74,9 @@ TEST(Bonds, ABondedPairFailsAtItsStrengthAndTakesItsEnergy) {
 
 // --- a wave
 
-/// Velocities of the upper row of nodes of a bar of 0.4 m after a pulse has run 0.2 m.
-std::vector<std::array<double, 2>> pulseIn(const std::vector<TriangleMesh>& parts) {
-  World world;
-  const double c = std::sqrt(kMaterial.young / kMaterial.density);
-  for (const TriangleMesh& mesh : parts) {
-    BodySpec spec = resting(mesh);
-    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-      const double s = std::clamp((mesh.nodes[n].x - .05) / .1, 0., 1.);
-      spec.velocity[n].x = .5 * (1 - std::cos(2 * M_PI * s));
-      const double passed = s - std::sin(2 * M_PI * s) / (2 * M_PI);
-      spec.displacement.push_back({.1 / (2 * c) * (1 - passed), 0});
-    }
-    world.addBody(mesh, spec);
-  }
-  for (std::size_t i = 1; i < parts.size(); ++i)
-    world.bond(ComponentId(i - 1), ComponentId(i), 1e9, 1e6);
-  const double dt = 2e-7;
-  while (world.time < .2 / c) world.step(dt);
+/// Velocities of the upper row of nodes after the pulse.
+std::vector<std::array<double, 2>> pulseAbove(const std::vector<TriangleMesh>& parts) {
+  const World world = pulseIn(parts, 2e-7);
   std::vector<std::array<double, 2>> result;
   for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
     if (world.reference[n].y > kHeight - 1e-9)
@@ -126,8 +87,8 @@ std::vector<std::array<double, 2>> pulseIn(const std::vector<TriangleMesh>& part
 
 // A bond that holds makes two nodes move as one: what differs is what its sweeps leave.
 TEST(Bonds, ABondedBarCarriesAWaveAsOneBarDoes) {
-  const auto whole = pulseIn({barFrom(0, .4)});
-  const auto bonded = pulseIn({barFrom(0, .1), barFrom(.1, .2), barFrom(.2, .4)});
+  const auto whole = pulseAbove({barFrom(0, .4, 4)});
+  const auto bonded = pulseAbove({barFrom(0, .1, 4), barFrom(.1, .2, 4), barFrom(.2, .4, 4)});
   double worst = 0;
   for (const auto& point : bonded) {
     const auto isThere = [&](const auto& one) { return std::abs(one[0] - point[0]) < 1e-9; };
@@ -152,7 +113,7 @@ TEST(Bonds, ABrickOfGrainsHoldsAndFallsApart) {
   const auto id = [](int k) { return ComponentId(static_cast<std::size_t>(k)); };
   for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {1, 3}, {2, 3}})
     EXPECT_EQ(world.bond(id(a), id(b), 5e6, 50), 4U);
-  const std::string text = complaintOf([&] { world.bond(id(0), id(3), 5e6, 50); });
+  const std::string text = sentenceOf([&] { world.bond(id(0), id(3), 5e6, 50); });
   EXPECT_NE(text.find("No sides of the bodies 0 and 3"), std::string::npos) << text;
   const TriangleMesh ground = structuredRectangle({-.02, -.0301}, {.035, -.0001}, 8, 4);
   BodySpec spec = moving(ground, kMaterial, {});
@@ -172,13 +133,13 @@ TEST(Bonds, ABrickOfGrainsHoldsAndFallsApart) {
 
 TEST(Bonds, SmallFragmentsAroundABondAreNotTakenOut) {
   World world;
-  const TriangleMesh left = barFrom(0, .04), right = barFrom(.04, .08);
+  const TriangleMesh left = barFrom(0, .04, 4), right = barFrom(.04, .08, 4);
   BodySpec spec = resting(left);
   world.addBody(left, spec);
   spec = moving(right, kMaterial, {20, 0});
   spec.brittle.tensileStrength = 1e9;
   world.addBody(right, spec);
-  world.bond(kLeft, kRight, 1e5, 1);
+  world.bond(kFirst, kSecond, 1e5, 1);
   world.fracture.minFragmentArea = 1e-5;
   const double dt = .5 * world.criticalTimeStep();
   for (int i = 0; i < 200; ++i) world.step(dt);
@@ -190,13 +151,13 @@ TEST(Bonds, GoOnAfterAReloadWithTheSameBitsAndLeaveWithABody) {
   const auto build = [] {
     World world;
     for (const double begin : {0., .04, .08}) {
-      const TriangleMesh mesh = barFrom(begin, begin + .04);
+      const TriangleMesh mesh = barFrom(begin, begin + .04, 4);
       BodySpec spec = resting(mesh);
       if (begin > .05) spec.velocity.assign(mesh.nodes.size(), {3, 1});
       world.addBody(mesh, spec);
     }
-    world.bond(kLeft, kRight, 5e6, 50);
-    world.bond(kRight, ComponentId(std::size_t{2}), 5e6, 50);
+    world.bond(kFirst, kSecond, 5e6, 50);
+    world.bond(kSecond, kThird, 5e6, 50);
     return world;
   };
   World world = build();
@@ -208,19 +169,19 @@ TEST(Bonds, GoOnAfterAReloadWithTheSameBitsAndLeaveWithABody) {
   EXPECT_TRUE(sameBits(copy.model.nodes.position, world.model.nodes.position));
   EXPECT_EQ(totalEnergy(copy), totalEnergy(world));
 
-  world.removeBody(kLeft);
+  world.removeBody(kFirst);
   EXPECT_EQ(world.fracture.edges.size(), 4U);
   for (const EdgeId edge : world.fracture.cohesion.edge) EXPECT_LT(edge.value, 4U);
   for (int i = 0; i < 100; ++i) world.step(dt);
 }
 
 TEST(Bonds, ImpossibleArgumentsAreRefusedAndTheWorldIsUnchanged) {
-  const TriangleMesh left = barFrom(0, .04), right = barFrom(.04, .08);
+  const TriangleMesh left = barFrom(0, .04, 4), right = barFrom(.04, .08, 4);
   const auto complaint = [&](const TriangleMesh& other, double strength, double energy) {
     World world;
     world.addBody(left, resting(left));
     world.addBody(other, resting(other));
-    std::string text = complaintOf([&] { world.bond(kLeft, kRight, strength, energy); });
+    std::string text = sentenceOf([&] { world.bond(kFirst, kSecond, strength, energy); });
     EXPECT_EQ(world.fracture.edges.size(), 0U);
     EXPECT_TRUE(world.fracture.cohesion.edge.empty());
     return text;
@@ -228,27 +189,27 @@ TEST(Bonds, ImpossibleArgumentsAreRefusedAndTheWorldIsUnchanged) {
   EXPECT_NE(complaint(right, 0, 1).find("strength is 0 Pa"), std::string::npos);
   EXPECT_NE(complaint(right, 1, 0).find("energy is 0 J/m²"), std::string::npos);
   EXPECT_NE(complaint(right, INFINITY, 1).find("strength is inf"), std::string::npos);
-  EXPECT_NE(complaint(barFrom(.05, .08), 1, 1).find("No sides"), std::string::npos);
+  EXPECT_NE(complaint(barFrom(.05, .08, 4), 1, 1).find("No sides"), std::string::npos);
   World world;
   world.addBody(left, resting(left));
-  EXPECT_NE(complaintOf([&] { world.bond(kLeft, kLeft, 1, 1); }).find("to itself"),
+  EXPECT_NE(sentenceOf([&] { world.bond(kFirst, kFirst, 1, 1); }).find("to itself"),
             std::string::npos);
-  EXPECT_NE(complaintOf([&] { world.bond(kLeft, kRight, 1, 1); }).find("no body 1"),
+  EXPECT_NE(sentenceOf([&] { world.bond(kFirst, kSecond, 1, 1); }).find("no body 1"),
             std::string::npos);
   world.addBody(right, resting(right));
-  world.bond(kLeft, kRight, 1e6, 1);
-  EXPECT_NE(complaintOf([&] { world.bond(kLeft, kRight, 1, 1); }).find("not bonded yet"),
+  world.bond(kFirst, kSecond, 1e6, 1);
+  EXPECT_NE(sentenceOf([&] { world.bond(kFirst, kSecond, 1, 1); }).find("not bonded yet"),
             std::string::npos);
 }
 
 TEST(Bonds, AStepThatDoesNotResolveABondIsRefused) {
-  const TriangleMesh left = barFrom(0, .04), right = barFrom(.04, .08);
+  const TriangleMesh left = barFrom(0, .04, 4), right = barFrom(.04, .08, 4);
   World world;
   world.addBody(left, resting(left));
   world.addBody(right, resting(right));
-  world.bond(kLeft, kRight, 1e8, .1);
+  world.bond(kFirst, kSecond, 1e8, .1);
   const double dt = .5 * world.criticalTimeStep();
-  const std::string text = complaintOf([&] { world.step(dt); });
+  const std::string text = sentenceOf([&] { world.step(dt); });
   EXPECT_NE(text.find("energy is 0.1 J/m² of the bond between the bodies 0 and 1 at (0.04"),
             std::string::npos)
       << text;

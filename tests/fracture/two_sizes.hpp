@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <vector>
 
 #include "step/bodies.hpp"
 
@@ -33,17 +34,29 @@ inline double bondedLength(const World& world) {
   return sum;
 }
 
-inline double wholeMass(const World& world) {
-  double sum = 0;
-  for (const double mass : world.model.nodes.mass) sum += mass;
-  return sum;
+/// (m/s) At a place along a bar: a pulse of 1 m/s between x = .05 and .15 m.
+inline double pulse(double x) {
+  return .5 * (1 - std::cos(2 * M_PI * std::clamp((x - .05) / .1, 0., 1.)));
 }
 
-inline Vec2 wholeMomentum(const World& world) {
-  Vec2 sum;
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
-    sum += world.model.nodes.mass[n] * world.model.nodes.velocity[n];
-  return sum;
+/// Bonded bars in which the pulse has run 0.2 m at the speed of sound c, in steps of `dt`.
+inline World pulseIn(const std::vector<TriangleMesh>& parts, double dt) {
+  World world;
+  const double c = std::sqrt(kMaterial.young / kMaterial.density);
+  for (const TriangleMesh& mesh : parts) {
+    BodySpec spec = resting(mesh);
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+      const double s = std::clamp((mesh.nodes[n].x - .05) / .1, 0., 1.);
+      spec.velocity[n].x = pulse(mesh.nodes[n].x);
+      const double passed = s - std::sin(2 * M_PI * s) / (2 * M_PI);
+      spec.displacement.push_back({.1 / (2 * c) * (1 - passed), 0});
+    }
+    world.addBody(mesh, spec);
+  }
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    world.bond(ComponentId(i - 1), ComponentId(i), 1e9, 1e6);
+  while (world.time < .2 / c) world.step(dt);
+  return world;
 }
 
 /// About the origin; positions at the mean of the two half steps would be needed with forces only.

@@ -9,7 +9,7 @@ import pytest
 
 import coverages
 import yadefrag
-from fe_impact import engines
+from fe_impact import engines, goesOnAfterReload
 from yade import utils
 from yade import wrapper as w
 
@@ -69,14 +69,7 @@ def test_theyAreSaved(folder):
     solver.bond(0, 1, 5e6, 100)
     engines(solver, factor=.4)
     O.run(40, True)
-    O.save(os.path.join(folder, 'pair.yade'))
-    O.run(200, True)
-    nodes, energy = solver.nodes, solver.energy
-    O.reset()
-    O.load(os.path.join(folder, 'pair.yade'))
-    again = next(e for e in O.engines if isinstance(e, w.FESolver))
-    O.run(200, True)
-    assert np.array_equal(again.nodes, nodes) and again.energy == energy
+    goesOnAfterReload(solver, os.path.join(folder, 'pair.yade'))
 
 
 def test_aBodyAddedLaterAndASphereTouchDividedSides():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import cracks, engines
+from fe_impact import cracks, engines, goesOnAfterReload
 from yade import wrapper as w
 
 O = builtins.O
@@ -192,14 +192,7 @@ def test_bondsAreSaved(folder):
     solver.bond(0, 1, 5e6, 100)
     engines(solver, factor=.4)
     O.run(40, True)
-    O.save(os.path.join(folder, 'pair.yade'))
-    O.run(200, True)
-    nodes, energy = solver.nodes, solver.energy
-    O.reset()
-    O.load(os.path.join(folder, 'pair.yade'))
-    again = next(e for e in O.engines if isinstance(e, w.FESolver))
-    O.run(200, True)
-    assert np.array_equal(again.nodes, nodes) and again.energy == energy
+    goesOnAfterReload(solver, os.path.join(folder, 'pair.yade'))
 
 
 def test_bondedGrainsCarryStressAsOneBodyDoes():

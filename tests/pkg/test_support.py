@@ -107,6 +107,7 @@ def test_ownCopiesOfEigenCgalAndFmtStayInside():
     names = [line.split(' ', 2)[2] for line in names]
     assert 'PyInit__yadefrag' in names
     assert any(name.startswith('typeinfo for yade') for name in names), 'one with YADE\'s'
-    functions = [name for name in names if 'CGAL::' in name or 'fmt::v' in name or re.match(
-        r'(guard variable for |void |)Eigen::', name)]
+    # A template of ours may return one of Eigen's types: its name then begins with that type.
+    functions = [name for name in names if ' yadefrag::' not in name and re.match(
+        r'.*CGAL::|.*fmt::v|(guard variable for |void |)Eigen::', name)]
     assert functions == []
