@@ -65,7 +65,7 @@ void Contact::reserve(std::size_t nodes) {
   forces_.reserve(nodes);
   displacement_.reserve(nodes);
   isTouched_.reserve(nodes);
-  lagrange_.reserve(nodes);
+  sweeps_.reserve(nodes);
 }
 
 void Contact::correct(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
@@ -91,7 +91,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces, const Conta
       }
       if (!anyNew && now_.maxPenetration <= 2 * inexact_) break;
     }
-    sinceScan_ += solve(model, step, anyNew);
+    sinceScan_ += solve(model, step);
     // Nodes that the correction moved beyond the reach of the scan are scanned again.
     move(model, step);
     gapsAreKnown = false;
@@ -143,7 +143,7 @@ void Contact::rescan(const Model& model, const ContactSurfaces& surfaces, const 
 /// Rows added after the last solution have not moved a node: their force is zero.
 void Contact::releaseUnsolved() {
   for (ContactRow& row : rows_)
-    if (!std::isfinite(row.excess)) row.normalForce = row.tangentForce = 0;
+    if (row.swept == ContactRow::kNone) row.normalForce = row.tangentForce = 0;
 }
 
 /// `moved` (m): upper bound of the displacement of any node since the last scan, without
@@ -159,22 +159,18 @@ void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const Co
 }
 
 /// Returns a bound of the displacements by the coupled forces (m).
-double Contact::solve(Model& model, const ContactStep& step, bool anyNew) {
+double Contact::solve(Model& model, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
   const Inertia inertia{model.nodes, step.length, step.drag, step.rigid.masses};
-  if (step.rubble) {
-    const double change = tolerance::kRubbleChange * worthwhile(step);
-    std::optional<Coupling> coupling =
-        step.coupled == nullptr ? std::nullopt
-                                : std::optional(Coupling{*step.coupled, step.cohesive,
-                                                         model.nodes.position, displacement_});
-    inexact_ = lagrange_.sweep(rows_, inertia, change, coupling ? &*coupling : nullptr);
-    return coupling ? coupling->moved : 0;
-  }
-  if (anyNew) lagrange_.setRows(rows_, inertia);
-  const Lagrange::Outcome outcome = lagrange_.solve(rows_, inertia, worthwhile(step));
-  now_.residual = outcome.residual, inexact_ = outcome.change, now_.sweeps += outcome.sweeps;
-  return 0;
+  const double change =
+      (step.rubble ? tolerance::kRubbleChange : tolerance::kChange) * worthwhile(step);
+  const int most = step.rubble ? tolerance::contact().rowSweeps : tolerance::kSweeps;
+  std::optional<Coupling> coupling;
+  if (step.coupled != nullptr)
+    coupling.emplace(Coupling{*step.coupled, step.cohesive, model.nodes.position, displacement_});
+  inexact_ = sweeps_.solve(rows_, inertia, {change, most}, coupling ? &*coupling : nullptr);
+  now_.sweeps += sweeps_.sweeps();
+  return coupling ? coupling->moved : 0;
 }
 
 /// Adds a row for every active without one; returns true if there was any.
@@ -270,7 +266,6 @@ void Contact::updateGaps(const Model& model, const ContactSurfaces& surfaces,
     for (ContactRow& row : rows_) {
       const double gap = gapOf(row, geometry);
       now_.maxPenetration = std::max(now_.maxPenetration, row.toleratedGap - gap);
-      if (std::isfinite(row.excess)) row.excess = row.toleratedGap - gap;
       row.gap = gap - dot(relative(row, displacement_), row.normal);
       if (step.coupled != nullptr && row.friction > 0) row.slip = slipOf(row, model, step);
     }
@@ -340,7 +335,7 @@ void Contact::addTo(Footprint& footprint) const {
                 forces_, displacement_, touched_, isTouched_, rigidLoads_);
   candidates.addTo(footprint);
   search_.addTo(footprint);
-  lagrange_.addTo(footprint);
+  sweeps_.addTo(footprint, Use::kContact);
 }
 
 }  // namespace yadefrag

@@ -8,10 +8,10 @@
 
 #include "contact/candidates.hpp"
 #include "contact/contact_row.hpp"
-#include "contact/correction.hpp"
 #include "contact/coupled_forces.hpp"
 #include "contact/inertia.hpp"
 #include "contact/local_search.hpp"
+#include "contact/row_sweeps.hpp"
 #include "contact/touch.hpp"
 #include "core/stage_times.hpp"
 #include "core/step_length.hpp"
@@ -81,10 +81,7 @@ class Contact {
   /// (m) Largest correction of a node in the last step.
   [[nodiscard]] double largestCorrection() const { return now_.largestCorrection; }
   [[nodiscard]] double maxPenetration() const { return now_.maxPenetration; }
-  /// Largest residual of the last step's systems, relative to their largest gap.
-  [[nodiscard]] double residual() const { return now_.residual; }
-
-  /// Number of sweeps over the rows of the largest swept group, in all detections of the last step.
+  /// Number of sweeps over the rows, in all detections of the last step.
   [[nodiscard]] int sweeps() const { return now_.sweeps; }
 
   void addTo(Footprint& footprint) const;
@@ -99,7 +96,6 @@ class Contact {
   struct Figures {
     double largestCorrection = 0;  // m
     double maxPenetration = 0;     // m
-    double residual = 0;
     int sweeps = 0;
   };
 
@@ -108,7 +104,7 @@ class Contact {
   void clearForces();
   void scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
             double reach, double moved = 0);
-  double solve(Model& model, const ContactStep& step, bool anyNew);
+  double solve(Model& model, const ContactStep& step);
   [[nodiscard]] double deepestTouch(const ContactSurfaces& surfaces,
                                     std::span<const Vec2> before) const;
   template <class Test>
@@ -137,7 +133,7 @@ class Contact {
 
   double deepest_ = 0;  // m, of the touches at the begin of the step
   LocalSearch search_;
-  Lagrange lagrange_;
+  RowSweeps sweeps_;
   std::vector<Active> actives_;
   std::vector<ContactRow> rows_;  // by pair; within a detection its new rows are after the others
   std::size_t formerCount_ = 0;   // number of the others

@@ -15,19 +15,19 @@ void Contact::joinRigid(ContactRow& row, const Nodes& nodes, const ContactStep& 
     const NodeId node = row.node[at];
     if (nodes.held[node.value] != kHeldXY) continue;
     const std::uint32_t mass = step.rigid.of(node);
-    if (mass == ContactRow::kNoMass || (part.mass != ContactRow::kNoMass && part.mass != mass))
+    if (mass == ContactRow::kNone || (part.mass != ContactRow::kNone && part.mass != mass))
       continue;
     part.mass = mass;
     part.weight += row.weight[at];
     part.lever += row.weight[at] * (step.before[node.value] - step.rigid.masses[mass].centre);
   }
-  if (part.mass == ContactRow::kNoMass || rigidLoads_[part.mass].hasRow) return;
+  if (part.mass == ContactRow::kNone || rigidLoads_[part.mass].hasRow) return;
   rigidLoads_[part.mass].hasRow = true;
   for (const NodeId node : step.rigid.nodesOf.row(part.mass)) touch(node);
 }
 
 bool Contact::isOfRigid(NodeId node, const ContactStep& step) const {
-  return !rigidLoads_.empty() && step.rigid.of(node) != ContactRow::kNoMass;
+  return !rigidLoads_.empty() && step.rigid.of(node) != ContactRow::kNone;
 }
 
 /// Moves the nodes of these boundaries to their position in the body's corrected pose. The rows'
@@ -37,7 +37,7 @@ void Contact::moveRigid(Model& model, const ContactStep& step, double& largest, 
   if (rigidLoads_.empty()) return;
   for (RigidLoad& load : rigidLoads_) load.force = {}, load.moment = 0;
   for (const ContactRow& row : rows_) {
-    if (row.rigid.mass == ContactRow::kNoMass) continue;
+    if (row.rigid.mass == ContactRow::kNone) continue;
     RigidLoad& load = rigidLoads_[row.rigid.mass];
     load.force += row.rigid.weight * row.force();
     load.moment += cross(row.rigid.lever, row.force());

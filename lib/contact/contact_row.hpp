@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 
 #include "core/ids.hpp"
 #include "core/vec2.hpp"
@@ -14,13 +13,12 @@ namespace yadefrag {
 /// One active: a slave that penetrates a master, as a row of its group's system. The displacement
 /// of the slave relative to the master is the sum of weight × displacement over the nodes.
 struct ContactRow {
-  static constexpr std::uint32_t kNoMass = 0xffffffff;
   static constexpr std::uint32_t kNone = 0xffffffff;
   /// Its nodes on a rigid boundary that obeys forces act together, as one part of that body.
   struct RigidPart {
-    std::uint32_t mass = kNoMass;  ///< number of the body, or none
-    double weight = 0;             ///< sum of the nodes' weights
-    Vec2 lever;                    ///< m, Σ weight × position from the centre of mass, at xⁿ
+    std::uint32_t mass = kNone;  ///< number of the body, or none
+    double weight = 0;           ///< sum of the nodes' weights
+    Vec2 lever;                  ///< m, Σ weight × position from the centre of mass, at xⁿ
   };
 
   EntryId slave;
@@ -31,9 +29,6 @@ struct ContactRow {
   Vec2 normal;              ///< outward normal of the master, at xⁿ
   double gap = 0;           ///< m, at the predicted positions; negative: penetration
   double toleratedGap = 0;  ///< m, ≤ 0: an overlap older than this contact
-  /// (m) Penetration beyond `toleratedGap` at the last evaluation; infinite before the first
-  /// solution.
-  double excess = std::numeric_limits<double>::infinity();
   double slip = 0;          ///< m, of the slave along `tangent()` in this step, without contact
   double friction = 0;      ///< tan of the friction angle
   double normalForce = 0;   ///< N, on the slave along the normal
@@ -46,7 +41,7 @@ struct ContactRow {
   void add(const Stencil& stencil, double sign);
   /// True for a node that moves with the row's rigid part.
   [[nodiscard]] bool isOfRigid(const Nodes& nodes, NodeId at) const {
-    return rigid.mass != kNoMass && nodes.held[at.value] == kHeldXY;
+    return rigid.mass != kNone && nodes.held[at.value] == kHeldXY;
   }
 };
 

@@ -42,10 +42,10 @@ struct RigidMasses {
   }
   void clear() { masses.clear(), members.clear(), index(); }
   [[nodiscard]] bool empty() const { return masses.empty(); }
-  /// The number of a node's body; `ContactRow::kNoMass` if there is none.
+  /// The number of a node's body; `ContactRow::kNone` if there is none.
   [[nodiscard]] std::uint32_t of(NodeId node) const {
     const auto at = std::ranges::lower_bound(members, node, {}, &Member::node);
-    return at != members.end() && at->node == node ? at->mass : ContactRow::kNoMass;
+    return at != members.end() && at->node == node ? at->mass : ContactRow::kNone;
   }
 };
 

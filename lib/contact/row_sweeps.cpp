@@ -24,39 +24,26 @@ double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop
     add(rows[r], r, inertia);
   }
   assert(rows_.size() == rows.size());
-  if (rows_.size() > former) findRowsOfNodes();
+  if (rows_.size() > former) findRowsOfNodes(), groups_ = {};
   pushAll();
   share(coupling, inertia.nodes.size());
   return finish(rows, stop, coupling);
 }
 
-double RowSweeps::solve(std::span<ContactRow> rows, std::span<const std::uint32_t> members,
-                        const Inertia& inertia, Stop stop) {
-  clear(inertia.size());
-  waiting_.grow(members.size());
-  for (const std::uint32_t r : members) add(rows[r], r, inertia);
-  findRowsOfNodes();
-  pushAll();
-  shared_.clear();
-  return finish(rows, stop, nullptr);
-}
-
 double RowSweeps::finish(std::span<ContactRow> rows, Stop stop, Coupling* coupling) {
   double change = 0;
-  count_ = 0;
-  while (count_ < stop.most) {
+  for (count_ = 0; count_ < stop.most;) {
     // Alternating directions: forces are transmitted along chains of pieces.
-    change = sweep(count_++ % 2 == 0, stop.change);
+    change = sweep(count_++ % 2 == 0, stop.change), ++total_;
     if (!shared_.empty() && count_ % tolerance::kSweepsToCouple == 1)
       change = std::max(change, sweepCoupled(*coupling, stop.change));
     if (!(change > stop.change)) break;
+    if (count_ >= tolerance::kSweepsToDescend) descend(stop.change);
   }
   if (!shared_.empty()) (void)sweepCoupled(*coupling, stop.change, true);
   for (const SweepRow& swept : rows_) {
-    ContactRow& row = rows[swept.place];
-    row.normalForce = swept.normalForce;
-    row.tangentForce = swept.tangentForce;
-    row.excess = 0;
+    rows[swept.place].normalForce = swept.normalForce;
+    rows[swept.place].tangentForce = swept.tangentForce;
   }
   return change;
 }
@@ -75,7 +62,7 @@ void RowSweeps::share(const Coupling* coupling, std::size_t modelNodes) {
 /// one they converge. Returns the largest displacement (m).
 double RowSweeps::sweepCoupled(Coupling& coupling, double tolerance, bool last) {
   for (SharedNode& one : shared_) {
-    const Vec2 byContact = displacement_[one.number] - one.byOthers;
+    const Vec2 byContact = moved_.shift[one.number] - one.byOthers;
     if (norm(byContact - one.byContact) > (last ? 0 : tolerance) || !one.isKnown)
       coupling.forces.noteMoved(one.node);
     one.byContact = byContact, one.isKnown = true;
@@ -90,7 +77,7 @@ double RowSweeps::sweepCoupled(Coupling& coupling, double tolerance, bool last) 
     const Vec2 change = at - one.at;
     at = at - (one.byContact - coupling.displaced[one.node.value]);
     one.byOthers += change;
-    displacement_[one.number] += change;
+    moved_.shift[one.number] += change;
     if (norm(change) > tolerance)
       for (const std::uint32_t row : rowsOfNodes_.row(one.number)) waiting_.add(row);
   }
@@ -105,6 +92,9 @@ void RowSweeps::clear(std::size_t nodes) {
   rows_.clear();
   ends_.clear();
   waiting_.clear(0);
+  schedules_.clear();
+  groups_ = {};
+  total_ = 0;
 }
 
 void RowSweeps::add(const ContactRow& row, std::uint32_t place, const Inertia& inertia) {
@@ -117,7 +107,7 @@ void RowSweeps::add(const ContactRow& row, std::uint32_t place, const Inertia& i
   for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(row.count); ++k)
     if (!row.isOfRigid(inertia.nodes, row.node[k]))
       addEnd(swept, ends, row.node[k], row.weight[k], inertia);
-  if (row.rigid.mass != ContactRow::kNoMass) addRigid(swept, ends, row.rigid, inertia);
+  if (row.rigid.mass != ContactRow::kNone) addRigid(swept, ends, row.rigid, inertia);
   waiting_.add(rows_.size() - 1);
 }
 
@@ -130,15 +120,16 @@ void RowSweeps::update(const ContactRow& row, std::uint32_t place, double tolera
   swept.gap = gap, swept.slip = row.slip, swept.friction = row.friction, swept.place = place;
 }
 
+void RowSweeps::clear(Motion& motion) const {
+  motion.shift.assign(nodes_.size(), {});
+  motion.turn.assign(turns_.empty() ? 0 : nodes_.size(), 0);
+}
+
 /// Displacements by the forces of all rows.
 void RowSweeps::pushAll() {
-  displacement_.assign(nodes_.size(), {});
-  rotation_.assign(turns_.empty() ? 0 : nodes_.size(), 0);
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const SweepRow& row = rows_[r];
-    push(row, ends_[r], ends_[r].count,
-         row.normalForce * row.normal + row.tangentForce * Vec2{-row.normal.y, row.normal.x});
-  }
+  clear(moved_);
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    push(rows_[r], ends_[r], ends_[r].count, rows_[r].force(), moved_);
 }
 
 void RowSweeps::addEnd(SweepRow& swept, Ends& ends, NodeId number, double weight,
@@ -177,15 +168,6 @@ std::uint32_t RowSweeps::numberOf(NodeId node) {
   return number;
 }
 
-template <class Count>
-void RowSweeps::push(const SweepRow& row, const Ends& ends, Count count, Vec2 force) {
-  for (std::uint32_t k = 0; k < count; ++k)
-    displacement_[ends.node[k]] += Vec2{row.perForce[k].x * force.x, row.perForce[k].y * force.y};
-  if (ends.turn == kNone) return;
-  const Turn& turn = turns_[ends.turn];
-  rotation_[turn.number] += turn.perMoment * cross(turn.lever, force);
-}
-
 void RowSweeps::findRowsOfNodes() {
   links_.clear();
   for (std::uint32_t r = 0; r < ends_.size(); ++r)
@@ -222,27 +204,21 @@ double RowSweeps::sweep(bool forwards, double tolerance) {
 template <class Count>
 double RowSweeps::relax(SweepRow& row, const Ends& ends, Count count) {
   if (!(row.normalResponse > 0)) return 0;
-  const Vec2 along{-row.normal.y, row.normal.x};
-  Vec2 moved;
-  for (std::uint32_t k = 0; k < count; ++k) moved += row.weight[k] * displacement_[ends.node[k]];
-  if (ends.turn != kNone) {
-    const Turn& turn = turns_[ends.turn];
-    moved += rotation_[turn.number] * Vec2{-turn.lever.y, turn.lever.x};
-  }
+  const Vec2 moved = relativeMotion(row, ends, count, moved_);
   const double gap = row.gap + dot(moved, row.normal);
   const double normal = std::max(0., row.normalForce - gap / row.normalResponse);
   const double pushed = normal - row.normalForce;
   row.normalForce = normal;
   double pulled = 0;
   if (row.friction > 0 && row.tangentResponse > 0) {
-    const double slip = row.slip + dot(moved, along) + pushed * row.slipPerNormal;
+    const double slip = row.slip + dot(moved, row.along()) + pushed * row.slipPerNormal;
     const double most = row.friction * normal;
     const double tangent = std::clamp(row.tangentForce - slip / row.tangentResponse, -most, most);
     pulled = tangent - row.tangentForce;
     row.tangentForce = tangent;
   }
   if (pushed == 0 && pulled == 0) return 0;
-  push(row, ends, count, pushed * row.normal + pulled * along);
+  push(row, ends, count, pushed * row.normal + pulled * row.along(), moved_);
   return std::max(std::abs(pushed) * row.normalResponse, std::abs(pulled) * row.tangentResponse);
 }
 

@@ -1,14 +1,20 @@
 #pragma once
-// Contact forces by sweeps from row to row (nonlinear block Gauss–Seidel of Moreau and Jean's
-// contact dynamics), without a matrix: each row uses the displacements of its nodes by the other
-// rows so far. Used in rubble, and for large groups with friction.
+// The forces of all rows (paper §2, eq. 3–8): λ ≥ 0, g + Gλ ≥ 0, λ·(g + Gλ) = 0 for the normal
+// forces, with G = Δt² W M⁻¹ Wᵀ; for the tangential ones |τ| ≤ μλ, and no slip if a smaller force
+// is sufficient. (Slip forces −μ sgn(v)|λ| as in eq. 8 would make the system unsymmetric, and the
+// sign must be known in advance.)
 //
-// In rubble and in dry stacks each row has common nodes with a dozen others, many rows are
-// redundant, and each normal force changes a bound of friction. Exact solutions for given bounds
-// then take a hundred times longer (36 blocks that touch exactly: 149 ms a step instead of 1.3).
-// Where pieces jam, exact solutions also have large forces that cancel each other, which friction
-// converts into energy. Sweeps that start from the forces of the last step stay near them; the
-// remaining gap is corrected in the next step.
+// Sweeps from row to row (nonlinear block Gauss–Seidel of Moreau and Jean's contact dynamics),
+// without a matrix: each row uses the displacements of its nodes by the other rows so far. They
+// start from the forces of the last step and stay near them: where rows are redundant or pieces
+// jam, exact solutions have large forces that cancel each other, which friction converts into
+// energy. A remaining gap is corrected in the next step.
+//
+// Sweeps alone need thousands of passes where both sides of a joint with different meshes are
+// slaves, or along a high stack. Therefore conjugate gradients follow (row_gradients.cpp): they
+// move all forces that are within their bounds, up to the first bound that one of them reaches. In
+// a wall of blocks the next bound is near: the number of sweeps between two attempts is doubled
+// then.
 
 #include <array>
 #include <cstdint>
@@ -36,16 +42,15 @@ class RowSweeps {
   /// normal they had then: only their gaps are read, and they are visited if these have changed.
   double solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
                Coupling* coupling = nullptr);
-  /// The same for the rows `members` only.
-  double solve(std::span<ContactRow> rows, std::span<const std::uint32_t> members,
-               const Inertia& inertia, Stop stop);
   /// Number of sweeps of the last solution.
   [[nodiscard]] int sweeps() const { return count_; }
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, rows_, ends_, turns_, nodes_, numbers_, displacement_, rotation_, shared_,
-                  links_, rowsOfNodes_.values, rowsOfNodes_.offsets);
+    footprint.add(use, rows_, ends_, turns_, nodes_, numbers_, moved_.shift, moved_.turn, shared_,
+                  links_, rowsOfNodes_.values, rowsOfNodes_.offsets, groups_.values,
+                  groups_.offsets, schedules_, former_, residual_, perResidual_, direction_,
+                  response_, along_.shift, along_.turn);
     waiting_.addTo(footprint, use);
   }
 
@@ -60,6 +65,9 @@ class RowSweeps {
     double slipPerNormal;                    // m/N: coupling, if a node is held in one direction
     double normalForce, tangentForce;        // N
     std::uint32_t place;                     // index among all rows
+
+    [[nodiscard]] Vec2 along() const { return {-normal.y, normal.x}; }
+    [[nodiscard]] Vec2 force() const { return normalForce * normal + tangentForce * along(); }
   };
   static constexpr std::uint32_t kNone = 0xffffffff;
   /// Nodes of a row, and the rigid body of the last of these, if that is one.
@@ -77,6 +85,15 @@ class RowSweeps {
   struct Link {
     std::uint32_t node, row;
   };
+  /// Displacements of nodes (m) and rotations of rigid bodies (rad), by number.
+  struct Motion {
+    std::vector<Vec2> shift;
+    std::vector<double> turn;  // empty without rigid bodies
+  };
+  /// Normal and tangential part of a row: of a gap and a slip (m), or of two forces (N).
+  struct Pair {
+    double normal = 0, tangent = 0;
+  };
 
   void clear(std::size_t nodes);
   void add(const ContactRow& row, std::uint32_t place, const Inertia& inertia);
@@ -86,8 +103,13 @@ class RowSweeps {
   void addRigid(SweepRow& swept, Ends& ends, const ContactRow::RigidPart& part,
                 const Inertia& inertia);
   std::uint32_t numberOf(NodeId node);
+  void clear(Motion& motion) const;
   template <class Count>
-  void push(const SweepRow& row, const Ends& ends, Count count, Vec2 force);
+  void push(const SweepRow& row, const Ends& ends, Count count, Vec2 force, Motion& motion) const;
+  /// (m) Displacement of a row's slave relative to its master.
+  template <class Count>
+  [[nodiscard]] Vec2 relativeMotion(const SweepRow& row, const Ends& ends, Count count,
+                                    const Motion& motion) const;
   template <class Count>
   double relax(SweepRow& row, const Ends& ends, Count count);
   double finish(std::span<ContactRow> rows, Stop stop, Coupling* coupling);
@@ -96,13 +118,23 @@ class RowSweeps {
   double sweepCoupled(Coupling& coupling, double tolerance, bool last = false);
   void findRowsOfNodes();
 
+  using Members = std::span<const std::uint32_t>;
+  void findGroups();
+  void descend(double tolerance);
+  bool descend(Members members, double tolerance);
+  double findResiduals(Members members);
+  void turnDirection(Members members, double kept);
+  double findResponses(Members members);
+  [[nodiscard]] double scaledSquare(Members members) const;
+  [[nodiscard]] double stepToBound(Members members) const;
+  double advance(Members members, double step);
+
   std::vector<SweepRow> rows_;
   std::vector<Ends> ends_;              // nodes of the rows
   std::vector<Turn> turns_;             // of rows on rigid bodies
   std::vector<NodeId> nodes_;           // nodes and rigid bodies with a row
   std::vector<std::uint32_t> numbers_;  // by node: index in nodes_; valid for these only
-  std::vector<Vec2> displacement_;      // m, by number
-  std::vector<double> rotation_;        // rad, by number; empty without rigid bodies
+  Motion moved_;                        // by the forces
   /// A node that coupled forces move, too.
   struct SharedNode {
     std::uint32_t number;
@@ -116,7 +148,41 @@ class RowSweeps {
   std::vector<Link> links_;
   Csr<std::uint32_t> rowsOfNodes_;  // by number
   WorkList waiting_;  // rows with a node that another row has moved by more than the tolerance
-  int count_ = 0;
+  int count_ = 0;     // sweeps of this solution
+  int total_ = 0;     // since the first one of the step
+  // Of conjugate gradients. Rows with a common node are one group.
+  Csr<std::uint32_t> groups_;  // rows by group; empty before they are needed
+  struct Schedule {
+    int wait = 0, next = 0;  // sweeps
+  };
+  std::vector<Schedule> schedules_;  // by the first row of a group
+  // By row; 0 for forces at a bound.
+  std::vector<Pair> former_;       // N, forces at the begin
+  std::vector<Pair> residual_;     // m, what is left of gap and slip, with the sign of a force
+  std::vector<Pair> perResidual_;  // N/m, force that removes it in this row alone
+  std::vector<Pair> direction_;    // N
+  std::vector<Pair> response_;     // m, to the forces `direction_`
+  Motion along_;                   // by these forces
 };
+
+template <class Count>
+void RowSweeps::push(const SweepRow& row, const Ends& ends, Count count, Vec2 force,
+                     Motion& motion) const {
+  for (std::uint32_t k = 0; k < count; ++k)
+    motion.shift[ends.node[k]] += Vec2{row.perForce[k].x * force.x, row.perForce[k].y * force.y};
+  if (ends.turn == kNone) return;
+  const Turn& turn = turns_[ends.turn];
+  motion.turn[turn.number] += turn.perMoment * cross(turn.lever, force);
+}
+
+template <class Count>
+Vec2 RowSweeps::relativeMotion(const SweepRow& row, const Ends& ends, Count count,
+                               const Motion& motion) const {
+  Vec2 moved;
+  for (std::uint32_t k = 0; k < count; ++k) moved += row.weight[k] * motion.shift[ends.node[k]];
+  if (ends.turn == kNone) return moved;
+  const Turn& turn = turns_[ends.turn];
+  return moved + motion.turn[turn.number] * Vec2{-turn.lever.y, turn.lever.x};
+}
 
 }  // namespace yadefrag

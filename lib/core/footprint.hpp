@@ -22,7 +22,6 @@ enum class Use : std::uint8_t {
   kSmooth,     ///< the C¹-smooth parts of the boundary
   kSearch,     ///< the global search and its candidates
   kContact,    ///< actives and their forces
-  kFriction,
   kFracture,
   kCohesion,
   kCount

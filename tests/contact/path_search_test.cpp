@@ -108,7 +108,7 @@ void compareTriedAgain(Random& random, int kind, Counts& counts) {
     ASSERT_TRUE(std::ranges::includes(each, now)) << "kind " << kind << ", " << detection;
     known.insert(known.end(), now.begin(), now.end());
     std::ranges::sort(known);
-    known.erase(std::ranges::unique(known).begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
     ASSERT_TRUE(std::ranges::includes(known, each)) << "kind " << kind << ", " << detection;
     (detection == 0 ? counts.actives : counts.later) += each.size() - now.size();
     Vec2& one = scene.at[random() % scene.at.size()];

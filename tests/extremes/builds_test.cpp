@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6502978130507238);
-  expectNear(places.y, 1.4530357764027755);
-  expectNear(speeds, 4353.4403908027361);
-  expectNear(totalEnergy(world), 89.999455038505232);
-  expectNear(world.ledger.contact, 5.2579745605591368);
+  expectNear(places.x, 3.6503071233390316);
+  expectNear(places.y, 1.4530292052218772);
+  expectNear(speeds, 4356.8189152727145);
+  expectNear(totalEnergy(world), 89.999453173643474);
+  expectNear(world.ledger.contact, 5.2330182934221501);
 }
 
 }  // namespace

@@ -195,6 +195,7 @@ TEST(Conform, CornersAndNodesWithSmallErrorsAreJoinedWithinTheTolerance) {
 Polygon ringOf(double radius, int corners, double outer = 0) {
   Polygon polygon;
   std::vector<Vec2> circle;
+  circle.reserve(static_cast<std::size_t>(corners));
   for (int k = 0; k < corners; ++k)
     circle.push_back(
         {radius * std::cos(2 * M_PI * k / corners), radius * std::sin(2 * M_PI * k / corners)});

@@ -16,7 +16,7 @@ inline const ComponentId kFirst(std::size_t{0}), kSecond(std::size_t{1}), kThird
 
 inline TriangleMesh blockOf(Vec2 low, Vec2 high, double size) {
   const auto parts = [&](double length) {
-    return std::max(1, static_cast<int>(length / size + .5));
+    return std::max(1, static_cast<int>(std::lround(length / size)));
   };
   return structuredRectangle(low, high, parts(high.x - low.x), parts(high.y - low.y),
                              QuadPattern::kCrossed);

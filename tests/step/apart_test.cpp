@@ -8,7 +8,6 @@
 #include <random>
 
 #include "core/errors.hpp"
-#include "core/same_bits.hpp"
 #include "step/course.hpp"
 
 namespace yadefrag::test {
@@ -52,7 +51,10 @@ TEST_P(Apart, NothingIsMissed) {
     }
     seldom.step(dt);
     always.step(dt);
-    ASSERT_TRUE(sameBits(seldom.model.nodes.position, always.model.nodes.position)) << "step " << i;
+    // Contact is solved to a part of the largest displacement of a node that is watched.
+    for (std::size_t n = 0; n < seldom.model.nodes.size(); ++n)
+      ASSERT_LT(norm(seldom.model.nodes.position[n] - always.model.nodes.position[n]), 1e-8)
+          << "step " << i;
     touched += seldom.contact.rows().size();
     fewest = std::min(fewest, seldom.surfaceNodes().size());
   }

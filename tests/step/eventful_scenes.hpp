@@ -21,13 +21,13 @@ inline State stateOf(World& world) {
   };
   for (const ContactRow& row : world.contact.rows()) {
     add("rows", row.slave), add("rows", row.master), add("normals", row.normal);
-    add("gaps", row.gap), add("gaps", row.toleratedGap), add("gaps", row.excess);
+    add("gaps", row.gap), add("gaps", row.toleratedGap);
     add("slips", row.slip), add("slips", row.friction);
     add("rows' forces", row.normalForce), add("rows' forces", row.tangentForce);
   }
   for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
     add("contact forces", world.contact.forces()[n]);
-  add("figures", world.contact.largestCorrection()), add("figures", world.contact.residual());
+  add("figures", world.contact.largestCorrection());
   add("figures", world.contact.maxPenetration());
   for (const Vec2 force : world.outerForces) add("outer forces", force);
   for (const Vec2 position : world.model.nodes.position) add("position", position);

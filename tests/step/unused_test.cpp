@@ -60,9 +60,9 @@ TEST_P(Unused, HasNoArraysBesideAllTheOthers) {
 INSTANTIATE_TEST_SUITE_P(
     Features, Unused,
     ::testing::Values(Feature{"fracture", Use::kFracture}, Feature{"cohesion", Use::kCohesion},
-                      Feature{"friction", Use::kFriction}, Feature{"smooth", Use::kSmooth},
-                      Feature{"viscosity", Use::kViscosity}, Feature{"held", Use::kHeld},
-                      Feature{"loads", Use::kLoads}, Feature{"materials", Use::kMaterials}),
+                      Feature{"smooth", Use::kSmooth}, Feature{"viscosity", Use::kViscosity},
+                      Feature{"held", Use::kHeld}, Feature{"loads", Use::kLoads},
+                      Feature{"materials", Use::kMaterials}),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(UnusedContact, OneBodyThatCannotTouchItselfHasNone) {
