@@ -187,10 +187,10 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
   for (const Active& active : actives_) {
     if (hasRow(surfaces, before, active.pair)) continue;
     if (isThroughItself(surfaces, before, active.pair, step)) continue;
-    ContactRow row =
-        makeRow(surfaces, before, active, frictionOf(active.pair, model, surfaces) > 0);
+    const double friction = frictionOf(active.pair, model, surfaces);
+    ContactRow row = makeRow(surfaces, before, active, friction > 0);
+    row.friction = friction;
     startRow(row, model, surfaces, before, active, step);
-    if (contradicts(surfaces, row)) row.friction = row.tangentForce = 0;
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
     if (!step.rigid.empty()) joinRigid(row, model.nodes, step);
     rows_.push_back(row);  // Actives are in order.

@@ -54,11 +54,10 @@ double Contact::frictionOf(SlaveMaster pair, const Model& model, const ContactSu
   return std::min(friction(pair.slave), friction(pair.master));
 }
 
-/// Sets friction, slip, and the values stored for this contact in the last step.
+/// Sets slip, and the values stored for this contact in the last step.
 void Contact::startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
                        const PieceGeometry& before, const Active& active,
                        const ContactStep& step) const {
-  row.friction = frictionOf(active.pair, model, surfaces);
   row.gap -= dot(relative(row, displacement_), row.normal);
   if (row.friction > 0) row.slip = slipOf(row, model, step);
   const double decay = isHeldByCohesion(row, step.cohesive) ? 0 : tolerance::contact().overlapDecay;
@@ -69,11 +68,12 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
     row.toleratedGap =
         std::min(0., former->toleratedGap + decay * std::min(-former->toleratedGap, step.move));
     row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;
-    return;
+  } else {
+    // An overlap from before the step, as beside an end, must not become velocity at once.
+    const double gap = before.foot(row.master, before.slave(row.slave)).gap;
+    row.toleratedGap = std::min(0., gap + decay * step.move);
   }
-  // An overlap from before the step, as beside an end, must not become velocity at once.
-  const double gap = before.foot(row.master, before.slave(row.slave)).gap;
-  row.toleratedGap = std::min(0., gap + decay * step.move);
+  if (row.friction > 0 && contradicts(surfaces, row)) row.friction = row.tangentForce = 0;
 }
 
 /// (m) Largest depth at xⁿ of the contacts of the last step.

