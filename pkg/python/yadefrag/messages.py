@@ -38,7 +38,7 @@ def warnOfOne(sentence, what, one):
 
 
 def noteFixed(fixed, body, isAny):
-    """A function that selects no node is told before the run: it may select nodes of a later body."""
+    """Warns only before the run if a function selects no node: it may select nodes of a later body."""
     function = getattr(fixed, '__code__', None) or id(fixed)
     bodies = _nowhere.setdefault(function, [])
     if isAny:
