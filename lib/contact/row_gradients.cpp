@@ -111,11 +111,11 @@ void RowSweeps::turnDirection(Members members, double kept) {
 /// Each row has a small compliance: where rows contradict each other, a direction would have no
 /// response at all. Returns the quadratic's second derivative in the direction (N m).
 double RowSweeps::findResponses(Members members) {
-  for (const std::uint32_t r : members)
-    for (std::uint32_t k = 0; k < ends_[r].count; ++k) {
-      along_.shift[ends_[r].node[k]] = {};
-      if (ends_[r].turn != kNone) along_.turn[turns_[ends_[r].turn].number] = 0;
-    }
+  for (const std::uint32_t r : members) {
+    const Ends& ends = ends_[r];
+    for (std::uint32_t k = 0; k < ends.count; ++k) along_.shift[ends.node[k]] = {};
+    if (ends.turn != kNone) along_.turn[turns_[ends.turn].number] = 0;
+  }
   for (const std::uint32_t r : members) {
     const SweepRow& row = rows_[r];
     push(row, ends_[r], ends_[r].count,
