@@ -44,7 +44,8 @@ double World::overlapOfBoundaries() const {
   };
   if (std::ranges::count_if(model.components, isChecked) < 2) return 0;
   std::vector<std::uint8_t> straight(model.nodes.size());
-  for (std::size_t n = 0; n < straight.size(); ++n) {
+  // Interior nodes may come last; nodeSegment ends before them.
+  for (std::size_t n = 0; n < surfaces.nodeSegment.size(); ++n) {
     const SegmentId segment = surfaces.nodeSegment[n];
     straight[n] = segment != SegmentId::none() && !surfaces.isSmooth(segment) &&
                           isChecked(model.components[model.nodes.component[n].value])

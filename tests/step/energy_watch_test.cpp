@@ -230,6 +230,35 @@ TEST(EnergyWatch, CorrectImpactsGiveNoMessage) {
   }
 }
 
+/// Segments are known by node up to the last one of a boundary; the memory behind it has any value.
+TEST(EnergyWatch, OverlapsAreCheckedWhereAnInteriorNodeComesLast) {
+  World world;
+  for (const double x : {0., 1.}) {
+    TriangleMesh mesh;
+    mesh.nodes = {{x, 0}, {x + 1, 0}, {x + 1, 1}, {x, 1}, {x + .5, .5}};
+    mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+    mesh.loops = {{0, 1, 2, 3}};
+    BodySpec spec = moving(mesh, steel(), {});
+    spec.smoothNodes = {1, 0, 0, 1, 0};
+    if (x > 0) hold(spec, mesh, kHeldXY, [](Vec2 node) { return node.x > 1.9; });
+    world.addBody(mesh, spec);
+  }
+  world.dynamicsSettings.gravity = {1000, 0};
+  std::vector<SegmentId>& segments = world.surfaces.nodeSegment;
+  const std::size_t count = segments.size();
+  ASSERT_EQ(count + 1, world.model.nodes.size());
+  segments.push_back(SegmentId(std::size_t{1} << 31));
+  segments.resize(count);
+  const double dt = .5 * world.criticalTimeStep();
+  bool touched = false;
+  while (world.steps < 256) {
+    world.step(dt);
+    touched = touched || (EnergyWatch::isOverlapDue(world.steps) && !world.contact.rows().empty());
+  }
+  EXPECT_TRUE(touched);
+  EXPECT_TRUE(world.warnings.empty()) << world.warnings.front();
+}
+
 /// No force of contact moves nodes that are held: they sink.
 TEST(EnergyWatch, HeldBodiesThatMoveIntoEachOtherAreReported) {
   const World world = blow(2, 400, true);
