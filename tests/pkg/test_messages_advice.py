@@ -88,6 +88,32 @@ def thrown(factor=.9, speed=.1):
     return ran(solver, int(3 / factor))
 
 
+def burst(part=1, brittle=(), smooth=False, speed=3, spin=1, friction=0):
+    """Three coarse blocks of weak rubber that meet, crack, and press their fragments flat. No finer scene, no more
+    usual material is known in which contact creates energy."""
+    O.materials.append(w.BrittleFEMat(young=1e6, poisson=.3, density=1000, frictionAngle=friction, tensileStrength=100,
+                                      label='b', **dict(brittle)))
+    solver = w.FESolver()
+    for i in range(3):
+        nodes, triangles = yadefrag.rectangleMesh((.05 * i, .003 * i), (.05 * i + .05, .05 + .004 * i), 2, 2 + i % 2)
+        solver.addTriangles(nodes, triangles, material='b', smooth=smooth, spin=spin,
+                            velocity=((1 - i) * speed, .3 * speed * (i == 1)))
+    O.engines = yadefrag.engines(solver)
+    O.dt = .9 * part * solver.criticalTimeStep()
+    return ran(solver, int(60 / part))
+
+
+def tough(part):
+    """The same with cracks that hold far beyond an element's size, and friction."""
+    wave = math.sqrt(1000)
+    return burst(part, dict(fractureEnergy=150), speed=.1 * wave, spin=-2 * wave, friction=math.atan(2))
+
+
+def flat(part):
+    wave = math.sqrt(1000)
+    return burst(part, smooth=True, speed=.3 * wave, spin=0)
+
+
 # --- YADE's bodies
 
 def small(factor=.8, young=1e9):
@@ -283,6 +309,11 @@ TABLE = {
                        lambda said: number(said, 'elements of at most'))),
     'contact moves a node: step': ('contact moves a surface node by', thrown, lambda: thrown(.02)),
     'contact moves a node: slower': ('contact moves a surface node by', thrown, lambda: thrown(speed=.01)),
+    'contact that creates energy': ('contact has created', lambda: flat(1), lambda: flat(.25)),
+    'contact at cracks that creates angular momentum': (
+        'contact at cracks has created an angular momentum', lambda: tough(1), lambda: tough(.25)),
+    'bodies that overlap': (
+        'bodies overlap by .* of the shortest segment; take a shorter step', lambda: tough(1), lambda: tough(.25)),
     'a sphere that is too light: step': (
         "contact with YADE's spheres has created .*take a shorter step", small, lambda: small(.01)),
     'a sphere that is too light: stiffness': (

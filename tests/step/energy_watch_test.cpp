@@ -80,6 +80,7 @@ TEST(EnergyWatch, FrictionMayTakeWhatContactGives) {
   EXPECT_NE(message(watch, stepOf(ledger)).find("contact has created 2.1 J"), std::string::npos);
 }
 
+/// No scene is known in which cohesive cracks create energy: the ledger is given.
 TEST(EnergyWatch, CracksAreDistinguishedFromContact) {
   EnergyWatch watch = watchOf(100);
   EnergyLedger ledger;
