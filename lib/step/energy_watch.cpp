@@ -11,6 +11,9 @@ namespace yadefrag {
 
 namespace {
 
+/// 152 of 298 random scenes no longer give the message at a sixteenth of the step (November 2026).
+const char* const kShorterStep = "take a shorter step, which helps in about half of such scenes";
+
 std::string begin(const WatchedStep& step) {
   return fmt::format("Step {}, time {:.3g} s: ", step.step, step.time);
 }
@@ -76,11 +79,11 @@ std::string EnergyWatch::contactMessage(const WatchedStep& step, double noise) {
   const char* const cause = bySplits   ? "cracks in bodies with element='smoothed' have"
                             : byCracks ? "cohesive cracks have"
                                        : "contact has";
-  const char* const advice =
+  const std::string advice =
       bySplits   ? "the strains of elements that a crack separates are no longer averaged; "
                    "element='linear' avoids this."
-      : byCracks ? "take a shorter step, or smaller elements."
-                 : "take a shorter step, or smaller elements where bodies touch.";
+      : byCracks ? "a shorter step or smaller elements may help."
+                 : fmt::format("{}, or smaller elements where bodies touch.", kShorterStep);
   return fmt::format("{}{} created {}; {}", yadefrag::begin(step), cause, amountText(amount, most),
                      advice);
 }
@@ -125,17 +128,16 @@ std::string EnergyWatch::spinMessage(const WatchedStep& step, double sum) {
   reportedSpin = std::abs(step.ledger.spin);
   return fmt::format(
       "{}contact at cracks has created an angular momentum of {:.3g} kg m²/s, {:.3g} % of the sum "
-      "of m r v; take a shorter step.",
-      yadefrag::begin(step), reportedSpin, 100 * reportedSpin / mostSpin);
+      "of m r v; {}.",
+      yadefrag::begin(step), reportedSpin, 100 * reportedSpin / mostSpin, kShorterStep);
 }
 
 std::string EnergyWatch::depthMessage(const WatchedStep& step) {
   const double deep = std::min(tolerance::kDeep * step.shortest, step.halo / 2);
   if (step.depth <= std::max(deep, 2 * reportedDepth)) return {};
   reportedDepth = step.depth;
-  return fmt::format(
-      "{}bodies overlap by {:.3g} m, {:.3g} of the shortest segment; take a shorter step.",
-      yadefrag::begin(step), step.depth, step.depth / step.shortest);
+  return fmt::format("{}bodies overlap by {:.3g} m, {:.3g} of the shortest segment; {}.",
+                     yadefrag::begin(step), step.depth, step.depth / step.shortest, kShorterStep);
 }
 
 bool EnergyWatch::isOverlapDue(std::uint64_t step) {

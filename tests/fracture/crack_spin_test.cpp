@@ -122,7 +122,9 @@ TEST(EnergyWatch, TellsOfCreatedAngularMomentumOnce) {
   EXPECT_EQ(watch.spinMessage(step, 1), "");
   EXPECT_FALSE(watch.mayHaveSpun(step));  // nothing is evaluated again
   ledger.spin = -2e-3;
-  EXPECT_NE(watch.spinMessage(step, 1).find("0.2 % of the sum of m r v"), std::string::npos);
+  EXPECT_NE(watch.spinMessage(step, 1).find("0.2 % of the sum of m r v; take a shorter step, "
+                                            "which helps in about half"),
+            std::string::npos);
   EXPECT_FALSE(watch.mayHaveSpun(step));
   ledger.spin = -5e-3;
   EXPECT_NE(watch.spinMessage(step, 1), "");
