@@ -19,8 +19,6 @@ namespace {
 
 SlaveMaster pairOf(const ContactRow& row) { return {row.slave, row.master}; }
 
-bool byPair(const ContactRow& a, const ContactRow& b) { return pairOf(a) < pairOf(b); }
-
 /// (m) Penetration above which the system is solved again.
 double worthwhile(const ContactStep& step) {
   const double remainder = step.rubble ? tolerance::kRubbleRemainder : tolerance::kRemainder;
@@ -78,7 +76,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces, const Conta
   scan(model, surfaces, step, reach, step.move);
   const int most = step.rubble ? tolerance::kRubbleDetections : tolerance::kDetections;
   for (int detection = 0; detection < most; ++detection) {
-    const bool anyNew = addRows(model, surfaces, step);
+    const bool anyNew = mayHaveEntered(step) && addRows(model, surfaces, step);
     if (rows_.empty()) break;
     if (detection > 0) {
       updateGaps(model, surfaces, step);
@@ -91,7 +89,8 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces, const Conta
       }
       if (!anyNew && now_.maxPenetration <= 2 * inexact_) break;
     }
-    sinceScan_ += solve(model, step);
+    const double moved = solve(model, step);
+    sinceScan_ += moved, sinceSearch_ += moved;
     // Nodes that the correction moved beyond the reach of the scan are scanned again.
     move(model, step);
     gapsAreKnown = false;
@@ -100,9 +99,15 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces, const Conta
       scan(model, surfaces, step, reach);
     }
   }
-  if (step.rubble && !gapsAreKnown) rescan(model, surfaces, step);
+  if (mayHaveEntered(step)) rescan(model, surfaces, step);
   if (!rows_.empty() && !gapsAreKnown) updateGaps(model, surfaces, step);
   finish(model, step);
+}
+
+/// True if corrections since the last search for actives may have moved a slave deep into a master.
+/// Contacts that are less deep begin in the next step.
+bool Contact::mayHaveEntered(const ContactStep& step) const {
+  return 2 * sinceSearch_ > tolerance::kLateEntry * step.shortest;
 }
 
 void Contact::begin() {
@@ -110,7 +115,10 @@ void Contact::begin() {
   former_ = std::exchange(now_, {});
   isFinished_ = false;
   rows_.clear();
-  known_.clear();
+  pairs_.clear();
+  sweeps_.clear();
+  numSolved_ = 0;
+  sinceSearch_ = INFINITY;
   inexact_ = 0;
   clearForces();
 }
@@ -142,8 +150,8 @@ void Contact::rescan(const Model& model, const ContactSurfaces& surfaces, const 
 
 /// Rows added after the last solution have not moved a node: their force is zero.
 void Contact::releaseUnsolved() {
-  for (ContactRow& row : rows_)
-    if (row.swept == ContactRow::kNone) row.normalForce = row.tangentForce = 0;
+  for (std::size_t r = numSolved_; r < rows_.size(); ++r)
+    rows_[r].normalForce = rows_[r].tangentForce = 0;
 }
 
 /// `moved` (m): upper bound of the displacement of any node since the last scan, without
@@ -170,38 +178,37 @@ double Contact::solve(Model& model, const ContactStep& step) {
     coupling.emplace(Coupling{*step.coupled, step.cohesive, model.nodes.position, displacement_});
   inexact_ = sweeps_.solve(rows_, inertia, {change, most}, coupling ? &*coupling : nullptr);
   now_.sweeps += sweeps_.sweeps();
+  numSolved_ = rows_.size();
   return coupling ? coupling->moved : 0;
 }
 
 /// Adds a row for every active without one; returns true if there was any.
 bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
                       const ContactStep& step) {
+  sinceSearch_ = 0;
   if (!search_.anyNear()) return false;
   const StageTimer timer(step.times, &StageTimes::localSearch);
   actives_.clear();
-  search_.findActives(candidates, surfaces, model.nodes.position, step.deepest, actives_, known_,
+  search_.findActives(candidates, surfaces, model.nodes.position, step.deepest, actives_, pairs_,
                       sinceScan_);
-  if (!actives_.empty()) makeRoom(model.nodes.size());
+  if (!actives_.empty()) makeRoom(model.nodes.size()), pairs_.grow(surfaces.entries());
   const PieceGeometry before(surfaces, step.before);
-  const std::size_t former = formerCount_ = rows_.size();
+  const std::size_t former = rows_.size();
+  TouchCursor cursor(touches);
   for (const Active& active : actives_) {
+    const std::span<const Touch> stored = cursor.of(active.pair.slave);
     if (hasRow(surfaces, before, active.pair)) continue;
-    if (isThroughItself(surfaces, before, active.pair, step)) continue;
+    if (stored.empty() && isThroughItself(surfaces, before, active.pair, step)) continue;
     const double friction = frictionOf(active.pair, model, surfaces);
     ContactRow row = makeRow(surfaces, before, active, friction > 0);
     row.friction = friction;
-    startRow(row, model, surfaces, before, active, step);
+    startRow(row, model, surfaces, before, touchOn(stored, active.pair.master), step);
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
     if (!step.rigid.empty()) joinRigid(row, model.nodes, step);
-    rows_.push_back(row);  // Actives are in order.
+    rows_.push_back(row);
+    pairs_.add(active.pair);
   }
-  if (rows_.size() == former) return false;
-  std::inplace_merge(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(former),
-                     rows_.end(), byPair);
-  formerCount_ = rows_.size();
-  known_.clear();
-  for (const ContactRow& row : rows_) known_.push_back(pairOf(row));
-  return true;
+  return rows_.size() > former;
 }
 
 void Contact::touch(NodeId node) {
@@ -209,36 +216,23 @@ void Contact::touch(NodeId node) {
   isTouched_[node.value] = 1;
 }
 
-template <class Test>
-bool Contact::anyRowOf(EntryId slave, Test test) const {
-  const auto slaveOf = [](const ContactRow& row) { return row.slave; };
-  const std::span<const ContactRow> rows(rows_);
-  for (const auto& part : {rows.first(formerCount_), rows.subspan(formerCount_)})
-    for (auto row = std::ranges::lower_bound(part, slave, {}, slaveOf);
-         row != part.end() && row->slave == slave; ++row)
-      if (test(*row)) return true;
-  return false;
-}
-
 /// A slave that the correction moved to the next master keeps its row. The two rows differ by the
 /// second-order remainder, and both together would hold the slave in front of both faces of a
 /// convex corner.
 bool Contact::hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
                      SlaveMaster pair) const {
-  return anyRowOf(pair.slave, [&](const ContactRow& row) {
-    return row.master == pair.master ||
-           meetInConvexJoint(surfaces, before, row.master, pair.master);
+  return pairs_.any(pair.slave, [&](std::uint32_t, EntryId master) {
+    return master == pair.master || meetInConvexJoint(surfaces, before, master, pair.master);
   });
 }
 
 /// Where the slave's own body is thinner than the halo, a smooth master may be on the other side of
 /// that body: the slave was as deep before, and was not in contact.
 bool Contact::isThroughItself(const ContactSurfaces& surfaces, const PieceGeometry& before,
-                              SlaveMaster pair, const ContactStep& step) const {
+                              SlaveMaster pair, const ContactStep& step) {
   if (surfaces.component[pair.slave.value] != surfaces.component[pair.master.value] ||
       surfaces.piece[pair.master.value] != Piece::kArc)
     return false;
-  if (!touchesOf(touches, pair.slave).empty()) return false;
   return before.foot(pair.master, before.slave(pair.slave)).gap <
          -tolerance::kTouching * step.shortest;
 }
@@ -247,13 +241,12 @@ bool Contact::isThroughItself(const ContactSurfaces& surfaces, const PieceGeomet
 /// push in the same direction. With friction in both, their forces would support each other without
 /// bound.
 bool Contact::contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const {
-  const auto pushesAlike = [&](const ContactRow& other) {
-    const bool exchanged =
-        other.master == row.slave || surfaces.next[other.master.value] == row.slave;
-    return exchanged && dot(other.normal, row.normal) > 0;
+  const auto pushesAlike = [&](std::uint32_t other, EntryId master) {
+    const bool exchanged = master == row.slave || surfaces.next[master.value] == row.slave;
+    return exchanged && dot(rows_[other].normal, row.normal) > 0;
   };
-  return anyRowOf(row.master, pushesAlike) ||
-         anyRowOf(surfaces.next[row.master.value], pushesAlike);
+  return pairs_.any(row.master, pushesAlike) ||
+         pairs_.any(surfaces.next[row.master.value], pushesAlike);
 }
 
 /// Computes the exact gaps at the corrected positions, and transforms them back to the predicted
@@ -291,7 +284,7 @@ void Contact::move(Model& model, const ContactStep& step) {
     farthest = std::max(farthest, dot(by, by));
   }
   moveRigid(model, step, largest, farthest);
-  sinceScan_ += std::sqrt(farthest);
+  sinceScan_ += std::sqrt(farthest), sinceSearch_ += std::sqrt(farthest);
   now_.largestCorrection = std::sqrt(largest);
   if (now_.largestCorrection <= 2 * tolerance::kFarthestMove * step.shortest) return;
   throw RunError(fmt::format(
@@ -325,16 +318,19 @@ void Contact::finish(Model& model, const ContactStep& step) {
   formerTouches_.clear();
   for (const ContactRow& row : rows_)
     formerTouches_.push_back({pairOf(row), row.normalForce, row.tangentForce, row.toleratedGap});
+  if (!std::ranges::is_sorted(formerTouches_, {}, &Touch::pair))
+    std::ranges::sort(formerTouches_, {}, &Touch::pair);
   touches.swap(formerTouches_);
   formerCorrection_ = std::exchange(lastCorrection, now_.largestCorrection);
   isFinished_ = true;
 }
 
 void Contact::addTo(Footprint& footprint) const {
-  footprint.add(Use::kContact, touches, formerTouches_, actives_, rows_, formerRows_, known_,
-                forces_, displacement_, touched_, isTouched_, rigidLoads_);
+  footprint.add(Use::kContact, touches, formerTouches_, actives_, rows_, formerRows_, forces_,
+                displacement_, touched_, isTouched_, rigidLoads_);
   candidates.addTo(footprint);
   search_.addTo(footprint);
+  pairs_.addTo(footprint, Use::kContact);
   sweeps_.addTo(footprint, Use::kContact);
 }
 

@@ -11,6 +11,7 @@
 #include "contact/coupled_forces.hpp"
 #include "contact/inertia.hpp"
 #include "contact/local_search.hpp"
+#include "contact/pairs_of_slaves.hpp"
 #include "contact/row_sweeps.hpp"
 #include "contact/touch.hpp"
 #include "core/stage_times.hpp"
@@ -75,6 +76,7 @@ class Contact {
   void allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
                      std::span<const EntryId> masters);
 
+  /// In the order of their detection.
   [[nodiscard]] const std::vector<ContactRow>& rows() const { return rows_; }
   /// (N) By node, in the last step.
   [[nodiscard]] ContactForces forces() const { return ContactForces{forces_}; }
@@ -107,17 +109,15 @@ class Contact {
   double solve(Model& model, const ContactStep& step);
   [[nodiscard]] double deepestTouch(const ContactSurfaces& surfaces,
                                     std::span<const Vec2> before) const;
-  template <class Test>
-  [[nodiscard]] bool anyRowOf(EntryId slave, Test test) const;
   bool hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair) const;
-  bool isThroughItself(const ContactSurfaces& surfaces, const PieceGeometry& before,
-                       SlaveMaster pair, const ContactStep& step) const;
+  static bool isThroughItself(const ContactSurfaces& surfaces, const PieceGeometry& before,
+                              SlaveMaster pair, const ContactStep& step);
   bool contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const;
   bool addRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void joinRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step);
   [[nodiscard]] bool isOfRigid(NodeId node, const ContactStep& step) const;
   void startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
-                const PieceGeometry& before, const Active& active, const ContactStep& step) const;
+                const PieceGeometry& before, const Touch* former, const ContactStep& step) const;
   [[nodiscard]] static double frictionOf(SlaveMaster pair, const Model& model,
                                          const ContactSurfaces& surfaces);
   [[nodiscard]] double slipOf(const ContactRow& row, const Model& model,
@@ -125,6 +125,7 @@ class Contact {
   void updateGaps(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void move(Model& model, const ContactStep& step);
   void moveRigid(Model& model, const ContactStep& step, double& largest, double& farthest);
+  [[nodiscard]] bool mayHaveEntered(const ContactStep& step) const;
   void rescan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void releaseUnsolved();
   void touch(NodeId node);
@@ -135,10 +136,10 @@ class Contact {
   LocalSearch search_;
   RowSweeps sweeps_;
   std::vector<Active> actives_;
-  std::vector<ContactRow> rows_;  // by pair; within a detection its new rows are after the others
-  std::size_t formerCount_ = 0;   // number of the others
+  std::vector<ContactRow> rows_;  // by detection, then by pair
+  std::size_t numSolved_ = 0;     // number of the first rows, those of the last solution
   Figures now_;
-  std::vector<SlaveMaster> known_;       // pairs of the rows
+  PairsOfSlaves pairs_;                  // of the rows
   std::vector<Vec2> forces_;             // N, by node
   std::vector<Vec2> displacement_;       // m, by node: the correction u so far
   std::vector<NodeId> touched_;          // nodes with a row
@@ -151,6 +152,7 @@ class Contact {
   std::vector<RigidLoad> rigidLoads_;  // by rigid body
   double inexact_ = 0;                 // m, possible error of the sweeps
   double sinceScan_ = 0;               // m, upper bound of corrections since the last scan
+  double sinceSearch_ = 0;             // m, the same since the last search for actives
   // Of the previous step, for `takeBack`; `touches` only after the step has set its own.
   std::vector<ContactRow> formerRows_;
   std::vector<Touch> formerTouches_;

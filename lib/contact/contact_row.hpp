@@ -34,7 +34,6 @@ struct ContactRow {
   double normalForce = 0;   ///< N, on the slave along the normal
   double tangentForce = 0;  ///< N, on the slave along `tangent()`
   RigidPart rigid;
-  std::uint32_t swept = kNone;  ///< number in the sweeps of this step; kNone: not swept yet
 
   [[nodiscard]] Vec2 tangent() const { return {-normal.y, normal.x}; }
   [[nodiscard]] Vec2 force() const { return normalForce * normal + tangentForce * tangent(); }

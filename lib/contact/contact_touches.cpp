@@ -56,15 +56,12 @@ double Contact::frictionOf(SlaveMaster pair, const Model& model, const ContactSu
 
 /// Sets slip, and the values stored for this contact in the last step.
 void Contact::startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
-                       const PieceGeometry& before, const Active& active,
+                       const PieceGeometry& before, const Touch* former,
                        const ContactStep& step) const {
   row.gap -= dot(relative(row, displacement_), row.normal);
   if (row.friction > 0) row.slip = slipOf(row, model, step);
   const double decay = isHeldByCohesion(row, step.cohesive) ? 0 : tolerance::contact().overlapDecay;
-  const auto former =
-      std::lower_bound(touches.begin(), touches.end(), active.pair,
-                       [](const Touch& known, SlaveMaster pair) { return known.pair < pair; });
-  if (former != touches.end() && former->pair == active.pair) {
+  if (former != nullptr) {
     row.toleratedGap =
         std::min(0., former->toleratedGap + decay * std::min(-former->toleratedGap, step.move));
     row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;

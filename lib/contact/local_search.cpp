@@ -82,13 +82,15 @@ void LocalSearch::scanRows(Candidates& candidates, const ContactSurfaces& surfac
   };
   const Geometry before(surfaces, start_.positions, pointsBefore_);
   part.near.clear();
+  TouchCursor touches(start_.touches);
   for (std::size_t r = begin; r < end; ++r) {
     if (candidates.idleDistance[r] > way_ + reach_) continue;
     const std::size_t first = part.near.size();
     const auto row = static_cast<std::uint32_t>(r);
     candidates.idleDistance[r] = way_ + scanRow(candidates, geometry, row, chord, part.near);
     if (part.near.size() > first &&
-        !findEnterable(candidates, before, std::span(part.near).subspan(first)))
+        !findEnterable(candidates, before, touches.of(candidates.slaves[r]),
+                       std::span(part.near).subspan(first)))
       part.near.resize(first);
   }
 }
@@ -97,7 +99,7 @@ void LocalSearch::scanRows(Candidates& candidates, const ContactSurfaces& surfac
 /// Returns true if it can enter any.
 template <class Geometry>
 bool LocalSearch::findEnterable(const Candidates& candidates, const Geometry& before,
-                                std::span<Near> row) const {
+                                std::span<const Touch> touches, std::span<Near> row) const {
   const EntryId slave = candidates.slaves[row.front().row];
   const Vec2 point = before.slave(slave);
   bool any = false;
@@ -113,9 +115,7 @@ bool LocalSearch::findEnterable(const Candidates& candidates, const Geometry& be
     // in the step, a slave may leave and enter again by less than the product of two relative
     // displacements, each at most twice the reach.
     const double inside = cross(along, point - ends.begin) - 4 * reach_ * reach_;
-    near.canEnter =
-        inside <= 2 * start_.depth * norm(along) ||
-        std::ranges::binary_search(start_.touches, SlaveMaster{slave, master}, {}, &Touch::pair);
+    near.canEnter = inside <= 2 * start_.depth * norm(along) || touchOn(touches, master) != nullptr;
     any = any || near.canEnter;
   }
   return any;
@@ -171,7 +171,7 @@ double LocalSearch::scanRow(const Candidates& candidates, const Geometry& geomet
 
 void LocalSearch::findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
                               std::span<const Vec2> positions, double deepest,
-                              std::vector<Active>& actives, std::span<const SlaveMaster> known,
+                              std::vector<Active>& actives, const PairsOfSlaves& known,
                               double moved) {
   findMoved(surfaces, positions);
   const Query query{candidates, surfaces, deepest, known, moved, moved_};
@@ -227,13 +227,14 @@ void LocalSearch::tryRows(const Query& query, const Geometry& geometry, std::siz
                           std::size_t to, Part& part) const {
   part.actives.clear();
   const std::span<const Near> near(near_);
+  TouchCursor touches(start_.touches);
   for (std::size_t begin = from, end = from; begin < to; begin = end) {
     const EntryId slave = query.slaveOf(near[begin]);
     while (end < to && near[end].row == near[begin].row) ++end;
     part.trials.clear();
     const std::span<const Near> row = near.subspan(begin, end - begin);
     if (!mustTry(query, row)) continue;
-    tryRow(query, geometry, row, part);
+    tryRow(query, geometry, touches.of(slave), row, part);
     for (const Trial& trial : part.trials)
       if (trial.active) part.actives.push_back({{slave, trial.master}, trial.foot});
   }
@@ -241,7 +242,8 @@ void LocalSearch::tryRows(const Query& query, const Geometry& geometry, std::siz
 
 /// Most slaves are not behind the line of any master that they can cross.
 template <class Geometry>
-void LocalSearch::tryRow(const Query& query, const Geometry& geometry, std::span<const Near> row,
+void LocalSearch::tryRow(const Query& query, const Geometry& geometry,
+                         std::span<const Touch> touches, std::span<const Near> row,
                          Part& part) const {
   const EntryId slave = query.slaveOf(row.front());
   const Vec2 point = geometry.slave(slave);
@@ -256,14 +258,13 @@ void LocalSearch::tryRow(const Query& query, const Geometry& geometry, std::span
           !geometry.isArc(master) || isArcAmongArcs(query.surfaces, geometry, master);
       if (quick && !geometry.mayPenetrate(master, point)) continue;
       part.trials.push_back({master});
-      allKnown = allKnown && query.isKnown({slave, master});
+      allKnown = allKnown && query.known.contains({slave, master});
     }
   };
   addTrials(true);
   if (allKnown) return part.trials.clear();
   const Geometry before(query.surfaces, start_.positions, pointsBefore_);
-  const SlaveStep<Geometry> step{before, geometry, slave, touchesOf(start_.touches, slave),
-                                 start_.depth};
+  const SlaveStep<Geometry> step{before, geometry, slave, touches, start_.depth};
   if (!findEntered(query.surfaces, step, part.trials, query.deepest)) return part.trials.clear();
   addTrials(false);
   std::ranges::sort(part.trials, {}, &Trial::master);

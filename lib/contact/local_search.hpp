@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contact/candidates.hpp"
+#include "contact/pairs_of_slaves.hpp"
 #include "contact/path_rules.hpp"
 #include "core/tolerances/threads.hpp"
 #include "surface/piece_geometry.hpp"
@@ -41,13 +42,13 @@ class LocalSearch {
 
   /// Second phase (§5.2, §5.3): the actives at `positions`, by slave, then master. Depths in a
   /// smooth master beyond `deepest` (m) are ignored, for any width of the halo. Excluded are slaves
-  /// `known` (ascending) to be active on all their near masters, and pairs that a displacement of
+  /// `known` to be active on all their near masters, and pairs that a displacement of
   /// at most `moved` (m) since the scan cannot have brought into penetration. After the first call
   /// for a scan, slaves may be excluded if neither they nor their near masters have moved since the
   /// last call.
   void findActives(const Candidates& candidates, const ContactSurfaces& surfaces,
                    std::span<const Vec2> positions, double deepest, std::vector<Active>& actives,
-                   std::span<const SlaveMaster> known = {}, double moved = INFINITY);
+                   const PairsOfSlaves& known = {}, double moved = INFINITY);
 
   [[nodiscard]] bool anyNear() const { return !near_.empty(); }
   void addTo(Footprint& footprint) const {
@@ -68,13 +69,10 @@ class LocalSearch {
     const Candidates& candidates;
     const ContactSurfaces& surfaces;
     double deepest;
-    std::span<const SlaveMaster> known;
+    const PairsOfSlaves& known;
     double moved;
     std::span<const std::uint8_t> mayDiffer;  ///< by entry; empty: all are tried
     [[nodiscard]] EntryId slaveOf(const Near& near) const { return candidates.slaves[near.row]; }
-    [[nodiscard]] bool isKnown(SlaveMaster pair) const {
-      return std::ranges::binary_search(known, pair);
-    }
   };
   /// Results of one thread, and its memory.
   struct alignas(tolerance::kThreadsApart) Part {
@@ -97,7 +95,7 @@ class LocalSearch {
                  ChordOf chordOfEntry, std::vector<Near>& found) const;
   template <class Geometry>
   bool findEnterable(const Candidates& candidates, const Geometry& before,
-                     std::span<Near> row) const;
+                     std::span<const Touch> touches, std::span<Near> row) const;
   void findMoved(const ContactSurfaces& surfaces, std::span<const Vec2> positions);
   [[nodiscard]] bool mustTry(const Query& query, std::span<const Near> row) const;
   [[nodiscard]] std::size_t beginOfRow(std::size_t at) const;
@@ -105,8 +103,8 @@ class LocalSearch {
   void tryRows(const Query& query, const Geometry& geometry, std::size_t from, std::size_t to,
                Part& part) const;
   template <class Geometry>
-  void tryRow(const Query& query, const Geometry& geometry, std::span<const Near> row,
-              Part& part) const;
+  void tryRow(const Query& query, const Geometry& geometry, std::span<const Touch> touches,
+              std::span<const Near> row, Part& part) const;
 
   double way_ = 0;    // m, distance travelled by the fastest node since the candidates were found
   double reach_ = 0;  // m, of the last scan

@@ -41,8 +41,7 @@ class Path {
 
  private:
   [[nodiscard]] bool isTouched(EntryId master) const {
-    return std::ranges::any_of(step_.touches,
-                               [&](const Touch& touch) { return touch.pair.master == master; });
+    return touchOn(step_.touches, master) != nullptr;
   }
 
   /// True if ξ (0 at the begin of a piece, 1 at its end) is over the piece, or, at a concave joint,

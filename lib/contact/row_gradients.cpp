@@ -17,7 +17,8 @@ void RowSweeps::findGroups() {
   std::vector<std::uint32_t> rowOfNode(nodes_.size(), kNone);
   for (std::uint32_t r = 0; r < rows_.size(); ++r)
     for (std::uint32_t k = 0; k < ends_[r].count; ++k) {
-      if (rows_[r].perForce[k] == Vec2{}) continue;  // A held node transmits no force.
+      if (moved_.nodes[ends_[r].node[k]].perForce == Vec2{})
+        continue;  // A held node transmits no force.
       std::uint32_t& first = rowOfNode[ends_[r].node[k]];
       if (first == kNone)
         first = r;
@@ -33,11 +34,10 @@ void RowSweeps::findGroups() {
 
 /// In the groups whose turn it is.
 void RowSweeps::descend(double tolerance) {
-  if (groups_.rows() == 0) findGroups();
+  if (groups_.rows() == 0) findGroups(), along_ = moved_;
   schedules_.resize(rows_.size());
   former_.resize(rows_.size()), residual_.resize(rows_.size()), perResidual_.resize(rows_.size());
   direction_.resize(rows_.size()), response_.resize(rows_.size());
-  along_.shift.resize(nodes_.size()), along_.turn.resize(moved_.turn.size());
   for (std::size_t g = 0; g < groups_.rows(); ++g) {
     const Members members = groups_.row(g);
     auto& [wait, next] = schedules_[members.front()];
@@ -113,8 +113,8 @@ void RowSweeps::turnDirection(Members members, double kept) {
 double RowSweeps::findResponses(Members members) {
   for (const std::uint32_t r : members) {
     const Ends& ends = ends_[r];
-    for (std::uint32_t k = 0; k < ends.count; ++k) along_.shift[ends.node[k]] = {};
-    if (ends.turn != kNone) along_.turn[turns_[ends.turn].number] = 0;
+    for (std::uint32_t k = 0; k < ends.count; ++k) along_.nodes[ends.node[k]].shift = {};
+    if (ends.turn != kNone) along_.turns[turns_[ends.turn].number] = 0;
   }
   for (const std::uint32_t r : members) {
     const SweepRow& row = rows_[r];

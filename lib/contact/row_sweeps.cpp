@@ -11,19 +11,12 @@ namespace yadefrag {
 
 double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
                         Coupling* coupling) {
-  const auto isNew = [](const ContactRow& row) { return row.swept == ContactRow::kNone; };
-  if (std::ranges::all_of(rows, isNew)) clear(inertia.size());
   const std::size_t former = rows_.size();
+  assert(former <= rows.size());
+  numbers_.resize(inertia.size());
   waiting_.grow(rows.size());
-  for (std::uint32_t r = 0; r < rows.size(); ++r) {
-    if (!isNew(rows[r])) {
-      update(rows[r], r, stop.change);
-      continue;
-    }
-    rows[r].swept = static_cast<std::uint32_t>(rows_.size());
-    add(rows[r], r, inertia);
-  }
-  assert(rows_.size() == rows.size());
+  for (std::size_t r = 0; r < former; ++r) update(r, rows[r], stop.change);
+  for (const ContactRow& row : rows.subspan(former)) add(row, inertia);
   if (rows_.size() > former) findRowsOfNodes(), groups_ = {};
   pushAll();
   share(coupling, inertia.nodes.size());
@@ -41,10 +34,8 @@ double RowSweeps::finish(std::span<ContactRow> rows, Stop stop, Coupling* coupli
     if (count_ >= tolerance::kSweepsToDescend) descend(stop.change);
   }
   if (!shared_.empty()) (void)sweepCoupled(*coupling, stop.change, true);
-  for (const SweepRow& swept : rows_) {
-    rows[swept.place].normalForce = swept.normalForce;
-    rows[swept.place].tangentForce = swept.tangentForce;
-  }
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    rows[r].normalForce = rows_[r].normalForce, rows[r].tangentForce = rows_[r].tangentForce;
   return change;
 }
 
@@ -62,7 +53,7 @@ void RowSweeps::share(const Coupling* coupling, std::size_t modelNodes) {
 /// one they converge. Returns the largest displacement (m).
 double RowSweeps::sweepCoupled(Coupling& coupling, double tolerance, bool last) {
   for (SharedNode& one : shared_) {
-    const Vec2 byContact = moved_.shift[one.number] - one.byOthers;
+    const Vec2 byContact = moved_.nodes[one.number].shift - one.byOthers;
     if (norm(byContact - one.byContact) > (last ? 0 : tolerance) || !one.isKnown)
       coupling.forces.noteMoved(one.node);
     one.byContact = byContact, one.isKnown = true;
@@ -77,7 +68,7 @@ double RowSweeps::sweepCoupled(Coupling& coupling, double tolerance, bool last) 
     const Vec2 change = at - one.at;
     at = at - (one.byContact - coupling.displaced[one.node.value]);
     one.byOthers += change;
-    moved_.shift[one.number] += change;
+    moved_.nodes[one.number].shift += change;
     if (norm(change) > tolerance)
       for (const std::uint32_t row : rowsOfNodes_.row(one.number)) waiting_.add(row);
   }
@@ -85,9 +76,9 @@ double RowSweeps::sweepCoupled(Coupling& coupling, double tolerance, bool last) 
   return most;
 }
 
-void RowSweeps::clear(std::size_t nodes) {
-  numbers_.resize(nodes);
+void RowSweeps::clear() {
   nodes_.clear();
+  moved_.nodes.clear();
   turns_.clear();
   rows_.clear();
   ends_.clear();
@@ -97,10 +88,9 @@ void RowSweeps::clear(std::size_t nodes) {
   total_ = 0;
 }
 
-void RowSweeps::add(const ContactRow& row, std::uint32_t place, const Inertia& inertia) {
+void RowSweeps::add(const ContactRow& row, const Inertia& inertia) {
   SweepRow& swept = rows_.emplace_back();
   Ends& ends = ends_.emplace_back();
-  swept.place = place;
   swept.normal = row.normal;
   swept.gap = row.gap - row.toleratedGap, swept.slip = row.slip, swept.friction = row.friction;
   swept.normalForce = row.normalForce, swept.tangentForce = row.tangentForce;
@@ -112,43 +102,35 @@ void RowSweeps::add(const ContactRow& row, std::uint32_t place, const Inertia& i
 }
 
 /// A row that was swept in an earlier detection of the step.
-void RowSweeps::update(const ContactRow& row, std::uint32_t place, double tolerance) {
-  SweepRow& swept = rows_[row.swept];
+void RowSweeps::update(std::size_t r, const ContactRow& row, double tolerance) {
+  SweepRow& swept = rows_[r];
   const double gap = row.gap - row.toleratedGap;
   bool differs = std::abs(gap - swept.gap) > tolerance;
-  swept.gap = gap, swept.place = place;
+  swept.gap = gap;
   if (swept.friction > 0) {
     differs = differs || std::abs(row.slip - swept.slip) > tolerance;
     swept.slip = row.slip;
   }
-  if (differs) waiting_.add(row.swept);
-}
-
-void RowSweeps::clear(Motion& motion) const {
-  motion.shift.assign(nodes_.size(), {});
-  motion.turn.assign(turns_.empty() ? 0 : nodes_.size(), 0);
+  if (differs) waiting_.add(r);
 }
 
 /// Displacements by the forces of all rows.
 void RowSweeps::pushAll() {
-  clear(moved_);
+  for (MovedNode& node : moved_.nodes) node.shift = {};
+  moved_.turns.assign(turns_.empty() ? 0 : nodes_.size(), 0);
   for (std::size_t r = 0; r < rows_.size(); ++r)
     push(rows_[r], ends_[r], ends_[r].count, rows_[r].force(), moved_);
 }
 
 void RowSweeps::addEnd(SweepRow& swept, Ends& ends, NodeId number, double weight,
                        const Inertia& inertia) {
-  const Vec2 mobile = inertia.step.squared() * weight * inertia.mobilityOf(number);
-  const Vec2 perNormal{mobile.x * swept.normal.x, mobile.y * swept.normal.y};
-  swept.normalResponse += weight * dot(perNormal, swept.normal);
-  if (swept.friction > 0) {
-    const Vec2 along = swept.along();
-    swept.tangentResponse += weight * dot(Vec2{mobile.x * along.x, mobile.y * along.y}, along);
-    swept.slipPerNormal += weight * dot(perNormal, along);
-  }
-  ends.node[ends.count] = numberOf(number);
-  swept.weight[ends.count] = weight, swept.perForce[ends.count] = mobile;
-  ++ends.count;
+  const std::uint32_t node = ends.node[ends.count] = numberOf(number, inertia);
+  swept.weight[ends.count++] = weight;
+  const Vec2 mobile = weight * weight * moved_.nodes[node].perForce;
+  swept.normalResponse += weighted(swept.normal, mobile, swept.normal);
+  if (!(swept.friction > 0)) return;
+  swept.tangentResponse += weighted(swept.along(), mobile, swept.along());
+  swept.slipPerNormal += weighted(swept.normal, mobile, swept.along());
 }
 
 void RowSweeps::addRigid(SweepRow& swept, Ends& ends, const ContactRow::RigidPart& part,
@@ -165,11 +147,12 @@ void RowSweeps::addRigid(SweepRow& swept, Ends& ends, const ContactRow::RigidPar
   turns_.push_back({part.lever, turning, ends.node[ends.count - 1]});
 }
 
-std::uint32_t RowSweeps::numberOf(NodeId node) {
+std::uint32_t RowSweeps::numberOf(NodeId node, const Inertia& inertia) {
   std::uint32_t& number = numbers_[node.value];
   if (number < nodes_.size() && nodes_[number] == node) return number;
   number = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(node);
+  moved_.nodes.push_back({{}, inertia.step.squared() * inertia.mobilityOf(node)});
   return number;
 }
 

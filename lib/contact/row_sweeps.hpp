@@ -38,19 +38,22 @@ class RowSweeps {
     int most;
   };
   /// Improves the forces of all rows, and those that are coupled to them; returns the largest
-  /// change in the last sweep (m). Rows that were swept before (`swept`) have the nodes and the
-  /// normal they had then: only their gaps are read, and they are visited if these have changed.
+  /// change in the last sweep (m). The first rows may be those of former solutions since `clear`,
+  /// with the nodes and the normals they had then: only their gaps are read, and they are visited
+  /// if these have changed.
   double solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
                Coupling* coupling = nullptr);
   /// Number of sweeps of the last solution.
   [[nodiscard]] int sweeps() const { return count_; }
+  /// Must be called before the first solution of a step.
+  void clear();
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, rows_, ends_, turns_, nodes_, numbers_, moved_.shift, moved_.turn, shared_,
+    footprint.add(use, rows_, ends_, turns_, nodes_, numbers_, moved_.nodes, moved_.turns, shared_,
                   links_, rowsOfNodes_.values, rowsOfNodes_.offsets, groups_.values,
                   groups_.offsets, schedules_, former_, residual_, perResidual_, direction_,
-                  response_, along_.shift, along_.turn);
+                  response_, along_.nodes, along_.turns);
     waiting_.addTo(footprint, use);
   }
 
@@ -58,13 +61,11 @@ class RowSweeps {
   /// A row in the form for the sweeps: only the data that they read and write.
   struct SweepRow {
     std::array<double, 5> weight;
-    std::array<Vec2, 5> perForce;  // m/N, by axis: displacement of the node per force
     Vec2 normal;
     double gap, slip, friction;
     double normalResponse, tangentResponse;  // m/N: change of gap and slip per force
     double slipPerNormal;                    // m/N: coupling, if a node is held in one direction
     double normalForce, tangentForce;        // N
-    std::uint32_t place;                     // index among all rows
 
     [[nodiscard]] Vec2 along() const { return {-normal.y, normal.x}; }
     [[nodiscard]] Vec2 force() const { return normalForce * normal + tangentForce * along(); }
@@ -85,25 +86,28 @@ class RowSweeps {
   struct Link {
     std::uint32_t node, row;
   };
-  /// Displacements of nodes (m) and rotations of rigid bodies (rad), by number.
+  /// Displacement of a node, and that per force by axis: a visit of a row needs both.
+  struct MovedNode {
+    Vec2 shift;     // m
+    Vec2 perForce;  // m/N
+  };
+  /// Displacements of nodes and rotations of rigid bodies (rad), by number.
   struct Motion {
-    std::vector<Vec2> shift;
-    std::vector<double> turn;  // empty without rigid bodies
+    std::vector<MovedNode> nodes;
+    std::vector<double> turns;  // empty without rigid bodies
   };
   /// Normal and tangential part of a row: of a gap and a slip (m), or of two forces (N).
   struct Pair {
     double normal = 0, tangent = 0;
   };
 
-  void clear(std::size_t nodes);
-  void add(const ContactRow& row, std::uint32_t place, const Inertia& inertia);
-  void update(const ContactRow& row, std::uint32_t place, double tolerance);
+  void add(const ContactRow& row, const Inertia& inertia);
+  void update(std::size_t r, const ContactRow& row, double tolerance);
   void pushAll();
   void addEnd(SweepRow& swept, Ends& ends, NodeId number, double weight, const Inertia& inertia);
   void addRigid(SweepRow& swept, Ends& ends, const ContactRow::RigidPart& part,
                 const Inertia& inertia);
-  std::uint32_t numberOf(NodeId node);
-  void clear(Motion& motion) const;
+  std::uint32_t numberOf(NodeId node, const Inertia& inertia);
   template <class Count>
   void push(const SweepRow& row, const Ends& ends, Count count, Vec2 force, Motion& motion) const;
   /// (m) Displacement of a row's slave relative to its master.
@@ -168,21 +172,24 @@ class RowSweeps {
 template <class Count>
 void RowSweeps::push(const SweepRow& row, const Ends& ends, Count count, Vec2 force,
                      Motion& motion) const {
-  for (std::uint32_t k = 0; k < count; ++k)
-    motion.shift[ends.node[k]] += Vec2{row.perForce[k].x * force.x, row.perForce[k].y * force.y};
+  for (std::uint32_t k = 0; k < count; ++k) {
+    MovedNode& node = motion.nodes[ends.node[k]];
+    node.shift += row.weight[k] * Vec2{node.perForce.x * force.x, node.perForce.y * force.y};
+  }
   if (ends.turn == kNone) return;
   const Turn& turn = turns_[ends.turn];
-  motion.turn[turn.number] += turn.perMoment * cross(turn.lever, force);
+  motion.turns[turn.number] += turn.perMoment * cross(turn.lever, force);
 }
 
 template <class Count>
 Vec2 RowSweeps::relativeMotion(const SweepRow& row, const Ends& ends, Count count,
                                const Motion& motion) const {
   Vec2 moved;
-  for (std::uint32_t k = 0; k < count; ++k) moved += row.weight[k] * motion.shift[ends.node[k]];
+  for (std::uint32_t k = 0; k < count; ++k)
+    moved += row.weight[k] * motion.nodes[ends.node[k]].shift;
   if (ends.turn == kNone) return moved;
   const Turn& turn = turns_[ends.turn];
-  return moved + motion.turn[turn.number] * Vec2{-turn.lever.y, turn.lever.x};
+  return moved + motion.turns[turn.number] * Vec2{-turn.lever.y, turn.lever.x};
 }
 
 }  // namespace yadefrag

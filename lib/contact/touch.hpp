@@ -21,4 +21,28 @@ inline std::span<const Touch> touchesOf(std::span<const Touch> touches, EntryId 
   return {begin, std::ranges::upper_bound(begin, touches.end(), slave, {}, slaveOf)};
 }
 
+/// The same for slaves in ascending order, without a search for each.
+class TouchCursor {
+ public:
+  explicit TouchCursor(std::span<const Touch> touches) : rest_(touches) {}
+  std::span<const Touch> of(EntryId slave) {
+    std::size_t begin = 0;
+    while (begin < rest_.size() && rest_[begin].pair.slave < slave) ++begin;
+    rest_ = rest_.subspan(begin);
+    std::size_t end = 0;
+    while (end < rest_.size() && rest_[end].pair.slave == slave) ++end;
+    return rest_.first(end);
+  }
+
+ private:
+  std::span<const Touch> rest_;
+};
+
+/// The one with this master, or null.
+inline const Touch* touchOn(std::span<const Touch> ofSlave, EntryId master) {
+  for (const Touch& touch : ofSlave)
+    if (touch.pair.master == master) return &touch;
+  return nullptr;
+}
+
 }  // namespace yadefrag

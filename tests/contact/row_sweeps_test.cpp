@@ -17,7 +17,6 @@ constexpr double kLeft = 1e-9;
 /// (m) The last change.
 double solveAll(std::span<ContactRow> rows, const Nodes& nodes, double drag = 0,
                 RowSweeps::Stop stop = {1e-17, 10000}) {
-  for (ContactRow& row : rows) row.swept = ContactRow::kNone;
   RowSweeps sweeps;
   return sweeps.solve(rows, {nodes, kDt, drag}, stop);
 }
