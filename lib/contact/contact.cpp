@@ -19,10 +19,14 @@ namespace {
 
 SlaveMaster pairOf(const ContactRow& row) { return {row.slave, row.master}; }
 
-/// (m) Penetration above which the system is solved again.
+/// (m) Penetration above which the system is solved again. With no motion the last value is NaN,
+/// and the others are used.
 double worthwhile(const ContactStep& step) {
-  const double remainder = step.rubble ? tolerance::kRubbleRemainder : tolerance::kRemainder;
-  return std::max(remainder * step.move, tolerance::kRemainingPenetration * step.shortest);
+  const double secondOrder =
+      std::min(tolerance::kMostRemainder * step.shortest,
+               tolerance::kSecondOrder * step.move * step.move / step.shortest);
+  return std::max({tolerance::kRemainder * step.move,
+                   tolerance::kRemainingPenetration * step.shortest, secondOrder});
 }
 
 /// True if two pieces meet in a joint that does not turn towards the void.
@@ -74,8 +78,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces, const Conta
   // Corrections are mostly as large as those of the previous step.
   double reach = std::max(step.reach, tolerance::kReachSpare * lastCorrection);
   scan(model, surfaces, step, reach, step.move);
-  const int most = step.rubble ? tolerance::kRubbleDetections : tolerance::kDetections;
-  for (int detection = 0; detection < most; ++detection) {
+  for (int detection = 0; detection < tolerance::kDetections; ++detection) {
     const bool anyNew = mayHaveEntered(step) && addRows(model, surfaces, step);
     if (rows_.empty()) break;
     if (detection > 0) {
@@ -170,13 +173,11 @@ void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const Co
 double Contact::solve(Model& model, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
   const Inertia inertia{model.nodes, step.length, step.drag, step.rigid.masses};
-  const double change =
-      (step.rubble ? tolerance::kRubbleChange : tolerance::kChange) * worthwhile(step);
-  const int most = step.rubble ? tolerance::contact().rowSweeps : tolerance::kSweeps;
+  const RowSweeps::Stop stop{tolerance::kChange * worthwhile(step), tolerance::contact().rowSweeps};
   std::optional<Coupling> coupling;
   if (step.coupled != nullptr)
     coupling.emplace(Coupling{*step.coupled, step.cohesive, model.nodes.position, displacement_});
-  inexact_ = sweeps_.solve(rows_, inertia, {change, most}, coupling ? &*coupling : nullptr);
+  inexact_ = sweeps_.solve(rows_, inertia, stop, coupling ? &*coupling : nullptr);
   now_.sweeps += sweeps_.sweeps();
   numSolved_ = rows_.size();
   return coupling ? coupling->moved : 0;

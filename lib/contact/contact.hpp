@@ -31,7 +31,6 @@ struct ContactStep {
   double deepest;                ///< m, maximum depth of contact with a smooth master
   std::span<const Vec2> before;  ///< m, xⁿ; of surface nodes only
   int threads;
-  bool rubble;               ///< true: faces of cracks are included
   const RigidMasses& rigid;  ///< rigid boundaries that obey forces
   /// By node: number of the nodes that cohesive cracks hold to each other; 0: none. Empty without
   /// such cracks.

