@@ -9,9 +9,8 @@ namespace yadefrag::tolerance {
 inline constexpr int kSweepsToCouple = 4;
 
 /// (of the penetration that needs another solution) Sweeps end as soon as none changes a gap or a
-/// slip by more than this. With .1 the forces at the foot of fifty squares have an error of 3e-4,
-/// with .05 below 1e-4.
-inline constexpr double kChange = .05;
+/// slip by more than this.
+inline constexpr double kChange = .3;
 
 /// (count; count; ratio; count) Sweeps before the first conjugate gradients in a group, sweeps
 /// between two of them, the ratio by which there are more sweeps after a bound has ended one, and
