@@ -51,7 +51,8 @@ double Contact::frictionOf(SlaveMaster pair, const Model& model, const ContactSu
   const auto friction = [&](EntryId entry) {
     return model.components[surfaces.component[entry.value].value].friction;
   };
-  return std::min(friction(pair.slave), friction(pair.master));
+  const double own = friction(pair.slave);
+  return own > 0 ? std::min(own, friction(pair.master)) : 0;
 }
 
 /// Sets slip, and the values stored for this contact in the last step.

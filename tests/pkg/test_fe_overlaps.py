@@ -78,7 +78,7 @@ def test_noneIsDeeperThanTold(kind, ratio):
 def test_onePassOverlapsUnseen():
     """Only the triangles show it, as fe.deepestOverlap() does."""
     found, told = deepestOfImpact('discs', 3.26, 'regular', .3, passes=1)
-    assert found > .005 * SIZE and told < 1e-6 * SIZE
+    assert found > .005 * SIZE and told < 1e-5 * SIZE
 
 
 @pytest.mark.parametrize('passes', [None, 2])

@@ -103,12 +103,6 @@ def burst(part=1, brittle=(), smooth=False, speed=3, spin=1, friction=0):
     return ran(solver, int(60 / part))
 
 
-def tough(part):
-    """The same with cracks that hold far beyond an element's size, and friction."""
-    wave = math.sqrt(1000)
-    return burst(part, dict(fractureEnergy=150), speed=.1 * wave, spin=-2 * wave, friction=math.atan(2))
-
-
 def flat(part):
     wave = math.sqrt(1000)
     return burst(part, smooth=True, speed=.3 * wave, spin=0)
@@ -310,10 +304,6 @@ TABLE = {
     'contact moves a node: step': ('contact moves a surface node by', thrown, lambda: thrown(.02)),
     'contact moves a node: slower': ('contact moves a surface node by', thrown, lambda: thrown(speed=.01)),
     'contact that creates energy': ('contact has created', lambda: flat(1), lambda: flat(.25)),
-    'contact at cracks that creates angular momentum': (
-        'contact at cracks has created an angular momentum', lambda: tough(1), lambda: tough(.25)),
-    'bodies that overlap': (
-        'bodies overlap by .* of the shortest segment; take a shorter step', lambda: tough(1), lambda: tough(.25)),
     'a sphere that is too light: step': (
         "contact with YADE's spheres has created .*take a shorter step", small, lambda: small(.01)),
     'a sphere that is too light: stiffness': (
