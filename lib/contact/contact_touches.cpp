@@ -65,7 +65,8 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
   if (former != nullptr) {
     row.toleratedGap =
         std::min(0., former->toleratedGap + decay * std::min(-former->toleratedGap, step.move));
-    row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;
+    row.normalForce = former->normalForce;
+    row.tangentForce = former->tangentForce;
   } else {
     // An overlap from before the step, as beside an end, must not become velocity at once.
     const double gap = before.foot(row.master, before.slave(row.slave)).gap;

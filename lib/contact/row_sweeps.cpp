@@ -25,7 +25,11 @@ double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop
 
 double RowSweeps::finish(std::span<ContactRow> rows, Stop stop, Coupling* coupling) {
   double change = 0;
-  for (count_ = 0; count_ < stop.most;) {
+  const auto goesOn = [&] {
+    return count_ < stop.most ||
+           (count_ < tolerance::kMostSweeps && change > tolerance::kFarFromSolved * stop.change);
+  };
+  for (count_ = 0; goesOn();) {
     // Alternating directions: forces are transmitted along chains of pieces.
     change = sweep(count_++ % 2 == 0, stop.change), ++total_;
     if (!shared_.empty() && count_ % tolerance::kSweepsToCouple == 1)
@@ -34,8 +38,10 @@ double RowSweeps::finish(std::span<ContactRow> rows, Stop stop, Coupling* coupli
     if (count_ >= tolerance::kSweepsToDescend) descend(stop.change);
   }
   if (!shared_.empty()) (void)sweepCoupled(*coupling, stop.change, true);
-  for (std::size_t r = 0; r < rows.size(); ++r)
-    rows[r].normalForce = rows_[r].normalForce, rows[r].tangentForce = rows_[r].tangentForce;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    rows[r].normalForce = rows_[r].normalForce;
+    rows[r].tangentForce = rows_[r].tangentForce;
+  }
   return change;
 }
 

@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6551946610825796);
-  expectNear(places.y, 1.4498179211601636);
-  expectNear(speeds, 4510.4312076992574);
-  expectNear(totalEnergy(world), 89.999374811576786);
-  expectNear(world.ledger.contact, 5.1056675186971407);
+  expectNear(places.x, 3.6551966765486479);
+  expectNear(places.y, 1.449818391201102);
+  expectNear(speeds, 4510.6129920470694);
+  expectNear(totalEnergy(world), 89.999375104285903);
+  expectNear(world.ledger.contact, 5.1054026712844047);
 }
 
 }  // namespace

@@ -12,6 +12,12 @@ inline constexpr int kSweepsToCouple = 4;
 /// slip by more than this.
 inline constexpr double kChange = .3;
 
+/// (of that change; count) Beyond Contact::rowSweeps sweeps go on while one changes a gap or a slip
+/// by more than this multiple, up to the second number. Where a light box is between heavy blocks,
+/// 80 sweeps are too few at the impact, and contact would create energy for some steps.
+inline constexpr double kFarFromSolved = 100;
+inline constexpr int kMostSweeps = 1000;
+
 /// (count; count; ratio; count) Sweeps before the first conjugate gradients in a group, sweeps
 /// between two of them, the ratio by which there are more sweeps after a bound has ended one, and
 /// iterations of one. In walls of blocks the next bound is always near.
