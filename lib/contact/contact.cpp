@@ -19,8 +19,8 @@ namespace {
 
 SlaveMaster pairOf(const ContactRow& row) { return {row.slave, row.master}; }
 
-/// (m) Penetration above which the system is solved again. With no motion the last value is NaN,
-/// and the others are used.
+/// (m) Penetration above which the system is solved again. Without a segment that can move,
+/// `shortest` is 0, and the quotient may be 0/0: `min` and `max` then return the other values.
 double worthwhile(const ContactStep& step) {
   const double secondOrder =
       std::min(tolerance::kMostRemainder * step.shortest,
@@ -120,7 +120,6 @@ void Contact::begin() {
   rows_.clear();
   pairs_.clear();
   sweeps_.clear();
-  numSolved_ = 0;
   sinceSearch_ = INFINITY;
   inexact_ = 0;
   clearForces();
@@ -153,7 +152,7 @@ void Contact::rescan(const Model& model, const ContactSurfaces& surfaces, const 
 
 /// Rows added after the last solution have not moved a node: their force is zero.
 void Contact::releaseUnsolved() {
-  for (std::size_t r = numSolved_; r < rows_.size(); ++r)
+  for (std::size_t r = sweeps_.size(); r < rows_.size(); ++r)
     rows_[r].normalForce = rows_[r].tangentForce = 0;
 }
 
@@ -179,7 +178,6 @@ double Contact::solve(Model& model, const ContactStep& step) {
     coupling.emplace(Coupling{*step.coupled, step.cohesive, model.nodes.position, displacement_});
   inexact_ = sweeps_.solve(rows_, inertia, stop, coupling ? &*coupling : nullptr);
   now_.sweeps += sweeps_.sweeps();
-  numSolved_ = rows_.size();
   return coupling ? coupling->moved : 0;
 }
 

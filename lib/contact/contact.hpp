@@ -136,7 +136,6 @@ class Contact {
   RowSweeps sweeps_;
   std::vector<Active> actives_;
   std::vector<ContactRow> rows_;  // by detection, then by pair
-  std::size_t numSolved_ = 0;     // number of the first rows, those of the last solution
   Figures now_;
   PairsOfSlaves pairs_;                  // of the rows
   std::vector<Vec2> forces_;             // N, by node

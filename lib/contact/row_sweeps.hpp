@@ -32,7 +32,8 @@ namespace yadefrag {
 
 class RowSweeps {
  public:
-  /// Stop criterion: no gap or slip changes by more than `change` (m) in a sweep, or `most` sweeps.
+  /// Stop criterion: no gap or slip changes by more than `change` (m) in a sweep, or `most` sweeps;
+  /// more of them, up to kMostSweeps, while the forces are far from a solution.
   struct Stop {
     double change;
     int most;
@@ -45,6 +46,8 @@ class RowSweeps {
                Coupling* coupling = nullptr);
   /// Number of sweeps of the last solution.
   [[nodiscard]] int sweeps() const { return count_; }
+  /// Number of rows of the last solution.
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
   /// Must be called before the first solution of a step.
   void clear();
   /// Reserves memory for this number of nodes of the model.

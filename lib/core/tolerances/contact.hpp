@@ -34,7 +34,8 @@ struct Contact {
   double overlapDecay = .2;
 
   /// (count) Contact is solved by at most this number of sweeps at each of at most kDetections
-  /// detections; the next step goes on from their forces. What remains must be less than
+  /// detections, unless they are far from a solution (kFarFromSolved); the next step goes on from
+  /// their forces. What remains must be less than
   /// entryDepth: with 20 sweeps overlaps in impacts are 2e-4 to 9e-3, with 40 8e-5, with 160
   /// overlaps are .8 times those with 80, for 1.4 times the time.
   int rowSweeps = 80;
@@ -86,14 +87,13 @@ inline constexpr double kRemainder = 2e-6, kRemainingPenetration = 2e-11;
 
 /// (of the largest displacement squared, over the shortest segment; of the shortest segment) The
 /// third is a part of the second-order remainder of the linearised contact condition, up to the
-/// second value. With .1 a patch has a force error of 7e-5, with .05 below 1e-6. With a tenth of
-/// kChange besides, impacts take 1.3 times the time.
+/// second value. With .1 a patch has a force error of 7e-5, with .05 of 1e-5. With a sixth of
+/// kChange besides, an impact takes 1.3 times the time.
 inline constexpr double kSecondOrder = .05, kMostRemainder = 1e-5;
 
 /// (of the shortest segment) Contacts that the corrections of a step cause begin in the next step,
 /// without another search, if they cannot be deeper than this. Walls at rest then need one search
-/// per step. With 1e-4 a ring that
-/// buckles has overlaps of 2e-6, and impacts take the same time.
+/// per step. With 1e-4 impacts take the same time.
 inline constexpr double kLateEntry = 1e-5;
 
 /// (count) Maximum number of detections in one step. With 10 overlaps in impacts are the same, for
