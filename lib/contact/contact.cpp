@@ -176,7 +176,7 @@ double Contact::solve(Model& model, const ContactStep& step) {
   std::optional<Coupling> coupling;
   if (step.coupled != nullptr)
     coupling.emplace(Coupling{*step.coupled, step.cohesive, model.nodes.position, displacement_});
-  inexact_ = sweeps_.solve(rows_, inertia, stop, coupling ? &*coupling : nullptr);
+  inexact_ = sweeps_.solve(rows_, inertia, stop, coupling ? &*coupling : nullptr, step.threads);
   now_.sweeps += sweeps_.sweeps();
   return coupling ? coupling->moved : 0;
 }

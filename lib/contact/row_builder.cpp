@@ -1,6 +1,7 @@
 #include "contact/row_builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "contact/joint_rules.hpp"
 #include "contact/slave_normals.hpp"
@@ -53,9 +54,13 @@ FootOn footAtCorner(const PieceGeometry& before, const Active& active, Vec2 slav
   return {master, inside >= 0 && inside <= tolerance::kFootWithin ? start : active.foot};
 }
 
-/// A foot past the end of a straight piece is extrapolated a little; otherwise it is at the end.
+/// A foot past the end of a straight piece is extrapolated a little; otherwise it is at the end. A
+/// foot that coincides with a node is at the node: the other node would only connect rows that do
+/// not affect each other.
 double usableXi(const PieceGeometry& before, EntryId master, double xi, bool atCorner) {
   const PieceRange range = before.range(master);
+  if (std::abs(xi - range.begin) < tolerance::kFootAtNode) return range.begin;
+  if (std::abs(xi - range.end) < tolerance::kFootAtNode) return range.end;
   const bool near =
       xi >= range.begin - tolerance::kFootBeyond && xi <= range.end + tolerance::kFootBeyond;
   if (!before.isArc(master) && near && !atCorner) return xi;

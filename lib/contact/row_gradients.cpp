@@ -7,81 +7,61 @@
 #include <utility>
 
 #include "contact/row_sweeps.hpp"
-#include "core/disjoint_sets.hpp"
 #include "core/tolerances/solver.hpp"
 
 namespace yadefrag {
 
-void RowSweeps::findGroups() {
-  DisjointSets sets(rows_.size());
-  std::vector<std::uint32_t> rowOfNode(nodes_.size(), kNone);
-  for (std::uint32_t r = 0; r < rows_.size(); ++r)
-    for (std::uint32_t k = 0; k < ends_[r].count; ++k) {
-      if (moved_.nodes[ends_[r].node[k]].perForce == Vec2{})
-        continue;  // A held node transmits no force.
-      std::uint32_t& first = rowOfNode[ends_[r].node[k]];
-      if (first == kNone)
-        first = r;
-      else
-        sets.join(first, r);
-    }
-  std::vector<std::uint32_t> groupOfRow;
-  const std::uint32_t count = sets.number(groupOfRow);
-  fillRows(
-      groups_, count, rows_.size(), [&](std::size_t r) { return groupOfRow[r]; },
-      [](std::size_t r) { return static_cast<std::uint32_t>(r); });
+/// Once, before threads share the work.
+void RowSweeps::makeRoomForGradients() {
+  const std::size_t count = rows_.size();
+  former_.resize(count), residual_.resize(count), perResidual_.resize(count);
+  direction_.resize(count), response_.resize(count);
+  along_ = moved_;
 }
 
-/// In the groups whose turn it is.
-void RowSweeps::descend(double tolerance) {
-  if (groups_.rows() == 0) findGroups(), along_ = moved_;
-  schedules_.resize(rows_.size());
-  former_.resize(rows_.size()), residual_.resize(rows_.size()), perResidual_.resize(rows_.size());
-  direction_.resize(rows_.size()), response_.resize(rows_.size());
-  for (std::size_t g = 0; g < groups_.rows(); ++g) {
-    const Members members = groups_.row(g);
-    auto& [wait, next] = schedules_[members.front()];
-    if (total_ < next) continue;
-    if (!(findResiduals(members) > tolerance)) {
-      next = total_ + tolerance::kSweepsToDescend;
-      continue;
-    }
-    wait = descend(members, tolerance)
-               ? tolerance::kSweepsAfterDescent
-               : std::max(tolerance::kMoreSweeps * wait, tolerance::kSweepsToDescend);
-    next = total_ + wait;
-  }
+void RowSweeps::descendIfDue(const Group& group, double tolerance) {
+  Attempts& attempts = attempts_[order_.values[group.begin]];
+  if (attempts.sweeps < attempts.next) return;
+  if (!(findResiduals(group) > tolerance))
+    attempts.between = tolerance::kSweepsToDescend;
+  else if (descend(group, tolerance))
+    attempts.between = tolerance::kSweepsAfterDescent;
+  else
+    attempts.between =
+        std::max(tolerance::kMoreSweeps * attempts.between, tolerance::kSweepsToDescend);
+  attempts.next = attempts.sweeps + attempts.between;
 }
 
-/// From the residuals found, until none exceeds `tolerance` (m); returns false if a bound ends them
-/// before.
-bool RowSweeps::descend(Members members, double tolerance) {
-  double square = scaledSquare(members), kept = 0, worst = INFINITY;
+/// From the residuals found, until none exceeds `tolerance` (m); returns false if a force reaches a
+/// bound before.
+bool RowSweeps::descend(const Group& group, double tolerance) {
+  double worst = INFINITY;
+  double square = scaledSquare(group), kept = 0;
   bool isBounded = false;
   for (int i = 0; i < tolerance::kDescents && worst > tolerance && !isBounded; ++i) {
-    turnDirection(members, kept);
-    const double curvature = findResponses(members);
+    turnDirection(group, kept);
+    const double curvature = findResponses(group);
     if (!(curvature > 0)) break;
-    const double step = square / curvature, bound = stepToBound(members);
+    const double step = square / curvature, bound = stepToBound(group);
     isBounded = bound < step;
-    worst = advance(members, std::min(bound, step));
-    const double former = std::exchange(square, scaledSquare(members));
+    worst = advance(group, std::min(bound, step));
+    const double former = std::exchange(square, scaledSquare(group));
     kept = square / former;
   }
-  for (const std::uint32_t r : members) {
+  for (std::uint32_t r = group.begin; r < group.end; ++r) {
     const SweepRow& row = rows_[r];
     const Vec2 change = (row.normalForce - former_[r].normal) * row.normal +
                         (row.tangentForce - former_[r].tangent) * row.along();
-    push(row, ends_[r], ends_[r].count, change, moved_);
-    waiting_.add(r);
+    push(row, ends_[r], change, moved_);
+    waiting_.add(group.waitingOf(r));
   }
   return !isBounded;
 }
 
 /// Returns the largest one (m).
-double RowSweeps::findResiduals(Members members) {
+double RowSweeps::findResiduals(const Group& group) {
   double worst = 0;
-  for (const std::uint32_t r : members) {
+  for (std::uint32_t r = group.begin; r < group.end; ++r) {
     const SweepRow& row = rows_[r];
     residual_[r] = perResidual_[r] = direction_[r] = {};
     former_[r] = {row.normalForce, row.tangentForce};
@@ -100,8 +80,8 @@ double RowSweeps::findResiduals(Members members) {
 }
 
 /// `kept`: part of the former direction in the new one.
-void RowSweeps::turnDirection(Members members, double kept) {
-  for (const std::uint32_t r : members) {
+void RowSweeps::turnDirection(const Group& group, double kept) {
+  for (std::uint32_t r = group.begin; r < group.end; ++r) {
     Pair& d = direction_[r];
     d.normal = perResidual_[r].normal * residual_[r].normal + kept * d.normal;
     d.tangent = perResidual_[r].tangent * residual_[r].tangent + kept * d.tangent;
@@ -110,19 +90,19 @@ void RowSweeps::turnDirection(Members members, double kept) {
 
 /// Each row has a small compliance: where rows contradict each other, a direction would have no
 /// response at all. Returns the quadratic's second derivative in the direction (N m).
-double RowSweeps::findResponses(Members members) {
-  for (const std::uint32_t r : members) {
+double RowSweeps::findResponses(const Group& group) {
+  for (std::uint32_t r = group.begin; r < group.end; ++r) {
     const Ends& ends = ends_[r];
     for (std::uint32_t k = 0; k < ends.count; ++k) along_.nodes[ends.node[k]].shift = {};
     if (ends.turn != kNone) along_.turns[turns_[ends.turn].number] = 0;
   }
-  for (const std::uint32_t r : members) {
+  for (std::uint32_t r = group.begin; r < group.end; ++r) {
     const SweepRow& row = rows_[r];
-    push(row, ends_[r], ends_[r].count,
-         direction_[r].normal * row.normal + direction_[r].tangent * row.along(), along_);
+    push(row, ends_[r], direction_[r].normal * row.normal + direction_[r].tangent * row.along(),
+         along_);
   }
   double curvature = 0;
-  for (const std::uint32_t r : members) {
+  for (std::uint32_t r = group.begin; r < group.end; ++r) {
     const SweepRow& row = rows_[r];
     const Vec2 moved = relativeMotion(row, ends_[r], ends_[r].count, along_);
     response_[r] = {
@@ -136,18 +116,18 @@ double RowSweeps::findResponses(Members members) {
 }
 
 /// (N m) Σ residual² per response of the row alone.
-double RowSweeps::scaledSquare(Members members) const {
+double RowSweeps::scaledSquare(const Group& group) const {
   double sum = 0;
-  for (const std::uint32_t r : members)
+  for (std::uint32_t r = group.begin; r < group.end; ++r)
     sum += perResidual_[r].normal * residual_[r].normal * residual_[r].normal +
            perResidual_[r].tangent * residual_[r].tangent * residual_[r].tangent;
   return sum;
 }
 
 /// Multiple of the direction at which the first force reaches a bound.
-double RowSweeps::stepToBound(Members members) const {
+double RowSweeps::stepToBound(const Group& group) const {
   double step = INFINITY;
-  for (const std::uint32_t r : members) {
+  for (std::uint32_t r = group.begin; r < group.end; ++r) {
     const SweepRow& row = rows_[r];
     const Pair& d = direction_[r];
     if (d.normal < 0) step = std::min(step, -row.normalForce / d.normal);
@@ -160,9 +140,9 @@ double RowSweeps::stepToBound(Members members) const {
 }
 
 /// Returns the largest residual (m) then.
-double RowSweeps::advance(Members members, double step) {
+double RowSweeps::advance(const Group& group, double step) {
   double worst = 0;
-  for (const std::uint32_t r : members) {
+  for (std::uint32_t r = group.begin; r < group.end; ++r) {
     if (perResidual_[r].normal == 0) continue;
     SweepRow& row = rows_[r];
     row.normalForce = std::max(0., row.normalForce + step * direction_[r].normal);

@@ -5,44 +5,72 @@
 #include <cmath>
 #include <type_traits>
 
+#include "core/parallel.hpp"
 #include "core/tolerances/solver.hpp"
 
 namespace yadefrag {
 
 double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
-                        Coupling* coupling) {
-  const std::size_t former = rows_.size();
+                        Coupling* coupling, int threads) {
+  const std::size_t former = found_.size();
   assert(former <= rows.size());
   numbers_.resize(inertia.size());
-  waiting_.grow(rows.size());
-  for (std::size_t r = 0; r < former; ++r) update(r, rows[r], stop.change);
+  update(rows.first(former), stop.change);
   for (const ContactRow& row : rows.subspan(former)) add(row, inertia);
-  if (rows_.size() > former) findRowsOfNodes(), groups_ = {};
+  waits_.resize(rows.size(), 1);
+  findGroups();
+  arrange(rows);
   pushAll();
+  makeRoomForGradients();
   share(coupling, inertia.nodes.size());
-  return finish(rows, stop, coupling);
+  const double change = sweepAll(stop, coupling, threads);
+  for (const Group& group : groups_)
+    for (std::uint32_t r = group.begin; r < group.end; ++r) {
+      ContactRow& row = rows[order_.values[r]];
+      row.normalForce = rows_[r].normalForce, row.tangentForce = rows_[r].tangentForce;
+      waits_[order_.values[r]] = waiting_.contains(group.waitingOf(r)) ? 1 : 0;
+    }
+  return change;
 }
 
-double RowSweeps::finish(std::span<ContactRow> rows, Stop stop, Coupling* coupling) {
-  double change = 0;
-  const auto goesOn = [&] {
-    return count_ < stop.most ||
-           (count_ < tolerance::kMostSweeps && change > tolerance::kFarFromSolved * stop.change);
-  };
-  for (count_ = 0; goesOn();) {
-    // Alternating directions: forces are transmitted along chains of pieces.
-    change = sweep(count_++ % 2 == 0, stop.change), ++total_;
-    if (!shared_.empty() && count_ % tolerance::kSweepsToCouple == 1)
-      change = std::max(change, sweepCoupled(*coupling, stop.change));
-    if (!(change > stop.change)) break;
-    if (count_ >= tolerance::kSweepsToDescend) descend(stop.change);
+/// With coupled forces all groups wait for their sweeps.
+double RowSweeps::sweepAll(Stop stop, Coupling* coupling, int threads) {
+  if (shared_.empty()) return sweepGroups(tolerance::kMostSweeps, stop, threads);
+  double change = INFINITY;
+  for (int until = 1; change > stop.change; until += tolerance::kSweepsToCouple) {
+    const bool isFar = change > tolerance::kFarFromSolved * stop.change;
+    if (until > (isFar ? tolerance::kMostSweeps : stop.most)) break;
+    change = sweepGroups(until, stop, threads);
+    change = std::max(change, sweepCoupled(*coupling, stop.change));
   }
-  if (!shared_.empty()) (void)sweepCoupled(*coupling, stop.change, true);
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    rows[r].normalForce = rows_[r].normalForce;
-    rows[r].tangentForce = rows_[r].tangentForce;
-  }
+  (void)sweepCoupled(*coupling, stop.change, true);
   return change;
+}
+
+/// At most `until` sweeps of each group since the begin of the solution. Returns the largest change
+/// in the last one (m).
+double RowSweeps::sweepGroups(int until, Stop stop, int threads) {
+  forEachItem(groups_.size(), rows_.size(), threads,
+              [&](std::size_t g) { sweepGroup(groups_[g], until, stop); });
+  double change = 0;
+  count_ = 0;
+  for (const Group& group : groups_)
+    change = std::max(change, group.change), count_ = std::max(count_, group.sweeps);
+  return change;
+}
+
+void RowSweeps::sweepGroup(Group& group, int until, Stop stop) {
+  const auto goesOn = [&] {
+    return group.sweeps < until &&
+           (group.sweeps < stop.most || group.change > tolerance::kFarFromSolved * stop.change);
+  };
+  while (goesOn()) {
+    // Alternating directions: forces are transmitted along chains of pieces.
+    group.change = sweep(group, group.sweeps++ % 2 == 0, stop.change);
+    ++attempts_[order_.values[group.begin]].sweeps;
+    if (!(group.change > stop.change)) break;
+    if (group.sweeps >= tolerance::kSweepsToDescend) descendIfDue(group, stop.change);
+  }
 }
 
 /// Finds the nodes of rows that coupled forces move, too.
@@ -82,114 +110,29 @@ double RowSweeps::sweepCoupled(Coupling& coupling, double tolerance, bool last) 
   return most;
 }
 
-void RowSweeps::clear() {
-  nodes_.clear();
-  moved_.nodes.clear();
-  turns_.clear();
-  rows_.clear();
-  ends_.clear();
-  waiting_.clear(0);
-  schedules_.clear();
-  groups_ = {};
-  total_ = 0;
-}
-
-void RowSweeps::add(const ContactRow& row, const Inertia& inertia) {
-  SweepRow& swept = rows_.emplace_back();
-  Ends& ends = ends_.emplace_back();
-  swept.normal = row.normal;
-  swept.gap = row.gap - row.toleratedGap, swept.slip = row.slip, swept.friction = row.friction;
-  swept.normalForce = row.normalForce, swept.tangentForce = row.tangentForce;
-  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(row.count); ++k)
-    if (!row.isOfRigid(inertia.nodes, row.node[k]))
-      addEnd(swept, ends, row.node[k], row.weight[k], inertia);
-  if (row.rigid.mass != ContactRow::kNone) addRigid(swept, ends, row.rigid, inertia);
-  waiting_.add(rows_.size() - 1);
-}
-
-/// A row that was swept in an earlier detection of the step.
-void RowSweeps::update(std::size_t r, const ContactRow& row, double tolerance) {
-  SweepRow& swept = rows_[r];
-  const double gap = row.gap - row.toleratedGap;
-  bool differs = std::abs(gap - swept.gap) > tolerance;
-  swept.gap = gap;
-  if (swept.friction > 0) {
-    differs = differs || std::abs(row.slip - swept.slip) > tolerance;
-    swept.slip = row.slip;
-  }
-  if (differs) waiting_.add(r);
-}
-
-/// Displacements by the forces of all rows.
-void RowSweeps::pushAll() {
-  for (MovedNode& node : moved_.nodes) node.shift = {};
-  moved_.turns.assign(turns_.empty() ? 0 : nodes_.size(), 0);
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    push(rows_[r], ends_[r], ends_[r].count, rows_[r].force(), moved_);
-}
-
-void RowSweeps::addEnd(SweepRow& swept, Ends& ends, NodeId number, double weight,
-                       const Inertia& inertia) {
-  const std::uint32_t node = ends.node[ends.count] = numberOf(number, inertia);
-  swept.weight[ends.count++] = weight;
-  const Vec2 mobile = weight * weight * moved_.nodes[node].perForce;
-  swept.normalResponse += weighted(swept.normal, mobile, swept.normal);
-  if (!(swept.friction > 0)) return;
-  swept.tangentResponse += weighted(swept.along(), mobile, swept.along());
-  swept.slipPerNormal += weighted(swept.normal, mobile, swept.along());
-}
-
-void RowSweeps::addRigid(SweepRow& swept, Ends& ends, const ContactRow::RigidPart& part,
-                         const Inertia& inertia) {
-  const NodeId number(inertia.nodes.size() + part.mass);
-  addEnd(swept, ends, number, part.weight, inertia);
-  const double turning = inertia.step.squared() * inertia.turningOf(number);
-  const double normal = cross(part.lever, swept.normal);
-  const double tangent = cross(part.lever, Vec2{-swept.normal.y, swept.normal.x});
-  swept.normalResponse += turning * normal * normal;
-  swept.tangentResponse += turning * tangent * tangent;
-  swept.slipPerNormal += turning * normal * tangent;
-  ends.turn = static_cast<std::uint32_t>(turns_.size());
-  turns_.push_back({part.lever, turning, ends.node[ends.count - 1]});
-}
-
-std::uint32_t RowSweeps::numberOf(NodeId node, const Inertia& inertia) {
-  std::uint32_t& number = numbers_[node.value];
-  if (number < nodes_.size() && nodes_[number] == node) return number;
-  number = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back(node);
-  moved_.nodes.push_back({{}, inertia.step.squared() * inertia.mobilityOf(node)});
-  return number;
-}
-
-void RowSweeps::findRowsOfNodes() {
-  links_.clear();
-  for (std::uint32_t r = 0; r < ends_.size(); ++r)
-    for (std::uint32_t k = 0; k < ends_[r].count; ++k) links_.push_back({ends_[r].node[k], r});
-  fillRows(
-      rowsOfNodes_, nodes_.size(), links_.size(), [&](std::size_t i) { return links_[i].node; },
-      [&](std::size_t i) { return links_[i].row; });
-}
-
-double RowSweeps::sweep(bool forwards, double tolerance) {
+double RowSweeps::sweep(const Group& group, bool forwards, double tolerance) {
   double most = 0;
-  const auto visit = [&](std::size_t r) {
+  const auto visit = [&](std::size_t waiting) {
+    const std::size_t r = group.begin + (waiting - group.firstWaiting);
     const Ends& ends = ends_[r];
-    // A corner against a straight piece, as most rows: loops of constant length.
-    const double moved = ends.count == 3
-                             ? relax(rows_[r], ends, std::integral_constant<std::uint32_t, 3>{})
-                             : relax(rows_[r], ends, ends.count);
+    // A corner against a corner or a straight piece, as most rows: loops of constant length.
+    const double moved =
+        ends.count == 3   ? relax(rows_[r], ends, std::integral_constant<std::uint32_t, 3>{})
+        : ends.count == 2 ? relax(rows_[r], ends, std::integral_constant<std::uint32_t, 2>{})
+                          : relax(rows_[r], ends, ends.count);
     most = std::max(most, moved);
     if (!(moved > tolerance)) return;
     for (std::uint32_t k = 0; k < ends.count; ++k)
       for (const std::uint32_t other : rowsOfNodes_.row(ends.node[k])) waiting_.add(other);
     // Its own gap is 0 now, unless friction has turned a rigid body.
-    if (ends.turn == kNone) waiting_.remove(r);
+    if (ends.turn == kNone) waiting_.remove(waiting);
   };
+  const WorkList::Range words{group.firstWaiting / WorkList::kPerWord,
+                              (group.firstWaiting + group.size() - 1) / WorkList::kPerWord + 1};
   if (forwards)
-    waiting_.visitUp(visit);
+    waiting_.visitUp(words, visit);
   else
-    waiting_.visitDown(visit);
+    waiting_.visitDown(words, visit);
   return most;
 }
 

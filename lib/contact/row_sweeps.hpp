@@ -4,6 +4,8 @@
 // is sufficient. (Slip forces −μ sgn(v)|λ| as in eq. 8 would make the system unsymmetric, and the
 // sign must be known in advance.)
 //
+// Rows with common nodes are one group; each group is solved alone (row_groups.cpp).
+//
 // Sweeps from row to row (nonlinear block Gauss–Seidel of Moreau and Jean's contact dynamics),
 // without a matrix: each row uses the displacements of its nodes by the other rows so far. They
 // start from the forces of the last step and stay near them: where rows are redundant or pieces
@@ -13,8 +15,7 @@
 // Sweeps alone need thousands of passes where both sides of a joint with different meshes are
 // slaves, or along a high stack. Therefore conjugate gradients follow (row_gradients.cpp): they
 // move all forces that are within their bounds, up to the first bound that one of them reaches. In
-// a wall of blocks the next bound is near: the number of sweeps between two attempts is doubled
-// then.
+// rubble and in walls of blocks the next bound is near, therefore they are rare.
 
 #include <array>
 #include <cstdint>
@@ -32,8 +33,8 @@ namespace yadefrag {
 
 class RowSweeps {
  public:
-  /// Stop criterion: no gap or slip changes by more than `change` (m) in a sweep, or `most` sweeps;
-  /// more of them, up to kMostSweeps, while the forces are far from a solution.
+  /// Stop criterion: no gap or slip changes by more than `change` (m) in a sweep, or `most` sweeps
+  /// of a group; more of them, up to kMostSweeps, while its forces are far from a solution.
   struct Stop {
     double change;
     int most;
@@ -41,10 +42,10 @@ class RowSweeps {
   /// Improves the forces of all rows, and those that are coupled to them; returns the largest
   /// change in the last sweep (m). The first rows may be those of former solutions since `clear`,
   /// with the nodes and the normals they had then: only their gaps are read, and they are visited
-  /// if these have changed.
+  /// if these have changed. The result is the same for any number of `threads`.
   double solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
-               Coupling* coupling = nullptr);
-  /// Number of sweeps of the last solution.
+               Coupling* coupling = nullptr, int threads = 1);
+  /// Number of sweeps of the last solution: that of the group with most of them.
   [[nodiscard]] int sweeps() const { return count_; }
   /// Number of rows of the last solution.
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
@@ -53,10 +54,10 @@ class RowSweeps {
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, rows_, ends_, turns_, nodes_, numbers_, moved_.nodes, moved_.turns, shared_,
-                  links_, rowsOfNodes_.values, rowsOfNodes_.offsets, groups_.values,
-                  groups_.offsets, schedules_, former_, residual_, perResidual_, direction_,
-                  response_, along_.nodes, along_.turns);
+    footprint.add(use, found_, foundEnds_, order_.values, order_.offsets, groups_, rows_, ends_,
+                  turns_, nodes_, numbers_, moved_.nodes, moved_.turns, shared_, links_,
+                  rowsOfNodes_.values, rowsOfNodes_.offsets, waits_, attempts_, former_, residual_,
+                  perResidual_, direction_, response_, along_.nodes, along_.turns);
     waiting_.addTo(footprint, use);
   }
 
@@ -74,7 +75,7 @@ class RowSweeps {
     [[nodiscard]] Vec2 force() const { return normalForce * normal + tangentForce * along(); }
   };
   static constexpr std::uint32_t kNone = 0xffffffff;
-  /// Nodes of a row, and the rigid body of the last of these, if that is one.
+  /// Nodes of a row that its forces move, and the rigid body of the last of these, if that is one.
   struct Ends {
     std::array<std::uint32_t, 5> node;  // index among the nodes of all rows
     std::uint32_t count;
@@ -103,41 +104,70 @@ class RowSweeps {
   struct Pair {
     double normal = 0, tangent = 0;
   };
+  /// Rows `begin` to `end`, which no other group's forces move.
+  struct Group {
+    std::uint32_t begin, end;
+    std::size_t firstWaiting;  // number of the first row in waiting_, at the begin of a word
+    int sweeps = 0;            // of this solution
+    double change = 0;         // m, in the last sweep
+
+    [[nodiscard]] std::uint32_t size() const { return end - begin; }
+    [[nodiscard]] std::size_t waitingOf(std::uint32_t row) const {
+      return firstWaiting + (row - begin);
+    }
+  };
+  /// When conjugate gradients are tried: in sweeps of a group since the begin of the step.
+  struct Attempts {
+    int sweeps = 0, between = 0, next = 0;
+  };
 
   void add(const ContactRow& row, const Inertia& inertia);
-  void update(std::size_t r, const ContactRow& row, double tolerance);
-  void pushAll();
   void addEnd(SweepRow& swept, Ends& ends, NodeId number, double weight, const Inertia& inertia);
   void addRigid(SweepRow& swept, Ends& ends, const ContactRow::RigidPart& part,
                 const Inertia& inertia);
   std::uint32_t numberOf(NodeId node, const Inertia& inertia);
+  void update(std::span<const ContactRow> rows, double tolerance);
+  void findGroups();
+  void arrange(std::span<const ContactRow> rows);
+  void findRowsOfNodes();
+  void pushAll();
+
   template <class Count>
   void push(const SweepRow& row, const Ends& ends, Count count, Vec2 force, Motion& motion) const;
+  void push(const SweepRow& row, const Ends& ends, Vec2 force, Motion& motion) const;
   /// (m) Displacement of a row's slave relative to its master.
   template <class Count>
   [[nodiscard]] Vec2 relativeMotion(const SweepRow& row, const Ends& ends, Count count,
                                     const Motion& motion) const;
   template <class Count>
   double relax(SweepRow& row, const Ends& ends, Count count);
-  double finish(std::span<ContactRow> rows, Stop stop, Coupling* coupling);
-  double sweep(bool forwards, double tolerance);
+  double sweepAll(Stop stop, Coupling* coupling, int threads);
+  double sweepGroups(int until, Stop stop, int threads);
+  void sweepGroup(Group& group, int until, Stop stop);
+  double sweep(const Group& group, bool forwards, double tolerance);
   void share(const Coupling* coupling, std::size_t modelNodes);
   double sweepCoupled(Coupling& coupling, double tolerance, bool last = false);
-  void findRowsOfNodes();
 
-  using Members = std::span<const std::uint32_t>;
-  void findGroups();
-  void descend(double tolerance);
-  bool descend(Members members, double tolerance);
-  double findResiduals(Members members);
-  void turnDirection(Members members, double kept);
-  double findResponses(Members members);
-  [[nodiscard]] double scaledSquare(Members members) const;
-  [[nodiscard]] double stepToBound(Members members) const;
-  double advance(Members members, double step);
+  void makeRoomForGradients();
+  void descendIfDue(const Group& group, double tolerance);
+  bool descend(const Group& group, double tolerance);
+  double findResiduals(const Group& group);
+  void turnDirection(const Group& group, double kept);
+  double findResponses(const Group& group);
+  [[nodiscard]] double scaledSquare(const Group& group) const;
+  [[nodiscard]] double stepToBound(const Group& group) const;
+  double advance(const Group& group, double step);
 
+  // In the order of their detection.
+  std::vector<SweepRow> found_;
+  std::vector<Ends> foundEnds_;
+  std::vector<std::uint8_t> waits_;  // 1: to be visited in the next solution
+  std::vector<Attempts> attempts_;   // of the group whose first row it is
+  // By group.
+  Csr<std::uint32_t> order_;  // numbers of the rows above
+  std::vector<Group> groups_;
   std::vector<SweepRow> rows_;
-  std::vector<Ends> ends_;              // nodes of the rows
+  std::vector<Ends> ends_;
   std::vector<Turn> turns_;             // of rows on rigid bodies
   std::vector<NodeId> nodes_;           // nodes and rigid bodies with a row
   std::vector<std::uint32_t> numbers_;  // by node: index in nodes_; valid for these only
@@ -153,17 +183,10 @@ class RowSweeps {
   };
   std::vector<SharedNode> shared_;
   std::vector<Link> links_;
-  Csr<std::uint32_t> rowsOfNodes_;  // by number
+  Csr<std::uint32_t> rowsOfNodes_;  // by number: numbers in waiting_
   WorkList waiting_;  // rows with a node that another row has moved by more than the tolerance
   int count_ = 0;     // sweeps of this solution
-  int total_ = 0;     // since the first one of the step
-  // Of conjugate gradients. Rows with a common node are one group.
-  Csr<std::uint32_t> groups_;  // rows by group; empty before they are needed
-  struct Schedule {
-    int wait = 0, next = 0;  // sweeps
-  };
-  std::vector<Schedule> schedules_;  // by the first row of a group
-  // By row; 0 for forces at a bound.
+  // Of conjugate gradients, by row; 0 for forces at a bound. Empty before they are needed.
   std::vector<Pair> former_;       // N, forces at the begin
   std::vector<Pair> residual_;     // m, what is left of gap and slip, with the sign of a force
   std::vector<Pair> perResidual_;  // N/m, force that removes it in this row alone
@@ -182,6 +205,11 @@ void RowSweeps::push(const SweepRow& row, const Ends& ends, Count count, Vec2 fo
   if (ends.turn == kNone) return;
   const Turn& turn = turns_[ends.turn];
   motion.turns[turn.number] += turn.perMoment * cross(turn.lever, force);
+}
+
+inline void RowSweeps::push(const SweepRow& row, const Ends& ends, Vec2 force,
+                            Motion& motion) const {
+  push(row, ends, ends.count, force, motion);
 }
 
 template <class Count>

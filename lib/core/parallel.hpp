@@ -1,7 +1,8 @@
 #pragma once
 // Threads in lib/ are used in this way only: a range is cut into contiguous parts, one per thread.
-// Each part appends to its own list, and the lists are joined in the order of the range. The result
-// and its order are the same for any number of threads.
+// Each part appends to its own list, and the lists are joined in the order of the range. Or the
+// threads take items, each of which changes data of its own only. The result and its order are the
+// same for any number of threads.
 
 #include <omp.h>
 
@@ -70,6 +71,23 @@ int forEachPart(std::size_t count, int threads, Work work) {
     errors.run(part, [&] { work(count * part / parts, count * (part + 1) / parts, part); });
   errors.rethrow();
   return parts;
+}
+
+/// Calls `work(item)` for each of `count` items that do not depend on each other and are of
+/// different size, with `pieces` pieces of work in all. An exception as above.
+template <class Work>
+void forEachItem(std::size_t count, std::size_t pieces, int threads, Work work) {
+  const int parts =
+      std::max(1, std::min(threads, static_cast<int>(pieces / leastItemsPerThread())));
+  if (parts == 1) {
+    for (std::size_t item = 0; item < count; ++item) work(item);
+    return;
+  }
+  PartErrors errors;
+#pragma omp parallel for schedule(dynamic, tolerance::kItemsAtOnce) num_threads(parts)
+  for (std::size_t item = 0; item < count; ++item)
+    errors.run(static_cast<int>(item), [&] { work(item); });
+  errors.rethrow();
 }
 
 }  // namespace yadefrag

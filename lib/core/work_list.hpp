@@ -14,42 +14,60 @@ namespace yadefrag {
 /// one added behind it in the next pass.
 class WorkList {
  public:
+  /// Numbers that share no word with others: several threads may change one range each.
+  struct Range {
+    std::size_t begin, end;  ///< words
+  };
+  static constexpr std::size_t kPerWord = 64;
+
   /// Removes all, and makes room for numbers below `count`.
-  void clear(std::size_t count) { words_.assign((count + 63) / 64, 0); }
+  void clear(std::size_t count) { words_.assign((count + kPerWord - 1) / kPerWord, 0); }
   /// Makes room for numbers below `count`.
-  void grow(std::size_t count) { words_.resize((count + 63) / 64); }
-  void add(std::size_t number) { words_[number / 64] |= bit(number); }
-  void remove(std::size_t number) { words_[number / 64] &= ~bit(number); }
+  void grow(std::size_t count) { words_.resize((count + kPerWord - 1) / kPerWord); }
+  void add(std::size_t number) { words_[number / kPerWord] |= bit(number); }
+  [[nodiscard]] bool contains(std::size_t number) const {
+    return (words_[number / kPerWord] & bit(number)) != 0;
+  }
+  void remove(std::size_t number) { words_[number / kPerWord] &= ~bit(number); }
 
   /// Removes the waiting numbers in ascending order, and calls `visit(number)` for each.
   template <class Visit>
   void visitUp(Visit visit) {
-    for (std::size_t w = 0; w < words_.size(); ++w) {
+    visitUp(all(), visit);
+  }
+  template <class Visit>
+  void visitUp(Range range, Visit visit) {
+    for (std::size_t w = range.begin; w < range.end; ++w) {
       std::uint64_t ahead = ~std::uint64_t{0};
       while (const std::uint64_t waiting = words_[w] & ahead) {
         const auto at = static_cast<std::size_t>(std::countr_zero(waiting));
         ahead = ~std::uint64_t{1} << at;
-        take(64 * w + at, visit);
+        take(kPerWord * w + at, visit);
       }
     }
   }
   /// The same in descending order.
   template <class Visit>
   void visitDown(Visit visit) {
-    for (std::size_t w = words_.size(); w-- > 0;) {
+    visitDown(all(), visit);
+  }
+  template <class Visit>
+  void visitDown(Range range, Visit visit) {
+    for (std::size_t w = range.end; w-- > range.begin;) {
       std::uint64_t ahead = ~std::uint64_t{0};
       while (const std::uint64_t waiting = words_[w] & ahead) {
-        const auto at = static_cast<std::size_t>(63 - std::countl_zero(waiting));
+        const auto at = kPerWord - 1 - static_cast<std::size_t>(std::countl_zero(waiting));
         ahead = (std::uint64_t{1} << at) - 1;
-        take(64 * w + at, visit);
+        take(kPerWord * w + at, visit);
       }
     }
   }
 
+  [[nodiscard]] Range all() const { return {0, words_.size()}; }
   void addTo(Footprint& footprint, Use use) const { footprint.add(use, words_); }
 
  private:
-  static std::uint64_t bit(std::size_t number) { return std::uint64_t{1} << number % 64; }
+  static std::uint64_t bit(std::size_t number) { return std::uint64_t{1} << number % kPerWord; }
 
   template <class Visit>
   void take(std::size_t number, Visit visit) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "contact/contact_scenes.hpp"
+#include "core/threads_for_few.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -298,6 +299,78 @@ TEST(RowSweeps, FindAKnownSolution) {
     Nodes nodes = plainNodes(a + b + 2);
     for (double& mass : nodes.mass) mass = even(random, .5, 2);
     expectPlanted(random, bothFaces(a, b), nodes);
+  }
+}
+
+/// What a limit of sweeps leaves goes on in the next solution of the step, also with the same gaps.
+TEST(RowSweeps, ALaterSolutionGoesOn) {
+  Random random(34);
+  const Nodes nodes = plainNodes(25);
+  std::vector<ContactRow> rows = bothFaces(10, 13);
+  const std::vector<double> left = plantSolution(random, rows, nodes);
+  const RowSweeps::Stop stop{1e-7, 2};
+  RowSweeps sweeps;
+  int solutions = 0;
+  for (double change = INFINITY; change > stop.change && solutions < 1000; ++solutions)
+    change = sweeps.solve(rows, {nodes, kDt, 0}, stop);
+  EXPECT_GT(solutions, 2);
+  const std::vector<Vec2> u = displacements(rows, nodes);
+  for (std::size_t r = 0; r < rows.size(); ++r) ASSERT_NEAR(gapAfter(rows[r], u), left[r], 3e-6);
+}
+
+/// Joints of several sizes with friction, each with nodes of its own, and their rows in turn.
+struct Joints {
+  Nodes nodes;
+  std::vector<std::vector<ContactRow>> rows;  // by joint
+  [[nodiscard]] std::vector<ContactRow> inTurn() const {
+    std::vector<ContactRow> all;
+    for (std::size_t i = 0, before = 1; before < all.size() + 1 || i == 0; ++i) {
+      before = all.size() + 1;
+      for (const auto& joint : rows)
+        if (i < joint.size()) all.push_back(joint[i]);
+    }
+    return all;
+  }
+};
+
+Joints manyJoints(Random& random) {
+  Joints joints;
+  std::size_t first = 0;
+  for (int i = 0; i < 60; ++i) {
+    const std::size_t a = 1 + random() % 12, b = 1 + random() % 12;
+    auto& rows = joints.rows.emplace_back(bothFaces(a, b));
+    for (ContactRow& row : rows) {
+      for (int k = 0; k < row.count; ++k) row.node[k] = NodeId(row.node[k].value + first);
+      row.gap = even(random, -1e-4, 2e-5), row.slip = even(random, -1e-4, 1e-4), row.friction = .4;
+    }
+    first += a + b + 2;
+  }
+  joints.nodes = plainNodes(first);
+  for (double& mass : joints.nodes.mass) mass = even(random, .5, 2);
+  return joints;
+}
+
+/// Bit by bit: the forces of a joint are those that it has alone, for any number of threads.
+TEST(RowSweeps, GroupsDoNotDependOnOthersNorOnThreads) {
+  Random random(35);
+  const Joints joints = manyJoints(random);
+  std::vector<std::vector<ContactRow>> alone = joints.rows;
+  const RowSweeps::Stop stop{1e-12, 80};
+  for (auto& rows : alone) {
+    RowSweeps sweeps;
+    sweeps.solve(rows, {joints.nodes, kDt, 0}, stop);
+  }
+  const std::vector<ContactRow> wanted = Joints{{}, alone}.inTurn();
+  const ThreadsForFew few;
+  for (const int threads : {1, 2, 3}) {
+    std::vector<ContactRow> rows = joints.inTurn();
+    ASSERT_EQ(rows.size(), wanted.size());
+    RowSweeps sweeps;
+    sweeps.solve(rows, {joints.nodes, kDt, 0}, stop, nullptr, threads);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      ASSERT_EQ(rows[r].normalForce, wanted[r].normalForce) << threads << " threads, row " << r;
+      ASSERT_EQ(rows[r].tangentForce, wanted[r].tangentForce) << threads << " threads, row " << r;
+    }
   }
 }
 

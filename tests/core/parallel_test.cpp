@@ -33,6 +33,16 @@ TEST(Parallel, FewItemsRunOnThreadsIfTestsWantIt) {
   EXPECT_EQ(partsOfTen(), 1);
 }
 
+TEST(Parallel, EachItemIsDoneOnce) {
+  for (const int threads : {1, 2, 3, 8}) {
+    std::vector<int> seen(1000);
+    forEachItem(seen.size(), kCount, threads, [&](std::size_t item) { ++seen[item]; });
+    EXPECT_EQ(seen, std::vector<int>(1000, 1));
+    EXPECT_THROW(forEachItem(1000, kCount, threads, [](std::size_t) { throw std::bad_alloc(); }),
+                 std::bad_alloc);
+  }
+}
+
 // Memory may run out in any thread.
 TEST(Parallel, ErrorsReachTheCaller) {
   for (const int threads : {1, 2, 3, 8}) {

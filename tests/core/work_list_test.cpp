@@ -54,5 +54,19 @@ TEST(WorkList, VisitsAsAListOfMarksDoes) {
   EXPECT_GT(visits, 10000U);
 }
 
+TEST(WorkList, ARangeOfWordsIsVisitedAlone) {
+  WorkList list;
+  list.clear(200);
+  for (const std::size_t number : {3U, 64U, 100U, 127U, 128U, 199U}) list.add(number);
+  std::vector<std::size_t> visited;
+  const auto visit = [&](std::size_t number) { visited.push_back(number); };
+  list.visitUp({1, 2}, visit);
+  EXPECT_EQ(visited, (std::vector<std::size_t>{64, 100, 127}));
+  EXPECT_FALSE(list.contains(100));
+  EXPECT_TRUE(list.contains(3) && list.contains(128));
+  list.visitDown({2, 4}, visit);
+  EXPECT_EQ(visited, (std::vector<std::size_t>{64, 100, 127, 199, 128}));
+}
+
 }  // namespace
 }  // namespace yadefrag::test

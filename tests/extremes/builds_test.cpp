@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6551966765486479);
-  expectNear(places.y, 1.449818391201102);
-  expectNear(speeds, 4510.6129920470694);
-  expectNear(totalEnergy(world), 89.999375104285903);
-  expectNear(world.ledger.contact, 5.1054026712844047);
+  expectNear(places.x, 3.6551976813097542);
+  expectNear(places.y, 1.4498242289181869);
+  expectNear(speeds, 4510.1357768021735);
+  expectNear(totalEnergy(world), 89.999374775789846);
+  expectNear(world.ledger.contact, 5.105906291261511);
 }
 
 }  // namespace

@@ -94,7 +94,8 @@ class ExtremeStack : public ::testing::TestWithParam<int> {};
 
 TEST_P(ExtremeStack, OfFiftySquaresStaysAtRest) {
   const Rest found = rest(GetParam(), longRun() ? 1000000 : 1000);
-  figure("weight", found.weight / (kDensity * kSide * kSide * kGravity), 1, 1e-4);
+  // In one step: the forces are solved to 2e-6 of the largest displacement, which is a vibration.
+  figure("weight", found.weight / (kDensity * kSide * kSide * kGravity), 1, 3e-4);
   // Rounding, by 10⁶ steps too: forces of 10² N are exact to 10⁻¹⁴ N, which is 10⁻⁹ m/s a step for
   // the lightest node.
   figure("drift", found.drift, 0, 1e-12);

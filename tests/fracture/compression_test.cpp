@@ -176,13 +176,13 @@ TEST(Uniaxial, AllMeshes) {
 class BiaxialPressure : public testing::TestWithParam<double> {};
 
 /// Up to a lateral pressure of ft: 0.0 to +2.5 %. It does not fall to the friction of smooth faces
-/// afterwards, a quarter of the peak at 5 MPa, but to 0.6 to 0.75: see the next test.
+/// afterwards, a quarter of the peak at 5 MPa, but to 0.6 to 0.9: see the next test.
 TEST_P(BiaxialPressure, CarriesTheMohrCoulombLoad) {
   for (const std::uint64_t seed : {1, 2}) {
     const Course course = Press({1.6e-3, seed}, rock(), GetParam()).run(1.1, .5);
     figure("peak", course.peak, 1, .04);
     figure("first_crack", course.first, 1, kFirst);
-    EXPECT_LT(course.last, .85) << "the load falls";
+    EXPECT_LT(course.last, .9) << "the load falls";
   }
 }
 
