@@ -20,7 +20,7 @@ void RowSweeps::makeRoomForGradients() {
 }
 
 void RowSweeps::descendIfDue(const Group& group, double tolerance) {
-  Attempts& attempts = attempts_[order_.values[group.begin]];
+  Attempts& attempts = attempts_[order_[group.begin]];
   if (attempts.sweeps < attempts.next) return;
   if (!(findResiduals(group) > tolerance))
     attempts.between = tolerance::kSweepsToDescend;

@@ -10,8 +10,7 @@
 namespace yadefrag {
 
 void RowSweeps::clear() {
-  found_.clear();
-  foundEnds_.clear();
+  order_.clear();
   waits_.clear();
   attempts_.clear();
   groups_.clear();
@@ -23,10 +22,11 @@ void RowSweeps::clear() {
 }
 
 void RowSweeps::add(const ContactRow& row, const Inertia& inertia) {
-  SweepRow& swept = found_.emplace_back();
-  Ends& ends = foundEnds_.emplace_back();
+  SweepRow& swept = rows_.emplace_back();
+  Ends& ends = ends_.emplace_back();
   swept.normal = row.normal;
   swept.gap = row.gap - row.toleratedGap, swept.slip = row.slip, swept.friction = row.friction;
+  swept.normalForce = row.normalForce, swept.tangentForce = row.tangentForce;
   for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(row.count); ++k)
     if (!row.isOfRigid(inertia.nodes, row.node[k]))
       addEnd(swept, ends, row.node[k], row.weight[k], inertia);
@@ -74,25 +74,62 @@ std::uint32_t RowSweeps::numberOf(NodeId node, const Inertia& inertia) {
 
 /// Rows of an earlier detection of the step: which of them have another gap or slip now?
 void RowSweeps::update(std::span<const ContactRow> rows, double tolerance) {
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    SweepRow& swept = found_[r];
-    const double gap = rows[r].gap - rows[r].toleratedGap;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    SweepRow& swept = rows_[r];
+    const ContactRow& row = rows[order_[r]];
+    swept.normalForce = row.normalForce, swept.tangentForce = row.tangentForce;
+    const double gap = row.gap - row.toleratedGap;
     bool differs = waits_[r] != 0 || std::abs(gap - swept.gap) > tolerance;
     swept.gap = gap;
     if (swept.friction > 0) {
-      differs = differs || std::abs(rows[r].slip - swept.slip) > tolerance;
-      swept.slip = rows[r].slip;
+      differs = differs || std::abs(row.slip - swept.slip) > tolerance;
+      swept.slip = row.slip;
     }
     waits_[r] = differs ? 1 : 0;
   }
 }
 
-void RowSweeps::findGroups() {
-  DisjointSets sets(found_.size());
+/// All rows as one group, in their present order.
+void RowSweeps::makeOneGroup() {
+  groups_.assign(1, {0, static_cast<std::uint32_t>(rows_.size()), 0});
+  isDivided_ = false;
+  waiting_.clear(rows_.size());
+  findWaiting();
+}
+
+/// Divides this group: rows of a group are then next to each other. Where few sweeps are
+/// sufficient, that would not pay.
+void RowSweeps::divide() {
+  const Group all = groups_.front();
+  keepWaiting();
+  const Csr<std::uint32_t> members = findGroups();
+  const auto arrange = [&](auto& values) {
+    auto former = values;
+    for (std::size_t r = 0; r < values.size(); ++r) values[r] = former[members.values[r]];
+  };
+  arrange(rows_), arrange(ends_), arrange(order_), arrange(waits_);
+  groups_.clear();
+  std::size_t waiting = 0;
+  constexpr std::size_t kWord = WorkList::kPerWord;
+  for (std::size_t g = 0; g < members.rows(); ++g) {
+    Group& group = groups_.emplace_back(all);
+    group.begin = members.offsets[g], group.end = members.offsets[g + 1];
+    group.firstWaiting = waiting;
+    attempts_[order_[group.begin]].sweeps += all.sweeps;
+    waiting += (group.size() + kWord - 1) / kWord * kWord;
+  }
+  isDivided_ = true;
+  waiting_.clear(waiting);
+  findWaiting();
+  makeRoomForGradients();
+}
+
+Csr<std::uint32_t> RowSweeps::findGroups() const {
+  DisjointSets sets(rows_.size());
   std::vector<std::uint32_t> rowOfNode(nodes_.size(), kNone);
-  for (std::uint32_t r = 0; r < found_.size(); ++r)
-    for (std::uint32_t k = 0; k < foundEnds_[r].count; ++k) {
-      std::uint32_t& first = rowOfNode[foundEnds_[r].node[k]];
+  for (std::uint32_t r = 0; r < rows_.size(); ++r)
+    for (std::uint32_t k = 0; k < ends_[r].count; ++k) {
+      std::uint32_t& first = rowOfNode[ends_[r].node[k]];
       if (first == kNone)
         first = r;
       else
@@ -100,47 +137,32 @@ void RowSweeps::findGroups() {
     }
   std::vector<std::uint32_t> groupOfRow;
   const std::uint32_t count = sets.number(groupOfRow);
+  Csr<std::uint32_t> members;
   fillRows(
-      order_, count, found_.size(), [&](std::size_t r) { return groupOfRow[r]; },
+      members, count, rows_.size(), [&](std::size_t r) { return groupOfRow[r]; },
       [](std::size_t r) { return static_cast<std::uint32_t>(r); });
+  return members;
 }
 
-/// Rows of a group next to each other, with the forces of `rows`.
-void RowSweeps::arrange(std::span<const ContactRow> rows) {
-  const std::size_t count = found_.size();
-  rows_.resize(count), ends_.resize(count);
-  for (std::size_t p = 0; p < count; ++p) {
-    const std::uint32_t r = order_.values[p];
-    rows_[p] = found_[r], ends_[p] = foundEnds_[r];
-    rows_[p].normalForce = rows[r].normalForce, rows_[p].tangentForce = rows[r].tangentForce;
-  }
-  groups_.clear();
-  std::size_t waiting = 0;
-  for (std::size_t g = 0; g < order_.rows(); ++g) {
-    const Group& group =
-        groups_.emplace_back(Group{order_.offsets[g], order_.offsets[g + 1], waiting});
-    constexpr std::size_t kWord = WorkList::kPerWord;
-    waiting += (group.size() + kWord - 1) / kWord * kWord;
-  }
-  waiting_.clear(waiting);
-  for (const Group& group : groups_)
-    for (std::uint32_t r = group.begin; r < group.end; ++r)
-      if (waits_[order_.values[r]] != 0) waiting_.add(group.waitingOf(r));
-  findRowsOfNodes();
-  attempts_.resize(count);
-}
-
-void RowSweeps::findRowsOfNodes() {
+/// Numbers in `waiting_`: of the rows that wait, and of those of each node.
+void RowSweeps::findWaiting() {
   links_.clear();
   for (const Group& group : groups_)
     for (std::uint32_t r = group.begin; r < group.end; ++r) {
       const auto number = static_cast<std::uint32_t>(group.waitingOf(r));
+      if (waits_[r] != 0) waiting_.add(number);
       for (std::uint32_t k = 0; k < ends_[r].count; ++k)
         links_.push_back({ends_[r].node[k], number});
     }
   fillRows(
       rowsOfNodes_, nodes_.size(), links_.size(), [&](std::size_t i) { return links_[i].node; },
       [&](std::size_t i) { return links_[i].row; });
+}
+
+void RowSweeps::keepWaiting() {
+  for (const Group& group : groups_)
+    for (std::uint32_t r = group.begin; r < group.end; ++r)
+      waits_[r] = waiting_.contains(group.waitingOf(r)) ? 1 : 0;
 }
 
 /// Displacements by the forces of all rows.

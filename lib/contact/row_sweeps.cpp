@@ -12,38 +12,40 @@ namespace yadefrag {
 
 double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
                         Coupling* coupling, int threads) {
-  const std::size_t former = found_.size();
-  assert(former <= rows.size());
+  const std::size_t former = rows_.size();
+  assert(former <= rows.size() && !rows.empty());
   numbers_.resize(inertia.size());
-  update(rows.first(former), stop.change);
+  update(rows, stop.change);
   for (const ContactRow& row : rows.subspan(former)) add(row, inertia);
-  waits_.resize(rows.size(), 1);
-  findGroups();
-  arrange(rows);
+  waits_.resize(rows.size(), 1), attempts_.resize(rows.size());
+  for (std::size_t r = former; r < rows.size(); ++r)
+    order_.push_back(static_cast<std::uint32_t>(r));
+  makeOneGroup();
   pushAll();
-  makeRoomForGradients();
   share(coupling, inertia.nodes.size());
   const double change = sweepAll(stop, coupling, threads);
-  for (const Group& group : groups_)
-    for (std::uint32_t r = group.begin; r < group.end; ++r) {
-      ContactRow& row = rows[order_.values[r]];
-      row.normalForce = rows_[r].normalForce, row.tangentForce = rows_[r].tangentForce;
-      waits_[order_.values[r]] = waiting_.contains(group.waitingOf(r)) ? 1 : 0;
-    }
+  keepWaiting();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    ContactRow& row = rows[order_[r]];
+    row.normalForce = rows_[r].normalForce, row.tangentForce = rows_[r].tangentForce;
+  }
   return change;
 }
 
-/// With coupled forces all groups wait for their sweeps.
+/// With coupled forces the groups wait for the sweeps of these.
 double RowSweeps::sweepAll(Stop stop, Coupling* coupling, int threads) {
-  if (shared_.empty()) return sweepGroups(tolerance::kMostSweeps, stop, threads);
+  const bool isCoupled = !shared_.empty();
+  const int most = std::max(stop.most, tolerance::kMostSweeps);
   double change = INFINITY;
-  for (int until = 1; change > stop.change; until += tolerance::kSweepsToCouple) {
+  for (int done = 0, until = isCoupled ? 1 : tolerance::kSweepsToDivide; change > stop.change;) {
     const bool isFar = change > tolerance::kFarFromSolved * stop.change;
-    if (until > (isFar ? tolerance::kMostSweeps : stop.most)) break;
+    if (done >= (isFar ? most : stop.most)) break;
+    if (done >= tolerance::kSweepsToDivide && !isDivided_) divide();
     change = sweepGroups(until, stop, threads);
-    change = std::max(change, sweepCoupled(*coupling, stop.change));
+    if (isCoupled) change = std::max(change, sweepCoupled(*coupling, stop.change));
+    done = until, until = isCoupled ? until + tolerance::kSweepsToCouple : most;
   }
-  (void)sweepCoupled(*coupling, stop.change, true);
+  if (isCoupled) (void)sweepCoupled(*coupling, stop.change, true);
   return change;
 }
 
@@ -67,7 +69,7 @@ void RowSweeps::sweepGroup(Group& group, int until, Stop stop) {
   while (goesOn()) {
     // Alternating directions: forces are transmitted along chains of pieces.
     group.change = sweep(group, group.sweeps++ % 2 == 0, stop.change);
-    ++attempts_[order_.values[group.begin]].sweeps;
+    if (isDivided_) ++attempts_[order_[group.begin]].sweeps;
     if (!(group.change > stop.change)) break;
     if (group.sweeps >= tolerance::kSweepsToDescend) descendIfDue(group, stop.change);
   }

@@ -4,7 +4,8 @@
 // is sufficient. (Slip forces −μ sgn(v)|λ| as in eq. 8 would make the system unsymmetric, and the
 // sign must be known in advance.)
 //
-// Rows with common nodes are one group; each group is solved alone (row_groups.cpp).
+// Rows with common nodes are one group; after some sweeps of all, each group is solved alone
+// (row_groups.cpp).
 //
 // Sweeps from row to row (nonlinear block Gauss–Seidel of Moreau and Jean's contact dynamics),
 // without a matrix: each row uses the displacements of its nodes by the other rows so far. They
@@ -54,10 +55,10 @@ class RowSweeps {
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { numbers_.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, found_, foundEnds_, order_.values, order_.offsets, groups_, rows_, ends_,
-                  turns_, nodes_, numbers_, moved_.nodes, moved_.turns, shared_, links_,
-                  rowsOfNodes_.values, rowsOfNodes_.offsets, waits_, attempts_, former_, residual_,
-                  perResidual_, direction_, response_, along_.nodes, along_.turns);
+    footprint.add(use, order_, groups_, rows_, ends_, turns_, nodes_, numbers_, moved_.nodes,
+                  moved_.turns, shared_, links_, rowsOfNodes_.values, rowsOfNodes_.offsets, waits_,
+                  attempts_, former_, residual_, perResidual_, direction_, response_, along_.nodes,
+                  along_.turns);
     waiting_.addTo(footprint, use);
   }
 
@@ -116,7 +117,8 @@ class RowSweeps {
       return firstWaiting + (row - begin);
     }
   };
-  /// When conjugate gradients are tried: in sweeps of a group since the begin of the step.
+  /// When conjugate gradients are tried: in sweeps of a group since the begin of the step (those of
+  /// solutions that did not divide the rows are not counted).
   struct Attempts {
     int sweeps = 0, between = 0, next = 0;
   };
@@ -127,9 +129,11 @@ class RowSweeps {
                 const Inertia& inertia);
   std::uint32_t numberOf(NodeId node, const Inertia& inertia);
   void update(std::span<const ContactRow> rows, double tolerance);
-  void findGroups();
-  void arrange(std::span<const ContactRow> rows);
-  void findRowsOfNodes();
+  void makeOneGroup();
+  void divide();
+  [[nodiscard]] Csr<std::uint32_t> findGroups() const;
+  void findWaiting();
+  void keepWaiting();
   void pushAll();
 
   template <class Count>
@@ -158,16 +162,14 @@ class RowSweeps {
   [[nodiscard]] double stepToBound(const Group& group) const;
   double advance(const Group& group, double step);
 
-  // In the order of their detection.
-  std::vector<SweepRow> found_;
-  std::vector<Ends> foundEnds_;
-  std::vector<std::uint8_t> waits_;  // 1: to be visited in the next solution
-  std::vector<Attempts> attempts_;   // of the group whose first row it is
-  // By group.
-  Csr<std::uint32_t> order_;  // numbers of the rows above
-  std::vector<Group> groups_;
+  std::vector<Group> groups_;  // one of all rows until they are divided
+  bool isDivided_ = false;
+  // By row, in the order of the groups.
   std::vector<SweepRow> rows_;
   std::vector<Ends> ends_;
+  std::vector<std::uint32_t> order_;    // number of the row by its detection
+  std::vector<std::uint8_t> waits_;     // 1: to be visited in the next sweep
+  std::vector<Attempts> attempts_;      // by detection; of the group whose first row it is
   std::vector<Turn> turns_;             // of rows on rigid bodies
   std::vector<NodeId> nodes_;           // nodes and rigid bodies with a row
   std::vector<std::uint32_t> numbers_;  // by node: index in nodes_; valid for these only

@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6551976813097542);
-  expectNear(places.y, 1.4498242289181869);
-  expectNear(speeds, 4510.1357768021735);
-  expectNear(totalEnergy(world), 89.999374775789846);
-  expectNear(world.ledger.contact, 5.105906291261511);
+  expectNear(places.x, 3.6551893191868547);
+  expectNear(places.y, 1.4498235153262777);
+  expectNear(speeds, 4509.7548055452626);
+  expectNear(totalEnergy(world), 89.99937558625912);
+  expectNear(world.ledger.contact, 5.1065728902333722);
 }
 
 }  // namespace

@@ -75,8 +75,8 @@ inline constexpr double kFolded = -.999999;
 /// value gives the same bits in 24 impacts.
 inline constexpr double kFootBeyond = .25;
 
-/// (ξ) A foot this near to a node is at the node. In a wall of blocks that touch exactly, the forces
-/// of a joint's nodes then do not depend on those of the next joint.
+/// (ξ) A foot this near to a node is at the node. In a wall of blocks that touch exactly, the
+/// forces of a joint's nodes then do not depend on those of the next joint.
 inline constexpr double kFootAtNode = 1e-7;
 
 /// (ξ) The same for a slave without friction that has passed the end of its master within the step,

@@ -18,6 +18,10 @@ inline constexpr double kChange = .3;
 inline constexpr double kFarFromSolved = 100;
 inline constexpr int kMostSweeps = 1000;
 
+/// (count) Sweeps of all rows together, before they are divided into groups. Most solutions of
+/// elastic bodies need fewer, and the division takes as long as four sweeps.
+inline constexpr int kSweepsToDivide = 10;
+
 /// (count; count; ratio; count) Sweeps of a group before its first conjugate gradients, sweeps
 /// between two of them, the ratio by which there are more sweeps after a bound has ended one, and
 /// iterations of one. In walls of blocks the next bound is always near: with 10, 20, 40 sweeps in
