@@ -24,10 +24,9 @@ inline constexpr int kSweepsToDivide = 10;
 
 /// (count; count; ratio; count) Sweeps of a group before its first conjugate gradients, sweeps
 /// between two of them, the ratio by which there are more sweeps after a bound has ended one, and
-/// iterations of one. In walls of blocks the next bound is always near: with 10, 20, 40 sweeps in
-/// the first place walls take 1.3, 1.2, 1.0 times the time, without gradients .95 times. But with
-/// 40 a wedge in a corner overlaps by 5e-5 instead of 1e-5, and without them the two faces of a
-/// joint in two passes need thousands of sweeps.
+/// iterations of one. In walls of blocks the next bound is always near: with the first one after
+/// 10, 20, 40 sweeps walls take 1.3, 1.2, 1.0 times the time, without gradients .95 times. But
+/// without them the two faces of a joint in two passes need thousands of sweeps.
 inline constexpr int kSweepsToDescend = 20, kSweepsAfterDescent = 2, kMoreSweeps = 4,
                      kDescents = 200;
 
