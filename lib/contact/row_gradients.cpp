@@ -21,7 +21,8 @@ void RowSweeps::makeRoomForGradients() {
 
 void RowSweeps::descendIfDue(const Group& group, double tolerance) {
   Attempts& attempts = attempts_[order_[group.begin]];
-  if (attempts.sweeps < attempts.next) return;
+  const int sweeps = attempts.former + group.sweeps;
+  if (sweeps < attempts.next) return;
   if (!(findResiduals(group) > tolerance))
     attempts.between = tolerance::kSweepsToDescend;
   else if (descend(group, tolerance))
@@ -29,7 +30,7 @@ void RowSweeps::descendIfDue(const Group& group, double tolerance) {
   else
     attempts.between =
         std::max(tolerance::kMoreSweeps * attempts.between, tolerance::kSweepsToDescend);
-  attempts.next = attempts.sweeps + attempts.between;
+  attempts.next = sweeps + attempts.between;
 }
 
 /// From the residuals found, until none exceeds `tolerance` (m); returns false if a force reaches a

@@ -110,13 +110,11 @@ void RowSweeps::divide() {
   arrange(rows_), arrange(ends_), arrange(order_), arrange(waits_);
   groups_.clear();
   std::size_t waiting = 0;
-  constexpr std::size_t kWord = WorkList::kPerWord;
   for (std::size_t g = 0; g < members.rows(); ++g) {
     Group& group = groups_.emplace_back(all);
     group.begin = members.offsets[g], group.end = members.offsets[g + 1];
     group.firstWaiting = waiting;
-    attempts_[order_[group.begin]].sweeps += all.sweeps;
-    waiting += (group.size() + kWord - 1) / kWord * kWord;
+    waiting += WorkList::kPerWord * WorkList::wordsFor(group.size());
   }
   isDivided_ = true;
   waiting_.clear(waiting);
@@ -163,6 +161,12 @@ void RowSweeps::keepWaiting() {
   for (const Group& group : groups_)
     for (std::uint32_t r = group.begin; r < group.end; ++r)
       waits_[r] = waiting_.contains(group.waitingOf(r)) ? 1 : 0;
+}
+
+/// For later solutions of the step.
+void RowSweeps::countSweeps() {
+  if (!isDivided_) return;
+  for (const Group& group : groups_) attempts_[order_[group.begin]].former += group.sweeps;
 }
 
 /// Displacements by the forces of all rows.

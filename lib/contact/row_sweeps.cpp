@@ -25,6 +25,7 @@ double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop
   share(coupling, inertia.nodes.size());
   const double change = sweepAll(stop, coupling, threads);
   keepWaiting();
+  countSweeps();
   for (std::size_t r = 0; r < rows.size(); ++r) {
     ContactRow& row = rows[order_[r]];
     row.normalForce = rows_[r].normalForce, row.tangentForce = rows_[r].tangentForce;
@@ -69,7 +70,6 @@ void RowSweeps::sweepGroup(Group& group, int until, Stop stop) {
   while (goesOn()) {
     // Alternating directions: forces are transmitted along chains of pieces.
     group.change = sweep(group, group.sweeps++ % 2 == 0, stop.change);
-    if (isDivided_) ++attempts_[order_[group.begin]].sweeps;
     if (!(group.change > stop.change)) break;
     if (group.sweeps >= tolerance::kSweepsToDescend) descendIfDue(group, stop.change);
   }
@@ -129,12 +129,10 @@ double RowSweeps::sweep(const Group& group, bool forwards, double tolerance) {
     // Its own gap is 0 now, unless friction has turned a rigid body.
     if (ends.turn == kNone) waiting_.remove(waiting);
   };
-  const WorkList::Range words{group.firstWaiting / WorkList::kPerWord,
-                              (group.firstWaiting + group.size() - 1) / WorkList::kPerWord + 1};
   if (forwards)
-    waiting_.visitUp(words, visit);
+    waiting_.visitUp(group.words(), visit);
   else
-    waiting_.visitDown(words, visit);
+    waiting_.visitDown(group.words(), visit);
   return most;
 }
 

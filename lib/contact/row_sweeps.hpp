@@ -116,11 +116,15 @@ class RowSweeps {
     [[nodiscard]] std::size_t waitingOf(std::uint32_t row) const {
       return firstWaiting + (row - begin);
     }
+    [[nodiscard]] WorkList::Range words() const {
+      const std::size_t first = firstWaiting / WorkList::kPerWord;
+      return {first, first + WorkList::wordsFor(size())};
+    }
   };
-  /// When conjugate gradients are tried: in sweeps of a group since the begin of the step (those of
-  /// solutions that did not divide the rows are not counted).
+  /// When conjugate gradients are tried: sweeps of a group in former solutions of the step that
+  /// divided the rows, between two attempts, and, with those of this solution, at the next one.
   struct Attempts {
-    int sweeps = 0, between = 0, next = 0;
+    int former = 0, between = 0, next = 0;
   };
 
   void add(const ContactRow& row, const Inertia& inertia);
@@ -134,6 +138,7 @@ class RowSweeps {
   [[nodiscard]] Csr<std::uint32_t> findGroups() const;
   void findWaiting();
   void keepWaiting();
+  void countSweeps();
   void pushAll();
 
   template <class Count>

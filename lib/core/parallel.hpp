@@ -56,11 +56,16 @@ inline std::size_t& leastItemsPerThread() {
   return items;
 }
 
+/// Number of threads for `count` items.
+inline int threadsFor(std::size_t count, int threads) {
+  return std::max(1, std::min(threads, static_cast<int>(count / leastItemsPerThread())));
+}
+
 /// Calls `work(begin, end, part)` for contiguous parts of [0, count) and returns the number of
 /// parts. An exception of `work` reaches the caller after all parts have ended.
 template <class Work>
 int forEachPart(std::size_t count, int threads, Work work) {
-  const int parts = std::max(1, std::min(threads, static_cast<int>(count / leastItemsPerThread())));
+  const int parts = threadsFor(count, threads);
   if (parts == 1) {
     work(std::size_t{0}, count, 0);
     return 1;
@@ -77,8 +82,7 @@ int forEachPart(std::size_t count, int threads, Work work) {
 /// different size, with `pieces` pieces of work in all. An exception as above.
 template <class Work>
 void forEachItem(std::size_t count, std::size_t pieces, int threads, Work work) {
-  const int parts =
-      std::max(1, std::min(threads, static_cast<int>(pieces / leastItemsPerThread())));
+  const int parts = threadsFor(pieces, threads);
   if (parts == 1) {
     for (std::size_t item = 0; item < count; ++item) work(item);
     return;

@@ -19,11 +19,15 @@ class WorkList {
     std::size_t begin, end;  ///< words
   };
   static constexpr std::size_t kPerWord = 64;
+  /// Number of words for so many numbers.
+  static constexpr std::size_t wordsFor(std::size_t count) {
+    return (count + kPerWord - 1) / kPerWord;
+  }
 
   /// Removes all, and makes room for numbers below `count`.
-  void clear(std::size_t count) { words_.assign((count + kPerWord - 1) / kPerWord, 0); }
+  void clear(std::size_t count) { words_.assign(wordsFor(count), 0); }
   /// Makes room for numbers below `count`.
-  void grow(std::size_t count) { words_.resize((count + kPerWord - 1) / kPerWord); }
+  void grow(std::size_t count) { words_.resize(wordsFor(count)); }
   void add(std::size_t number) { words_[number / kPerWord] |= bit(number); }
   [[nodiscard]] bool contains(std::size_t number) const {
     return (words_[number / kPerWord] & bit(number)) != 0;

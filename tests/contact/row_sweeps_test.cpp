@@ -324,11 +324,11 @@ struct Joints {
   std::vector<std::vector<ContactRow>> rows;  // by joint
   [[nodiscard]] std::vector<ContactRow> inTurn() const {
     std::vector<ContactRow> all;
-    for (std::size_t i = 0, before = 1; before < all.size() + 1 || i == 0; ++i) {
-      before = all.size() + 1;
+    std::size_t most = 0;
+    for (const auto& joint : rows) most = std::max(most, joint.size());
+    for (std::size_t i = 0; i < most; ++i)
       for (const auto& joint : rows)
         if (i < joint.size()) all.push_back(joint[i]);
-    }
     return all;
   }
 };
