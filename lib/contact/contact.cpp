@@ -38,6 +38,18 @@ bool meetInConvexJoint(const ContactSurfaces& surfaces, const PieceGeometry& geo
                geometry.tangent(b, geometry.range(b).begin)) >= 0;
 }
 
+/// Sorts touches of which those of each detection are sorted.
+void mergeByPair(std::vector<Touch>& touches) {
+  const auto byPair = [](const Touch& a, const Touch& b) { return a.pair < b.pair; };
+  const auto begin = touches.begin(), end = touches.end();
+  auto merged = std::is_sorted_until(begin, end, byPair);
+  while (merged != end) {
+    const auto next = std::is_sorted_until(merged, end, byPair);
+    std::inplace_merge(begin, merged, next, byPair);
+    merged = next;
+  }
+}
+
 }  // namespace
 
 void Contact::reset() {
@@ -317,8 +329,7 @@ void Contact::finish(Model& model, const ContactStep& step) {
   formerTouches_.clear();
   for (const ContactRow& row : rows_)
     formerTouches_.push_back({pairOf(row), row.normalForce, row.tangentForce, row.toleratedGap});
-  if (!std::ranges::is_sorted(formerTouches_, {}, &Touch::pair))
-    std::ranges::sort(formerTouches_, {}, &Touch::pair);
+  mergeByPair(formerTouches_);
   touches.swap(formerTouches_);
   formerCorrection_ = std::exchange(lastCorrection, now_.largestCorrection);
   isFinished_ = true;

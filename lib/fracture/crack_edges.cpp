@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -71,13 +72,6 @@ std::vector<KeyedSide> sidesByNodes(const Model& model, const Component& body) {
   }
   std::sort(sides.begin(), sides.end());
   return sides;
-}
-
-int cornerOf(const Model& model, ElementId element, NodeId node) {
-  const auto& nodes = model.triangles.nodes[element.value];
-  const int corner = nodes[0] == node ? 0 : nodes[1] == node ? 1 : 2;
-  assert(nodes[static_cast<std::size_t>(corner)] == node);
-  return corner;
 }
 
 std::vector<EdgeId> CrackEdges::addBody(const Model& model, ComponentId component,
@@ -174,35 +168,27 @@ Side CrackEdges::twin(Side side) const {
   return this->side(edge, element[edge.value][0] == side.element ? 1 : 0);
 }
 
-ElementId CrackEdges::across(Side side) const {
-  const EdgeId edge = ofElement[side.element.value][side.corner];
-  if (edge == EdgeId::none() || cracked[edge.value] != 0) return ElementId::none();
-  const auto& both = element[edge.value];
-  return both[0] == side.element ? both[1] : both[0];
-}
-
 bool CrackEdges::appendFan(const Model& model, NodeId node, std::vector<ElementId>& fan) const {
   const ElementId start = ofNode[node.value];
   assert(start != ElementId::none());
-  const auto clockwise = [&](ElementId e) {
-    return across({e, static_cast<std::uint8_t>(cornerOf(model, e, node))});
-  };
+  const auto begin = std::ssize(fan);
   const auto counterClockwise = [&](ElementId e) {
     return across({e, beforeCorner(cornerOf(model, e, node))});
   };
-  ElementId first = start;
-  for (ElementId e = clockwise(start); e != ElementId::none(); e = clockwise(e)) {
-    if (e == start) break;
-    first = e;
-  }
-  const bool ring = clockwise(first) == start && first != start;
-  fan.push_back(ring ? start : first);
-  for (ElementId e = counterClockwise(fan.back()); e != ElementId::none();
-       e = counterClockwise(e)) {
-    if (ring && e == start) break;
+  for (ElementId e = start; e != ElementId::none();) {
     fan.push_back(e);
+    e = counterClockwise(e);
+    if (e == start) return true;
   }
-  return ring;
+  // The part before `start`, from there back to the other face.
+  const auto former = std::ssize(fan);
+  const auto clockwise = [&](ElementId e) {
+    return across({e, static_cast<std::uint8_t>(cornerOf(model, e, node))});
+  };
+  for (ElementId e = clockwise(start); e != ElementId::none(); e = clockwise(e)) fan.push_back(e);
+  std::reverse(fan.begin() + former, fan.end());
+  std::rotate(fan.begin() + begin, fan.begin() + former, fan.end());
+  return false;
 }
 
 }  // namespace yadefrag

@@ -5,6 +5,7 @@
 //   connected across edges without a crack are its fan: a ring, or a row between two faces.
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -39,6 +40,14 @@ struct KeyedSide {
 
 /// All sides of a body's triangles, ascending; without removed triangles.
 [[nodiscard]] std::vector<KeyedSide> sidesByNodes(const Model& model, const Component& body);
+
+/// The corner of a triangle at which a node is.
+inline int cornerOf(const Model& model, ElementId element, NodeId node) {
+  const auto& nodes = model.triangles.nodes[element.value];
+  const int corner = nodes[0] == node ? 0 : nodes[1] == node ? 1 : 2;
+  assert(nodes[static_cast<std::size_t>(corner)] == node);
+  return corner;
+}
 
 struct CrackEdges {
   // By edge.
@@ -80,14 +89,16 @@ struct CrackEdges {
   /// The same edge as a side of the other triangle; none() on the boundary.
   [[nodiscard]] Side twin(Side side) const;
   /// The triangle across a side; none() at a face or a crack.
-  [[nodiscard]] ElementId across(Side side) const;
+  [[nodiscard]] ElementId across(Side side) const {
+    const EdgeId edge = ofElement[side.element.value][side.corner];
+    if (edge == EdgeId::none() || cracked[edge.value] != 0) return ElementId::none();
+    const auto& both = element[edge.value];
+    return both[0] == side.element ? both[1] : both[0];
+  }
 
   /// Appends a node's fan, counter-clockwise; returns true if it is a ring.
   bool appendFan(const Model& model, NodeId node, std::vector<ElementId>& fan) const;
 };
-
-/// The corner of a triangle at which a node is.
-int cornerOf(const Model& model, ElementId element, NodeId node);
 
 /// The node at which a side begins, and the node at which it ends.
 inline NodeId firstNode(const Model& model, Side side) {

@@ -55,10 +55,12 @@ void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeI
   const bool isWeak = most >= leastStrength[body.value];
   const bool mayHold = component.brittle.fractureEnergy > 0 || component.brittleByPlace;
   if (!isWeak && !mayHold) return;
+  if (!isWeak && isInside_[node.value] != 0 && !model.bodyOf(edges.ofNode[node.value]).isMixed())
+    return;
   around_.clear();
-  const bool isInside = edges.appendFan(model, node, around_);
+  (void)edges.appendFan(model, node, around_);
   if (!isWeak && !haveSeveralMaterials(model, around_) &&
-      (isInside || !isTip(model, around_, node)))
+      (isInside_[node.value] != 0 || !isTip(model, around_, node)))
     return;
   for (const ElementId element : around_) {
     const int corner = cornerOf(model, element, node);
@@ -81,6 +83,8 @@ void StrengthCheck::prepare(const Model& model, const CrackEdges& edges) {
   nodeStress_.reserve(room);
   nodeSeen_.resize(model.nodes.size());
   nodeStress_.resize(model.nodes.size());
+  isInside_.reserve(room);
+  isInside_.resize(model.nodes.size());
   nodeTaken_.resize(model.nodes.size());
   nodeLookedAt_.resize(model.nodes.size());
   edgeSeen_.resize(edges.size());
@@ -116,7 +120,7 @@ template <class Counts>
 StrengthCheck::Stress StrengthCheck::meanAt(const Model& model, const CrackEdges& edges,
                                             NodeId node, Counts counts) {
   fan_.clear();
-  edges.appendFan(model, node, fan_);
+  isInside_[node.value] = edges.appendFan(model, node, fan_) ? 1 : 0;
   Stress mean{};
   double whole = 0;
   for (const ElementId element : fan_) {

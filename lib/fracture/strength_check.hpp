@@ -27,7 +27,7 @@ class StrengthCheck {
   void prepare(const Model& model, const CrackEdges& edges);
   void addTo(Footprint& footprint) const {
     footprint.add(Use::kFracture, elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeLookedAt_,
-                  elementStress_, nodeStress_, fan_, around_, found_);
+                  elementStress_, nodeStress_, isInside_, fan_, around_, found_);
   }
 
  private:
@@ -54,6 +54,7 @@ class StrengthCheck {
   std::uint32_t call_ = 0;
   std::vector<std::uint32_t> elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeLookedAt_;
   std::vector<Stress> elementStress_, nodeStress_;  // Pa: xx, yy, xy
+  std::vector<std::uint8_t> isInside_;  // by node whose mean is known: 1 if its fan is a ring
   std::vector<ElementId> fan_, around_;
   std::vector<Overstressed> found_;
 };

@@ -2,6 +2,7 @@
 // Blocks that touch exactly, as in masonry, jointed rock and dry stacks.
 
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "mesh/triangulate.hpp"
@@ -18,9 +19,9 @@ struct BlockWall {
   double friction = .5;
 };
 
-/// Four-sided blocks that fill a square, on a floor that is held, under gravity. Two neighbours
-/// have their corners and their nodes at the same places if the gap is 0.
-inline void addBlockWall(World& world, const BlockWall& wall) {
+/// Outlines of the floor, and of four-sided blocks that fill a square on it. Two neighbours have
+/// their corners at the same places if the gap is 0.
+inline std::vector<std::vector<Vec2>> blockOutlines(const BlockWall& wall) {
   const int count = wall.blocks + 1;
   std::mt19937_64 random(5);
   const auto some = [&] { return wall.jitter * (2 * double(random() >> 11) * 0x1p-53 - 1); };
@@ -31,17 +32,9 @@ inline void addBlockWall(World& world, const BlockWall& wall) {
       const double dx = inner ? some() : 0, dy = inner ? some() : 0;
       corners.push_back(kBlockSide * Vec2{column + dx, row + dy});
     }
-  const auto add = [&](std::vector<Vec2> outline, double size, bool held) {
-    const TriangleMesh mesh = triangulate({std::move(outline), {}}, size);
-    BodySpec spec;
-    spec.material = {30e9, .2, 2500, false};
-    spec.friction = wall.friction;
-    spec.selfContact = false;
-    if (held) spec.held.assign(mesh.nodes.size(), kHeldXY);
-    world.addBody(mesh, spec);
-  };
   const double wide = kBlockSide * wall.blocks;
-  add({{-wide, -kBlockSide}, {2 * wide, -kBlockSide}, {2 * wide, 0}, {-wide, 0}}, kBlockSide, true);
+  std::vector<std::vector<Vec2>> outlines{
+      {{-wide, -kBlockSide}, {2 * wide, -kBlockSide}, {2 * wide, 0}, {-wide, 0}}};
   for (int row = 0; row < wall.blocks; ++row)
     for (int column = 0; column < wall.blocks; ++column) {
       const auto at = [&](int x, int y) {
@@ -54,8 +47,25 @@ inline void addBlockWall(World& world, const BlockWall& wall) {
         const Vec2 inwards = middle - corner;
         corner += (wall.gap / norm(inwards)) * inwards;
       }
-      add(std::move(outline), kBlockSide / 2, false);
+      outlines.push_back(std::move(outline));
     }
+  return outlines;
+}
+
+/// The blocks, under gravity, on the floor, which is held. The nodes of neighbours are at the same
+/// places, too.
+inline void addBlockWall(World& world, const BlockWall& wall) {
+  bool isFloor = true;
+  for (const std::vector<Vec2>& outline : blockOutlines(wall)) {
+    const TriangleMesh mesh = triangulate({outline, {}}, isFloor ? kBlockSide : kBlockSide / 2);
+    BodySpec spec;
+    spec.material = {30e9, .2, 2500, false};
+    spec.friction = wall.friction;
+    spec.selfContact = false;
+    if (isFloor) spec.held.assign(mesh.nodes.size(), kHeldXY);
+    world.addBody(mesh, spec);
+    isFloor = false;
+  }
   world.dynamicsSettings.gravity = {0, -9.81};
 }
 
