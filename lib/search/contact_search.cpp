@@ -3,7 +3,6 @@
 #include "curve/numbering.hpp"
 #include "search/brute_force.hpp"
 #include "search/hierarchy_search.hpp"
-#include "search/linear_bvh.hpp"
 #include "search/planned_search.hpp"
 
 namespace yadefrag {
@@ -22,8 +21,6 @@ std::unique_ptr<ContactSearch> make(SearchMethod method) {
       return std::make_unique<PlannedSearch<Count, LebesgueNumbering, SweptRows>>();
     case SearchMethod::kHierarchy:
       return std::make_unique<HierarchySearch<Count>>();
-    case SearchMethod::kLinearBvh:
-      return std::make_unique<LinearBvh<Count>>();
     case SearchMethod::kBruteForce:
       break;
   }

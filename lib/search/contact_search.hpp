@@ -82,7 +82,6 @@ enum class SearchMethod {
   kSweptRows,   ///< the same in a sweep over all boxes, which needs no look-up of rows
   kFastest,     ///< kSweptRows for boxes of similar size, kLebesgue otherwise
   kHierarchy,   ///< a tree of boxes (HO), the paper's [12]
-  kLinearBvh,   ///< a tree of boxes over position codes, rebuilt every time (Karras 2012)
 };
 
 std::unique_ptr<ContactSearch> makeSearch(SearchMethod method, bool countComparisons = false);

@@ -1,4 +1,4 @@
-"""A small scene with finite elements that goes through all of FESolver, for test_fe_valgrind.py."""
+"""A small scene with finite elements that goes through all of FESolver, for valgrind_scene.py."""
 import os
 import sys
 import tempfile
@@ -90,7 +90,3 @@ def main():
     for finder in (w.LebesgueCollider, w.InsertionSortCollider):
         crack(finder)
     O.reset()
-    print('\n@@@ done', flush=True)
-
-
-main()

@@ -1,4 +1,5 @@
-"""A small scene that goes through all of the plugin, for test_valgrind.py: CLASS..."""
+"""A small scene that goes through all of the plugin, for test_valgrind.py: CLASS...; then one
+of finite elements."""
 import math
 import os
 import sys
@@ -8,6 +9,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import numpy as np
 
+import fe_valgrind_scene
 import scenes
 from scenes import O
 import yade.wrapper as w
@@ -100,3 +102,6 @@ def run(name, periodic):
 for className in sys.argv[1:]:
     for isPeriodic in (False, True):
         print(f'@@@ {className} {isPeriodic} {run(className, isPeriodic)}', flush=True)
+scenes.clear()
+fe_valgrind_scene.main()
+print('\n@@@ done', flush=True)

@@ -18,8 +18,7 @@ namespace {
 
 constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue,  SearchMethod::kLinearCode,
                                      SearchMethod::kSweptRows, SearchMethod::kFastest,
-                                     SearchMethod::kHierarchy, SearchMethod::kLinearBvh,
-                                     SearchMethod::kBruteForce};
+                                     SearchMethod::kHierarchy, SearchMethod::kBruteForce};
 
 std::uint64_t sceneCount() {
   const char* text = std::getenv("YADEFRAG_SCENES");

@@ -12,8 +12,7 @@ namespace {
 
 constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue,  SearchMethod::kLinearCode,
                                      SearchMethod::kSweptRows, SearchMethod::kFastest,
-                                     SearchMethod::kHierarchy, SearchMethod::kLinearBvh,
-                                     SearchMethod::kBruteForce};
+                                     SearchMethod::kHierarchy, SearchMethod::kBruteForce};
 
 TEST(SearchMemory, MoreBoxesThanCanBeCountedAreRefused) {
   // None of them is looked at: there is one.

@@ -26,9 +26,9 @@ std::vector<BoxPair> sortedPairs(ContactSearch& search, const std::vector<Box>& 
   return pairs;
 }
 
-constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue,  SearchMethod::kLinearCode,
+constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue, SearchMethod::kLinearCode,
                                      SearchMethod::kSweptRows, SearchMethod::kFastest,
-                                     SearchMethod::kHierarchy, SearchMethod::kLinearBvh};
+                                     SearchMethod::kHierarchy};
 
 TEST(SearchProperty, SamePairsAsBruteForce) {
   const std::uint64_t scenes = sceneCount();
@@ -102,8 +102,7 @@ TEST(SearchProperty, StopsWhereThereAreTooManyPairs) {
     const std::vector<Box> boxes(kBoxes, Box{{0, 0, 0}, {side, 1, 1}});
     for (const SearchMethod method :
          {SearchMethod::kBruteForce, SearchMethod::kLebesgue, SearchMethod::kLinearCode,
-          SearchMethod::kSweptRows, SearchMethod::kFastest, SearchMethod::kHierarchy,
-          SearchMethod::kLinearBvh}) {
+          SearchMethod::kSweptRows, SearchMethod::kFastest, SearchMethod::kHierarchy}) {
       const auto search = makeSearch(method);
       search->setThreads(2);
       search->setMostPairs(kMost);

@@ -70,7 +70,6 @@ std::unique_ptr<Rival> makeOwn(const std::string& name, int threads) {
   if (name == "LinearCode") return std::make_unique<Whole>(SearchMethod::kLinearCode, threads);
   if (name == "SweptRows") return std::make_unique<Whole>(SearchMethod::kSweptRows, threads);
   if (name == "Hierarchy") return std::make_unique<Whole>(SearchMethod::kHierarchy, threads);
-  if (name == "LinearBvh") return std::make_unique<Whole>(SearchMethod::kLinearBvh, threads);
   return std::make_unique<MovedGiven>(threads);
 }
 

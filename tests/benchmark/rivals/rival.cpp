@@ -23,6 +23,7 @@ const std::vector<RivalName>& rivalNames() {
 }
 
 std::unique_ptr<Rival> makeRival(const std::string& name, int dimensions, int threads) {
+  if (name == "LinearBvh") return makeBvh(threads);
   if (name == "cell list") return makeCells(dimensions);
   if (name == "CGAL") return makeCgal(dimensions);
   if (name == "Boost R-tree") return makeBoost(dimensions);

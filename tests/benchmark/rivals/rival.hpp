@@ -35,6 +35,7 @@ struct RivalName {
                                                int threads);
 
 std::unique_ptr<Rival> makeOwn(const std::string& name, int threads);
+std::unique_ptr<Rival> makeBvh(int threads);
 std::unique_ptr<Rival> makeCells(int dimensions);
 std::unique_ptr<Rival> makeCgal(int dimensions);
 std::unique_ptr<Rival> makeBoost(int dimensions);

@@ -3,7 +3,7 @@
 Comparisons and time of one global search in the scenes squares, rings and bars, for the printed
 Lebesgue search (SPC), the same with a directory, rows (LPC), the hierarchy (HO), sweep-and-prune;
 beside them the time of YADE's collider and of LebesgueCollider inside YADE, on the same motion. The
-scenes and our searches are in figure14_bench.cpp, the runs inside YADE in figure14_yade.py.
+scenes and our searches are in bench.cpp, the runs inside YADE in figure14_yade.py.
 
 Times are medians over the repeats, each the mean over a run's searches; counts do not vary. Writes
 figure14.json (raw), figure14.md (tables) and figure14.png to the folder, by default out/bench.
@@ -22,10 +22,12 @@ import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
 
-import report  # noqa: E402
-
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(ROOT, 'tests', 'benchmark'))
+
+import report  # noqa: E402
+
 SCENES = {'squares': 'squares a side', 'rings': 'rings', 'bars': 'bars'}
 COUNTED = ['SPC', 'SPC-directory', 'LPC', 'HO', 'sweep']
 TIMED = ['SPC', 'SPC-directory', 'LPC', 'HO']
@@ -254,7 +256,7 @@ def _parse(arguments):
     parser.add_argument('--repeat', type=int, default=3, help='runs of each (default: 3)')
     parser.add_argument('--out', default=os.path.join(ROOT, 'out', 'bench'), help='folder')
     parser.add_argument('--program', help='the benchmark program',
-                        default=os.path.join(ROOT, 'build', 'release', 'tests', 'yadefrag_bench'))
+                        default=os.path.join(ROOT, 'build', 'release', 'tests', 'yadefrag_figure14'))
     parser.add_argument('--yade', default=os.path.join(ROOT, 'scripts', 'yade'),
                         help='the command that starts yade')
     return parser.parse_args(arguments)

@@ -1,4 +1,4 @@
-#include "search/point_hierarchy.hpp"
+#include "figure14/point_hierarchy.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/box.hpp"
-#include "core/footprint.hpp"
 
 namespace yadefrag {
 
@@ -30,9 +29,6 @@ class CodeTree {
   /// Slots and boxes of the leaves, in curve order.
   [[nodiscard]] std::span<const std::uint32_t> slots() const { return slots_; }
   [[nodiscard]] std::span<const Box> boxes() const { return boxes_; }
-  void addTo(Footprint& footprint) const {
-    footprint.add(Use::kSearch, nodes_, codes_, slots_, boxes_);
-  }
 
  private:
   void sortAlongCurve(std::span<const Box> boxes, const std::vector<std::uint32_t>& slots);

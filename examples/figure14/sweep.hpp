@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/comparisons.hpp"
-#include "search/point_search.hpp"
+#include "figure14/point_search.hpp"
 
 namespace yadefrag::figure14 {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "search/point_search.hpp"
+#include "figure14/point_search.hpp"
 
 namespace yadefrag {
 

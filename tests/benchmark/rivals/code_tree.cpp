@@ -1,4 +1,4 @@
-#include "search/code_tree.hpp"
+#include "benchmark/rivals/code_tree.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 #pragma once
 // Tests every slave against every master: the reference for the other point searches.
 
-#include "search/point_search.hpp"
+#include "figure14/point_search.hpp"
 
 namespace yadefrag {
 

@@ -12,8 +12,8 @@
 #include <random>
 #include <vector>
 
+#include "figure14/point_search.hpp"
 #include "search/contact_search.hpp"
-#include "search/point_search.hpp"
 
 namespace yadefrag::figure14 {
 

@@ -1,6 +1,6 @@
 // The paper's search of slaves in halos: all methods find what brute force finds; the orderings and
 // the growth of its figure 14. Scenes, counting rules and all figures: examples/figure14/README.md.
-#include "search/point_search.hpp"
+#include "figure14/point_search.hpp"
 
 #include <gtest/gtest.h>
 #include <memory>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-#include "benchmark/figure14_scenes.hpp"
+#include "figure14/scenes.hpp"
 
 namespace yadefrag {
 namespace {

@@ -1,10 +1,10 @@
-#include "search/point_search.hpp"
+#include "figure14/point_search.hpp"
 
 #include <utility>
 
-#include "search/point_brute_force.hpp"
-#include "search/point_code_search.hpp"
-#include "search/point_hierarchy.hpp"
+#include "figure14/point_brute_force.hpp"
+#include "figure14/point_code_search.hpp"
+#include "figure14/point_hierarchy.hpp"
 
 namespace yadefrag {
 namespace {
@@ -24,9 +24,8 @@ std::unique_ptr<PointSearch> make(SearchMethod method, PointSearchPlan plan) {
       return makeCodes<LinearNumbering<2>, Lookup::kBinary, Count>(plan);
     case SearchMethod::kHierarchy:
       return std::make_unique<PointHierarchySearch<Count>>(std::move(plan));
-    case SearchMethod::kSweptRows:  // these three search boxes only
+    case SearchMethod::kSweptRows:  // these two search boxes only
     case SearchMethod::kFastest:
-    case SearchMethod::kLinearBvh:
     case SearchMethod::kBruteForce:
       break;
   }

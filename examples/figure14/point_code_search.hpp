@@ -8,9 +8,9 @@
 #include <cassert>
 
 #include "curve/numbering.hpp"
+#include "figure14/point_search.hpp"
 #include "search/code_directory.hpp"
 #include "search/level_grid.hpp"
-#include "search/point_search.hpp"
 #include "search/sorted_list.hpp"
 
 namespace yadefrag {

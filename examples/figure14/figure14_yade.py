@@ -1,9 +1,9 @@
 """Figure 14 with YADE's colliders: run inside yade, prints one line of JSON.
 
-    scripts/yade -n -x -j1 tests/benchmark/figure14_yade.py FRAMES SEGMENTS COLLIDER
+    scripts/yade -n -x -j1 examples/figure14/figure14_yade.py FRAMES SEGMENTS COLLIDER
 
 FRAMES is a file of 64-bit floats, (searches, SEGMENTS, 4): the low and high corners of the boxes of
-all segments, half a halo around each, written by figure14_bench.cpp. Each segment is a body with a
+all segments, half a halo around each, written by bench.cpp. Each segment is a body with a
 `Box` shape of just that size, which is moved and turned into the next frame by hand; there are no
 contacts and no motion of YADE's own. Every frame is one search: `verletDist` is 0.
 

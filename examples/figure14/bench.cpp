@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/figure14_scenes.hpp"
-#include "benchmark/figure14_sweep.hpp"
+#include "figure14/scenes.hpp"
+#include "figure14/sweep.hpp"
 
 namespace yadefrag::figure14 {
 namespace {
