@@ -1,6 +1,7 @@
-"""figures.py TESTS: runs the tests that record figures, and writes these to docs/figures.md.
+"""figures.py TESTS: runs the tests that record figures, and writes these to out/bench/figures.md.
 
-Only suites whose sources record a figure are run. If a test fails, the page is left as it is.
+Only suites whose sources record a figure are run. Those in the tables of README.md go there. If a test
+fails, all is left as it is.
 """
 import os
 import pathlib
@@ -16,7 +17,7 @@ import origin  # noqa: E402
 
 import measured_tables  # noqa: E402
 
-PAGE = ROOT / 'docs' / 'figures.md'
+PAGE = ROOT / 'out' / 'bench' / 'figures.md'
 HEAD = '''# Figures
 
 Values that the tests of `lib/` record; the tests, below `tests/`, explain each of them and its tolerance.
@@ -55,9 +56,10 @@ def main(tests):
         command = [tests, f'--gtest_filter={patterns}', f'--gtest_output=xml:{file}', '--gtest_brief=1']
         subprocess.run(command, check=True)
         rows = list(recorded(file))
+    PAGE.parent.mkdir(parents=True, exist_ok=True)
     PAGE.write_text(page(rows, where))
     measured_tables.keep('figures', dict(about=where, values=measured_tables.used(rows)))
-    print(f'docs/figures.md has {len(rows)} figures.')
+    print(f'{PAGE.relative_to(ROOT)} has {len(rows)} figures.')
 
 
 if __name__ == '__main__':
