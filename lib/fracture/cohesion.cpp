@@ -251,11 +251,17 @@ void Cohesion::addForces(std::vector<Vec2>& forces) const {
   }
 }
 
-std::vector<std::uint32_t> Cohesion::groupsOfNodes(std::size_t nodes) const {
-  std::vector<std::uint32_t> groups(points_.empty() ? 0 : nodes);
+std::span<const std::uint32_t> Cohesion::groupsOfNodes(std::size_t nodes) {
+  for (const NodeId node : grouped_) groupOfNode_[node.value] = 0;
+  grouped_.clear();
+  if (points_.empty()) return {};
+  groupOfNode_.resize(nodes);
   for (std::size_t i = 0; i < points_.size(); ++i)
-    groups[points_[i].here.value] = groups[points_[i].there.value] = groupOf_[i] + 1;
-  return groups;
+    for (const NodeId node : {points_[i].here, points_[i].there}) {
+      groupOfNode_[node.value] = groupOf_[i] + 1;
+      grouped_.push_back(node);
+    }
+  return groupOfNode_;
 }
 
 void Cohesion::addWork(EnergyLedger& ledger, const Model& model,

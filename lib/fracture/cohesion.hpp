@@ -68,8 +68,8 @@ class Cohesion final : public CoupledForces {
   /// (N) Adds the forces of the present step's tractions, by node.
   void addForces(std::vector<Vec2>& forces) const;
   /// By node: number, from 1 on, of the nodes that the present step's tractions connect; 0: none.
-  /// Empty without tractions.
-  [[nodiscard]] std::vector<std::uint32_t> groupsOfNodes(std::size_t nodes) const;
+  /// Empty without tractions; valid until the next call.
+  [[nodiscard]] std::span<const std::uint32_t> groupsOfNodes(std::size_t nodes);
 
   /// Removes cracks between removed triangles.
   void removeDropped(const Triangles& triangles, const CrackEdges& edges);
@@ -77,8 +77,8 @@ class Cohesion final : public CoupledForces {
   std::vector<EdgeId> released;  ///< cracks that were removed in the last step
   void addTo(Footprint& footprint) const {
     footprint.add(Use::kCohesion, edge, largest, traction, area, points_, couples_, firstAt_,
-                  groupOf_, groups_.values, groups_.offsets, pointsAt_.values, pointsAt_.offsets,
-                  improved_, start_, turned_, released);
+                  groupOf_, groupOfNode_, grouped_, groups_.values, groups_.offsets,
+                  pointsAt_.values, pointsAt_.offsets, improved_, start_, turned_, released);
     sets_.addTo(footprint, Use::kCohesion);
     waiting_.addTo(footprint, Use::kCohesion);
   }
@@ -128,11 +128,13 @@ class Cohesion final : public CoupledForces {
   static double moved(const Point& point);
 
   std::vector<Point> points_;
-  std::vector<FaceCouple> couples_;     // of the cracks with points
-  std::vector<std::uint32_t> firstAt_;  // by node of a point: the first point there
-  DisjointSets sets_;                   // sets of points
-  std::vector<std::uint32_t> groupOf_;  // by point
-  Csr<std::uint32_t> groups_;           // groups of points that share nodes
+  std::vector<FaceCouple> couples_;         // of the cracks with points
+  std::vector<std::uint32_t> firstAt_;      // by node of a point: the first point there
+  DisjointSets sets_;                       // sets of points
+  std::vector<std::uint32_t> groupOf_;      // by point
+  std::vector<std::uint32_t> groupOfNode_;  // by node, for groupsOfNodes; 0 but at these nodes:
+  std::vector<NodeId> grouped_;
+  Csr<std::uint32_t> groups_;  // groups of points that share nodes
   double residual_ = 0;
   // While contact is solved:
   Csr<std::uint32_t> pointsAt_;             // by firstAt_: all points of a node

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/tolerances/contact.hpp"
-#include "search/overlapping_pairs.hpp"
+#include "search/contact_search.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -128,18 +128,11 @@ class OverlapSearch {
 
   [[nodiscard]] std::optional<Overlap> find(ComponentId newBody) const {
     std::vector<Along> known;
-    std::vector<Box> boxes;
-    for (const BoundarySide& side : sides_) boxes.push_back(boxOf(side));
-    for (const Facet& facet : facets_) boxes.push_back(boxOf(facet));
-    std::vector<BoxPair> pairs = overlappingPairs(boxes);  // sides come before triangles
-    std::sort(pairs.begin(), pairs.end());
     std::optional<Overlap> deepest;
     double enough = INFINITY;  // a deeper overlap is no matter of rounded coordinates
-    for (const auto& [first, second] : pairs) {
-      if (first.value >= sides_.size() || second.value < sides_.size()) continue;
-      const BoundarySide& side = sides_[first.value];
-      const Facet& facet = facets_[second.value - sides_.size()];
-      if ((side.body == newBody) == (facet.body == newBody)) continue;
+    for (const Near& near : pairs(newBody)) {
+      const BoundarySide& side = sides_[near.side];
+      const Facet& facet = facets_[near.facet];
       for (const Vec2 place : side.isLine ? meetLine(side, facet, known) : meet(side, facet)) {
         const double depth = distanceTo(facet.body, place);
         enough = std::min(enough, norm(side.to - side.from));
@@ -152,6 +145,31 @@ class OverlapSearch {
   }
 
  private:
+  struct Near {
+    std::uint32_t side, facet;
+    friend auto operator<=>(const Near&, const Near&) = default;
+  };
+  /// The sides near the triangles, one of the two of the new body; ascending. Only the sides are
+  /// searched: most of the triangles of a body are near each other.
+  [[nodiscard]] std::vector<Near> pairs(ComponentId newBody) const {
+    std::vector<Box> boxes;
+    boxes.reserve(sides_.size());
+    for (const BoundarySide& side : sides_) boxes.push_back(boxOf(side));
+    const auto search = makeSearch(SearchMethod::kLebesgue);
+    search->update(boxes);
+    std::vector<Near> pairs;
+    std::vector<BoxId> found;
+    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+      found.clear();
+      search->findOverlaps(boxOf(facets_[f]), found);
+      for (const BoxId side : found)
+        if ((sides_[side.value].body == newBody) != (facets_[f].body == newBody))
+          pairs.push_back({side.value, f});
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+
   template <class Shape>
   void add(std::vector<Shape>& shapes, const Shape& shape) const {
     if (overlaps(boxOf(shape), within_)) shapes.push_back(shape);

@@ -1,6 +1,6 @@
 // Bodies that crack: what a crack costs, in blocks of more and more triangles that crack alike.
 //
-// Names: fracture/<law>/<triangles, about>, and fracture/impact/<steps>: the run of examples/impact
+// Names: fracture/<law>/<triangles, about>, and fracture/impact/<steps>/<threads>: the run of examples/impact
 // with 21,791 triangles, whose block falls to pieces; 600 steps make 2,000 cracks. A steel cylinder
 // hits a brittle block; the triangles' edges are the same in all sizes, only the block is larger.
 // Counters: `crack` is the time of strength check, cracks, relinking and candidates (µs for each
@@ -84,8 +84,10 @@ void crackSteps(benchmark::State& state, double fractureEnergy) {
   timeSteps(state, world);
 }
 
+/// Arguments: steps, threads.
 void impactSteps(benchmark::State& state) {
   World world;
+  world.threads = static_cast<int>(state.range(1));
   addImpact(world);
   timeSteps(state, world);
 }
@@ -101,11 +103,12 @@ void impactSteps(benchmark::State& state) {
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
   for (const int steps : {600, 6000})
-    benchmark::RegisterBenchmark("fracture/impact", impactSteps)
-        ->Arg(steps)
-        ->Iterations(steps)
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime();
+    for (const int threads : {1, 2})
+      benchmark::RegisterBenchmark("fracture/impact", impactSteps)
+          ->Args({steps, threads})
+          ->Iterations(steps)
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime();
   return true;
 }();
 
