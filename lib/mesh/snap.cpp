@@ -168,7 +168,9 @@ class Snapper {
     const double spacing = std::max(rule_.spacing, rounding_);
     std::size_t chosen = points.size();
     double most = rule_.matchesNodes ? -1 : rounding_;
-    const auto middle = [&](std::size_t i) { return std::abs(2 * i + 1. - points.size()); };
+    const auto middle = [&](std::size_t i) {
+      return std::abs(static_cast<double>(2 * i + 1) - static_cast<double>(points.size()));
+    };
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec2 p = points[i];
       if (norm(p - a) < spacing || norm(p - b) < spacing || !isWithin(p, a, b)) continue;

@@ -21,7 +21,7 @@ struct Overlap {
 /// A new body overlaps another by `depth` (m).
 class OverlapError : public InputError {
  public:
-  OverlapError(const std::string& message, double depth) : InputError(message), depth(depth) {}
+  OverlapError(const std::string& message, double deep) : InputError(message), depth(deep) {}
   double depth;
 };
 

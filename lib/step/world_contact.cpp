@@ -33,7 +33,8 @@ void World::takePairs(std::span<const BoxPair> overlapping) {
 
 void World::correctContact(const StepLength& length) {
   const double most = search.largestMove();
-  const std::span<const std::uint32_t> cohesive = fracture.cohesion.groupsOfNodes(model.nodes.size());
+  const std::span<const std::uint32_t> cohesive =
+      fracture.cohesion.groupsOfNodes(model.nodes.size());
   const ContactStep now{length,
                         dynamicsSettings.drag(length),
                         most,

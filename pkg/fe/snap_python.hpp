@@ -12,8 +12,8 @@ class FESolver;
 
 /// A body that addMesh does not add, since it would overlap another one by `depth` (m).
 struct OverlapFound : std::invalid_argument {
-  OverlapFound(const std::string& message, double depth)
-      : std::invalid_argument(message), depth(depth) {}
+  OverlapFound(const std::string& message, double deep)
+      : std::invalid_argument(message), depth(deep) {}
   double depth;
 };
 

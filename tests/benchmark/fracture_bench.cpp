@@ -1,8 +1,8 @@
 // Bodies that crack: what a crack costs, in blocks of more and more triangles that crack alike.
 //
 // Names: fracture/<law>/<triangles, about>, and fracture/impact/<steps>/<threads>: the run of
-// examples/impact with 21,791 triangles, whose block falls to pieces; 600 steps make 2,000 cracks. A
-// steel cylinder hits a brittle block; the triangles' edges are the same in all sizes, only the
+// examples/impact with 21,791 triangles, whose block falls to pieces; 600 steps make 2,000 cracks.
+// A steel cylinder hits a brittle block; the triangles' edges are the same in all sizes, only the
 // block is larger.
 // Counters: `crack` is the time of strength check, cracks, relinking and candidates (µs for each
 // crack); `share` is its part in the step, `contact` that of search, local search and correction.
