@@ -1,73 +1,52 @@
-// RowSweeps: conjugate gradients on the forces within their bounds. They minimise ½λᵀGλ + gᵀλ, with
-// the responses of single rows as a preconditioner, up to the first bound that a force reaches:
-// which forces are at a bound is decided by the sweeps.
+#include "contact/row_gradients.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "contact/row_sweeps.hpp"
 #include "core/tolerances/solver.hpp"
 
 namespace yadefrag {
 
-/// Once, before threads share the work.
-void RowSweeps::makeRoomForGradients() {
-  const std::size_t count = rows_.size();
+void RowGradients::makeRoom(const RowSystem& system) {
+  const std::size_t count = system.rows.size();
   former_.resize(count), residual_.resize(count), perResidual_.resize(count);
   direction_.resize(count), response_.resize(count);
-  along_ = moved_;
+  along_ = system.moved;
 }
 
-void RowSweeps::descendIfDue(const Group& group, double tolerance) {
-  Attempts& attempts = attempts_[order_[group.begin]];
-  const int sweeps = attempts.former + group.sweeps;
-  if (sweeps < attempts.next) return;
-  if (!(findResiduals(group) > tolerance))
-    attempts.between = tolerance::kSweepsToDescend;
-  else if (descend(group, tolerance))
-    attempts.between = tolerance::kSweepsAfterDescent;
-  else
-    attempts.between =
-        std::max(tolerance::kMoreSweeps * attempts.between, tolerance::kSweepsToDescend);
-  attempts.next = sweeps + attempts.between;
-}
-
-/// From the residuals found, until none exceeds `tolerance` (m); returns false if a force reaches a
-/// bound before.
-bool RowSweeps::descend(const Group& group, double tolerance) {
+bool RowGradients::descend(RowSystem& system, RowRange range, double tolerance) {
   double worst = INFINITY;
-  double square = scaledSquare(group), kept = 0;
+  double square = scaledSquare(range), kept = 0;
   bool isBounded = false;
   for (int i = 0; i < tolerance::kDescents && worst > tolerance && !isBounded; ++i) {
-    turnDirection(group, kept);
-    const double curvature = findResponses(group);
+    turnDirection(range, kept);
+    const double curvature = findResponses(system, range);
     if (!(curvature > 0)) break;
-    const double step = square / curvature, bound = stepToBound(group);
+    const double step = square / curvature, bound = stepToBound(system, range);
     isBounded = bound < step;
-    worst = advance(group, std::min(bound, step));
-    const double former = std::exchange(square, scaledSquare(group));
+    worst = advance(system, range, std::min(bound, step));
+    const double former = std::exchange(square, scaledSquare(range));
     kept = square / former;
   }
-  for (std::uint32_t r = group.begin; r < group.end; ++r) {
-    const SweepRow& row = rows_[r];
+  for (std::uint32_t r = range.begin; r < range.end; ++r) {
+    const RowSystem::Row& row = system.rows[r];
     const Vec2 change = (row.normalForce - former_[r].normal) * row.normal +
                         (row.tangentForce - former_[r].tangent) * row.along();
-    push(row, ends_[r], change, moved_);
-    waiting_.add(group.waitingOf(r));
+    system.push(row, system.ends[r], change, system.moved);
   }
   return !isBounded;
 }
 
-/// Returns the largest one (m).
-double RowSweeps::findResiduals(const Group& group) {
+double RowGradients::findResiduals(const RowSystem& system, RowRange range) {
   double worst = 0;
-  for (std::uint32_t r = group.begin; r < group.end; ++r) {
-    const SweepRow& row = rows_[r];
+  for (std::uint32_t r = range.begin; r < range.end; ++r) {
+    const RowSystem::Row& row = system.rows[r];
     residual_[r] = perResidual_[r] = direction_[r] = {};
     former_[r] = {row.normalForce, row.tangentForce};
     if (!(row.normalForce > 0 && row.normalResponse > 0)) continue;
-    const Vec2 moved = relativeMotion(row, ends_[r], ends_[r].count, moved_);
+    const Vec2 moved =
+        system.relativeMotion(row, system.ends[r], system.ends[r].count, system.moved);
     residual_[r].normal = -(row.gap + dot(moved, row.normal));
     perResidual_[r].normal = 1 / row.normalResponse;
     worst = std::max(worst, std::abs(residual_[r].normal));
@@ -81,8 +60,8 @@ double RowSweeps::findResiduals(const Group& group) {
 }
 
 /// `kept`: part of the former direction in the new one.
-void RowSweeps::turnDirection(const Group& group, double kept) {
-  for (std::uint32_t r = group.begin; r < group.end; ++r) {
+void RowGradients::turnDirection(RowRange range, double kept) {
+  for (std::uint32_t r = range.begin; r < range.end; ++r) {
     Pair& d = direction_[r];
     d.normal = perResidual_[r].normal * residual_[r].normal + kept * d.normal;
     d.tangent = perResidual_[r].tangent * residual_[r].tangent + kept * d.tangent;
@@ -91,21 +70,21 @@ void RowSweeps::turnDirection(const Group& group, double kept) {
 
 /// Each row has a small compliance: where rows contradict each other, a direction would have no
 /// response at all. Returns the quadratic's second derivative in the direction (N m).
-double RowSweeps::findResponses(const Group& group) {
-  for (std::uint32_t r = group.begin; r < group.end; ++r) {
-    const Ends& ends = ends_[r];
+double RowGradients::findResponses(const RowSystem& system, RowRange range) {
+  for (std::uint32_t r = range.begin; r < range.end; ++r) {
+    const RowSystem::Ends& ends = system.ends[r];
     for (std::uint32_t k = 0; k < ends.count; ++k) along_.nodes[ends.node[k]].shift = {};
-    if (ends.turn != kNone) along_.turns[turns_[ends.turn].number] = 0;
+    if (ends.turn != RowSystem::kNone) along_.turns[system.turns[ends.turn].number] = 0;
   }
-  for (std::uint32_t r = group.begin; r < group.end; ++r) {
-    const SweepRow& row = rows_[r];
-    push(row, ends_[r], direction_[r].normal * row.normal + direction_[r].tangent * row.along(),
-         along_);
+  for (std::uint32_t r = range.begin; r < range.end; ++r) {
+    const RowSystem::Row& row = system.rows[r];
+    system.push(row, system.ends[r],
+                direction_[r].normal * row.normal + direction_[r].tangent * row.along(), along_);
   }
   double curvature = 0;
-  for (std::uint32_t r = group.begin; r < group.end; ++r) {
-    const SweepRow& row = rows_[r];
-    const Vec2 moved = relativeMotion(row, ends_[r], ends_[r].count, along_);
+  for (std::uint32_t r = range.begin; r < range.end; ++r) {
+    const RowSystem::Row& row = system.rows[r];
+    const Vec2 moved = system.relativeMotion(row, system.ends[r], system.ends[r].count, along_);
     response_[r] = {
         dot(moved, row.normal) + tolerance::kCompliance * row.normalResponse * direction_[r].normal,
         dot(moved, row.along()) +
@@ -117,19 +96,19 @@ double RowSweeps::findResponses(const Group& group) {
 }
 
 /// (N m) Σ residual² per response of the row alone.
-double RowSweeps::scaledSquare(const Group& group) const {
+double RowGradients::scaledSquare(RowRange range) const {
   double sum = 0;
-  for (std::uint32_t r = group.begin; r < group.end; ++r)
+  for (std::uint32_t r = range.begin; r < range.end; ++r)
     sum += perResidual_[r].normal * residual_[r].normal * residual_[r].normal +
            perResidual_[r].tangent * residual_[r].tangent * residual_[r].tangent;
   return sum;
 }
 
 /// Multiple of the direction at which the first force reaches a bound.
-double RowSweeps::stepToBound(const Group& group) const {
+double RowGradients::stepToBound(const RowSystem& system, RowRange range) const {
   double step = INFINITY;
-  for (std::uint32_t r = group.begin; r < group.end; ++r) {
-    const SweepRow& row = rows_[r];
+  for (std::uint32_t r = range.begin; r < range.end; ++r) {
+    const RowSystem::Row& row = system.rows[r];
     const Pair& d = direction_[r];
     if (d.normal < 0) step = std::min(step, -row.normalForce / d.normal);
     if (perResidual_[r].tangent == 0) continue;
@@ -141,11 +120,11 @@ double RowSweeps::stepToBound(const Group& group) const {
 }
 
 /// Returns the largest residual (m) then.
-double RowSweeps::advance(const Group& group, double step) {
+double RowGradients::advance(RowSystem& system, RowRange range, double step) {
   double worst = 0;
-  for (std::uint32_t r = group.begin; r < group.end; ++r) {
+  for (std::uint32_t r = range.begin; r < range.end; ++r) {
     if (perResidual_[r].normal == 0) continue;
-    SweepRow& row = rows_[r];
+    RowSystem::Row& row = system.rows[r];
     row.normalForce = std::max(0., row.normalForce + step * direction_[r].normal);
     residual_[r].normal -= step * response_[r].normal;
     worst = std::max(worst, std::abs(residual_[r].normal));

@@ -12,23 +12,23 @@ namespace yadefrag {
 
 double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
                         Coupling* coupling, int threads) {
-  const std::size_t former = rows_.size();
+  const std::size_t former = system_.rows.size();
   assert(former <= rows.size() && !rows.empty());
-  numbers_.resize(inertia.size());
+  system_.numbers.resize(inertia.size());
   update(rows, stop.change);
-  for (const ContactRow& row : rows.subspan(former)) add(row, inertia);
+  for (const ContactRow& row : rows.subspan(former)) system_.add(row, inertia);
   waits_.resize(rows.size(), 1), attempts_.resize(rows.size());
   for (std::size_t r = former; r < rows.size(); ++r)
     order_.push_back(static_cast<std::uint32_t>(r));
   makeOneGroup();
-  pushAll();
+  system_.pushAll();
   share(coupling, inertia.nodes.size());
   const double change = sweepAll(stop, coupling, threads);
   keepWaiting();
   countSweeps();
   for (std::size_t r = 0; r < rows.size(); ++r) {
     ContactRow& row = rows[order_[r]];
-    row.normalForce = rows_[r].normalForce, row.tangentForce = rows_[r].tangentForce;
+    row.normalForce = system_.rows[r].normalForce, row.tangentForce = system_.rows[r].tangentForce;
   }
   return change;
 }
@@ -53,7 +53,7 @@ double RowSweeps::sweepAll(Stop stop, Coupling* coupling, int threads) {
 /// At most `until` sweeps of each group since the begin of the solution. Returns the largest change
 /// in the last one (m).
 double RowSweeps::sweepGroups(int until, Stop stop, int threads) {
-  forEachItem(groups_.size(), rows_.size(), threads,
+  forEachItem(groups_.size(), system_.rows.size(), threads,
               [&](std::size_t g) { sweepGroup(groups_[g], until, stop); });
   double change = 0;
   count_ = 0;
@@ -75,13 +75,34 @@ void RowSweeps::sweepGroup(Group& group, int until, Stop stop) {
   }
 }
 
+void RowSweeps::descendIfDue(const Group& group, double tolerance) {
+  Attempts& attempts = attempts_[order_[group.begin]];
+  const int sweeps = attempts.former + group.sweeps;
+  if (sweeps < attempts.next) return;
+  if (!(gradients_.findResiduals(system_, group) > tolerance))
+    attempts.between = tolerance::kSweepsToDescend;
+  else if (descend(group, tolerance))
+    attempts.between = tolerance::kSweepsAfterDescent;
+  else
+    attempts.between =
+        std::max(tolerance::kMoreSweeps * attempts.between, tolerance::kSweepsToDescend);
+  attempts.next = sweeps + attempts.between;
+}
+
+/// All rows of the group wait afterwards. Returns false if a force has reached a bound.
+bool RowSweeps::descend(const Group& group, double tolerance) {
+  const bool isFree = gradients_.descend(system_, group, tolerance);
+  for (std::uint32_t r = group.begin; r < group.end; ++r) waiting_.add(group.waitingOf(r));
+  return isFree;
+}
+
 /// Finds the nodes of rows that coupled forces move, too.
 void RowSweeps::share(const Coupling* coupling, std::size_t modelNodes) {
   shared_.clear();
   if (coupling == nullptr) return;
-  for (std::uint32_t i = 0; i < nodes_.size(); ++i)
-    if (nodes_[i].value < modelNodes && coupling->group[nodes_[i].value] != 0)
-      shared_.push_back({i, nodes_[i]});
+  for (std::uint32_t i = 0; i < system_.nodes.size(); ++i)
+    if (system_.nodes[i].value < modelNodes && coupling->group[system_.nodes[i].value] != 0)
+      shared_.push_back({i, system_.nodes[i]});
   if (!shared_.empty()) coupling->forces.begin(coupling->position);
 }
 
@@ -89,7 +110,7 @@ void RowSweeps::share(const Coupling* coupling, std::size_t modelNodes) {
 /// one they converge. Returns the largest displacement (m).
 double RowSweeps::sweepCoupled(Coupling& coupling, double tolerance, bool last) {
   for (SharedNode& one : shared_) {
-    const Vec2 byContact = moved_.nodes[one.number].shift - one.byOthers;
+    const Vec2 byContact = system_.moved.nodes[one.number].shift - one.byOthers;
     if (norm(byContact - one.byContact) > (last ? 0 : tolerance) || !one.isKnown)
       coupling.forces.noteMoved(one.node);
     one.byContact = byContact, one.isKnown = true;
@@ -104,7 +125,7 @@ double RowSweeps::sweepCoupled(Coupling& coupling, double tolerance, bool last) 
     const Vec2 change = at - one.at;
     at = at - (one.byContact - coupling.displaced[one.node.value]);
     one.byOthers += change;
-    moved_.nodes[one.number].shift += change;
+    system_.moved.nodes[one.number].shift += change;
     if (norm(change) > tolerance)
       for (const std::uint32_t row : rowsOfNodes_.row(one.number)) waiting_.add(row);
   }
@@ -116,18 +137,18 @@ double RowSweeps::sweep(const Group& group, bool forwards, double tolerance) {
   double most = 0;
   const auto visit = [&](std::size_t waiting) {
     const std::size_t r = group.begin + (waiting - group.firstWaiting);
-    const Ends& ends = ends_[r];
+    const RowSystem::Ends& ends = system_.ends[r];
     // A corner against a corner or a straight piece, as most rows: loops of constant length.
     const double moved =
-        ends.count == 3   ? relax(rows_[r], ends, std::integral_constant<std::uint32_t, 3>{})
-        : ends.count == 2 ? relax(rows_[r], ends, std::integral_constant<std::uint32_t, 2>{})
-                          : relax(rows_[r], ends, ends.count);
+        ends.count == 3   ? relax(system_.rows[r], ends, std::integral_constant<std::uint32_t, 3>{})
+        : ends.count == 2 ? relax(system_.rows[r], ends, std::integral_constant<std::uint32_t, 2>{})
+                          : relax(system_.rows[r], ends, ends.count);
     most = std::max(most, moved);
     if (!(moved > tolerance)) return;
     for (std::uint32_t k = 0; k < ends.count; ++k)
       for (const std::uint32_t other : rowsOfNodes_.row(ends.node[k])) waiting_.add(other);
     // Its own gap is 0 now, unless friction has turned a rigid body.
-    if (ends.turn == kNone) waiting_.remove(waiting);
+    if (ends.turn == RowSystem::kNone) waiting_.remove(waiting);
   };
   if (forwards)
     waiting_.visitUp(group.words(), visit);
@@ -139,9 +160,9 @@ double RowSweeps::sweep(const Group& group, bool forwards, double tolerance) {
 /// Sets one row's forces so that its own gap and slip vanish, within the bounds; returns the
 /// displacement that this causes (m). A row whose nodes are all held is skipped.
 template <class Count>
-double RowSweeps::relax(SweepRow& row, const Ends& ends, Count count) {
+double RowSweeps::relax(RowSystem::Row& row, const RowSystem::Ends& ends, Count count) {
   if (!(row.normalResponse > 0)) return 0;
-  const Vec2 moved = relativeMotion(row, ends, count, moved_);
+  const Vec2 moved = system_.relativeMotion(row, ends, count, system_.moved);
   const double gap = row.gap + dot(moved, row.normal);
   const double normal = std::max(0., row.normalForce - gap / row.normalResponse);
   const double pushed = normal - row.normalForce;
@@ -155,7 +176,7 @@ double RowSweeps::relax(SweepRow& row, const Ends& ends, Count count) {
     row.tangentForce = tangent;
   }
   if (pushed == 0 && pulled == 0) return 0;
-  push(row, ends, count, pushed * row.normal + pulled * row.along(), moved_);
+  system_.push(row, ends, count, pushed * row.normal + pulled * row.along(), system_.moved);
   return std::max(std::abs(pushed) * row.normalResponse, slid);
 }
 

@@ -33,7 +33,7 @@ def features(root=ROOT):
     """{name: Feature}: as yadefrag_unused calls them, and two that a scene uses by its shape."""
     return dict(
         fracture=Feature(root, r'^fracture/|world_(fracture|drop)|crack_candidates|relink',
-                         r'[fF]racture|[cC]rack|[cC]ohe|stressed|squaredLook|watching|rubble'),
+                         r'[fF]racture|[cC]rack|[cC]ohe|stressed|squaredLook|watching'),
         friction=Feature(root, lines=r'[fF]riction|tangent|slip',
                          within=r'^contact/(contact|row_)|^step/'),
         smooth=Feature(root, r'bezier_arc', r'\b[aA]rc|[a-z]Arc|bulg|[sS]mooth(?!>)|Half',
