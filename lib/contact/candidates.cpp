@@ -1,6 +1,7 @@
 #include "contact/candidates.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <utility>
 
@@ -10,6 +11,7 @@ namespace {
 
 /// Stores the pairs, ascending, as rows; returns the former candidates.
 Candidates fill(Candidates& candidates, const std::vector<SlaveMaster>& pairs) {
+  assert(std::is_sorted(pairs.begin(), pairs.end()));
   Candidates next;
   next.masters.reserve(pairs.size());
   for (const SlaveMaster& pair : pairs) {

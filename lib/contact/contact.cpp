@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -48,6 +49,7 @@ void mergeByPair(std::vector<Touch>& touches) {
     std::inplace_merge(begin, merged, next, byPair);
     merged = next;
   }
+  assert(std::is_sorted(begin, end, byPair));
 }
 
 }  // namespace
@@ -150,6 +152,7 @@ void Contact::takeBack() {
   if (isFinished_) touches.swap(formerTouches_), lastCorrection = formerCorrection_;
   rows_.swap(formerRows_);
   now_ = former_;
+  assert(std::ranges::is_sorted(touches, {}, &Touch::pair));
   clearForces();
   for (const ContactRow& row : rows_)
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);

@@ -1,6 +1,7 @@
 #include "contact/row_gradients.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -16,6 +17,7 @@ void RowGradients::makeRoom(const RowSystem& system) {
 }
 
 bool RowGradients::descend(RowSystem& system, RowRange range, double tolerance) {
+  assert(range.end <= residual_.size());
   double worst = INFINITY;
   double square = scaledSquare(range), kept = 0;
   bool isBounded = false;

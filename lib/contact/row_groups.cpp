@@ -2,6 +2,7 @@
 // cannot move belongs to no group, since it transmits no force.
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "contact/row_sweeps.hpp"
@@ -19,6 +20,7 @@ void RowSweeps::clear() {
 
 /// Rows of an earlier detection of the step: which of them have another gap or slip now?
 void RowSweeps::update(std::span<const ContactRow> rows, double tolerance) {
+  assert(order_.size() == system_.rows.size() && waits_.size() == system_.rows.size());
   for (std::size_t r = 0; r < system_.rows.size(); ++r) {
     RowSystem::Row& swept = system_.rows[r];
     const ContactRow& row = rows[order_[r]];
@@ -45,6 +47,7 @@ void RowSweeps::makeOneGroup() {
 /// Divides this group: rows of a group are then next to each other. Where few sweeps are
 /// sufficient, that would not pay.
 void RowSweeps::divide() {
+  assert(groups_.size() == 1 && !isDivided_);
   const Group all = groups_.front();
   keepWaiting();
   const Csr<std::uint32_t> members = findGroups();

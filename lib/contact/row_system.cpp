@@ -1,5 +1,7 @@
 #include "contact/row_system.hpp"
 
+#include <cassert>
+
 namespace yadefrag {
 
 void RowSystem::clear() {
@@ -26,6 +28,7 @@ void RowSystem::addEnd(Row& swept, Ends& of, NodeId number, double weight, const
   const std::uint32_t node = numberOf(number, inertia);
   const Vec2 perForce = moved.nodes[node].perForce;
   if (perForce == Vec2{} && inertia.turningOf(number) == 0) return;
+  assert(of.count < of.node.size());
   of.node[of.count] = node;
   swept.weight[of.count++] = weight;
   const Vec2 mobile = weight * weight * perForce;
@@ -52,6 +55,7 @@ void RowSystem::addRigid(Row& swept, Ends& of, const ContactRow::RigidPart& part
 }
 
 std::uint32_t RowSystem::numberOf(NodeId node, const Inertia& inertia) {
+  assert(node.value < numbers.size());
   std::uint32_t& number = numbers[node.value];
   if (number < nodes.size() && nodes[number] == node) return number;
   number = static_cast<std::uint32_t>(nodes.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 
 #include "contact/candidates.hpp"
@@ -24,7 +25,9 @@ inline std::span<const Touch> touchesOf(std::span<const Touch> touches, EntryId 
 /// The same for slaves in ascending order, without a search for each.
 class TouchCursor {
  public:
-  explicit TouchCursor(std::span<const Touch> touches) : rest_(touches) {}
+  explicit TouchCursor(std::span<const Touch> touches) : rest_(touches) {
+    assert(std::ranges::is_sorted(touches, {}, &Touch::pair));
+  }
   std::span<const Touch> of(EntryId slave) {
     std::size_t begin = 0;
     while (begin < rest_.size() && rest_[begin].pair.slave < slave) ++begin;

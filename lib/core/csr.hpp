@@ -33,7 +33,10 @@ void fillRows(Csr<T>& csr, std::size_t rows, std::size_t count, KeyOf keyOf, Val
     throw RunError("A list has more than 4294967295 entries, which cannot be counted in 32 bits.");
   csr.offsets.assign(rows + 1, 0);
   csr.values.resize(count);
-  for (std::size_t i = 0; i < count; ++i) ++csr.offsets[keyOf(i) + 1];
+  for (std::size_t i = 0; i < count; ++i) {
+    assert(keyOf(i) < rows);
+    ++csr.offsets[keyOf(i) + 1];
+  }
   for (std::size_t r = 0; r < rows; ++r) csr.offsets[r + 1] += csr.offsets[r];
   // offsets[r] serves as the write position of row r and ends at the start of row r + 1. The loop
   // below shifts the offsets back.

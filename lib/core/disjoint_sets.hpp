@@ -2,6 +2,7 @@
 // Disjoint sets of the numbers 0, 1, 2, … that are merged (Boost: union by rank, path compression).
 
 #include <boost/pending/disjoint_sets.hpp>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -23,8 +24,14 @@ class DisjointSets {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
   /// The representative of the set of `member`.
-  std::uint32_t find(std::uint32_t member) { return sets().find_set(member); }
-  void join(std::uint32_t a, std::uint32_t b) { sets().union_set(a, b); }
+  std::uint32_t find(std::uint32_t member) {
+    assert(member < parent_.size());
+    return sets().find_set(member);
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    assert(a < parent_.size() && b < parent_.size());
+    sets().union_set(a, b);
+  }
 
   /// Numbers the sets in the order of their first members; returns the number of sets.
   std::uint32_t number(std::vector<std::uint32_t>& setOfMember) {

@@ -2,6 +2,7 @@
 // Numbers that wait for work, one bit each. They are visited in order; a visit may add others.
 
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -28,11 +29,18 @@ class WorkList {
   void clear(std::size_t count) { words_.assign(wordsFor(count), 0); }
   /// Makes room for numbers below `count`.
   void grow(std::size_t count) { words_.resize(wordsFor(count)); }
-  void add(std::size_t number) { words_[number / kPerWord] |= bit(number); }
+  void add(std::size_t number) {
+    assert(number / kPerWord < words_.size());
+    words_[number / kPerWord] |= bit(number);
+  }
   [[nodiscard]] bool contains(std::size_t number) const {
+    assert(number / kPerWord < words_.size());
     return (words_[number / kPerWord] & bit(number)) != 0;
   }
-  void remove(std::size_t number) { words_[number / kPerWord] &= ~bit(number); }
+  void remove(std::size_t number) {
+    assert(number / kPerWord < words_.size());
+    words_[number / kPerWord] &= ~bit(number);
+  }
 
   /// Removes the waiting numbers in ascending order, and calls `visit(number)` for each.
   template <class Visit>
@@ -41,6 +49,7 @@ class WorkList {
   }
   template <class Visit>
   void visitUp(Range range, Visit visit) {
+    assert(range.begin <= range.end && range.end <= words_.size());
     for (std::size_t w = range.begin; w < range.end; ++w) {
       std::uint64_t ahead = ~std::uint64_t{0};
       while (const std::uint64_t waiting = words_[w] & ahead) {
@@ -57,6 +66,7 @@ class WorkList {
   }
   template <class Visit>
   void visitDown(Range range, Visit visit) {
+    assert(range.begin <= range.end && range.end <= words_.size());
     for (std::size_t w = range.end; w-- > range.begin;) {
       std::uint64_t ahead = ~std::uint64_t{0};
       while (const std::uint64_t waiting = words_[w] & ahead) {

@@ -1,6 +1,7 @@
 #include "fracture/cohesion.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -167,6 +168,7 @@ void Cohesion::relax(std::vector<Vec2>& position, Point& point) {
 /// Sweeps over points that share nodes, starting from the tractions of the last step. Returns the
 /// largest change in the last sweep, divided by the strength.
 double Cohesion::solve(std::vector<Vec2>& position, std::span<const std::uint32_t> group) {
+  assert(!group.empty());
   for (const std::uint32_t i : group) points_[i].change = {};
   double worst = 0;
   for (int sweep = 1; sweep <= tolerance::kCohesionSweeps; ++sweep) {
@@ -252,6 +254,7 @@ void Cohesion::addForces(std::vector<Vec2>& forces) const {
 }
 
 std::span<const std::uint32_t> Cohesion::groupsOfNodes(std::size_t nodes) {
+  assert(points_.empty() || groupOf_.size() == points_.size());
   for (const NodeId node : grouped_) groupOfNode_[node.value] = 0;
   grouped_.clear();
   if (points_.empty()) return {};

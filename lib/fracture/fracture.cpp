@@ -1,6 +1,7 @@
 #include "fracture/fracture.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/tolerances/fracture.hpp"
 #include "dynamics/smoothed_state.hpp"
@@ -60,6 +61,7 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
 void Fracture::noteStart(double time) {
   if (cracks_.empty()) return;
   started.resize(edges.size(), -1);
+  assert(cracks_.back().value < started.size());
   for (const EdgeId edge : cracks_) started[edge.value] = time;
 }
 
@@ -103,6 +105,7 @@ void Fracture::addTo(Footprint& footprint) const {
 }
 
 void Fracture::cohere(const Model& model, std::span<const Vec2> reference) {
+  assert(reference.size() == model.nodes.size());
   for (const EdgeId edge : cracks_)
     if (edges.fractureEnergy[edge.value] > 0) cohesion.add(model, edges, edge, reference);
 }

@@ -1,6 +1,7 @@
 #include "fracture/node_splitting.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace yadefrag {
 namespace {
@@ -163,6 +164,8 @@ class Splitting {
 
 void splitNodes(Model& model, CrackEdges& edges, const ContactSurfaces& surfaces,
                 std::span<const EdgeId> cracks, SplitResult& result) {
+  assert(std::ranges::is_sorted(cracks));
+  assert(std::ranges::none_of(cracks, [&](EdgeId e) { return edges.cracked[e.value] != 0; }));
   result = {};
   Splitting splitting(model, edges, result);
   splitting.begin();
@@ -171,6 +174,7 @@ void splitNodes(Model& model, CrackEdges& edges, const ContactSurfaces& surfaces
   for (const EdgeId edge : cracks) edges.cracked[edge.value] = 1;
   splitting.splitAll();
   splitting.listSides(surfaces);
+  assert(std::ranges::is_sorted(result.changed));
 }
 
 }  // namespace yadefrag

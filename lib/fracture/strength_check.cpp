@@ -1,6 +1,7 @@
 #include "fracture/strength_check.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "dynamics/element_state.hpp"
 #include "fracture/edge_material.hpp"
@@ -44,6 +45,7 @@ void StrengthCheck::checkCorners(const Model& model, const CrackEdges& edges, El
 
 void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeId node,
                               std::span<const double> leastStrength) {
+  assert(node.value < nodeLookedAt_.size());
   if (nodeLookedAt_[node.value] == call_) return;
   nodeLookedAt_[node.value] = call_;
   // At one end of an edge, at least, the traction is not less than their mean: check the ends
@@ -130,6 +132,7 @@ StrengthCheck::Stress StrengthCheck::meanAt(const Model& model, const CrackEdges
     for (std::size_t i = 0; i < 3; ++i) mean[i] += area * stress[i];
     whole += area;
   }
+  assert(whole > 0);
   for (double& component : mean) component /= whole;
   return mean;
 }
@@ -178,6 +181,7 @@ std::vector<EdgeId> StrengthCheck::pickApart(const Model& model, const CrackEdge
     picked.push_back(one.edge);
   }
   std::sort(picked.begin(), picked.end());
+  assert(std::ranges::adjacent_find(picked) == picked.end());
   return picked;
 }
 

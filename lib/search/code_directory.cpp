@@ -10,6 +10,7 @@ namespace yadefrag {
 
 void CodeDirectory::build(std::span<const std::uint64_t> codes) {
   assert(codes.size() < kChild);
+  assert(std::ranges::is_sorted(codes));
   codes_ = codes;
   nodes_.clear();
   table_.clear();

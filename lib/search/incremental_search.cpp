@@ -1,6 +1,7 @@
 #include "search/incremental_search.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/parallel.hpp"
 #include "core/tolerances/search.hpp"
@@ -32,6 +33,8 @@ void IncrementalSearch::findPairs(std::vector<BoxPair>& pairs) { settled_->findP
 
 void IncrementalSearch::change(std::span<const Box> boxes, std::span<const BoxId> changed) {
   checkBoxCount(boxes.size());
+  assert(std::ranges::is_sorted(changed) &&
+         (changed.empty() || changed.back().value < boxes.size()));
   boxes_ = boxes;
   for (const BoxId slot : changed_) isChanged_[slot.value] = false;
   workAside_ += asideSlots_.size() + changed.size();

@@ -1,6 +1,7 @@
 #include "step/crack_candidates.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "search/overlapping_pairs.hpp"
 #include "step/entry_pairs.hpp"
@@ -72,6 +73,7 @@ std::vector<BoxPair> overlapsAmong(const ContactSurfaces& surfaces, std::span<co
 
 void inheritTouches(std::vector<Touch>& touches, const ContactSurfaces& surfaces,
                     std::span<const NodeId> originals, std::size_t nodeCount) {
+  assert(std::ranges::is_sorted(touches, {}, &Touch::pair));
   if (touches.empty()) return;
   const auto slaveAt = [&](NodeId node) {
     return surfaces.segmentEntry[surfaces.nodeSegment[node.value].value];

@@ -1,6 +1,7 @@
 // World: updates after a split of nodes.
 
 #include <algorithm>
+#include <cassert>
 
 #include "step/crack_candidates.hpp"
 #include "step/entry_pairs.hpp"
@@ -66,6 +67,7 @@ void World::followSplit() {
   // may be in the halo of a new one.
   search.addCandidatesAround(searchScene(),
                              entriesAround(surfaces, contact.candidates, split_.sides));
+  assert(reference.size() == count && surfaces.nodeSegment.size() == count);
   inheritTouches(contact.touches, surfaces, split_.originals, count);
   contact.allowOverlaps(surfaces, model.nodes.position, changed);
 }
