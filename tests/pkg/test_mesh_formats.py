@@ -41,7 +41,7 @@ def writtenBy(folder, format, ending, column):
     points, cells, _, _ = kMeshes[column]
     spatial = [(*place, 0) for place in points] + ([(0, 0, 1)] if column == 'solid' else [])
     isPlane = format in ('su2', 'xdmf') and column != 'solid'
-    file = os.path.join(folder, 'a' + ending)
+    file = os.path.join(folder, column.replace(' ', '_') + ending)
     try:
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             meshio.Mesh(np.array(points if isPlane else spatial, dtype=float), cells).write(file, file_format=format)
