@@ -68,7 +68,7 @@ def _hasSiconos():
 
 
 def _ofSiconos(blocks, steps, tolerance):
-    """Of the steps except the first ones, in which contacts are found."""
+    """Medians over the steps, from what Siconos prints."""
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run(['/usr/bin/python3', SICONOS, str(blocks), str(steps), str(tolerance)],
                               cwd=folder, text=True, capture_output=True, check=True)
