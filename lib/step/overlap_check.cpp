@@ -121,9 +121,12 @@ std::vector<Vec2> meetLine(const BoundarySide& side, const Facet& facet,
 /// Sides and triangles of the bodies that may overlap, within a common box.
 class OverlapSearch {
  public:
-  void add(const BoundarySide& side) { add(sides_, side); }
-  void add(const Facet& facet) { add(facets_, facet); }
-  /// Limits the search to this box.
+  /// Also sides outside the box: of a body around it, their distance is the depth.
+  void add(const BoundarySide& side) { sides_.push_back(side); }
+  void add(const Facet& facet) {
+    if (overlaps(boxOf(facet), within_)) facets_.push_back(facet);
+  }
+  /// Limits the triangles to this box.
   void limitTo(const Box& box) { within_ = box; }
 
   [[nodiscard]] std::optional<Overlap> find(ComponentId newBody) const {
@@ -170,11 +173,6 @@ class OverlapSearch {
     return pairs;
   }
 
-  template <class Shape>
-  void add(std::vector<Shape>& shapes, const Shape& shape) const {
-    if (overlaps(boxOf(shape), within_)) shapes.push_back(shape);
-  }
-
   /// (m) Distance of a point from the sides of a body.
   [[nodiscard]] double distanceTo(ComponentId body, Vec2 point) const {
     double least = INFINITY;
@@ -192,7 +190,7 @@ class OverlapSearch {
   Box within_ = Box::absent();
 };
 
-/// Adds the parts of an existing body that are near.
+/// Adds the sides of an existing body, and its triangles that are near.
 void addBody(OverlapSearch& search, const Model& model, const ContactSurfaces& surfaces,
              const std::vector<SegmentId>& segments, ComponentId body) {
   const Nodes& nodes = model.nodes;

@@ -128,8 +128,14 @@ TEST(ExtremeShape, BodiesThatOverlapAreRefused) {
   EXPECT_NE(refusal(structuredRectangle({0, .4}, {1, .6}, 1, 1),
                     structuredRectangle({.4, 0}, {.6, 1}, 1, 1)),
             "");
-  EXPECT_NE(refusal(block, structuredRectangle({.41, .41}, {.44, .44}, 1, 1)), "");
-  EXPECT_NE(refusal(structuredRectangle({.41, .41}, {.44, .44}, 1, 1), block), "");
+  // One body around the other: the depth is that below the sides of the outer one, .44 m, exact up
+  // to the shortest side, .03 m.
+  const TriangleMesh inside = structuredRectangle({.41, .41}, {.44, .44}, 1, 1);
+  for (const std::string& text : {refusal(block, inside), refusal(inside, block)}) {
+    const std::size_t at = text.find(" m by ");
+    ASSERT_NE(at, std::string::npos) << text;
+    EXPECT_NEAR(std::stod(text.substr(at + 6)), .44, .03 + 1e-9) << text;
+  }
   limit(
       "overlap of two bodies at the start, of a segment", kNone, most,
       "up to 0.05 of `size` removed, else refused when added, with the other body, the place, the "
