@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mesh/structured.hpp"
+#include "meshing/structured.hpp"
 #include "step/world.hpp"
 
 using namespace yadefrag;

@@ -9,7 +9,7 @@
 #include "core/tolerances/mesh.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "mesh/assembly.hpp"
-#include "mesh/quality.hpp"
+#include "meshing/triangle_quality.hpp"
 
 namespace yadefrag {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mesh/model.hpp"
-#include "mesh/snap.hpp"
+#include "outline/snap.hpp"
 
 namespace yadefrag {
 

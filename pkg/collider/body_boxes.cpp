@@ -5,7 +5,7 @@
 
 #include "collider/error_messages.hpp"
 #include "core/parallel.hpp"
-#include "fe/surface_segment.hpp"
+#include "entries/surface_segment.hpp"
 
 namespace yadefrag {
 namespace {

@@ -9,7 +9,7 @@
 #include "collider/error_messages.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
-#include "fe/surface_segment.hpp"
+#include "entries/surface_segment.hpp"
 #include "search/periodic_overlap.hpp"
 
 namespace yadefrag {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "fe/surface_segment.hpp"
+#include "entries/surface_segment.hpp"
 
 namespace yadefrag {
 

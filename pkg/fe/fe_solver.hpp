@@ -6,19 +6,19 @@
 #include <vector>
 
 #include "abi/yade.hpp"
-#include "fe/crack_contacts.hpp"
+#include "entries/crack_contacts.hpp"
+#include "entries/entry_bodies.hpp"
+#include "entries/rolling.hpp"
 #include "fe/engine_order.hpp"
-#include "fe/entry_bodies.hpp"
 #include "fe/fe_archive.hpp"
 #include "fe/material_watch.hpp"
 #include "fe/materials.hpp"
-#include "fe/rigid_bodies.hpp"
-#include "fe/rolling.hpp"
 #include "fe/scene_energy.hpp"
 #include "fe/scene_watch.hpp"
-#include "fe/script_functions.hpp"
 #include "fe/step_lock.hpp"
 #include "publish/published.hpp"
+#include "rigid/rigid_bodies.hpp"
+#include "script/script_functions.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -222,4 +222,4 @@ void FESolver::archiveMore(Archive& archive) {
 
 }  // namespace yadefrag
 
-#include "fe/fe_python.hpp"
+#include "script/fe_python.hpp"

@@ -5,7 +5,7 @@
 
 #include "abi/yade.hpp"
 #include "core/ids.hpp"
-#include "fe/entry_bodies.hpp"
+#include "entries/entry_bodies.hpp"
 
 namespace yadefrag {
 

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "abi/yade.hpp"
-#include "fe/with_gil.hpp"
-#include "fe/without_gil.hpp"
+#include "script/with_gil.hpp"
+#include "script/without_gil.hpp"
 
 namespace yadefrag {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
-#include "fe/plane.hpp"
-#include "fe/rigid_movers.hpp"
-#include "fe/sphere_contact.hpp"
+#include "entries/plane.hpp"
+#include "entries/sphere_contact.hpp"
+#include "rigid/rigid_movers.hpp"
 #include "surface/disc_contact.hpp"
 
 namespace yadefrag {

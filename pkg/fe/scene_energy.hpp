@@ -15,8 +15,8 @@
 
 #include "abi/yade.hpp"
 #include "core/errors.hpp"
-#include "fe/entry_bodies.hpp"
-#include "fe/entry_frame.hpp"
+#include "entries/entry_bodies.hpp"
+#include "entries/entry_frame.hpp"
 #include "fe/given_forces.hpp"
 
 namespace yadefrag {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/tolerances/collider.hpp"
-#include "fe/surface_segment.hpp"
-#include "fe/with_gil.hpp"
+#include "entries/surface_segment.hpp"
+#include "script/with_gil.hpp"
 
 namespace yadefrag {
 

@@ -1,6 +1,6 @@
 #include "fe/step_lock.hpp"
 
-#include "fe/without_gil.hpp"
+#include "script/without_gil.hpp"
 
 namespace yadefrag {
 

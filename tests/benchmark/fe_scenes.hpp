@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
-#include "mesh/structured.hpp"
-#include "mesh/triangulate.hpp"
+#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag::fescenes {

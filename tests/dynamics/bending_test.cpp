@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "dynamics/blocks.hpp"
-#include "mesh/triangulate.hpp"
+#include "meshing/triangulate.hpp"
 
 namespace yadefrag {
 namespace {

@@ -9,7 +9,7 @@
 #include "dynamics/blocks.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/spin.hpp"
-#include "mesh/triangulate.hpp"
+#include "meshing/triangulate.hpp"
 
 namespace yadefrag {
 namespace {

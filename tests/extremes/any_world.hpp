@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "mesh/structured.hpp"
-#include "mesh/triangulate.hpp"
+#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag::test {

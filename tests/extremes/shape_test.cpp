@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "extremes/blow.hpp"
-#include "mesh/polygon.hpp"
+#include "outline/polygon.hpp"
 
 namespace yadefrag::test {
 namespace {

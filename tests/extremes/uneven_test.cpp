@@ -4,7 +4,7 @@
 
 #include "extremes/blow.hpp"
 #include "extremes/number_text.hpp"
-#include "mesh/polygon.hpp"
+#include "outline/polygon.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -10,7 +10,7 @@
 #include "dynamics/critical_time_step.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
-#include "mesh/structured.hpp"
+#include "meshing/structured.hpp"
 
 namespace yadefrag {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "fracture/crack_edges.hpp"
 #include "mesh/assembly.hpp"
-#include "mesh/structured.hpp"
+#include "meshing/structured.hpp"
 
 namespace yadefrag {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "fracture/open_edges.hpp"
-#include "mesh/triangulate.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mesh/triangulate.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag::test {

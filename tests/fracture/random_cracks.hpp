@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "fracture/node_splitting.hpp"
-#include "mesh/structured.hpp"
-#include "mesh/triangulate.hpp"
+#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/world.hpp"
 #include "surface/relink.hpp"
 #include "surface/surface_checks.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/same_bits.hpp"
-#include "mesh/triangulate.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag::test {

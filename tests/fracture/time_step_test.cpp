@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "mesh/triangulate.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/errors.hpp"
-#include "mesh/polygon_text.hpp"
+#include "outline/polygon_text.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
-#include "mesh/structured.hpp"
+#include "meshing/structured.hpp"
 
 namespace yadefrag {
 namespace {

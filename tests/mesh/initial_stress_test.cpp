@@ -9,7 +9,7 @@
 
 #include "dynamics/element_state.hpp"
 #include "mesh/assembly.hpp"
-#include "mesh/structured.hpp"
+#include "meshing/structured.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/triangulate.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag::test {

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "mesh/structured.hpp"
-#include "mesh/triangulate.hpp"
+#include "meshing/structured.hpp"
+#include "meshing/triangulate.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag::test {

@@ -9,7 +9,7 @@
 #include "core/errors.hpp"
 #include "core/same_bits.hpp"
 #include "dynamics/element_state.hpp"
-#include "mesh/structured.hpp"
+#include "meshing/structured.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {

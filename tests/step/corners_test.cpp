@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include "mesh/polygon.hpp"
+#include "outline/polygon.hpp"
 #include "step/course.hpp"
 #include "step/figures.hpp"
 

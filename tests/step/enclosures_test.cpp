@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "mesh/polygon.hpp"
+#include "outline/polygon.hpp"
 #include "step/course.hpp"
 
 namespace yadefrag::test {

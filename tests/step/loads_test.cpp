@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
-#include "mesh/structured.hpp"
+#include "meshing/structured.hpp"
 #include "step/bodies.hpp"
 #include "step/world.hpp"
 

@@ -8,7 +8,7 @@
 
 #include <random>
 
-#include "mesh/structured.hpp"
+#include "meshing/structured.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag::test {

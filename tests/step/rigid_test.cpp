@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/errors.hpp"
-#include "mesh/structured.hpp"
+#include "meshing/structured.hpp"
 #include "step/bodies.hpp"
 #include "step/eventful_scenes.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "core/same_bits.hpp"
 #include "core/tolerances/step.hpp"
-#include "mesh/polygon.hpp"
+#include "outline/polygon.hpp"
 #include "step/course.hpp"
 
 namespace yadefrag::test {

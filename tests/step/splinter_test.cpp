@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
-#include "mesh/polygon.hpp"
+#include "outline/polygon.hpp"
 #include "step/course.hpp"
 
 namespace yadefrag::test {

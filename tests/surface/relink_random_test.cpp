@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cut_mesh_checks.hpp"
-#include "mesh/structured.hpp"
+#include "meshing/structured.hpp"
 
 namespace yadefrag {
 namespace {

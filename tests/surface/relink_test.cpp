@@ -8,7 +8,7 @@
 
 #include "contact/pass_rule.hpp"
 #include "cut_mesh_checks.hpp"
-#include "mesh/structured.hpp"
+#include "meshing/structured.hpp"
 #include "step/entry_pairs.hpp"
 
 namespace yadefrag {

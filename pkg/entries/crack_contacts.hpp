@@ -1,0 +1,44 @@
+#pragma once
+// Contacts of spheres with a boundary that cracks. The contacts of one sphere with the pieces of a
+// boundary act as one spring. When a crack opens below the sphere, corners and faces appear that it
+// overlaps at once, and pieces that shared an overlap at a joint have all of it each. If YADE's law
+// had these overlaps, springs would be compressed although no force has done that work: a sphere
+// that breaks a wall gained up to 1.7 times its energy. Therefore each contact keeps its force and
+// its energy through the crack: by a share of the stiffness, and by an overlap that is tolerated,
+// i.e. gets no force (SurfaceSegment::Changed). A new face has no force, and tolerates its overlap.
+// Rejected: tolerated overlaps only. Pieces that shared a spring would have half of its energy.
+
+#include <vector>
+
+#include <boost/serialization/nvp.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include "entries/entry_bodies.hpp"
+
+namespace yadefrag {
+
+class CrackContacts {
+ public:
+  /// Compares the pieces before and after the cracks of a step of `dt` (s), both at the positions
+  /// before the step, so that no motion counts. Must be called when EntryBodies::follow has added
+  /// the entries from `first` on, and before EntryBodies::update.
+  void change(const yade::Scene& scene, const World& world, const EntryBodies& bodies,
+              std::size_t first, double dt);
+  /// Call it in every step. Pieces near such a sphere that do not touch it get the values of the
+  /// nearest piece along the boundary that does, so that they continue its contact if the sphere
+  /// moves on to them. When a sphere has separated from all pieces, its values are removed.
+  void follow(const yade::Scene& scene, const World& world, const EntryBodies& bodies);
+  void clear() { spheres_.clear(), pieces_.clear(); }
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive& boost::serialization::make_nvp("crackSpheres", spheres_);
+    archive& boost::serialization::make_nvp("crackPieces", pieces_);
+  }
+
+ private:
+  /// Spheres above cracks, ascending, and the pieces (bodies) that may have values for them.
+  std::vector<int> spheres_, pieces_;
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,352 @@
+#include "entries/entry_bodies.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "core/errors.hpp"
+#include "core/parallel.hpp"
+#include "entries/entry_frame.hpp"
+#include "entries/node_forces.hpp"
+#include "entries/plane.hpp"
+
+namespace yadefrag {
+namespace {
+
+using yade::Vector3r;
+
+void setState(yade::State& state, const EntryFrame& frame, const Nodes& nodes, double dt) {
+  const Vec2 along = nodes.position[frame.last.value] - nodes.position[frame.first.value];
+  const Vec2 apart = nodes.velocity[frame.last.value] - nodes.velocity[frame.first.value];
+  state.vel = inSpace(combine(frame.middle, nodes.velocity));
+  state.angVel = Vector3r(0, 0, cross(along, apart) / dot(along, along));
+  state.se3.position = inSpace(combine(frame.middle, nodes.position)) - dt * state.vel;
+}
+
+/// By node of the last body, if it has several materials: that of the triangle with the boundary
+/// side that begins at the node; otherwise empty.
+std::vector<std::uint32_t> materialsAlong(const World& world) {
+  const Model& model = world.model;
+  const Component& body = model.components.back();
+  if (!body.isMixed()) return {};
+  std::vector<std::uint32_t> numbers(model.nodes.size());
+  const ContactSurfaces& surfaces = world.surfaces;
+  const auto endOf = [&](NodeId node) {
+    if (node.value >= surfaces.nodeSegment.size()) return NodeId::none();
+    const SegmentId segment = surfaces.nodeSegment[node.value];
+    if (segment == SegmentId::none()) return NodeId::none();
+    return surfaces.segmentNode[surfaces.segmentNext[segment.value].value];
+  };
+  for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& nodes = model.triangles.nodes[e];
+      if (endOf(nodes[i]) == nodes[(i + 1) % 3])
+        numbers[nodes[i].value] = model.triangles.material[e];
+    }
+  return numbers;
+}
+
+bool isPresent(const yade::Scene& scene, yade::Body::id_t id) {
+  const auto place = static_cast<std::size_t>(id);
+  return place < scene.bodies->size() && scene.bodies->body[place] &&
+         dynamic_cast<const SurfaceSegment*>(scene.bodies->body[place]->shape.get());
+}
+
+[[noreturn]] void throwMissing(const yade::Scene& scene, const std::vector<yade::Body::id_t>& ids,
+                               yade::Body::id_t id) {
+  if (std::none_of(ids.begin(), ids.end(), [&](auto one) { return isPresent(scene, one); }))
+    throw RunError(
+        "The bodies of this FESolver are not in the scene any more (O.reset, O.load, O.switchScene "
+        "or O.bodies.clear left them behind); this scene needs a new FESolver.");
+  throw RunError(
+      fmt::format("Body #{} is no longer in the scene, but it is part of the boundary of a body of "
+                  "FESolver: remove whole bodies only, with FESolver.removeBody.",
+                  id));
+}
+
+}  // namespace
+
+BoundaryPiece BoundaryPieces::alone(EntryId entry) const {
+  BoundaryPiece piece;
+  piece.start = geometry_.slave(entry);
+  piece.end = geometry_.slave(surfaces_.next[entry.value]);
+  piece.isArc = surfaces_.piece[entry.value] == Piece::kArc;
+  if (piece.isArc) {
+    NodeId around[3];
+    surfaces_.pieceNodes(entry, around);
+    piece.middle = positions_[around[1].value];
+  }
+  return piece;
+}
+
+BoundaryPiece BoundaryPieces::whole(EntryId entry) const {
+  BoundaryPiece piece = alone(entry);
+  piece.before = alone(surfaces_.prev[entry.value]).tangentAtEnd();
+  piece.after = alone(surfaces_.next[entry.value]).tangentAtStart();
+  return piece;
+}
+
+void EntryBodies::append(yade::Scene& scene, const World& world, EntryId entry,
+                         const yade::shared_ptr<yade::Material>& material) {
+  if (world.surfaces.isGone(entry)) return appendNone();
+  const ComponentId component = world.surfaces.component[entry.value];
+  const yade::shared_ptr<SurfaceSegment> shape(new SurfaceSegment);
+  shape->entry = static_cast<int>(entry.value);
+  shape->component = static_cast<int>(component.value);
+  shape->selfContact = world.model.components[component.value].selfContact;
+  shape->halo = .5 * world.search.halo;
+  const yade::shared_ptr<yade::Body> body(new yade::Body);
+  body->shape = shape;
+  body->material = material;
+  if (material) body->state = material->newAssocState();
+  body->state->blockedDOFs = yade::State::DOF_ALL;
+  // The 3D view locks this while it reads the list of bodies; YADE's `insert` does not.
+  const std::lock_guard drawing(scene.bodies->drawloopmutex);
+  ids_.push_back(scene.bodies->insert(body));
+  bodies_.push_back(body);
+  shapes_.push_back(shape);
+  states_.push_back(body->state);
+}
+
+void EntryBodies::appendNone() {
+  ids_.push_back(yade::Body::ID_NONE);
+  bodies_.emplace_back();
+  shapes_.emplace_back();
+  states_.emplace_back();
+}
+
+void EntryBodies::add(yade::Scene& scene, const World& world,
+                      const std::vector<yade::shared_ptr<FEMat>>& materials) {
+  const std::size_t first = bodies_.size();
+  const std::vector<std::uint32_t> numbers = materialsAlong(world);
+  for (std::size_t e = first; e < world.surfaces.entries(); ++e) {
+    const NodeId begin = world.surfaces.segmentNode[world.surfaces.entrySegment[e].value];
+    append(scene, world, EntryId(e), materials[numbers.empty() ? 0 : numbers[begin.value]]);
+  }
+  mapEntries(first);
+  update(world, 0, 1, first);
+}
+
+void EntryBodies::addNone(const World& world) {
+  while (bodies_.size() < world.surfaces.entries()) appendNone();
+  firstOf_.clear();
+}
+
+void EntryBodies::follow(yade::Scene& scene, const World& world) {
+  const std::size_t first = bodies_.size();
+  if (first == world.surfaces.entries()) return;
+  for (std::size_t e = first; e < world.surfaces.entries(); ++e) {
+    const EntryId alike = firstOf(world, world.surfaces.component[e]);
+    append(scene, world, EntryId(e), bodies_[alike.value]->material);
+    if (!hasBody(EntryId(e))) continue;
+    bodies_[e]->groupMask = bodies_[alike.value]->groupMask;
+    shapes_[e]->color = shapes_[alike.value]->color;
+    shapes_[e]->wire = shapes_[alike.value]->wire;
+  }
+  mapEntries(first);
+}
+
+/// A script must not change these: the shape of FESolver, and the existence of a state and a
+/// material.
+void EntryBodies::requireWhole(std::size_t entry) const {
+  const yade::Body& body = *bodies_[entry];
+  const char* const wrong = body.shape != shapes_[entry]   ? "shape"
+                            : body.state != states_[entry] ? "state"
+                            : !body.material               ? "material"
+                                                           : nullptr;
+  if (!wrong) return;
+  throw RunError(fmt::format(
+      "Body #{} has lost its {}, but it is part of the boundary of a body of FESolver: a "
+      "script must not replace it.",
+      body.getId(), wrong));
+}
+
+void EntryBodies::requireWhole() const {
+  for (std::size_t e = 0; e < bodies_.size(); ++e)
+    if (hasBody(EntryId(e))) requireWhole(e);
+}
+
+/// The entry that represents its component. It is never an entry of a crack, since those are last.
+EntryId EntryBodies::firstOf(const World& world, ComponentId component) {
+  if (firstOf_.size() != world.model.components.size()) {
+    firstOf_.assign(world.model.components.size(), EntryId::none());
+    for (std::size_t e = bodies_.size(); e-- > 0;)
+      if (hasBody(EntryId(e))) firstOf_[world.surfaces.component[e].value] = EntryId(e);
+  }
+  return firstOf_[component.value];
+}
+
+void EntryBodies::drop(yade::Scene& scene, const World& world) {
+  for (std::size_t e = 0; e < ids_.size(); ++e) {
+    if (!world.surfaces.isGone(EntryId(e)) || !hasBody(EntryId(e))) continue;
+    entries_[static_cast<std::size_t>(ids_[e])] = EntryId::none();
+    scene.bodies->erase(ids_[e], false);
+    ids_[e] = yade::Body::ID_NONE;
+    bodies_[e].reset();
+    shapes_[e].reset();
+    states_[e].reset();
+  }
+  firstOf_.clear();
+}
+
+void EntryBodies::remove(yade::Scene& scene, const World& world, ComponentId component) {
+  removeWhere(scene, [&](std::size_t e) { return world.surfaces.component[e] == component; });
+}
+
+void EntryBodies::removeRigid(yade::Scene& scene, const World& world) {
+  removeWhere(scene, [&](std::size_t e) {
+    return world.model.components[world.surfaces.component[e].value].rigid;
+  });
+}
+
+template <class Goes>
+void EntryBodies::removeWhere(yade::Scene& scene, Goes goes) {
+  std::size_t kept = 0;
+  for (std::size_t e = 0; e < ids_.size(); ++e) {
+    if (goes(e)) {
+      if (hasBody(EntryId(e))) scene.bodies->erase(ids_[e], false);
+      continue;
+    }
+    if (shapes_[e]) shapes_[e]->entry = static_cast<int>(kept);
+    ids_[kept] = ids_[e];
+    shapes_[kept] = shapes_[e];
+    states_[kept] = states_[e];
+    bodies_[kept++] = bodies_[e];
+  }
+  ids_.resize(kept);
+  bodies_.resize(kept);
+  shapes_.resize(kept);
+  states_.resize(kept);
+  mapEntries(0);
+  scene.doSort = true;
+}
+
+const yade::Body* EntryBodies::anyBody() const {
+  for (const auto& body : bodies_)
+    if (body) return body.get();
+  return nullptr;
+}
+
+void EntryBodies::requireAll(const yade::Scene& scene) {
+  if (bodies_.empty()) findBodies(scene);
+  const auto& present = scene.bodies->body;
+  for (std::size_t e = 0; e < ids_.size(); ++e) {
+    if (!hasBody(EntryId(e))) continue;
+    const auto id = static_cast<std::size_t>(ids_[e]);
+    if (id >= present.size() || present[id] != bodies_[e]) throwMissing(scene, ids_, ids_[e]);
+  }
+}
+
+void EntryBodies::findBodies(const yade::Scene& scene) {
+  const auto& present = scene.bodies->body;
+  std::vector<yade::shared_ptr<yade::Body>> bodies;
+  std::vector<yade::shared_ptr<SurfaceSegment>> shapes;
+  std::vector<yade::shared_ptr<yade::State>> states;
+  for (const yade::Body::id_t id : ids_) {
+    if (id == yade::Body::ID_NONE) {
+      bodies.emplace_back();
+      shapes.emplace_back();
+      states.emplace_back();
+      continue;
+    }
+    const auto place = static_cast<std::size_t>(id);
+    if (place >= present.size() || !present[place]) throwMissing(scene, ids_, id);
+    bodies.push_back(present[place]);
+    shapes.push_back(boost::dynamic_pointer_cast<SurfaceSegment>(present[place]->shape));
+    states.push_back(present[place]->state);
+    if (!shapes.back()) throwMissing(scene, ids_, id);
+  }
+  bodies_.swap(bodies);
+  shapes_.swap(shapes);
+  states_.swap(states);
+}
+
+/// In two passes: the tangent of an adjacent piece must be exactly the number that is computed for
+/// that piece.
+void EntryBodies::update(const World& world, double dt, int threads, std::size_t first) {
+  const ContactSurfaces& surfaces = world.surfaces;
+  const Nodes& nodes = world.model.nodes;
+  const BoundaryPieces pieces(surfaces, nodes.position);
+  pieces_.resize(ids_.size());
+  const auto inParts = [&](const auto& work) {
+    forEachPart(ids_.size() - first, threads, [&](std::size_t begin, std::size_t end, int) {
+      for (std::size_t e = first + begin; e < first + end; ++e)
+        if (hasBody(EntryId(e))) work(e);
+    });
+  };
+  inParts([&](std::size_t e) { pieces_[e] = pieces.alone(EntryId(e)); });
+  inParts([&](std::size_t e) {
+    // Bodies are scattered in memory: prefetch.
+    constexpr std::size_t ahead = 6;
+    if (e + ahead < shapes_.size()) {
+      const auto prefetch = [](const void* object) {
+        const char* at = static_cast<const char*>(object);
+        for (int line = 1; line < 5; ++line) __builtin_prefetch(at + 64 * line, 1);
+      };
+      prefetch(shapes_[e + ahead].get());
+      prefetch(states_[e + ahead].get());
+    }
+    const BoundaryPiece& piece = pieces_[e];
+    SurfaceSegment& shape = *shapes_[e];
+    shape.kind = static_cast<int>(surfaces.piece[e]);  // cracks turn arcs into straight pieces
+    shape.start = inSpace(piece.start);
+    shape.end = inSpace(piece.end);
+    shape.middle = inSpace(piece.middle);
+    shape.before = inSpace(pieces_[surfaces.prev[e].value].tangentAtEnd());
+    shape.after = inSpace(pieces_[surfaces.next[e].value].tangentAtStart());
+    setState(*states_[e], EntryFrame(surfaces, EntryId(e)), nodes, dt);
+  });
+}
+
+void EntryBodies::setHalo(double halfHalo, std::size_t first) {
+  for (std::size_t e = first; e < shapes_.size(); ++e)
+    if (shapes_[e]) shapes_[e]->halo = halfHalo;
+}
+
+double EntryBodies::halo() const {
+  for (const auto& shape : shapes_)
+    if (shape) return shape->halo;
+  return NAN;
+}
+
+void EntryBodies::collectForces(yade::Scene& scene, const World& world,
+                                std::vector<Vec2>& forces) const {
+  forces.clear();
+  scene.forces.sync();
+  NodeForces shares(world.surfaces, world.model.nodes, forces);
+  for (std::size_t e = 0; e < ids_.size(); ++e) {
+    if (!hasBody(EntryId(e))) continue;
+    const Vec2 force = inPlane(scene.forces.getForce(ids_[e]));
+    const double torque = scene.forces.getTorque(ids_[e])[2];
+    if (force == Vec2{} && torque == 0) continue;
+    requireWhole(e);
+    if (forces.empty()) forces.resize(world.model.nodes.size());
+    shares.add(EntryId(e), *bodies_[e], force, torque);
+  }
+}
+
+void EntryBodies::restore(std::vector<yade::Body::id_t> ids) {
+  ids_ = std::move(ids);
+  bodies_.clear();
+  shapes_.clear();
+  states_.clear();
+  mapEntries(0);
+}
+
+/// `first`: earlier entries have not changed.
+void EntryBodies::mapEntries(std::size_t first) {
+  if (first == 0) {
+    entries_.clear();
+    firstOf_.clear();
+  }
+  for (std::size_t e = first; e < ids_.size(); ++e) {
+    if (!hasBody(EntryId(e))) continue;
+    const auto id = static_cast<std::size_t>(ids_[e]);
+    if (id >= entries_.size()) entries_.resize(id + 1, EntryId::none());
+    entries_[id] = EntryId(e);
+  }
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,63 @@
+#pragma once
+// Forces of YADE's contacts on the boundary, as forces on nodes.
+
+#include <vector>
+
+#include "abi/yade.hpp"
+#include "entries/entry_frame.hpp"
+#include "entries/plane.hpp"
+
+namespace yadefrag {
+
+/// Divides the forces on one body between the nodes of its piece.
+class NodeForces {
+ public:
+  NodeForces(const ContactSurfaces& surfaces, const Nodes& nodes, std::vector<Vec2>& forces)
+      : surfaces_(surfaces), nodes_(nodes), geometry_(surfaces, nodes.position), forces_(forces) {}
+
+  /// Each contact acts at its foot on the piece: its power is then that of the overlap it has, also
+  /// at a corner, which only one node moves. YADE's laws may treat both bodies of a contact as
+  /// spheres, with a torque that belongs to the body's position; with contacts, the moment is
+  /// therefore that of the contact points. The remaining force acts at the piece's middle.
+  void add(EntryId entry, const yade::Body& body, Vec2 force, double torque) {
+    const EntryFrame frame(surfaces_, entry);
+    Vec2 explained, points;
+    double moment = 0;
+    int count = 0;
+    for (const auto& [other, contact] : body.intrs) {
+      if (!contact->isReal()) continue;
+      const auto* geom = dynamic_cast<const yade::ScGeom*>(contact->geom.get());
+      const auto* phys = dynamic_cast<const yade::NormShearPhys*>(contact->phys.get());
+      if (!geom || !phys) continue;
+      const double sign = contact->getId2() == body.getId() ? 1 : -1;
+      const Vec2 part = sign * inPlane(phys->normalForce + phys->shearForce);
+      const Vec2 point = inPlane(geom->contactPoint);
+      moment += addAt(footOf(surfaces_, geometry_, entry, point), point, part);
+      explained += part;
+      points += point;
+      ++count;
+    }
+    const Vec2 rest = force - explained;
+    const Vec2 place = count > 0 ? (1. / count) * points : inPlane(body.state->se3.position);
+    moment += addAt(frame.middle, place, rest);
+    if (count == 0) moment += torque;
+    const Vec2 along = nodes_.position[frame.last.value] - nodes_.position[frame.first.value];
+    const Vec2 pair = (-moment / dot(along, along)) * rightOf(along);
+    forces_[frame.last.value] += pair;
+    forces_[frame.first.value] -= pair;
+  }
+
+ private:
+  /// Returns the moment (N m) that is missing if a force at `place` acts at the stencil's point.
+  double addAt(const Stencil& at, Vec2 place, Vec2 force) {
+    for (int k = 0; k < at.count; ++k) forces_[at.node[k].value] += at.weight[k] * force;
+    return cross(place - combine(at, nodes_.position), force);
+  }
+
+  const ContactSurfaces& surfaces_;
+  const Nodes& nodes_;
+  const PieceGeometry geometry_;
+  std::vector<Vec2>& forces_;
+};
+
+}  // namespace yadefrag

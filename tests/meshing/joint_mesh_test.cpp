@@ -1,0 +1,161 @@
+// Meshes with lines along which sides of triangles lie.
+
+#include <gtest/gtest.h>
+#include <cmath>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+
+#include "core/errors.hpp"
+#include "meshing/triangulate.hpp"
+#include "outline/polygons.hpp"
+
+namespace yadefrag {
+namespace {
+
+using namespace test;
+
+constexpr double kDegree = M_PI / 180;
+const MeshLayout kRowsOf{NodeLayout::kRows, 0}, kScatteredOf{NodeLayout::kScattered, 3};
+
+/// How far p is from the segment.
+double distance(Vec2 p, const std::array<Vec2, 2>& line) {
+  const Vec2 along = line[1] - line[0];
+  const double t = std::clamp(dot(p - line[0], along) / dot(along, along), 0., 1.);
+  return norm(p - line[0] - t * along);
+}
+
+/// Each listed side is one of two triangles (brute force) and lies on its joint; together the sides
+/// of a joint are as long as what of it is inside.
+void expectChains(const TriangleMesh& mesh, const JointLines& joints,
+                  const std::vector<double>& lengths) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> triangles;
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++triangles[std::minmax(t[k], t[(k + 1) % 3])];
+  std::vector<double> sums(joints.size());
+  std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+  for (const auto& [a, b, joint] : mesh.joints) {
+    const auto side = triangles.find(std::minmax(a, b));
+    ASSERT_NE(side, triangles.end());
+    EXPECT_EQ(side->second, 2);
+    EXPECT_TRUE(seen.insert(std::minmax(a, b)).second);
+    for (const std::uint32_t node : {a, b})
+      EXPECT_LT(distance(mesh.nodes[node], joints[joint]), 1e-12);
+    sums[joint] += norm(mesh.nodes[a] - mesh.nodes[b]);
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) EXPECT_NEAR(sums[i], lengths[i], 1e-9) << i;
+}
+
+void expectMesh(const Polygon& polygon, const JointLines& joints,
+                const std::vector<double>& lengths, double size, double angle) {
+  for (const MeshLayout& layout : {kRowsOf, kScatteredOf}) {
+    const TriangleMesh mesh = triangulate(polygon, size, layout, INFINITY, joints);
+    expectSound(mesh);
+    expectChains(mesh, joints, lengths);
+    EXPECT_NEAR(area(mesh), area(polygon), 1e-12 * area(polygon));
+    EXPECT_GT(mesh.minAngle, angle * kDegree) << (layout.nodes == NodeLayout::kRows);
+    // Sides have about the size: a triangle of each joint's side is as large as others.
+    for (const auto& [a, b, joint] : mesh.joints) {
+      EXPECT_GT(norm(mesh.nodes[a] - mesh.nodes[b]), .6 * size);
+      EXPECT_LT(norm(mesh.nodes[a] - mesh.nodes[b]), 1.5 * size);
+    }
+    const TriangleMesh again = triangulate(polygon, size, layout, INFINITY, joints);
+    EXPECT_EQ(again.nodes, mesh.nodes);
+    EXPECT_EQ(again.triangles, mesh.triangles);
+    EXPECT_EQ(again.joints, mesh.joints);
+  }
+}
+
+TEST(JointMesh, ALineInsideAndOneThroughTheWholePlate) {
+  const Polygon plate{box({0, 0}, {2, 1}), {}};
+  expectMesh(plate, {{{{.5, .5}, {1.3, .55}}}}, {std::hypot(.8, .05)}, .05, 28);
+  expectMesh(plate, {{{{.7, 0}, {1.1, 1}}}}, {std::hypot(.4, 1.)}, .05, 28);
+  // Beyond the outline nothing is left of it.
+  expectMesh(plate, {{{{-1, .4}, {3, .4}}}}, {2}, .05, 28);
+  expectMesh(plate, {{{{-1, .41}, {.9, .41}}}}, {.9}, .05, 28);
+}
+
+TEST(JointMesh, LinesThatCrossMeetAndLieOnEachOther) {
+  const Polygon plate{box({0, 0}, {2, 1}), {}};
+  expectMesh(plate, {{{{.2, .5}, {1.8, .5}}}, {{{1, .1}, {1, .9}}}}, {1.6, .8}, .05, 28);
+  // One ends on the other, to rounding.
+  const double third = 1. / 3;
+  expectMesh(plate, {{{{.2, third}, {1.8, third}}}, {{{1.1, .9}, {1.1, third + 1e-15}}}},
+             {1.6, .9 - third}, .05, 28);
+  // What two share is the first one's.
+  expectMesh(plate, {{{{.2, .5}, {1.2, .5}}}, {{{.8, .5}, {1.8, .5}}}}, {1, .6}, .05, 28);
+  expectMesh(plate, {{{{.2, .5}, {1.2, .5}}}, {{{1.2, .5}, {.2, .5}}}}, {1, 0}, .05, 28);
+}
+
+TEST(JointMesh, HolesAndConcaveOutlinesCutLines) {
+  const Polygon plate{box({0, 0}, {4, 2}), {box({1, .5}, {2, 1.5})}};
+  expectMesh(plate, {{{{-1, 1}, {5, 1}}}}, {3}, .1, 28);
+  // Along the hole's edge nothing is a joint.
+  expectMesh(plate, {{{{.5, .5}, {2.5, .5}}}}, {1}, .1, 28);
+  const Polygon angle{{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {}};
+  expectMesh(angle, {{{{.2, 2.2}, {2.2, .2}}}}, {1.2 * std::sqrt(2.)}, .1, 28);
+}
+
+TEST(JointMesh, RandomLines) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> x(0, 2), y(0, 1);
+  for (int scene = 0; scene < 20; ++scene) {
+    JointLines joints;
+    for (int i = 0; i < 6; ++i)
+      joints.push_back({{{x(random), y(random)}, {x(random), y(random)}}});
+    std::vector<double> lengths;
+    for (const auto& [a, b] : joints) lengths.push_back(norm(b - a));
+    for (const MeshLayout& layout : {kRowsOf, kScatteredOf}) {
+      const TriangleMesh mesh =
+          triangulate({box({0, 0}, {2, 1}), {}}, .05, layout, INFINITY, joints);
+      expectSound(mesh);
+      expectChains(mesh, joints, lengths);
+    }
+  }
+}
+
+TEST(JointMesh, SizesByPlace) {
+  const SizeField size({0, 0}, 1, 2, {.02, .1, .02, .1});
+  const JointLines joints{{{{.1, .3}, {.9, .7}}}};
+  const TriangleMesh mesh =
+      triangulate({box({0, 0}, {1, 1}), {}}, size, kScatteredOf, INFINITY, joints);
+  expectSound(mesh);
+  expectChains(mesh, joints, {norm(joints[0][1] - joints[0][0])});
+  for (const auto& [a, b, joint] : mesh.joints) {
+    const Vec2 middle = (mesh.nodes[a] + mesh.nodes[b]) * .5;
+    EXPECT_NEAR(norm(mesh.nodes[a] - mesh.nodes[b]) / size.at(middle), 1, .3);
+  }
+}
+
+TEST(JointMesh, WithoutJointsTheMeshIsAsItWas) {
+  const Polygon plate{box({0, 0}, {4, 2}), {box({1, .5}, {2, 1.5})}};
+  EXPECT_EQ(triangulate(plate, .1, kScatteredOf, INFINITY, JointLines{}).nodes,
+            triangulate(plate, .1, kScatteredOf).nodes);
+  EXPECT_TRUE(triangulate(plate, .1).joints.empty());
+}
+
+TEST(JointMesh, ImpossibleArgumentsAreRefused) {
+  const Polygon plate{box({0, 0}, {4, 2}), {box({1, .5}, {2, 1.5})}};
+  const auto expectRefused = [&](const std::array<Vec2, 2>& joint, const std::string& part) {
+    try {
+      (void)triangulate(plate, .1, {}, INFINITY, JointLines{{{{.2, .2}, {3, .3}}}, joint});
+      FAIL() << part;
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_EQ(text.find("joints[1] from ("), 0) << text;
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+    }
+  };
+  expectRefused({{{5, 0}, {6, 1}}}, "must run inside the outline");
+  expectRefused({{{1.2, .7}, {1.8, 1.2}}}, "must run inside the outline");  // in the hole
+  expectRefused({{{0, 0}, {4, 0}}}, "must run inside the outline");         // along an edge
+  expectRefused({{{1, .2}, {1, .2}}}, "two different ends");
+  expectRefused({{{1, .2}, {std::numeric_limits<double>::quiet_NaN(), 1}}}, "finite ends");
+}
+
+}  // namespace
+}  // namespace yadefrag

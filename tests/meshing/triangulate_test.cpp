@@ -1,0 +1,205 @@
+#include "meshing/triangulate.hpp"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+
+#include <limits>
+#include <random>
+#include <string>
+
+#include "core/errors.hpp"
+#include "meshing/curve_numbering.hpp"
+#include "outline/polygons.hpp"
+
+namespace yadefrag {
+namespace {
+
+using namespace test;
+
+constexpr double kDegree = M_PI / 180;
+
+/// The loop's nodes are the vertices of `given`, in order or, if `turned`, against it from vertex 0
+/// on, with long edges divided equally.
+void expectLoop(const TriangleMesh& mesh, std::size_t loop, Loop given, bool turned, double size) {
+  const auto count = static_cast<std::uint32_t>(given.size());
+  if (turned) std::reverse(given.begin() + 1, given.end());
+  std::size_t at = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vec2 a = given[i];
+    const Vec2 b = given[(i + 1) % count];
+    const int parts = std::max(1, static_cast<int>(std::round(norm(b - a) / size)));
+    for (int k = 0; k < parts; ++k, ++at) {
+      ASSERT_LT(at, mesh.loops[loop].size());
+      const Vec2 p = mesh.nodes[mesh.loops[loop][at]];
+      if (k == 0)
+        ASSERT_EQ(p, a);
+      else
+        ASSERT_LT(norm(p - a - (b - a) * (double(k) / parts)), 1e-14 * (norm(a) + norm(b)));
+      ASSERT_EQ(mesh.loopVertices[loop][at], turned && i > 0 ? count - i : i);
+    }
+  }
+  EXPECT_EQ(at, mesh.loops[loop].size());
+}
+
+void expectMesh(const Polygon& polygon, double size, double angle) {
+  const TriangleMesh mesh = triangulate(polygon, size);
+  expectSound(mesh);
+  EXPECT_NEAR(area(mesh), area(polygon), 1e-13 * area(polygon));
+  ASSERT_EQ(mesh.loops.size(), 1 + polygon.holes.size());
+  ASSERT_EQ(mesh.loopVertices.size(), mesh.loops.size());
+  expectLoop(mesh, 0, polygon.outline, signedArea(polygon.outline) < 0, size);
+  for (std::size_t i = 0; i < polygon.holes.size(); ++i)
+    expectLoop(mesh, i + 1, polygon.holes[i], signedArea(polygon.holes[i]) > 0, size);
+  EXPECT_EQ(mesh.minAngle, minAngle(mesh.nodes, mesh.triangles));
+  EXPECT_GT(mesh.minAngle, angle * kDegree);
+}
+
+TEST(Triangulate, Rectangles) {
+  for (int k = 0; k < 60; ++k) expectMesh({box({0, 0}, {1 + .01 * k, .5}), {}}, .02 + .003 * k, 30);
+}
+
+TEST(Triangulate, BarsOfFewLayers) {
+  for (const double height : {1., 2., 3., 4.}) expectMesh({box({0, 0}, {50, height}), {}}, 1, 30);
+}
+
+TEST(Triangulate, CirclesAndRings) {
+  for (int n = 16; n < 100; n += 5) {
+    expectMesh({circle({1, 2}, 3, n), {}}, .2, 25);
+    expectMesh({circle({0, 0}, 1, n), {circle({0, 0}, .8, n)}}, .07, 25);
+  }
+}
+
+TEST(Triangulate, PlateWithHoles) {
+  expectMesh({box({0, 0}, {4, 2}), {circle({1, 1}, .3, 24), box({2, .5}, {3, 1.5})}}, .1, 30);
+}
+
+TEST(Triangulate, ConcaveCorner) {
+  expectMesh({{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {}}, .1, 30);
+}
+
+TEST(Triangulate, ClockwiseLoopsAreTurnedAndKeepTheirNumbers) {
+  Loop outline = box({0, 0}, {4, 2});
+  std::reverse(outline.begin(), outline.end());
+  expectMesh({outline, {{{1, .5}, {2, .5}, {2.5, 1}, {1.5, 1.5}}}}, .3, 20);
+}
+
+TEST(Triangulate, LargeSizeLeavesTheVertices) {
+  const TriangleMesh mesh = triangulate({box({0, 0}, {1, 1}), {}}, 1e9);
+  EXPECT_EQ(mesh.nodes.size(), 4);
+  EXPECT_EQ(mesh.triangles.size(), 2);
+  expectSound(mesh);
+}
+
+TEST(Triangulate, SidesAreNearTheSize) {
+  const double size = .05;
+  const TriangleMesh mesh = triangulate({box({0, 0}, {2, 1}), {circle({1, .5}, .25, 31)}}, size);
+  double sum = 0;
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const double side = norm(mesh.nodes[t[k]] - mesh.nodes[t[(k + 1) % 3]]);
+      EXPECT_GT(side, .6 * size);
+      EXPECT_LT(side, 1.6 * size);
+      sum += side / (3 * static_cast<double>(mesh.triangles.size()));
+    }
+  EXPECT_NEAR(sum, size, .06 * size);
+}
+
+TEST(Triangulate, TrianglesGrowInwardsFromAFineBoundary) {
+  expectMesh({circle({0, 0}, 1, 400), {}}, .2, 25);
+  expectMesh({box({0, 0}, {1, 1}), {circle({.5, .5}, .02, 32)}}, .1, 25);
+  EXPECT_LT(triangulate({circle({0, 0}, 1, 400), {}}, .2).triangles.size(), 6000);
+}
+
+TEST(Triangulate, EdgesOfVeryDifferentLengthMeet) {
+  Loop outline;
+  for (int i = 0; i < 100; ++i) outline.push_back({i * .01, 0});
+  outline.insert(outline.end(), {{1, 0}, {1, 1}, {0, 1}});
+  expectMesh({outline, {}}, .1, 15);
+  expectMesh({box({0, 0}, {1, 1}), {box({.2, .5}, {.8, .501})}}, .05, 5);  // a slit
+  expectMesh({{{0, 0}, {1, 0}, {1, .001}}, {}}, .05, 0);                   // a needle
+}
+
+TEST(Triangulate, RandomStarsWithHoles) {
+  std::mt19937 random(3);
+  for (int k = 0; k < 200; ++k) {
+    Polygon polygon{star(random, 5 + k % 40, .45), {circle({0, .1}, .15, 7)}};
+    polygon.holes.push_back(circle({0, -.15}, .08, 5));
+    if (k % 2) std::reverse(polygon.outline.begin(), polygon.outline.end());
+    if (k % 3) std::reverse(polygon.holes[0].begin(), polygon.holes[0].end());
+    // At a vertex of a star the angle is the polygon's own.
+    expectMesh(polygon, std::uniform_real_distribution(.03, .3)(random), 0);
+    if (HasFailure()) FAIL() << "star " << k;
+  }
+}
+
+TEST(Triangulate, EdgesOneRoundingApartAreRefused) {
+  std::mt19937 random(9);
+  for (int k = 0; k < 300; ++k) {
+    const Vec2 tip = {1, std::uniform_real_distribution(.1, .9)(random)};
+    const Vec2 onEdge = std::uniform_real_distribution(.1, .9)(random) * tip;
+    const auto holeAt = [&](Vec2 p) {
+      return Polygon{{{0, 0}, tip, {0, 3}}, {{p, p + Vec2{.01, .05}, p + Vec2{0, .1}}}};
+    };
+    expectSound(triangulate(holeAt(onEdge + Vec2{0, 1e-6}), .13));
+    Vec2 near = onEdge;
+    while (cross(tip, near) <= 0) near.y = std::nextafter(near.y, 1.);
+    EXPECT_THROW((void)triangulate(holeAt(near), .13), InputError);
+    if (HasFailure()) FAIL() << "hole " << k;
+  }
+}
+
+TEST(Triangulate, NodesInsideAreNotOnTheBoundary) {
+  const double size = .1;
+  const TriangleMesh mesh = triangulate({box({0, 0}, {2, 1}), {}}, size);
+  std::vector<bool> onLoop(mesh.nodes.size());
+  for (const std::uint32_t node : mesh.loops[0]) onLoop[node] = true;
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    const Vec2 p = mesh.nodes[i];
+    const double depth = std::min({p.x, p.y, 2 - p.x, 1 - p.y});
+    EXPECT_TRUE(onLoop[i] ? depth == 0 : depth > .4 * size) << p.x << " " << p.y;
+  }
+}
+
+TEST(Triangulate, SameInputSameBits) {
+  const Polygon polygon{circle({0, 0}, 1, 77), {box({-.2, -.3}, {.4, .1})}};
+  const TriangleMesh a = triangulate(polygon, .05);
+  const TriangleMesh b = triangulate(polygon, .05);
+  EXPECT_EQ(a.nodes, b.nodes);
+  EXPECT_EQ(a.triangles, b.triangles);
+  EXPECT_EQ(a.loops, b.loops);
+  EXPECT_EQ(a.minAngle, b.minAngle);
+}
+
+TEST(Triangulate, NumbersFollowTheCurve) {
+  const TriangleMesh mesh = triangulate({box({0, 0}, {1, 1}), {}}, .05);
+  const auto order = orderAlongCurve(mesh.nodes);
+  for (std::uint32_t i = 0; i < order.size(); ++i) ASSERT_EQ(order[i], i);
+}
+
+TEST(Triangulate, BadSizes) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  const Polygon square{box({0, 0}, {1, 1}), {}};
+  const auto messageFor = [](const Polygon& polygon, double size,
+                             double mostBytes = INFINITY) -> std::string {
+    try {
+      (void)triangulate(polygon, size, {}, mostBytes);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const double size : {0., -1., std::nan(""), kInf})
+    EXPECT_NE(messageFor(square, size).find("must be positive and finite."), std::string::npos);
+  EXPECT_EQ(messageFor(square, 1e-5),
+            "Size 1e-05 m would give about 2.309e+10 triangles; a mesh can have 2.147e+09.");
+  EXPECT_EQ(messageFor(square, .001, 4e8),
+            "Size 0.001 m would give about 2.309e+06 triangles, which take about 0.9238 GB, but "
+            "there are 0.4 GB of memory; 0.00152 m would fill it.");
+  EXPECT_EQ(messageFor(square, .1, 4e8), "");
+  EXPECT_NE(messageFor({box({1e9, 0}, {1e9 + 1e-3, 1e-3}), {}}, 5e-4).find("lost in the rounding"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace yadefrag
