@@ -131,7 +131,7 @@ def shot(fe):
 def pieceColours(fe):
     """(m, 3) Colours of the fragments; the largest is grey."""
     import pictures
-    from yadefrag.colours import fragmentColours
+    from yadefrag.plots import fragmentColours
     palette = np.array([pictures.matplotlib.colors.to_rgb(c) for c in
                         ('#8ecae6', '#ffb703', '#90be6d', '#f28482', '#b8a1d9', '#e9c46a')])
     colours = palette[fragmentColours(fe) % len(palette)]

@@ -1,7 +1,7 @@
 """The pictures of the impact example."""
 import numpy as np
 import pictures
-from yadefrag.colours import fragmentColours
+from yadefrag.plots import fragmentColours
 
 INTACT = '#e4e1da'  # the largest fragment of a body
 COLOURS = ('#8ecae6', '#ffb703', '#90be6d', '#f28482', '#b8a1d9', '#e9c46a', '#5f9ea0', '#d4a373')

@@ -139,7 +139,7 @@ void noteStop(const char* why) {
   }
   const WithGil gil;
   try {
-    yade::py::import("yadefrag.refusals").attr("silence")();
+    yade::py::import("yadefrag.scene.refusals").attr("silence")();
   } catch (const yade::py::error_already_set&) {
     PyErr_Clear();  // YADE's lines are then written, too
   }

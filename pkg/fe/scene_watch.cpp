@@ -58,7 +58,7 @@ std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity, bo
     py::dict kinds;
     for (const Kind& kind : kinds_)
       if (!kinds.has_key(kind.name)) kinds[kind.name] = kind.first;
-    const py::object found = py::import("yadefrag.scene_check")
+    const py::object found = py::import("yadefrag.scene.scene_check")
                                  .attr("sentences")(kinds, beside_, leaving_, loose_, gravity[2],
                                                     rigidBodies, largest_, thickness);
     for (py::ssize_t i = 0; i < py::len(found); ++i)

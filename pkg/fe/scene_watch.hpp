@@ -15,9 +15,9 @@ class SceneWatch {
  public:
   /// Checks the bodies that were added since the last call. Returns true if there is a message.
   bool look(const yade::Scene& scene);
-  /// Messages about these bodies, from yadefrag/scene_check.py; none if that fails. `gravity`:
-  /// m/s², of NewtonIntegrator; `rigidBodies`: contact with YADE's walls, boxes and facets is on;
-  /// `thickness`: m, largest of the bodies of FESolver. Acquires Python's lock.
+  /// Messages about these bodies, from yadefrag/scene/scene_check.py; none if that fails.
+  /// `gravity`: m/s², of NewtonIntegrator; `rigidBodies`: contact with YADE's walls, boxes and
+  /// facets is on; `thickness`: m, largest of the bodies of FESolver. Acquires Python's lock.
   [[nodiscard]] std::vector<std::string> sentences(const yade::Vector3r& gravity, bool rigidBodies,
                                                    double thickness) const;
 

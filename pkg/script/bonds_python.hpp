@@ -1,5 +1,5 @@
 #pragma once
-// Bonds between bodies, for Python (yadefrag/bonds.py, which has checked all input).
+// Bonds between bodies, for Python (yadefrag/fe/bonds.py, which has checked all input).
 
 #include "abi/yade.hpp"
 

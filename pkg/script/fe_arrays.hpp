@@ -34,7 +34,7 @@ std::vector<Element> fromBytes(const yade::py::object& bytes) {
   return column;
 }
 
-/// `FESolver._addMesh` of yadefrag/solver.py, which has checked all input.
+/// `FESolver._addMesh` of yadefrag/fe/solver.py, which has checked all input.
 int addMesh(FESolver& solver, const yade::py::dict& input);
 
 void takeBody(FESolver& solver, int component);

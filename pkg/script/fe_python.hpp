@@ -1,6 +1,6 @@
 #pragma once
 // Python values and methods of FESolver; addPolygon and others are written in Python
-// (python/yadefrag/solver.py).
+// (python/yadefrag/fe/solver.py).
 
 #include <mutex>
 

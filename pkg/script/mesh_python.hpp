@@ -32,7 +32,7 @@ yade::py::tuple narrowestOf(const yade::py::list& loops);
 yade::py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
                                bool crossed);
 
-/// `FESolver._meshQuality` of yadefrag/meshing.py, which has checked the component.
+/// `FESolver._meshQuality` of yadefrag/fe/meshing.py, which has checked the component.
 yade::py::dict meshQualityOf(const FESolver& solver, int component);
 /// A message if the component's mesh needs far shorter steps than triangles of `size` (m).
 std::string costlyStepWarningOf(const FESolver& solver, int component, double size);

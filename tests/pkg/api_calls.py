@@ -21,8 +21,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 import api_values  # noqa: E402
 import yadefrag  # noqa: E402
 from yade import wrapper as w  # noqa: E402
-from yadefrag import choices, tradeoff_table  # noqa: E402
-from yadefrag.values import real, shown  # noqa: E402
+from yadefrag.arguments import real, shown  # noqa: E402
+from yadefrag.studies import ensemble_runs, scene_choices, tradeoff_grid, tradeoff_table  # noqa: E402
 
 O = builtins.O
 kLongest = 300  # characters of a sentence
@@ -169,7 +169,7 @@ def targets(fe, table):
     pieces = [b.shape for b in O.bodies if b and isinstance(b.shape, w.SurfaceSegment)]
     return [fe, fe, fe, O.engines[1], O.materials[0], O.materials[1], pieces[0], pieces[-1],
             w.Bo1_SurfaceSegment_Aabb(), w.Ig2_Sphere_SurfaceSegment_ScGeom(), w.HierarchyCollider(),
-            w.LinearCodeCollider(), table, choices.Choices({'passes': 1})]
+            w.LinearCodeCollider(), table, scene_choices.Choices({'passes': 1})]
 
 
 # --- one call
@@ -234,7 +234,7 @@ class Call:
         return '%s.%s = %s' % (type(target).__name__, name, shown(value)), lambda: setattr(target, name, value)
 
     def ofClass(self):
-        cls = self.draw.choice(ownClasses() + [choices.Choices])
+        cls = self.draw.choice(ownClasses() + [scene_choices.Choices])
         names = list(presets(cls)) or ['rows', 'title', 'settings']
         args = {}
         for name in self.draw.choices(names, k=self.draw.choice([0, 1, 2])):
@@ -317,8 +317,7 @@ def answer(error):
 
 def main(seed, calls, logName):
     draw = random.Random(int(seed))
-    yadefrag_tradeoff = sys.modules['yadefrag.tradeoff']
-    yadefrag_tradeoff._runAll = sys.modules['yadefrag.ensemble']._run = lambda *_: None
+    tradeoff_grid._runAll = ensemble_runs._run = lambda *_: None
     moments = os.environ.get('YADEFRAG_API_MOMENTS', ','.join(kMoments)).split(',')
     counts = types.SimpleNamespace(done=0, refused=0)
     with open(logName, 'w', errors='backslashreplace') as log, tempfile.TemporaryDirectory() as folder:

@@ -5,7 +5,7 @@ import warnings
 import numpy as np
 
 from yadefrag import readOutline
-from yadefrag.readers import loops
+from yadefrag.io.readers import loops
 
 kSquare = [(0, 0), (4, 0), (4, 4), (0, 4)]
 

@@ -4,7 +4,6 @@ import json
 import math
 import os
 import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -14,10 +13,11 @@ import mpi_processes
 import tradeoff_scenes
 import yadefrag
 from test_threads import yadeCommand
-from yadefrag import EnsembleTable, runs, student
-from yadefrag.ensemble_table import EnsembleRow
+from yadefrag import EnsembleTable
+from yadefrag.studies import ensemble_runs as tool
+from yadefrag.studies import runs, student
+from yadefrag.studies.ensemble_table import EnsembleRow
 
-tool = sys.modules['yadefrag.ensemble']  # the package's name is the function
 kHere = os.path.dirname(os.path.abspath(__file__))
 
 

@@ -12,7 +12,7 @@ from fe_impact import areSame, brittle, impact, state, steps
 from test_threads import kHere, yadeCommand
 from yade import wrapper as w
 from yadefrag import _yadefrag
-from yadefrag.shown import betweenSteps
+from yadefrag.fe.between_steps import betweenSteps
 
 O = builtins.O
 

@@ -7,7 +7,7 @@ import pytest
 
 import yadefrag
 from fe_impact import areSame, heapSpheres, impact, requireBodiesAreEntries, state, steps
-from yadefrag.colours import fragmentColours
+from yadefrag.plots.colours import fragmentColours
 from yade import utils
 from yade import wrapper as w
 

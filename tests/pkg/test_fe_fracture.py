@@ -9,8 +9,8 @@ import fe_chain as chain
 import yadefrag
 from fe_impact import (areSame, brittle, engines, heapSpheres, impact, requireBodiesAreEntries,
                        state, steps)
-from yadefrag import pictures
-from yadefrag.colours import fragmentColours
+from yadefrag.plots import pictures
+from yadefrag.plots.colours import fragmentColours
 from yade import wrapper as w
 
 O = builtins.O

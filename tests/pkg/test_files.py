@@ -5,7 +5,6 @@ import random
 import signal
 import stat
 import subprocess
-import sys
 import time
 
 import pytest
@@ -15,8 +14,9 @@ import yadefrag
 from fe_scene import impact
 from yade import utils
 from yade import wrapper as w
-from yadefrag import files
-from yadefrag.tradeoff_table import TradeoffRow
+from yadefrag.io import files
+from yadefrag.studies import tradeoff_grid
+from yadefrag.studies.tradeoff_table import TradeoffRow
 
 O = builtins.O
 kNowhere = ['/nowhere/run', '/proc/run', '{folder}/file/run']
@@ -181,8 +181,7 @@ def test_aRecordGrowsByWholeLines(small):
 @pytest.mark.parametrize('where', kNowhere)
 def test_tradeoffLooksAtItsFilesFirst(where, folder, monkeypatch):
     open(folder + '/file', 'w').close()
-    tool = sys.modules['yadefrag.tradeoff']
-    monkeypatch.setattr(tool, '_runAll', lambda *_: pytest.fail('it has run'))
+    monkeypatch.setattr(tradeoff_grid, '_runAll', lambda *_: pytest.fail('it has run'))
     with pytest.raises(OSError) as error:
         yadefrag.tradeoff(tradeoff_scenes.block, {'passes': [1]}, tradeoff_scenes.way, duration=1.,
                           files=where.format(folder=folder))
@@ -191,13 +190,12 @@ def test_tradeoffLooksAtItsFilesFirst(where, folder, monkeypatch):
 
 def test_tradeoffReturnsItsTableFromAFullDisk(small, monkeypatch):
     """It was writable before, and is full after the runs."""
-    tool = sys.modules['yadefrag.tradeoff']
 
     def fill(*_):
         with open(small + '/rest', 'wb') as rest:
             rest.write(b'x' * 8192)
 
-    monkeypatch.setattr(tool, '_runAll', fill)
+    monkeypatch.setattr(tradeoff_grid, '_runAll', fill)
     with pytest.warns(UserWarning, match='the table could not be written: .*No space left'):
         found = yadefrag.tradeoff(tradeoff_scenes.block, {'passes': [1]}, tradeoff_scenes.way,
                                   duration=1., files=small + '/t')

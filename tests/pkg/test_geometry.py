@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from yadefrag import geometry
+from yadefrag.fe import geometry
+from yadefrag.io import outlines
 
 
 def area(loop):
@@ -60,7 +61,7 @@ def test_polygonFileIsRead(folder):
     path = folder + '/plate.txt'
     with open(path, 'w', encoding='utf-8') as file:
         file.write('# a plate\n\n0 0  # corner\n4 0\n# half way\n4 3\n\n\n1 1\n1 2\n2e0 1\n\n')
-    outline, holes = geometry.readPolygon(path)
+    outline, holes = outlines.readPolygon(path)
     assert outline == [(0, 0), (4, 0), (4, 3)]
     assert holes == [[(1, 1), (1, 2), (2, 1)]]
 
@@ -75,7 +76,7 @@ def test_badPolygonFileNamesTheLine(folder, text, line):
     with open(path, 'wb') as file:
         file.write(text.encode('utf-8', 'surrogateescape'))
     with pytest.raises(ValueError) as error:
-        geometry.readPolygon(path)
+        outlines.readPolygon(path)
     assert path in str(error.value) and line in str(error.value)
     assert str(error.value).endswith('.')
 

@@ -10,7 +10,7 @@ import pytest
 
 from test_mesh_files import areas
 from yadefrag import readMesh
-from yadefrag.readers import by_meshio
+from yadefrag.io.readers import by_meshio
 
 kTable = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'mesh_formats.md')
 kPoints = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from outline_files import read
-from yadefrag.readers import svg
+from yadefrag.io.readers import svg
 
 kTable = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'outline_formats.md')
 kFiles = os.environ.get('YADEFRAG_OUTLINE_FILES', '')

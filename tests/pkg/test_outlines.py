@@ -9,7 +9,7 @@ import pytest
 from fe_scene import fe
 from outline_files import area, corners, kSquare, offEllipse, offLine, svg, written
 from yadefrag import readOutline
-from yadefrag.readers import nesting
+from yadefrag.io.readers import nesting
 
 
 def test_svgPolygonsAndTransforms(folder):

@@ -8,7 +8,8 @@ import pytest
 
 import scenes
 from test_threads import yadeCommand
-from yadefrag import export, pictures
+from yadefrag.io import export
+from yadefrag.plots import pictures
 
 O = scenes.O
 
@@ -250,7 +251,7 @@ def test_curvesOfFractureAreDistinguishable(folder, columns):
     """Colours of both axes: red, green and blue of any two differ by 0.25 and more together; open cracks
     are a dashed line of the colour of all cracks."""
     from matplotlib import colors
-    from yadefrag import fragments
+    from yadefrag.plots import fragments
     file = folder + '/run.csv'
     with open(file, 'w') as out:
         out.write(','.join(fragments._RECORDED.split(',')[:columns]) + '\n')
@@ -275,11 +276,11 @@ def imports(module):
 
 
 def test_picturesAndFragmentsDoNotImportEachOther():
-    from yadefrag import axes, colours, fragments
-    assert 'yadefrag.fragments' not in imports(pictures)
-    assert 'yadefrag.pictures' not in imports(fragments)
+    from yadefrag.plots import axes, colours, fragments
+    assert 'yadefrag.plots.fragments' not in imports(pictures)
+    assert 'yadefrag.plots.pictures' not in imports(fragments)
     for below in (axes, colours):
-        assert not {'yadefrag.pictures', 'yadefrag.fragments'} & imports(below)
+        assert not {'yadefrag.plots.pictures', 'yadefrag.plots.fragments'} & imports(below)
 
 
 class Mover:

@@ -3,7 +3,6 @@ import importlib
 import os
 import random
 import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -11,10 +10,11 @@ import pytest
 import tradeoff_scenes as scenes
 import yadefrag
 from test_threads import yadeCommand
-from yadefrag import TradeoffTable, choices
-from yadefrag.tradeoff_table import TradeoffRow
+from yadefrag import TradeoffTable
+from yadefrag.studies import tradeoff_grid as tool
+from yadefrag.studies import scene_choices
+from yadefrag.studies.tradeoff_table import TradeoffRow
 
-tool = sys.modules['yadefrag.tradeoff']  # the package's name is the function
 kDuration = .05  # s
 
 
@@ -86,7 +86,7 @@ def test_blowUpIsARow():
 
 
 def test_energyOutOfNothingIsABlowUp():
-    from yadefrag import tradeoff_run
+    from yadefrag.studies import run_in_yade
 
     class FESolver:
         _energyBalance = 0., 1., 0.
@@ -94,14 +94,14 @@ def test_energyOutOfNothingIsABlowUp():
     class Scene:
         engines, bodies, dt = [FESolver()], [], 1
 
-    sanity = tradeoff_run.Sanity(Scene())
+    sanity = run_in_yade.Sanity(Scene())
     for balance in ((.9, 1., 0.), (6e-20, 0., 1e-18)):
         FESolver._energyBalance = balance
         sanity.check()
     for balance, sentence in (((1.1, 1., 0.), 'grew by 1.1 J'), ((float('nan'), 1., 0.), 'nan J'),
                               ((1e-3, 0., 1e-18), 'the bodies had 0 J')):
         FESolver._energyBalance = balance
-        with pytest.raises(tradeoff_run.BlewUp, match=sentence):
+        with pytest.raises(run_in_yade.BlewUp, match=sentence):
             sanity.check()
 
 
@@ -344,7 +344,7 @@ def test_badInput(monkeypatch, wrong, sentence):
 
 
 def test_everyKnownNameRefusesSomething():
-    for name, (isRight, right) in choices.KNOWN.items():
+    for name, (isRight, right) in scene_choices.KNOWN.items():
         for wrong in (None, [], 'x', object(), float('nan')):
             assert not isRight(wrong), (name, wrong)
         assert right

@@ -8,7 +8,7 @@ import pytest
 import yadefrag
 from fe_scene import fe, impact
 from yade import wrapper as w
-from yadefrag import values
+from yadefrag import arguments
 
 O = builtins.O
 kSquare = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -74,8 +74,8 @@ kLong = [np.zeros((1000, 1000)), list(range(10**5)), 'x' * 10**5, 10**5000, -10*
 
 @pytest.mark.parametrize('value', kLong, ids=lambda v: type(v).__name__)
 def test_valuesAreShownInShort(value):
-    text = values.shown(value)
-    assert 0 < len(text) <= values.LONGEST and text.isprintable()
+    text = arguments.shown(value)
+    assert 0 < len(text) <= arguments.LONGEST and text.isprintable()
     for call in (lambda: yadefrag.runSteps(value), lambda: yadefrag.circle((0, 0), value),
                  lambda: yadefrag.rectangle(value, value), lambda: yadefrag.readPolygon(value),
                  lambda: w.FESolver().addPolygon(kSquare, size=value, material='m'),
@@ -88,8 +88,8 @@ def test_valuesAreShownInShort(value):
 
 def test_numbersOfNumPyAreShownAsPythons():
     """NumPy 2 has np.float64(1.5) as repr."""
-    assert values.shown((np.float64(1.5), np.int32(2))) == '(1.5, 2)'
-    assert values.shown([np.bool_(True)]) == '[True]'
+    assert arguments.shown((np.float64(1.5), np.int32(2))) == '(1.5, 2)'
+    assert arguments.shown([np.bool_(True)]) == '[True]'
 
 
 def test_aBrokenReprIsNoReasonToFail():

@@ -3,6 +3,9 @@
 `import yadefrag` in a script run by `yade` adds the classes to yade.wrapper, as YADE does with its
 own classes, and to the names that every script can use. In any other YADE it raises ImportError
 with one sentence.
+
+Subpackages by what is sought: studies (many runs of a scene), io (readers and exporters of files), plots
+(pictures), fe (FESolver's bodies), scene (colliders, engines and runs of YADE's scene).
 """
 
 import builtins
@@ -11,8 +14,8 @@ import sys
 from yadefrag import support
 
 if support.isReportAsked():  # python3 -m yadefrag: in a Python without YADE nothing else can be imported
-    from yadefrag import about_run
-    sys.exit(about_run.main())
+    from yadefrag import __main__ as report
+    sys.exit(report.main())
 
 support.require()
 
@@ -24,29 +27,27 @@ _yadefrag.checkRunningYade()
 __all__ = list(_yadefrag.publish())
 
 # Only now, because these need FESolver.
-from yadefrag import attributes, bounds, lifecycle, mpy, solver  # noqa: E402
+from yadefrag import io, plots, studies  # noqa: E402
 from yadefrag.about import about  # noqa: E402
 from yadefrag.calls import inWords  # noqa: E402
-from yadefrag.engines import engines  # noqa: E402
-from yadefrag.ensemble import ensemble  # noqa: E402
-from yadefrag.ensemble_table import EnsembleTable  # noqa: E402
-from yadefrag.export import exportVTK  # noqa: E402
-from yadefrag.fragments import (fragmentTable, plotFracture, plotFragmentSizes,  # noqa: E402
-                                 recordFracture)
-from yadefrag.geometry import (circle, grainJoints, readPolygon, rectangle, ring,  # noqa: E402
-                                voronoi)
-from yadefrag.mesh_files import readMesh  # noqa: E402
-from yadefrag.order import inCurveOrder  # noqa: E402
-from yadefrag.outline_report import outlineReport  # noqa: E402
-from yadefrag.outlines import readOutline  # noqa: E402
-from yadefrag.pictures import animate, plotMesh  # noqa: E402
-from yadefrag.progress import runSteps  # noqa: E402
-from yadefrag.recorder import FERecorder  # noqa: E402
-from yadefrag.results import crackTable  # noqa: E402
-from yadefrag.snapping import snapOutlines  # noqa: E402
-from yadefrag.solver import rectangleMesh  # noqa: E402
-from yadefrag.tradeoff import tradeoff  # noqa: E402
-from yadefrag.tradeoff_table import TradeoffTable  # noqa: E402
+from yadefrag.fe import solver  # noqa: E402
+from yadefrag.fe.geometry import circle, grainJoints, rectangle, ring, voronoi  # noqa: E402
+from yadefrag.fe.results import crackTable  # noqa: E402
+from yadefrag.fe.snapping import snapOutlines  # noqa: E402
+from yadefrag.fe.solver import rectangleMesh  # noqa: E402
+from yadefrag.io import FERecorder, exportVTK, outlineReport, readMesh, readOutline, readPolygon  # noqa: E402
+from yadefrag.io import recorder  # noqa: E402
+from yadefrag.plots import animate, plotFracture, plotFragmentSizes, plotMesh  # noqa: E402
+from yadefrag.plots.fragments import fragmentTable, recordFracture  # noqa: E402
+from yadefrag.scene import attributes, colliders, lifecycle, mpy  # noqa: E402
+from yadefrag.scene.curve_order import inCurveOrder  # noqa: E402
+from yadefrag.scene.engines import engines  # noqa: E402
+from yadefrag.scene.progress import runSteps  # noqa: E402
+from yadefrag.studies import EnsembleTable, TradeoffTable, ensemble, tradeoff  # noqa: E402
+from yadefrag.studies import scene_choices as choices  # noqa: E402
+
+# Former names of modules: scenes that FERecorder's engine was saved with, and earlier manuals, have them.
+sys.modules.update({'yadefrag.recorder': recorder, 'yadefrag.choices': choices})
 
 
 def _renewDispatchers():
@@ -64,7 +65,7 @@ def _renewDispatchers():
 solver.install()
 lifecycle.install()
 mpy.install()
-bounds.install([name for name in __all__ if name.endswith('Collider')])
+colliders.install([name for name in __all__ if name.endswith('Collider')])
 _renewDispatchers()
 for _name in __all__:
     globals()[_name] = getattr(wrapper, _name)
@@ -78,5 +79,7 @@ __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMe
             'ensemble', 'EnsembleTable', 'inCurveOrder', 'about']
 for _name in __all__:
     if type(globals()[_name]) is type(inWords):
-        globals()[_name] = inWords(globals()[_name])
+        for _part in (sys.modules[__name__], io, plots, studies):
+            if hasattr(_part, _name):
+                setattr(_part, _name, inWords(getattr(_part, _name)))
 __version__ = support.YADEFRAG

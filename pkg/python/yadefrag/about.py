@@ -7,7 +7,7 @@ import platform
 from yade import config
 
 from yadefrag import _built, _yadefrag, support
-from yadefrag.values import refuse
+from yadefrag.arguments import refuse
 
 _OWN = pathlib.Path(__file__).resolve().parent
 # Folders of a source tree (by links in its build folder) and of installations below /usr,

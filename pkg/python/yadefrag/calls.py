@@ -4,7 +4,7 @@ import difflib
 import functools
 import inspect
 
-from yadefrag.values import shown
+from yadefrag.arguments import shown
 
 _BY_POSITION = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
 

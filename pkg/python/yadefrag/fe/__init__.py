@@ -1,0 +1,1 @@
+"""Finite-element bodies: methods of FESolver in Python, outlines for it, and its results."""

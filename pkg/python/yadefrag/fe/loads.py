@@ -1,0 +1,152 @@
+"""Loads on the boundary that depend on its shape, and relaxation to a state of rest."""
+
+import math
+import sys
+
+import numpy
+
+from yade import wrapper
+from yadefrag.arguments import array, flag, number, positive, refuse, requireTakes, shown, whole
+from yadefrag.fe.between_steps import betweenSteps, calledInStep, requireBetweenSteps, requireNoStep
+from yadefrag.fe.motions import chosenNodes, packed, tableOrNumber
+from yadefrag.messages import warn
+from yadefrag.scene import interrupts, lifecycle
+from yadefrag.scene.progress import runPart
+
+_LOOK = 25  # steps from one evaluation of the motion to the next
+
+
+def getLoads(self):
+    """Constant external forces on the nodes (N), array (n, 2); set the whole array, or None for no
+    forces.
+
+    A copy: `loads = fe.loads; loads[top] = (0, -1); fe.loads = loads`. ValueError unless there is
+    one finite pair for each node.
+    """
+    return self._loads
+
+
+def setLoads(self, loads):
+    requireBetweenSteps()
+    forces = numpy.zeros((0, 2)) if loads is None else array(loads, float)
+    if forces is None:
+        refuse('loads', loads, 'an array (n, 2) of N, or None')
+    if forces.ndim != 2 or forces.shape[1] != 2:
+        raise ValueError('loads has the shape %s, it must be (n, 2).' % shown(forces.shape))
+    self._setLoads(numpy.ascontiguousarray(forces).tobytes())
+
+
+def pressure(self, nodes, p, intoCracks=False):
+    """Applies a pressure, from now on, to the sides of the boundary whose two ends are among
+    `nodes`.
+
+    nodes  as in `prescribe`: node numbers, flags, a function (x, y) of the present positions, or a
+           body's name for all of its boundary
+    p      Pa, towards the body: a number, a table [(s, Pa), …] linear between its times and constant
+           outside, or a function (t) → Pa; times are fe.time. 0 ends it
+    intoCracks  False: no pressure on new faces of cracks; True: full pressure also on faces of cracks
+           that open after this call, as soon as they are connected with a side under this pressure
+           and are not cohesive any more: the gas of a blast
+    The pressure acts along the present normal, on the present length, half at both ends of a side: it
+    turns with the surface, and follows it where nodes split. A later pressure on the same side
+    replaces an earlier one. Its work is in `energy['external']`. A saved scene contains numbers and
+    tables; with a function the first step after O.load raises RuntimeError until pressure has been
+    called for these nodes again. ValueError before any change, also if no side has both ends among
+    the nodes.
+    """
+    requireBetweenSteps()
+    intoCracks = flag('intoCracks', intoCracks)
+    chosen = chosenNodes(self, nodes)
+    if callable(p):
+        requireTakes('p', p, 't')
+        @calledInStep
+        def value(time):
+            return number('p(%g)' % time, p(time), math.isfinite, 'a finite number (Pa)')
+        self._pressure(chosen.tobytes(), b'', b'', value, intoCracks)
+        return
+    times, values = packed(tableOrNumber('p', p, 'Pa'))
+    self._pressure(chosen.tobytes(), times, values, None, intoCracks)
+
+
+def absorb(self, nodes):
+    """Absorbs waves, from now on, at the sides of the boundary whose two ends are among `nodes`.
+
+    nodes  as in `prescribe`
+    Dashpots ρc at the nodes (Lysmer and Kuhlemeyer 1969, J. Eng. Mech. Div. 95, 859), with the speed
+    of compression waves across the boundary and that of shear waves along it: waves at normal
+    incidence are absorbed completely, oblique ones are partly reflected. Dashpots carry no static
+    load: a body that is pushed drifts. Their dissipated energy is in `energy['damping']`. Each side
+    has the density and speeds of the triangle behind it. ValueError before any change.
+    """
+    requireBetweenSteps()
+    self._absorb(chosenNodes(self, nodes).tobytes())
+
+
+def relax(self, tolerance=1e-6, most=10**6):
+    """Runs the scene until its bodies are at rest; returns the number of steps (int).
+
+    tolerance  criterion of rest: the kinetic energy is below this fraction of the strain energy, at
+               two successive evaluations, 25 steps apart
+    most       maximum number of steps; after these a warning reports the ratio of energies
+    Damping is set anew at each evaluation, so that the slowest vibration in the motion is critically
+    damped, by its Rayleigh quotient (Underwood 1983, Computational Methods for Transient Analysis,
+    p. 245). Afterwards `damping` has its previous value. Call it between runs, with O.dt set.
+    RuntimeError and KeyboardInterrupt as from runSteps.
+    """
+    tolerance = positive('tolerance', tolerance, 'a ratio of energies')
+    most = whole('most', most)
+    requireNoStep('relax')
+    before, begin = self.damping, lifecycle.stepsDone()
+    try:
+        with interrupts.held():
+            calm, ratio = _damped(self, tolerance, most)
+    except KeyboardInterrupt:
+        print('relax: stopped after %d steps.' % (lifecycle.stepsDone() - begin), file=sys.stderr)
+        raise
+    finally:
+        self.damping = before
+    done = lifecycle.stepsDone() - begin
+    if calm < 2:
+        warn('relax: after %d steps the kinetic energy is still %.3g of the strain energy.' %
+             (done, ratio))
+    return done
+
+
+def _damped(fe, tolerance, most):
+    """Runs to rest; returns the number of successive evaluations at rest, and the last ratio of energies."""
+    done, calm, ratio = 0, 0, math.inf
+    while done < most and calm < 2:
+        wanted = min(_LOOK, most - done)
+        part, _ = runPart(wanted)
+        done += part
+        if part < wanted:
+            break  # O.pause()
+        energy = fe.energy
+        ratio = energy['kinetic'] / energy['strain'] if energy['strain'] > 0 else math.inf
+        isRounding = energy['kinetic'] <= fe._energyBalance[2]  # nothing else without loads
+        calm = calm + 1 if ratio <= tolerance or isRounding else 0
+        fe.damping, part = _critical(fe)
+        done += part
+    return calm, ratio
+
+
+def _critical(fe):
+    """(damping (1/s), number of steps): critical for the present motion, from three steps: twice the
+    angular frequency of the motion's Rayleigh quotient. The present damping if there is no motion."""
+    present, speeds = fe.damping, []
+    for step in range(3):
+        if runPart(1)[0] == 0:
+            return present, step
+        with betweenSteps(fe):
+            speeds.append(fe.velocities)
+            free, masses = ~fe.reactions.any(axis=1), fe.masses
+    if len(speeds[0]) != len(speeds[2]):
+        return present, 3  # cracks opened meanwhile
+    dt = wrapper.Omega().dt
+    first, middle, last = (numpy.where(free[:, None], v, 0) for v in speeds)
+    moving = (masses * (middle**2).sum(axis=1)).sum()
+    # M j = -K v - αM a: without the damping term, the jerk is due to the stiffness.
+    pull = (last - 2 * middle + first) / dt**2 + present * (last - first) / (2 * dt)
+    squared = -(masses * (middle * pull).sum(axis=1)).sum()
+    # Above 1/Δt one step would already stop all motion.
+    return (min(2 * math.sqrt(squared / moving), 1 / dt) if moving > 0 < squared else present), 3

@@ -1,0 +1,160 @@
+"""Materials of a body's triangles: one, or several by place, and the interfaces between them."""
+
+import math
+
+import numpy
+
+from yade import wrapper
+from yadefrag.arguments import array, isWhole, number, plain, positive, real, refuse, requireTakes, shown
+
+_RIGHT = 'an FEMat, its label or its number in O.materials'
+_SEVERAL = _RIGHT + ('; or a function (x, y) that returns one, a list of one for each triangle, or '
+                     'a pair of a list of materials and an array of their numbers in it, one for '
+                     'each triangle')
+_INTERFACE = {'interfaceStrength': 'Pa', 'interfaceEnergy': 'J/m²'}
+
+
+def oneMaterial(material, name='material', right=_RIGHT):
+    """The FEMat that `material` refers to: the object, its label or its number in O.materials."""
+    found = plain(material)
+    if isinstance(found, str) or isWhole(found):
+        try:
+            found = wrapper.Omega().materials[found]
+        except (KeyError, IndexError, RuntimeError, OverflowError, UnicodeError):
+            raise ValueError('%s is %s, which is not in O.materials.' %
+                             (name, shown(material))) from None
+    if not isinstance(found, wrapper.FEMat):
+        refuse(name, material, right)
+    positive("the material's young", found.young, 'Pa')
+    positive("the material's density", found.density, 'kg/m³')
+    number("the material's poisson", found.poisson, lambda v: -1 < v < .5,
+           'above -1 and below 0.5')
+    number("the material's frictionAngle", found.frictionAngle, lambda v: 0 <= v < math.pi / 2,
+           'at least 0 and below π/2 (rad)')
+    return found
+
+
+def isField(material):
+    """True if it is given by place: a function, or a list."""
+    if isinstance(material, type) or isinstance(material, (str, bytes, dict, set)):
+        return False
+    return callable(material) or isinstance(material, (list, tuple)) \
+        or isinstance(material, numpy.ndarray) and material.ndim > 0
+
+
+class Materials:
+    """Materials of a body: `of`, the FEMats in the order of their first triangles, and `numbers`,
+    (m) the index of each triangle's material in it; empty for a body of one material."""
+
+    def __init__(self, mesh, material):
+        self.of, self._places = [], {}
+        self.numbers = numpy.empty(0, dtype=numpy.uint32)
+        if not isField(material):
+            self._number(material, 'material', _SEVERAL)
+            return
+        numbers = numpy.array(self._ofTriangles(mesh, material), dtype=numpy.uint32)
+        if len(self.of) > 1:
+            self.numbers = numbers
+
+    @property
+    def crack(self):
+        """True if any of them can crack."""
+        return any(isinstance(one, wrapper.BrittleFEMat) for one in self.of)
+
+    def find(self, material, name):
+        """Its number; None if no triangle has it."""
+        return self._places.get(_key(oneMaterial(material, name)))
+
+    def _number(self, material, name, right=_RIGHT):
+        found = oneMaterial(material, name, right)
+        key = _key(found)
+        if key not in self._places:
+            self._places[key] = len(self.of)
+            self.of.append(found)
+        return self._places[key]
+
+    def _ofTriangles(self, mesh, material):
+        nodes, triangles = mesh['nodes'], mesh['triangles']
+        if callable(material):
+            requireTakes('material', material, 'x', 'y')
+            return [self._number(material(x, y), 'material(%g, %g)' % (x, y))
+                    for x, y in nodes[triangles].mean(axis=1)]
+        values = list(material)
+        if len(values) == 2 and isinstance(values[0], (list, tuple)):
+            listed, chosen = list(values[0]), array(values[1])
+            if chosen is None or chosen.ndim != 1 or chosen.dtype.kind not in 'iu' \
+                    or not listed or chosen.size and not 0 <= chosen.min() <= chosen.max() < \
+                    len(listed):
+                raise ValueError('material[1] must be an array of whole numbers from 0 to %d, one '
+                                 'for each triangle.' % (len(listed) - 1))
+            values = [listed[i] for i in chosen]
+        if len(values) != len(triangles):
+            raise ValueError('material has %d values, it must have one for each of the %d '
+                             'triangles.' % (len(values), len(triangles)))
+        return [self._number(one, 'material[%d]' % i) for i, one in enumerate(values)]
+
+
+def _key(material):
+    """Equal keys for the same material: objects from O.materials are created anew at each
+    access."""
+    return ('number', material.id) if material.id >= 0 else ('object', id(material))
+
+
+def sidesBetween(triangles, numbers):
+    """(k, 2) nodes of the sides between triangles with different numbers, and (k, 2) these
+    numbers."""
+    sides = numpy.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)])
+    sides = numpy.sort(sides.astype(numpy.int64), axis=1)
+    owner = numpy.tile(numbers, 3)
+    order = numpy.lexsort((sides[:, 1], sides[:, 0]))
+    sides, owner = sides[order], owner[order]
+    inner = numpy.nonzero((sides[1:] == sides[:-1]).all(axis=1) & (owner[1:] != owner[:-1]))[0]
+    return sides[inner], numpy.stack([owner[inner], owner[inner + 1]], axis=1)
+
+
+def _isValue(value):
+    return math.isfinite(value) and value >= 0
+
+
+def _values(name, value, mesh, sides, both, materials):
+    """(k) floats for the sides; NaN where the materials determine the value."""
+    right = '0 or a positive number (%s)' % _INTERFACE[name]
+    if value is None:
+        return numpy.full(len(sides), math.nan)
+    if real(value) is not None:
+        return numpy.full(len(sides), number(name, value, _isValue, right))
+    if callable(value):
+        requireTakes(name, value, 'x', 'y')
+        return numpy.array([number('%s(%g, %g)' % (name, x, y), value(x, y), _isValue, right)
+                            for x, y in mesh['nodes'][sides].mean(axis=1)])
+    if not isinstance(value, dict):
+        refuse(name, value, 'None, a number (%s), a function (x, y) that returns one, or a dict '
+               'with one by pair of materials' % _INTERFACE[name])
+    result = numpy.full(len(sides), math.nan)
+    for key, one in value.items():
+        if not isinstance(key, tuple) or len(key) != 2:
+            refuse("a key of %s" % name, key, 'a pair of materials')
+        a, b = (materials.find(m, 'a material in %s' % name) for m in key)
+        chosen = number('%s[%s]' % (name, shown(key)), one, _isValue, right)
+        result[((both == (a, b)) | (both == (b, a))).all(axis=1)] = chosen
+    return result
+
+
+def interfaces(mesh, materials, strength, energy):
+    """(k, 2) nodes of the sides with an individual strength (Pa) or energy (J/m²), and (k) of both,
+    NaN where the materials determine the value: addPolygon's interfaceStrength and -Energy."""
+    nothing = numpy.empty((0, 2), dtype=numpy.uint32), numpy.empty(0), numpy.empty(0)
+    given = [name for name, value in zip(_INTERFACE, (strength, energy)) if value is not None]
+    if not given:
+        return nothing
+    if not len(materials.numbers):
+        raise ValueError('%s is given, but the body has one material; it must have several.' %
+                         given[0])
+    if strength is None and not materials.crack:
+        raise ValueError('interfaceEnergy is given, but no material can crack; it needs an '
+                         'interfaceStrength or a BrittleFEMat.')
+    sides, both = sidesBetween(mesh['triangles'], materials.numbers)
+    strengths = _values('interfaceStrength', strength, mesh, sides, both, materials)
+    energies = _values('interfaceEnergy', energy, mesh, sides, both, materials)
+    own = ~(numpy.isnan(strengths) & numpy.isnan(energies))
+    return sides[own].astype(numpy.uint32), strengths[own], energies[own]

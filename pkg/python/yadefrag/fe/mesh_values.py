@@ -1,0 +1,189 @@
+"""Arguments of addPolygon and addTriangles as arrays by triangle, joint or node."""
+
+import math
+
+import numpy
+
+from yadefrag.arguments import array, number, pair, plain, real, refuse, requireTakes, shown
+from yadefrag.fe.snapping import isClockwise
+
+_HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
+# name: (unit, function that checks a value, description of valid values)
+_BRITTLE = {
+    'strength': ('Pa', lambda v: math.isfinite(v) and v > 0, 'a positive number (Pa)'),
+    'fractureEnergy': ('J/m²', lambda v: math.isfinite(v) and v >= 0,
+                       '0 or a positive number (J/m²)'),
+    'jointStrength': ('Pa', lambda v: math.isfinite(v) and v >= 0, '0 or a positive number (Pa)'),
+    'jointEnergy': ('J/m²', lambda v: math.isfinite(v) and v >= 0,
+                    '0 or a positive number (J/m²)'),
+}
+
+
+def _ofTriangles(name, value, mesh):
+    """(m) floats of the mesh's triangles; a function is evaluated at their centroids; empty for
+    None."""
+    if value is None:
+        return numpy.empty(0)
+    unit, isRight, right = _BRITTLE[name]
+    nodes, triangles = mesh['nodes'], mesh['triangles']
+    if callable(value):
+        requireTakes(name, value, 'x', 'y')
+        return numpy.array([number('%s(%g, %g)' % (name, x, y), value(x, y), isRight, right)
+                            for x, y in nodes[triangles].mean(axis=1)])
+    values = array(value)
+    if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf':
+        refuse(name, value, 'None, a function (x, y) that returns %s, or an array of one for each '
+               'triangle' % unit)
+    if len(values) != len(triangles):
+        raise ValueError('%s has %d values, it must have one for each of the %d triangles.' %
+                         (name, len(values), len(triangles)))
+    values = values.astype(float)
+    for i, one in enumerate(values):
+        if not isRight(one):
+            raise ValueError('%s[%d] is %s, it must be %s.' % (name, i, shown(float(one)), right))
+    return values
+
+
+def _ofJoints(name, value, mesh, count):
+    """Floats of the mesh's sides on joints, from a number or one for each of `count` joints."""
+    unit, isRight, right = _BRITTLE[name]
+    sides = mesh['joints'][:, 2]
+    if real(value) is not None:
+        return numpy.full(len(sides), number(name, value, isRight, right))
+    values = array(value)
+    if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf':
+        refuse(name, value, 'a number (%s), or one for each joint' % unit)
+    if len(values) != count:
+        raise ValueError('%s has %d values, it must have one for each of the %d joints.' %
+                         (name, len(values), count))
+    for i, one in enumerate(values):
+        number('%s[%d]' % (name, i), one, isRight, right)
+    return values.astype(float)[sides]
+
+
+def brittlePlaces(mesh, materials, interfaces, strength, fractureEnergy, joints=(),
+                  jointStrength=None, jointEnergy=None):
+    """{name: (array, dtype)} for FESolver._addMesh. `interfaces`: result of materials.interfaces;
+    values of joints have priority. ValueError for a material that does not crack, and for invalid
+    values."""
+    areOwn = len(joints) and (jointStrength is not None or jointEnergy is not None)
+    given = dict(strength=strength, fractureEnergy=fractureEnergy,
+                 joints=joints if areOwn else None)
+    for name, value in given.items():
+        if value is not None and not materials.crack:
+            raise ValueError('%s is given, but the material does not crack; it must be a '
+                             'BrittleFEMat.' % name)
+    places = {name: (_ofTriangles(name, given[name], mesh), 'float64')
+              for name in ('strength', 'fractureEnergy')}
+    edges, strengths, energies = interfaces
+    if areOwn:
+        own = [numpy.full(len(mesh['joints']), math.nan) if value is None else
+               _ofJoints(name, value, mesh, len(joints))
+               for name, value in (('jointStrength', jointStrength), ('jointEnergy', jointEnergy))]
+        edges = numpy.concatenate([edges, mesh['joints'][:, :2]])
+        strengths = numpy.concatenate([strengths, own[0]])
+        energies = numpy.concatenate([energies, own[1]])
+    places.update(jointEdges=(edges, 'uint32'), jointStrength=(strengths, 'float64'),
+                  jointEnergy=(energies, 'float64'))
+    return places
+
+
+def stressOfTriangles(stress, mesh):
+    """(m, 3) Pa of the mesh's triangles, from a triple, a function (x, y) or an array; empty for
+    None."""
+    nodes, triangles = mesh['nodes'], mesh['triangles']
+    if stress is None:
+        return numpy.empty((0, 3))
+    if callable(stress):
+        requireTakes('stress', stress, 'x', 'y')
+        return numpy.array([_triple('stress(%g, %g)' % (x, y), stress(x, y))
+                            for x, y in nodes[triangles].mean(axis=1)])
+    values = array(stress)
+    if values is None or values.ndim != 2 or values.dtype.kind not in 'iuf':
+        return numpy.tile(_triple('stress', stress), (len(triangles), 1))
+    if values.shape != (len(triangles), 3):
+        raise ValueError('stress has the shape %s, it must be (%d, 3): one triple for each '
+                         'triangle.' % (shown(values.shape), len(triangles)))
+    for i, one in enumerate(values):
+        _triple('stress[%d]' % i, one)
+    return values.astype(float)
+
+
+def _triple(name, value):
+    """Three finite floats."""
+    values = array(value)
+    if values is None or values.shape != (3,) or values.dtype.kind not in 'iuf' \
+            or not numpy.isfinite(values).all():
+        refuse(name, value, 'three finite numbers (Pa): xx, yy, xy')
+    return values.astype(float)
+
+
+def field(name, value, nodes, isOptional=True):
+    """(n, 2) from a pair or a function (x, y) → pair; empty for None."""
+    if value is None and isOptional:
+        return numpy.empty((0, 2))
+    if not callable(value):
+        return numpy.tile(pair(name, value), (len(nodes), 1))
+    requireTakes(name, value, 'x', 'y')
+    return numpy.array([pair('%s(%g, %g)' % (name, x, y), value(x, y)) for x, y in nodes])
+
+
+def heldNodes(fixed, nodes):
+    """(n) of 0 free, 1 held in x, 2 in y, 3 in both."""
+    if fixed is None:
+        return numpy.empty(0, dtype=numpy.uint8)
+    if not callable(fixed):
+        refuse('fixed', fixed, "a function (x, y) that returns False, True, 'x' or 'y'")
+    requireTakes('fixed', fixed, 'x', 'y')
+    held = numpy.zeros(len(nodes), dtype=numpy.uint8)
+    for i, (x, y) in enumerate(nodes):
+        value = plain(fixed(x, y))
+        if not isinstance(value, (bool, str, type(None))) or value not in _HELD:
+            refuse('fixed(%g, %g)' % (x, y), value, "False, True, 'x' or 'y'")
+        held[i] = _HELD[value]
+    return held
+
+
+def smoothFlags(smooth, count):
+    """True, False, or an array with a flag for each of the outline's `count` points."""
+    smooth = plain(smooth)
+    if isinstance(smooth, bool):
+        return smooth
+    flags = _flags(smooth)
+    if flags is None:
+        refuse('smooth', smooth, 'True, False or a flag for each point of the outline')
+    if len(flags) != count:
+        raise ValueError('smooth has %d flags, it must have one for each of the %d points of '
+                         'the outline.' % (len(flags), count))
+    return flags
+
+
+def smoothNodes(smooth, mesh, outline=()):
+    """(n) of 0 or 1: 1 for a node on a smooth part of the boundary; empty if there are none."""
+    if isinstance(smooth, bool):
+        if not smooth:
+            return numpy.empty(0, dtype=numpy.uint8)
+        chosen = [(loop, numpy.ones(len(loop), dtype=bool)) for loop in mesh['loops']]
+    else:
+        flags, count = smooth, len(outline)
+        if isClockwise(outline):  # the mesh has it reversed, with the same first point
+            flags = flags[-numpy.arange(count) % count]
+        loop, vertices = mesh['loops'][0], mesh['loopVertices'][0]
+        # A node within an edge is smooth if both ends of the edge are.
+        isVertex = vertices != numpy.roll(vertices, 1)
+        ends = flags[vertices] & flags[(vertices.astype(int) + 1) % count]
+        chosen = [(loop, numpy.where(isVertex, flags[vertices], ends))]
+    marks = numpy.zeros(len(mesh['nodes']), dtype=numpy.uint8)
+    for loop, flags in chosen:
+        marks[loop] = flags
+    return marks
+
+
+def _flags(values):
+    """(n) of bool; None if it is not a list of True and False, or of 1 and 0."""
+    try:
+        flags = [plain(value) for value in values]
+    except TypeError:
+        return None
+    isRight = all(isinstance(f, int) and f in (0, 1) for f in flags)
+    return numpy.array(flags, dtype=bool) if isRight else None

@@ -1,0 +1,235 @@
+"""Prescribed motions of nodes: constant, by node, by tables in time, by functions, and
+rotations."""
+
+import math
+
+import numpy
+
+from yadefrag.arguments import array, flag, number, pair, real, refuse, requireTakes
+from yadefrag.fe.between_steps import calledInStep, requireBetweenSteps
+from yadefrag.fe.names import isBody
+from yadefrag.messages import warn
+
+_RIGHT = ('a finite number (m/s), an array of one for each of the nodes, a table of pairs (s, m/s), '
+          'a function (x, y, t) or None')
+_NONE = (b'', b'')
+_ROUNDING = 1e-9  # rounding of velocities that a script computes
+
+
+def chosenNodes(fe, nodes):
+    """(k) node numbers from the argument `nodes` of FESolver.prescribe; ValueError if it is
+    invalid."""
+    places = fe.nodes
+    if callable(nodes):
+        requireTakes('nodes', nodes, 'x', 'y')
+        chosen = numpy.array([flag('nodes(%g, %g)' % (x, y), nodes(x, y)) for x, y in places],
+                             dtype=bool)
+    elif isinstance(nodes, str):
+        chosen = fe.nodesOf(nodes)
+    else:
+        chosen = array(nodes)
+    if chosen is None:
+        refuse('nodes', nodes, 'node numbers, a flag for each node, or a function (x, y)')
+    if chosen.dtype == bool:
+        if chosen.shape != (len(places),):
+            raise ValueError('nodes has %d flags, it must have one for each of the %d nodes.' %
+                             (chosen.size, len(places)))
+        chosen = numpy.nonzero(chosen)[0]
+    if chosen.ndim != 1 or (chosen.size and not numpy.issubdtype(chosen.dtype, numpy.integer)):
+        raise ValueError('nodes must be node numbers, a flag for each node, or a function (x, y).')
+    if chosen.size and (chosen.min() < 0 or chosen.max() >= len(places)):
+        raise ValueError('nodes has numbers from %d to %d, but there are %d nodes.' %
+                         (chosen.min(), chosen.max(), len(places)))
+    return chosen.astype(numpy.uint32)
+
+
+def timeTable(name, value, unit):
+    """(times (k), values (k)) of a table of pairs; None for other types. ValueError for times that
+    do not ascend and values that are not finite."""
+    if callable(value) or isinstance(value, (str, bytes, dict, set)) or real(value) is not None:
+        return None
+    rows = array(value)
+    if rows is None or rows.ndim != 2 or rows.shape[1] != 2 or not len(rows) \
+            or rows.dtype.kind not in 'iuf':
+        return None
+    rows = rows.astype(float)
+    if not numpy.isfinite(rows).all():
+        raise ValueError('%s has a number that is not finite; a table has pairs (s, %s).' %
+                         (name, unit))
+    if not (numpy.diff(rows[:, 0]) > 0).all():
+        raise ValueError('%s has times that do not ascend; a table has pairs (s, %s).' %
+                         (name, unit))
+    return rows[:, 0].copy(), rows[:, 1].copy()
+
+
+def tableOrNumber(name, value, unit):
+    """The same; a number is a table of one row."""
+    if real(value) is not None:
+        one = number(name, value, math.isfinite, 'a finite number (%s)' % unit)
+        return numpy.zeros(1), numpy.full(1, one)
+    table = timeTable(name, value, unit)
+    if table is None:
+        refuse(name, value, 'a finite number (%s) or a table of pairs (s, %s)' % (unit, unit))
+    return table
+
+
+def packed(table):
+    """A table in the form for FESolver's internal functions."""
+    return _NONE if table is None else tuple(column.tobytes() for column in table)
+
+
+def _kind(name, value, count):
+    """('none' | 'each' | 'table' | 'function', the converted value)."""
+    if value is None:
+        return 'none', numpy.zeros(count)
+    if callable(value):
+        requireTakes(name, value, 'x', 'y', 't')
+        return 'function', value
+    if real(value) is not None:
+        return 'each', numpy.full(count, number(name, value, math.isfinite, _RIGHT))
+    table = timeTable(name, value, 'm/s')
+    if table is not None:
+        return 'table', table
+    each = array(value)
+    if each is None or each.ndim != 1 or each.dtype.kind not in 'iuf':
+        refuse(name, value, _RIGHT)
+    if len(each) != count:
+        raise ValueError('%s has %d values, it must have one for each of the %d nodes.' %
+                         (name, len(each), count))
+    if not numpy.isfinite(each).all():
+        raise ValueError('%s has a value that is not finite (m/s).' % name)
+    return 'each', each.astype(float)
+
+
+def prescribe(self, nodes, vx=None, vy=None):
+    """Prescribes the nodes' velocities vx, vy (m/s) from now on; None: free in that direction.
+
+    nodes   node numbers, a flag for each node, a function (x, y) → bool of the present positions,
+            or a body's name
+    vx, vy  a number; an array with one for each of `nodes`, in their order; a table [(s, m/s), …],
+            linear between its times and constant outside, whose exact integral is the nodes'
+            displacement; or a function (x, y, t) of the nodes' present positions (m) and the middle of
+            the step (s), called for each node in each step
+    Times are fe.time. New nodes of cracks move as the nodes from which they were split. Call it
+    again to change the motion; the required forces are in `reactions`, their work in
+    `energy['external']`. A saved scene contains everything except functions: the first step after
+    O.load raises RuntimeError until prescribe has been called for their nodes again. ValueError
+    before any change, also for an array with a table or a function in the other direction; a
+    warning if no node is chosen.
+    """
+    requireBetweenSteps()
+    chosen = chosenNodes(self, nodes)
+    if not len(chosen):
+        warn('prescribe: nodes selects none of the %d nodes.' % len(self.nodes))
+    kinds, values = zip(*[_kind(name, value, len(chosen))
+                          for name, value in (('vx', vx), ('vy', vy))])
+    held = sum(axis for axis, kind in ((1, kinds[0]), (2, kinds[1])) if kind != 'none')
+    if not {'table', 'function'} & set(kinds):
+        self._prescribe(chosen.tobytes(), held, numpy.column_stack(values).tobytes())
+        return
+    for i, given in enumerate((vx, vy)):
+        if kinds[i] != 'each':
+            continue
+        if real(given) is None:
+            raise ValueError('%s is an array, but the other direction is not: give arrays or numbers '
+                             'for both, or neither.' % ('vx', 'vy')[i])
+        kinds = kinds[:i] + ('table',) + kinds[i + 1:]
+        values = values[:i] + (tableOrNumber('v', given, 'm/s'),) + values[i + 1:]
+    _move(self, chosen, held, (0., 0.), kinds, values)
+
+
+def _move(fe, chosen, held, centre, kinds, values, turn=None):
+    tables = [value if kind == 'table' else None for kind, value in zip(kinds, values)]
+    function = _velocities(kinds, values) if 'function' in kinds else None
+    fe._move(chosen.tobytes(), held,
+             dict(centre=centre, speedX=packed(tables[0]), speedY=packed(tables[1]),
+                  turn=packed(turn), function=function))
+
+
+def _velocities(kinds, values):
+    """The function that FESolver calls in each step: (positions (k, 2), time) → bytes of (k, 2)
+    m/s."""
+    def column(name, kind, value, places, time):
+        if kind == 'function':
+            return [number('%s(%g, %g, %g)' % (name, x, y, time), value(float(x), float(y), time),
+                           math.isfinite, 'a finite number (m/s)') for x, y in places]
+        if kind == 'table':
+            return numpy.full(len(places), numpy.interp(time, *value))
+        return numpy.zeros(len(places))
+
+    @calledInStep
+    def velocities(places, time):
+        both = [column(name, kind, value, places, time)
+                for name, kind, value in zip(('vx', 'vy'), kinds, values)]
+        return numpy.ascontiguousarray(numpy.column_stack(both), dtype=float).tobytes()
+    return velocities
+
+
+def rotate(self, nodes, omega, centre):
+    """Rotates the nodes at `omega` about `centre` from now on, exactly: after any number of steps
+    they are on their circles, except for rounding.
+
+    nodes   as in `prescribe`, or a body's number or name: the whole body
+    omega   rad/s, counter-clockwise, or a table [(s, rad/s), …] as in `prescribe`
+    centre  (x, y) in m
+    ValueError before any change. A saved scene contains the motion; a later `prescribe` or `rotate`
+    ends it.
+    """
+    requireBetweenSteps()
+    chosen = self.nodesOf(nodes) if isBody(nodes) else chosenNodes(self, nodes)
+    turn = tableOrNumber('omega', omega, 'rad/s')
+    _move(self, chosen, 3, pair('centre', centre), ('none', 'none'), (None, None), turn)
+
+
+def keepTurning(fe, component, held, velocity, spin, places, centroid):
+    """Held nodes of a new body with the velocities of a rotating rigid body continue to rotate.
+
+    velocity  without that of `spin` about `centroid`
+    """
+    fixed = numpy.nonzero(held == 3)[0] if len(held) else held
+    if not len(fixed):
+        return
+    rigid = _rigidMotion(places[fixed], velocity[fixed])
+    if rigid is None or _areInLine(places[fixed]):  # the nodes of a line may rotate in a sheared body
+        rigid = _rigidMotion(places, velocity)
+    if rigid is None:
+        return
+    middle, speed, turn = rigid
+    total = turn + spin
+    if not total:
+        return
+    if not turn:
+        centre, drift = centroid, speed  # a moving body that rotates about its centroid
+    else:
+        # The velocity at a position p is `origin` + total × p: 0 at the centre.
+        x, y = turn * middle + spin * centroid
+        origin = speed + numpy.array([y, -x])
+        centre, drift = numpy.array([-origin[1], origin[0]]) / total, numpy.zeros(2)
+    # Open joints have doubled nodes, which come after all others.
+    own = fe.nodesOf(component)
+    present = fe.nodes[own]
+    held = set(map(tuple, present[fixed].tolist()))
+    doubled = [i for i in range(len(places), len(own)) if tuple(present[i].tolist()) in held]
+    chosen = own[numpy.concatenate([fixed, doubled]).astype(int)].astype(numpy.uint32)
+    drifts = [tableOrNumber('velocity', float(one), 'm/s') for one in drift]
+    _move(fe, chosen, 3, tuple(map(float, centre)), ('table', 'table'), drifts,
+          tableOrNumber('spin', float(total), 'rad/s'))
+
+
+def _areInLine(places):
+    arms = places - places.mean(axis=0)
+    spread = numpy.linalg.eigvalsh(arms.T @ arms)
+    return spread[0] <= _ROUNDING * spread[1]
+
+
+def _rigidMotion(places, velocity):
+    """(centre (m), its velocity (m/s), rad/s) of a rigid-body motion; None if it is none."""
+    middle, speed = places.mean(axis=0), velocity.mean(axis=0)
+    arms = places - middle
+    moment = (arms**2).sum()
+    turn = (arms[:, 0] * velocity[:, 1] - arms[:, 1] * velocity[:, 0]).sum() / moment if moment else 0
+    most = abs(velocity).max()
+    if abs(turn) * math.sqrt(moment) <= _ROUNDING * most:
+        turn = 0
+    wrong = speed + turn * numpy.stack([-arms[:, 1], arms[:, 0]], axis=1) - velocity
+    return (middle, speed, turn) if abs(wrong).max() <= _ROUNDING * most else None

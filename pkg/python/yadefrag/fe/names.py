@@ -1,0 +1,56 @@
+"""Bodies by number or by name."""
+
+from yadefrag.arguments import isWhole, refuse, shown, text, whole
+
+_LONGEST = 80  # characters of a name
+
+
+def isBody(value):
+    """True for a number or a name of one body, also for an invalid one."""
+    return isinstance(value, str) or isWhole(value)
+
+
+def newName(fe, name):
+    """The name of a body to be added: '' for None; ValueError for a name in use."""
+    if name is None:
+        return ''
+    name = text('name', name)
+    if not name or '\n' in name or len(name) > _LONGEST:
+        refuse('name', name, 'a text of 1 to %d characters in one line' % _LONGEST)
+    if name in fe._names:
+        raise ValueError("name is %s, which body %d has already." %
+                         (shown(name), fe._names.index(name)))
+    return name
+
+
+def bodyNumber(fe, value, argument='component', least=-2**31):
+    """The number of the body that `value`, a number or a name, refers to; ValueError for none."""
+    names = fe._names
+    if isinstance(value, str):
+        known = [name for name in names if name]
+        if not value or value not in names:
+            refuse(argument, value, 'the number or the name of a body' +
+                   (', one of %s' % shown(known) if known else '; no body has a name'))
+        return names.index(value)
+    return whole(argument, value, least, 'the number or the name of a body')
+
+
+def existingBody(fe, value, argument='component'):
+    """The same for an existing body."""
+    number = bodyNumber(fe, value, argument)
+    if not 0 <= number < len(fe._names) or fe._isGone(number):
+        raise ValueError('%s is %s, which is no body of this FESolver.' % (argument, shown(value)))
+    return number
+
+
+def nodesOf(self, component):
+    """Numbers of a body's nodes, array (k), without those of removed fragments.
+
+    component  the body's number, or its name. ValueError if there is no such body.
+    """
+    return self._nodesOf(existingBody(self, component))
+
+
+def componentOf(self, name):
+    """The number of the body with this name; ValueError if there is none."""
+    return existingBody(self, text('name', name), 'name')

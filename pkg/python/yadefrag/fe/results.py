@@ -1,0 +1,121 @@
+"""Results of FESolver's bodies: reactions, contact forces, principal stresses, cracks."""
+
+import numpy
+
+from yadefrag.arguments import path
+from yadefrag.fe.between_steps import betweenSteps
+from yadefrag.fe.contents import requireSolver
+from yadefrag.fe.motions import chosenNodes
+from yadefrag.fe.names import existingBody, isBody
+from yadefrag.io.files import writeText
+
+# (of the fracture energy) Rounding opens the faces of a loaded crack, such as a bond under its weight,
+# without damaging it.
+_ROUNDING = 1e-9
+
+_CRACKS = (('component', '', int), ('other', '', int), ('x', 'm', float), ('y', 'm', float),
+           ('nx', '', float), ('ny', '', float), ('opening', 'm', float), ('slip', 'm', float),
+           ('damage', '', float), ('held', '', bool), ('start', 's', float))
+
+
+def reaction(self, nodes):
+    """(x, y) in N: the sum of `reactions` over nodes, in the last step.
+
+    nodes  as in `prescribe`, or a body's number or name: the whole body
+    """
+    with betweenSteps(self):
+        chosen = self.nodesOf(nodes) if isBody(nodes) else chosenNodes(self, nodes)
+        return tuple(self.reactions[chosen].sum(axis=0).tolist())
+
+
+def contactForce(self, a, b=None):
+    """(x, y) in N: contact force on body a in the last step, of body b, or of all bodies.
+
+    a, b  numbers or names of bodies of this engine; spheres are not included. 0 after O.load, until
+          the next step. ValueError if there is no such body.
+    """
+    with betweenSteps(self):
+        first = existingBody(self, a, 'a')
+        if b is None:
+            return tuple(self.contactForces[self.nodesOf(first)].sum(axis=0).tolist())
+        second = existingBody(self, b, 'b')
+        return (0., 0.) if first == second else self._pairForce(first, second)
+
+
+def principalStress(self):
+    """Larger and smaller principal stress in the plane (Pa), and the angle of the direction of the
+    larger one from the x axis (rad, above -π/2 and up to π/2), of the triangles, array (m, 3)."""
+    xx, yy, xy = self.stress.T
+    mean, half = (xx + yy) / 2, (xx - yy) / 2
+    radius = numpy.hypot(half, xy)
+    return numpy.stack([mean + radius, mean - radius, numpy.arctan2(xy, half) / 2], axis=1)
+
+
+def crackCounts(self):
+    """Numbers of the sides that are cracked at present, a dict: open (without cohesion), damaged (held by
+    cohesion; part of their fracture energy is dissipated), whole (held; nothing is dissipated: bonds, and
+    cracks that have not opened). They are the rows of crackTable: with bonds and open joints, without
+    removed fragments."""
+    cracks = self._cracks()
+    held, isDamaged = cracks['held'], cracks['damage'] > _ROUNDING
+    counts = dict(open=~held, damaged=held & isDamaged, whole=held & ~isDamaged)
+    return {name: int(are.sum()) for name, are in counts.items()}
+
+
+def crackTable(fe, file=None):
+    """All cracked edges, as a NumPy array with named columns (k); bonds and open joints, too.
+
+    Columns: component, other (the bodies on both sides), x, y (m, present position of its middle),
+    nx, ny (normal, from the first side to the other), opening, slip (m, of the middles of both
+    sides, across and along; slip is positive if the other side moves along (-ny, nx)), damage
+    (dissipated fraction of its fracture energy, 1 without cohesion), held (True if the crack is
+    cohesive), start (s of fe.time; nan: cracked from the start). Cracks of removed fragments are
+    left out.
+    file  path of a .csv to write as well, with the units in its first line
+    ValueError for another ending, before anything is written.
+    """
+    requireSolver(fe)
+    name = None if file is None else path('file', file, '.csv')
+    columns = fe._cracks()
+    table = numpy.empty(len(columns['x']), dtype=[(column, kind) for column, _, kind in _CRACKS])
+    for column, _, _ in _CRACKS:
+        table[column] = columns[column]
+    if name is not None:
+        heading = ','.join('%s (%s)' % (n, unit) if unit else n for n, unit, _ in _CRACKS)
+        lines = [','.join(repr(int(v)) if isinstance(v, bool) else repr(v) for v in row)
+                 for row in table.tolist()]
+        writeText(name, '\n'.join([heading, *lines, '']))
+    return table
+
+
+class Energies(dict):
+    """Energies (J) by name; 'external' is an alias: the negative of 'outside'."""
+
+    _ALIAS = 'external'
+
+    def __missing__(self, name):
+        if name != self._ALIAS:
+            raise KeyError(name)
+        return 0. - self['outside']
+
+    def __contains__(self, name):
+        return name == self._ALIAS or dict.__contains__(self, name)
+
+    def get(self, name, default=None):
+        return self[name] if name in self else default
+
+
+def energy(self):
+    """Dict of J: kinetic, strain, contact, friction, fracture, damping, outside (energy that left:
+    negative where work was done on the bodies); with minFragmentArea, dropped (energy of removed
+    fragments); total, their sum, is constant, except for impacts of soft bodies that rotate, which
+    reduce it by second order in O.dt: 5e-4 of the work in a drum of rubber, 1.3e-4 with half the step.
+    O.energy has the same values, with the same signs, as feKinetic, feStrain ... feOutside, if
+    O.trackEnergy.
+
+    After contact with YADE's bodies also scene: total plus the energy that this contact has created
+    (work on both sides, elastic energy and friction of the contacts, up to the last step); constant,
+    whatever gravity, damping or prescribed motion do, unless the contact law itself dissipates by
+    other means. 'external' can be read as well: it is -outside.
+    """
+    return Energies(self._energies)

@@ -1,0 +1,234 @@
+"""Outlines moved onto their neighbours: rounded coordinates make gaps and overlaps."""
+
+import numpy
+
+from yadefrag import _yadefrag
+from yadefrag.arguments import number, pointsOf, positive, refuse
+from yadefrag.fe.meshing import simplified
+from yadefrag.messages import warnOfOne
+
+OVERLAP = .05    # of the size: overlaps up to this are removed without a request
+_REACH = 2       # tolerance of that, in overlaps: vertices may be farther apart than the outlines
+_MOVES = 12      # most moves in sequence
+_SPACING = .2    # of the size: nearer vertices of the neighbours give one vertex
+_CLOSABLE = .5   # of the size: overlaps up to this may be rounding, and snap= is advised
+_JOINTS = .1     # of the size: default tolerance of joints
+_TOLD = 1e-3     # of the size: smaller displacements of vertices are not told
+_WIDER = .3      # of the size: the tolerance that is tried against short steps
+_HELPS = .5      # of the cost: an advice that leaves more is no advice
+
+
+class Overlap(ValueError):
+    """A body would overlap another one, by `depth` (m)."""
+
+    def __init__(self, message, depth):
+        super().__init__(message)
+        self.depth = depth
+
+
+class Outline:
+    """An outline, its holes, and the flags of `smooth`: True, False, or an array by point."""
+
+    def __init__(self, points, holes, smooth):
+        self.points, self.holes, self.smooth = points, holes, smooth
+
+    def simplified(self, tolerance):
+        """The Outline without redundant points, as by addPolygon's `simplify`."""
+        isOne = isinstance(self.smooth, bool)
+        points, holes, flags = simplified(self.points, self.holes, tolerance,
+                                          None if isOne else self.smooth)
+        return Outline(points, holes, self.smooth if isOne else flags)
+
+    def snapped(self, fe, tolerance, size, matches):
+        """(Outline, moved, inserted, farthest) on the present bodies of `fe`."""
+        loops, *count = fe._snap(self.points.tobytes(), [h.tobytes() for h in self.holes],
+                                 (tolerance, _SPACING * size, matches))
+        (points, vertex, inserted), *holes = loops
+        smooth = self.smooth
+        if not isinstance(smooth, bool):
+            if isClockwise(self.points):  # the result has it reversed, with the same first point
+                smooth = smooth[-numpy.arange(len(smooth)) % len(smooth)]
+            within = smooth[vertex] & numpy.roll(smooth, -1)[vertex]
+            smooth = numpy.where(inserted == 1, within, smooth[vertex])
+        return (Outline(points, [hole[0] for hole in holes], smooth), *count)
+
+
+def isClockwise(points):
+    x, y = (points - points[0]).T
+    return float((x * numpy.roll(y, -1) - y * numpy.roll(x, -1)).sum()) < 0
+
+
+def snapTolerance(snap, displacement):
+    """addPolygon's `snap`: None, 0, or m."""
+    if snap is None:
+        return None
+    snap = number('snap', snap, lambda v: 0 <= v < float('inf'),
+                  '0, a positive number (m), or None')
+    if snap and displacement is not None:
+        raise ValueError('snap and displacement are both given, but only one of them can be: the '
+                         'outline is the stress-free shape, which lies elsewhere.')
+    return snap
+
+
+def addSnapped(fe, outline, snap, size, displacement, add):
+    """Calls `add(outline)`, which adds a body and may raise Overlap, for the outline moved onto the
+    bodies beside it as `snap` permits. `size` (m) is the length of the triangles' edges."""
+    count = None
+    if snap:
+        outline, *count = outline.snapped(fe, snap, size, matches=True)
+    try:
+        body = add(outline)
+    except Overlap as overlap:
+        if snap is not None or displacement is not None or overlap.depth > OVERLAP * size:
+            raise ValueError(_advised(fe, outline, overlap, snap, size, displacement)) from None
+        body, count = _withoutOverlap(fe, outline, size, overlap, add)
+    if count:
+        _tell(body, *count, size)
+    return body
+
+
+def _withoutOverlap(fe, outline, size, overlap, add):
+    """(body, [moved, inserted, farthest]) of the outline moved off the bodies; where several of these
+    meet with gaps, what is left of the overlap needs further moves."""
+    first, total, depth = overlap, [0, 0, 0.], overlap.depth
+    for _ in range(_MOVES):
+        try:
+            outline, *count = outline.snapped(fe, _REACH * depth, size, matches=False)
+            total = [max(total[0], count[0]), total[1] + count[1], total[2] + count[2]]
+            return add(outline), total
+        except Overlap as left:
+            overlap, depth = left, left.depth
+            if depth > OVERLAP * size:
+                break
+        except ValueError as error:
+            overlap = error
+            break
+    raise ValueError('%s Its vertices were moved by up to %.3g m, which does not suffice: %s '
+                     'snapOutlines, for all outlines before they are added, moves both sides.' %
+                     (first, total[2], overlap)) from None
+
+
+def _advised(fe, outline, overlap, snap, size, displacement):
+    least = float('%.1e' % (1.1 * _REACH * overlap.depth))
+    if overlap.depth > _CLOSABLE * size or displacement is not None or \
+            not _changes(fe, outline, least, size):
+        return '%s Move it by that, or more where it is deeper elsewhere.' % overlap
+    if snap is None or snap < least:
+        return '%s snap=%g moves its vertices onto the bodies beside it.' % (overlap, least)
+    return ('%s snap= has moved its vertices by up to %g m, which does not suffice: move it.' %
+            (overlap, snap))
+
+
+def _changes(fe, outline, tolerance, size):
+    try:
+        _, moved, inserted, _ = outline.snapped(fe, tolerance, size, matches=False)
+    except ValueError:  # it would collapse
+        return False
+    return moved + inserted > 0
+
+
+def _tell(body, moved, inserted, farthest, size):
+    if farthest <= _TOLD * size:
+        return
+    warnOfOne('addPolygon: of body %d, %d vertices were moved onto the bodies beside it, and %d '
+                  'of theirs were inserted; the outline has changed by at most %.3g m (snap=).' %
+                  (body, moved, inserted, farthest), 'bodies', body)
+
+
+def jointToleranceOf(snap, size):
+    """(m) Tolerance of `joints`."""
+    return _JOINTS * size if snap is None else snap
+
+
+def tellJoined(body, count, farthest, size):
+    if count:
+        warnOfOne('addPolygon: of the joints of body %d, %d ends, crossings and bends near another '
+                      'line were joined with it, and moved by at most %.3g m, %.2g of the size (snap=).'
+                      % (body, count, farthest, farthest / size), 'bodies', body)
+
+
+def tooLarge(size, points):
+    """The sentence about a size that the body is too small for; empty if it is not."""
+    width, height = numpy.ptp(points, axis=0)
+    least = min(width, height)
+    if size <= least:
+        return ''
+    return ('size is %g m, but the body has only %g m by %g m: its outline requires smaller triangles, which '
+            'determine the critical time step; take a size of at most %g m.' % (size, width, height, least))
+
+
+def costAdvice(fe, body, size, outline, hasJoints, jointTolerance, meshOf):
+    """A sentence about a mesh with a short time step: what has been tried, and helps."""
+    def cost(shape, tolerance):
+        made = meshOf(shape, tolerance)
+        return fe._costOfMesh(body, size, made['nodes'].tobytes(), made['triangles'].tobytes())
+
+    wider = float('%.2g' % (_WIDER * size))
+    present = cost(outline, jointTolerance)
+    for argument in ('snap', 'simplify'):
+        try:
+            if argument == 'simplify':
+                shape, tolerance = outline.simplified(wider), jointTolerance
+            elif hasJoints and jointTolerance < wider:
+                shape, tolerance = outline, wider
+            else:
+                continue
+            after = cost(shape, tolerance)
+        except ValueError:  # an outline that such a tolerance would destroy
+            continue
+        if after <= _HELPS * present:
+            return '%s=%g reduces that to %.3g.' % (argument, wider, max(after, 1))
+    return ('Neither simplify= nor snap= reduces that: move vertices or joints apart there, or '
+            'take them out.')
+
+
+def snapOutlines(shapes, tolerance):
+    """Outlines that touch, without the gaps and overlaps of rounded coordinates: (shapes, report).
+
+    shapes     list of outlines, or of (outline, holes), as readOutline returns them; the result has
+               the same form
+    tolerance  m: vertices within it of an earlier outline are moved onto its nearest vertex, or
+               else onto its nearest side. Then each outline gets the vertices of all others on its
+               sides (T-junctions), so that common sides have the same ends. Less than the width of
+               the narrowest part
+    report     dict: `moved` and `inserted`, numbers of vertices, and `farthest`, the largest
+               displacement (m)
+    Bodies of these outlines and of one size then match node by node, and can be bonded. ValueError
+    for an outline that addPolygon would refuse, and for one that would collapse.
+    """
+    tolerance = positive('tolerance', tolerance, 'm')
+    if isinstance(shapes, (str, bytes, dict, set)) or not hasattr(shapes, '__iter__'):
+        refuse('shapes', shapes, 'a list of outlines, or of pairs (outline, holes)')
+    shapes = list(shapes)
+    given = [_loopsOf('shapes[%d]' % i, shape) for i, shape in enumerate(shapes)]
+    made = _yadefrag.snapTogether([(loops[0].tobytes(), [h.tobytes() for h in loops[1:]])
+                                   for loops in given], tolerance)
+    report = dict(moved=sum(one[1] for one in made), inserted=sum(one[2] for one in made),
+                  farthest=max((one[3] for one in made), default=0.))
+    found = []
+    for shape, before, (after, *_) in zip(shapes, given, made):
+        loops = [_turned(loop, was) for (loop, *_), was in zip(after, before)]
+        found.append((loops[0], loops[1:]) if _hasHoles(shape) else loops[0])
+    return found, report
+
+
+def _hasHoles(shape):
+    """True for (outline, holes); False for a list of points."""
+    try:
+        outline, _ = shape
+        return numpy.ndim(outline[0]) == 1
+    except (TypeError, ValueError, IndexError, KeyError):
+        return False
+
+
+def _loopsOf(name, shape):
+    outline, holes = shape if _hasHoles(shape) else (shape, ())
+    return [pointsOf(name, outline, 3)] + [pointsOf('%s, hole %d' % (name, i), hole, 3)
+                                           for i, hole in enumerate(holes)]
+
+
+def _turned(loop, was):
+    """A list of points, in the direction of the given loop."""
+    if isClockwise(loop) != isClockwise(was):
+        loop = numpy.concatenate([loop[:1], loop[:0:-1]])
+    return list(map(tuple, loop.tolist()))

@@ -1,0 +1,80 @@
+"""Files for other programs."""
+
+import numpy
+
+from yadefrag.arguments import path, refuse
+from yadefrag.fe.between_steps import betweenSteps
+from yadefrag.fe.contents import heldCracks, requireSolver, shownMesh
+from yadefrag.io.files import replacing
+
+_OF_NODES = {'displacement': 'displacements', 'velocity': 'velocities',
+             'contact force': 'contactForces', 'reaction': 'reactions'}
+_OF_TRIANGLES = {'stress': ('stress', float), 'strain': ('strain', float),
+                 'component': ('components', numpy.int32), 'fragment': ('fragmentOf', numpy.int32)}
+FIELDS = (*_OF_NODES, *_OF_TRIANGLES)
+
+
+def _spatial(values):
+    """(n, 2) as (n, 3) with z = 0: ParaView then recognises vectors."""
+    values = numpy.asarray(values, dtype=float).reshape(-1, 2)
+    return numpy.column_stack([values, numpy.zeros(len(values))])
+
+
+def exportVTK(fe, file, fields=None):
+    """Writes the bodies of an FESolver to `file` for ParaView, as an unstructured grid (.vtu).
+
+    Points are the nodes at their present positions (m); at points: displacement from the stress-free
+    shape (m), velocity (m/s), contact force and reaction (N); in triangles: stress (xx, yy, xy in Pa),
+    strain (xx, yy, xy), component and fragment (int). Removed fragments are left out. Cohesive
+    cracks are lines along their first side, with the values of the adjacent triangle, and 'damage'
+    (dissipated fraction of the fracture energy; 0 in triangles).
+    fields  list of the names of fields to write; None: all
+    ValueError for another ending than .vtu, for a solver without bodies and for unknown fields.
+    """
+    import meshio
+
+    name = path('file', file, '.vtu')
+    requireSolver(fe)
+    chosen = fieldNames(fields)
+    places, blocks, points, cells = _state(fe, chosen)
+    if len(blocks[0][1]) == 0:
+        raise ValueError('fe has no bodies to write, add one with fe.addPolygon first.')
+    mesh = meshio.Mesh(_spatial(places), blocks, point_data=points, cell_data=cells)
+    with replacing(name) as part:
+        mesh.write(part, file_format='vtu')
+
+
+def fieldNames(fields):
+    """A tuple of names from a list of some of FIELDS, or None for all; ValueError for other
+    names."""
+    if fields is None:
+        return FIELDS
+    chosen = (fields,) if isinstance(fields, str) else fields
+    try:
+        chosen = tuple(chosen)
+    except TypeError:
+        chosen = (None,)
+    if not all(isinstance(one, str) and one in FIELDS for one in chosen):
+        refuse('fields', fields, 'some of %s' % ', '.join(FIELDS))
+    return chosen
+
+
+def _state(fe, fields):
+    """(positions of nodes, blocks of cells, values at nodes, values in cells) of one step."""
+    with betweenSteps(fe):
+        nodes, triangles, corners = shownMesh(fe)
+        sides, beside, damage = heldCracks(fe)
+        blocks, of = [('triangle', corners.astype(numpy.int64))], [triangles]
+        points = {name: _spatial(getattr(fe, attribute)[nodes])
+                  for name, attribute in _OF_NODES.items() if name in fields}
+        if len(beside):
+            blocks.append(('line', numpy.searchsorted(nodes, sides[:, :2]).astype(numpy.int64)))
+            of.append(beside)
+        cells = {}
+        for name, (attribute, kind) in _OF_TRIANGLES.items():
+            if name in fields:
+                values = numpy.asarray(getattr(fe, attribute), dtype=kind)
+                cells[name] = [values[numbers] for numbers in of]
+        if len(beside):
+            cells['damage'] = [numpy.zeros(len(triangles)), damage]
+        return fe.nodes[nodes], blocks, points, cells

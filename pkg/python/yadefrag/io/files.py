@@ -1,0 +1,129 @@
+"""Files of this package: each is written as a new file next to the old one, so that a failure does
+not change the old file."""
+
+import contextlib
+import os
+import secrets
+import shutil
+import stat
+
+from yadefrag.arguments import path
+
+_BLOCK = 4096  # bytes, of a disk
+
+
+@contextlib.contextmanager
+def replacing(name):
+    """For `with`: the name of a file to write, with the ending of `name`; it replaces the file `name`
+    after everything was written.
+
+    After an exception it is removed, and the old file is unchanged. OSError names `name`. A device
+    or a pipe is written directly, and a symbolic link is kept.
+    """
+    target = os.path.realpath(name)
+    if os.path.exists(target) and not os.path.isfile(target):
+        with _named(name):
+            yield _special(target)
+        return
+    part = None
+    try:
+        with _named(name):
+            part = _newBeside(target)
+            yield part
+            if os.path.exists(target):
+                shutil.copymode(target, part)
+            os.replace(part, target)
+    finally:
+        if part:
+            with contextlib.suppress(OSError):
+                os.remove(part)
+
+
+def requireWritable(name):
+    """OSError that names `name` if it cannot be written; no file is left over."""
+    with _named(name):
+        target = os.path.realpath(name)
+        if os.path.exists(target) and not os.path.isfile(target):
+            with open(_special(target), 'ab'):
+                return
+        if os.path.exists(target):
+            with open(target, 'ab'):
+                pass
+        part = _newBeside(target)
+        try:
+            with open(part, 'wb') as file:
+                file.write(bytes(_BLOCK))
+        finally:
+            os.remove(part)
+
+
+def writeText(name, text):
+    """Writes `text` as the whole contents of the file `name`, in UTF-8."""
+    with replacing(name) as part, open(part, 'w', encoding='utf-8', newline='') as out:
+        out.write(text)
+
+
+def appendText(name, text):
+    """Appends `text` to the file `name`: all of it, or nothing with an OSError."""
+    with open(name, 'ab', buffering=0) as out:
+        size = os.fstat(out.fileno()).st_size
+        try:
+            data = text.encode()
+            while data:
+                data = data[out.write(data):]
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                out.truncate(size)
+            raise OSError(error.errno, error.strerror, name) from None
+
+
+def savePicture(figure, file, dpi):
+    """Saves Matplotlib's `figure` in `file`: a path, whose ending determines the format, or an open
+    file."""
+    if hasattr(file, 'write'):
+        figure.savefig(file, dpi=dpi)
+        return
+    with replacing(pictureName(figure, file)) as part:
+        figure.savefig(part, dpi=dpi)
+
+
+def pictureName(figure, file):
+    """The path of a picture, with Matplotlib's ending if there is none; ValueError for an unknown
+    ending."""
+    name = path('file', file)
+    ending = os.path.splitext(name)[1]
+    known = sorted(figure.canvas.get_supported_filetypes())
+    if ending and ending[1:].lower() not in known:
+        raise ValueError('file ends with %r, a picture must end with one of .%s.' %
+                         (ending[:20], ', .'.join(known)))
+    return name if ending else name + '.' + figure.canvas.get_default_filetype()
+
+
+def _newBeside(target):
+    """The name of a new, empty file in the same folder. Nobody can guess it, and no file or link of that
+    name existed; its mode is that of any new file of the process."""
+    folder, base = os.path.split(target)
+    stem, ending = os.path.splitext(base)
+    while True:
+        part = os.path.join(folder, '.%s.%s.part%s' % (stem[:20], secrets.token_hex(8), ending[:20]))
+        with contextlib.suppress(FileExistsError):
+            os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+            return part
+
+
+def _special(target):
+    """True for a device or a pipe; IsADirectoryError for a folder."""
+    if stat.S_ISDIR(os.stat(target).st_mode):
+        raise IsADirectoryError(21, os.strerror(21), target)
+    return target
+
+
+@contextlib.contextmanager
+def _named(name):
+    """OSErrors name the requested file, not the temporary one next to it."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno is None:
+            raise
+        raise OSError(error.errno, os.strerror(error.errno), name) from None

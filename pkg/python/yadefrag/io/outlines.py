@@ -1,0 +1,206 @@
+"""Outlines from files of other programs, for FESolver.addPolygon."""
+
+import math
+import os
+import warnings
+
+import numpy
+
+from yadefrag import _yadefrag
+from yadefrag.arguments import flag, number, path, positive, refuse, shown, shownPath
+from yadefrag.fe.meshing import simplified
+from yadefrag.io.readers import Found, dxf, leftOutWords, loops, nesting, picture, plain, svg
+
+_GAP = 1e-6  # of the longer side of the drawing: drawings have six digits
+_FLAT = 1e-12  # of the square of its extent: the area of a loop that is a line
+_READERS = {'.svg': svg.read, '.dxf': dxf.readLayers, '.csv': plain.readCsv, '.wkt': plain.readWkt,
+            '.json': plain.readGeoJson, '.geojson': plain.readGeoJson,
+            **{ending: picture.read for ending in picture.ENDINGS}}
+
+
+def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None, leastArea=0., layers=None,
+                byLayer=False):
+    """Outlines from a drawing, a map or a picture: list of (outline, holes), as for addPolygon.
+
+    `for shape in readOutline('plate.svg', 1e-5, scale=1e-3): fe.addPolygon(*shape, size=...)`.
+    file       its ending determines the format:
+               .svg      paths and basic shapes that are painted, with styles, transforms and clipping;
+                         a filled shape is a region by its fill rule, any other one a line; in units of
+                         the viewBox, y upwards, so that the page is below the origin
+               .dxf      lines, polylines with bulges, arcs, circles, ellipses, splines of the model
+                         space, also in blocks, seen from above; layers may be chosen
+               .geojson, .json, .wkt  polygons, and closed lines; one text, or several, e.g. one on
+                         each line
+               .csv      `x, y` on each line, an empty line between two loops, # before comments, one
+                         heading without numbers
+               .png, .jpg, .jpeg, .bmp, .tif, .tiff  areas darker than middle grey; transparent areas
+                         count as white; in pixels from the lower left corner of the upright picture
+    tolerance  m, permitted deviation of outlines: curves get so many points that the chords are
+               within it (for splines in .dxf: at the chords' middles), and the contour of a picture
+               is reduced as by `simplify`. Not needed for files without curves
+    scale      m for one unit of the file
+    gap        m, distance below which two points coincide and two ends of lines are joined; None: 10⁻⁶
+               of the longer side of the drawing
+    simplify   None, or m: as in addPolygon, on what has been read
+    leastArea  m²: smaller loops, e.g. specks in a picture, are left out
+    layers     of a .dxf: None: all that are neither off nor frozen; or the name of one or a list of
+               names: only those, even if they are off
+    byLayer    of a .dxf: True returns a dict {layer: list of (outline, holes)} instead of the list;
+               lines are joined, and loops are holes, within their own layer only
+    What is read is what the usual viewer shows. A warning gives the number of what is left out: what
+    the file contains and a viewer hides, and what a viewer shows and is no outline, such as texts.
+    Points inside an odd number of regions are inside: a loop within an outline is a hole, one within
+    a hole is a separate outline, also if it fills the hole. What is drawn twice is read once. All are
+    counter-clockwise lists of (x, y) in m. ValueError with
+    the file for an unknown format, for lines that are not closed and for a missing tolerance;
+    ImportError with the name of Debian's package if a library is missing (svgelements, ezdxf,
+    shapely, scikit-image); OSError for a file that cannot be read.
+    """
+    found, leftOut = outlinesOf(file, tolerance, scale, gap, simplify, leastArea, layers, byLayer)
+    if leftOut:
+        warnings.warn('readOutline: %s is read without: %s.' %
+                      (shownPath(os.fspath(file)), leftOutWords(leftOut)), stacklevel=2)
+    return found
+
+
+def readPolygon(file):
+    """(outline, holes) from a text file: `x y` (m) on each line, an empty line between two loops.
+
+    The first loop is the outline. `#` begins a comment, and a line with only a comment is skipped.
+    `file` is a path. ValueError with the file and the line for anything else; OSError with the path
+    for a file that cannot be read.
+    """
+    name = path('file', file)
+    with open(name, 'rb') as data:
+        text = data.read()
+    try:
+        return _yadefrag.polygonOfText(text)
+    except ValueError as error:
+        raise ValueError('%s, %s' % (shownPath(name), error)) from None
+
+
+def outlinesOf(file, tolerance=None, scale=1, gap=None, simplify=None, leastArea=0., layers=None,
+               byLayer=False):
+    """(what readOutline returns, {what is left out: number})."""
+    name = path('file', file)
+    ending = os.path.splitext(name)[1].lower()
+    if ending not in _READERS:
+        raise ValueError('file ends with %r, an outline can be read from one of %s.' %
+                         (ending[:20], ', '.join(_READERS)))
+    scale = positive('scale', scale, 'm per unit of the file')
+    tolerance = None if tolerance is None else positive('tolerance', tolerance, 'm')
+    gap = None if gap is None else positive('gap', gap, 'm')
+    simplify = None if simplify is None else positive('simplify', simplify, 'm')
+    leastArea = number('leastArea', leastArea, lambda v: 0 <= v < math.inf,
+                       '0 or a positive number (m²)')
+    byLayer = flag('byLayer', byLayer)
+    if ending != '.dxf' and (byLayer or layers is not None):
+        raise ValueError('layers or byLayer is given, but %s has no layers: only a .dxf file has.' %
+                         shownPath(name))
+    wanted = None if layers is None else _names(layers)
+    with open(name, 'rb'):  # OSError, before a library raises another exception
+        pass
+    units = None if tolerance is None else tolerance / scale
+    parts = _layers(name, units, wanted) if ending == '.dxf' else {'': _READERS[ending](name, units)}
+    whole = Found()
+    for part in parts.values():
+        whole.add(part)
+    if not byLayer:
+        parts = {'': whole}
+    shapesOf = {layer: _shapes(name, part, scale, gap, leastArea, whole.leftOut)
+                for layer, part in parts.items() if part.lines or part.regions or not byLayer}
+    found = {}
+    for layer, shapes in shapesOf.items():
+        if ending in picture.ENDINGS:
+            shapes = [_simplified(name, 'tolerance', tolerance, *shape) for shape in shapes]
+        if simplify is not None:
+            shapes = [_simplified(name, 'simplify', simplify, *shape) for shape in shapes]
+        found[layer] = [(_pairs(outline), [_pairs(hole) for hole in holes])
+                        for outline, holes in shapes]
+    return (found if byLayer else found['']), dict(whole.leftOut)
+
+
+def _names(layers):
+    names = [layers] if isinstance(layers, str) else layers
+    try:
+        names = list(names)
+    except TypeError:
+        names = []
+    if not names or not all(isinstance(one, str) for one in names):
+        refuse('layers', layers, 'the name of a layer, or a list of names')
+    return names
+
+
+def _layers(file, tolerance, wanted):
+    """{layer: Found} of a .dxf, or of the wanted layers; names are case-insensitive, as in the format.
+    """
+    if wanted is None:
+        return dxf.readLayers(file, tolerance, frozenset())
+    parts = dxf.readLayers(file, tolerance, frozenset(one.casefold() for one in wanted))
+    known = {layer.casefold(): layer for layer, part in parts.items() if part.lines}
+    for one in wanted:
+        if one.casefold() not in known:
+            raise ValueError('layers has %s, but the layers with lines of %s are %s.' %
+                             (shown(one), shownPath(file),
+                              ', '.join(map(repr, list(known.values())[:10])) or 'none'))
+    return {known[one.casefold()]: parts[known[one.casefold()]] for one in wanted}
+
+
+def _shapes(name, found, scale, gap, leastArea, leftOut):
+    """[(outline, holes)] of arrays (n, 2), in m. Adds to leftOut the lines that are drawn twice."""
+    lines = [scale * line for line in found.lines if len(line)]
+    regions = [(scale * outline, [scale * hole for hole in holes]) for outline, holes in found.regions]
+    every = lines + [loop for outline, holes in regions for loop in (outline, *holes)]
+    if not every:
+        words = leftOutWords(leftOut)
+        raise ValueError('%s has no lines that could be an outline%s.' %
+                         (shownPath(name), words and '; it is read without: ' + words))
+    points = numpy.concatenate(every)
+    if not numpy.isfinite(points).all():
+        raise ValueError('%s has points that are not finite.' % shownPath(name))
+    side = float((points.max(axis=0) - points.min(axis=0)).max())
+    gap = gap or _GAP * side or 1
+    try:
+        lines = [line for line, in _once([[line] for line in lines], gap, leftOut)]
+        joined = loops.joined(lines, gap)
+    except ValueError as error:
+        words = leftOutWords(leftOut)
+        raise ValueError('%s: %s%s' % (shownPath(name), error,
+                                       words and ' The file is read without: %s.' % words)) from None
+    rings = [[loops.withoutDoubles(loops.closed(loop), gap) for loop in (outline, *holes)]
+             for outline, holes in regions] + [[loops.closed(loop)] for loop in joined]
+    rings = [[ring[:-1] for ring in those] for those in _once(rings, gap, leftOut)]
+    every = [ring for those in rings for ring in those]
+    sizes = abs(loops.areas(every))
+    flat = (sizes <= _FLAT * loops.extents(every)**2) & (sizes >= leastArea)
+    if flat.any():
+        raise ValueError('%s has a loop without area at (%g, %g).' %
+                         (shownPath(name), *every[int(flat.argmax())][0]))
+    large = iter(sizes >= leastArea)
+    rings = [[(ring, next(large)) for ring in those] for those in rings]
+    regions = [(outline, [hole for hole, isLarge in holes if isLarge])
+               for (outline, isLarge), *holes in rings if isLarge]
+    if not regions:
+        raise ValueError('%s has no closed line%s.' %
+                         (shownPath(name), ' around leastArea' if leastArea else ''))
+    return nesting.nested(regions, name)
+
+
+def _once(shapes, gap, leftOut):
+    """The shapes, lists of lines, without those that are drawn twice."""
+    shapes, copies = loops.withoutCopies(shapes, gap)
+    if copies:
+        leftOut['second copies of a line'] += copies
+    return shapes
+
+
+def _simplified(name, argument, distance, outline, holes):
+    try:
+        outline, holes, _ = simplified(outline, holes, distance, None)
+    except ValueError as error:
+        raise ValueError('%s, %s: %s' % (shownPath(name), argument, error)) from None
+    return outline, holes
+
+
+def _pairs(loop):
+    return list(map(tuple, loop.tolist()))

@@ -1,0 +1,222 @@
+"""Lines, polylines with bulges, arcs, circles, ellipses and splines of a DXF file, by ezdxf.
+
+Those of the model space that are shown, also from blocks, seen from above: z is ignored.
+"""
+
+import collections
+import importlib
+import math
+
+import numpy
+
+from yadefrag.io.readers import Found, flatten, needed, refuseFile, requireTolerance
+
+_PACKAGE = 'python3-ezdxf'
+_SPLINE_PIECES = 16  # minimum between two knots: ezdxf checks the middle of a piece only
+_DEEPEST = 20  # nested blocks
+_FRAME_POINT = 16  # flag of a polyline's vertex that only controls a spline
+_NAMELESS = '0'  # in a block: the layer of the block's insert
+
+
+def readLayers(name, tolerance, chosen):
+    """{layer: Found}, in the order of the file. `chosen` are names, in lower case, of layers that are
+    read even if they are off or frozen."""
+    ezdxf = needed('ezdxf', _PACKAGE, name)
+    try:
+        document, damages = _document(ezdxf, name)
+        walk = _Walk(document, chosen)
+        if damages:
+            walk.skipped(_NAMELESS)['damaged parts of the file'] += damages
+        entities = list(walk.shown(document.modelspace()))
+        walk.skipPaper()
+    except Exception as error:  # of the library
+        refuseFile(name, 'DXF file', error)
+    for layer, entity in entities:
+        found = walk.of(layer)
+        reader = _READERS.get(entity.dxftype())
+        lines = None if reader is None else reader(entity, tolerance, name)
+        if lines is None:
+            found.leftOut['entities of type %s' % entity.dxftype()] += 1
+            continue
+        found.lines += [_plane(line) for line in lines]
+        found.leftOut['widths of polylines'] += _isWide(entity)
+    for layer, leftOut in walk.leftOut.items():
+        walk.of(layer).leftOut += leftOut
+    return walk.found
+
+
+def _document(ezdxf, name):
+    """(document, number of its damaged parts); viewers read damaged files, too."""
+    try:
+        return ezdxf.readfile(name), 0
+    except Exception as error:  # of the library: any, for damaged files
+        recover = importlib.import_module('ezdxf.recover')
+        try:
+            document, auditor = recover.readfile(name)
+        except Exception:
+            raise error from None
+        return document, len(auditor.errors) + len(auditor.fixes)
+
+
+def _attribute(entity, key, default):
+    """ezdxf knows no attributes of some entities, such as tables."""
+    return entity.dxf.get(key, default) if entity.dxf.is_supported(key) else default
+
+
+def _isWide(entity):
+    widths = []
+    if entity.dxftype() == 'LWPOLYLINE':
+        widths = [entity.dxf.get('const_width', 0), *(w for p in entity.get_points('se') for w in p)]
+    elif entity.dxftype() == 'POLYLINE':
+        keys = ('default_start_width', 'default_end_width', 'start_width', 'end_width')
+        widths = [_attribute(one, key, 0) for one in (entity, *entity.vertices) for key in keys]
+    return any(widths)
+
+
+class _Walk:
+    """Entities of the model space, as they are shown; the others are counted by layer."""
+
+    def __init__(self, document, chosen):
+        self.document, self.chosen = document, chosen
+        self.found, self.leftOut, self._names = {}, {}, {}
+        tables = {layer.dxf.name.casefold(): layer for layer in document.layers}
+        self._frozen = {key for key, layer in tables.items() if layer.is_frozen()} - chosen
+        self._off = {key for key, layer in tables.items() if layer.is_off()} - chosen
+
+    def of(self, layer):
+        """The Found of a layer; names are case-insensitive, as in the format."""
+        name = self._names.setdefault(layer.casefold(), layer)
+        return self.found.setdefault(name, Found())
+
+    def skipped(self, layer):
+        return self.leftOut.setdefault(layer, collections.Counter())
+
+    def shown(self, layout, depth=0, around=_NAMELESS):
+        """(layer, entity): entities on layer 0 of a block are on the layer of the block's insert."""
+        for entity in layout:
+            layer = _attribute(entity, 'layer', _NAMELESS)
+            layer = around if layer == _NAMELESS else layer
+            isInsert = entity.dxftype() == 'INSERT'
+            if _attribute(entity, 'invisible', 0):
+                self.skipped(layer)['invisible entities'] += 1
+            elif layer.casefold() in self._frozen:
+                self.skipped(layer)['entities on frozen layers'] += 1
+            elif isInsert and depth < _DEEPEST:
+                yield from self._insert(entity, depth, layer)
+            elif layer.casefold() in self._off:
+                self.skipped(layer)['entities on layers that are off'] += 1
+            else:
+                yield layer, entity
+
+    def _insert(self, insert, depth, layer):
+        """The contents of a block: an insert's layer hides them if it is frozen, and not if it is off.
+        """
+        leftOut = self.skipped(layer)
+        if insert.block() is None:
+            leftOut['blocks that the file does not contain'] += 1
+            return
+        if _isClipped(insert):
+            leftOut['clipping boundaries of blocks'] += 1
+        leftOut['attributes of blocks'] += len(insert.attribs)
+        for one in insert.multi_insert() if insert.mcount > 1 else [insert]:  # rows and columns
+            matrix = one.matrix44()
+            for inner, entity in self.shown(insert.block(), depth + 1, layer):
+                if entity.dxftype() != 'ATTDEF':
+                    yield from ((inner, moved) for moved in _moved(entity, matrix))
+
+    def skipPaper(self):
+        for layout in self.document.layouts:
+            if layout.is_any_paperspace:
+                for entity in layout:
+                    if entity.dxftype() != 'VIEWPORT':
+                        self.skipped(_attribute(entity, 'layer', _NAMELESS))['entities in paper space'] += 1
+
+
+def _moved(entity, matrix):
+    """[entities] for a copy that is moved, scaled and turned."""
+    if entity.dxftype() not in _READERS:
+        return [entity]
+    entities = importlib.import_module('ezdxf.entities')
+    tools = importlib.import_module('ezdxf.math.transformtools')
+    copy = entity.copy()
+    try:
+        copy.transform(matrix)
+        return [copy]
+    except tools.NonUniformScalingError:  # a circle becomes an ellipse
+        if entity.dxftype() in ('ARC', 'CIRCLE'):
+            return [entities.Ellipse.from_arc(entity).transform(matrix)] if entity.dxf.radius else []
+        return [one for part in entity.virtual_entities() for one in _moved(part, matrix)]
+
+
+def _isClipped(insert):
+    if not insert.has_extension_dict:
+        return False
+    filters = insert.get_extension_dict().dictionary.get('ACAD_FILTER')
+    return filters is not None and 'SPATIAL' in filters
+
+
+def _plane(points):
+    """(n, 2) from points with two or three coordinates."""
+    return numpy.array([(p[0], p[1]) for p in points], dtype=float).reshape(-1, 2)
+
+
+def _line(entity, tolerance, name):
+    return [[entity.dxf.start, entity.dxf.end]]
+
+
+def _arc(entity, tolerance, name):
+    tolerance = requireTolerance(tolerance, name, 'has curves')
+    radius = abs(entity.dxf.radius)
+    if radius == 0:
+        return []
+    start, end = (0, 360) if entity.dxftype() == 'CIRCLE' else (entity.dxf.start_angle,
+                                                                entity.dxf.end_angle)
+    sweep = math.radians((end - start) % 360 or 360)
+    pieces = flatten.count(radius * sweep**2, tolerance, math.ceil(sweep / (math.pi / 4)))
+    angles = [start + math.degrees(sweep) * k / pieces for k in range(pieces + 1)]
+    points = list(entity.vertices(angles))
+    return [points[:-1] + points[:1] if sweep == 2 * math.pi else points]
+
+
+def _ellipse(entity, tolerance, name):
+    tolerance = requireTolerance(tolerance, name, 'has curves')
+    drawn = entity.dxf
+    start, end = drawn.start_param, drawn.end_param
+    sweep = (end - start) % (2 * math.pi) or 2 * math.pi
+    a, b, centre = ((p.x, p.y) for p in (drawn.major_axis, entity.minor_axis, drawn.center))
+    points = flatten.ellipticArc(centre, (a, b), start, sweep, tolerance)
+    if sweep == 2 * math.pi:
+        points[-1] = points[0]
+    return [points]
+
+
+def _spline(entity, tolerance, name):
+    tolerance = requireTolerance(tolerance, name, 'has curves')
+    points = list(entity.flattening(tolerance, _SPLINE_PIECES))
+    return [points + points[:1] if entity.closed and points[0] != points[-1] else points]
+
+
+def _polyline(entity, tolerance, name):
+    if entity.dxftype() == 'POLYLINE':
+        if not (entity.is_2d_polyline or entity.is_3d_polyline):
+            return None  # a surface
+        corners = [(v.dxf.location.x, v.dxf.location.y, v.dxf.get('bulge', 0))
+                   for v in entity.vertices if not v.dxf.get('flags', 0) & _FRAME_POINT]
+        isClosed, height = entity.is_closed, entity.dxf.get('elevation', (0, 0, 0))[2]
+    else:
+        corners, isClosed = list(entity.get_points('xyb')), entity.closed
+        height = entity.dxf.get('elevation', 0)
+    if len(corners) < 2:
+        return []
+    points = [numpy.array([corners[0][:2]], dtype=float)]
+    for (x, y, bend), after in zip(corners, corners[1:] + corners[:1] * isClosed):
+        if bend:
+            requireTolerance(tolerance, name, 'has curves')
+        points.append(flatten.bulge((x, y), after[:2], bend, tolerance))
+    points = numpy.concatenate(points)
+    # Mirrored entities have a coordinate system of their own.
+    return [list(entity.ocs().points_to_wcs([(x, y, height) for x, y in points.tolist()]))]
+
+
+_READERS = dict(LINE=_line, ARC=_arc, CIRCLE=_arc, ELLIPSE=_ellipse, SPLINE=_spline,
+                LWPOLYLINE=_polyline, POLYLINE=_polyline)

@@ -1,0 +1,241 @@
+"""Meshes of gmsh (.msh), versions 2 and 4, text or binary: with the numbers of elements, elements in
+several groups, and groups of one name and several dimensions."""
+
+import re
+
+import numpy
+
+from yadefrag.io.readers import by_meshio
+from yadefrag.io.readers.elements import Elements, cornersOf
+
+_KINDS = {
+    1: 'line2', 2: 'triangle3', 3: 'quad4', 4: 'tetra4', 5: 'hexahedron8', 6: 'wedge6', 7: 'pyramid5',
+    8: 'line3', 9: 'triangle6', 10: 'quad9', 11: 'tetra10', 12: 'hexahedron27', 13: 'wedge18',
+    14: 'pyramid14', 15: 'vertex1', 16: 'quad8', 17: 'hexahedron20', 18: 'wedge15', 19: 'pyramid13',
+    20: 'triangle9', 21: 'triangle10', 22: 'triangle12', 23: 'triangle15', 24: 'triangle15',
+    25: 'triangle21', 26: 'line4', 27: 'line5', 28: 'line6', 29: 'tetra20', 30: 'tetra35',
+    31: 'tetra56', 36: 'quad16', 37: 'quad25', 38: 'quad36', 39: 'quad12', 40: 'quad16', 41: 'quad20',
+    42: 'triangle28', 43: 'triangle36', 47: 'quad49', 48: 'quad64', 62: 'line7', 63: 'line8'}
+
+_HEAD = re.compile(rb'\s*(?:\$Comments.*?\$EndComments\s*)*'
+                   rb'\$MeshFormat\s+([\d.]+)\s+(\d)\s+(\d+)[^\n]*\n(....)?', re.DOTALL)
+
+
+class _Numbers:
+    """The numbers of one section, in text or binary, one after the other."""
+
+    def __init__(self, data, order):
+        self._order = order  # '<' or '>', None for text
+        self._place = 0
+        self._data = data if order else numpy.array(data.split(), dtype=float)
+
+    def take(self, kind, count):
+        """`count` numbers: 'i4', 'u8' or 'f8'."""
+        count = int(count)
+        if self._order is None:
+            found = self._data[self._place:self._place + count]
+            self._place += count
+        else:
+            size = count * int(kind[1])
+            found = numpy.frombuffer(self._data[self._place:self._place + size],
+                                     self._order + kind)
+            self._place += size
+        if count < 0 or len(found) != count:
+            raise ValueError('a section ends too early')
+        return found if kind == 'f8' else found.astype(numpy.int64)
+
+    def rows(self, kinds, count):
+        """[(count) numbers] of a table whose columns have these kinds."""
+        if self._order is None:
+            return list(self.take('f8', len(kinds) * count).reshape(count, len(kinds)).T)
+        kind = numpy.dtype([(str(i), self._order + k) for i, k in enumerate(kinds)])
+        data = self._data[self._place:self._place + count * kind.itemsize]
+        self._place += count * kind.itemsize
+        found = numpy.frombuffer(data, kind)
+        if len(found) != count:
+            raise ValueError('a section ends too early')
+        return [found[str(i)] for i in range(len(kinds))]
+
+
+def read(name):
+    """Elements; a file of another format with this ending is left to meshio."""
+    with open(name, 'rb') as file:
+        data = file.read().removeprefix(b'\xef\xbb\xbf')
+    head = _HEAD.match(data)
+    if data.lstrip().startswith(b'$NOD'):
+        raise ValueError('its version is 1, versions 2 and 4 can be read')
+    if not head:
+        return by_meshio.read(name)
+    version, isBinary = head[1].decode(), head[2] == b'1'
+    order = ('<' if head[4][:1] == b'\1' else '>') if isBinary else None
+    sections = _sections(data)
+    for one in ('Nodes', 'Elements'):
+        if one not in sections:
+            raise ValueError('it has no section $%s' % one)
+    if 'PartitionedEntities' in sections:
+        raise ValueError('it is divided in partitions, save it without them')
+    names = _names(sections.get('PhysicalNames', b''))
+    if version.startswith('2'):
+        points, tags = _nodes2(sections['Nodes'], order)
+        found = _elements2(sections['Elements'], order)
+    elif version.startswith('4'):
+        isOld = version == '4.0'
+        entities = _entities4(sections['Entities'], order, isOld) if 'Entities' in sections else {}
+        points, tags = _nodes4(sections['Nodes'], order, isOld)
+        found = _elements4(sections['Elements'], order, isOld, entities)
+    else:
+        raise ValueError('its version is %s, versions 2 and 4 can be read' % version)
+    return _together(points, tags, found, names)
+
+
+def _sections(data):
+    """{name: bytes}. Binary data are skipped as a whole, up to the section's own end."""
+    found, place = {}, 0
+    while True:
+        begin = re.compile(rb'^\$(\w+)[^\S\n]*\r?\n', re.MULTILINE).search(data, place)
+        if not begin:
+            return found
+        end = data.find(b'$End' + begin[1], begin.end())
+        if end < 0:
+            raise ValueError('section $%s has no end' % begin[1].decode())
+        found.setdefault(begin[1].decode(), data[begin.end():end])
+        place = end + 4 + len(begin[1])
+
+
+def _names(section):
+    """{(dimension, tag): name}"""
+    lines = re.findall(r'^\s*(\d+)\s+(-?\d+)\s+"([^"\n]*)"', section.decode('utf-8', 'replace'), re.MULTILINE)
+    return {(int(dimension), int(tag)): name for dimension, tag, name in lines}
+
+
+def _kind(type, label):
+    if type not in _KINDS:
+        raise ValueError("element %d has gmsh's type %d, which is unknown" % (label, type))
+    kind = _KINDS[type]
+    return kind, int(re.search(r'\d+$', kind)[0])
+
+
+# --- version 2: each element has its tags, the first one is its group
+
+def _nodes2(section, order):
+    count, _, rest = section.partition(b'\n')
+    tag, *xyz = _Numbers(rest, order).rows(('i4', 'f8', 'f8', 'f8'), int(count))
+    return numpy.stack(xyz, axis=1), tag.astype(numpy.int64)
+
+
+def _elements2(section, order):
+    """[(kind, label, groups, tags of nodes)]; elements that differ by their group only are one."""
+    count, _, rest = section.partition(b'\n')
+    rows = _textRows2(rest) if order is None else _binaryRows2(rest, order, int(count))
+    found, same = [], {}
+    for label, type, tags, nodes in rows:
+        kind, size = _kind(type, label)
+        if len(nodes) != size:
+            raise ValueError('element %d has %d nodes instead of %d' % (label, len(nodes), size))
+        group = abs(tags[0]) if len(tags) else 0
+        groups = [group] if group else []
+        key = (kind, tuple(sorted(nodes)))
+        if groups and key in same and not set(groups) & set(same[key]):
+            same[key] += groups
+            continue
+        same[key] = groups
+        found.append((kind, label, groups, nodes))
+    if order is None and len(rows) != int(count):
+        raise ValueError('it has %d elements instead of %d' % (len(rows), int(count)))
+    return found
+
+
+def _textRows2(text):
+    rows = []
+    for line in text.splitlines():
+        words = list(map(int, line.split()))
+        if not words:
+            continue
+        if len(words) < 3 or not 0 <= words[2] <= len(words) - 3:
+            raise ValueError('a line of $Elements is incomplete')
+        rows.append((words[0], words[1], words[3:3 + words[2]], words[3 + words[2]:]))
+    return rows
+
+
+def _binaryRows2(data, order, count):
+    numbers, rows = _Numbers(data, order), []
+    while len(rows) < count:
+        type, many, tags = map(int, numbers.take('i4', 3))
+        size = 1 + tags + _kind(type, len(rows) + 1)[1]
+        for row in numbers.take('i4', many * size).reshape(many, size).tolist():
+            rows.append((row[0], type, row[1:1 + tags], row[1 + tags:]))
+    return rows
+
+
+# --- version 4: elements belong to entities of the geometry, which have any number of groups
+
+def _entities4(section, order, isOld):
+    """{(dimension, tag): groups}"""
+    numbers, groups = _Numbers(section, order), {}
+    for dimension, count in enumerate(numbers.take('u8', 4)):
+        for _ in range(count):
+            tag = int(numbers.take('i4', 1)[0])
+            numbers.take('f8', 3 if dimension == 0 and not isOld else 6)  # its box
+            own = numbers.take('i4', numbers.take('u8', 1)[0])
+            groups[dimension, tag] = sorted(set(map(abs, own.tolist())))
+            if dimension > 0:
+                numbers.take('i4', numbers.take('u8', 1)[0])  # its boundary
+    return groups
+
+
+def _nodes4(section, order, isOld):
+    numbers = _Numbers(section, order)
+    blocks = int(numbers.take('u8', 2 if isOld else 4)[0])
+    points, tags = [numpy.zeros((0, 3))], [numpy.zeros(0, dtype=numpy.int64)]
+    for _ in range(blocks):
+        first, second, hasParameters = map(int, numbers.take('i4', 3))
+        count = int(numbers.take('u8', 1)[0])
+        width = 3 + hasParameters * (second if isOld else first)
+        if isOld:
+            tag, *xyz = numbers.rows(('i4', *['f8'] * width), count)
+            tags.append(tag.astype(numpy.int64))
+            points.append(numpy.stack(xyz[:3], axis=1))
+        else:
+            tags.append(numbers.take('u8', count))
+            points.append(numbers.take('f8', width * count).reshape(count, width)[:, :3])
+    return numpy.concatenate(points), numpy.concatenate(tags)
+
+
+def _elements4(section, order, isOld, entities):
+    numbers, found = _Numbers(section, order), []
+    blocks = int(numbers.take('u8', 2 if isOld else 4)[0])
+    for _ in range(blocks):
+        first, second, type = map(int, numbers.take('i4', 3))
+        count = int(numbers.take('u8', 1)[0])
+        entity = (second, first) if isOld else (first, second)
+        if not count:
+            continue
+        whole = 'i4' if isOld else 'u8'
+        label = int(numbers.take(whole, 1)[0])
+        kind, size = _kind(type, label)
+        rest = numbers.take(whole, count * (1 + size) - 1)
+        rows = numpy.concatenate([[label], rest]).reshape(count, 1 + size)
+        groups = entities.get(entity, [])
+        found += [(kind, row[0], groups, row[1:]) for row in rows.tolist()]
+    return found
+
+
+# --- both
+
+def _together(points, tags, found, names):
+    place = dict(zip(tags.tolist(), range(len(tags))))
+    blocks, groups, markers = {}, {}, {}
+    for number, (kind, label, own, nodes) in enumerate(found):
+        for one in nodes:
+            if one not in place:
+                raise ValueError('element %d has the node %d, which does not exist' % (label, one))
+        rows, numbers = blocks.setdefault(kind, ([], []))
+        rows.append([place[one] for one in nodes])
+        numbers.append(number)
+        dimension = {1: 0, 2: 1, 3: 2, 4: 2}.get(cornersOf(kind), 3)
+        for tag in own:
+            name = names.get((dimension, tag), '%d' % tag)
+            (markers if dimension < 2 else groups).setdefault(name, []).append(number)
+    return Elements(points, [(kind, numpy.array(rows), numpy.array(numbers))
+                             for kind, (rows, numbers) in blocks.items()],
+                    [label for _, label, _, _ in found], groups, markers)

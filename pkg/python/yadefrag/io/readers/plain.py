@@ -1,0 +1,146 @@
+"""Contents of files without curves: CSV, GeoJSON, WKT."""
+
+import json
+import re
+
+import numpy
+
+from yadefrag.arguments import shown, shownPath
+from yadefrag.io.readers import Found, needed, refuseFile
+
+_PACKAGE = 'python3-shapely'
+_BETWEEN = str.maketrans(',;"', '   ')
+_WKT = re.compile(r'\s*;*\s*(?:SRID\s*=\s*\d+\s*;)?\s*([A-Z]+[^()]*?(?:EMPTY|(?=\()))', re.IGNORECASE)
+
+
+def _contents(name):
+    """The text, in UTF-8, or in UTF-16 as of spreadsheets."""
+    with open(name, 'rb') as file:
+        data = file.read()
+    return data.decode('utf-16' if data[:2] in (b'\xff\xfe', b'\xfe\xff') else 'utf-8-sig', errors='replace')
+
+
+def readCsv(name, tolerance):
+    """`x, y` on each line, an empty line between two loops, # before a comment, one heading without
+    numbers. Numbers may be quoted; those with a decimal comma are separated by semicolons."""
+    rows = _contents(name).splitlines()
+    loops, mayBeHeading = [[]], True
+    for number, row in enumerate(rows, 1):
+        words = row.partition('#')[0].strip()
+        if not words:
+            if not row.strip():
+                loops.append([])
+            continue
+        cells = _cells(words)
+        numbers = list(map(_number, cells))
+        if len(cells) == 2 and None not in numbers:
+            loops[-1].append(numbers)
+        elif not mayBeHeading or numbers.count(None) < len(numbers):
+            raise ValueError('%s, line %d: %s, it must be two numbers x, y.' %
+                             (shownPath(name), number, shown(words)))
+        mayBeHeading = False
+    return Found([numpy.array(loop + loop[:1]) for loop in loops if loop])
+
+
+def _cells(words):
+    if ';' in words and re.search(r'\d,\d', words):
+        words = words.replace(',', '.')
+    return words.translate(_BETWEEN).split()
+
+
+def _number(cell):
+    try:
+        return float(cell)
+    except ValueError:
+        return None
+
+
+def readGeoJson(name, tolerance):
+    """One GeoJSON text, or one on each line."""
+    geometry = needed('shapely.geometry', _PACKAGE, name)
+    found = Found()
+    try:
+        for data in _texts(_contents(name)):
+            for one in _geometries(data, found.leftOut):
+                _add(found, geometry.shape(one))
+    except Exception as error:  # of the library, of JSON and of missing members
+        refuseFile(name, 'GeoJSON file', error)
+    return found
+
+
+def _texts(text):
+    """All JSON values of a text; RFC 8142 separates them by the character 30."""
+    decoder, place, values = json.JSONDecoder(), 0, []
+    text = text.replace('\x1e', ' ').strip()
+    while place < len(text) or not values:
+        value, place = decoder.raw_decode(text, place)
+        values += value if isinstance(value, list) else [value]
+        while place < len(text) and text[place].isspace():
+            place += 1
+    return values
+
+
+def _geometries(data, leftOut):
+    """The geometries of a collection of features, of one feature, or of a geometry itself."""
+    kind = data['type']
+    if kind == 'FeatureCollection':
+        return [one for feature in data['features'] for one in _geometries(feature, leftOut)]
+    if kind == 'Feature':
+        if data['geometry'] is None:
+            leftOut['features without geometry'] += 1
+            return []
+        data = data['geometry']
+    if data['type'] == 'GeometryCollection':
+        return [one for part in data['geometries'] for one in _geometries(part, leftOut)]
+    return [data]
+
+
+def readWkt(name, tolerance):
+    """Geometries one after another, e.g. one on each line."""
+    wkt = needed('shapely.wkt', _PACKAGE, name)
+    found = Found()
+    try:
+        for one in _wktTexts(_contents(name)):
+            _add(found, wkt.loads(one))
+    except Exception as error:  # of the library
+        refuseFile(name, 'WKT file', error)
+    return found
+
+
+def _wktTexts(text):
+    """The text of each geometry: up to the bracket that closes its first one."""
+    place, texts = 0, []
+    while text[place:].strip(' \t\r\n;,'):
+        start = _WKT.match(text, place)
+        if not start:
+            raise ValueError('%s is not the beginning of a geometry' % shown(text[place:].strip()))
+        place = start.end()
+        depth = 0
+        if not start.group(1).upper().endswith('EMPTY'):
+            for place in range(start.end(), len(text)):
+                depth += (text[place] == '(') - (text[place] == ')')
+                if depth == 0:
+                    break
+            place += 1
+        texts.append(text[start.start(1):place])
+    return texts
+
+
+def _add(found, shape):
+    """Adds shapely's shapes; points are left out."""
+    if hasattr(shape, 'geoms'):
+        for part in shape.geoms:
+            _add(found, part)
+    elif shape.is_empty:
+        found.leftOut['empty geometries'] += 1
+    elif shape.geom_type == 'Polygon':
+        outline, *holes = (_plane(ring)[:-1] for ring in (shape.exterior, *shape.interiors))
+        found.regions.append((outline, holes))
+    elif shape.geom_type in ('LineString', 'LinearRing'):
+        found.lines.append(_plane(shape))
+    else:
+        found.leftOut['points'] += 1
+
+
+def _plane(line):
+    return numpy.array(line.coords, dtype=float)[:, :2]

@@ -1,0 +1,197 @@
+"""Lines and regions of SVG shapes: curves flattened, filled by their rule, clipped."""
+
+import dataclasses
+
+import numpy
+
+from yadefrag.io.readers import Found, flatten, needed, nesting, requireTolerance
+from yadefrag.io.readers.loops import area
+
+_FLAT = 1e-12  # of the square of the extent: the area of a line
+_SLIVER = 1e-9  # of the extent, or of an area: rounding, at an edge that cuts a shape
+
+
+@dataclasses.dataclass(frozen=True)
+class Item:
+    path: object           # of svgelements
+    matrix: numpy.ndarray  # (3, 3), to the units of the viewBox
+    isFilled: bool
+    isStroked: bool
+    rule: str              # 'nonzero' or 'evenodd'
+    clips: tuple = ()      # of Clip
+    isWhite: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Clip:
+    """Shows only what is inside one of the items."""
+    items: tuple
+
+
+def appended(found, items, page, tolerance, name):
+    """Adds the items to a Found, with y upwards. `page` is (left, top, right, bottom) or None."""
+    isAnythingSeen = False
+    for item in items:
+        if item.isWhite and not isAnythingSeen:
+            found.leftOut['white shapes behind all others'] += 1
+            continue
+        isAnythingSeen = True
+        one = _painted(item, tolerance, name)
+        found.leftOut += one.leftOut
+        for lines in one.lines, *([outline, *holes] for outline, holes in one.regions):
+            points = numpy.concatenate([*lines, numpy.zeros((0, 2))])
+            if page is not None and len(points) and _isBeyond(points, page):
+                found.leftOut['the cut at the edge of the page'] += 1
+                break
+        found.lines += [line * (1, -1) for line in one.lines]
+        found.regions += [(outline * (1, -1), [hole * (1, -1) for hole in holes])
+                          for outline, holes in one.regions]
+
+
+def _isBeyond(points, page):
+    low, high = numpy.array(page[:2]), numpy.array(page[2:])
+    edge = _SLIVER * (high - low).max()
+    return (points < low - edge).any() or (points > high + edge).any()
+
+
+def _painted(item, tolerance, name):
+    """A Found of one item, with y downwards."""
+    found = Found()
+    linear, shift = item.matrix[:2, :2], item.matrix[:2, 2]
+    most = numpy.linalg.norm(linear, 2)  # largest factor of a length
+    if abs(numpy.linalg.det(linear)) <= _FLAT * most**2:
+        found.leftOut['shapes that are not painted'] += 1
+        return found
+    own = None if tolerance is None else tolerance / most
+    loops = []
+    for line in _subpaths(item.path, own, name):
+        line = line @ linear.T + shift
+        loop = line[:-1] if (line[0] == line[-1]).all() else line
+        extent = (line.max(axis=0) - line.min(axis=0)).max()
+        hasArea = len(loop) > 2 and abs(area(loop)) > _FLAT * extent**2
+        if item.isFilled and hasArea:
+            loops.append(loop)
+        elif item.isStroked:
+            found.lines.append(line)
+        else:
+            found.leftOut['shapes that are not painted'] += 1
+    found.regions, covered = _filled(loops, item.rule, name)
+    if covered:
+        found.leftOut['inner lines that the fill covers'] += covered
+    return _clipped(found, item, tolerance, name) if item.clips else found
+
+
+def _filled(loops, rule, name):
+    """([(outline, holes)], number of loops on both sides of which there is paint)."""
+    if len(loops) < 2:
+        return [(loop, []) for loop in loops], 0
+    turns = [1 if area(loop) > 0 else -1 for loop in loops]
+    loops = [loop[::turn] for loop, turn in zip(loops, turns)]
+    kept = loops
+    if rule != 'evenodd':
+        outside = [sum(turns[j] for j in those) for those in nesting.around([(one, []) for one in loops])]
+        kept = [loop for loop, turn, around in zip(loops, turns, outside)
+                if around == 0 or around + turn == 0]
+    return nesting.nested([(loop, []) for loop in kept], name), len(loops) - len(kept)
+
+
+def _clipped(found, item, tolerance, name):
+    """What is inside all clips of an item."""
+    geometry = needed('shapely.geometry', 'python3-shapely', name)
+    operations = needed('shapely.ops', 'python3-shapely', name)
+    for clip in item.clips:
+        parts = [_solid(geometry, operations, region, one.rule) for one in clip.items
+                 for region in _painted(one, tolerance, name).regions]
+        window = operations.unary_union(parts)
+        inside = Found()
+        inside.leftOut += found.leftOut
+        for outline, holes in found.regions:
+            solid = _solid(geometry, operations, (outline, holes), item.rule)
+            if solid.difference(window).area <= _SLIVER * solid.area:
+                inside.regions.append((outline, holes))
+                continue
+            inside.leftOut['parts that are clipped away'] += 1
+            inside.regions += [tuple(_loops(part)) for part in _parts(solid.intersection(window))
+                               if part.geom_type == 'Polygon' and part.area > _SLIVER * solid.area]
+        for line in found.lines:
+            whole = geometry.LineString(line)
+            if whole.difference(window).length <= _SLIVER * whole.length:
+                inside.lines.append(line)
+                continue
+            inside.leftOut['parts that are clipped away'] += 1
+            shown = whole.intersection(window)
+            merged = operations.linemerge(shown) if shown.geom_type == 'MultiLineString' else shown
+            inside.lines += [numpy.array(part.coords) for part in _parts(merged)
+                             if part.geom_type == 'LineString' and part.length > 0]
+        found = inside
+    return found
+
+
+def _solid(geometry, operations, region, rule):
+    """shapely's region; of a line that crosses itself what its fill paints."""
+    solid = geometry.Polygon(*region)
+    if solid.is_valid:
+        return solid
+    loops = [region[0], *region[1]]
+    edges = operations.unary_union([geometry.LineString(loop[numpy.r_[:len(loop), :1]]) for loop in loops])
+    return operations.unary_union([face for face in operations.polygonize(edges)
+                                   if _isPainted(face.representative_point().coords[0], loops, rule)])
+
+
+def _isPainted(place, loops, rule):
+    """By the number of turns around a place."""
+    turns = 0
+    for loop in loops:
+        after = numpy.roll(loop, -1, axis=0)
+        crosses = (loop[:, 1] > place[1]) != (after[:, 1] > place[1])
+        a, b = loop[crosses], after[crosses]
+        isRight = a[:, 0] + (place[1] - a[:, 1]) * (b[:, 0] - a[:, 0]) / (b[:, 1] - a[:, 1]) > place[0]
+        turns += int((numpy.sign(b[:, 1] - a[:, 1]) * isRight).sum())
+    return turns % 2 == 1 if rule == 'evenodd' else turns != 0
+
+
+def _parts(shape):
+    return [one for one in getattr(shape, 'geoms', [shape]) if not one.is_empty]
+
+
+def _loops(polygon):
+    """Outline and [holes]."""
+    outline, *holes = (numpy.array(ring.coords)[:-1] for ring in (polygon.exterior, *polygon.interiors))
+    return outline, holes
+
+
+def _subpaths(path, tolerance, name):
+    """[(n, 2)] before the shape's transform."""
+    found, isOpen = [], False
+    for segment in path:
+        end = None if segment.end is None else numpy.array([[segment.end.x, segment.end.y]], dtype=float)
+        kind = type(segment).__name__
+        if kind == 'Move':
+            found.append([end])
+        elif end is not None:
+            if not isOpen and len(found[-1]) > 1:  # after a closed part, which ends where it began
+                found.append([found[-1][0]])
+            found[-1].append(end if kind in ('Line', 'Close') or _isFlat(segment) else
+                             _curve(segment, requireTolerance(tolerance, name, 'has curves')))
+        isOpen = kind != 'Close'
+    return [numpy.concatenate(parts) for parts in found if len(parts) > 1]
+
+
+def _isFlat(segment):
+    """True for an arc without a radius, which is a line in SVG."""
+    return type(segment).__name__ == 'Arc' and not (segment.rx and segment.ry)
+
+
+def _curve(segment, tolerance):
+    kind = type(segment).__name__
+    if kind == 'QuadraticBezier':
+        controls = (segment.start, segment.control, segment.end)
+    elif kind == 'CubicBezier':
+        controls = (segment.start, segment.control1, segment.control2, segment.end)
+    else:
+        centre, a, b = ((p.x, p.y) for p in (segment.center, segment.prx, segment.pry))
+        axes = numpy.subtract(a, centre), numpy.subtract(b, centre)
+        points = flatten.ellipticArc(centre, axes, segment.get_start_t(), segment.sweep, tolerance)
+        points[-1] = segment.end.x, segment.end.y
+        return points[1:]
+    return flatten.bezier([(p.x, p.y) for p in controls], tolerance)

@@ -1,0 +1,164 @@
+"""A record of a run: pictures for ParaView and a table, which continue after a restart."""
+
+import math
+import os
+import sys
+
+from yade import wrapper
+from yadefrag.arguments import path, shown, shownPath, whole
+from yadefrag.fe.between_steps import betweenSteps
+from yadefrag.io.export import exportVTK, fieldNames
+from yadefrag.io.files import appendText, requireWritable, writeText
+from yadefrag.messages import warn
+from yadefrag.scene.progress import MOST_STEPS
+
+_ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'dropped', 'outside',
+             'total', 'scene')
+_FIRST = ('step', 'time (s)', 'cracks', 'fragments') + tuple('%s (J)' % e for e in _ENERGIES) + \
+    ('reaction x (N)', 'reaction y (N)')
+_NAMED = 'reaction %s of %s (N)'
+_complained = set()  # files for which a message was given
+
+
+def FERecorder(iterPeriod=0, file='run', fields=None, **settings):
+    """An engine, a PyRunner for the end of O.engines, that records the scene's FESolver.
+
+    iterPeriod  steps between two records; or virtPeriod (s), realPeriod (s) and all other settings
+                of a PyRunner, as further arguments
+    file        path without an ending: file.csv has a line for each record, with the step, fe.time
+                (s), the numbers of cracks and fragments, the energies (J), and the reactions (N) of
+                all held nodes and of each body with a name, nan while there is no such body; file.pvd,
+                for ParaView, is the series of the pictures file_000000.vtu, …, which have the format
+                of exportVTK
+    fields      fields of exportVTK in the pictures; None: all; (): no pictures
+    O.save keeps it. Existing files are continued: records of the present fe.time and later, which
+    belong to a run that is now repeated from an earlier save, are removed. If a file cannot be
+    written, e.g. on a full disk, a message is written to stderr, once for each file, and the run
+    continues; earlier records are unchanged. OSError if file.csv cannot be written now, ValueError
+    for unknown fields.
+    """
+    name = path('file', file)
+    chosen = fieldNames(fields)
+    every = whole('iterPeriod', iterPeriod, 0, 'a whole number of steps', MOST_STEPS)
+    requireWritable(name + '.csv')
+    if not every and not any(settings.get(one) for one in ('virtPeriod', 'realPeriod')):
+        warn('FERecorder: none of iterPeriod, virtPeriod and realPeriod is given; there will be one record, '
+             'of the first step.')
+    command = '__import__("yadefrag.io").io.recorder.record(%r, %r)' % (os.path.abspath(name), chosen)
+    try:
+        return wrapper.PyRunner(command=command, **{'initRun': True, 'iterPeriod': every, **settings})
+    except OverflowError:
+        raise ValueError('A setting of FERecorder is too large: %s.' % shown(settings)) from None
+
+
+def record(name, fields):
+    """The action of the engine."""
+    solvers = [one for one in wrapper.Omega().engines if isinstance(one, wrapper.FESolver)]
+    if not solvers:
+        return
+    with betweenSteps(solvers[0]):
+        for file, write in ((name + '.csv', _appendLine), (name + '.pvd', _appendPicture)):
+            try:
+                write(solvers[0], name, fields)
+                _complained.discard(file)
+            except OSError as error:
+                if file not in _complained:
+                    _complained.add(file)
+                    print('WARN  FERecorder: %s cannot be written (%s); the run continues without it.' %
+                          (shownPath(file), error.strerror or error), file=sys.stderr)
+
+
+def _before(time, now):
+    """True if `time` is before `now`; times of one step may differ by rounding."""
+    return time < now * (1 - 1e-12)
+
+
+# --- the table
+
+def _appendLine(fe, name, _):
+    """Columns of bodies that have come are added, those of bodies that have gone stay; nan: no body."""
+    file = name + '.csv'
+    lines = _lines(file)
+    names = [one for one in fe._names if one]
+    columns = [*_FIRST, *(_NAMED % (axis, one.replace(',', ' ')) for one in names for axis in 'xy')]
+    row, old = _row(fe, names), lines[0].split(',') if lines else []
+    isOurs = old[:len(_FIRST)] == list(_FIRST)
+    kept = [line for line in lines[1:] if _isEarlier(line, fe.time)] if isOurs else []
+    if kept and old != columns:
+        values = dict(zip(columns, row))
+        columns = old + [one for one in columns if one not in old]
+        row = [values.get(one, 'nan') for one in columns]
+        kept = [line + ',nan' * (len(columns) - len(old)) for line in kept]
+    if isOurs and columns == old and len(kept) == len(lines) - 1:
+        appendText(file, ','.join(row) + '\n')
+    else:
+        writeText(file, '\n'.join([','.join(columns), *kept, ','.join(row), '']))
+
+
+def _lines(file):
+    try:
+        with open(file, encoding='utf-8', errors='replace') as old:
+            return old.read().splitlines()
+    except FileNotFoundError:
+        return []
+
+
+def _isEarlier(line, now):
+    try:
+        return _before(float(line.split(',')[1]), now)
+    except (IndexError, ValueError):
+        return False
+
+
+def _row(fe, names):
+    energy = fe.energy
+    numbers = [wrapper.Omega().iter, fe.time, fe.numCracks, len(fe.fragments())]
+    numbers += [energy.get(one, 0.) for one in _ENERGIES[:-1]] + [energy.get('scene', energy['total'])]
+    forces = fe.reactions
+    sums = [forces.sum(axis=0)] + [forces[fe.nodesOf(one)].sum(axis=0) if not fe._isGone(
+        fe._names.index(one)) else (math.nan, math.nan) for one in names]
+    numbers += [float(value) for force in sums for value in force]
+    return list(map(repr, numbers))
+
+
+# --- the pictures
+
+_HEAD = ('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n'
+         '<Collection>\n')
+_ENTRY = '<DataSet timestep="%r" part="0" file="%s"/>'
+_END = '</Collection>\n</VTKFile>\n'
+
+
+def _appendPicture(fe, name, fields):
+    if not fields:
+        return
+    kept = [entry for entry in _entries(name + '.pvd') if _before(entry[0], fe.time)]
+    last = max([_number(picture) for _, picture in kept], default=-1)
+    picture = '%s_%06d.vtu' % (name, last + 1)
+    exportVTK(fe, picture, fields)
+    kept.append((fe.time, os.path.basename(picture)))
+    lines = '\n'.join(_ENTRY % (time, _quoted(one)) for time, one in kept)
+    writeText(name + '.pvd', _HEAD + lines + '\n' + _END)
+
+
+def _quoted(text):
+    for sign, code in (('&', '&amp;'), ('"', '&quot;'), ('<', '&lt;'), ('>', '&gt;')):
+        text = text.replace(sign, code)
+    return text
+
+
+def _number(picture):
+    try:
+        return int(picture.rsplit('_', 1)[1].split('.')[0])
+    except (IndexError, ValueError):
+        return -1
+
+
+def _entries(file):
+    """List of (time, name of a picture) in a file of this recorder; none if it is another file."""
+    import xml.etree.ElementTree as tree
+    try:
+        root = tree.parse(file).getroot()
+        return [(float(one.get('timestep')), one.get('file')) for one in root.iter('DataSet')]
+    except (FileNotFoundError, tree.ParseError, TypeError, ValueError):
+        return []

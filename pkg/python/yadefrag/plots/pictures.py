@@ -1,0 +1,290 @@
+"""Pictures of the bodies of an FESolver, with Matplotlib."""
+
+import math
+
+import numpy
+
+from yadefrag.arguments import flag, number, numbersOf, path, refuse, whole
+from yadefrag.fe.between_steps import betweenSteps, requireNoStep
+from yadefrag.fe.contents import requireSolver, shownMesh
+from yadefrag.io.files import replacing, requireWritable, savePicture
+from yadefrag.plots.axes import MOST_PANELS, newAxes, newPanels, requireAxes
+from yadefrag.plots.colours import fragmentColours, palette
+from yadefrag.plots.fields import UNITS, fieldValues, nameOf
+from yadefrag.plots.overlays import CrackLines, YadeBodies, damageBar
+
+def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xlim=None, ylim=None,
+             spheres=True, rigidBodies=True, scale=1):
+    """Draws the triangles of an FESolver at their present positions, without removed fragments; cracks
+    that cohesion holds, coloured by their damage, and open ones black, above them; and YADE's spheres,
+    walls, boxes and facets. Returns Matplotlib's axes.
+
+    field   None (no colours), 'xx', 'yy', 'xy' (Pa), 'mises' (Pa, from these three, without the stress
+            zz), 'sigma1', 'sigma2' (Pa, larger and smaller principal stress in the plane; 'principal1',
+            'principal2' are the same), 'speed' (m/s), 'displacement' (m, its length), 'component',
+            'fragment' (arbitrary colours, different for adjacent fragments), or an array with one number
+            for each triangle or each node
+    file    path of the picture; its ending determines the format (.png, .pdf, .svg ...)
+    ax      axes to draw in; default: new ones
+    limits  (lowest, highest) value of the colour scale; default: those of the field
+    fields  instead of `field`, a list of several: drawn for the same moment, side by side, or below
+            each other if the contents are more than twice as wide as high; `limits` is then one
+            pair for all, or a list with a pair or None for each. Returns a list of axes
+    xlim    (left, right) in m of the drawn region; default: all
+    ylim    (bottom, top) in m, likewise
+    spheres True: draws YADE's spheres, also members of clumps, in their colours, with their full
+            radius at any distance from the plane
+    rigidBodies True: draws the sections of YADE's Wall, Box and Facet with the plane z = 0, in their
+            colours. They widen the drawn region by at most half of the size of bodies and spheres
+    scale   factor of the displacements from the stress-free shape in the drawn positions of nodes; 0
+            draws that shape. Spheres and rigid bodies are drawn where they are
+    ValueError for any other field or limits, and for a solver without bodies.
+    """
+    _requireBodies(fe)
+    asked = flag('spheres', spheres), flag('rigidBodies', rigidBodies)
+    chosen = [field] if fields is None else _severalFields(field, fields, ax)
+    limits = _limitsOfAll(limits, len(chosen)) if fields is not None else [_limits(limits)]
+    window = _range('xlim', xlim), _range('ylim', ylim)
+    scale = _scale(scale)
+    with betweenSteps(fe):
+        pictures = [_Picture(fe, one, scale=scale) for one in chosen]
+        others = YadeBodies(*asked)
+    if ax is not None:
+        panels = [requireAxes(ax)]
+    elif fields is None:
+        panels = [newAxes()]
+    else:
+        panels = newPanels(len(chosen), *_extent(pictures[0], others, window))
+    lines = []
+    for one, picture, ends in zip(panels, pictures, limits):
+        lines.append(_draw(one, picture, ends, others))
+        if len(panels) > 1 and isinstance(picture.field, str):
+            one.set_title(UNITS[picture.field])
+        one.set(**{name: ends for name, ends in zip(('xlim', 'ylim'), window) if ends})
+    damageBar(panels, lines)
+    if file is not None:
+        savePicture(panels[0].figure, file, dpi=150)
+    return panels[0] if fields is None else panels
+
+
+def _severalFields(field, fields, ax):
+    """A list of fields, checked as far as possible without the solver."""
+    if field is not None or ax is not None:
+        raise ValueError('fields comes with field or ax, it must be given without them.')
+    if not isinstance(fields, (list, tuple)) or not 0 < len(fields) <= MOST_PANELS:
+        refuse('fields', fields, 'a list of 1 to %d fields' % MOST_PANELS)
+    return list(fields)
+
+
+def _limitsOfAll(limits, count):
+    """A list of `count` pairs."""
+    if limits is None or numbersOf(limits, 2) is not None:
+        return [_limits(limits)] * count
+    if not isinstance(limits, (list, tuple)) or len(limits) != count:
+        refuse('limits', limits, 'a pair of numbers, or a list with a pair or None for each of the '
+               '%d fields' % count)
+    return [_limits(one) for one in limits]
+
+
+def _range(name, value):
+    """A pair of floats; None for none."""
+    if value is None:
+        return None
+    ends = numbersOf(value, 2) if _isFinitePair(value) else None
+    if ends is None or not ends[0] < ends[1]:
+        refuse(name, value, 'a pair of numbers (m), the lower one first')
+    return ends
+
+
+def _scale(value):
+    return number('scale', value, lambda v: 0 <= v < math.inf, 'a positive number, or 0')
+
+
+def _extent(picture, others, window):
+    """(width, height) in m of the drawn region."""
+    low, high = others.extent(*picture.box())
+    return [ends[1] - ends[0] if ends else side for ends, side in zip(window, high - low)]
+
+
+class _Picture:
+    """Data of one picture: x, y of the nodes, triangles, values of triangles or nodes.
+
+    former  as in fragmentColours, which determines the colours
+    scale   factor of the displacements
+    """
+
+    def __init__(self, fe, field, former=None, scale=1):
+        self.field = field = nameOf(field)
+        with betweenSteps(fe):
+            if isinstance(field, str) and field == 'fragment':
+                self.colours = fragmentColours(fe, former)
+                values, perNode = self.colours % 20, False
+            else:
+                values, perNode = fieldValues(fe, field)
+            nodes, shown, self.triangles = shownMesh(fe)
+            places = numpy.asarray(fe.nodes, dtype=float)
+            if scale != 1:
+                places = places + (scale - 1) * fe.displacements
+            self.cracks = CrackLines(fe, places)
+            self.x, self.y = places[nodes].T
+        self.perNode = perNode
+        self.values = None if values is None else values[nodes if perNode else shown]
+
+    def box(self):
+        """(low, high) of the nodes, each (2) in m."""
+        places = numpy.stack([self.x, self.y], axis=1)
+        return places.min(axis=0), places.max(axis=0)
+
+
+def _requireBodies(fe):
+    requireSolver(fe)
+    with betweenSteps(fe):
+        isEmpty = len(shownMesh(fe)[1]) == 0
+    if isEmpty:
+        raise ValueError('fe has no bodies to draw, add one with fe.addPolygon first.')
+
+
+def _limits(limits):
+    """A pair of floats; a pair of None for no limits."""
+    if limits is None:
+        return None, None
+    if not _isFinitePair(limits) or numbersOf(limits, 2) != tuple(sorted(numbersOf(limits, 2))):
+        refuse('limits', limits, 'a pair of numbers (lowest, highest)')
+    return numbersOf(limits, 2)
+
+
+def _isFinitePair(value):
+    found = numbersOf(value, 2)
+    return found is not None and all(map(math.isfinite, found))
+
+
+def _corners(window):
+    """((left, bottom), (right, top)) of floats."""
+    try:
+        low, high = window
+    except (TypeError, ValueError):
+        low = high = None
+    if not (_isFinitePair(low) and _isFinitePair(high)):
+        refuse('window', window, '((left, bottom), (right, top)) in m')
+    return numbersOf(low, 2), numbersOf(high, 2)
+
+
+def _draw(ax, picture, limits, others):
+    """Returns the lines of cracks that have a colour scale, or None."""
+    _drawTriangles(ax, picture, limits)
+    lines = picture.cracks.draw(ax)
+    others.draw(ax, *picture.box())
+    return lines
+
+
+def _drawTriangles(ax, picture, limits):
+    x, y, triangles = picture.x, picture.y, picture.triangles
+    field, values = picture.field, picture.values
+    lines = .5 if len(triangles) < 2000 else .1
+    ax.set_aspect('equal')
+    ax.set_xlabel('x (m)')
+    ax.set_ylabel('y (m)')
+    if values is None:
+        ax.triplot(x, y, triangles, color='.3', linewidth=lines)
+        return
+    if isinstance(field, str) and field == 'fragment':
+        from matplotlib.colors import ListedColormap, NoNorm
+        ax.tripcolor(x, y, triangles=triangles, facecolors=values, norm=NoNorm(),
+                     cmap=ListedColormap(palette()), edgecolors='k', linewidth=lines / 3)
+        return
+    low, high = limits
+    if picture.perNode:
+        drawn = ax.tripcolor(x, y, values, triangles=triangles, shading='gouraud', vmin=low,
+                             vmax=high)
+    else:
+        drawn = ax.tripcolor(x, y, triangles=triangles, facecolors=values, vmin=low, vmax=high,
+                             edgecolors='k', linewidth=lines / 3)
+    label = UNITS.get(field, '') if isinstance(field, str) else ''
+    ax.figure.colorbar(drawn, ax=ax, label=label)
+
+
+def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=20,
+            spheres=True, rigidBodies=True, scale=1):
+    """Runs the scene for `steps` steps and writes a GIF with a frame at the start and after each
+    `every` steps; returns the number of frames.
+
+    field, limits  as in plotMesh, but no arrays; without limits each frame has its own colour scale
+    window         ((left, bottom), (right, top)) in m; default: all nodes of the first frame and a
+                   quarter more on each side
+    rate           frames per second
+    spheres, rigidBodies, scale  as in plotMesh
+    If the run is interrupted, paused or fails, the frames so far are written. ValueError, before any
+    step, for counts that are not positive, a field or limits as in plotMesh, a file that is no
+    .gif, an invalid window; OSError for a file that cannot be written.
+    """
+    from matplotlib.animation import PillowWriter
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    _requireBodies(fe)
+    _checkFilm(fe, field)
+    scale = _scale(scale)
+    steps, every = whole('steps', steps), whole('every', every)
+    rate = number('rate', rate, lambda r: .01 <= r <= 1000,
+                  'a number of frames per second from 0.01 to 1000')
+    limits, asked = _limits(limits), (flag('spheres', spheres), flag('rigidBodies', rigidBodies))
+    low, high = _windowOf(fe) if window is None else _corners(window)
+    name = path('file', file, '.gif')
+    requireNoStep('animate')
+    requireWritable(name)
+    figure = Figure(figsize=(8, 6), layout='constrained')
+    FigureCanvasAgg(figure)
+    writer = PillowWriter(fps=rate)
+    writer.setup(figure, name, dpi=80)
+    frames, colours = 0, None
+    try:
+        for done in _runInParts(steps, every):
+            figure.clear()
+            ax = figure.add_subplot()
+            with betweenSteps(fe):
+                picture = _Picture(fe, field, colours, scale)
+                others = YadeBodies(*asked)
+            if field == 'fragment':  # a fragment keeps its colour from frame to frame
+                colours = picture.colours
+            damageBar([ax], [_draw(ax, picture, limits, others)])
+            ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), title='step %d' % done)
+            writer.grab_frame()
+            frames += 1
+    finally:
+        if frames > 0:
+            with replacing(name) as writer.outfile:
+                writer.finish()
+    return frames
+
+
+def _checkFilm(fe, field):
+    if field is not None and not isinstance(field, str):
+        raise ValueError('field is an array, which does not change during the run; it must be a '
+                         'name or None.')
+    _Picture(fe, field)
+
+
+def _windowOf(fe):
+    with betweenSteps(fe):
+        nodes = numpy.asarray(fe.nodes, dtype=float)[shownMesh(fe)[0]]
+    low, high = nodes.min(axis=0), nodes.max(axis=0)
+    margin = (high - low).max() / 4
+    return low - margin, high + margin
+
+
+def _runInParts(steps, every):
+    """Runs YADE's scene in parts; yields its step number before the first part and after each."""
+    from yade.wrapper import Omega
+
+    from yadefrag.scene.progress import runPart
+
+    scene = Omega()
+    yield scene.iter
+    done = 0
+    while done < steps:
+        part = min(every, steps - done)
+        part, isPaused = runPart(part)
+        done += part
+        yield scene.iter
+        if isPaused:
+            return

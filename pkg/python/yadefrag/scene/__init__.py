@@ -1,0 +1,1 @@
+"""YADE's scene: attributes of the new classes, engines, colliders, runs and their messages."""

@@ -1,0 +1,122 @@
+"""Messages about contacts, forces and steps that FE bodies of a scene will not have, one sentence each."""
+
+import weakref
+
+from yade import wrapper
+from yadefrag.messages import warn
+
+# These engines apply no forces to bodies, or apply them anew in each step.
+_WITHOUT_FORCES = (wrapper.FESolver, wrapper.Collider, wrapper.PeriodicEngine, wrapper.NewtonIntegrator)
+_THICK = 10  # thickness over the diameter of spheres above which one of the two is likely to be a mistake
+_RIGID = ('Wall', 'Box', 'Facet')  # shapes that FE bodies touch as rigid bodies
+_UNMOVED = ('O.engines has no FESolver, so that nothing moves its bodies: O.engines = engines(fe) sets the '
+             'engines.')
+
+solvers = weakref.WeakSet()  # with bodies
+_looked = None  # scene and number of its bodies when they were last searched
+
+
+def _functors(engines, kind, holder):
+    """All functors of the engines of one kind that are not dead."""
+    return [functor for engine in engines if isinstance(engine, kind)
+            for functor in getattr(engine, holder).functors]
+
+
+def _takes(functor, *shapes):
+    return all(shape in functor.bases for shape in shapes)
+
+
+def sentences(kinds, beside, leaving, loose, gravityZ, rigidBodies, largest=0., thickness=0.):
+    """List of sentences about the scene; FESolver calls it when bodies or engines are new.
+
+    kinds                   {name of a shape: a body with it}, without surface segments; spheres of all
+                            kinds are 'Sphere'
+    beside, leaving, loose  a sphere that is beside the plane z = 0, leaves it, may leave it; -1: none
+    gravityZ                m/s², of NewtonIntegrator
+    rigidBodies             True: FESolver's bodies have contact with those of _RIGID
+    largest                 m, radius of the largest sphere
+    thickness               m, largest thickness of FESolver's bodies
+    """
+    engines = [engine for engine in wrapper.Omega().engines if not engine.dead]
+    geometry = _functors(engines, wrapper.InteractionLoop, 'geomDispatcher')
+    found = []
+    rigid = [shape for shape in kinds if rigidBodies and shape in _RIGID]
+    for shape, body in kinds.items():
+        if shape in rigid:
+            continue
+        if not any(_takes(one, shape, 'SurfaceSegment') for one in geometry):
+            found.append(_untouched(shape, body))
+    if 'Sphere' in kinds:
+        bounds = _functors(engines, wrapper.Collider, 'boundDispatcher')
+        if not any(_takes(one, 'SurfaceSegment') for one in bounds):
+            found.append('Spheres go through FE bodies: the collider has no Bo1_SurfaceSegment_Aabb; '
+                         'engines(fe, spheres=True) has it.')
+        found += _outOfPlane(beside, leaving, loose, gravityZ)
+        if thickness > _THICK * 2 * largest:
+            found.append('FE bodies are %g m thick, and the largest sphere has a diameter of %g m: masses and '
+                         'forces of FE bodies are those of their whole thickness; addPolygon(thickness=%g) '
+                         'fits these spheres.' % (thickness, 2 * largest, 2 * largest))
+    if gravityZ and loose < 0:
+        found.append('The gravity of NewtonIntegrator along z does not act on FE bodies: they move in '
+                     'the plane z = 0 only.')
+    if not any(isinstance(one, wrapper.ForceResetter) for one in engines):
+        other = [one for one in engines if not isinstance(one, _WITHOUT_FORCES)]
+        if other:
+            found.append('O.engines has no ForceResetter: the forces of %s on bodies add up from step '
+                         'to step.' % type(other[0]).__name__)
+    return found
+
+
+def _untouched(shape, body):
+    if shape == 'Sphere':
+        return ('Spheres go through FE bodies: no InteractionLoop has an Ig2_Sphere_SurfaceSegment_ScGeom; '
+                'engines(fe, spheres=True) has it.')
+    if shape in _RIGID:
+        return ('FE bodies go through bodies of the shape %s, such as #%d: FESolver.rigidBodies is '
+                'False.' % (shape, body))
+    return ('FE bodies go through bodies of the shape %s, such as #%d: they touch each other, spheres, '
+            'walls, boxes and facets only; a body of FESolver with fixed nodes can take its place.' %
+            (shape, body))
+
+
+def _outOfPlane(beside, leaving, loose, gravityZ):
+    if beside >= 0:
+        return ['Sphere #%d is beside the plane z = 0 of the FE bodies, and does not touch them.' % beside]
+    if leaving >= 0:
+        return ['Sphere #%d leaves the plane z = 0, and then passes FE bodies: its centre must be in it, '
+                "and 'z' among its blockedDOFs." % leaving]
+    if loose >= 0 and gravityZ:
+        return ['Gravity along z moves sphere #%d out of the plane z = 0 of the FE bodies; block its z, '
+                'or use gravity along y.' % loose]
+    return []
+
+
+def addSolver(solver):
+    """Must be called for every solver to which a body is added."""
+    solvers.add(solver)
+
+
+def _isWithoutSolver():
+    """True, once for each scene and number of bodies, if there are FE bodies and no engine moves them."""
+    global _looked
+    if not solvers:
+        return False
+    omega = wrapper.Omega()
+    if any(isinstance(one, (wrapper.FESolver, wrapper.ParallelEngine)) for one in omega.engines):
+        return False
+    present = omega.tags['id'], len(omega.bodies)
+    if present == _looked:
+        return False
+    _looked = present
+    return any(isinstance(body.shape, wrapper.SurfaceSegment) and body.shape.component >= 0
+               for body in omega.bodies)
+
+
+def tellUnmoved():
+    """Before a run: a warning about FE bodies whose FESolver is no engine, and has no step of its own in which
+    it could warn. It is also in the `warnings` of all solvers with bodies."""
+    if not _isWithoutSolver():
+        return
+    for solver in solvers:
+        solver._note(_UNMOVED)
+    warn(_UNMOVED)

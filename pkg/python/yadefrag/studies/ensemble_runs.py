@@ -1,0 +1,137 @@
+"""Many runs of one scene, by seeds or by a table, and statistics of a measured value."""
+
+import math
+import os
+import sys
+
+import numpy
+
+from yadefrag.arguments import isWhole, number, plain, positive, refuse, shown, text, whole
+from yadefrag.io.files import requireWritable
+from yadefrag.studies.ensemble_table import COLUMNS, EnsembleRow, EnsembleTable
+from yadefrag.studies.grouping import passOn
+from yadefrag.studies.runs import Finished, Processes, jobOf, requireExecutor, requireOutside, runAll
+from yadefrag.studies.tradeoff_grid import MOST_SECONDS, checkChoice, writeTable
+
+_MOST_RUNS = 10**6
+
+
+def ensemble(scene, runs, measure, *, duration, watch=None, every=0., limit=600., executor=None,
+             workers=None, resume=None, files=None, title=''):
+    """Runs `scene` once for each row of a table; returns an EnsembleTable of the measured values.
+
+    scene     function (choices) that builds the scene in O and sets O.engines and O.dt, as for
+              tradeoff: choices['seed'] is the run's seed, choices['strength'] a value from the table
+    runs      number of runs, with the seeds 0, 1, ...; a list of seeds; or a table, as a list of dicts
+              {name: value} or a dict {name: list of values}, all of one length. Names that tradeoff
+              knows are checked as there; others are passed on
+    measure   function (built) → a number or numbers (n), called after the run with the scene's return
+              value; n may differ from run to run, e.g. for sizes of fragments
+    duration, watch, every, limit  as in tradeoff
+    executor  None: processes on this machine, `workers` at a time (None: as many as processors); or an
+              executor as in concurrent.futures. With mpi4py: MPIPoolExecutor(main=False); with Dask:
+              Client(...).get_executor(pure=False). Its workers only need Python; they start yade on
+              their machines, and must access the same files. It is not shut down
+    resume    None, or a file .jsonl of finished runs: an interrupted call continues where it stopped
+              if it is repeated with the same arguments, or with more runs. Remove the file if the
+              scene has changed
+    files     path without ending: writes .csv and, if a run has a value, .png
+    title     of the plot
+
+    Each run is a separate `yade -n -x`. A run that the scene or an engine refuses, that blows up,
+    fails or takes too long is a row with that result. What runs warn of is in `warnings` of their rows,
+    and is passed on as a warning of this call, once for each kind, with the number of these runs. The
+    table has means of runs that differ in nothing but the seed; print(table) shows them. Ctrl-C ends the
+    runs; the table then has the finished ones. Functions must be at the top level of a file, and the call
+    in a script after `if __name__ == '__main__':`, since each run loads the file again.
+    ValueError, before anything runs, for bad arguments, OSError for files that cannot be written;
+    RuntimeError if the file cannot be loaded again.
+    """
+    requireOutside('ensemble')
+    settings = _settings(runs)
+    job = jobOf(scene, measure, watch)
+    job.update(duration=positive('duration', duration, 's'),
+               every=number('every', every, lambda v: 0 <= v < math.inf,
+                            'a positive number (s), or 0'),
+               limit=min(positive('limit', limit, 's'), MOST_SECONDS))
+    executor = requireExecutor(executor)
+    workers = whole('workers', os.cpu_count() if workers is None else workers)
+    table = EnsembleTable([EnsembleRow(dict(setting)) for setting in settings], text('title', title))
+    if files is not None:
+        for name in EnsembleTable.namesOfFiles(files):
+            requireWritable(name)
+    finished = Finished(resume, {key: job[key] for key in ('file', 'functions', 'duration', 'every')})
+    _run(table.rows, job, finished, executor, workers)
+    passOn('ensemble', table.rows)
+    if files is not None:
+        writeTable(table, files)
+    return table
+
+
+def _settings(runs):
+    """List of checked dicts."""
+    runs = plain(runs)
+    if isWhole(runs):
+        runs = range(whole('runs', runs, most=_MOST_RUNS))
+    if isinstance(runs, dict):
+        columns = {name: _listOf(values) for name, values in runs.items()}
+        lengths = {None if values is None else len(values) for values in columns.values()}
+        if len(lengths) != 1 or None in lengths:
+            refuse('runs', runs, 'a dict of lists that have all the same length')
+        runs = [dict(zip(columns, row)) for row in zip(*columns.values())]
+    rows = _listOf(runs)
+    if not rows or len(rows) > _MOST_RUNS:
+        refuse('runs', runs, 'a number of runs, a list of seeds, a list of dicts or a dict of lists')
+    return [_setting(row) for row in rows]
+
+
+def _setting(row):
+    if not isinstance(row, dict):
+        if not isWhole(row):
+            raise ValueError('runs has the seed %s, it must be a whole number, or a dict.' % shown(row))
+        row = dict(seed=row)
+    return {name: checkChoice(name, value, 'runs', COLUMNS) for name, value in row.items()}
+
+
+def _listOf(values):
+    if isinstance(values, (list, tuple, range)):
+        return list(values)
+    return list(values) if isinstance(values, numpy.ndarray) and values.ndim == 1 else None
+
+
+def _run(rows, job, finished, executor, workers):
+    """Runs all rows and stores their results."""
+    import tqdm  # only if something runs
+    due = []
+    for place, row in enumerate(rows):
+        key = _keyOf(rows, place)
+        known = finished.get(key)
+        if known is None:
+            due.append((row, key))
+        else:
+            row.take(known)
+    bar = tqdm.tqdm(total=len(rows), initial=len(rows) - len(due), unit='run', disable=None)
+
+    def take(place, found):
+        row, key = due[place]
+        row.take(found)
+        finished.add(key, found)
+        bar.update()
+
+    jobs = [dict(job, settings=row.settings) for row, _ in due]
+    try:
+        with bar:
+            if executor is not None:
+                runAll(jobs, take, executor)
+            else:
+                with Processes(workers) as own:
+                    runAll(jobs, take, own)
+    except KeyboardInterrupt:
+        done = sum(row.result != 'not run' for row in rows)
+        print('Stopped after %d of %d runs.' % (done, len(rows)), file=sys.stderr)
+
+
+def _keyOf(rows, place):
+    """Key of a run in the file of finished runs; the same row may occur several times."""
+    settings = rows[place].settings
+    return dict(setting=settings, turn=sum(row.settings == settings for row in rows[:place]))

@@ -1,0 +1,269 @@
+"""The table that ensemble() returns: rows, means with confidence bands, CSV, plot."""
+
+import dataclasses
+import itertools
+import math
+
+import numpy
+
+from yadefrag.arguments import array, number, path, refuse, text
+from yadefrag.io.files import savePicture, writeText
+from yadefrag.plots.colours import DISTINCT
+from yadefrag.studies import student
+from yadefrag.studies.grouping import grouped, samples, varying
+from yadefrag.studies.tradeoff_table import describe, tableText
+
+COLUMNS = ('result', 'value', 'steps', 'wall', 'message', 'seconds', 'warnings')
+_PLACES = 200  # points of a curve
+
+
+@dataclasses.dataclass
+class EnsembleRow:
+    """One run and its result.
+
+    settings  dict of the scene's choices
+    result    'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or 'not
+              run'
+    value     the measured value, a number or a list; None without
+    steps     number of steps
+    wall      wall-clock time of the steps over simulated time (s/s), large for short scenes
+    seconds   wall-clock time of the steps (s)
+    warnings  messages of the run: those of fe.warnings, and Python's of the script
+    """
+
+    settings: dict
+    result: str = 'not run'
+    value: object = None
+    steps: int = None
+    wall: float = None
+    message: str = ''
+    seconds: float = None
+    warnings: list = dataclasses.field(default_factory=list)
+
+    def take(self, found):
+        """Stores the result of a run."""
+        if found['result'] == 'unloadable':
+            raise RuntimeError('a run cannot load the scene: %s' % found['message'])
+        self.result = 'failed' if found['result'] == 'lost' else found['result']
+        self.message = found['message']
+        self.value, self.steps, self.wall, self.seconds = map(found.get, ('value', 'steps', 'wall', 'seconds'))
+        self.warnings = list(found.get('warnings', ()))
+
+
+class EnsembleTable:
+    """rows (list of EnsembleRow), title; rows without a value are not part of means.
+
+    A band is the confidence band of the mean at each point separately: if the values of the runs are
+    approximately normal, it contains the mean of all possible runs with the stated confidence
+    (Student's t distribution). Numbers measured in one run may depend on each other; runs do not.
+    """
+
+    def __init__(self, rows, title=''):
+        isRight = isinstance(rows, (list, tuple)) and all(isinstance(r, EnsembleRow) for r in rows)
+        if not isRight:
+            refuse('rows', rows, 'a list of EnsembleRow')
+        self.rows, self.title = list(rows), text('title', title)
+
+    def __str__(self):
+        """A line for each row, and the means of the runs that differ in nothing but seeds and samples."""
+        lines = [self.title] * bool(self.title) + [
+            '%s: %s' % (describe(row.settings), _found(row)) for row in self.rows]
+        among = samples(self.rows)
+        for (settings, _), line in zip(grouped(self.rows, varying(self.rows)), self.statistics()):
+            if line['runs']:
+                lines.append(describe(settings) * bool(settings) + ': ' * bool(settings) + _meanText(line, among))
+        return '\n'.join(lines)
+
+    def good(self):
+        """Rows with a value."""
+        return [row for row in self.rows if row.result == 'ok']
+
+    def statistics(self, by=None, reduce=numpy.mean, confidence=.95):
+        """Means of the measured values, with their confidence bands, as a NumPy array with named
+        columns (k): one row for the runs that differ only in the seed, or in a number that is another one
+        in each run.
+
+        by      None, or the name of a setting: rows by its values, ascending; if others vary, too, one
+                row for each of their combinations
+        reduce  function of a run's numbers (n) → one number; default: their mean; numpy.median, len, ...
+        Columns: by (value of that setting, or of the only one that varies; otherwise nan), runs, failed
+        (their number), mean, deviation (of single runs), low, high (band of the mean; nan for less than
+        two runs), settings (text: what the runs of the row have in common). ValueError for an unknown
+        name.
+        """
+        confidence = _share(confidence)
+        if not callable(reduce):
+            refuse('reduce', reduce, 'a function')
+        lines = []
+        for settings, value, rows in self._groups(by):
+            good = [float(reduce(numpy.atleast_1d(row.value))) for row in rows if row.result == 'ok']
+            mean, deviation, half = _meanOf(numpy.array(good)[:, None], confidence)
+            lines.append((value, len(good), len(rows) - len(good), mean[0], deviation[0],
+                          mean[0] - half[0], mean[0] + half[0], describe(settings) if settings else ''))
+        names = ('by', 'runs', 'failed', 'mean', 'deviation', 'low', 'high', 'settings')
+        text = 'U%d' % max((len(line[-1]) for line in lines), default=1)
+        kinds = (float, int, int, float, float, float, float, text)
+        return numpy.array(lines, dtype=list(zip(names, kinds)))
+
+    def _groups(self, by):
+        """[(settings, value of `by`, rows)] by all that varies, in the order of the values."""
+        names = varying(self.rows)
+        if by is None:
+            groups = grouped(self.rows, names)
+            values = [of.get(names[0]) if len(names) == 1 else None for of, _ in groups]
+            return [(of, value if _isNumber(value) else math.nan, rows)
+                    for (of, rows), value in zip(groups, values)]
+        if not self.rows or not all(isinstance(by, str) and _isNumber(row.settings.get(by)) for row in self.rows):
+            refuse('by', by, 'the name of a setting that is a number in all rows')
+        names = [name for name in names if name != by] + [by]
+        return sorted(((of, of[by], rows) for of, rows in grouped(self.rows, names)), key=lambda one: one[1])
+
+    def shares(self, places=None, confidence=.95):
+        """Fraction of a run's numbers that are at least as large as a given value, over all runs.
+
+        places  values (k), or None: 200 from the smallest measured number to the largest, in equal
+                ratios if all are positive
+        Returns a NumPy array with named columns (k): place, mean (fraction of a run's numbers,
+        averaged over the runs), low, high (band of that mean, within 0 and 1). ValueError without a
+        run that has numbers.
+        """
+        confidence = _share(confidence)
+        runs = [numpy.sort(numpy.atleast_1d(row.value)) for row in self.good()]
+        if not runs:
+            raise ValueError('no run has a value: there is nothing to draw or to average.')
+        places = _places(runs) if places is None else array(places, float)
+        if places is None or places.ndim != 1 or not numpy.isfinite(places).all():
+            refuse('places', places, 'a list of finite numbers')
+        table = numpy.array([1 - numpy.searchsorted(run, places, 'left') / len(run) for run in runs])
+        mean, _, half = _meanOf(table, confidence)
+        half = numpy.nan_to_num(half, nan=1)  # unknown for a single run
+        columns = places, mean, numpy.clip(mean - half, 0, 1), numpy.clip(mean + half, 0, 1)
+        names = ('place', 'mean', 'low', 'high')
+        return numpy.array(list(zip(*columns)), dtype=[(name, float) for name in names])
+
+    def csv(self, file):
+        """Writes all rows: the settings, then COLUMNS; values as JSON, an empty cell for None."""
+        names = list(dict.fromkeys(name for row in self.rows for name in row.settings))
+        lines = [[row.settings.get(name) for name in names] + [getattr(row, c) for c in COLUMNS]
+                 for row in self.rows]
+        writeText(path('file', file), tableText(names + list(COLUMNS), lines))
+
+    def plot(self, file=None, ax=None, by=None, confidence=.95, label='measured value'):
+        """Draws the table; returns Matplotlib's axes.
+
+        by     None: the fraction of numbers at least as large as a value, each run in grey, and the
+               mean with its band; or the name of a setting: each run's mean over it, and their mean
+               with its band
+        label  of the axis of the measured value
+        """
+        from yadefrag.plots.axes import newAxes, requireAxes
+        label = text('label', label)
+        ax = newAxes() if ax is None else requireAxes(ax)
+        (self._plotShares if by is None else self._plotBy)(ax, by, confidence, label)
+        ax.set_title(self.title)
+        ax.grid(True, linewidth=.3)
+        ax.legend()
+        if file is not None:
+            savePicture(ax.figure, file, dpi=150)
+        return ax
+
+    def _plotShares(self, ax, _, confidence, label):
+        self.shares()  # refuses a table without values
+        lowest = min(numpy.min(row.value) for row in self.good())
+        groups = [(of, EnsembleTable(rows)) for of, rows in grouped(self.good(), varying(self.rows))]
+        for (of, group), colour in zip(groups, itertools.cycle(DISTINCT)):
+            band = group.shares(confidence=confidence)
+            for row in group.rows:
+                values = numpy.sort(numpy.atleast_1d(row.value))
+                ax.step(values, 1 - numpy.arange(len(values)) / len(values), where='pre', color='.75',
+                        linewidth=.6, zorder=1)
+            _drawBand(ax, band['place'], band, [len(group.rows)], confidence, colour=colour, of=of)
+        if lowest > 0:
+            ax.set_xscale('log')
+        ax.set(xlabel=label, ylabel='fraction at least as large', ylim=(0, 1.02))
+
+    def _plotBy(self, ax, by, confidence, label):
+        self.statistics(by)  # refuses an unknown name
+        others = [name for name in varying(self.rows) if name != by]
+        for row in self.good():
+            ax.plot(row.settings[by], numpy.mean(row.value), '.', color='.6', zorder=1)
+        for (of, rows), colour in zip(grouped(self.rows, others), itertools.cycle(DISTINCT)):
+            group = EnsembleTable(rows)
+            table = group.statistics(by, confidence=confidence)
+            _drawBand(ax, table['by'], table, table['runs'], confidence, 'o-', colour, of)
+        ax.set(xlabel=by, ylabel=label)
+
+    def write(self, files):
+        """Writes files.csv and, if a run has a value, files.png."""
+        table, picture = self.namesOfFiles(files)
+        self.csv(table)
+        if self.good():
+            self.plot(picture)
+
+    @staticmethod
+    def namesOfFiles(files):
+        """Names of the files that `write` writes."""
+        return [path('files', files) + ending for ending in ('.csv', '.png')]
+
+
+def _isNumber(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _meanText(line, among):
+    """A line of `statistics` as text; among: names of settings that are another one in each run."""
+    sentence = 'Mean of %d run%s%s: %.6g' % (
+        line['runs'], 's' if line['runs'] > 1 else '',
+        ', each with another ' + ' and '.join(among) if among and line['runs'] > 1 else '', line['mean'])
+    if math.isfinite(line['low']):
+        sentence += ', with 95 %% confidence between %.6g and %.6g' % (line['low'], line['high'])
+    return sentence + ('; %d have no value.' % line['failed'] if line['failed'] else '.')
+
+
+def _found(row):
+    """What a run gave, as text."""
+    said = '; %d message%s' % (len(row.warnings), 's' * (len(row.warnings) > 1)) if row.warnings else ''
+    if row.seconds is not None:
+        said = '; %.3g s, %.4g s per simulated second' % (row.seconds, row.wall) + said
+    return _measured(row) + said
+
+
+def _measured(row):
+    if row.result != 'ok':
+        return '%s, %s' % (row.result, row.message) if row.message else row.result
+    values = numpy.atleast_1d(row.value)
+    if len(values) == 1:
+        return '%.6g' % values[0]
+    return '%.6g on average of %d' % (values.mean(), len(values)) if len(values) else 'no numbers'
+
+
+def _drawBand(ax, x, table, counts, confidence, style='-', colour=DISTINCT[0], of=()):
+    """counts: of the runs of each mean; of: settings of these runs, if others have other ones."""
+    least, most = min(counts), max(counts)
+    ax.fill_between(x, table['low'], table['high'], color=colour, alpha=.3, linewidth=0,
+                    label=None if of else '%g %% band of the mean' % (100 * confidence))
+    ax.plot(x, table['mean'], style, color=colour,
+            label='%smean of %s runs' % (describe(of) + ': ' if of else '',
+                                         least if least == most else '%d to %d' % (least, most)))
+
+
+def _share(confidence):
+    return number('confidence', confidence, lambda v: 0 < v < 1, 'above 0 and below 1')
+
+
+def _meanOf(table, confidence):
+    """(mean, deviation, half of the band) of each column of an array (runs, k); nan for too few
+    runs."""
+    count = len(table)
+    if count == 0:
+        return (numpy.full(1, numpy.nan),) * 3
+    mean = table.mean(axis=0)
+    if count == 1:
+        return mean, numpy.full_like(mean, numpy.nan), numpy.full_like(mean, numpy.nan)
+    deviation = table.std(axis=0, ddof=1)
+    return mean, deviation, student.quantile(confidence, count - 1) * deviation / math.sqrt(count)
+
+
+def _places(runs):
+    low, high = min(run[0] for run in runs), max(run[-1] for run in runs)
+    return numpy.geomspace(low, high, _PLACES) if low > 0 else numpy.linspace(low, high, _PLACES)

@@ -1,0 +1,153 @@
+"""Many runs of a scene, each in a separate yade, on this machine or by an executor."""
+
+import concurrent.futures
+import contextlib
+import inspect
+import json
+import os
+import sys
+import time
+
+from yadefrag.arguments import path, refuse, shown, shownPath
+from yadefrag.io.files import appendText, requireWritable, writeText
+from yadefrag.studies import run_process
+
+INSIDE = 'YADEFRAG_TRADEOFF'  # set in the environment of a run
+_HERE = os.path.dirname(os.path.realpath(run_process.__file__))
+_POLL = .02  # s between two checks of an executor's runs
+# Workers are plain Python, which cannot import this package without YADE.
+_BY_PATH = "__import__('runpy').run_path(program)['perform'](job)"
+
+
+def requireOutside(name):
+    """RuntimeError in a run that loads the script again."""
+    if os.environ.get(INSIDE):
+        raise RuntimeError('%s is called while one of its runs loads the script; put the call '
+                           "after `if __name__ == '__main__':`." % name)
+
+
+def jobOf(scene, measure, watch):
+    """The job of every run: functions and their file. ValueError for functions without a file."""
+    functions = [scene, measure] + [watch] * (watch is not None)
+    for name, function in zip(('scene', 'measure', 'watch'), functions):
+        module = sys.modules.get(getattr(function, '__module__', None))
+        if not callable(function) or not hasattr(function, '__code__') \
+                or inspect.unwrap(vars(module or os).get(function.__name__)) is not inspect.unwrap(function):
+            refuse(name, function, 'a function at the top level of a file, which each run loads')
+    modules = {function.__module__ for function in functions}
+    if len(modules) > 1:
+        raise ValueError('scene, measure and watch are in the modules %s, they must be in one '
+                         'file.' % ', '.join(sorted(modules)))
+    file = os.path.abspath(scene.__code__.co_filename)
+    if not os.path.isfile(file):
+        raise ValueError('scene is of %s, which is not a file that a run can load.' %
+                         shown(scene.__code__.co_filename))
+    names = [function.__name__ for function in functions]
+    package = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+    return dict(file=file, module=modules.pop(), functions=names + [None] * (3 - len(names)),
+                path=[os.path.abspath(p) for p in sys.path], inside=INSIDE, package=package,
+                yade=getattr(sys, 'yade_argv', ['/usr/bin/yade'])[0],
+                program=os.path.join(_HERE, 'run_in_yade.py'))
+
+
+def requireExecutor(executor):
+    """`executor`; ValueError if it has no method submit."""
+    if executor is not None and not callable(getattr(executor, 'submit', None)):
+        refuse('executor', executor, 'None, or an executor with a method submit')
+    return executor
+
+
+def runAll(jobs, take, executor=None, one=run_process.perform):
+    """Does the runs of `jobs`, and calls take(number in jobs, result) at the end of each.
+
+    executor  None: one after the other, here, by `one`; or one with `submit`, whose futures have
+              `done`, `result` and `cancel`. For a lost worker the result is 'lost', with the reason.
+              KeyboardInterrupt cancels the runs that have not begun
+    """
+    if executor is None:
+        for number, job in enumerate(jobs):
+            take(number, one(job))
+        return
+    program = os.path.join(_HERE, 'run_process.py')
+    futures = {}
+    try:
+        for number, job in enumerate(jobs):
+            futures[number] = executor.submit(eval, _BY_PATH, dict(program=program, job=job))
+        while futures:
+            ended = [number for number, future in futures.items() if future.done()]
+            for number in ended:
+                take(number, _resultOf(futures.pop(number)))
+            if not ended:
+                time.sleep(_POLL)
+    finally:
+        for future in futures.values():
+            future.cancel()
+
+
+def _resultOf(future):
+    try:
+        return future.result()
+    except Exception as error:  # of the executor, or of a lost worker
+        return dict(result='lost', message='%s: %s' % (type(error).__name__,
+                                                       ' '.join(str(error).split())[:200]))
+
+
+class Processes(concurrent.futures.ThreadPoolExecutor):
+    """Parallel runs on this machine, each a process; they end at the end of the `with` block."""
+
+    def submit(self, function, *args):
+        program = args[1]  # run_process, which ends the runs of this process
+        return super().submit(run_process.perform, program['job'])
+
+    def __exit__(self, *problem):
+        if problem[0] is not None:
+            self.shutdown(wait=False, cancel_futures=True)
+            run_process.endAll()
+        return super().__exit__(*problem)
+
+
+class Finished:
+    """Results of runs in a file, one line of JSON each: a later call need not repeat these runs."""
+
+    def __init__(self, file, of):
+        """file: a path that ends with .jsonl, or None; of: identification of the runs, a dict."""
+        self.name = None if file is None else path('resume', file, '.jsonl')
+        self._known, of = {}, json.loads(json.dumps(of))
+        if self.name is None:
+            return
+        requireWritable(self.name)
+        lines = self._lines()
+        if lines and lines[0] != of:
+            raise ValueError('%s has runs of another scene, file, duration or measure; use another '
+                             'file, or remove it.' % shownPath(self.name))
+        for line in lines[1:]:
+            self._known[_key(line['of'])] = line['result']
+        # An incomplete line, written during an interrupt, is left out.
+        writeText(self.name, ''.join(json.dumps(line) + '\n' for line in lines or [of]))
+
+    def _lines(self):
+        if not os.path.exists(self.name):
+            return []
+        with open(self.name, encoding='utf-8', errors='replace') as file:
+            texts = file.read().splitlines()
+        lines = []
+        for text in texts:
+            with contextlib.suppress(ValueError):
+                line = json.loads(text)
+                if isinstance(line, dict) and (not lines or {'of', 'result'} <= set(line)):
+                    lines.append(line)
+        if texts and not lines:
+            raise ValueError('%s has no runs that can be continued.' % shownPath(self.name))
+        return lines
+
+    def get(self, of):
+        """The result of a run; None if it has not been done."""
+        return self._known.get(_key(of))
+
+    def add(self, of, result):
+        if self.name is not None and result['result'] not in ('lost', 'unloadable'):
+            appendText(self.name, json.dumps(dict(of=of, result=result)) + '\n')
+
+
+def _key(of):
+    return json.dumps(of, sort_keys=True)

@@ -1,0 +1,285 @@
+"""Speed against accuracy: one scene, run over a grid of choices (tradeoff).
+
+scene_choices.py contains the known choices, runs.py the runs, run_in_yade.py a single run in its yade,
+tradeoff_table.py the table.
+"""
+
+import itertools
+import json
+import math
+import os
+import statistics
+import sys
+import warnings
+
+import numpy
+
+from yadefrag.arguments import number, path, plain, positive, refuse, shown, shownPath, text, whole
+from yadefrag.io.files import requireWritable
+from yadefrag.messages import warn
+from yadefrag.studies import run_process, scene_choices as known
+from yadefrag.studies.grouping import SEED, passOn
+from yadefrag.studies.runs import Finished, jobOf, requireExecutor, requireOutside, runAll
+from yadefrag.studies.tradeoff_table import COLUMNS, TradeoffRow, TradeoffTable, describe, namesOfCases
+
+MOST_SECONDS = 1e9  # longest time limit of a process
+_REPEATABLE = ('not run', 'ok')
+
+
+def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=0., repeats=3,
+             limit=60., files=None, title='', executor=None, resume=None, by=()):
+    """Runs `scene` over a grid of choices; returns a TradeoffTable of times and errors.
+
+    scene      function (choices) that builds the scene in O and sets O.engines and O.dt, with the
+               helpers of yadefrag.studies.Choices where they apply; its return value is passed to
+               `measure`
+    vary       dict {name: [values]}: all combinations are run; or a list of such dicts, whose grids
+               are run one after the other ([{}, {'passes': [1, 2]}]: the scene's own choices,
+               then the varied ones). Known names: passes, smooth, size, timeStep, halo, collider,
+               verletDist, plane, bulkViscosity, fracture, threads; others are passed on.
+    measure    function (built) of the scene's return value → number or numbers (n), after the run
+    duration   s, simulated
+    reference  the correct result: a number or numbers (n), in the unit of `measure`; a file of numbers
+               for numpy.loadtxt; 'finest': the setting with the smallest size, then the smallest time
+               step, then the longest time; or a dict of choices, a setting that is run as well. The
+               error is relative to it (root mean square for several numbers), and absolute if it is 0.
+    watch      function (built), called after each `every` s of simulated time (0: each step, for at
+               least one step); the list of its return values is then passed to `measure` as well
+    repeats    runs of each setting, alternating with the others; times are their medians
+    limit      s, wall-clock time of a run including its set-up
+    files      path without ending: writes .csv, .md and .png
+    title      of the plot
+    executor   None: one run after the other, here; or an executor as in concurrent.futures, mpi4py or
+               Dask, whose workers start yade on their machines and access the same files. Times are
+               meaningful only if each run has a separate core
+    resume     None, or a file .jsonl of finished runs: an interrupted call continues where it
+               stopped if it is repeated with the same arguments. Remove the file if the scene has
+               changed
+    by         name or names of choices that make another problem, with another correct result, e.g. a
+               rate of loading: each of its values has its own reference ('finest', or the dict of
+               choices) and its own Pareto front; so has each 'seed'. The table also has the means of
+               rows that differ in the seed only
+
+    Each run is a separate `yade -n -x`. Times are those of steps only: wall-clock and processor
+    time over simulated time. A setting that the scene or an engine refuses, that blows up, fails or
+    takes too long is a row with that result. What runs warn of is in `warnings` of their rows, and is
+    passed on as a warning of this call, once for each kind. Ctrl-C ends the runs; the table then has the finished
+    ones. Functions must be at the top level of a file, and the call of tradeoff in a script after
+    `if __name__ == '__main__':`, since each run loads the file again. ValueError, before anything
+    runs, for bad arguments, OSError for files that cannot be written; RuntimeError if the file
+    cannot be loaded again.
+    """
+    requireOutside('tradeoff')
+    settings = _grid(vary)
+    job = jobOf(scene, measure, watch)
+    job.update(duration=positive('duration', duration, 's'),
+               every=number('every', every, lambda v: 0 <= v < math.inf,
+                            'a positive number (s), or 0'))
+    repeats = whole('repeats', repeats)
+    job['limit'] = min(positive('limit', limit, 's'), MOST_SECONDS)
+    executor = requireExecutor(executor)
+    title, by = text('title', title), namesOfCases(by)
+    right = _reference(reference)
+    if isinstance(right, dict):
+        settings = _withReferences(settings, right, by)
+    if files is not None:
+        for name in TradeoffTable.namesOfFiles(files):
+            requireWritable(name)
+    rows = [TradeoffRow(settings=dict(setting)) for setting in settings]
+    finished = Finished(resume, {key: job[key] for key in ('file', 'functions', 'duration', 'every')})
+    _runAll(rows, settings, job, repeats, executor, finished)
+    table = TradeoffTable(rows, title, by)
+    _setErrors(table, right, settings)
+    passOn('tradeoff', rows)
+    if files is not None:
+        writeTable(table, files)
+    return table
+
+
+def writeTable(table, files):
+    """A full disk must not cost the results of the runs: the table is returned in any case."""
+    try:
+        table.write(files)
+    except OSError as error:
+        warn('the table could not be written: %s.' % error)
+
+
+def checkChoice(name, value, argument='vary', columns=COLUMNS):
+    """`value`, as a plain number or text; ValueError with the argument if it is neither."""
+    if not isinstance(name, str) or name in columns:
+        raise ValueError('%s has the choice %s, a name must be a text that is no other column of '
+                         'the table.' % (argument, shown(name)))
+    name, value = text('the name of a choice', name), plain(value)
+    if not isinstance(value, (str, bool, int, float)):
+        raise ValueError('%s has the choice %s=%s, it must be a number, a text, True or False.' %
+                         (argument, shownPath(name), shown(value)))
+    if isinstance(value, str):
+        text(shownPath(name), value)
+    known.check(name, value)
+    return value
+
+
+def _grid(vary):
+    """List of settings (dicts), each once, all values checked."""
+    grids = [vary] if isinstance(vary, dict) else vary
+    if not isinstance(grids, (list, tuple)) or not grids \
+            or not all(isinstance(grid, dict) for grid in grids):
+        refuse('vary', vary, 'a dict {name: [values]} or a list of those')
+    settings = []
+    for grid in grids:
+        lists = [_values(name, values) for name, values in grid.items()]
+        for combination in itertools.product(*lists):
+            setting = dict(zip(grid, combination))
+            if _key(setting) not in map(_key, settings):  # with the type: True is not 1
+                settings.append(setting)
+    return settings
+
+
+def _withReferences(settings, right, by):
+    """The settings, and after them those of the reference: `right` in each problem."""
+    wanted = [{**{n: s[n] for n in (*by, SEED) if n in s}, **right} for s in settings]
+    for one in wanted:
+        if _key(one) not in map(_key, settings):
+            settings = settings + [one]
+    return settings
+
+
+def _values(name, values):
+    """The checked values of a choice; NumPy's numbers become Python's."""
+    if isinstance(values, numpy.ndarray):
+        values = list(values.flat)
+    if not isinstance(values, (list, tuple)) or not values:
+        raise ValueError('vary has %s for the choice %s, it must be a list of values.' %
+                         (shown(values), shown(name)))
+    return [checkChoice(name, value) for value in values]
+
+
+def _key(setting):
+    return json.dumps(setting, sort_keys=True)
+
+
+def _reference(reference):
+    """'finest', a checked setting, or an array of numbers."""
+    if isinstance(reference, dict):
+        return {name: checkChoice(name, value) for name, value in reference.items()}
+    if isinstance(reference, str) and reference == 'finest':
+        return reference
+    if isinstance(reference, (str, os.PathLike)):
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter('ignore')  # about a file without numbers, which is refused below
+                numbersRead = numpy.loadtxt(path('reference', reference), encoding='utf-8-sig')
+        except (OSError, ValueError) as error:
+            raise ValueError('reference is %s, which is not a file of numbers: %s.' %
+                             (shown(str(reference)), str(error).rstrip('.')[:120])) from None
+    else:
+        try:
+            numbersRead = numpy.asarray(reference, dtype=float)
+        except (TypeError, ValueError, OverflowError):
+            numbersRead = numpy.array([math.nan])
+    if numbersRead.size == 0 or numbersRead.ndim > 1 or not numpy.isfinite(numbersRead).all():
+        refuse('reference', reference,
+               "finite numbers, a file of them, 'finest' or a dict of choices")
+    return numbersRead
+
+
+def _runAll(rows, settings, job, repeats, executor, finished):
+    """Runs all rows. The settings alternate, so that a slow minute of the machine affects all of
+    them."""
+    import tqdm  # only if something runs
+    bar = tqdm.tqdm(total=repeats * len(rows), unit='run', disable=None)
+    try:
+        with bar:
+            for turn in range(repeats):
+                _runTurn(turn, rows, settings, job, executor, finished, bar)
+    except KeyboardInterrupt:
+        done = sum(len(row.walls) for row in rows)
+        print('Stopped after %d of %d runs.' % (done, repeats * len(rows)), file=sys.stderr)
+
+
+def _runTurn(turn, rows, settings, job, executor, finished, bar):
+    """One run of each setting that has not failed."""
+    due = []
+    for row, setting in zip(rows, settings):
+        known = finished.get(dict(setting=setting, turn=turn))
+        if row.result in _REPEATABLE and known is None:
+            due.append((row, setting))
+            continue
+        if row.result in _REPEATABLE:
+            _take(row, known)
+        bar.update()
+
+    def take(number, found):
+        row, setting = due[number]
+        _take(row, found)
+        finished.add(dict(setting=setting, turn=turn), found)
+        bar.update()
+
+    bar.set_postfix_str(describe(due[0][1]) if len(due) == 1 else '', refresh=False)
+    runAll([dict(job, settings=setting) for _, setting in due], take, executor, _runOne)
+
+
+def _runOne(job):
+    """The result of one run in a new yade, a dict as run_in_yade.perform returns it."""
+    return run_process.perform(job)
+
+
+def _take(row, found):
+    """Stores the result of one run in its row."""
+    if found['result'] == 'unloadable':
+        raise RuntimeError('a run cannot load the scene: %s' % found['message'])
+    lost = found['result'] == 'lost'  # by the executor, not by the scene
+    row.result, row.message = 'failed' if lost else found['result'], found['message']
+    row.warnings += [one for one in found.get('warnings', ()) if one not in row.warnings]
+    for name, value in found.get('used', {}).items():  # the scene's own choices, unless varied
+        if value is not None:
+            row.settings.setdefault(name, value)
+    if row.result != 'ok':
+        row.walls, row.cpus, row.wall, row.cpu, row.value, row.seconds = [], [], None, None, None, None
+        return
+    row.walls.append(found['wall'])
+    row.cpus.append(found['cpu'])
+    row.wall, row.cpu = statistics.median(row.walls), statistics.median(row.cpus)
+    row.steps, row.value = found['steps'], found['value']
+    if found.get('seconds') is not None:  # of a file of version 0.1: unknown
+        row.seconds = found['seconds'] * row.wall / found['wall']
+
+
+def _setErrors(table, right, settings):
+    """Computes the errors of all rows with a value, relative to the reference of their problem."""
+    of = {id(row): setting for row, setting in zip(table.rows, settings)}
+    for case, rows in table.cases():
+        good = [row for row in rows if row.result == 'ok']
+        if isinstance(right, str):
+            reference = _finest(good)
+        elif isinstance(right, dict):
+            wanted = _key({**case, **right})
+            reference = next(row for row in table.rows if _key(of[id(row)]) == wanted)
+        else:
+            reference = None
+        if isinstance(right, dict) and reference.result != 'ok':
+            for other in good:
+                other.message = 'the reference (%s) has no value.' % describe(right)
+            continue
+        if reference is not None and not table.isReference(reference):
+            table.references.append(reference)
+        value = right if reference is None else numpy.asarray(reference.value)
+        for row in good:
+            row.error, row.message = _error(numpy.asarray(row.value), value)
+
+
+def _finest(rows):
+    """The row that is the reference if no other is given; None without rows."""
+    if not rows:
+        return None
+    return min(rows, key=lambda row: (row.settings.get('size', 0), row.settings.get('timeStep', 0),
+                                      -row.wall))
+
+
+def _error(value, right):
+    """(error or None, message)."""
+    if value.shape != right.shape:
+        return None, 'measured are %d numbers, the reference has %d.' % (value.size, right.size)
+    scale = numpy.linalg.norm(right)
+    off = numpy.linalg.norm(value - right)
+    return (float(off / scale) if scale > 0 else float(off / math.sqrt(value.size))), ''

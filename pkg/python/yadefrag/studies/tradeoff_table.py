@@ -1,0 +1,314 @@
+"""The table that tradeoff() returns: rows, Pareto front, CSV, Markdown, plot."""
+
+import csv
+import dataclasses
+import io
+import json
+import statistics
+
+from yadefrag.arguments import path, real, refuse, shownPath, text
+from yadefrag.io.files import writeText
+from yadefrag.studies.grouping import SEED, grouped
+
+_FORMER = ('result', 'wall', 'cpu', 'error', 'value', 'steps', 'walls', 'cpus', 'message')  # of version 0.1
+COLUMNS = (*_FORMER, 'seconds', 'warnings')
+_TIMES = {'wall': 'wall-clock time over simulated time (s/s)',
+          'cpu': 'processor time over simulated time (s/s)'}
+
+
+@dataclasses.dataclass
+class TradeoffRow:
+    """One setting and its result.
+
+    settings    dict of choices: those varied, and the scene's own ones that it used
+    result      'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or
+                'not run'
+    wall, cpu   wall-clock and processor time over simulated time (s/s), medians; None without any
+    error       relative to the reference (absolute if that is 0); None without any
+    value       the measured value, a number or a list
+    steps       of one run
+    walls, cpus of the single runs (s/s), in their order
+    seconds     wall-clock time of the steps of a run (s), median
+    warnings    messages of its runs: those of fe.warnings, and Python's of the script
+    """
+
+    settings: dict
+    result: str = 'not run'
+    wall: float = None
+    cpu: float = None
+    error: float = None
+    value: object = None
+    steps: int = None
+    walls: list = dataclasses.field(default_factory=list)
+    cpus: list = dataclasses.field(default_factory=list)
+    message: str = ''
+    seconds: float = None
+    warnings: list = dataclasses.field(default_factory=list)
+
+
+def describe(settings):
+    """'passes=2, size=0.001'; 'as the scene is' for no choices."""
+    return ', '.join('%s=%s' % (n, _text(v)) for n, v in settings.items()) or 'as the scene is'
+
+
+def _text(value):
+    return '%.6g' % value if isinstance(value, float) else str(value)
+
+
+class TradeoffTable:
+    """rows (list of TradeoffRow), title, by (names of choices that make another problem), references (rows
+    that are the reference for the others of their problem); reference is the first of these, or None.
+
+    `read` reads a file written by `csv`; the reference's row is not marked there.
+    """
+
+    def __init__(self, rows, title='', by=()):
+        try:
+            self.rows = list(rows)
+        except TypeError:
+            refuse('rows', rows, 'a list of TradeoffRow')
+        for i, row in enumerate(self.rows):
+            _requireRow(row, 'rows[%d]' % i)
+        self.title, self.by, self.references = text('title', title), namesOfCases(by), []
+
+    @property
+    def reference(self):
+        return self.references[0] if self.references else None
+
+    @reference.setter
+    def reference(self, row):
+        self.references = [] if row is None else [row]
+
+    def cases(self):
+        """[(dict of settings, rows)]: the rows of one problem each, by `by` and the seed."""
+        return grouped(self.rows, [*self.by, SEED])
+
+    def means(self):
+        """A table with one row for the rows that differ in the seed only: medians of times, the mean of the
+        errors, and in `message` their number; self without seeds."""
+        names = [name for name in self.names() if name != SEED]
+        if len(names) == len(self.names()):
+            return self
+        rows = []
+        for settings, group in grouped(self.rows, names):
+            good = [row for row in group if row.error is not None]
+            mean = TradeoffRow(settings, 'ok' if good else group[0].result, message='%d of %d seeds' %
+                               (len(good), len(group)))
+            for name in ('wall', 'cpu', 'steps', 'seconds') if good else ():
+                known = [getattr(row, name) for row in good if getattr(row, name) is not None]
+                setattr(mean, name, statistics.median(known) if known else None)
+            if good:
+                mean.error = statistics.fmean(row.error for row in good)
+                mean.walls, mean.cpus = ([t for row in good for t in getattr(row, n)] for n in ('walls', 'cpus'))
+            rows.append(mean)
+        return TradeoffTable(rows, self.title, self.by)
+
+    def names(self):
+        """Names of all choices, in the order in which they first occur."""
+        return list(dict.fromkeys(name for row in self.rows for name in row.settings))
+
+    def label(self, row):
+        """Difference of a row from the first: 'passes=2'; 'row 1' for that one."""
+        _requireRow(row)
+        if not self.rows:
+            raise ValueError('the table has no rows.')
+        first = self.rows[0].settings
+        other = {name: value for name, value in row.settings.items()
+                 if _encode(value) != _encode(first.get(name))}
+        return describe(other) if other else 'row 1'
+
+    def front(self, time='wall'):
+        """The Pareto front: rows for which no other row of the same problem is at least as fast and as
+        accurate and better in one of both.
+
+        `time` is 'wall' or 'cpu'. Problem by problem in order of time; without the references.
+        """
+        _requireTime(time)
+        return [row for _, rows in self.cases() for row in self._front(rows, time)]
+
+    def _front(self, rows, time):
+        rows = [row for row in rows if row.error is not None and not self.isReference(row)]
+
+        def point(row):
+            return getattr(row, time), row.error
+
+        best, least = [], float('inf')
+        for row in sorted(rows, key=point):
+            if row.error < least or best and point(row) == point(best[-1]):
+                best.append(row)
+                least = row.error
+        return best
+
+    def isReference(self, row):
+        return any(row is one for one in self.references)
+
+    def ratio(self, row, time='wall'):
+        """Time over that of the first row, the median of adjacent runs; None without."""
+        _requireRow(row)
+        _requireTime(time)
+        pairs = [(a, b) for a, b in zip(getattr(row, time + 's'),
+                                        getattr(self.rows[0], time + 's')) if b > 0]
+        return statistics.median(a / b for a, b in pairs) if pairs else None
+
+    def csv(self, file):
+        """Writes all rows: the choices, then COLUMNS; values as JSON, an empty cell for None."""
+        names = self.names()
+        lines = [[row.settings.get(name) for name in names] + [getattr(row, c) for c in COLUMNS]
+                 for row in self.rows]
+        writeText(path('file', file), tableText(names + list(COLUMNS), lines))
+
+    @classmethod
+    def read(cls, file, title=''):
+        """The table from a file written by `csv`. ValueError if a column is missing, or for a value
+        that `csv` cannot have written."""
+        name = path('file', file)
+        with open(name, newline='', encoding='utf-8-sig', errors='replace') as f:
+            try:
+                lines = list(csv.reader(f))
+            except csv.Error as error:
+                raise ValueError('%s is not a table: %s.' % (shownPath(name), error)) from None
+        head = lines[0] if lines else []
+        columns = next((one for one in (COLUMNS, _FORMER) if tuple(head[-len(one):]) == one), None)
+        if columns is None:
+            raise ValueError('%s does not end with the columns %s.' %
+                             (shownPath(name), ', '.join(COLUMNS)))
+        rows = [_row(head, line, columns) for line in lines[1:]]
+        if None in rows:
+            raise ValueError('%s has a damaged row, the one after %d others.' %
+                             (shownPath(name), rows.index(None)))
+        return cls(rows, title)
+
+    def __str__(self):
+        """As Markdown."""
+        return self.markdown() if self.rows else 'no rows'
+
+    def markdown(self, file=None, time='wall'):
+        """The table as Markdown text, rows of the front in bold; written to `file` if it is given.
+
+        Times are also shown relative to the first row (ratio), settings by `label`.
+        """
+        front = self.front(time)
+        if not self.rows:
+            raise ValueError('the table has no rows.')
+        out = ['# %s\n' % self.title] * bool(self.title)
+        out += ['Row 1: %s. The others differ from row 1 as stated.\n' %
+                describe(self.rows[0].settings),
+                'Times are those of the steps: of a run, and per simulated second.\n',
+                '| # | setting | run, s | wall, s/s | cpu, s/s | %s × | steps | error |' % time,
+                '|--:|---|--:|--:|--:|--:|--:|--:|']
+        for number, row in enumerate(self.rows, 1):
+            bold = '**' if row in front else ''
+            cells = [str(number), bold + self.label(row) + bold]
+            if row.result == 'ok':
+                ratio = self.ratio(row, time)
+                error = row.message if row.error is None else '%.3g' % row.error
+                error += ' (reference)' if self.isReference(row) else ''
+                cells += ['' if row.seconds is None else '%.3g' % row.seconds, '%.4g' % row.wall, '%.4g' % row.cpu,
+                          '' if ratio is None else '%.2f' % ratio, str(row.steps),
+                          error]
+            else:
+                cells += ['', '', '', '', '', '%s: %s' % (row.result, row.message) if row.message
+                          else row.result]
+            out.append('| ' + ' | '.join(cell.replace('|', '\\|') for cell in cells) + ' |')
+        whole = '\n'.join(out) + '\n' + self._meansText()
+        if file is not None:
+            writeText(path('file', file), whole)
+        return whole
+
+    def _meansText(self):
+        """Means over the seeds, as Markdown; '' without seeds."""
+        means = self.means()
+        if means is self:
+            return ''
+        lines = ['', 'Means over the seeds:', '', '| setting | seeds | wall, s/s | error |', '|---|--:|--:|--:|']
+        for row in means.rows:
+            numbers = ['', ''] if row.error is None else ['%.4g' % row.wall, '%.3g' % row.error]
+            lines.append('| %s |' % ' | '.join([describe(row.settings), row.message, *numbers]).replace('\n', ' '))
+        return '\n'.join(lines) + '\n'
+
+    def plot(self, file=None, ax=None, time='wall', names=True):
+        """Draws error over time, with the Pareto front as a line; returns Matplotlib's axes.
+
+        Points have the numbers of the Markdown table, explained at the side; without `names` at the
+        side, all points with enough room have names. `file` is the path of a picture; its ending
+        determines the format. ValueError if no row has an error to show.
+        """
+        from yadefrag.studies import tradeoff_plot  # Matplotlib only if it is needed
+        return tradeoff_plot.plot(self, file, ax, time, _TIMES.get(str(time)), names)
+
+    def write(self, files, time='wall'):
+        """files.csv, files.md and, if there is something to show, files.png."""
+        table, readable, picture = self.namesOfFiles(files)
+        self.csv(table)
+        self.markdown(readable, time)
+        if self.front(time):
+            self.plot(picture, time=time)
+
+    @staticmethod
+    def namesOfFiles(files):
+        """Names of the files that `write` writes."""
+        return [path('files', files) + ending for ending in ('.csv', '.md', '.png')]
+
+
+def namesOfCases(by):
+    """A tuple of names from one or several."""
+    names = (by,) if isinstance(by, str) else by
+    if not isinstance(names, (list, tuple)) or not all(isinstance(name, str) for name in names):
+        refuse('by', by, 'the name of a choice, or a list of names')
+    return tuple(names)
+
+
+def tableText(heading, lines):
+    """A CSV file as text: a heading, then lines of values."""
+    out = io.StringIO(newline='')
+    writer = csv.writer(out)
+    writer.writerow(heading)
+    for line in lines:
+        writer.writerow([_encode(value) for value in line])
+    return out.getvalue()
+
+
+def _requireRow(row, name='row'):
+    if not isinstance(row, TradeoffRow):
+        refuse(name, row, 'a TradeoffRow')
+
+
+def _requireTime(time):
+    if not isinstance(time, str) or time not in _TIMES:
+        refuse('time', time, "'wall' or 'cpu'")
+
+
+def _row(head, line, columns):
+    """The TradeoffRow of a line below `head`; None for a line that `csv` cannot have written."""
+    if len(line) != len(head):
+        return None
+    cells = [_decode(cell) for cell in line]
+    settings = {n: v for n, v in zip(head, cells[:-len(columns)]) if v is not None}
+    row = TradeoffRow(settings, **dict(zip(columns, cells[-len(columns):])))
+    row.message, row.warnings = row.message or '', row.warnings or []
+    isRight = (isinstance(row.result, str) and isinstance(row.message, str)
+               and all(real(value) is not None or value is None and row.result != 'ok'
+                       for value in (row.wall, row.cpu, row.steps))
+               and all(one is None or real(one) is not None for one in (row.error, row.seconds))
+               and isinstance(row.warnings, list)
+               and all(isinstance(times, list) and None not in map(real, times)
+                       for times in (row.walls, row.cpus)))
+    return row if isRight else None
+
+
+def _encode(value):
+    """A cell: JSON, except for texts that cannot be mistaken for JSON."""
+    if value is None:
+        return ''
+    if isinstance(value, str) and value and _decode(value) is value:
+        return value
+    return json.dumps(value)
+
+
+def _decode(cell):
+    if cell == '':
+        return None
+    try:
+        return json.loads(cell)
+    except (ValueError, RecursionError):
+        return cell
