@@ -59,6 +59,12 @@ class Manual(unittest.TestCase):
                 self.assertIn('\n' + page.stem + '\n', index)
 
 
+    def test_noFiguresOfUncommittedSources(self):
+        for page in PAGES + sorted((ROOT / 'examples').rglob('*.md')) + [measured_tables.FILE]:
+            with self.subTest(page=page.name):
+                self.assertNotIn('-dirty', page.read_text())
+
+
 class MeasuredTables(unittest.TestCase):
     """The README's tables are those that the benchmarks wrote."""
 

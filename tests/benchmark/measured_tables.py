@@ -14,13 +14,18 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FILE = ROOT / 'docs' / 'data' / 'measured.json'
 README = ROOT / 'README.md'
 MANUAL = ROOT / 'docs' / 'measured.md'
-SOURCES = ('colliders', 'figures', 'calculix')
+SOURCES = ('colliders', 'figures')
 MARKS = ('<!-- measured -->\n', '<!-- end of measured -->')
 RIVAL, OURS = 'InsertionSortCollider', 'LebesgueCollider'
 
 
 def keep(key, value):
-    """Store the figures of one benchmark, and make the tables of the README anew once all three are there."""
+    """Store the figures of one benchmark, and make the tables of the README anew if all others are there.
+
+    ValueError if the sources differed from the commit: such figures cannot be measured again.
+    """
+    if value['about'].endswith('-dirty'):
+        raise ValueError(f'the figures are of sources that are not committed: {value["about"]}')
     data = load()
     data[key] = value
     FILE.write_text(json.dumps(data, indent=1, ensure_ascii=False) + '\n')
@@ -63,25 +68,31 @@ def publish(options, name, text, marks):
 
 
 def tables(data):
-    """The three tables, as Markdown."""
-    parts = [colliderTable(data['colliders']), elementTable(data['figures']['values'], data['calculix']),
-             fractureTable(data['figures']['values'])]
-    keys = {}
-    for key in SOURCES:
-        keys.setdefault(data[key]['about'], []).append(key)
-    origin = '; '.join(f'{", ".join(names)}: {about}' for about, names in keys.items())
-    return '\n\n'.join(parts) + f'\n\n`scripts/bench`: {origin}.\n'
+    """The two tables, as Markdown, and the sentence on CalculiX if there are figures of it."""
+    figures = data['figures']
+    parts = [colliderTable(data['colliders']),
+             accuracyTable(figures['values']) + f'\n\n{figures["about"]}; `scripts/bench figures`.']
+    if 'calculix' in data:
+        parts.append(calculixSentence(data['calculix']))
+    return '\n\n'.join(parts) + '\n'
 
 
 # --- colliders ------------------------------------------------------------------------------------
+SCENES = {  # what the README calls the scenes of scenes.py
+    'gas': 'gas of equal spheres', 'packing': 'dense packing, nearly at rest',
+    'polydisperse': 'gas of spheres, radii 1 : 20', 'polydisperse50': 'gas of spheres, radii 1 : 50'}
+
+
 def colliderTable(colliders):
-    """Milliseconds per step of YADE's collider, default and tuned, and ours."""
-    lines = [f'| colliders, {colliders["n"]:,} bodies, ms per step (collider, loop, integrator) | '
-             'YADE\'s default, tuned | ours | × |', '|---|--:|--:|--:|']
+    """Milliseconds per step with YADE's collider, default and tuned, and with ours."""
+    lines = [f'Milliseconds for a step (collider, interaction loop and integrator) of {colliders["n"]:,} spheres. "Tuned" is YADE\'s',
+             'collider with the best of 15 choices of `verletDist` and `targetInterv` for that scene.', '',
+             '| scene | `InsertionSortCollider` | tuned | `LebesgueCollider` | times faster | than the tuned one |',
+             '|---|--:|--:|--:|--:|--:|']
     for scene, entry in colliders['scenes'].items():
-        lines.append(f'| {scene} | {digits(entry["default"])}, {digits(entry["tuned"])} | '
-                     f'{digits(entry["ours"])} | {ratio(entry["x"])}, {ratio(entry["t"])} |')
-    return '\n'.join(lines)
+        lines.append(f'| {SCENES[scene]} | {digits(entry["default"])} | {digits(entry["tuned"])} | '
+                     f'{digits(entry["ours"])} | {ratio(entry["x"])} | {ratio(entry["t"])} |')
+    return '\n'.join(lines) + f'\n\n{colliders["about"]}; `scripts/bench colliders`.'
 
 
 def colliders(summary, n, about):
@@ -136,29 +147,30 @@ def used(rows):
     return values
 
 
-def elementTable(figures, calculix):
-    """Finite elements against CalculiX and theory."""
-    angular = figures['angular']
+def accuracyTable(figures):
+    """Finite elements, contact and fracture against theory."""
+    angular, release, peak, deepest = (figures[name] for name in ('angular', 'release', 'peak', 'deepest'))
     return '\n'.join([
-        '| finite elements | reference | ours |', '|---|--:|--:|',
-        f'| impact, {calculix["triangles"]} triangles, ms per step | CalculiX {calculix["theirs"]:.2g} | '
-        f'{calculix["ours"]:.2g}, with a step {calculix["dtRatio"]:.2g} times as long |',
-        f'| pressure of Hertz\' contact, smooth and straight surfaces | theory | '
+        '| finite elements: what is compared | with | deviation |', '|---|---|--:|',
+        '| largest pressure where a cylinder presses on a block, smooth and straight boundaries | formula of Hertz | '
         f'{percents(figures["hertz"])} |',
-        f'| angular momentum, of impulse × length, {len(angular)} collisions | 0 | '
-        f'at most {power(max(angular))} |'])
+        f'| angular momentum after a collision, relative to its impulse times length; {len(angular)} collisions | '
+        f'conservation | at most {power(max(angular))} |',
+        f'| energy released per area when a crack begins to grow, {number(release)} meshes | fracture energy of the '
+        f'material | {percents(release)} |',
+        f'| load at which a block under compression breaks, {number(peak)} meshes | law of Mohr and Coulomb | '
+        f'{percents(peak)} |',
+        '| mean size of the fragments of a ring that expands at 10⁴ per second | formula of Zhou, Molinari and Ramesh '
+        f'(2006) | {percents(figures["ring"])} |',
+        f'| deepest overlap of two triangles, relative to the shortest side; {number(deepest)} impacts with fragments | '
+        f'none | at most {power(max(deepest))} |'])
 
 
-def fractureTable(figures):
-    """Fracture against theory."""
-    release, peak, deepest = (figures[name] for name in ('release', 'peak', 'deepest'))
-    return '\n'.join([
-        '| fracture | theory | ours |', '|---|--:|--:|',
-        f'| energy release rate at first break, {number(release)} meshes | Gc | {percents(release)} |',
-        f'| load in compression, {number(peak)} meshes | Mohr and Coulomb | {percents(peak)} |',
-        f'| fragments of a ring, 10⁴ s⁻¹ | Zhou\'s fit | {percents(figures["ring"])} |',
-        f'| overlap in rubble, of the shortest segment, {number(deepest)} impacts | 0 | '
-        f'at most {power(max(deepest))} |'])
+def calculixSentence(calculix):
+    """One step of an elastic impact beside CalculiX."""
+    return (f'A step of an elastic impact with {calculix["triangles"]:,} triangles takes {calculix["ours"]:.2g} ms, '
+            f'with CalculiX\' explicit solver\n{calculix["theirs"]:.2g} ms, and {calculix["dtRatio"]:.2g} times as many '
+            f'steps. ({calculix["about"]}; `scripts/bench fe`.)')
 
 
 def percents(ratios):
