@@ -1,6 +1,6 @@
 """Writes docs/reference.md, which is committed, from the docstrings: scripts/yade -n -x docs/make_reference.py
 
-tests/pkg/test_docs.py compares it with the docstrings.
+tests/pkg/examples/test_docs.py compares it with the docstrings.
 """
 
 import inspect

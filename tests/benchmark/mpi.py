@@ -18,7 +18,7 @@ import report
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-sys.path.append(os.path.join(ROOT, 'tests', 'pkg'))
+sys.path.append(os.path.join(ROOT, 'tests', 'pkg', 'helpers'))
 import mpi_processes  # noqa: E402
 
 COLLIDERS = ['InsertionSortCollider', 'LebesgueCollider']

@@ -4,9 +4,13 @@ A test with the argument `collider` runs once per collider class; YADEFRAG_COLLI
 replaces the list, so that YADE's own InsertionSortCollider can be put through the same tests.
 """
 import os
+import sys
 import tempfile
 
 import pytest
+
+# What tests of several folders share.
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), 'helpers'))
 
 kShipped = 'LebesgueCollider,LinearCodeCollider,HierarchyCollider'
 kColliders = os.environ.get('YADEFRAG_COLLIDERS', kShipped).split(',')

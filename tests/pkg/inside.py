@@ -1,8 +1,9 @@
 """Runs pytest inside the running yade: `scripts/yade -n -x tests/pkg/inside.py [pytest args]`.
 
-Exits with pytest's code. Arguments that name tests are relative to tests/pkg. With
-`--shared FOLDER`, processes that are started with the same empty folder run each file once.
+Exits with pytest's code. Arguments that name tests are relative to tests/pkg; the folder of a file may be
+left out. With `--shared FOLDER`, processes that are started with the same empty folder run each file once.
 """
+import glob
 import os
 import signal
 import sys
@@ -18,8 +19,8 @@ kLongest = ['test_yade_own.py', 'test_threads.py', 'test_valgrind.py', 'test_cas
 class Shared:
     """Pytest plugin: of the files that several processes collect, each runs those that it takes first.
 
-    A file that is taken has an empty file of its name in `folder`. A file is taken as a whole, since
-    its tests share fixtures.
+    A file that is taken has an empty file of its name, which no other file of tests has, in `folder`. A file
+    is taken as a whole, since its tests share fixtures.
     """
 
     def __init__(self, folder):
@@ -46,6 +47,13 @@ class Shared:
         return None if self.mine[item.path] else True
 
 
+def located(argument):
+    """The argument, with the folder of the file of tests that it names."""
+    file, *test = argument.split('::')
+    found = glob.glob('*/' + file) if file.endswith('.py') and not os.path.exists(file) else []
+    return '::'.join(found + test) if found else argument
+
+
 def main():
     here = os.path.dirname(os.path.abspath(sys.argv[0]))
     arguments = sys.argv[1:]
@@ -57,6 +65,7 @@ def main():
         del arguments[at:at + 2]
     # A shell starts background jobs with interrupts ignored: tests of Ctrl-C would wait for ever.
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    arguments = [located(argument) for argument in arguments]
     if not any(os.path.exists(a.split('::')[0]) for a in arguments if not a.startswith('-')):
         arguments.append(here)
     options = ['-q', '-p', 'no:cacheprovider', '--rootdir', here, '--durations=20', '--durations-min=10',

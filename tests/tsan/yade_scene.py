@@ -7,7 +7,7 @@ import os
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', 'pkg'))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), '..', 'pkg', 'helpers'))
 import yadefrag  # noqa: E402
 from fe_impact import brittle, heapSpheres, impact  # noqa: E402
 

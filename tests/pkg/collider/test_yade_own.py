@@ -1,0 +1,208 @@
+"""YADE's own check scripts, unit tests and shipped examples, with a collider put in the place of
+YADE's (see swap.py). LebesgueCollider goes through all of them, the others through the quick
+ones."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from xml.etree import ElementTree
+
+import pytest
+import yade.config
+
+import test_constantness
+from project import yadeCommand
+
+kHere = os.path.dirname(os.path.abspath(__file__))
+kExamples = '/usr/share/doc/yade/examples'
+kChecks = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
+
+# Not here: checkList.py runs the others; the MPI scripts start other programs;
+# checkColliderConstantness.py reads the rival's sort lists (test_constantness.py stands for it);
+# YADE itself skips checkCapillaryEngineStandalone.py, which fails with its own collider, and
+# DEM-PFV-check.py, which fails with its own collider as soon as that searches in every step.
+kQuickChecks = [
+    'checkAvoidSelfInteractionMask.py', 'checkBlockGen.py',
+    'checkCapillaryModels.py', 'checkColliderCorrectness.py', 'checkFlipCell.py',
+    'checkGravity.py', 'checkGravityRungeKuttaCashKarp54.py', 'checkHertzExtended.py',
+    'checkLiquidMigration.py', 'checkLubrication.py', 'checkLubricationWithRoughness.py',
+    'checkPolyhedraCrush.py', 'checkPotentialParticles.py', 'checkPotentialVTKRecorders.py',
+    'checkTestTriax.py', 'checkVTKRecorder.py', 'checkViscElEng.py', 'checkViscElPM.py',
+    'checkViscElPM2.py', 'checkWeight.py', 'checkWirePM.py',
+    # of YADE 2025.2.0
+    'checkCohesiveFrictionalLaw.py', 'checkKineticEnergy.py', 'checkMultiScGeom.py',
+    'checkRotAlgorithmNonSpherical.py', 'checkSetPerm.py', 'checkTesselationWrapper.py',
+    'checkViscElBC.py']
+kLongChecks = [
+    'checkAlpha.py', 'checkClumpHopper.py', 'checkDEM-PFVPressureInjection.py',
+    'checkFlipSpheres.py', 'checkJCFpm.py', 'checkLS_DEM.py', 'checkLS_DEM_pbc.py',
+    'checkPotentialBlocks.py', 'checkSaveLoadClumps.py', 'checkTestDummy.py',
+    'checkThermalEngine.py', 'check_TwoPhaseFlowEngine_PressureInjection.py',
+    'checkbf_simple.py', 'checkbf_unixial_clump.py', 'colliderTorture.py']
+# They do nothing in a YADE that is built without the feature, as that of Debian 13.
+kNeeds = {
+    'checkHertzExtended.py': 'CGAL', 'checkPolyhedraCrush.py': 'CGAL', 'checkTesselationWrapper.py': 'CGAL',
+    'checkDEM-PFVPressureInjection.py': 'PFVFLOW', 'checkSetPerm.py': 'PFVFLOW',
+    'checkThermalEngine.py': 'THERMAL', 'check_TwoPhaseFlowEngine_PressureInjection.py': 'TWOPHASEFLOW'}
+# No collider runs in these; the last three need a feature that Debian's YADE is built without.
+kNoCollider = {'checkAlpha.py', 'checkTestDummy.py', 'checkPotentialBlocks.py',
+               'checkBlockGen.py', 'checkLiquidMigration.py'}
+# The collider is never among O.engines in a run: called by hand, or inside an integrator.
+kNoRun = {'checkAvoidSelfInteractionMask.py', 'checkFlipCell.py',
+          'checkGravityRungeKuttaCashKarp54.py'}
+# From YADE 2025.2.0 on, it compares the recorded interactions one by one in the order of YADE's collider;
+# testRecordedContacts stands for it.
+kYadesOrder = 'checkVTKRecorder.py'
+kFoundChecks = {'checkTestTriax.py'}    # here the collider comes out of C++, not by name
+
+kUnit = ['dummyTest', 'wrapper', 'core', 'pbc', 'clump', 'cohesive-chain', 'engines',
+         'utilsModule']
+kUnitWithCollider = {'wrapper', 'core', 'cohesive-chain', 'engines', 'utilsModule'}
+
+kResults = {}
+
+
+def outcome(collider, kind, names):
+    """{name: dict} as yade_scripts.py reports it; one process for all, another one for the rest
+    if a script takes it down."""
+    key = (collider, kind)
+    if key not in kResults:
+        results, left = {}, list(names)
+        while left:
+            with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
+                done = subprocess.run(
+                    [*yadeCommand(), os.path.join(kHere, 'run_yade_scripts.py'), collider, kind, *left],
+                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=folder, timeout=400,
+                    text=True, errors='replace')
+            lines = [x[4:] for x in done.stdout.splitlines() if x.startswith('@@@ {')]
+            results.update((r['name'], r) for r in map(json.loads, lines))
+            left = [n for n in left if n not in results]
+            if left:
+                results[left[0]] = dict(error=f'ended yade ({done.returncode}): '
+                                              f'{done.stdout[-1500:]}')
+                left.pop(0)
+        kResults[key] = results
+    return kResults[key]
+
+
+def checkResult(collider, result):
+    assert result['error'] is None, result['error']
+    assert result['rivals'] == 0, "YADE's own collider was still there"
+
+
+def isFull(collider):
+    return collider.name in ('LebesgueCollider', 'InsertionSortCollider')
+
+
+def reasonToSkip(script):
+    if not os.path.exists(os.path.join(kChecks, script)):
+        return f'this YADE has no {script}'
+    if script == kYadesOrder and not yade.config.version.startswith('2023.'):
+        return "it compares the interactions in the order of YADE's collider"
+    needed = kNeeds.get(script)
+    return needed and needed not in yade.config.features and f'this YADE is built without {needed}'
+
+
+@pytest.mark.parametrize('script', kQuickChecks + kLongChecks)
+def testCheckScript(collider, script):
+    if script in kLongChecks and not isFull(collider):
+        pytest.skip('long: LebesgueCollider runs it')
+    if why := reasonToSkip(script):
+        pytest.skip(why)
+    names = [x for x in kQuickChecks + kLongChecks * isFull(collider) if not reasonToSkip(x)]
+    result = outcome(collider.name, 'checks', names)[script]
+    checkResult(collider, result)
+    if script not in kNoCollider and not collider.isRival:
+        assert result['made'] + result['found'] > 0
+        assert (result['runs'] > 0) != (script in kNoRun)
+    if script in kFoundChecks and not collider.isRival:
+        assert result['found'] > 0
+
+
+def recorded(maker, folder):
+    """{array: values} of the contacts of the scene of YADE's checkVTKRecorder.py."""
+    os.mkdir(folder)
+    engine = test_constantness.build(maker, periodic=False)
+    # As in the check; without multiblock, VTK's writer aborts with any collider.
+    yade.wrapper.O.engines = yade.wrapper.O.engines + [yade.wrapper.VTKRecorder(
+        fileName=folder + '/', recorders=['all'], firstIterRun=10, iterPeriod=2000, ascii=True, multiblock=True)]
+    yade.wrapper.O.run(20, True)
+    root = ElementTree.parse(f'{folder}/10/10_2.vtp').getroot()
+    assert engine in yade.wrapper.O.engines
+    return {a.get('Name'): [float(x) for x in a.text.split()] for a in root.iter('DataArray')}
+
+
+def testRecordedContacts(collider, folder):
+    """A recorder writes the same contacts, in whatever order."""
+    ours, theirs = (recorded(m, os.path.join(folder, n)) for m, n in ((collider, 'ours'), (collider.rival, 'theirs')))
+    assert ours.keys() == theirs.keys() and len(ours['forceN']) > 20
+    for name, values in ours.items():
+        assert sorted(values) == pytest.approx(sorted(theirs[name]), rel=1e-12, abs=1e-15), name
+
+
+@pytest.mark.parametrize('module', kUnit)
+def testUnit(collider, module):
+    result = outcome(collider.name, 'unit', kUnit)[module]
+    checkResult(collider, result)
+    assert result['tests'] > 0
+    if module in kUnitWithCollider:
+        assert result['made'] > 0
+
+
+kShortExamples = [
+    'billiard.py', 'test/facet-sphere.py', 'test/clump.py',
+    'test/facet-sphere-ViscElBasic-peri.py', 'PeriodicBoundaries/periodic-simple.py']
+kLongExamples = [
+    'PeriodicBoundaries/cellFlipping.py', 'PeriodicBoundaries/periodic-simple-shear.py',
+    'PeriodicBoundaries/periodic-triax.py', 'PeriodicBoundaries/periodicSandPile.py',
+    'test/collider-stride-triax.py',
+    'test/triax-basic-without-plots.py', 'timeStepperUsage.py']
+
+
+@pytest.mark.skipif(not os.path.isdir(kExamples), reason="YADE's examples are not installed")
+@pytest.mark.parametrize('script', kShortExamples + kLongExamples)
+def testExample(collider, script):
+    """The contacts are those that YADE's collider has when it searches in every step.
+
+    With its strides on it loses floor contacts in periodicSandPile.py and so is no yardstick."""
+    if script in kLongExamples and not isFull(collider):
+        pytest.skip('long: LebesgueCollider runs it')
+    if collider.isRival and script.endswith('periodicSandPile.py'):
+        pytest.xfail('with strides it loses contacts with the floor')
+    every = [os.path.join(kExamples, s) for s in kShortExamples + kLongExamples]
+    names = every if isFull(collider) else every[:len(kShortExamples)]
+    path = os.path.join(kExamples, script)
+    expected = outcome('InsertionSortCollider', 'reference', every)[path]
+    assert expected['error'] is None, expected['error']
+    result = outcome(collider.name, 'examples', names)[path]
+    checkResult(collider, result)
+    assert result['runs'] > 0
+    compared = compareMoments(expected['moments'], result['moments'], result['radius'])
+    assert compared > 0
+
+
+def compareMoments(expected, found, radius):
+    """Compares the contacts while positions agree to a millionth of a radius; how many it saw."""
+    total = 0
+    assert [m['step'] for m in expected] == [m['step'] for m in found]
+    for a, b in zip(expected, found):
+        missing, extra = (differences(x['contacts'], y['contacts'], 1e-5 * radius)
+                          for x, y in ((a, b), (b, a)))
+        assert not missing and not extra, f'at step {a["step"]}'
+        total += len(a['contacts'])
+        if apart(a['positions'], b['positions']) > 1e-6 * radius:
+            assert a['step'] >= 20, 'the runs parted at once'     # rounding takes longer
+            break
+    return total
+
+
+def differences(these, others, depth):
+    """Pairs that only `these` have, apart from those that barely touch (rounding)."""
+    return {tuple(c[:2]) for c in these if c[2] is None or c[2] > depth} \
+        - {tuple(c[:2]) for c in others}
+
+
+def apart(these, others):
+    assert len(these) == len(others)
+    return max(abs(x - y) for p, q in zip(these, others) for x, y in zip(p, q))

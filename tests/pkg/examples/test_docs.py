@@ -1,0 +1,43 @@
+"""All Python of the manual and the README runs, as it is printed there."""
+import importlib.util
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+from project import ROOT, yadeCommand
+
+BLOCKS = {f'{page.name}-{number}': block
+          for page in (ROOT / 'README.md', *sorted((ROOT / 'docs').glob('*.md')))
+          for number, block in enumerate(re.findall(r'^```python\n(.*?)^```', page.read_text(), re.S | re.M))}
+# What a recipe prints beside a closed form; 15 %: coarse meshes, the disc has 10 % too much.
+BY_HAND = r': ([-+.e\d]+) \S+, by hand ([-+.e\d]+) \S+'
+
+
+@pytest.mark.parametrize('name', sorted(BLOCKS))
+def test_blockRuns(folder, name):
+    script = pathlib.Path(folder) / 'block.py'
+    script.write_text(BLOCKS[name] + "\nprint('ran to its end')\n")
+    done = subprocess.run([*yadeCommand(), str(script)], cwd=folder, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, timeout=600)
+    assert done.returncode == 0 and 'ran to its end' in done.stdout, done.stdout
+    assert 'Traceback' not in done.stdout and 'yadefrag:' not in done.stdout, done.stdout
+    for found, right in re.findall(BY_HAND, done.stdout):
+        assert float(found) == pytest.approx(float(right), rel=.15), done.stdout
+    assert len(re.findall(BY_HAND, done.stdout)) == BLOCKS[name].count(', by hand '), done.stdout
+
+
+def test_thereAreBlocks():
+    assert len(BLOCKS) >= 12 and any(name.startswith('getting_started') for name in BLOCKS)
+
+
+def test_referenceIsThatOfTheDocstrings():
+    """Otherwise: scripts/yade -n -x docs/make_reference.py"""
+    spec = importlib.util.spec_from_file_location('make_reference', ROOT / 'docs' / 'make_reference.py')
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    found = module.page()
+    assert found == (ROOT / 'docs' / 'reference.md').read_text()
+    for words in ('### `plotMesh(fe,', '`addPolygon(self, outline,', '- `size`: length of the triangles', '`fractureEnergy`'):
+        assert words in found

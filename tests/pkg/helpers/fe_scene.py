@@ -1,0 +1,86 @@
+"""An elastic disc that hits a block, the engines around an FESolver, momenta, and a contour of pixels."""
+import builtins
+
+import numpy as np
+
+import yadefrag
+from yade import wrapper as w
+
+O = builtins.O
+
+
+def fe(**settings):
+    """A solver and an elastic material 'm'."""
+    O.materials.append(w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.2, label='m'))
+    return w.FESolver(**settings)
+
+
+def run(solver, collider=None, spheres=False, newton=True, factor=.8):
+    """The usual engines around `solver`, and a stable step."""
+    engines = [w.ForceResetter()]
+    if collider:
+        engines.append(collider)
+    if spheres:
+        engines.append(w.InteractionLoop(
+            [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom()],
+            [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
+    engines.append(solver)
+    if newton:
+        engines.append(w.NewtonIntegrator(damping=0))
+    O.engines = engines
+    O.dt = factor * solver.criticalTimeStep()
+
+
+def finder(name, **attributes):
+    return getattr(w, name)([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()], **attributes)
+
+
+def steps(count):
+    for _ in range(count):
+        O.step()
+
+
+def impact(name=None, smooth=False, **settings):
+    """A disc that hits a block, ready to run."""
+    solver = fe(**settings)
+    solver.addPolygon(yadefrag.circle((0, 0), .1, 24), size=.02, material='m', velocity=(2, .3),
+                      smooth=smooth, spin=3)
+    solver.addPolygon(yadefrag.rectangle((.105, -.1), (.2, .1)), size=.02, material='m')
+    run(solver, name and finder(name))
+    return solver
+
+
+def momentum(solver):
+    """(linear (2,), angular) of the nodes, and of the spheres."""
+    m, x, v = solver.masses, solver.nodes, solver.velocities
+    linear = (m[:, None] * v).sum(0)
+    angular = (m * (x[:, 0] * v[:, 1] - x[:, 1] * v[:, 0])).sum()
+    for b in O.bodies:
+        if isinstance(b.shape, w.Sphere):
+            s = b.state
+            linear = linear + s.mass * np.array(s.vel)[:2]
+            angular += s.mass * (s.pos[0] * s.vel[1] - s.pos[1] * s.vel[0])
+            angular += s.inertia[2] * s.angVel[2]
+    return linear, angular
+
+
+def pixelContour(count, radius):
+    """The boundary of the unit pixels within `radius` of the middle of count × count, with every
+    pixel corner on it."""
+    middle = np.arange(count) + .5 - count / 2
+    inside = np.hypot(middle[:, None], middle) < radius
+    padded = np.pad(inside, 1)
+    after = {}
+    for i, j in np.argwhere(inside):
+        for across, start, end in (((i + 1, j), (i, j), (i + 1, j)),
+                                   ((i + 2, j + 1), (i + 1, j), (i + 1, j + 1)),
+                                   ((i + 1, j + 2), (i + 1, j + 1), (i, j + 1)),
+                                   ((i, j + 1), (i, j + 1), (i, j))):
+            if not padded[across]:
+                after[start] = end
+    first = min(after)
+    loop, point = [], first
+    while not loop or point != first:
+        loop.append((float(point[0]), float(point[1])))
+        point = after[point]
+    return loop

@@ -1,0 +1,334 @@
+"""Pictures, films and ParaView files of a solver, here a stand-in with two triangles."""
+
+import subprocess
+import types
+
+import numpy
+import pytest
+
+import scenes
+from project import yadeCommand
+from yadefrag.io import export
+from yadefrag.plots import pictures
+
+O = scenes.O
+
+
+def noCracks():
+    return dict(held=numpy.empty(0, dtype=bool), nodes=numpy.empty((0, 4), dtype=int),
+                triangle=numpy.empty(0, dtype=int), damage=numpy.empty(0))
+
+
+def standIn(**values):
+    return types.SimpleNamespace(_lock=lambda: None, _unlock=lambda: None, _cracks=noCracks, **values)
+
+
+def makeSolver():
+    return standIn(
+        nodes=numpy.array([[0, 0], [1, 0], [1, 1], [0, 1.]]),
+        displacements=numpy.array([[0, 0], [.1, 0], [.1, .2], [0, .2]]),
+        velocities=numpy.array([[3., 4], [0, 0], [1, 0], [0, 2]]),
+        contactForces=numpy.array([[0., 0], [0, 5], [0, 0], [-1, 0]]),
+        reactions=numpy.array([[0., 1], [0, 0], [2, 0], [0, 0]]),
+        triangles=numpy.array([[0, 1, 2], [0, 2, 3]]), strain=numpy.array([[1e-3, 0, 2e-3], [0, 0, 0]]),
+        stress=numpy.array([[1e6, 2e6, 3e6], [-1e6, 0, 0]]),
+        components=numpy.array([0, 1]), fragmentOf=numpy.array([0, 1]),
+        dropped=dict(count=0))
+
+
+def makeEmpty():
+    return standIn(
+        nodes=numpy.empty((0, 2)), displacements=numpy.empty((0, 2)),
+        velocities=numpy.empty((0, 2)), contactForces=numpy.empty((0, 2)),
+        reactions=numpy.empty((0, 2)), strain=numpy.empty((0, 3)),
+        triangles=numpy.empty((0, 3), dtype=int), stress=numpy.empty((0, 3)),
+        components=numpy.empty(0, dtype=int), fragmentOf=numpy.empty(0, dtype=int),
+        dropped=dict(count=0))
+
+
+def test_vtkFileHoldsEverything(folder):
+    meshio = pytest.importorskip('meshio')
+    fe = makeSolver()
+    export.exportVTK(fe, folder + '/out.vtu')
+    mesh = meshio.read(folder + '/out.vtu')
+    assert numpy.array_equal(mesh.points[:, :2], fe.nodes) and not mesh.points[:, 2].any()
+    assert numpy.array_equal(mesh.cells_dict['triangle'], fe.triangles)
+    for name, values in (('displacement', fe.displacements), ('velocity', fe.velocities),
+                         ('contact force', fe.contactForces), ('reaction', fe.reactions)):
+        assert numpy.array_equal(mesh.point_data[name][:, :2], values), name
+        assert not mesh.point_data[name][:, 2].any()
+    assert numpy.array_equal(mesh.cell_data['stress'][0], fe.stress)
+    assert numpy.array_equal(mesh.cell_data['strain'][0], fe.strain)
+    assert numpy.array_equal(mesh.cell_data['component'][0], fe.components)
+    assert numpy.array_equal(mesh.cell_data['fragment'][0], fe.fragmentOf)
+
+
+def test_vtkFileIsRefusedInOneSentence(folder):
+    with pytest.raises(ValueError, match=r"out\.vtk', its name must end with '\.vtu'"):
+        export.exportVTK(makeSolver(), folder + '/out.vtk')
+    with pytest.raises(ValueError, match='no bodies'):
+        export.exportVTK(makeEmpty(), folder + '/out.vtu')
+
+
+def shown(ax):
+    """The values behind the colours of an axes' triangles."""
+    return [c.get_array() for c in ax.collections if c.get_array() is not None][-1]
+
+
+@pytest.mark.parametrize('field, values', [
+    ('xx', [1e6, -1e6]), ('yy', [2e6, 0]), ('xy', [3e6, 0]),
+    ('mises', [numpy.sqrt(30) * 1e6, 1e6]), ('component', [0, 1]), ('speed', [5, 0, 1, 2]),
+    (numpy.array([7, 8]), [7, 8]), ([1, 2, 3, 4], [1, 2, 3, 4]),
+])
+def test_fieldIsShown(field, values):
+    ax = pictures.plotMesh(makeSolver(), field)
+    assert numpy.allclose(shown(ax), values)
+
+
+def test_pictureIsWritten(folder):
+    image = pytest.importorskip('PIL.Image')
+    for field in (None, 'mises', 'speed'):
+        path = '%s/%s.png' % (folder, field)
+        pictures.plotMesh(makeSolver(), field, path)
+        with image.open(path) as picture:
+            assert len(picture.getcolors(1 << 24)) > 10
+
+
+def test_badFieldIsRefused():
+    with pytest.raises(ValueError, match="field is 'stress', it must be one of 'xx'"):
+        pictures.plotMesh(makeSolver(), 'stress')
+    with pytest.raises(ValueError, match=r'shape \(3,\).*2 triangles or of the 4 nodes\.'):
+        pictures.plotMesh(makeSolver(), [1, 2, 3])
+    with pytest.raises(ValueError, match='no bodies'):
+        pictures.plotMesh(makeEmpty())
+
+
+def scenePicture(**settings):
+    """Axes of a square body, two spheres, and a clump of two, in a scene of YADE."""
+    from yade import utils, wrapper
+    O.materials.append(wrapper.FEMat(young=1e7, poisson=.3, density=1000, label='m'))
+    fe = wrapper.FESolver()
+    fe.addPolygon([(0, 0), (1, 0), (1, 1), (0, 1)], size=.5, material='m')
+    O.bodies.append([utils.sphere((2, 0, 0), .5, color=(1, 0, 0)),
+                     utils.sphere((0, -3, 7), .25, color=(0, 0, 1))])
+    O.bodies.appendClumped([utils.sphere((4, 1, 0), .3), utils.sphere((4.2, 1, 0), .2)])
+    return pictures.plotMesh(fe, **settings)
+
+
+def drawnSpheres(ax):
+    """[(x, y, radius)] of what is drawn."""
+    from matplotlib.collections import EllipseCollection
+    return [(*place, width) for c in ax.collections if isinstance(c, EllipseCollection)
+            for place, width in zip(c.get_offsets().tolist(), c._widths)]
+
+
+def test_spheresAndMembersOfClumpsAreDrawn(folder):
+    image = pytest.importorskip('PIL.Image')
+    ax = scenePicture(file=folder + '/a.png')
+    # Matplotlib keeps half the widths.
+    assert sorted(drawnSpheres(ax)) == [(0, -3, .25), (2, 0, .5), (4, 1, .3), (4.2, 1, .2)]
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    assert left < -.25 and right > 4.4 and bottom < -3.25 and top > 1.3
+    with image.open(folder + '/a.png') as picture:
+        pixels = numpy.asarray(picture.convert('RGB')).reshape(-1, 3)
+    for colour, radius in (((255, 0, 0), .5), ((0, 0, 255), .25)):
+        count = (pixels == colour).all(axis=1).sum()
+        scale = ax.get_window_extent().width * 150 / ax.figure.dpi / (right - left)  # pixels per m
+        assert count == pytest.approx(numpy.pi * (radius * scale)**2, rel=.1)
+
+
+def test_spheresAreOmittedIfRequested():
+    ax = scenePicture(spheres=False)
+    assert drawnSpheres(ax) == [] and ax.get_xlim()[1] < 1.2
+
+
+def rigidScene():
+    """A square body of 1 m on a turned box, between a wall and a facet, and what is not in the plane."""
+    from yade import utils, wrapper
+    from yade.minieigenHP import Quaternion
+    O.materials.append(wrapper.FEMat(young=1e7, poisson=.3, density=1000, label='m'))
+    fe = wrapper.FESolver()
+    fe.addPolygon([(0, 0), (1, 0), (1, 1), (0, 1)], size=.5, material='m')
+    O.bodies.append([
+        utils.box((.5, -.3, 0), (.1, .3, 5), orientation=Quaternion((0, 0, 1), numpy.pi / 2), color=(1, 0, 0)),
+        # Its corners are at z = -1 and 3: it cuts the plane at a quarter of two of its sides.
+        utils.facet([(1.2, 0, -1), (1.2, .8, 3), (1.6, 0, 3)], color=(0, 0, 1)),
+        utils.wall(-.25, axis=0, color=(0, 1, 0)), utils.wall(-90, axis=1, color=(1, 1, 0)),
+        utils.box((0, 0, 3), (1, 1, 1)), utils.facet([(0, 2, 0), (1, 2, 0), (0, 3, 0)])])
+    return fe
+
+
+def drawnRigid(ax):
+    """(corners of outlines, ends of lines, {axis and place of walls}) of what is drawn."""
+    from matplotlib.collections import LineCollection, PolyCollection
+    outlines = [path.vertices[:-1] for c in ax.collections if type(c) is PolyCollection and c.zorder < 1
+                for path in c.get_paths()]
+    lines = [part for c in ax.collections if isinstance(c, LineCollection) for part in c.get_segments()]
+    walls = {(axis, data[0]) for line in ax.lines for axis, data in enumerate(line.get_data())
+             if line.get_path_effects() and data[0] == data[1]}
+    return outlines, lines, walls
+
+
+def test_sectionsOfWallsBoxesAndFacetsAreDrawn(folder):
+    image = pytest.importorskip('PIL.Image')
+    ax = pictures.plotMesh(rigidScene(), 'component', file=folder + '/a.png')
+    (box,), (facet,), walls = drawnRigid(ax)
+    assert sorted(box.round(9).tolist()) == [[.2, -.4], [.2, -.2], [.8, -.4], [.8, -.2]]
+    assert sorted(facet.round(9).tolist()) == [[1.2, .2], [1.3, 0]]
+    assert walls == {(0, -.25), (1, -90)}
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    assert -.5 < left < -.25 and 1.3 < right < 1.5 and -.6 < bottom < -.4 and 1 < top < 1.2
+    with image.open(folder + '/a.png') as picture:
+        pixels = numpy.asarray(picture.convert('RGB'))
+    scale = ax.get_window_extent().width * 150 / ax.figure.dpi / (right - left)  # pixels per m
+    red = (pixels == (255, 0, 0)).all(axis=2).sum()
+    assert red == pytest.approx(.6 * .2 * scale**2, rel=.05)
+    green = numpy.nonzero((pixels == (0, 255, 0)).all(axis=2))
+    assert len(set(green[0])) > .9 * (top - bottom) * scale and len(set(green[1])) <= 4  # one upright line
+    assert (pixels == (0, 0, 255)).all(axis=2).any() and not (pixels == (255, 255, 0)).all(axis=2).any()
+
+
+def test_rigidBodiesAreOmittedIfRequested():
+    ax = pictures.plotMesh(rigidScene(), rigidBodies=False)
+    assert drawnRigid(ax) == ([], [], set()) and ax.get_xlim()[0] > -.2 and ax.get_xlim()[1] < 1.2
+
+
+def test_longFloorsDoNotMakeBodiesSmall():
+    """Of what is drawn, bodies and spheres take at least half: the box is seen as far as that goes."""
+    from yade import utils
+    fe = rigidScene()
+    O.bodies.append(utils.box((0, -20.5, 0), (1000, 20, 1)))
+    ax = pictures.plotMesh(fe)
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    assert -.6 <= left < -.5 and 1.5 < right <= 1.6 and -.6 <= bottom < -.5 and 1 < top < 1.1
+    tall, wide = [pictures.plotMesh(fe, fields=[None, None], **window)[0].figure.get_size_inches()
+                  for window in ({}, dict(xlim=(0, 1), ylim=(0, .1)))]
+    assert tall[0] > tall[1] and wide[1] < wide[0] / 2
+
+
+def test_windowIsWhatIsDrawn():
+    ax = scenePicture(xlim=(-1, 3), ylim=(.2, .6))
+    assert ax.get_xlim() == (-1, 3) and ax.get_ylim() == (.2, .6)
+    scenes.clear()
+    ax = scenePicture(ylim=(0, 2))
+    assert ax.get_ylim() == (0, 2) and ax.get_xlim()[1] > 4.4
+
+
+def test_severalFieldsSideBySide(folder):
+    axes = pictures.plotMesh(makeSolver(), fields=['xx', 'speed', None, [7, 8]], ylim=(0, 1),
+                             limits=[None, (0, 9), None, (1, 2)], file=folder + '/a.png')
+    assert [shown(ax).tolist() for ax in axes[:2] + axes[3:]] == [[1e6, -1e6], [5, 0, 1, 2], [7, 8]]
+    scales = [ax.collections[-1].get_clim() for ax in axes[:2] + axes[3:]]
+    assert scales == [(-1e6, 1e6), (0, 9), (1, 2)]
+    assert all(ax.get_ylim() == (0, 1) and ax.figure is axes[0].figure for ax in axes)
+    axes[0].figure.canvas.draw()
+    places = [ax.get_position() for ax in axes]
+    assert all(a.x1 < b.x0 for a, b in zip(places, places[1:]))
+    wide = pictures.plotMesh(makeSolver(), fields=['xx', 'yy'], xlim=(0, 5), ylim=(0, 1), limits=(0, 1))
+    wide[0].figure.canvas.draw()
+    assert wide[0].get_position().y0 > wide[1].get_position().y1
+    assert [ax.collections[-1].get_clim() for ax in wide] == [(0, 1)] * 2
+
+
+@pytest.mark.parametrize('change, sentence', [
+    (dict(xlim=3), 'xlim is 3, it must be a pair of numbers'),
+    (dict(ylim=(1, 0)), r'ylim is \(1, 0\), it must be a pair of numbers \(m\), the lower one first'),
+    (dict(xlim=(0, float('inf'))), 'xlim is'), (dict(spheres=1), 'spheres is 1, it must be True'),
+    (dict(rigidBodies=0), 'rigidBodies is 0, it must be True'),
+    (dict(fields=[]), r'fields is \[\], it must be a list of 1 to 12'),
+    (dict(fields='xx'), "fields is 'xx', it must be a list"),
+    (dict(fields=['xx', 'zz']), "field is 'zz', it must be one of"),
+    (dict(fields=['xx'], field='yy'), 'fields comes with field or ax'),
+    (dict(fields=['xx', 'yy'], limits=[(0, 1)]), 'a list with a pair or None for each of the 2 fields'),
+])
+def test_wrongWindowsAndFields(change, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        pictures.plotMesh(makeSolver(), **change)
+
+
+@pytest.mark.parametrize('columns', [14, 17])  # of version 0.1, and with the cracks by state
+def test_curvesOfFractureAreDistinguishable(folder, columns):
+    """Colours of both axes: red, green and blue of any two differ by 0.25 and more together; open cracks
+    are a dashed line of the colour of all cracks."""
+    from matplotlib import colors
+    from yadefrag.plots import fragments
+    file = folder + '/run.csv'
+    with open(file, 'w') as out:
+        out.write(','.join(fragments._RECORDED.split(',')[:columns]) + '\n')
+        for step in range(2):
+            out.write(','.join(map(str, range(step, step + columns))) + '\n')
+    lines = [line for ax in fragments.plotFracture(file, folder + '/a.png') for line in ax.lines]
+    labels = [line.get_label() for line in lines]
+    assert len(set(labels)) == len(labels) == 12 + (columns > 14)
+    lines = [line for line in lines if line.get_linestyle() == '-']
+    shades = numpy.array([colors.to_rgb(line.get_color()) for line in lines])
+    assert len(shades) == 12
+    distances = numpy.linalg.norm(shades[:, None] - shades, axis=2) + numpy.eye(12)
+    assert distances.min() >= .25
+
+
+def imports(module):
+    """Names of the package's modules that a module imports, at its top or in a function."""
+    import ast
+    with open(module.__file__) as source:
+        tree = ast.parse(source.read())
+    return {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+
+
+def test_picturesAndFragmentsDoNotImportEachOther():
+    from yadefrag.plots import axes, colours, fragments
+    assert 'yadefrag.plots.fragments' not in imports(pictures)
+    assert 'yadefrag.plots.pictures' not in imports(fragments)
+    for below in (axes, colours):
+        assert not {'yadefrag.plots.pictures', 'yadefrag.plots.fragments'} & imports(below)
+
+
+class Mover:
+    """A solver whose body goes right by 0.1 m a step, by YADE's loop."""
+
+    def __init__(self):
+        self.fe = makeSolver()
+
+    def __call__(self):
+        self.fe.nodes = self.fe.nodes + [.1, 0]
+
+
+def test_filmRunsTheScene(folder):
+    image = pytest.importorskip('PIL.Image')
+    from yade import utils, wrapper
+    mover = Mover()
+    utils.mover = mover
+    O.engines = [wrapper.PyRunner(command='__import__("yade.utils").utils.mover()', iterPeriod=1,
+                                  initRun=True)]
+    O.dt = 1
+    frames = pictures.animate(mover.fe, folder + '/out.gif', steps=7, every=3, field='mises')
+    del utils.mover
+    assert O.iter == 7 and frames == 4
+    assert mover.fe.nodes[0, 0] == pytest.approx(.7)
+    with image.open(folder + '/out.gif') as film:
+        assert film.n_frames == 4
+
+
+@pytest.mark.parametrize('change, word', [
+    ({'steps': 0}, 'steps is 0'), ({'every': -1}, 'every is -1'), ({'rate': 0}, 'rate is 0'),
+    ({'file': 'out.avi'}, "must end with '.gif'"), ({'field': 'none'}, "field is 'none'"),
+    ({'field': [1, 2]}, 'field is an array'),
+])
+def test_filmIsRefusedBeforeTheFirstStep(change, word):
+    arguments = {'file': 'out.gif', 'steps': 10, 'every': 5, **change}
+    with pytest.raises(ValueError) as error:
+        pictures.animate(makeSolver(), **arguments)
+    assert word in str(error.value) and O.iter == 0
+
+
+def test_importCostsNoPlotting(folder):
+    """Scripts that draw nothing do not wait for Matplotlib and meshio."""
+    with open(folder + '/script.py', 'w') as script:
+        script.write('import sys\n'
+                     'before = set(sys.modules)\n'
+                     'import yadefrag\n'
+                     'new = {name.partition(".")[0] for name in set(sys.modules) - before}\n'
+                     'print("@", sorted({"matplotlib", "meshio", "PIL"} & new))\n')
+    done = subprocess.run([*yadeCommand(), folder + '/script.py'], capture_output=True, text=True,
+                          check=True)
+    assert '@ []' in done.stdout

@@ -1,0 +1,77 @@
+"""The scripts of scripts/: which systems and arguments they refuse, each in one sentence."""
+
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+from project import ROOT
+
+
+def ask(*command, **more):
+    return subprocess.run([str(ROOT / 'scripts' / command[0]), *command[1:]], text=True, cwd=ROOT,
+                          capture_output=True, stdin=subprocess.DEVNULL, env={**os.environ, **more},
+                          check=False)
+
+
+def system(folder, name, version):
+    path = folder / 'os-release'
+    path.write_text('ID=%s\nVERSION_ID="%s"\nPRETTY_NAME="%s %s"\n' % (name, version, name, version))
+    return str(path)
+
+
+@pytest.mark.parametrize('version', ['12', '13'])
+def test_setUpAcceptsBothReleases(version, tmp_path):
+    """With everything installed: only the system is looked at."""
+    done = ask('setup', 'plugin', YADEFRAG_OS_RELEASE=system(tmp_path, 'debian', version))
+    assert (done.returncode, done.stdout, done.stderr) == (0, '', '')
+
+
+@pytest.mark.parametrize('name, version', [('debian', '11'), ('debian', '14'), ('ubuntu', '24.04')])
+def test_setUpRefusesOtherSystems(name, version, tmp_path):
+    done = ask('setup', YADEFRAG_OS_RELEASE=system(tmp_path, name, version))
+    assert done.returncode == 1 and done.stderr.count('\n') == 1
+    for word in (name + ' ' + version, '2023.02a', '2025.2.0'):
+        assert word in done.stderr
+
+
+@pytest.mark.parametrize('command, words', [
+    (('setup', 'everything'), "takes nothing or 'plugin'"),
+    (('build', 'fast'), "no preset 'fast'"),
+    (('test', 'yode'), "no tests called 'yode'"),
+    (('test', 'lib', 'one'), 'after yade only'),
+    (('test', '--release'), 'takes the name'),
+    (('in-release', 'potato', 'true'), "no release 'potato'"),
+    (('package', 'now'), 'takes no arguments'),
+    (('try-package', 'nowhere.deb'), "no file 'nowhere.deb'"),
+    (('try-package', 'README.md'), 'scripts/in-release --clean'),
+    (('release', 'new'), "'new' is not a version"),
+])
+def test_wrongArgumentsAreNamed(command, words):
+    done = ask(*command, CLEAN_LAYER='')
+    assert done.returncode == 1 and done.stdout == ''
+    assert done.stderr.count('\n') == 1 and words in done.stderr
+
+
+def test_anUnreachableServerHasACodeOfItsOwn(tmp_path):
+    """CI goes on then; here a debootstrap that fails stands for it."""
+    (tmp_path / 'bin').mkdir()
+    for name in ('debootstrap', 'id'):
+        program = tmp_path / 'bin' / name
+        program.write_text('#!/bin/sh\n%s\n' % ('echo 0' if name == 'id' else 'exit 1'))
+        program.chmod(0o755)
+    script = (ROOT / 'scripts' / 'in-release').read_text()
+    # Debian's tools come first on the path of the scripts.
+    changed = script.replace('[ "$(id -u)" -eq 0 ]', 'PATH="%s:$PATH"\n[ "$(id -u)" -eq 0 ]' %
+                             (tmp_path / 'bin'), 1)
+    assert changed != script
+    (tmp_path / 'scripts').mkdir()
+    (tmp_path / 'scripts' / 'in-release').write_text(changed)
+    (tmp_path / 'scripts' / 'common.sh').write_text((ROOT / 'scripts' / 'common.sh').read_text())
+    done = subprocess.run(['bash', str(tmp_path / 'scripts' / 'in-release'), 'trixie', 'true'],
+                          capture_output=True, text=True, check=False,
+                          env={**os.environ, 'YADEFRAG_ROOTS': str(tmp_path / 'roots')})
+    if 'lets no file system be mounted' in done.stderr:
+        pytest.skip('this machine permits no mounts: the server is not asked')
+    assert done.returncode == 75 and 'cannot be fetched' in done.stderr

@@ -1,0 +1,27 @@
+"""Memory stays as it is over scenes that crack, are saved, loaded and changed, one after another.
+
+YADEFRAG_SOAK: for how many seconds, default 20; an hour is a soak.
+"""
+import json
+import os
+import subprocess
+
+from project import yadeCommand
+
+kHere = os.path.dirname(os.path.abspath(__file__))
+
+
+def test_memoryStays():
+    seconds = os.environ.get('YADEFRAG_SOAK', '20')
+    done = subprocess.run([*yadeCommand(), os.path.join(kHere, 'soak_scene.py'), seconds],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          timeout=600 + 2 * float(seconds))
+    lines = [line for line in done.stdout.splitlines() if line.startswith('@@@ ')]
+    assert done.returncode == 0 and lines, done.stdout[-1500:] + done.stderr[-1500:]
+    result = json.loads(lines[-1][4:])
+    assert min(result['cracks']) > 0
+    used = result['memory']
+    # The first third fills what is kept permanently: imports, pools of threads, tables of classes.
+    warm = max(used[:len(used) // 3])
+    print('%d rounds, %d kB after the first third, %d kB at the end' % (len(used), warm, used[-1]))
+    assert used[-1] < 1.01 * warm

@@ -1,0 +1,315 @@
+"""ensemble(): many runs in processes, by MPI and by Dask; what fails, what goes on; the statistics."""
+import concurrent.futures
+import json
+import math
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+import ensemble_scenes as scenes
+import mpi_processes
+import tradeoff_scenes
+import yadefrag
+from project import ROOT, yadeCommand
+from yadefrag import EnsembleTable
+from yadefrag.studies import ensemble_runs as tool
+from yadefrag.studies import runs, student
+from yadefrag.studies.ensemble_table import EnsembleRow
+
+
+def together(scene, wanted, measure=scenes.draw, **more):
+    return tool.ensemble(scene, wanted, measure, **{**dict(duration=scenes.DURATION, workers=2), **more})
+
+
+def drawn(seed, strength=5.):
+    return scenes.draw((None, seed, strength))
+
+
+# --- runs
+
+def test_runsOfSeedsAndTables(folder):
+    table = together(scenes.flight, 3, files=folder + '/a', title='Draws')
+    assert [row.settings for row in table.rows] == [dict(seed=k) for k in range(3)]
+    assert [row.value for row in table.rows] == [drawn(k) for k in range(3)]
+    assert all(row.result == 'ok' and row.steps > 0 and row.wall > 0 for row in table.rows)
+    assert sorted(os.listdir(folder)) == ['a.csv', 'a.png']
+    with open(folder + '/a.csv') as lines:
+        assert next(lines).strip() == 'seed,result,value,steps,wall,message,seconds,warnings'
+        assert next(lines).startswith('0,ok,"[%r' % drawn(0)[0])
+    assert str(table).splitlines()[:3] == ['Draws'] + [
+        'seed=%d: %.6g on average of %d; %.3g s, %.4g s per simulated second' % (
+            k, np.mean(drawn(k)), len(drawn(k)), table.rows[k].seconds, table.rows[k].wall) for k in range(2)]
+    assert all(row.seconds == pytest.approx(row.wall * scenes.DURATION, rel=.5) for row in table.rows)
+    for wanted in (dict(seed=[7, 8], strength=np.array([1., 2.])),
+                   [dict(seed=7, strength=1.), dict(seed=8, strength=2.)]):
+        values = [row.value for row in together(scenes.flight, wanted).rows]
+        assert values == [drawn(7, 1.), drawn(8, 2.)]
+
+
+def test_whatFailsIsARow():
+    found = together(scenes.odd, range(5), scenes.oddValue, limit=8.).rows
+    assert [row.result for row in found] == ['ok', 'failed', 'refused', 'too long', 'blew up']
+    words = ('', 'yade ended with status -6', 'no such strength.', 'no result within 8 s.', 'not finite')
+    assert all(word in row.message for word, row in zip(words, found))
+    assert [row.value for row in found] == [0, None, None, None, None]
+    table = EnsembleTable(found)
+    assert str(table).splitlines()[0].startswith('seed=0: 0')  # and its time, if the machine is slow
+    assert str(table).splitlines()[2] == 'seed=2: refused, no such strength.'
+    assert str(table).splitlines()[-1] == 'Mean of 1 run: 0; 4 have no value.'
+    line, = table.statistics()
+    assert line['runs'] == 1 and line['failed'] == 4 and math.isnan(line['low'])
+
+
+def test_goesOnWhereItStopped(folder, monkeypatch):
+    """The third run is interrupted; later runs do what is missing, and no run twice."""
+    monkeypatch.setenv('YADEFRAG_COUNT', folder + '/count')
+    file = folder + '/done.jsonl'
+
+    class Impatient:
+        """Does two runs, then Ctrl-C."""
+        left = 2
+
+        def submit(self, function, *args):
+            if not self.left:
+                raise KeyboardInterrupt
+            self.left -= 1
+            future = concurrent.futures.Future()
+            future.set_result(function(*args))
+            return future
+
+    # What is submitted but not taken counts as not done: runs are taken after the last is submitted.
+    first = together(scenes.counted, [0, 1], scenes.same, resume=file, executor=Impatient())
+    assert [row.result for row in first.rows] == ['ok', 'ok']
+    stopped = together(scenes.counted, [0, 1, 2], scenes.same, resume=file,
+                       executor=type('None left', (Impatient,), dict(left=0))())
+    assert [row.result for row in stopped.rows] == ['ok', 'ok', 'not run']
+    with open(file, 'a') as out:
+        out.write('{"of": {"setting"')  # a line that was cut
+    last = together(scenes.counted, [0, 1, 2, 1], scenes.same, resume=file)
+    assert [round(row.value) for row in last.rows] == [0, 1, 2, 1]
+    with open(folder + '/count') as lines:
+        assert sorted(lines.read().split()) == ['0', '1', '1', '2']
+    with open(file) as lines:
+        assert len([json.loads(line) for line in lines]) == 5
+    with pytest.raises(ValueError, match='done.jsonl has runs of another scene, file, duration'):
+        together(scenes.counted, [0], scenes.same, resume=file, duration=1.)
+
+
+def test_lostWorkersAreRowsThatAreDoneAgain(folder):
+    class Broken:
+        def submit(self, *_):
+            future = concurrent.futures.Future()
+            future.set_exception(OSError('the machine is gone'))
+            return future
+
+    file = folder + '/done.jsonl'
+    row, = together(scenes.flight, 1, resume=file, executor=Broken()).rows
+    assert row.result == 'failed' and row.message == 'OSError: the machine is gone'
+    row, = together(scenes.flight, 1, resume=file).rows
+    assert row.result == 'ok'
+
+
+def test_tradeoffByAnExecutorAndAgain(folder):
+    file = folder + '/done.jsonl'
+    arguments = dict(duration=.05, repeats=2, resume=file)
+    vary = {'timeStep': [.8, .4], 'fault': ['none']}
+    with concurrent.futures.ThreadPoolExecutor(2) as executor:
+        first = yadefrag.tradeoff(tradeoff_scenes.odd, vary, tradeoff_scenes.oddWay,
+                                  executor=executor, **arguments)
+    assert [(row.result, len(row.walls)) for row in first.rows] == [('ok', 2)] * 2
+    again = yadefrag.tradeoff(tradeoff_scenes.odd, vary, tradeoff_scenes.oddWay, **arguments)
+    assert again.rows == first.rows  # to the last digit of the times: none was run
+
+
+@pytest.mark.parametrize('wrong, sentence', [
+    (dict(wanted=0), 'runs is 0, it must be a positive whole number'),
+    (dict(wanted=[]), r'runs is \[\], it must be a number of runs'),
+    (dict(wanted='three'), "runs is 'three', it must be a number of runs"),
+    (dict(wanted=[1.5]), 'runs has the seed 1.5, it must be a whole number, or a dict'),
+    (dict(wanted={'seed': [1, 2], 'a': [1]}), 'a dict of lists that have all the same length'),
+    (dict(wanted=[dict(value=1)]), "runs has the choice 'value', a name must be a text that is no other"),
+    (dict(wanted=[dict(passes=3)]), 'passes=3, it must be 1 or 2'),
+    (dict(wanted=[dict(a=[1])]), r'runs has the choice a=\[1\], it must be a number'),
+    (dict(executor=3), 'executor is 3, it must be None, or an executor with a method submit'),
+    (dict(workers=0), 'workers is 0, it must be a positive whole number'),
+    (dict(resume='a.txt'), "resume is 'a.txt', its name must end with '.jsonl'"),
+    (dict(duration=-1), 'duration is -1, it must be a positive number'),
+    (dict(scene=lambda c: None), 'scene is .*at the top level of a file'),
+])
+def test_badInput(wrong, sentence):
+    arguments = {**dict(scene=scenes.flight, wanted=1), **wrong}
+    with pytest.raises(ValueError, match=sentence):
+        together(**arguments)
+
+
+def test_fileThatHoldsNoRuns(folder):
+    with open(folder + '/a.jsonl', 'w') as out:
+        out.write('nothing\n')
+    with pytest.raises(ValueError, match='a.jsonl has no runs that can be continued'):
+        together(scenes.flight, 1, resume=folder + '/a.jsonl')
+
+
+kScript = '''
+import os, sys
+sys.path.insert(0, %r)
+import ensemble_scenes as scenes
+import mpi_processes
+from yadefrag import ensemble
+if __name__ == '__main__':
+    %s
+        slow = "__import__('time').sleep(.1) or __import__('os').getpid()"
+        pids = [executor.submit(eval, slow, {}) for _ in range(20)]
+        pids = {pid.result() for pid in pids}
+        table = ensemble(scenes.odd, [0, 1, 2, 5], scenes.oddValue, duration=scenes.DURATION, executor=executor)
+    print('@@@', len(pids - {os.getpid()}), [(row.result, row.value) for row in table.rows])
+'''
+kMpi = '''from mpi4py.futures import MPIPoolExecutor
+    with MPIPoolExecutor(max_workers=2, main=False) as executor:'''
+kDask = '''from distributed import Client
+    with Client(scheduler_file=%r, timeout=60) as client:
+        executor = client.get_executor(pure=False)
+        client.wait_for_workers(2)'''
+kFound = "@@@ 2 [('ok', 0.0), ('failed', None), ('refused', None), ('ok', 5.0)]"
+
+
+def byScript(folder, opening):
+    file = os.path.join(folder, 'script.py')
+    with open(file, 'w') as out:
+        out.write(kScript % (str(ROOT / 'tests' / 'pkg' / 'helpers'), opening))
+    done = subprocess.run([*yadeCommand(), file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, timeout=300, env=mpi_processes.environment('ensemble'))
+    assert kFound in done.stdout, done.stdout[-3000:]
+
+
+def test_twoWorkersOfMpi(folder):
+    byScript(folder, kMpi)
+
+
+def test_twoWorkersOfDask(folder):
+    file = os.path.join(folder, 'scheduler.json')
+    # The workers are no yade, and have no plugin on their path.
+    environment = {k: v for k, v in os.environ.items() if k != 'PYTHONPATH'}
+    quiet = dict(stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment, cwd=folder)
+    started = [subprocess.Popen(['/usr/bin/dask-scheduler', '--host', '127.0.0.1', '--port', '0',
+                                 '--no-dashboard', '--scheduler-file', file], **quiet)]
+    try:
+        for number in range(2):
+            started.append(subprocess.Popen(
+                ['/usr/bin/dask-worker', '--scheduler-file', file, '--nthreads', '1', '--no-nanny',
+                 '--no-dashboard', '--local-directory', folder + '/%d' % number], **quiet))
+        byScript(folder, kDask % file)
+    finally:
+        for process in started:
+            process.kill()      # Dask 2024.12 with Python 3.13 does not always end when it is asked to
+        for process in started:
+            process.wait()
+
+
+# --- statistics
+
+@pytest.mark.parametrize('confidence, freedom, value', [
+    (.95, 1, 12.7062), (.95, 2, 4.3027), (.95, 4, 2.7764), (.95, 9, 2.2622), (.99, 5, 4.0321),
+    (.99, 30, 2.7500), (.9, 120, 1.6577), (.95, 5000, 1.9604)])
+def test_studentsTable(confidence, freedom, value):
+    """Abramowitz and Stegun 1964, table 26.10, four digits."""
+    assert student.quantile(confidence, freedom) == pytest.approx(value, abs=1e-4 if freedom < 1e3 else 1e-3)
+
+
+def table(values, **settings):
+    return EnsembleTable([EnsembleRow(dict(seed=k, **{n: v[k] for n, v in settings.items()}), 'ok',
+                                      value=value) for k, value in enumerate(values)])
+
+
+def test_bandHoldsTheTruthWithItsProbability():
+    """2000 ensembles of five normal runs: 90 % ± 2.5 % (3.7 standard deviations)."""
+    draw = np.random.default_rng(3)
+    bands = [table((3 + 2 * draw.standard_normal(5)).tolist()).statistics(confidence=.9)[0]
+             for _ in range(2000)]
+    share = np.mean([band['low'] < 3 < band['high'] for band in bands])
+    assert share == pytest.approx(.9, abs=.025)
+
+
+def test_statisticsByASetting():
+    rows = table([[1, 3], [4], [10], [20, 30]], strength=[2., 2., 1., 1.])
+    rows.rows.append(EnsembleRow(dict(seed=9, strength=1.), 'failed', message='no.'))
+    low, high = rows.statistics('strength')
+    assert (low['by'], low['runs'], low['failed'], low['mean']) == (1, 2, 1, 17.5)
+    assert (high['by'], high['runs'], high['failed'], high['mean']) == (2, 2, 0, 3)
+    assert high['high'] - 3 == pytest.approx(12.7062 * math.sqrt(2) / math.sqrt(2), rel=1e-4)
+    assert rows.statistics('strength', reduce=len)['mean'].tolist() == [1.5, 1.5]
+    with pytest.raises(ValueError, match="by is 'size', it must be the name of a setting"):
+        rows.statistics('size')
+    with pytest.raises(ValueError, match='confidence is 1, it must be above 0 and below 1'):
+        rows.statistics(confidence=1)
+
+
+def test_sharesAtLeastAsLarge():
+    """Of exponential numbers exp(-x) are above x; the band of 40 runs holds it nearly everywhere."""
+    draw = np.random.default_rng(1)
+    rows = table([draw.exponential(size=50).tolist() for _ in range(40)])
+    curve = rows.shares(np.linspace(.05, 2.5, 50))
+    right = np.exp(-curve['place'])
+    assert abs(curve['mean'] - right).max() < .03
+    assert ((curve['low'] < right) & (right < curve['high'])).mean() > .8
+    exact = table([[1, 2, 2, 4], [3]]).shares([1, 2, 2.5, 4.5])
+    assert exact['mean'].tolist() == [1, .875, .625, 0]
+    with pytest.raises(ValueError, match='no run has a value'):
+        EnsembleTable([]).shares()
+
+
+def test_plots(folder):
+    rows = table([[1., 3.], [4.], [10.], [20., 30.]], strength=[2., 2., 1., 1.])
+    ax = rows.plot(folder + '/shares.png', label='size (m)')
+    assert ax.get_xlabel() == 'size (m)' and ax.get_xscale() == 'log' and len(ax.lines) == 6
+    # A mean for each strength.
+    assert [line.get_label() for line in (ax.lines[2], ax.lines[5])] == [
+        'strength=2.0: mean of 2 runs'.replace('.0', ''), 'strength=1: mean of 2 runs']
+    ax = rows.plot(folder + '/by.png', by='strength')
+    assert ax.lines[-1].get_xydata().tolist() == [[1, 17.5], [2, 3]]
+    assert ax.lines[-1].get_label() == 'mean of 2 runs'  # of four, at two strengths
+    assert all(os.path.getsize(folder + name) > 5000 for name in ('/shares.png', '/by.png'))
+
+
+def test_meansAreOfRunsThatDifferInSeedsOnly():
+    settings = [dict(rate=rate, size=size, seed=seed) for rate in (1, 2) for size in (.1, .2) for seed in range(2)]
+    rows = [EnsembleRow(of, 'ok', 100. * of['rate'] + of['size'] + of['seed']) for of in settings]
+    eight = EnsembleTable(rows)
+    found = eight.statistics()
+    assert found['settings'].tolist() == ['rate=1, size=0.1', 'rate=1, size=0.2', 'rate=2, size=0.1',
+                                          'rate=2, size=0.2']
+    assert found['runs'].tolist() == [2] * 4 and np.isnan(found['by']).all()
+    assert found['mean'] == pytest.approx([100.6, 100.7, 200.6, 200.7])
+    # Over one setting: the other is not mixed.
+    assert eight.statistics('rate')['settings'].tolist() == ['size=0.1, rate=1', 'size=0.2, rate=1',
+                                                             'size=0.1, rate=2', 'size=0.2, rate=2']
+    text = str(EnsembleTable(rows[:2] + rows[4:6])).splitlines()
+    assert text[4].startswith('rate=1: Mean of 2 runs: 100.6, with') and text[5].startswith('rate=2: Mean of 2 runs')
+    assert EnsembleTable(rows[:2] + rows[4:6]).statistics()['by'].tolist() == [1, 2]
+    # Another number in each run is a sample: one mean, which says so.
+    drawn = [EnsembleRow(dict(strength=1. + k, seed=k), 'ok', 1.) for k in range(8)]
+    assert len(EnsembleTable(drawn).statistics()) == 1
+    assert str(EnsembleTable(drawn)).splitlines()[-1].startswith('Mean of 8 runs, each with another strength: 1')
+    # Kinds are none, also where each is run once.
+    kinds = [EnsembleRow(dict(kind=kind), 'ok', 1.) for kind in 'ab']
+    assert len(EnsembleTable(kinds).statistics()) == 2
+
+
+def test_warningsOfRunsArePassedOn(capsys):
+    with pytest.warns(UserWarning) as caught:
+        found = together(scenes.warned, 3, scenes.oddValue).rows
+    assert [row.warnings for row in found] == [['no such size, 0', 'bodies lie'], ['no such size, 1', 'bodies lie'],
+                                               ['bodies lie']]
+    said = [str(one.message) for one in caught]
+    assert said == ['ensemble: 2 of 3 runs gave this message: "no such size, 0" The others are in `warnings` of the '
+                    'rows.', 'ensemble: 3 of 3 runs gave this message: "bodies lie" The others are in `warnings` of '
+                    'the rows.']
+    assert all(one.filename == tool.__file__ or one.filename == __file__ for one in caught)
+
+
+def test_namesOfMpiDoNotReachTheRuns(monkeypatch):
+    monkeypatch.setenv('OMPI_COMM_WORLD_SIZE', '3')
+    environment = runs.run_process._environment(dict(package='/p', inside='X'))
+    assert 'OMPI_COMM_WORLD_SIZE' not in environment and environment['X'] == '1'
+    assert environment['PYTHONPATH'].split(':')[0] == '/p'

@@ -1,0 +1,398 @@
+"""tradeoff(): grids of short runs, each in a yade of its own; the table, its front, its files."""
+import importlib
+import os
+import random
+import subprocess
+
+import numpy as np
+import pytest
+
+import tradeoff_scenes as scenes
+import yadefrag
+from project import ROOT, yadeCommand
+from yadefrag import TradeoffTable
+from yadefrag.studies import tradeoff_grid as tool
+from yadefrag.studies import scene_choices
+from yadefrag.studies.tradeoff_table import TradeoffRow
+
+kDuration = .05  # s
+
+
+def trade(scene, vary, measure=scenes.way, **more):
+    return tool.tradeoff(scene, vary, measure, **dict(dict(duration=kDuration, repeats=1), **more))
+
+
+def rows(*points, **more):
+    """Rows of a table from (wall, error)."""
+    return [TradeoffRow(dict(k=k), 'ok', wall, wall / 2, error, error, 10, [wall], [wall / 2],
+                        **more) for k, (wall, error) in enumerate(points)]
+
+
+def test_errorsAndTimes():
+    table = trade(scenes.block, [{}, {'timeStep': [.4]}], reference=scenes.SPEED * kDuration)
+    coarse, fine = table.rows
+    assert [row.result for row in table.rows] == ['ok', 'ok'] and fine.steps >= 2 * coarse.steps
+    for row in table.rows:
+        assert row.error == pytest.approx(abs(row.value / (scenes.SPEED * kDuration) - 1))
+        # No more than half a step is missing.
+        assert row.error <= .5 / row.steps * 1.2
+        assert row.wall > 0 and row.cpu > 0 and row.walls == [row.wall]
+    assert coarse.settings['timeStep'] == .8 and coarse.settings['collider'] == 'LebesgueCollider'
+    assert table.label(coarse) == 'row 1' and table.label(fine) == 'timeStep=0.4'
+
+
+def test_knownChoicesComeThrough():
+    chosen = dict(passes=2, correction='penalty:0.3', halo=.25, bulkViscosity=.5, plane='stress',
+                  collider='none', size=.5, threads=2 if os.cpu_count() > 1 else 1, timeStep=.5)
+    with pytest.warns(UserWarning, match="correction='penalty' has no effect"):
+        table = trade(scenes.block, {name: [value] for name, value in chosen.items()}, scenes.whole)
+    row, = table.rows
+    assert row.result == 'ok', row.message
+    assert row.value == [2, 1, .3, .25, .03, .6, 1, chosen['threads'], 2, 8]
+    assert {**row.settings, **chosen} == row.settings
+
+
+def test_fractureByName():
+    table = trade(scenes.brittle, {'fracture': ['none', 'instant', 'cohesive']}, scenes.kind)
+    assert [row.value for row in table.rows] == [0, 1, 2]
+    table = trade(scenes.brittle, {'fracture': ['cohesive'], 'energy': [0]}, scenes.kind)
+    assert table.rows[0].result == 'refused' and 'no fractureEnergy' in table.rows[0].message
+
+
+def test_colliderAndItsDistance():
+    chosen = {'collider': ['InsertionSortCollider'], 'verletDist': [.02, -.2]}
+    table = trade(scenes.spheres, chosen, scenes.place)
+    # It bounces between the two at 1e-3 m.
+    assert all(row.result == 'ok' and .94 < row.value < 1.01 for row in table.rows)
+    assert table.label(table.rows[1]) == 'verletDist=-0.2'
+
+
+def test_watched():
+    table = trade(scenes.block, {'timeStep': [.1]}, scenes.seen, watch=scenes.look)
+    row, = table.rows
+    assert row.value == [row.steps, pytest.approx(scenes.SPEED * kDuration, rel=.5 / row.steps)]
+    table = trade(scenes.block, {'timeStep': [.1]}, scenes.seen, watch=scenes.look,
+                  every=kDuration / 4)
+    assert table.rows[0].value[0] == 4
+
+
+def test_blowUpIsARow():
+    table = trade(scenes.spheres, {'young': [1e6, 1e10]}, scenes.place, reference=.97)
+    good, bad = table.rows
+    assert good.result == 'ok' and good.error < .05
+    assert bad.result == 'blew up' and 'of its radii in one step' in bad.message
+    assert bad.wall is None and bad.error is None and bad not in table.front()
+    assert '| blew up: body 2 moves by' in table.markdown()
+
+
+def test_energyOutOfNothingIsABlowUp():
+    from yadefrag.studies import run_in_yade
+
+    class FESolver:
+        _energyBalance = 0., 1., 0.
+
+    class Scene:
+        engines, bodies, dt = [FESolver()], [], 1
+
+    sanity = run_in_yade.Sanity(Scene())
+    for balance in ((.9, 1., 0.), (6e-20, 0., 1e-18)):
+        FESolver._energyBalance = balance
+        sanity.check()
+    for balance, sentence in (((1.1, 1., 0.), 'grew by 1.1 J'), ((float('nan'), 1., 0.), 'nan J'),
+                              ((1e-3, 0., 1e-18), 'the bodies had 0 J')):
+        FESolver._energyBalance = balance
+        with pytest.raises(run_in_yade.BlewUp, match=sentence):
+            sanity.check()
+
+
+def test_aSceneAtRestDoesNotBlowUp():
+    row, = trade(scenes.rest, {'timeStep': [.8]}, scenes.place0).rows
+    assert row.result == 'ok', row.message
+
+
+def test_refusedRows():
+    table = trade(scenes.block, [{'timeStep': [1.5]}, {'nonsense': [1]}])
+    assert [row.result for row in table.rows] == ['refused', 'refused']
+    assert 'at most' in table.rows[0].message and 'critical step' in table.rows[0].message
+    assert table.rows[1].message == "the scene never used the choice 'nonsense'."
+
+
+@pytest.mark.parametrize('fault, result, sentence', [
+    ('sentence', 'refused', 'this choice makes no sense.'),
+    ('step', 'refused', 'O.dt is 0'),
+    ('bug', 'failed', "NameError: name 'nowhere' is not defined"),
+    ('crash', 'failed', 'yade ended with status -6'),
+    ('nan', 'blew up', 'the measured value is not finite.'),
+])
+def test_faultsAreRows(fault, result, sentence):
+    table = trade(scenes.odd, {'fault': [fault]}, scenes.oddWay, repeats=2)
+    assert table.rows[0].result == result and sentence in table.rows[0].message
+    assert table.front() == []
+
+
+def test_timeOutIsARow():
+    table = trade(scenes.odd, {'fault': ['sleep']}, scenes.oddWay, limit=3.)
+    assert table.rows[0].result == 'too long'
+    assert table.rows[0].message == 'no result within 3 s.'
+
+
+def test_againstAReferenceThatIsRun(folder):
+    finest = trade(scenes.block, {'timeStep': [.8, .4]}, reference='finest')
+    assert finest.reference is finest.rows[1] and finest.rows[1].error == 0
+    assert finest.front() == [finest.rows[0]]
+    added = trade(scenes.block, {'timeStep': [.8]}, reference={'timeStep': .4})
+    assert len(added.rows) == 2 and added.reference is added.rows[1]
+    assert added.rows[0].error == pytest.approx(finest.rows[0].error)
+
+
+def test_againstNumbersAndFiles(folder):
+    file = os.path.join(folder, 'right.txt')
+    np.savetxt(file, [3., 4.])
+    row = TradeoffRow({}, 'ok', 1., 1., value=[3., 5.])
+    short = TradeoffRow({'a': 1}, 'ok', 1., 1., value=[3.])
+    tool._setErrors(TradeoffTable([row, short]), tool._reference(file), [{}, {'a': 1}])
+    assert row.error == pytest.approx(.2)
+    assert short.error is None
+    assert short.message == 'measured are 1 numbers, the reference has 2.'
+    tool._setErrors(TradeoffTable([row]), tool._reference([0., 0.]), [{}])
+    assert row.error == pytest.approx(np.sqrt((9 + 25) / 2))
+
+
+def test_referenceWithoutAValue():
+    good, bad = TradeoffRow({}, 'ok', 1., 1., value=1.), TradeoffRow({'a': 1}, 'refused')
+    tool._setErrors(TradeoffTable([good, bad]), {'a': 1}, [{}, {'a': 1}])
+    assert good.error is None and good.message == 'the reference (a=1) has no value.'
+
+
+@pytest.mark.parametrize('seed', range(20))
+def test_frontByBruteForce(seed):
+    draw = random.Random(seed)
+    table = TradeoffTable(rows(*((draw.randint(1, 9), draw.randint(0, 9)) for _ in range(25))))
+    table.rows[3].error = None
+
+    def beats(a, b):
+        return a.wall <= b.wall and a.error <= b.error and (a.wall, a.error) != (b.wall, b.error)
+
+    good = [row for row in table.rows if row.error is not None]
+    expected = [row for row in good if not any(beats(other, row) for other in good)]
+    front = table.front()
+    assert sorted(row.settings['k'] for row in front) == [row.settings['k'] for row in expected]
+    assert [row.wall for row in front] == sorted(row.wall for row in front)
+    table.reference = front[0]
+    assert front[0] not in table.front()
+
+
+def test_csvComesBack(folder):
+    file = os.path.join(folder, 'a.csv')
+    table = TradeoffTable(rows((1.5, .1), (2., 1 / 3)) + [
+        TradeoffRow({'k': True, 'name': 'a, "b"\n|1', 'text': '1'}, 'refused', message='"no", so.'),
+        TradeoffRow({'k': '', 'name': 'NaN', 'text': 'true'}, 'ok', 1e-300, 2., 3., [1., 2.], 7,
+                    [1.], [2.])])
+    table.csv(file)
+    assert TradeoffTable.read(file).rows == table.rows
+    with open(file, 'w') as f:
+        f.write('a,b\n1,2\n')
+    with pytest.raises(ValueError, match='does not end with the columns result, wall'):
+        TradeoffTable.read(file)
+
+
+def test_markdown(folder):
+    table = TradeoffTable(rows((2., .5), (1., .5), (4., .25)), 'Title')
+    table.rows[2].seconds = .3
+    table.rows.append(TradeoffRow({'k': 'a|b'}, 'too long', message='no result within 3 s.'))
+    text = table.markdown(os.path.join(folder, 'a.md'))
+    with open(os.path.join(folder, 'a.md')) as f:
+        assert f.read() == text
+    lines = text.splitlines()
+    assert lines[0] == '# Title' and lines[8:] == [
+        '| 1 | row 1 |  | 2 | 1 | 1.00 | 10 | 0.5 |',
+        '| 2 | **k=1** |  | 1 | 0.5 | 0.50 | 10 | 0.5 |',
+        '| 3 | **k=2** | 0.3 | 4 | 2 | 2.00 | 10 | 0.25 |',
+        '| 4 | k=a\\|b |  |  |  |  |  | too long: no result within 3 s. |']
+
+
+def test_problemsHaveTheirOwnReferenceAndFront():
+    """Two rates, two sizes, two seeds: the finest of each rate and seed is the reference for the other one."""
+    settings = [dict(rate=rate, size=size, seed=seed) for rate in (1, 2) for size in (.2, .1) for seed in (0, 1)]
+    found = [TradeoffRow(dict(of), 'ok', .1 / of['size'], 1., None, 100. * of['rate'] + 10 * of['size'] + of['seed'],
+                         10, [1.], [1.]) for of in settings]
+    table = TradeoffTable(found, by='rate')
+    tool._setErrors(table, 'finest', settings)
+    assert all(row.error == 0 for row in table.references) and len(table.references) == 4
+    coarse = [row for row in found if row.settings['size'] == .2]
+    assert [row.error for row in coarse] == pytest.approx([1 / 101, 1 / 102, 1 / 201, 1 / 202])
+    assert table.front() == coarse
+    means = table.means()
+    assert [(row.settings, row.message) for row in means.rows][1] == (dict(rate=1, size=.1), '2 of 2 seeds')
+    assert means.rows[0].error == pytest.approx((1 / 101 + 1 / 102) / 2)
+    assert '| rate=1, size=0.2 | 2 of 2 seeds | 0.5 | 0.00985 |' in table.markdown()
+    assert tool._withReferences(settings[:4], dict(size=.05), ('rate',))[4:] == [
+        dict(rate=1, seed=0, size=.05), dict(rate=1, seed=1, size=.05)]
+
+
+def test_files(folder):
+    table = TradeoffTable(rows((2., .5), (1., 0.), (4., .25)), 'Title')
+    table.write(os.path.join(folder, 'a'))
+    assert sorted(os.listdir(folder)) == ['a.csv', 'a.md', 'a.png']
+    assert os.path.getsize(os.path.join(folder, 'a.png')) > 5000
+    axes = table.plot(time='cpu')
+    # An error of 0 is drawn below all others.
+    points = sorted(line.get_xydata()[0].tolist() for line in axes.lines[1:])
+    assert points == [[.5, pytest.approx(.025)], [1., .5], [2., .25]]
+    with pytest.raises(ValueError, match='no row of the table has an error'):
+        TradeoffTable([TradeoffRow({})]).plot()
+    with pytest.raises(ValueError, match="time is 'clock'"):
+        table.front('clock')
+
+
+def faked(monkeypatch, results):
+    """Runs give one after the other of the results, and are remembered."""
+    asked = []
+
+    def runOne(job, *_):
+        asked.append(job['settings'])
+        result = results[len(asked) - 1]
+        if isinstance(result, BaseException):
+            raise result
+        return result
+
+    monkeypatch.setattr(tool, '_runOne', runOne)
+    return asked
+
+
+def ok(wall, value=1.):
+    return dict(result='ok', message='', wall=wall, cpu=wall, steps=1, value=value, used={})
+
+
+def test_mediansAndRatios(monkeypatch):
+    walls = [4, 12, 8, 16, 2, 10]
+    asked = faked(monkeypatch, [ok(wall) for wall in walls])
+    table = trade(scenes.block, {'passes': [1, 2]}, repeats=3)
+    assert [s['passes'] for s in asked] == [1, 2] * 3
+    assert [row.wall for row in table.rows] == [4, 12]
+    assert table.rows[0].walls == walls[::2] and table.ratio(table.rows[1]) == 3
+
+
+def test_gridsOfSeveralDicts():
+    assert tool._grid([{}, {'passes': [1, 2], 'own': ['a']}, {'passes': [2], 'own': ['a']}]) == [
+        {}, dict(passes=1, own='a'), dict(passes=2, own='a')]
+    grid = tool._grid({'passes': np.arange(1, 3), 'size': np.array([.5])})
+    assert [type(v) for setting in grid for v in setting.values()] == [int, float] * 2
+
+
+def test_whatIsRefusedIsNotRepeated(monkeypatch):
+    refused = dict(result='refused', message='no.', used={'size': 1.})
+    asked = faked(monkeypatch, [ok(4), refused, ok(5)])
+    table = trade(scenes.block, {'passes': [1, 2]}, repeats=2)
+    assert [s['passes'] for s in asked] == [1, 2, 1]
+    assert table.rows[1].settings == dict(passes=2, size=1.) and table.rows[1].walls == []
+
+
+def test_interruptedTableHasWhatWasDone(monkeypatch, capsys):
+    faked(monkeypatch, [ok(4), KeyboardInterrupt()])
+    table = trade(scenes.block, {'passes': [1, 2]}, repeats=2)
+    assert [row.result for row in table.rows] == ['ok', 'not run']
+    assert 'Stopped after 1 of 4 runs.' in capsys.readouterr().err
+
+
+def local(_):
+    """A scene that is not in the module of its name."""
+
+
+local.__name__ = 'elsewhere'
+
+
+@pytest.mark.parametrize('wrong, sentence', [
+    (dict(vary={'passes': [1, 3]}), 'passes=3, it must be 1 or 2'),
+    (dict(vary={'passes': [True]}), 'passes=True, it must be 1 or 2'),
+    (dict(vary={'correction': ['lagrangian']}), "'lagrangian', it must be 'lagrange', 'penalty'"),
+    (dict(vary={'correction': ['penalty:2']}), "'penalty:2', it must be"),
+    (dict(vary={'correction': ['penalty:x']}), "'penalty:x', it must be"),
+    (dict(vary={'smooth': [1]}), 'smooth=1, it must be True or False'),
+    (dict(vary={'size': [0.]}), r'size=0.0, it must be a positive length'),
+    (dict(vary={'timeStep': [-1]}), 'timeStep=-1, it must be a positive fraction'),
+    (dict(vary={'halo': [.6]}), 'halo=0.6, it must be a fraction'),
+    (dict(vary={'collider': ['Sweep']}), "collider='Sweep', it must be 'none' or one of 'Leb"),
+    (dict(vary={'verletDist': ['far']}), "verletDist='far', it must be a length"),
+    (dict(vary={'plane': ['strained']}), "plane='strained', it must be 'strain' or 'stress'"),
+    (dict(vary={'bulkViscosity': [-1]}), 'bulkViscosity=-1, it must be 0 or a positive'),
+    (dict(vary={'fracture': ['brittle']}), "fracture='brittle', it must be 'none', 'instant'"),
+    (dict(vary={'threads': [10**6]}), 'threads=1000000, it must be a whole number from 1 to'),
+    (dict(vary={'own': [[1, 2]]}), r'own=\[1, 2\], it must be a number, a text'),
+    (dict(vary={'wall': [1]}), "the choice 'wall', a name must be"),
+    (dict(vary={'passes': 1}), "1 for the choice 'passes', it must be a list"),
+    (dict(vary={'passes': []}), r"\[\] for the choice 'passes', it must be a list"),
+    (dict(vary='passes'), "vary is 'passes', it must be a dict"),
+    (dict(scene=lambda c: None), 'scene is .*at the top level of a file'),
+    (dict(scene=local), 'scene is .*at the top level of a file'),
+    (dict(measure=3), 'measure is 3, it must be a function'),
+    (dict(measure=yadefrag.rectangle), 'they must be in one file'),
+    (dict(duration=0), r'duration is 0, it must be a positive number \(s\)'),
+    (dict(every=-1.), 'every is -1.0, it must be'),
+    (dict(repeats=0), 'repeats is 0, it must be a positive whole number'),
+    (dict(limit=True), 'limit is True, it must be a positive number'),
+    (dict(reference='nowhere.txt'), "reference is 'nowhere.txt', which is not a file of numbers"),
+    (dict(reference=float('nan')), 'reference is nan, it must be finite numbers'),
+    (dict(reference={'passes': 3}), 'passes=3, it must be 1 or 2'),
+])
+def test_badInput(monkeypatch, wrong, sentence):
+    asked = faked(monkeypatch, [])
+    arguments = dict(scene=scenes.block, vary={}, measure=scenes.way, duration=1.)
+    with pytest.raises(ValueError, match=sentence) as error:
+        tool.tradeoff(**{**arguments, **wrong})
+    assert str(error.value).count('. ') == 0 and not asked
+
+
+def test_everyKnownNameRefusesSomething():
+    for name, (isRight, right) in scene_choices.KNOWN.items():
+        for wrong in (None, [], 'x', object(), float('nan')):
+            assert not isRight(wrong), (name, wrong)
+        assert right
+
+
+kExamples = os.path.join(ROOT, 'examples',
+                         'tradeoff')
+
+
+@pytest.mark.parametrize('name, size, most', [
+    ('bars', 2e-3, .08), ('hertz', 2e-3, .06), ('rolling', 2e-3, .03), ('ring', 2e-4, .3),
+    ('compression', 2.5e-3, .1)])
+def test_problemsOfTheBenchmark(monkeypatch, name, size, most):
+    monkeypatch.syspath_prepend(kExamples)
+    problem = importlib.import_module(name)
+    assert tool._grid(problem.VARY)[0] == {}
+    arguments = dict(problem.ARGUMENTS, repeats=1)
+    table = tool.tradeoff(problem.scene, {'size': [size]}, problem.measure, **arguments)
+    assert table.rows[0].result == 'ok', table.rows[0].message
+    assert table.rows[0].error < most
+
+
+def test_benchmarkRefusesUnknownProblems():
+    done = subprocess.run([*yadeCommand(), os.path.join(kExamples, 'tradeoff.py'), '--problems',
+                           'bars,stairs'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, timeout=120)
+    assert done.returncode == 2 and "'stairs' is not one of bars, hertz" in done.stdout
+
+
+kScript = '''
+from yadefrag import *
+def scene(choices):
+    O.engines, O.dt = [NewtonIntegrator()], .125
+def measure(_):
+    return O.time
+%s
+    print('@@@', [row.value for row in tradeoff(scene, {}, measure, duration=1., repeats=1).rows])
+'''
+
+
+@pytest.mark.parametrize('guard', [True, False])
+def test_inAScript(folder, guard):
+    file = os.path.join(folder, 'script.py')
+    with open(file, 'w') as f:
+        f.write(kScript % ("if __name__ == '__main__':" if guard else 'if True:'))
+    done = subprocess.run([*yadeCommand(), file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, timeout=120)
+    if guard:
+        assert '@@@ [1.0]' in done.stdout, done.stdout
+    else:
+        assert 'cannot load the scene' in done.stdout and 'put the call after' in done.stdout
