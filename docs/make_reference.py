@@ -14,7 +14,7 @@ from yade import wrapper
 GROUPS = (
     ('Solver', ('FESolver', 'engines', 'runSteps', 'FERecorder')),
     ('Materials', ('FEMat', 'BrittleFEMat')),
-    ('Geometry', ('rectangle', 'circle', 'ring', 'voronoi', 'grainJoints', 'snapOutlines', 'rectangleMesh',
+    ('Geometry', ('rectangle', 'circle', 'ring', 'voronoi', 'grainJoints', 'snapOutlines', 'Mesh', 'polygonMesh', 'rectangleMesh',
                   'readPolygon', 'readOutline', 'readMesh', 'outlineReport')),
     ('Results and pictures', ('plotMesh', 'animate', 'exportVTK', 'crackTable', 'fragmentTable', 'plotFragmentSizes',
                               'recordFracture', 'plotFracture')),

@@ -12,6 +12,7 @@
 #include "fe/running.hpp"
 #include "publish/publish.hpp"
 #include "python/list_items.hpp"
+#include "script/body_python.hpp"
 #include "script/mesh_python.hpp"
 #include "script/polygon_python.hpp"
 #include "script/section_python.hpp"
@@ -57,6 +58,11 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("checkRunningYade", &yadefrag::checkRunningYade,
           "Raises ImportError unless YADE's classes have the layout that this extension declares.");
   py::def("instructionSet", &yadefrag::instructionSet);
+  yadefrag::defineMesh();
+  py::class_<yadefrag::BrittlePlaces>("BrittlePlaces", py::no_init);
+  py::def("brittlePlaces", &yadefrag::brittlePlacesOf,
+          (py::arg("strength"), py::arg("fractureEnergy"), py::arg("edges"),
+           py::arg("edgeStrength"), py::arg("edgeEnergy")));
   py::def("meshOfPolygon", &yadefrag::meshOfPolygon);
   py::def("keptVertices", &yadefrag::keptVertices);
   py::def("latticeTimeStep", &yadefrag::latticeTimeStepOf);

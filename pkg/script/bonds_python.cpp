@@ -1,12 +1,9 @@
 #include "script/bonds_python.hpp"
 
-#include <mutex>
 #include <string>
 
-#include "fe/fe_solver.hpp"
-#include "fe/running.hpp"
 #include "fracture/checks.hpp"
-#include "script/fe_arrays.hpp"
+#include "script/calls.hpp"
 
 namespace yadefrag {
 
@@ -28,9 +25,7 @@ struct Bonded {
 /// Runs `work`, which bonds sides and describes them in a Bonded, between two steps.
 template <class Work>
 Bonded bonded(FESolver& solver, const Work& work) {
-  requirePaused();
-  const std::lock_guard guard(solver.betweenSteps());
-  return asValueError([&] {
+  return change(solver, [&] {
     return solver.bond([&](World& world) {
       Bonded result;
       const EdgeId first(world.fracture.edges.size());

@@ -1,99 +1,30 @@
 #include "script/fe_arrays.hpp"
 
-#include <mutex>
-
 #include "dynamics/element_state.hpp"
-#include "fe/fe_solver.hpp"
-#include "fe/running.hpp"
 #include "fracture/checks.hpp"
+#include "script/arrays.hpp"
+#include "script/calls.hpp"
 #include "script/fragments.hpp"
 #include "script/shown_nodes.hpp"
-#include "script/snap_python.hpp"
-#include "step/overlap_check.hpp"
 
 namespace yadefrag {
 
 namespace py = yade::py;
 
-py::object toArray(const void* data, std::size_t bytes, const char* dtype, std::size_t rows,
-                   int columns) {
-  // An array over its own bytearray is writable, like any other array.
-  const py::object buffer{py::handle<>(PyByteArray_FromStringAndSize(
-      static_cast<const char*>(data), static_cast<Py_ssize_t>(bytes)))};
-  const py::object numpy = py::import("numpy");
-  if (bytes == 0) {
-    return columns > 0 ? numpy.attr("empty")(py::make_tuple(rows, columns), dtype)
-                       : numpy.attr("empty")(rows, dtype);
-  }
-  const py::object flat = numpy.attr("frombuffer")(buffer, dtype);
-  return columns > 0 ? flat.attr("reshape")(rows, columns) : flat;
-}
-
 namespace {
-
-constexpr const char* kReal = "float64";
-constexpr const char* kIndex = "uint32";
-
-/// Runs `work`, which changes the scene, between two steps.
-template <class Work>
-auto change(const FESolver& solver, const Work& work) {
-  requirePaused();
-  const std::lock_guard guard(solver.betweenSteps());
-  return asValueError(work);
-}
 
 /// A column by node, in the numbering of scripts.
 template <class Value>
-py::object nodeArray(const FESolver& solver, const std::vector<Value>& column, int columns) {
-  if (!solver.world().hasRigid()) return toArray(column, kReal, columns);
-  return toArray(ShownNodes(solver.world()).rows(column), kReal, columns);
+py::object nodeArray(const FESolver& solver, const std::vector<Value>& column) {
+  if (!solver.world().hasRigid()) return toArray(column);
+  return toArray(ShownNodes(solver.world()).rows(column));
 }
 
 std::vector<NodeId> nodesFrom(const FESolver& solver, const py::object& numbers) {
-  return ShownNodes(solver.world()).nodes(fromBytes<NodeId>(numbers));
+  return ShownNodes(solver.world()).nodes(fromArray<NodeId>(numbers));
 }
 
 }  // namespace
-
-int addMesh(FESolver& solver, const py::dict& input) {
-  TriangleMesh mesh;
-  mesh.nodes = fromBytes<Vec2>(input["nodes"]);
-  mesh.triangles = fromBytes<std::array<std::uint32_t, 3>>(input["triangles"]);
-  const py::list loops(input["loops"]);
-  for (int i = 0; i < py::len(loops); ++i) mesh.loops.push_back(fromBytes<std::uint32_t>(loops[i]));
-  BodySpec spec;
-  spec.velocity = fromBytes<Vec2>(input["velocity"]);
-  spec.displacement = fromBytes<Vec2>(input["displacement"]);
-  spec.stress = fromBytes<std::array<double, 3>>(input["stress"]);
-  spec.held = fromBytes<std::uint8_t>(input["held"]);
-  spec.smoothNodes = fromBytes<std::uint8_t>(input["smooth"]);
-  spec.thickness = py::extract<double>(input["thickness"]);
-  spec.selfContact = py::extract<bool>(input["selfContact"]);
-  spec.places.strength = fromBytes<double>(input["strength"]);
-  spec.places.fractureEnergy = fromBytes<double>(input["fractureEnergy"]);
-  const auto ends = fromBytes<std::array<std::uint32_t, 2>>(input["jointEdges"]);
-  const auto strengths = fromBytes<double>(input["jointStrength"]);
-  const auto energies = fromBytes<double>(input["jointEnergy"]);
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    spec.places.joints.push_back({ends[i], strengths[i], energies[i]});
-  const bool smoothed = py::extract<bool>(input["smoothed"]);
-  spec.element = smoothed ? ElementKind::kSmoothed : ElementKind::kLinear;
-  spec.materials.ofTriangle = fromBytes<std::uint32_t>(input["materialOf"]);
-  spec.name = py::extract<std::string>(input["name"]);
-  const py::list given(input["materials"]);
-  std::vector<yade::shared_ptr<FEMat>> materials;
-  const auto count = py::len(given);
-  materials.reserve(static_cast<std::size_t>(count));
-  for (py::ssize_t i = 0; i < count; ++i)
-    materials.push_back(py::extract<yade::shared_ptr<FEMat>>(given[i]));
-  return change(solver, [&] {
-    try {
-      return solver.addBody(mesh, std::move(spec), materials);
-    } catch (const OverlapError& error) {
-      throw OverlapFound(error.what(), error.depth);
-    }
-  });
-}
 
 void takeBody(FESolver& solver, int component) {
   change(solver, [&] { solver.removeBody(component); });
@@ -102,14 +33,14 @@ void takeBody(FESolver& solver, int component) {
 void setLoads(FESolver& solver, const py::object& loads) {
   change(solver, [&] {
     World& world = solver.changeWorld();
-    world.setLoads(ShownNodes(world).column(fromBytes<Vec2>(loads)));
+    world.setLoads(ShownNodes(world).column(fromArray<Vec2>(loads)));
   });
 }
 
 void prescribe(FESolver& solver, const py::object& nodes, int held, const py::object& velocities) {
   change(solver, [&] {
     solver.changeWorld().prescribeEach(nodesFrom(solver, nodes), static_cast<std::uint8_t>(held),
-                                       fromBytes<Vec2>(velocities));
+                                       fromArray<Vec2>(velocities));
   });
 }
 
@@ -127,7 +58,7 @@ void setPressure(FESolver& solver, const py::object& nodes, const py::object& ti
                  const py::object& values, const py::object& function, bool intoCracks) {
   change(solver, [&] {
     solver.changeWorld().setPressure(nodesFrom(solver, nodes),
-                                     {fromBytes<double>(times), fromBytes<double>(values)},
+                                     {fromArray<double>(times), fromArray<double>(values)},
                                      numberOf(solver, function), intoCracks);
   });
 }
@@ -136,17 +67,17 @@ void setAbsorbing(FESolver& solver, const py::object& nodes) {
   change(solver, [&] { solver.changeWorld().setAbsorbing(nodesFrom(solver, nodes)); });
 }
 
-void prescribeMotion(FESolver& solver, const py::object& nodes, int held, const py::dict& input) {
-  const auto table = [&](const char* name) {
-    const py::object pair = input[name];
-    return TimeTable(fromBytes<double>(pair[0]), fromBytes<double>(pair[1]));
+void prescribeMotion(FESolver& solver, const py::object& nodes, int held, const py::tuple& centre,
+                     const py::tuple& speedX, const py::tuple& speedY, const py::tuple& turn,
+                     const py::object& function) {
+  const auto table = [](const py::tuple& columns) {
+    return TimeTable(fromArray<double>(columns[0]), fromArray<double>(columns[1]));
   };
   Motion motion;
-  motion.centre = {py::extract<double>(input["centre"][0]),
-                   py::extract<double>(input["centre"][1])};
-  motion.speedX = table("speedX"), motion.speedY = table("speedY"), motion.turn = table("turn");
+  motion.centre = {py::extract<double>(centre[0]), py::extract<double>(centre[1])};
+  motion.speedX = table(speedX), motion.speedY = table(speedY), motion.turn = table(turn);
   change(solver, [&] {
-    motion.function = numberOf(solver, input["function"]);
+    motion.function = numberOf(solver, function);
     solver.changeWorld().prescribeMotion(nodesFrom(solver, nodes), static_cast<std::uint8_t>(held),
                                          std::move(motion));
   });
@@ -154,15 +85,15 @@ void prescribeMotion(FESolver& solver, const py::object& nodes, int held, const 
 
 py::object loadsOf(const FESolver& solver) {
   const Nodes& nodes = solver.world().model.nodes;
-  if (!nodes.load.empty()) return nodeArray(solver, nodes.load, 2);
-  return toArray(std::vector<Vec2>(ShownNodes(solver.world()).size()), kReal, 2);
+  if (!nodes.load.empty()) return nodeArray(solver, nodes.load);
+  return toArray(std::vector<Vec2>(ShownNodes(solver.world()).size()));
 }
 
 py::object nodesOf(const FESolver& solver) {
-  return nodeArray(solver, solver.world().model.nodes.position, 2);
+  return nodeArray(solver, solver.world().model.nodes.position);
 }
 py::object velocitiesOf(const FESolver& solver) {
-  return nodeArray(solver, solver.world().model.nodes.velocity, 2);
+  return nodeArray(solver, solver.world().model.nodes.velocity);
 }
 py::object nodesOfBody(const FESolver& solver, int component) {
   const Nodes& nodes = solver.world().model.nodes;
@@ -171,7 +102,7 @@ py::object nodesOfBody(const FESolver& solver, int component) {
   for (std::size_t n = 0; n < nodes.size(); ++n)
     if (nodes.component[n] == ComponentId(static_cast<std::size_t>(component)) && nodes.mass[n] > 0)
       own.push_back(all.number(NodeId(n)));
-  return toArray(own, kIndex, 0);
+  return toArray(own);
 }
 py::list namesOf(const FESolver& solver) {
   py::list names;
@@ -184,7 +115,7 @@ bool isGone(const FESolver& solver, int component) {
   return body.firstTriangle == body.lastTriangle;
 }
 py::object massesOf(const FESolver& solver) {
-  return nodeArray(solver, solver.world().model.nodes.mass, 0);
+  return nodeArray(solver, solver.world().model.nodes.mass);
 }
 py::object trianglesOf(const FESolver& solver) {
   const ShownNodes all(solver.world());
@@ -192,48 +123,46 @@ py::object trianglesOf(const FESolver& solver) {
   if (solver.world().hasRigid())
     for (auto& corners : triangles)
       for (NodeId& node : corners) node = all.number(node);
-  return toArray(triangles, kIndex, 3);
+  return toArray(triangles);
 }
-py::object stressArrayOf(const FESolver& solver) {
-  return toArray(stresses(solver.world().model), kReal, 3);
-}
+py::object stressArrayOf(const FESolver& solver) { return toArray(stresses(solver.world().model)); }
 py::object componentsOf(const FESolver& solver) {
-  return toArray(solver.world().model.triangles.component, kIndex, 0);
+  return toArray(solver.world().model.triangles.component);
 }
 
 py::object materialNumbersOf(const FESolver& solver) {
   const Triangles& triangles = solver.world().model.triangles;
-  if (!triangles.material.empty()) return toArray(triangles.material, kIndex, 0);
-  return toArray(std::vector<std::uint32_t>(triangles.size()), kIndex, 0);
+  if (!triangles.material.empty()) return toArray(triangles.material);
+  return toArray(std::vector<std::uint32_t>(triangles.size()));
 }
 
 py::object displacementsOf(const FESolver& solver) {
   std::vector<Vec2> moved = solver.world().model.nodes.position;
   for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= solver.world().reference[i];
-  return nodeArray(solver, moved, 2);
+  return nodeArray(solver, moved);
 }
 
 py::object contactForcesOf(const FESolver& solver) {
   const std::span<const Vec2> known = solver.world().contact.forces().known;
   std::vector<Vec2> forces(known.begin(), known.end());
   forces.resize(solver.world().model.nodes.size());  // empty before the first contact
-  return nodeArray(solver, forces, 2);
+  return nodeArray(solver, forces);
 }
 
 py::object reactionsOf(const FESolver& solver) {
   std::vector<Vec2> forces = solver.world().reactions;
   forces.resize(solver.world().model.nodes.size());  // empty before the first step
-  return nodeArray(solver, forces, 2);
+  return nodeArray(solver, forces);
 }
 
 py::object fragmentOf(const FESolver& solver) {
   std::vector<std::uint32_t> numbers;
   findFragments(solver.world().model, &numbers, &solver.world().fracture);
-  return toArray(numbers, "int32", 0);  // −1: removed
+  return toArray(numbers).attr("view")("int32");  // −1: removed
 }
 
 py::object referenceOf(const FESolver& solver) {
-  return nodeArray(solver, solver.world().reference, 2);
+  return nodeArray(solver, solver.world().reference);
 }
 
 namespace {
@@ -260,7 +189,7 @@ py::list surfacesOf(const FESolver& solver) {
       seen[s] = true;
       loop.push_back(all.number(surfaces.segmentNode[s]));
     }
-    loops.append(toArray(loop, kIndex, 0));
+    loops.append(toArray(loop));
   }
   return loops;
 }

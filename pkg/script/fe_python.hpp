@@ -2,11 +2,10 @@
 // Python values and methods of FESolver; addPolygon and others are written in Python
 // (python/yadefrag/fe/solver.py).
 
-#include <mutex>
-
-#include "fe/fe_solver.hpp"
 #include "fracture/checks.hpp"
+#include "script/body_python.hpp"
 #include "script/bonds_python.hpp"
+#include "script/calls.hpp"
 #include "script/fe_arrays.hpp"
 #include "script/fe_results.hpp"
 #include "script/mesh_python.hpp"
@@ -14,17 +13,6 @@
 #include "step/overlap_depth.hpp"
 
 namespace yadefrag {
-
-/// A call that waits for the end of a step if another thread runs the scene.
-template <auto call>
-struct Locked;
-template <class Value, class Solver, class... Rest, Value (*function)(Solver&, Rest...)>
-struct Locked<function> {
-  static Value call(Solver& self, Rest... rest) {
-    const std::lock_guard guard(self.betweenSteps());
-    return function(self, rest...);
-  }
-};
 
 inline double criticalTimeStepOf(FESolver& solver) { return solver.criticalTimeStep(); }
 inline std::string zoneWarningOf(const FESolver& solver, int component) {
@@ -49,7 +37,12 @@ inline std::uint64_t numCracksOf(const FESolver& solver) {
 
 template <class PyClass>
 void FESolver::pyExtra(PyClass& pyClass) {
-  pyClass.def("_addMesh", &addMeshIfApart)
+  using yade::py::arg;
+  pyClass
+      .def("_addMesh", &addMesh,
+           (arg("mesh"), arg("materials"), arg("materialOf"), arg("places"), arg("velocity"),
+            arg("displacement"), arg("stress"), arg("held"), arg("smooth"), arg("thickness"),
+            arg("selfContact"), arg("smoothed"), arg("name")))
       .def(
           "removeBody", &takeBody, yade::py::args("component"),
           "Removes a whole body, and the bodies of its surface, from the scene; the numbers of the "

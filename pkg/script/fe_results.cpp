@@ -10,7 +10,7 @@
 #include "fe/fe_solver.hpp"
 #include "fracture/cohesive_law.hpp"
 #include "fracture/edge_material.hpp"
-#include "script/fe_arrays.hpp"
+#include "script/arrays.hpp"
 #include "script/shown_nodes.hpp"
 
 namespace yadefrag {
@@ -39,7 +39,7 @@ py::object strainArrayOf(const FESolver& solver) {
     strains[e] = {(f.xx * f.xx + f.yx * f.yx - 1) / 2, (f.xy * f.xy + f.yy * f.yy - 1) / 2,
                   (f.xx * f.xy + f.yx * f.yy) / 2};
   }
-  return toArray(strains, "float64", 3);
+  return toArray(strains);
 }
 
 namespace {
@@ -117,17 +117,17 @@ py::dict cracksOf(const FESolver& solver) {
   for (auto& ends : columns.nodes)
     for (NodeId& node : ends) node = shown.number(node);
   py::dict table;
-  table["component"] = toArray(columns.component, "uint32", 0);
-  table["other"] = toArray(columns.other, "uint32", 0);
-  table["triangle"] = toArray(columns.triangle, "uint32", 0);
-  table["nodes"] = toArray(columns.nodes, "uint32", 4);
-  table["x"] = toArray(columns.x, "float64", 0), table["y"] = toArray(columns.y, "float64", 0);
-  table["nx"] = toArray(columns.nx, "float64", 0), table["ny"] = toArray(columns.ny, "float64", 0);
-  table["opening"] = toArray(columns.opening, "float64", 0);
-  table["slip"] = toArray(columns.slip, "float64", 0);
-  table["damage"] = toArray(columns.damage, "float64", 0);
-  table["held"] = toArray(columns.held, "bool", 0);
-  table["start"] = toArray(columns.start, "float64", 0);
+  table["component"] = toArray(columns.component);
+  table["other"] = toArray(columns.other);
+  table["triangle"] = toArray(columns.triangle);
+  table["nodes"] = toArray(columns.nodes);
+  table["x"] = toArray(columns.x), table["y"] = toArray(columns.y);
+  table["nx"] = toArray(columns.nx), table["ny"] = toArray(columns.ny);
+  table["opening"] = toArray(columns.opening);
+  table["slip"] = toArray(columns.slip);
+  table["damage"] = toArray(columns.damage);
+  table["held"] = toArray(columns.held).attr("view")("bool");
+  table["start"] = toArray(columns.start);
   return table;
 }
 

@@ -1,16 +1,18 @@
 #include "script/mesh_python.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "dynamics/mesh_step.hpp"
-#include "fe/fe_solver.hpp"
 #include "meshing/mesh_quality.hpp"
 #include "meshing/structured.hpp"
-#include "meshing/triangulate.hpp"
 #include "outline/narrowest.hpp"
 #include "outline/polygon.hpp"
 #include "outline/simplify.hpp"
-#include "script/fe_arrays.hpp"
+#include "script/arrays.hpp"
+#include "script/calls.hpp"
 
 namespace yadefrag {
 
@@ -23,73 +25,130 @@ double memoryOfMachine() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-py::dict toDict(const TriangleMesh& mesh) {
-  py::dict result;
-  py::list loops, vertices;
-  for (const auto& loop : mesh.loops) loops.append(toArray(loop, "uint32", 0));
-  for (const auto& loop : mesh.loopVertices) vertices.append(toArray(loop, "uint32", 0));
-  result["nodes"] = toArray(mesh.nodes, "float64", 2);
-  result["triangles"] = toArray(mesh.triangles, "uint32", 3);
-  result["joints"] = toArray(mesh.joints, "uint32", 3);
-  result["loops"] = loops;
-  result["loopVertices"] = vertices;
-  return result;
-}
-
 SizeField sizeField(const py::tuple& size) {
   if (py::len(size) == 1) return py::extract<double>(size[0])();
   const Vec2 low = {py::extract<double>(size[0]), py::extract<double>(size[1])};
   return {low, py::extract<double>(size[2]), py::extract<std::uint32_t>(size[3]),
-          fromBytes<double>(size[4])};
+          fromArray<double>(size[4])};
+}
+
+/// From arrays that yadefrag/fe/mesh.py has checked.
+SharedMesh meshOf(const py::object& nodes, const py::object& triangles, const py::list& loops,
+                  const py::list& loopVertices, const py::object& joints, const py::tuple& joined,
+                  std::size_t numJoints, const py::object& smooth) {
+  const SharedMesh mesh(new ScriptMesh);
+  mesh->nodes = fromArray<Vec2>(nodes);
+  mesh->triangles = fromArray<std::array<std::uint32_t, 3>>(triangles);
+  mesh->loops = fromArrays<std::uint32_t>(loops);
+  mesh->loopVertices = fromArrays<std::uint32_t>(loopVertices);
+  mesh->joints = fromArray<std::array<std::uint32_t, 3>>(joints);
+  mesh->joined = {py::extract<std::size_t>(joined[0]), py::extract<double>(joined[1])};
+  mesh->numJoints = numJoints;
+  mesh->smooth = fromArray<std::uint8_t>(smooth);
+  return mesh;
+}
+
+/// An array over the mesh's own memory, which it keeps alive.
+py::object nodesInPlace(const py::object& self) {
+  std::vector<Vec2>& nodes = py::extract<ScriptMesh&>(self)().nodes;
+  py::dict interface;
+  interface["version"] = 3;
+  interface["typestr"] = "<f8";
+  interface["shape"] = py::make_tuple(nodes.size(), 2);
+  interface["data"] = py::make_tuple(reinterpret_cast<std::uintptr_t>(nodes.data()), false);
+  py::object holder = py::import("types").attr("SimpleNamespace")();
+  holder.attr("mesh") = self;
+  holder.attr("__array_interface__") = interface;
+  return py::import("numpy").attr("asarray")(holder);
+}
+
+/// Keeps the memory, of which there may be arrays.
+void moveNodes(ScriptMesh& mesh, const py::object& nodes) {
+  const auto places = fromArray<Vec2>(nodes);
+  if (places.size() != mesh.nodes.size())
+    throw std::invalid_argument(fmt::format("nodes has {} points, it must have {}, as before.",
+                                            places.size(), mesh.nodes.size()));
+  std::ranges::copy(places, mesh.nodes.begin());
 }
 
 }  // namespace
 
-Polygon polygonOf(const py::object& outline, const py::list& holes) {
-  Polygon polygon;
-  polygon.outline = fromBytes<Vec2>(outline);
-  for (int i = 0; i < py::len(holes); ++i) polygon.holes.push_back(fromBytes<Vec2>(holes[i]));
-  return polygon;
+void defineMesh() {
+  py::class_<ScriptMesh, SharedMesh, boost::noncopyable>("Mesh", py::no_init)
+      .def("__init__", py::make_constructor(
+                           &meshOf, py::default_call_policies(),
+                           (py::arg("nodes"), py::arg("triangles"), py::arg("loops"),
+                            py::arg("loopVertices") = py::list(), py::arg("joints") = py::list(),
+                            py::arg("joined") = py::make_tuple(0, 0.), py::arg("numJoints") = 0,
+                            py::arg("smooth") = py::list())))
+      .add_property(
+          "nodes", &nodesInPlace, &moveNodes,
+          "Positions (m), array (n, 2), of the mesh itself: a change in it moves the nodes.")
+      .add_property(
+          "triangles", +[](const ScriptMesh& mesh) { return toArray(mesh.triangles); },
+          "Node numbers, counter-clockwise, array (m, 3); a copy, as the following arrays.")
+      .add_property(
+          "loops", +[](const ScriptMesh& mesh) { return toArrays(mesh.loops); },
+          "List of closed loops of boundary nodes, material on the left: the outline, then the "
+          "holes.")
+      .add_property(
+          "joints", +[](const ScriptMesh& mesh) { return toArray(mesh.joints); },
+          "Sides of triangles on joints: both nodes and the number of the joint, array (k, 3).")
+      .add_property(
+          "joined",
+          +[](const ScriptMesh& mesh) {
+            return py::make_tuple(mesh.joined.count, mesh.joined.farthest);
+          },
+          "Number of ends, crossings and bends of joints that were joined with another line, and "
+          "their largest displacement (m).")
+      .add_property(
+          "smooth", +[](const ScriptMesh& mesh) { return toArray(mesh.smooth); },
+          +[](ScriptMesh& mesh, const py::object& flags) {
+            mesh.smooth = fromArray<std::uint8_t>(flags);
+          },
+          "1 for nodes on smooth parts of the boundary, array (n); empty: all is straight.")
+      .add_property(
+          "_loopVertices", +[](const ScriptMesh& mesh) { return toArrays(mesh.loopVertices); })
+      .def_readonly("_numJoints", &ScriptMesh::numJoints);
 }
 
-py::dict meshOfPolygon(const py::object& outline, const py::list& holes, const py::tuple& size,
-                       bool irregular, std::uint64_t seed, const py::object& joints,
-                       double jointTolerance) {
+Polygon polygonOf(const py::object& outline, const py::list& holes) {
+  return {fromArray<Vec2>(outline), fromArrays<Vec2>(holes)};
+}
+
+SharedMesh meshOfPolygon(const py::object& outline, const py::list& holes, const py::tuple& size,
+                         bool irregular, std::uint64_t seed, const py::object& joints,
+                         double jointTolerance) {
   return asValueError([&] {
     const MeshLayout layout{irregular ? NodeLayout::kScattered : NodeLayout::kRows, seed};
     const Polygon polygon = checkPolygon(polygonOf(outline, holes));
     const SizeField field = sizeField(size);
-    const auto lines = fromBytes<std::array<Vec2, 2>>(joints);
-    const PolygonMesh made =
-        triangulate(polygon, field, layout, memoryOfMachine(), lines, jointTolerance);
-    py::dict mesh = toDict(made);
-    mesh["joined"] = py::make_tuple(made.joined.count, made.joined.farthest);
-    return mesh;
+    const auto lines = fromArray<std::array<Vec2, 2>>(joints);
+    return SharedMesh(new ScriptMesh{
+        triangulate(polygon, field, layout, memoryOfMachine(), lines, jointTolerance),
+        lines.size(),
+        {}});
   });
 }
 
 py::list keptVertices(const py::object& outline, const py::list& holes, double tolerance,
                       const py::object& pinned) {
   return asValueError([&] {
-    py::list kept;
-    for (const auto& loop :
-         verticesToKeep(polygonOf(outline, holes), tolerance, fromBytes<std::uint8_t>(pinned)))
-      kept.append(toArray(loop, "uint32", 0));
-    return kept;
+    return toArrays(
+        verticesToKeep(polygonOf(outline, holes), tolerance, fromArray<std::uint8_t>(pinned)));
   });
 }
 
 py::tuple narrowestOf(const py::list& loops) {
-  std::vector<std::vector<Vec2>> points(static_cast<std::size_t>(py::len(loops)));
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = fromBytes<Vec2>(loops[i]);
-  const NarrowPlace place = narrowestPlace(points);
+  const NarrowPlace place = narrowestPlace(fromArrays<Vec2>(loops));
   return py::make_tuple(place.distance, place.corner);
 }
 
-py::dict meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
-                         bool crossed) {
+SharedMesh meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
+                           bool crossed) {
   const QuadPattern pattern = crossed ? QuadPattern::kCrossed : QuadPattern::kUnionJack;
-  return toDict(structuredRectangle({left, bottom}, {right, top}, nx, ny, pattern));
+  return SharedMesh(new ScriptMesh{
+      {structuredRectangle({left, bottom}, {right, top}, nx, ny, pattern), {}}, 0, {}});
 }
 
 py::dict meshQualityOf(const FESolver& solver, int component) {
@@ -98,7 +157,7 @@ py::dict meshQualityOf(const FESolver& solver, int component) {
   const TriangleMesh mesh = stressFreeMesh(world.model, world.reference, ComponentId(component));
   const MeshQuality quality = meshQuality(mesh.nodes, mesh.triangles);
   const auto byDirection = [](const auto& values) {
-    return toArray(std::vector<double>(values.begin(), values.end()), "float64", 0);
+    return toArray(std::vector<double>(values.begin(), values.end()));
   };
   py::dict result;
   result["numTriangles"] = quality.numTriangles;
@@ -121,11 +180,7 @@ std::string costlyStepWarningOf(const FESolver& solver, int component, double si
                            world.model.components[component], size);
 }
 
-double costOfMesh(const FESolver& solver, int component, double size, const py::object& nodes,
-                  const py::object& triangles) {
-  TriangleMesh mesh;
-  mesh.nodes = fromBytes<Vec2>(nodes);
-  mesh.triangles = fromBytes<std::array<std::uint32_t, 3>>(triangles);
+double costOfMesh(const FESolver& solver, int component, double size, const ScriptMesh& mesh) {
   const Component& body = solver.world().model.components[component];
   return latticeTimeStep(body, size) / meshTimeStep(mesh, body);
 }

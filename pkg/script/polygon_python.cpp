@@ -2,7 +2,8 @@
 
 #include "outline/polygon_text.hpp"
 #include "outline/voronoi.hpp"
-#include "script/fe_arrays.hpp"
+#include "script/arrays.hpp"
+#include "script/calls.hpp"
 
 namespace yadefrag {
 
@@ -31,7 +32,7 @@ py::list voronoiOf(const py::object& outline, std::uint32_t count, std::uint64_t
                    double shortest) {
   return asValueError([&] {
     py::list grains;
-    const std::vector<Vec2> points = fromBytes<Vec2>(outline);
+    const std::vector<Vec2> points = fromArray<Vec2>(outline);
     auto loops = voronoiGrains(points, count, seed, rounds);
     if (shortest > 0) loops = withoutShortSides(std::move(loops), points, shortest);
     for (const auto& grain : loops) grains.append(pairsOf(grain));

@@ -11,7 +11,7 @@ namespace yadefrag {
 /// (outline, holes) as lists of pairs; ValueError as polygonFromText.
 yade::py::tuple polygonOfText(const std::string& text);
 
-/// The grains of outline/voronoi.hpp, as lists of pairs; `outline` is the bytes of its points.
+/// The grains of outline/voronoi.hpp, as lists of pairs; `outline` is an array of its points.
 yade::py::list voronoiOf(const yade::py::object& outline, std::uint32_t count, std::uint64_t seed,
                          int rounds, double shortest);
 

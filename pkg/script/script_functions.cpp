@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "script/fe_arrays.hpp"
+#include "script/arrays.hpp"
 #include "script/with_gil.hpp"
 
 namespace yadefrag {
@@ -40,7 +40,7 @@ void callOne(const py::object& function, const World& world, std::uint32_t motio
   std::vector<Vec2> places;
   places.reserve(nodes.size());
   for (const std::uint32_t n : nodes) places.push_back(world.model.nodes.position[n]);
-  const auto given = fromBytes<Vec2>(function(toArray(places, "float64", 2), middle));
+  const auto given = fromArray<Vec2>(function(toArray(places), middle));
   if (given.size() != nodes.size())
     throw std::runtime_error("A function of FESolver.prescribe gave a wrong number of velocities.");
   for (std::size_t i = 0; i < nodes.size(); ++i) velocities[nodes[i]] = given[i];

@@ -32,9 +32,10 @@ from yadefrag.about import about  # noqa: E402
 from yadefrag.calls import inWords  # noqa: E402
 from yadefrag.fe import solver  # noqa: E402
 from yadefrag.fe.geometry import circle, grainJoints, rectangle, ring, voronoi  # noqa: E402
+from yadefrag.fe.mesh import Mesh, rectangleMesh  # noqa: E402
+from yadefrag.fe.meshing import polygonMesh  # noqa: E402
 from yadefrag.fe.results import crackTable  # noqa: E402
 from yadefrag.fe.snapping import snapOutlines  # noqa: E402
-from yadefrag.fe.solver import rectangleMesh  # noqa: E402
 from yadefrag.io import FERecorder, exportVTK, outlineReport, readMesh, readOutline, readPolygon  # noqa: E402
 from yadefrag.io import recorder  # noqa: E402
 from yadefrag.plots import animate, plotFracture, plotFragmentSizes, plotMesh  # noqa: E402
@@ -73,7 +74,7 @@ for _name in __all__:
     attributes.install(globals()[_name])
 
 __all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMesh',
-            'outlineReport', 'snapOutlines', 'voronoi', 'grainJoints', 'rectangleMesh', 'plotMesh', 'animate',
+            'outlineReport', 'snapOutlines', 'voronoi', 'grainJoints', 'Mesh', 'polygonMesh', 'rectangleMesh', 'plotMesh', 'animate',
             'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
             'plotFracture', 'crackTable', 'engines', 'FERecorder', 'tradeoff', 'TradeoffTable',
             'ensemble', 'EnsembleTable', 'inCurveOrder', 'about']

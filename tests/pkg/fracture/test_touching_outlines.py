@@ -316,8 +316,7 @@ def meshOf(outline, holes, size, scale, shift, irregular, joints=()):
         return np.ascontiguousarray(scale * np.array(points, float) + shift)
     lines = scaled(np.array(joints, float).reshape(-1, 2)).reshape(-1, 4)
     return yadefrag._yadefrag.meshOfPolygon(
-        scaled(outline).tobytes(), [scaled(hole).tobytes() for hole in holes], (scale * size,),
-        irregular, 3, lines.tobytes(), 0.)
+        scaled(outline), [scaled(hole) for hole in holes], (scale * size,), irregular, 3, lines, 0.)
 
 
 @pytest.mark.parametrize('irregular', [False, True])
@@ -334,14 +333,13 @@ def test_meshesDoNotDependOnTheUnit(irregular):
         first = meshOf(outline, holes, size, 1, 0, irregular, joints)
         for scale, shift in ((1000, 0), (1e-3, 0), (100, 0), (1 / .0254, 0), (2.**-40, 0), (1000, 250)):
             again = meshOf(outline, holes, size, scale, shift, irregular, joints)
-            assert np.array_equal(again['triangles'], first['triangles']), (scale, shift)
-            assert again['nodes'] == pytest.approx(scale * first['nodes'] + shift, rel=1e-9,
+            assert np.array_equal(again.triangles, first.triangles), (scale, shift)
+            assert again.nodes == pytest.approx(scale * first.nodes + shift, rel=1e-9,
                                                    abs=1e-9 * scale * size)
 
 
 def test_simplifiedContoursDoNotDependOnTheUnit():
     contour = np.array(pixelContour(60, 27), float)
-    kept = [yadefrag._yadefrag.keptVertices(np.ascontiguousarray(scale * contour).tobytes(), [],
-                                            1.5 * scale, b'')[0] for scale in (1, 1e-3, .0254, 7)]
+    kept = [yadefrag._yadefrag.keptVertices(scale * contour, [], 1.5 * scale, [])[0] for scale in (1, 1e-3, .0254, 7)]
     for one in kept[1:]:
         assert np.array_equal(one, kept[0])

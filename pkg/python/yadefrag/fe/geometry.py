@@ -94,7 +94,7 @@ def voronoi(outline, n, seed=0, rounds=0, shortest=0):
     rounds = arguments.whole('rounds', rounds, least=0, right='a whole number, 0 or more', most=100)
     shortest = arguments.number('shortest', shortest, lambda v: math.isfinite(v) and v >= 0,
                              '0 or a positive number (m)')
-    return _yadefrag.voronoiOf(points.tobytes(), n, seed, rounds, shortest)
+    return _yadefrag.voronoiOf(points, n, seed, rounds, shortest)
 
 
 def grainJoints(grains):

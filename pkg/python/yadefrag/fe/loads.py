@@ -8,7 +8,7 @@ import numpy
 from yade import wrapper
 from yadefrag.arguments import array, flag, number, positive, refuse, requireTakes, shown, whole
 from yadefrag.fe.between_steps import betweenSteps, calledInStep, requireBetweenSteps, requireNoStep
-from yadefrag.fe.motions import chosenNodes, packed, tableOrNumber
+from yadefrag.fe.motions import chosenNodes, tableOrNumber
 from yadefrag.messages import warn
 from yadefrag.scene import interrupts, lifecycle
 from yadefrag.scene.progress import runPart
@@ -33,7 +33,7 @@ def setLoads(self, loads):
         refuse('loads', loads, 'an array (n, 2) of N, or None')
     if forces.ndim != 2 or forces.shape[1] != 2:
         raise ValueError('loads has the shape %s, it must be (n, 2).' % shown(forces.shape))
-    self._setLoads(numpy.ascontiguousarray(forces).tobytes())
+    self._setLoads(forces)
 
 
 def pressure(self, nodes, p, intoCracks=False):
@@ -62,10 +62,9 @@ def pressure(self, nodes, p, intoCracks=False):
         @calledInStep
         def value(time):
             return number('p(%g)' % time, p(time), math.isfinite, 'a finite number (Pa)')
-        self._pressure(chosen.tobytes(), b'', b'', value, intoCracks)
+        self._pressure(chosen, (), (), value, intoCracks)
         return
-    times, values = packed(tableOrNumber('p', p, 'Pa'))
-    self._pressure(chosen.tobytes(), times, values, None, intoCracks)
+    self._pressure(chosen, *tableOrNumber('p', p, 'Pa'), None, intoCracks)
 
 
 def absorb(self, nodes):
@@ -79,7 +78,7 @@ def absorb(self, nodes):
     has the density and speeds of the triangle behind it. ValueError before any change.
     """
     requireBetweenSteps()
-    self._absorb(chosenNodes(self, nodes).tobytes())
+    self._absorb(chosenNodes(self, nodes))
 
 
 def relax(self, tolerance=1e-6, most=10**6):

@@ -6,6 +6,7 @@ import numpy
 
 from yade import wrapper
 from yadefrag.arguments import array, isWhole, number, plain, positive, real, refuse, requireTakes, shown
+from yadefrag.fe.mesh_values import centroids
 
 _RIGHT = 'an FEMat, its label or its number in O.materials'
 _SEVERAL = _RIGHT + ('; or a function (x, y) that returns one, a list of one for each triangle, or '
@@ -74,11 +75,11 @@ class Materials:
         return self._places[key]
 
     def _ofTriangles(self, mesh, material):
-        nodes, triangles = mesh['nodes'], mesh['triangles']
+        count = len(mesh.triangles)
         if callable(material):
             requireTakes('material', material, 'x', 'y')
             return [self._number(material(x, y), 'material(%g, %g)' % (x, y))
-                    for x, y in nodes[triangles].mean(axis=1)]
+                    for x, y in centroids(mesh)]
         values = list(material)
         if len(values) == 2 and isinstance(values[0], (list, tuple)):
             listed, chosen = list(values[0]), array(values[1])
@@ -88,9 +89,9 @@ class Materials:
                 raise ValueError('material[1] must be an array of whole numbers from 0 to %d, one '
                                  'for each triangle.' % (len(listed) - 1))
             values = [listed[i] for i in chosen]
-        if len(values) != len(triangles):
+        if len(values) != count:
             raise ValueError('material has %d values, it must have one for each of the %d '
-                             'triangles.' % (len(values), len(triangles)))
+                             'triangles.' % (len(values), count))
         return [self._number(one, 'material[%d]' % i) for i, one in enumerate(values)]
 
 
@@ -126,7 +127,7 @@ def _values(name, value, mesh, sides, both, materials):
     if callable(value):
         requireTakes(name, value, 'x', 'y')
         return numpy.array([number('%s(%g, %g)' % (name, x, y), value(x, y), _isValue, right)
-                            for x, y in mesh['nodes'][sides].mean(axis=1)])
+                            for x, y in mesh.nodes[sides].mean(axis=1)])
     if not isinstance(value, dict):
         refuse(name, value, 'None, a number (%s), a function (x, y) that returns one, or a dict '
                'with one by pair of materials' % _INTERFACE[name])
@@ -153,7 +154,7 @@ def interfaces(mesh, materials, strength, energy):
     if strength is None and not materials.crack:
         raise ValueError('interfaceEnergy is given, but no material can crack; it needs an '
                          'interfaceStrength or a BrittleFEMat.')
-    sides, both = sidesBetween(mesh['triangles'], materials.numbers)
+    sides, both = sidesBetween(mesh.triangles, materials.numbers)
     strengths = _values('interfaceStrength', strength, mesh, sides, both, materials)
     energies = _values('interfaceEnergy', energy, mesh, sides, both, materials)
     own = ~(numpy.isnan(strengths) & numpy.isnan(energies))

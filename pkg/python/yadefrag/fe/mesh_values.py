@@ -1,11 +1,11 @@
-"""Arguments of addPolygon and addTriangles as arrays by triangle, joint or node."""
+"""Arguments of addPolygon and addMesh as arrays by triangle, joint or node."""
 
 import math
 
 import numpy
 
+from yadefrag import _yadefrag
 from yadefrag.arguments import array, number, pair, plain, real, refuse, requireTakes, shown
-from yadefrag.fe.snapping import isClockwise
 
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
 # name: (unit, function that checks a value, description of valid values)
@@ -19,24 +19,29 @@ _BRITTLE = {
 }
 
 
+def centroids(mesh):
+    """(m, 2) of the triangles."""
+    return mesh.nodes[mesh.triangles].mean(axis=1)
+
+
 def _ofTriangles(name, value, mesh):
     """(m) floats of the mesh's triangles; a function is evaluated at their centroids; empty for
     None."""
     if value is None:
         return numpy.empty(0)
     unit, isRight, right = _BRITTLE[name]
-    nodes, triangles = mesh['nodes'], mesh['triangles']
     if callable(value):
         requireTakes(name, value, 'x', 'y')
         return numpy.array([number('%s(%g, %g)' % (name, x, y), value(x, y), isRight, right)
-                            for x, y in nodes[triangles].mean(axis=1)])
+                            for x, y in centroids(mesh)])
     values = array(value)
     if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf':
         refuse(name, value, 'None, a function (x, y) that returns %s, or an array of one for each '
                'triangle' % unit)
-    if len(values) != len(triangles):
+    count = len(mesh.triangles)
+    if len(values) != count:
         raise ValueError('%s has %d values, it must have one for each of the %d triangles.' %
-                         (name, len(values), len(triangles)))
+                         (name, len(values), count))
     values = values.astype(float)
     for i, one in enumerate(values):
         if not isRight(one):
@@ -44,10 +49,14 @@ def _ofTriangles(name, value, mesh):
     return values
 
 
-def _ofJoints(name, value, mesh, count):
-    """Floats of the mesh's sides on joints, from a number or one for each of `count` joints."""
+def _ofJoints(name, value, sides, count):
+    """Floats of sides on joints, from a number or one for each of `count` joints; NaN for None.
+
+    sides  number of the joint of each
+    """
     unit, isRight, right = _BRITTLE[name]
-    sides = mesh['joints'][:, 2]
+    if value is None:
+        return numpy.full(len(sides), math.nan)
     if real(value) is not None:
         return numpy.full(len(sides), number(name, value, isRight, right))
     values = array(value)
@@ -61,49 +70,42 @@ def _ofJoints(name, value, mesh, count):
     return values.astype(float)[sides]
 
 
-def brittlePlaces(mesh, materials, interfaces, strength, fractureEnergy, joints=(),
-                  jointStrength=None, jointEnergy=None):
-    """{name: (array, dtype)} for FESolver._addMesh. `interfaces`: result of materials.interfaces;
+def brittlePlaces(mesh, materials, interfaces, strength, fractureEnergy, jointStrength, jointEnergy):
+    """_yadefrag.BrittlePlaces, for FESolver._addMesh. `interfaces`: result of materials.interfaces;
     values of joints have priority. ValueError for a material that does not crack, and for invalid
     values."""
-    areOwn = len(joints) and (jointStrength is not None or jointEnergy is not None)
-    given = dict(strength=strength, fractureEnergy=fractureEnergy,
-                 joints=joints if areOwn else None)
+    areOwn = mesh._numJoints > 0 and (jointStrength is not None or jointEnergy is not None)
+    given = dict(strength=strength, fractureEnergy=fractureEnergy, joints=areOwn or None)
     for name, value in given.items():
         if value is not None and not materials.crack:
             raise ValueError('%s is given, but the material does not crack; it must be a '
                              'BrittleFEMat.' % name)
-    places = {name: (_ofTriangles(name, given[name], mesh), 'float64')
-              for name in ('strength', 'fractureEnergy')}
-    edges, strengths, energies = interfaces
+    ofTriangles = [_ofTriangles(name, given[name], mesh) for name in ('strength', 'fractureEnergy')]
+    edges, *values = interfaces
     if areOwn:
-        own = [numpy.full(len(mesh['joints']), math.nan) if value is None else
-               _ofJoints(name, value, mesh, len(joints))
-               for name, value in (('jointStrength', jointStrength), ('jointEnergy', jointEnergy))]
-        edges = numpy.concatenate([edges, mesh['joints'][:, :2]])
-        strengths = numpy.concatenate([strengths, own[0]])
-        energies = numpy.concatenate([energies, own[1]])
-    places.update(jointEdges=(edges, 'uint32'), jointStrength=(strengths, 'float64'),
-                  jointEnergy=(energies, 'float64'))
-    return places
+        joints = mesh.joints
+        edges = numpy.concatenate([edges, joints[:, :2]])
+        values = [numpy.concatenate([before, _ofJoints(name, value, joints[:, 2], mesh._numJoints)])
+                  for before, name, value in zip(values, ('jointStrength', 'jointEnergy'),
+                                                 (jointStrength, jointEnergy))]
+    return _yadefrag.brittlePlaces(*ofTriangles, edges, *values)
 
 
 def stressOfTriangles(stress, mesh):
     """(m, 3) Pa of the mesh's triangles, from a triple, a function (x, y) or an array; empty for
     None."""
-    nodes, triangles = mesh['nodes'], mesh['triangles']
     if stress is None:
         return numpy.empty((0, 3))
     if callable(stress):
         requireTakes('stress', stress, 'x', 'y')
         return numpy.array([_triple('stress(%g, %g)' % (x, y), stress(x, y))
-                            for x, y in nodes[triangles].mean(axis=1)])
+                            for x, y in centroids(mesh)])
     values = array(stress)
     if values is None or values.ndim != 2 or values.dtype.kind not in 'iuf':
-        return numpy.tile(_triple('stress', stress), (len(triangles), 1))
-    if values.shape != (len(triangles), 3):
+        return numpy.tile(_triple('stress', stress), (len(mesh.triangles), 1))
+    if values.shape != (len(mesh.triangles), 3):
         raise ValueError('stress has the shape %s, it must be (%d, 3): one triple for each '
-                         'triangle.' % (shown(values.shape), len(triangles)))
+                         'triangle.' % (shown(values.shape), len(mesh.triangles)))
     for i, one in enumerate(values):
         _triple('stress[%d]' % i, one)
     return values.astype(float)
@@ -144,6 +146,11 @@ def heldNodes(fixed, nodes):
     return held
 
 
+def isClockwise(points):
+    x, y = (points - points[0]).T
+    return float((x * numpy.roll(y, -1) - y * numpy.roll(x, -1)).sum()) < 0
+
+
 def smoothFlags(smooth, count):
     """True, False, or an array with a flag for each of the outline's `count` points."""
     smooth = plain(smooth)
@@ -163,17 +170,17 @@ def smoothNodes(smooth, mesh, outline=()):
     if isinstance(smooth, bool):
         if not smooth:
             return numpy.empty(0, dtype=numpy.uint8)
-        chosen = [(loop, numpy.ones(len(loop), dtype=bool)) for loop in mesh['loops']]
+        chosen = [(loop, numpy.ones(len(loop), dtype=bool)) for loop in mesh.loops]
     else:
         flags, count = smooth, len(outline)
         if isClockwise(outline):  # the mesh has it reversed, with the same first point
             flags = flags[-numpy.arange(count) % count]
-        loop, vertices = mesh['loops'][0], mesh['loopVertices'][0]
+        loop, vertices = mesh.loops[0], mesh._loopVertices[0]
         # A node within an edge is smooth if both ends of the edge are.
         isVertex = vertices != numpy.roll(vertices, 1)
         ends = flags[vertices] & flags[(vertices.astype(int) + 1) % count]
         chosen = [(loop, numpy.where(isVertex, flags[vertices], ends))]
-    marks = numpy.zeros(len(mesh['nodes']), dtype=numpy.uint8)
+    marks = numpy.zeros(len(mesh.nodes), dtype=numpy.uint8)
     for loop, flags in chosen:
         marks[loop] = flags
     return marks

@@ -1,4 +1,4 @@
-"""Meshing options of addPolygon: kind of mesh, seed, size of the triangles by place."""
+"""polygonMesh, and the arguments that it has in common with addPolygon: an outline with holes becomes a Mesh."""
 
 import math
 
@@ -6,10 +6,36 @@ import numpy
 
 from yade import wrapper
 from yadefrag import _yadefrag
-from yadefrag.arguments import number, pair, positive, refuse, requireTakes, whole
+from yadefrag.arguments import number, pair, pointsOf, positive, refuse, requireTakes, whole
 from yadefrag.fe.materials import isField
+from yadefrag.fe.mesh_values import isClockwise, smoothFlags, smoothNodes
+from yadefrag.messages import warn
 
+_SPACING = .2  # of the size: nearer vertices of the neighbours give one vertex
+_JOINTS = .1   # of the size: default tolerance of joints
 _LEAST_SAMPLES, _MOST_SAMPLES = 128, 1024  # of a size function, along the outline's longer side
+
+# Arguments of polygonMesh and addPolygon.
+ARGUMENTS = """outline, holes  list of points (x, y) in m, and a list of such lists
+    size            length of the triangles' edges (m), or a function (x, y) → m. The function is
+                    sampled on a grid of at least 128 and at most 1024 cells along the longer side.
+                    Where it grows by more than 0.25 m per metre, it is lowered to that.
+    smooth          False: straight boundary; True: C¹-smooth everywhere, inside the outline; or
+                    one flag per point of the outline (the holes are then straight): True: the corner
+                    there is smoothed
+    meshSeed        seed of an irregular mesh: the same outline, size and seed give the same mesh
+    simplify        None: the outline as given; or the permitted distance (m) of its points, and those
+                    of the holes, from the meshed outline: redundant points are removed before meshing,
+                    e.g. those of a contour of pixels. No edges cross by it; corners between edges much
+                    longer than the distance are kept, and so are straight corners that are next to
+                    smooth ones in `smooth`. It must be less than the area over the length of the
+                    outline and of each hole. By squared distances (Dyken, Dæhlen and Sevaldrud 2009,
+                    J. Geogr. Syst. 11, 273)
+    joints          list of pairs of points ((x, y), (x, y)) in m: sides of triangles lie on these
+                    lines. Lines may cross each other and the outline; parts outside are ignored.
+                    Ends and crossings nearer than a tolerance to each other, to another line or to the
+                    outline are joined; a warning states how many and how far
+"""
 
 
 def _sampledSize(function, points):
@@ -24,7 +50,7 @@ def _sampledSize(function, points):
         values = numpy.array([positive('size(%g, %g)' % (x, y), function(x, y), 'm')
                               for x, y in places])
         if values.min() >= cell or samples >= _MOST_SAMPLES:
-            return float(low[0]), float(low[1]), cell, columns, values.tobytes()
+            return float(low[0]), float(low[1]), cell, columns, values
         samples *= 2
 
 
@@ -35,8 +61,7 @@ def simplified(points, holes, tolerance, flags):
     pinned = numpy.zeros(0, dtype=bool)
     if flags is not None:  # a straight corner in a smooth part is intentional
         pinned = ~flags & (numpy.roll(flags, 1) | numpy.roll(flags, -1))
-    kept = _yadefrag.keptVertices(points.tobytes(), [h.tobytes() for h in holes], tolerance,
-                                  pinned.astype(numpy.uint8).tobytes())
+    kept = _yadefrag.keptVertices(points, list(holes), tolerance, pinned)
     return (points[kept[0]], [hole[stay] for hole, stay in zip(holes, kept[1:])],
             None if flags is None else flags[kept[0]])
 
@@ -84,12 +109,91 @@ def sizeOf(size, points):
 
 def leastSize(wanted):
     """(m) The smallest size of a result of sizeOf."""
-    return wanted[0] if len(wanted) == 1 else float(numpy.frombuffer(wanted[4]).min())
+    return wanted[0] if len(wanted) == 1 else float(wanted[4].min())
 
 
-def meshOfPolygon(points, holes, wanted, irregular, seed, joints, jointTolerance):
-    """The dict of arrays that _add takes, with `loopVertices`, `joints`, and `joined`, the number of
-    joined places of joints and their largest displacement (m); `wanted`: sizeOf."""
-    seed = whole('meshSeed', seed, least=0, right='a whole number, 0 or more', most=2**63 - 1)
-    return _yadefrag.meshOfPolygon(points.tobytes(), [h.tobytes() for h in holes], wanted,
-                                   irregular, seed, joints.tobytes(), jointTolerance)
+class Outline:
+    """An outline, its holes, and the flags of `smooth`: True, False, or an array by point."""
+
+    def __init__(self, points, holes, smooth):
+        self.points, self.holes, self.smooth = points, holes, smooth
+
+    def simplified(self, tolerance):
+        """The Outline without redundant points, as by addPolygon's `simplify`."""
+        isOne = isinstance(self.smooth, bool)
+        points, holes, flags = simplified(self.points, self.holes, tolerance,
+                                          None if isOne else self.smooth)
+        return Outline(points, holes, self.smooth if isOne else flags)
+
+    def snapped(self, fe, tolerance, size, matches):
+        """(Outline, moved, inserted, farthest) on the present bodies of `fe`."""
+        loops, *count = fe._snap(self.points, self.holes, (tolerance, _SPACING * size, matches))
+        (points, vertex, inserted), *holes = loops
+        smooth = self.smooth
+        if not isinstance(smooth, bool):
+            if isClockwise(self.points):  # the result has it reversed, with the same first point
+                smooth = smooth[-numpy.arange(len(smooth)) % len(smooth)]
+            within = smooth[vertex] & numpy.roll(smooth, -1)[vertex]
+            smooth = numpy.where(inserted == 1, within, smooth[vertex])
+        return (Outline(points, [hole[0] for hole in holes], smooth), *count)
+
+
+class Meshing:
+    """The checked arguments of polygonMesh.
+
+    outline         an Outline
+    size            the smallest size (m)
+    lines           (k, 4) joints
+    jointTolerance  m
+    """
+
+    def __init__(self, outline, holes, size, mesh, meshSeed, smooth, simplify, joints, jointTolerance, material=None):
+        points = pointsOf('outline', outline, 3)
+        try:
+            loops = None if isinstance(holes, (str, bytes, dict, set)) else list(holes)
+        except TypeError:
+            loops = None
+        if loops is None:
+            refuse('holes', holes, 'a list of loops of points (x, y) in m')
+        loops = [pointsOf('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
+        self.outline = Outline(points, loops, smoothFlags(smooth, len(points)))
+        if simplify is not None:
+            self.outline = self.outline.simplified(simplify)
+        self.lines = jointLines(joints)
+        self._irregular = isIrregular(mesh, material)
+        self._sizes = sizeOf(size, self.outline.points)
+        self.size = leastSize(self._sizes)
+        self.jointTolerance = _JOINTS * self.size if jointTolerance is None else jointTolerance
+        self._seed = whole('meshSeed', meshSeed, least=0, right='a whole number, 0 or more', most=2**63 - 1)
+
+    def mesh(self, outline, jointTolerance):
+        made = _yadefrag.meshOfPolygon(outline.points, outline.holes, self._sizes, self._irregular, self._seed,
+                                       self.lines, jointTolerance)
+        made.smooth = smoothNodes(outline.smooth, made, outline.points)
+        return made
+
+
+def polygonMesh(outline, holes=(), *, size, mesh='irregular', meshSeed=0, smooth=False, simplify=None, joints=(),
+                jointTolerance=None):
+    """The Mesh of a polygon, for one or several bodies: `fe.addMesh(polygonMesh(outline, size=.1), material)`.
+
+    {arguments}
+    mesh            'irregular': edges in all directions, for cracks that do not follow the mesh;
+                    'regular', None: rows of nearly equilateral triangles, whose edges have few directions
+    jointTolerance  m, of `joints`; None: 0.1 of the smallest size; 0: rounding only
+    ValueError for an outline that addPolygon would refuse.
+    """
+    if jointTolerance is not None:
+        jointTolerance = number('jointTolerance', jointTolerance, lambda v: 0 <= v < float('inf'),
+                                '0, a positive number (m), or None')
+    meshing = Meshing(outline, holes, size, mesh, meshSeed, smooth, simplify, joints, jointTolerance)
+    made = meshing.mesh(meshing.outline, meshing.jointTolerance)
+    made._meshing = meshing
+    count, farthest = made.joined
+    if count:
+        warn('polygonMesh: of the joints, %d ends, crossings and bends near another line were joined with it, and '
+             'moved by at most %.3g m, %.2g of the size (jointTolerance=).' % (count, farthest, farthest / meshing.size))
+    return made
+
+
+polygonMesh.__doc__ = polygonMesh.__doc__.replace('{arguments}\n', ARGUMENTS)

@@ -12,7 +12,7 @@ from yadefrag.messages import warn
 
 _RIGHT = ('a finite number (m/s), an array of one for each of the nodes, a table of pairs (s, m/s), '
           'a function (x, y, t) or None')
-_NONE = (b'', b'')
+_NONE = (), ()
 _ROUNDING = 1e-9  # rounding of velocities that a script computes
 
 
@@ -73,11 +73,6 @@ def tableOrNumber(name, value, unit):
     return table
 
 
-def packed(table):
-    """A table in the form for FESolver's internal functions."""
-    return _NONE if table is None else tuple(column.tobytes() for column in table)
-
-
 def _kind(name, value, count):
     """('none' | 'each' | 'table' | 'function', the converted value)."""
     if value is None:
@@ -125,7 +120,7 @@ def prescribe(self, nodes, vx=None, vy=None):
                           for name, value in (('vx', vx), ('vy', vy))])
     held = sum(axis for axis, kind in ((1, kinds[0]), (2, kinds[1])) if kind != 'none')
     if not {'table', 'function'} & set(kinds):
-        self._prescribe(chosen.tobytes(), held, numpy.column_stack(values).tobytes())
+        self._prescribe(chosen, held, numpy.column_stack(values))
         return
     for i, given in enumerate((vx, vy)):
         if kinds[i] != 'each':
@@ -138,17 +133,14 @@ def prescribe(self, nodes, vx=None, vy=None):
     _move(self, chosen, held, (0., 0.), kinds, values)
 
 
-def _move(fe, chosen, held, centre, kinds, values, turn=None):
-    tables = [value if kind == 'table' else None for kind, value in zip(kinds, values)]
+def _move(fe, chosen, held, centre, kinds, values, turn=_NONE):
+    speeds = [value if kind == 'table' else _NONE for kind, value in zip(kinds, values)]
     function = _velocities(kinds, values) if 'function' in kinds else None
-    fe._move(chosen.tobytes(), held,
-             dict(centre=centre, speedX=packed(tables[0]), speedY=packed(tables[1]),
-                  turn=packed(turn), function=function))
+    fe._move(chosen, held, centre, *speeds, turn, function)
 
 
 def _velocities(kinds, values):
-    """The function that FESolver calls in each step: (positions (k, 2), time) → bytes of (k, 2)
-    m/s."""
+    """The function that FESolver calls in each step: (positions (k, 2), time) → (k, 2) m/s."""
     def column(name, kind, value, places, time):
         if kind == 'function':
             return [number('%s(%g, %g, %g)' % (name, x, y, time), value(float(x), float(y), time),
@@ -159,9 +151,8 @@ def _velocities(kinds, values):
 
     @calledInStep
     def velocities(places, time):
-        both = [column(name, kind, value, places, time)
-                for name, kind, value in zip(('vx', 'vy'), kinds, values)]
-        return numpy.ascontiguousarray(numpy.column_stack(both), dtype=float).tobytes()
+        return numpy.column_stack([column(name, kind, value, places, time)
+                                   for name, kind, value in zip(('vx', 'vy'), kinds, values)])
     return velocities
 
 

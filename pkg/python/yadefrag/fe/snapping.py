@@ -4,15 +4,13 @@ import numpy
 
 from yadefrag import _yadefrag
 from yadefrag.arguments import number, pointsOf, positive, refuse
-from yadefrag.fe.meshing import simplified
+from yadefrag.fe.mesh_values import isClockwise
 from yadefrag.messages import warnOfOne
 
 OVERLAP = .05    # of the size: overlaps up to this are removed without a request
 _REACH = 2       # tolerance of that, in overlaps: vertices may be farther apart than the outlines
 _MOVES = 12      # most moves in sequence
-_SPACING = .2    # of the size: nearer vertices of the neighbours give one vertex
 _CLOSABLE = .5   # of the size: overlaps up to this may be rounding, and snap= is advised
-_JOINTS = .1     # of the size: default tolerance of joints
 _TOLD = 1e-3     # of the size: smaller displacements of vertices are not told
 _WIDER = .3      # of the size: the tolerance that is tried against short steps
 _HELPS = .5      # of the cost: an advice that leaves more is no advice
@@ -24,38 +22,6 @@ class Overlap(ValueError):
     def __init__(self, message, depth):
         super().__init__(message)
         self.depth = depth
-
-
-class Outline:
-    """An outline, its holes, and the flags of `smooth`: True, False, or an array by point."""
-
-    def __init__(self, points, holes, smooth):
-        self.points, self.holes, self.smooth = points, holes, smooth
-
-    def simplified(self, tolerance):
-        """The Outline without redundant points, as by addPolygon's `simplify`."""
-        isOne = isinstance(self.smooth, bool)
-        points, holes, flags = simplified(self.points, self.holes, tolerance,
-                                          None if isOne else self.smooth)
-        return Outline(points, holes, self.smooth if isOne else flags)
-
-    def snapped(self, fe, tolerance, size, matches):
-        """(Outline, moved, inserted, farthest) on the present bodies of `fe`."""
-        loops, *count = fe._snap(self.points.tobytes(), [h.tobytes() for h in self.holes],
-                                 (tolerance, _SPACING * size, matches))
-        (points, vertex, inserted), *holes = loops
-        smooth = self.smooth
-        if not isinstance(smooth, bool):
-            if isClockwise(self.points):  # the result has it reversed, with the same first point
-                smooth = smooth[-numpy.arange(len(smooth)) % len(smooth)]
-            within = smooth[vertex] & numpy.roll(smooth, -1)[vertex]
-            smooth = numpy.where(inserted == 1, within, smooth[vertex])
-        return (Outline(points, [hole[0] for hole in holes], smooth), *count)
-
-
-def isClockwise(points):
-    x, y = (points - points[0]).T
-    return float((x * numpy.roll(y, -1) - y * numpy.roll(x, -1)).sum()) < 0
 
 
 def snapTolerance(snap, displacement):
@@ -135,11 +101,6 @@ def _tell(body, moved, inserted, farthest, size):
                   (body, moved, inserted, farthest), 'bodies', body)
 
 
-def jointToleranceOf(snap, size):
-    """(m) Tolerance of `joints`."""
-    return _JOINTS * size if snap is None else snap
-
-
 def tellJoined(body, count, farthest, size):
     if count:
         warnOfOne('addPolygon: of the joints of body %d, %d ends, crossings and bends near another '
@@ -147,7 +108,18 @@ def tellJoined(body, count, farthest, size):
                       % (body, count, farthest, farthest / size), 'bodies', body)
 
 
-def tooLarge(size, points):
+def tellCostly(fe, body, mesh, meshing, outline, call):
+    """Warns of a body whose mesh has a short time step. `mesh` is that of `outline`, by `meshing`, a Meshing;
+    `call`: the name of the function that the script has called."""
+    costly = fe._costlyStepWarning(body, meshing.size)
+    if costly:
+        sentence = _tooLarge(meshing.size, outline.points) or \
+            '%s %s' % (costly, _costAdvice(fe, body, mesh, meshing, outline,
+                                           'snap' if call == 'addPolygon' else 'jointTolerance'))
+        warnOfOne('%s: %s' % (call, sentence), 'bodies', body)
+
+
+def _tooLarge(size, points):
     """The sentence about a size that the body is too small for; empty if it is not."""
     width, height = numpy.ptp(points, axis=0)
     least = min(width, height)
@@ -157,29 +129,25 @@ def tooLarge(size, points):
             'determine the critical time step; take a size of at most %g m.' % (size, width, height, least))
 
 
-def costAdvice(fe, body, size, outline, hasJoints, jointTolerance, meshOf):
+def _costAdvice(fe, body, mesh, meshing, outline, joining):
     """A sentence about a mesh with a short time step: what has been tried, and helps."""
-    def cost(shape, tolerance):
-        made = meshOf(shape, tolerance)
-        return fe._costOfMesh(body, size, made['nodes'].tobytes(), made['triangles'].tobytes())
-
-    wider = float('%.2g' % (_WIDER * size))
-    present = cost(outline, jointTolerance)
-    for argument in ('snap', 'simplify'):
+    wider = float('%.2g' % (_WIDER * meshing.size))
+    present = fe._costOfMesh(body, meshing.size, mesh)
+    for argument in (joining, 'simplify'):
         try:
             if argument == 'simplify':
-                shape, tolerance = outline.simplified(wider), jointTolerance
-            elif hasJoints and jointTolerance < wider:
-                shape, tolerance = outline, wider
+                other = meshing.mesh(outline.simplified(wider), meshing.jointTolerance)
+            elif len(meshing.lines) and meshing.jointTolerance < wider:
+                other = meshing.mesh(outline, wider)
             else:
                 continue
-            after = cost(shape, tolerance)
         except ValueError:  # an outline that such a tolerance would destroy
             continue
+        after = fe._costOfMesh(body, meshing.size, other)
         if after <= _HELPS * present:
             return '%s=%g reduces that to %.3g.' % (argument, wider, max(after, 1))
-    return ('Neither simplify= nor snap= reduces that: move vertices or joints apart there, or '
-            'take them out.')
+    return ('Neither simplify= nor %s= reduces that: move vertices or joints apart there, or '
+            'take them out.' % joining)
 
 
 def snapOutlines(shapes, tolerance):
@@ -201,8 +169,7 @@ def snapOutlines(shapes, tolerance):
         refuse('shapes', shapes, 'a list of outlines, or of pairs (outline, holes)')
     shapes = list(shapes)
     given = [_loopsOf('shapes[%d]' % i, shape) for i, shape in enumerate(shapes)]
-    made = _yadefrag.snapTogether([(loops[0].tobytes(), [h.tobytes() for h in loops[1:]])
-                                   for loops in given], tolerance)
+    made = _yadefrag.snapTogether([(loops[0], loops[1:]) for loops in given], tolerance)
     report = dict(moved=sum(one[1] for one in made), inserted=sum(one[2] for one in made),
                   farthest=max((one[3] for one in made), default=0.))
     found = []

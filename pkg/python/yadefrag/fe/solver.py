@@ -1,17 +1,17 @@
-"""Methods of FESolver in Python: outlines, meshes, materials, functions of (x, y).
+"""Methods of FESolver in Python: bodies from outlines and meshes.
 
 All arguments are checked before anything in the scene changes; ValueError states in one sentence what
 was given and what is valid.
 """
 
 import functools
+import inspect
 import math
 
 import numpy
 
 from yade import wrapper
-from yadefrag import _yadefrag
-from yadefrag.arguments import array, flag, number, pair, pointsOf, positive, real, refuse, shown, whole
+from yadefrag.arguments import flag, number, positive, real, refuse
 from yadefrag.calls import inWords
 from yadefrag.fe import guards
 from yadefrag.fe.between_steps import betweenSteps, requireBetweenSteps
@@ -19,16 +19,14 @@ from yadefrag.fe.bonds import bond, bondAll
 from yadefrag.fe.contents import shownTriangles
 from yadefrag.fe.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.fe.materials import Materials, interfaces, isField, oneMaterial
-from yadefrag.fe.mesh_values import (brittlePlaces, field, heldNodes, smoothFlags, smoothNodes,
-                                     stressOfTriangles)
-from yadefrag.fe.meshing import isIrregular, jointLines, leastSize, meshOfPolygon, sizeOf
+from yadefrag.fe.mesh import Mesh, asMesh
+from yadefrag.fe.mesh_values import brittlePlaces, field, heldNodes, smoothNodes, stressOfTriangles
+from yadefrag.fe.meshing import ARGUMENTS, Meshing
 from yadefrag.fe.motions import keepTurning, prescribe, rotate
 from yadefrag.fe.names import componentOf, newName, nodesOf
 from yadefrag.fe.quality import meshQuality
 from yadefrag.fe.results import contactForce, crackCounts, energy, principalStress, reaction
-from yadefrag.fe.snapping import (Outline, Overlap, addSnapped, costAdvice, jointToleranceOf, snapTolerance,
-                                  tellJoined, tooLarge)
-from yadefrag.io.mesh_checks import requireApart
+from yadefrag.fe.snapping import Overlap, addSnapped, snapTolerance, tellCostly, tellJoined
 from yadefrag.messages import forget, noteFixed, warnOfOne
 from yadefrag.scene.scene_check import addSolver
 
@@ -42,62 +40,10 @@ def _centroid(nodes, triangles):
     return (corners.mean(axis=1) * areas[:, None]).sum(axis=0) / areas.sum()
 
 
-def _add(fe, mesh, smooth, materials, velocity, spin, displacement, stress, fixed, thickness,
-         selfContact, element, places, name):
-    requireBetweenSteps()
-    name = newName(fe, name)
-    if not isinstance(element, str) or element not in _ELEMENTS:
-        refuse('element', element, "'linear' or 'smoothed'")
-    nodes, triangles = mesh['nodes'], mesh['triangles']
-    spin = number('spin', spin, math.isfinite, 'a finite number (rad/s)')
-    selfContact = flag('selfContact', selfContact)
-    thickness = positive('thickness', thickness, 'm')
-    moved = field('displacement', displacement, nodes)
-    stressed = stressOfTriangles(stress, mesh)
-    given = field('velocity', velocity, nodes, isOptional=False)
-    present = nodes + moved if len(moved) else nodes
-    centroid = _centroid(present, triangles) if spin else numpy.zeros(2)
-    arm = present - centroid
-    speed = given + spin * numpy.stack([-arm[:, 1], arm[:, 0]], axis=1) if spin else given
-    held = heldNodes(fixed, nodes)
-
-    def raw(values, dtype):
-        return numpy.ascontiguousarray(values, dtype=dtype).tobytes()
-
-    if not len(fe.masses):
-        forget()  # messages of another solver
-    component, overlap, depth = fe._addMesh(
-        dict(nodes=raw(nodes, 'float64'), triangles=raw(triangles, 'uint32'),
-             loops=[raw(loop, 'uint32') for loop in mesh['loops']],
-             velocity=raw(speed, 'float64'), displacement=raw(moved, 'float64'),
-             stress=raw(stressed, 'float64'), held=raw(held, 'uint8'), smooth=raw(smooth, 'uint8'),
-             thickness=thickness, selfContact=selfContact, smoothed=element == 'smoothed',
-             name=name, materials=materials.of, materialOf=raw(materials.numbers, 'uint32'),
-             **{name: raw(values, kind) for name, (values, kind) in places.items()}))
-    if overlap:
-        raise Overlap(overlap, depth)
-    addSolver(fe)
-    if fixed is not None:
-        noteFixed(fixed, component, held.any())
-    keepTurning(fe, component, held, given, spin, present, centroid)
-    problem = fe._zoneWarning(component)
-    if problem:
-        warnOfOne(problem, 'bodies', component)
-    return component
-
-
-def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocity=(0, 0), spin=0,
-               displacement=None, stress=None, fixed=None, thickness=1, selfContact=True,
-               element='linear', mesh=None, meshSeed=0, simplify=None, strength=None, fractureEnergy=None,
-               joints=(), jointStrength=0, jointEnergy=None, interfaceStrength=None,
-               interfaceEnergy=None, name=None, snap=None):
-    """Adds a plane body, meshed with triangles; returns its number (int).
-
-    outline, holes  list of points (x, y) in m, and a list of such lists
-    size            length of the triangles' edges (m), or a function (x, y) → m. The function is
-                    sampled on a grid of at least 128 and at most 1024 cells along the longer side.
-                    Where it grows by more than 0.25 m per metre, it is lowered to that.
-    material        an FEMat, its label or its number in O.materials, with its present values: later
+def _add(fe, mesh, material, *, smooth=None, velocity=(0, 0), spin=0, displacement=None, stress=None, fixed=None,
+         thickness=1, selfContact=True, element='linear', strength=None, fractureEnergy=None, jointStrength=0,
+         jointEnergy=None, interfaceStrength=None, interfaceEnergy=None, name=None):
+    """material        an FEMat, its label or its number in O.materials, with its present values: later
                     changes have no effect on the body. Or several: a function (x, y) that returns one,
                     called at the triangles' centroids; a list with one for each triangle; or a pair
                     of a list of materials and an array of numbers in it, one for each triangle.
@@ -105,9 +51,6 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     edge between two materials has the fracture properties of the one with the smaller
                     tensileStrength, with the smaller energy and friction; surfaces have the smallest
                     friction of all. With several materials `element` must be 'linear'
-    smooth          False: straight boundary; True: C¹-smooth everywhere, inside the outline; or
-                    one flag per point of the outline (the holes are then straight): True: the corner
-                    there is smoothed
     velocity        (x, y) in m/s, or a function (x, y) → pair
     spin            rad/s about the centroid, added to `velocity`
     displacement    None, or a function (x, y) → pair: the start's displacement from the stress-free
@@ -134,28 +77,12 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     2008, Comput. Methods Appl. Mech. Eng. 197, 3883), for bodies that bend. A crack
                     separates averages, and the strain energy increases by the difference: 1 % of the
                     energy in impacts with hundreds of cracks, in energy['fracture']
-    mesh            'regular': rows of nearly equilateral triangles, whose edges have few
-                    directions; 'irregular': edges in all directions, for cracks that do not
-                    follow the mesh; None: 'irregular' for a BrittleFEMat or several materials,
-                    otherwise 'regular'
-    meshSeed        seed of an irregular mesh: the same outline, size and seed give the same mesh
-    simplify        None: the outline as given; or the permitted distance (m) of its points, and those
-                    of the holes, from the meshed outline: redundant points are removed before meshing,
-                    e.g. those of a contour of pixels. No edges cross by it; corners between edges much
-                    longer than the distance are kept, and so are straight corners that are next to
-                    smooth ones in `smooth`. It must be less than the area over the length of the
-                    outline and of each hole. By squared distances (Dyken, Dæhlen and Sevaldrud 2009,
-                    J. Geogr. Syst. 11, 273)
     strength        None: the tensileStrength of the BrittleFEMat; or a function (x, y) → Pa, or an
                     array with one value for each triangle, instead. The function is called at the
                     triangles' centroids. An edge has the smaller of its two triangles' strengths,
                     and the material's scatter is about that value
     fractureEnergy  None: that of the BrittleFEMat; or a function (x, y) → J/m², or an array,
                     likewise; where it is 0, cracks open at once
-    joints          list of pairs of points ((x, y), (x, y)) in m: sides of triangles lie on these
-                    lines. Lines may cross each other and the outline; parts outside are ignored.
-                    Ends and crossings nearer than `snap` to each other, to another line or to the
-                    outline are joined; a warning states how many and how far
     jointStrength   Pa, for all joints or one for each, of a BrittleFEMat, without scatter; 0: open
                     from the start, an existing crack, not counted by numCracks; None: that of the
                     adjacent triangles; the joint then only shapes the mesh
@@ -167,6 +94,91 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     has priority
     interfaceEnergy J/m², likewise
     name            None, or a text that may replace the body's number in all functions
+    """
+    smooth = mesh.smooth if smooth is None else smoothNodes(smooth, mesh)
+    materials = Materials(mesh, material)
+    between = interfaces(mesh, materials, interfaceStrength, interfaceEnergy)
+    places = brittlePlaces(mesh, materials, between, strength, fractureEnergy, jointStrength, jointEnergy)
+    requireBetweenSteps()
+    name = newName(fe, name)
+    if not isinstance(element, str) or element not in _ELEMENTS:
+        refuse('element', element, "'linear' or 'smoothed'")
+    nodes = mesh.nodes
+    spin = number('spin', spin, math.isfinite, 'a finite number (rad/s)')
+    selfContact = flag('selfContact', selfContact)
+    thickness = positive('thickness', thickness, 'm')
+    moved = field('displacement', displacement, nodes)
+    stressed = stressOfTriangles(stress, mesh)
+    given = field('velocity', velocity, nodes, isOptional=False)
+    present = nodes + moved if len(moved) else nodes
+    centroid = _centroid(present, mesh.triangles) if spin else numpy.zeros(2)
+    arm = present - centroid
+    speed = given + spin * numpy.stack([-arm[:, 1], arm[:, 0]], axis=1) if spin else given
+    held = heldNodes(fixed, nodes)
+    if not len(fe.masses):
+        forget()  # messages of another solver
+    component, overlap, depth = fe._addMesh(
+        mesh=mesh, materials=materials.of, materialOf=materials.numbers, places=places, velocity=speed,
+        displacement=moved, stress=stressed, held=held, smooth=smooth, thickness=thickness,
+        selfContact=selfContact, smoothed=element == 'smoothed', name=name)
+    if overlap:
+        raise Overlap(overlap, depth)
+    addSolver(fe)
+    if fixed is not None:
+        noteFixed(fixed, component, held.any())
+    keepTurning(fe, component, held, given, spin, present, centroid)
+    problem = fe._zoneWarning(component)
+    if problem:
+        warnOfOne(problem, 'bodies', component)
+    return component
+
+
+def _takesBody(*without):
+    """Decorator: `**body` of a method stands for the arguments of _add by name, and {body} in its docstring for
+    their description."""
+    def complete(method):
+        own = inspect.signature(method).parameters
+        more = [one for key, one in inspect.signature(_add).parameters.items()
+                if one.kind is one.KEYWORD_ONLY and key not in own and key not in without]
+        method.__signature__ = inspect.Signature(
+            [one for one in own.values() if one.kind is not one.VAR_KEYWORD] + more)
+        method.__doc__ = method.__doc__.replace('{arguments}\n', ARGUMENTS).replace('{body}', _add.__doc__.rstrip())
+        return method
+    return complete
+
+
+@_takesBody()
+def addMesh(self, mesh, material, *, smooth=None, **body):
+    """Adds a plane body with a given mesh; returns its number (int).
+
+    mesh            a Mesh, of polygonMesh or rectangleMesh; the MeshFile of readMesh; or a pair of nodes
+                    (n, 2) in m and triangles (m, 3) of node numbers, counter-clockwise
+    {body}
+    smooth          None: as in polygonMesh; True, False: the whole boundary is C¹-smooth, or straight
+    Functions are called at the nodes of the stress-free shape. ValueError before any change, also if the
+    body would overlap another one; RuntimeError while O.run is running in the background; a warning if
+    the mesh is too coarse for the energy of a BrittleFEMat's cracks, and one if short edges of
+    polygonMesh's outline reduce the time step much.
+    """
+    smooth = None if smooth is None else flag('smooth', smooth)
+    mesh = asMesh(mesh)
+    component = _add(self, mesh, material, smooth=smooth, **body)
+    meshing = getattr(mesh, '_meshing', None)
+    if meshing:
+        tellCostly(self, component, mesh, meshing, meshing.outline, 'addMesh')
+    return component
+
+
+@_takesBody()
+def addPolygon(self, outline, holes=(), *, size, material, smooth=False, mesh=None, meshSeed=0, simplify=None,
+               joints=(), snap=None, **body):
+    """Adds a plane body, meshed with triangles; returns its number (int).
+
+    {arguments}
+    mesh            'regular': rows of nearly equilateral triangles, whose edges have few
+                    directions; 'irregular': edges in all directions, for cracks that do not
+                    follow the mesh; None: 'irregular' for a BrittleFEMat or several materials,
+                    otherwise 'regular'
     snap            None: an outline that overlaps the bodies beside it by at most 0.05 of `size`, as by
                     rounded coordinates, is moved off them, by at most 0.1 of it; 0: it is refused.
                     Or m: vertices within this distance of the bodies that are there are moved onto
@@ -174,6 +186,8 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
                     nodes on its edges; gaps are closed, too. A warning states how many vertices
                     were moved and how far. For a set of outlines, see also snapOutlines. It is
                     also the tolerance of `joints`: for None, 0.1 of `size`; for 0, rounding only
+    {body}
+    The body is that of `addMesh(polygonMesh(outline, ...), material, ...)`.
     size and material may also come by position: addPolygon(outline, size, material), or
     addPolygon(outline, holes, size, material). Other functions are called at the nodes of the stress-free
     shape. ValueError before any change, also if the body would overlap another one; TypeError for
@@ -182,115 +196,33 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, velocit
     of the outline reduce the time step much. Of several such warnings the first one is given, and before
     the run the number of bodies that have it.
     """
-    points = pointsOf('outline', outline, 3)
-    try:
-        loops = None if isinstance(holes, (str, bytes, dict, set)) else list(holes)
-    except TypeError:
-        loops = None
-    if loops is None:
-        refuse('holes', holes, 'a list of loops of points (x, y) in m')
-    holePoints = [pointsOf('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
-    smooth = smoothFlags(smooth, len(points))
     material = material if isField(material) else oneMaterial(material)
-    outline = Outline(points, holePoints, smooth)
-    if simplify is not None:
-        outline = outline.simplified(simplify)
-    lines = jointLines(joints)
-    irregular = isIrregular(mesh, material)
-    wanted = sizeOf(size, outline.points)
+    displacement = body.get('displacement')
     snap = snapTolerance(snap, displacement)
-    smallest = leastSize(wanted)
-    jointTolerance = jointToleranceOf(snap, smallest)
+    meshing = Meshing(outline, holes, size, mesh, meshSeed, smooth, simplify, joints, snap, material)
     used = []
 
-    def meshOf(shape, tolerance):
-        return meshOfPolygon(shape.points, shape.holes, wanted, irregular, meshSeed, lines, tolerance)
-
     def add(shape):
-        made = meshOf(shape, jointTolerance)
-        used[:] = shape, made
-        smoothed = smoothNodes(shape.smooth, made, shape.points)
-        materials = Materials(made, material)
-        between = interfaces(made, materials, interfaceStrength, interfaceEnergy)
-        places = brittlePlaces(made, materials, between, strength, fractureEnergy, lines,
-                               jointStrength, jointEnergy)
-        return _add(self, made, smoothed, materials, velocity, spin, displacement, stress, fixed,
-                    thickness, selfContact, element, places, name)
+        used[:] = shape, meshing.mesh(shape, meshing.jointTolerance)
+        return _add(self, used[1], material, **body)
 
-    body = addSnapped(self, outline, snap, smallest, displacement, add)
-    tellJoined(body, *used[1]['joined'], smallest)
-    costly = self._costlyStepWarning(body, smallest)
-    if costly:
-        sentence = tooLarge(smallest, used[0].points) or '%s %s' % (costly, costAdvice(
-            self, body, smallest, used[0], len(lines) > 0, jointTolerance, meshOf))
-        warnOfOne('addPolygon: ' + sentence, 'bodies', body)
-    return body
+    component = addSnapped(self, meshing.outline, snap, meshing.size, displacement, add)
+    shape, made = used
+    tellJoined(component, *made.joined, meshing.size)
+    tellCostly(self, component, made, meshing, shape, 'addPolygon')
+    return component
 
 
-def addTriangles(self, nodes, triangles, material, *, smooth=False, velocity=(0, 0), spin=0,
-                 displacement=None, stress=None, fixed=None, thickness=1, selfContact=True,
-                 element='linear', strength=None, fractureEnergy=None, interfaceStrength=None,
-                 interfaceEnergy=None, name=None):
-    """Adds a body with a given mesh; returns its number (int).
+@_takesBody('jointStrength', 'jointEnergy')
+def addTriangles(self, nodes, triangles, material, *, smooth=False, **body):
+    """Adds a body with a given mesh; returns its number (int): `addMesh((nodes, triangles), material, ...)`.
 
     nodes (n, 2) in m, or (n, 3) of one z, which is ignored, all of them used; triangles (m, 3) node
     numbers, counter-clockwise. `smooth` is True or False; all other arguments, including materials by
-    triangle, as in addPolygon. ValueError before any change.
+    triangle, as in addMesh. ValueError before any change.
     """
-    points = pointsOf('nodes', _withoutHeight(nodes), 3)
-    corners = array(triangles)
-    if corners is None or corners.ndim != 2 or corners.shape[1] != 3 or len(corners) == 0 \
-            or not numpy.issubdtype(corners.dtype, numpy.integer):
-        raise ValueError('triangles must be an array (m, 3) of node numbers.')
-    if corners.min() < 0 or corners.max() >= len(points):
-        raise ValueError('triangles has node numbers from %d to %d, but there are %d nodes.' %
-                         (corners.min(), corners.max(), len(points)))
     smooth = flag('smooth', smooth)
-    mesh = dict(nodes=points, triangles=corners, loops=_boundaryLoops(points, corners))
-    requireApart(points, corners, mesh['loops'])
-    materials = Materials(mesh, material)
-    between = interfaces(mesh, materials, interfaceStrength, interfaceEnergy)
-    places = brittlePlaces(mesh, materials, between, strength, fractureEnergy)
-    return _add(self, mesh, smoothNodes(smooth, mesh), materials, velocity, spin, displacement,
-                stress, fixed, thickness, selfContact, element, places, name)
-
-
-def _withoutHeight(nodes):
-    """Points of three columns, as other programs have them, without z if it is the same for all."""
-    found = array(nodes, float)
-    isFlat = found is not None and found.ndim == 2 and found.shape[1] == 3 and len(found) > 0 \
-        and (found[:, 2] == found[0, 2]).all()
-    return found[:, :2] if isFlat else nodes
-
-
-def _boundaryLoops(points, triangles):
-    """The closed loops of edges that belong to one triangle only, material on the left."""
-    used = numpy.zeros(len(points), dtype=bool)
-    used[triangles] = True
-    if not used.all():
-        raise ValueError('node %d belongs to no triangle.' % int(numpy.argmin(used)))
-    edges = [(int(t[i]), int(t[(i + 1) % 3])) for t in triangles for i in range(3)]
-    known = set(edges)
-    if len(known) != len(edges):
-        raise ValueError('two triangles have the same edge in the same direction: all must be '
-                         'counter-clockwise, and no edge can have three.')
-    after = {}
-    for a, b in edges:
-        if (b, a) in known:
-            continue
-        if a in after:
-            raise ValueError('the boundary passes twice through node %d at (%g, %g): give each part that '
-                             'touches the others there only a node of its own.' % (a, *points[a]))
-        after[a] = b
-    loops = []
-    while after:
-        first = min(after)
-        loop, node = [], first
-        while node in after:
-            loop.append(node)
-            node = after.pop(node)
-        loops.append(numpy.array(loop))
-    return loops
+    return _add(self, Mesh(nodes, triangles), material, smooth=smooth, **body)
 
 
 def _arrangedPolygon(self, outline=None, *others):
@@ -329,26 +261,11 @@ def _minAngle(self):
     return float(numpy.arccos(numpy.clip(cosine, -1, 1)).min())
 
 
-def rectangleMesh(low, high, nx, ny, crossed=False):
-    """A regular mesh for addTriangles: (nodes (n, 2), triangles (m, 3)) of nx × ny quads.
-
-    Each quad is divided in two triangles, with diagonals of neighbours mirrored, or in four
-    (`crossed`).
-    """
-    low, high = pair('low', low), pair('high', high)
-    nx, ny, crossed = whole('nx', nx), whole('ny', ny), flag('crossed', crossed)
-    if not (low[0] < high[0] and low[1] < high[1]):
-        raise ValueError('high is %s, it must be right of and above low, %s.' %
-                         (shown(high), shown(low)))
-    mesh = _yadefrag.meshOfRectangle(*low, *high, nx, ny, crossed)
-    return mesh['nodes'], mesh['triangles']
-
-
 def install():
     """Adds the methods to FESolver, and prevents O.bodies.erase and clumps from using its
     bodies."""
     wrapper.FESolver.addPolygon = inWords(addPolygon, _arrangedPolygon)
-    for method in (addTriangles, bond, bondAll, prescribe, rotate, nodesOf, componentOf, pressure, absorb,
+    for method in (addMesh, addTriangles, bond, bondAll, prescribe, rotate, nodesOf, componentOf, pressure, absorb,
                    relax, reaction, contactForce, meshQuality):
         setattr(wrapper.FESolver, method.__name__, inWords(method))
     for name, read in (('principalStress', principalStress), ('crackCounts', crackCounts), ('minAngle', _minAngle),

@@ -83,7 +83,7 @@ def _report(shapes, size, material):
 
 def _narrowest(loops):
     """(least distance of a corner to a side that does not end there, the corner's place)."""
-    distance, corner = _yadefrag.narrowestOf([loop.tobytes() for loop in loops])
+    distance, corner = _yadefrag.narrowestOf(loops)
     return distance, tuple(numpy.concatenate(loops)[corner].tolist())
 
 

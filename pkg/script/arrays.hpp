@@ -1,0 +1,101 @@
+#pragma once
+// Arrays between C++ and Python: the one place where a column becomes a NumPy array, and the
+// reverse.
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "abi/yade.hpp"
+#include "core/ids.hpp"
+#include "core/vec2.hpp"
+
+namespace yadefrag {
+
+/// NumPy's type of an element, and its numbers in a row; 0: the array has one dimension.
+template <class Element>
+struct ArrayKind;
+template <>
+struct ArrayKind<double> {
+  static constexpr const char* kType = "float64";
+  static constexpr int kColumns = 0;
+};
+template <>
+struct ArrayKind<std::uint32_t> {
+  static constexpr const char* kType = "uint32";
+  static constexpr int kColumns = 0;
+};
+template <>
+struct ArrayKind<std::uint8_t> {
+  static constexpr const char* kType = "uint8";
+  static constexpr int kColumns = 0;
+};
+template <class Tag>
+struct ArrayKind<Id<Tag>> : ArrayKind<std::uint32_t> {};
+template <>
+struct ArrayKind<Vec2> {
+  static constexpr const char* kType = "float64";
+  static constexpr int kColumns = 2;
+};
+template <class Part, std::size_t n>
+struct ArrayKind<std::array<Part, n>> {
+  static constexpr const char* kType = ArrayKind<Part>::kType;
+  static constexpr int kColumns =
+      static_cast<int>(n) * (ArrayKind<Part>::kColumns > 0 ? ArrayKind<Part>::kColumns : 1);
+};
+
+/// A new, writable NumPy array of `rows` rows and, unless it is 0, `columns` columns.
+yade::py::object newArray(const void* data, std::size_t bytes, const char* type, std::size_t rows,
+                          int columns);
+
+template <class Element>
+yade::py::object toArray(const std::vector<Element>& column) {
+  using Kind = ArrayKind<Element>;
+  return newArray(column.data(), column.size() * sizeof(Element), Kind::kType, column.size(),
+                  Kind::kColumns);
+}
+
+template <class Element>
+yade::py::list toArrays(const std::vector<std::vector<Element>>& columns) {
+  yade::py::list arrays;
+  for (const auto& column : columns) arrays.append(toArray(column));
+  return arrays;
+}
+
+/// The memory of an array, converted to `type`, for as long as this object exists.
+class ArrayMemory {
+ public:
+  /// Throws std::invalid_argument unless it is empty or has rows of `columns` numbers.
+  ArrayMemory(const yade::py::object& array, const char* type, int columns);
+  ~ArrayMemory() { PyBuffer_Release(&view_); }
+  ArrayMemory(const ArrayMemory&) = delete;
+  ArrayMemory& operator=(const ArrayMemory&) = delete;
+
+  [[nodiscard]] const void* data() const { return view_.buf; }
+  [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(view_.len); }
+
+ private:
+  Py_buffer view_ = {};
+};
+
+/// The elements of an array, or of anything that NumPy converts to one.
+template <class Element>
+std::vector<Element> fromArray(const yade::py::object& array) {
+  using Kind = ArrayKind<Element>;
+  const ArrayMemory memory(array, Kind::kType, Kind::kColumns);
+  std::vector<Element> column(memory.bytes() / sizeof(Element));
+  if (!column.empty())
+    std::memcpy(static_cast<void*>(column.data()), memory.data(), memory.bytes());
+  return column;
+}
+
+template <class Element>
+std::vector<std::vector<Element>> fromArrays(const yade::py::list& arrays) {
+  std::vector<std::vector<Element>> columns;
+  for (yade::py::ssize_t i = 0; i < yade::py::len(arrays); ++i)
+    columns.push_back(fromArray<Element>(arrays[i]));
+  return columns;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,177 @@
+"""Mesh: every form that addMesh accepts, the bits of its bodies, and what a script may do with it."""
+import builtins
+import copy
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+
+import yadefrag
+from yadefrag import Mesh, polygonMesh, rectangle, rectangleMesh, ring
+from yade import wrapper as w
+
+O = builtins.O
+kSquare = rectangle((0, 0), (1, 1))
+kJoints = [((.2, .2), (.8, .7)), ((.1, .9), (.9, .1)), ((.5, -1), (.5, .3))]
+
+
+def solver():
+    O.reset()
+    O.materials.append(w.FEMat(young=1e9, poisson=.3, density=1000, label='m'))
+    O.materials.append(w.BrittleFEMat(young=5e9, poisson=.2, density=2000, tensileStrength=1e6, fractureEnergy=1e3,
+                                      strengthScatter=.1, label='b'))
+    return w.FESolver()
+
+
+def bits(add):
+    """All that ten steps make of the body that `add` adds."""
+    fe = solver()
+    assert add(fe) == 0
+    O.engines, O.dt = [fe], .3 * fe.criticalTimeStep()
+    O.run(10, True)
+    arrays = fe.nodes, fe.velocities, fe.masses, fe.triangles, fe.stress, *fe.surfaces
+    return [a.tobytes() for a in arrays], fe.energy, fe.numCracks
+
+
+@pytest.mark.parametrize('outline, shape, body', [
+    (kSquare, {}, dict(velocity=(1, 2), spin=3, thickness=.1)),
+    (ring((0, 0), .5, 1), dict(meshSeed=4), dict(material='b', velocity=lambda x, y: (9 * x, 0), fixed=lambda x, y: y < 0)),
+    (kSquare, dict(size=lambda x, y: .1 + .1 * x, smooth=[0, 1, 1, 0]), dict(element='smoothed', stress=(1e4, 0, 0))),
+    (kSquare[::-1], dict(smooth=[True, False, True, True]), dict(displacement=lambda x, y: (1e-3 * x, 0))),
+    (yadefrag.circle((0, 0), 1, 300), dict(simplify=.02, smooth=True), {}),
+    (kSquare, dict(joints=kJoints), dict(material='b', jointStrength=[0, 1e5, 1e5], jointEnergy=3.)),
+    (kSquare, dict(joints=[((.5, 0), (.5, 1))]), dict(
+        material=lambda x, y: 'b' if x < .5 else 'm', jointStrength=None, interfaceStrength=1e4, name='one',
+        velocity=lambda x, y: (20 * x, 0))),
+])
+@pytest.mark.parametrize('mesh', ['regular', 'irregular'])
+def test_addPolygonIsAddMeshOfPolygonMesh(outline, shape, body, mesh):
+    parts = outline if isinstance(outline, tuple) else (outline,)
+    shape, body = dict(dict(size=.15, mesh=mesh), **shape), dict(dict(material='m'), **body)
+    whole = bits(lambda fe: fe.addPolygon(*parts, **shape, **body))
+    made = polygonMesh(*parts, **shape)
+    assert bits(lambda fe: fe.addMesh(made, **body)) == whole
+    assert bits(lambda fe: fe.addMesh(pickle.loads(pickle.dumps(made)), **body)) == whole  # in another process
+
+
+def test_formsOfAMesh(folder):
+    """A Mesh, a pair, a MeshFile, addTriangles: the same body."""
+    nodes, triangles = rectangleMesh((0, 0), (1, 1), 3, 4)
+    file = folder + '/a.inp'
+    with open(file, 'w') as out:
+        out.write('*NODE\n' + ''.join('%d, %r, %r\n' % (i + 1, *p) for i, p in enumerate(nodes.tolist())) +
+                  '*ELEMENT, TYPE=CPS3\n' + ''.join('%d, %d, %d, %d\n' % (i + 1, *t) for i, t in
+                                                    enumerate((triangles + 1).tolist())))
+    body = dict(material='b', velocity=lambda x, y: (9 * x, 0), strength=np.linspace(1e4, 1e5, 24))
+    forms = [Mesh(nodes, triangles), (nodes, triangles), [nodes.tolist(), triangles.tolist()],
+             Mesh(np.column_stack([nodes, np.ones(len(nodes))]), triangles), yadefrag.readMesh(file)]
+    first = bits(lambda fe: fe.addTriangles(nodes, triangles, **body))
+    for form in forms:
+        assert bits(lambda fe: fe.addMesh(form, **body)) == first
+    assert bits(lambda fe: fe.addTriangles(*forms[0], **body)) == first
+    smooth = bits(lambda fe: fe.addMesh(forms[0], 'm', smooth=True))
+    assert smooth == bits(lambda fe: fe.addTriangles(nodes, triangles, 'm', smooth=True))
+
+
+def test_oneMeshGivesSeveralBodies():
+    fe, mesh = solver(), rectangleMesh((0, 0), (1, 1), 3, 3)
+    for k in range(3):
+        assert fe.addMesh(mesh, 'm') == k
+        mesh.nodes += (2, 0)
+    assert fe.nodes[:, 0].max() == 5 and len(fe.nodes) == 48 and len(fe.surfaces) == 3
+    with pytest.raises(ValueError, match='overlap'):
+        mesh.nodes -= (2, 0)
+        fe.addMesh(mesh, 'm')
+
+
+def test_arraysOfAMesh():
+    mesh = polygonMesh(*ring((0, 0), .5, 1), size=.2, joints=[((-.9, 0), (-.6, 0))])
+    nodes, triangles = mesh
+    assert len(mesh) == 2 and (mesh[0] == nodes).all() and (mesh[-1] == triangles).all()
+    assert nodes.dtype == float and nodes.shape[1] == 2 and triangles.dtype == np.uint32 and triangles.shape[1] == 3
+    assert len(mesh.loops) == 2 and mesh.joints.shape == (len(mesh.joints), 3) and len(mesh.joints) >= 1
+    assert mesh.joined == (0, 0) and len(mesh.smooth) == 0
+    assert repr(mesh) == 'Mesh of %d nodes and %d triangles, boundary loops of %d, %d nodes, %d sides on joints' % (
+        len(nodes), len(triangles), *map(len, mesh.loops), len(mesh.joints))
+    with pytest.raises(IndexError):
+        mesh[2]
+    nodes += 1
+    assert (mesh.nodes == nodes).all()  # in place
+    triangles[:] = 0
+    assert mesh.triangles.max() > 0  # a copy
+    other = copy.copy(mesh)
+    other.nodes[:] = 0
+    assert mesh.nodes.any()
+    del mesh
+    assert np.isfinite(nodes).all()  # the memory stays
+
+
+@pytest.mark.parametrize('call, sentence', [
+    (lambda fe: fe.addMesh(3, 'm'), r'mesh is 3, it must be a Mesh, the MeshFile of readMesh, or a pair'),
+    (lambda fe: fe.addMesh((1, 2, 3), 'm'), r'it must be a Mesh'),
+    (lambda fe: fe.addMesh((kSquare, [(0, 1, 4)]), 'm'), 'triangles has node numbers from 0 to 4'),
+    (lambda fe: fe.addMesh((kSquare, [(0, 1, 2)]), 'm'), 'node 3 belongs to no triangle'),
+    (lambda fe: fe.addMesh((kSquare, [(0, 2, 1), (0, 1, 3)]), 'm'), '(?i)triangle'),
+    (lambda fe: fe.addMesh(Mesh(kSquare, [(0, 1, 2), (0, 2, 3)]), 'm', smooth=2), 'smooth is 2'),
+    (lambda fe: fe.addMesh(rectangleMesh((0, 0), (1, 1), 2, 2), 'none'), "material is 'none'"),
+    (lambda fe: fe.addMesh(polygonMesh(kSquare, size=.4, joints=kJoints), 'm'), 'joints is given, but the material'),
+    (lambda fe: fe.addMesh(polygonMesh(kSquare, size=.4, joints=kJoints), 'b', jointStrength=[1, 2]),
+     'jointStrength has 2 values, it must have one for each of the 3 joints'),
+    (lambda fe: polygonMesh(kSquare, size=0), 'size is 0'),
+    (lambda fe: polygonMesh(kSquare, size=.4, jointTolerance=-1), 'jointTolerance is -1'),
+    (lambda fe: polygonMesh(kSquare, size=.4, mesh='fine'), "mesh is 'fine'"),
+    (lambda fe: Mesh(kSquare, [(0, 1.5, 2)]), r'triangles must be an array \(m, 3\)'),
+])
+def test_badInput(call, sentence):
+    fe = solver()
+    with pytest.raises(ValueError, match=sentence):
+        call(fe)
+    assert len(fe.masses) == 0
+
+
+def test_movedNodesAreChecked():
+    fe, mesh = solver(), rectangleMesh((0, 0), (1, 1), 2, 2)
+    with pytest.raises(ValueError, match='nodes has 3 points, it must have 9'):
+        mesh.nodes = mesh.nodes[:3]
+    mesh.nodes[4] = np.nan
+    with pytest.raises(ValueError, match="the mesh's nodes has a point 4 at"):
+        fe.addMesh(mesh, 'm')
+    mesh.nodes[4] = 5, 5
+    with pytest.raises(ValueError, match='riangle'):
+        fe.addMesh(mesh, 'm')
+    assert len(fe.masses) == 0
+
+
+def test_wrongCallsGiveASentence():
+    fe = solver()
+    for call, sentence in ((lambda: Mesh(kSquare), 'Mesh needs triangles: Mesh(nodes, triangles).'),
+                           (lambda: fe.addMesh(kSquare), 'addMesh needs material: addMesh(mesh, material).'),
+                           (lambda: fe.addMesh(kSquare, 'm', spinn=1), "addMesh has no argument 'spinn', but spin."),
+                           (lambda: fe.addTriangles(*rectangleMesh((0, 0), (1, 1), 1, 1), 'b', jointStrength=0),
+                            "addTriangles has no argument 'jointStrength'")):
+        with pytest.raises(TypeError) as error:
+            call()
+        assert sentence in str(error.value)
+
+
+def test_messagesOfAPolygonsMesh():
+    """Joined joints are told by polygonMesh, a short time step when the body is added."""
+    fe = solver()
+    near = [((.1, .5), (.9, .5)), ((.5, .505), (.5, .9))]
+    with pytest.warns(UserWarning, match=r'polygonMesh: of the joints, \d+ ends'):
+        assert polygonMesh(kSquare, size=.2, joints=near).joined[0] > 0
+    step = [(0, 0), (.5, 0), (.501, 0), (1, 0), (1, 1), (0, 1)]
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')
+        mesh = polygonMesh(step, size=.1)
+    with pytest.warns(UserWarning, match=r'addMesh: .*simplify=0.03 reduces that to'):
+        fe.addMesh(mesh, 'm')
+
+
+def test_helpHasAllArguments():
+    for method in (w.FESolver.addPolygon, w.FESolver.addMesh):
+        for word in ('velocity  ', 'interfaceEnergy', 'jointStrength', "'smoothed'", 'an FEMat, its label', 'name  '):
+            assert word in method.__doc__
+    assert 'simplify  ' in w.FESolver.addPolygon.__doc__ and 'simplify  ' in polygonMesh.__doc__
+    assert '{' not in w.FESolver.addPolygon.__doc__.replace('{(material', '')
