@@ -86,7 +86,7 @@ void defineMesh() {
           "Positions (m), array (n, 2), of the mesh itself: a change in it moves the nodes.")
       .add_property(
           "triangles", +[](const ScriptMesh& mesh) { return toArray(mesh.triangles); },
-          "Node numbers, counter-clockwise, array (m, 3); a copy, as the following arrays.")
+          "Node numbers, counter-clockwise, array (m, 3); a copy, as all but the nodes.")
       .add_property(
           "loops", +[](const ScriptMesh& mesh) { return toArrays(mesh.loops); },
           "List of closed loops of boundary nodes, material on the left: the outline, then the "
