@@ -10,7 +10,7 @@ from yade import system, wrapper
 
 O = builtins.O
 NAMES = [n for n in yadefrag.__all__ if isinstance(getattr(yadefrag, n), type)
-         and n not in ('TradeoffTable', 'EnsembleTable')]  # Python's own, which no scene holds
+         and n not in ('TradeoffTable', 'EnsembleTable', 'Mesh')]  # no part of a scene
 
 
 @pytest.fixture(params=NAMES)

@@ -106,6 +106,8 @@ def right(fe, folder):
         outlineReport=dict(outline=square, holes=(), size=.5, material='b', simplify=.01),
         voronoi=dict(outline=square, n=3, seed=1, rounds=1, shortest=.01), grainJoints=dict(grains=[square, square[::-1]]),
         snapOutlines=dict(shapes=[square, square[::-1]], tolerance=1e-3),
+        polygonMesh=dict(outline=square, holes=(), size=.5, mesh='regular', meshSeed=1, smooth=False, simplify=.1,
+                         joints=[((5.2, 5.2), (5.8, 5.7))], jointTolerance=.01),
         rectangleMesh=dict(low=(0, 0), high=(1, 1), nx=2, ny=2, crossed=False),
         plotMesh=dict(fe=fe, field='mises', file=folder + '/a.png', ax=None, limits=(0, 1), xlim=(0, 3), ylim=(0, 2.), spheres=True),
         animate=dict(fe=fe, file=folder + '/a.gif', steps=1, every=1, field=None, limits=None, window=None,
@@ -121,6 +123,8 @@ def right(fe, folder):
                         displacement=None, fixed=None, thickness=1, selfContact=True, simplify=.1,
                         strength=lambda x, y: 1e4, fractureEnergy=lambda x, y: 0., name='new', snap=.01,
                         joints=[((5.2, 5.2), (5.8, 5.7))], jointStrength=[0.], jointEnergy=1.),
+        addMesh=dict(mesh=yadefrag.rectangleMesh((5, 5), (6, 6), 1, 1), material='b', smooth=None, velocity=(0, 0), spin=0,
+                     displacement=None, stress=(0, 0, 0), fixed=None, thickness=1, strength=[1e4, 1e4], element='linear'),
         addTriangles=dict(nodes=[(5, 5), (6, 5), (6, 6)], triangles=[(0, 1, 2)], material='b', smooth=False,
                           velocity=(0, 0), spin=0, displacement=None, fixed=None, thickness=1,
                           selfContact=True, strength=[1e4], fractureEnergy=[0.]),
@@ -214,7 +218,7 @@ class Call:
             lambda: function(**args)
 
     def ofFunction(self):
-        name = self.draw.choice(ownFunctions() + ['addPolygon', 'addTriangles', 'bond', 'bondAll', 'prescribe', 'rotate', 'pressure', 'absorb'])
+        name = self.draw.choice(ownFunctions() + ['addPolygon', 'addMesh', 'addTriangles', 'bond', 'bondAll', 'prescribe', 'rotate', 'pressure', 'absorb'])
         function = getattr(yadefrag, name, None) or getattr(self.fe, name)
         return self.withKeywords(name, function, right(self.fe, self.folder)[name])
 
