@@ -53,8 +53,11 @@ def text(of):
 
 
 def callOf(function):
-    """Its arguments; a function as a default value by its name."""
-    return re.sub(r'<function (\w+) at 0x\w+>', r'\1', str(inspect.signature(function)))
+    """Its arguments, without types, which the text explains; a function as a default value by its name."""
+    found = inspect.signature(function)
+    plain = [one.replace(annotation=one.empty) for one in found.parameters.values()]
+    text = str(found.replace(parameters=plain, return_annotation=found.empty))
+    return re.sub(r'<function (\w+) at 0x\w+>', r'\1', text)
 
 
 def ownMembers(of):

@@ -10,6 +10,7 @@ Subpackages by what is sought: studies (many runs of a scene), io (readers and e
 
 import builtins
 import sys
+from typing import TYPE_CHECKING
 
 from yadefrag import support
 
@@ -25,6 +26,11 @@ from yadefrag import _yadefrag  # noqa: E402
 
 _yadefrag.checkRunningYade()
 __all__ = list(_yadefrag.publish())
+
+if TYPE_CHECKING:  # the classes of publish()
+    from yade.wrapper import (Bo1_SurfaceSegment_Aabb, BrittleFEMat, FEMat, FESolver, Gl1_SurfaceSegment,
+                              HierarchyCollider, Ig2_Sphere_SurfaceSegment_ScGeom, LebesgueCollider,
+                              LinearCodeCollider, SurfaceSegment)
 
 # Only now, because these need FESolver.
 from yadefrag import io, plots, studies  # noqa: E402

@@ -15,10 +15,8 @@ with open(%r, 'w', encoding='utf-8') as report:
 sys.exit(0 if well else 1)
 """
 
-
-def main():
-    """Prints the report of yadefrag.about() in a new yade; returns 0 if all checks succeed, else
-    1."""
+def main() -> int:
+    """Prints the report of yadefrag.about() in a new yade; returns 0 if all checks succeed, else 1."""
     yade = shutil.which('yade') or '/usr/bin/yade'
     if not os.path.exists(yade):
         print('yadefrag: there is no command `yade` on this system; install the package yade.', file=sys.stderr)

@@ -3,6 +3,8 @@
 import os
 import pathlib
 import platform
+from collections.abc import Callable
+from typing import Any
 
 from yade import config
 
@@ -15,7 +17,7 @@ _OWN = pathlib.Path(__file__).resolve().parent
 _PLACES = ((_OWN / '../../..').resolve(), (_OWN / '../../../../share/doc/yadefrag').resolve())
 
 
-def about(show=print):
+def about(show: Callable[[str], Any] = print) -> bool:
     """Prints what is installed and whether it works; returns True if all checks succeed.
 
     Versions of yadefrag, YADE and Python; whether YADE's classes have the layout for which the

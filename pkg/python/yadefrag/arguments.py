@@ -11,6 +11,8 @@ import operator
 import os
 import reprlib
 import warnings
+from collections.abc import Callable
+from typing import Any, NoReturn
 
 import numpy
 
@@ -40,7 +42,7 @@ class _Short(reprlib.Repr):
 _SHORT = _Short()
 
 
-def shown(value):
+def shown(value: object) -> str:
     """`value` for a message: one line of at most LONGEST characters, for any value."""
     try:
         text = ' '.join(_SHORT.repr(value).split())
@@ -49,7 +51,7 @@ def shown(value):
     return text if len(text) <= LONGEST else text[:LONGEST - 3] + '...'
 
 
-def plain(value):
+def plain(value: Any) -> Any:
     """A NumPy number as Python's; any other value unchanged."""
     if isinstance(value, numpy.generic) or isinstance(value, numpy.ndarray) and value.ndim == 0:
         item = value.item()
@@ -57,12 +59,12 @@ def plain(value):
     return value
 
 
-def refuse(name, value, right, error=ValueError):
+def refuse(name: str, value: object, right: str, error: type[Exception] = ValueError) -> NoReturn:
     """Raises `error` with the value of the argument `name` and the valid values."""
     raise error('%s is %s, it must be %s.' % (name, shown(value), right)) from None
 
 
-def requireTakes(name, function, *arguments):
+def requireTakes(name: str, function: Callable, *arguments: str) -> None:
     """TypeError if a script's function, the argument `name`, cannot be called with these arguments by position."""
     try:
         inspect.signature(function).bind(*arguments)
@@ -74,7 +76,7 @@ def requireTakes(name, function, *arguments):
         pass  # a built-in function without a signature
 
 
-def real(value):
+def real(value: Any) -> float | None:
     """A float, or None if it is not a real number; an integer above all floats is infinite."""
     value = plain(value)
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
@@ -82,10 +84,10 @@ def real(value):
     try:
         return float(value)
     except OverflowError:
-        return math.inf if value > 0 else -math.inf
+        return math.inf if value > 0 else -math.inf  # type: ignore[operator]
 
 
-def number(name, value, isRight, right):
+def number(name: str, value: object, isRight: Callable[[float], Any], right: str) -> float:
     """A float for which isRight is true; ValueError with `right`, a description of valid values,
     otherwise."""
     result = real(value)
@@ -94,17 +96,17 @@ def number(name, value, isRight, right):
     return result
 
 
-def positive(name, value, unit):
-    return number(name, value, lambda v: math.isfinite(v) and v > 0,
-                  'a positive number (%s)' % unit)
+def positive(name: str, value: object, unit: str) -> float:
+    return number(name, value, lambda v: math.isfinite(v) and v > 0, 'a positive number (%s)' % unit)
 
 
-def isWhole(value):
+def isWhole(value: object) -> bool:
     value = plain(value)
     return isinstance(value, numbers.Integral) and not isinstance(value, bool)
 
 
-def whole(name, value, least=1, right='a positive whole number', most=2**31 - 1):
+def whole(name: str, value: object, least: int = 1, right: str = 'a positive whole number',
+          most: int = 2**31 - 1) -> int:
     """An int from `least` to `most`, by default those of a C int."""
     if not isWhole(value) or plain(value) < least:
         refuse(name, value, right)
@@ -114,42 +116,42 @@ def whole(name, value, least=1, right='a positive whole number', most=2**31 - 1)
     return result
 
 
-def flag(name, value):
+def flag(name: str, value: object) -> bool:
     value = plain(value)
     if not isinstance(value, bool):
         refuse(name, value, 'True or False')
     return value
 
 
-def numbersOf(value, count):
+def numbersOf(value: Any, count: int) -> tuple[float, ...] | None:
     """A tuple of `count` floats, finite or not; None for other values."""
     if isinstance(value, (str, bytes, dict, set)):
         return None
     try:
-        result = tuple(map(real, itertools.islice(value, count + 1)))
+        found = [real(one) for one in itertools.islice(value, count + 1)]
     except TypeError:
         return None
-    return None if len(result) != count or None in result else result
+    result = tuple(one for one in found if one is not None)
+    return result if len(result) == len(found) == count else None
 
 
-def pair(name, value, right='a pair of numbers'):
+def pair(name: str, value: object, right: str = 'a pair of numbers') -> tuple[float, float]:
     """Two finite floats."""
     result = numbersOf(value, 2)
     if result is None:
         refuse(name, value, right)
     if not all(map(math.isfinite, result)):
         raise ValueError('%s is %s, both numbers must be finite.' % (name, shown(value)))
-    return result
+    return result[0], result[1]
 
 
-def pointsOf(name, value, least):
+def pointsOf(name: str, value: object, least: int) -> numpy.ndarray:
     """(n, 2) finite floats, for at least `least` points."""
     found = _pairs(value)
     if found is None:
         raise ValueError('%s must be a list of points (x, y) in m.' % name)
     if len(found) < least:
-        raise ValueError('%s has %d points, it must have at least %d.' %
-                         (name, len(found), least))
+        raise ValueError('%s has %d points, it must have at least %d.' % (name, len(found), least))
     if not numpy.isfinite(found).all():
         bad = int(numpy.nonzero(~numpy.isfinite(found).all(axis=1))[0][0])
         raise ValueError('%s has a point %d at %s, which is not finite.' %
@@ -157,7 +159,7 @@ def pointsOf(name, value, least):
     return found
 
 
-def array(value, dtype=None):
+def array(value: Any, dtype: Any = None) -> numpy.ndarray | None:
     """A NumPy array; None if that is impossible, e.g. for rows of different lengths."""
     try:
         with warnings.catch_warnings():
@@ -180,7 +182,7 @@ def _pairs(value):
     return None if None in pairs else numpy.array(pairs, dtype=float).reshape(-1, 2)
 
 
-def text(name, value):
+def text(name: str, value: Any) -> str:
     """A text that can be saved in UTF-8."""
     value = plain(value)
     try:
@@ -190,12 +192,12 @@ def text(name, value):
     return value
 
 
-def shownPath(name):
+def shownPath(name: str) -> str:
     """A file's name for a message: the end of a long one."""
     return name if len(name) <= LONGEST else '...' + name[3 - LONGEST:]
 
 
-def path(name, value, ending=''):
+def path(name: str, value: Any, ending: str = '') -> str:
     """A file's name as text; ValueError for other values, or for another ending."""
     try:
         file = os.fspath(value)

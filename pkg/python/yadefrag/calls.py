@@ -3,13 +3,16 @@
 import difflib
 import functools
 import inspect
+from collections.abc import Callable
+from typing import Any
 
 from yadefrag.arguments import shown
 
 _BY_POSITION = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
 
 
-def inWords(function, arranged=None):
+def inWords(function: Callable,
+            arranged: Callable[..., tuple[tuple, dict[str, Any]]] | None = None) -> Callable:
     """`function`, with a sentence as TypeError for arguments that are missing, unknown or too many.
 
     arranged  None, or a function of the arguments by position → (arguments by position, dict of others)
@@ -31,7 +34,7 @@ def inWords(function, arranged=None):
             raise TypeError(_sentence(function.__name__, signature, given, settings)) from None
         return function(*given, **settings)
 
-    called.__signature__ = signature
+    setattr(called, '__signature__', signature)
     return called
 
 

@@ -5,17 +5,18 @@ import os
 import re
 import sys
 import warnings
+from collections.abc import Callable
 
 _HERE = os.path.dirname(__file__) + os.sep
 _SHOWN = 90  # characters of a message that is quoted
 _LISTED = 12  # bodies or bonds in a sentence
 _NUMBER = re.compile(r'[-+]?[\d.]+(e[-+]?\d+)?')
 _repeated = {}  # {message without its numbers: (the first message, 'bodies' or 'bonds', those that have it)}
-untold = set()  # those that more bodies or bonds have than have been told, and functions of _nowhere
+untold: set[object] = set()  # those that more bodies or bonds have than have been told, and functions of _nowhere
 _nowhere = {}  # {a function `fixed`: the bodies of which it selects no node; None: it selects some of another one}
 
 
-def warn(sentence):
+def warn(sentence: str) -> None:
     """A warning at the line of the script, outside of this package."""
     frame, level = sys._getframe(1), 2
     while frame.f_back and frame.f_code.co_filename.startswith(_HERE):
@@ -23,7 +24,7 @@ def warn(sentence):
     warnings.warn(sentence, stacklevel=level)
 
 
-def warnOfOne(sentence, what, one):
+def warnOfOne(sentence: str, what: str, one: int | str) -> None:
     """The first of several messages that differ in numbers only; tellNumbers gives the number of the others.
 
     what, one  'bodies' and the number of one, or 'bonds' and the numbers of two bodies, 'a-b'
@@ -37,7 +38,7 @@ def warnOfOne(sentence, what, one):
         untold.add(kind)
 
 
-def noteFixed(fixed, body, isAny):
+def noteFixed(fixed: Callable, body: int, isAny: bool) -> None:
     """Warns only before the run if a function selects no node: it may select nodes of a later body."""
     function = getattr(fixed, '__code__', None) or id(fixed)
     bodies = _nowhere.setdefault(function, [])
@@ -49,7 +50,7 @@ def noteFixed(fixed, body, isAny):
         untold.add(function)
 
 
-def tellNumbers():
+def tellNumbers() -> None:
     """Before a run: how many bodies or bonds have a message that was given for the first of them."""
     for kind in list(untold):
         untold.discard(kind)
@@ -63,7 +64,7 @@ def tellNumbers():
              (len(known), what, first if len(first) <= _SHOWN else first[:_SHOWN] + '…', _inWords(what, known)))
 
 
-def forget():
+def forget() -> None:
     """After O.reset, or before the first body of a solver."""
     _repeated.clear()
     _nowhere.clear()

@@ -4,6 +4,8 @@ The check is in Python, before the extension is loaded: another YADE may lack sy
 """
 
 import sys
+from collections.abc import Collection, Mapping
+from typing import Any
 
 from yadefrag import _built
 
@@ -20,7 +22,7 @@ NEEDED = ('OPENMP', 'MPI', 'QT5', 'FEMLIKE')
 REFUSED = ('VECTORIZE', 'MASK_ARBITRARY', 'SPH', 'LIQMIGRATION', 'DEFORM', 'BODY_CALLBACK')
 
 
-def describeMismatch(version, precision, features):
+def describeMismatch(version: str, precision: str, features: Collection[str]) -> str:
     """'' for the supported YADE, else one sentence with the found and the needed configuration.
 
     All three as in yade.config: `version`, `highPrecisionName`, `features` (strings, list of str).
@@ -47,17 +49,16 @@ def describeMismatch(version, precision, features):
     return describeUntried(version)
 
 
-def describeRemedy(version):
+def describeRemedy(version: str) -> str:
     """The remedy for a version: for the end of a sentence."""
     if version == VERSION:
         return ''
     if version in ACCEPTED:
         return ', for which yadefrag must be built or installed again'
-    return '; builds can be for %s' % ' and '.join(
-        'YADE %s (%s)' % item for item in sorted(ACCEPTED.items()))
+    return '; builds can be for %s' % ' and '.join('YADE %s (%s)' % item for item in sorted(ACCEPTED.items()))
 
 
-def describeUntried(version):
+def describeUntried(version: str) -> str:
     """'' unless the layout of `version` is known, but was never tested."""
     if version in ACCEPTED:
         return ''
@@ -65,7 +66,7 @@ def describeUntried(version):
             'it accepts %s.' % (version, ' and '.join(sorted(ACCEPTED))))
 
 
-def describeSurroundings(modules=None):
+def describeSurroundings(modules: Mapping[str, Any] | None = None) -> str:
     """As describeMismatch, for the YADE in `modules` (default: of this process)."""
     modules = sys.modules if modules is None else modules
     if 'yade.wrapper' not in modules or 'yade.config' not in modules:
@@ -77,14 +78,13 @@ def describeSurroundings(modules=None):
                             getattr(config, 'features', []))
 
 
-def isReportAsked():
+def isReportAsked() -> bool:
     """True for `python3 -m yadefrag`."""
     begin = getattr(sys, 'orig_argv', [])
-    return 'yade' not in sys.modules and '-m' in begin[:-1] and (
-        begin[begin.index('-m') + 1] == 'yadefrag')
+    return 'yade' not in sys.modules and '-m' in begin[:-1] and (begin[begin.index('-m') + 1] == 'yadefrag')
 
 
-def require():
+def require() -> None:
     """Raises ImportError with one sentence unless the running YADE is supported."""
     problem = describeSurroundings()
     if problem:

@@ -5,6 +5,7 @@ import numpy
 from yadefrag.arguments import positive
 from yadefrag.fe.between_steps import requireBetweenSteps
 from yadefrag.fe.names import bodyNumber
+from yadefrag.hints import FESolver
 from yadefrag.messages import warn, warnOfOne
 
 
@@ -29,7 +30,7 @@ def _requireNear(self, tolerance):
                          'bondAll(tolerance, strength, energy).' % (tolerance, largest))
 
 
-def bond(self, a, b, strength, energy):
+def bond(self: FESolver, a: int | str, b: int | str, strength: float, energy: float) -> int:
     """Bonds bodies a and b, from the next step on, along all sides that they have in common at
     present; returns the number of these sides (int).
 
@@ -49,8 +50,7 @@ def bond(self, a, b, strength, energy):
     their ends cannot be joined; a warning if sides are too long for the energy.
     """
     requireBetweenSteps()
-    first, second = (bodyNumber(self, one, name, least=0)
-                     for name, one in (('a', a), ('b', b)))
+    first, second = (bodyNumber(self, one, name, least=0) for name, one in (('a', a), ('b', b)))
     sides, corners, farthest, problem = self._bond(first, second, positive('strength', strength, 'Pa'),
                                                    positive('energy', energy, 'J/m²'))
     for sentence in filter(None, [_ofCorners(corners, farthest), problem]):
@@ -58,7 +58,7 @@ def bond(self, a, b, strength, energy):
     return sides
 
 
-def bondAll(self, tolerance, strength, energy):
+def bondAll(self: FESolver, tolerance: float, strength: float, energy: float) -> int:
     """Bonds all bodies, from the next step on, along all sides that lie on each other at present, as
     `bond` does; returns the number of bonded sides (int).
 

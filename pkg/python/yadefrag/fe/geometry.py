@@ -1,8 +1,12 @@
 """Outlines for FESolver.addPolygon: lists of (x, y) in metres, counter-clockwise."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Iterable
 
 from yadefrag import _yadefrag, arguments
+from yadefrag.hints import ArrayLike, Loop
 
 CIRCLE_POINTS = 64
 MOST_GRAINS = 10**5
@@ -18,8 +22,7 @@ def _length(name, value):
     if length is None:
         arguments.refuse(name, value, 'a number of metres')
     if not (math.isfinite(length) and length > 0):
-        raise ValueError('%s is %s m, it must be positive and finite.' %
-                         (name, arguments.shown(value)))
+        raise ValueError('%s is %s m, it must be positive and finite.' % (name, arguments.shown(value)))
     return length
 
 
@@ -29,7 +32,7 @@ def _count(n):
     return arguments.whole('n', n, 3, 'a whole number of at least 3 points', MOST_POINTS)
 
 
-def rectangle(low, high):
+def rectangle(low: ArrayLike, high: ArrayLike) -> Loop:
     """The four corners of an axis-parallel rectangle from its lower left and upper right corner
     (m).
 
@@ -43,7 +46,7 @@ def rectangle(low, high):
     return [(left, bottom), (right, bottom), (right, top), (left, top)]
 
 
-def circle(centre, radius, n=None):
+def circle(centre: ArrayLike, radius: float, n: int | None = None) -> Loop:
     """`n` points (default 64) on a circle of `radius` (m), the first to the right of the centre.
 
     With `smooth=True`, addPolygon needs only as many points as there will be boundary nodes. A
@@ -54,12 +57,12 @@ def circle(centre, radius, n=None):
     """
     x, y = _pair('centre', centre)
     radius = _length('radius', radius)
-    n = _count(n)
-    angles = [2 * math.pi * i / n for i in range(n)]
+    count = _count(n)
+    angles = [2 * math.pi * i / count for i in range(count)]
     return [(x + radius * math.cos(a), y + radius * math.sin(a)) for a in angles]
 
 
-def ring(centre, inner, outer, n=None):
+def ring(centre: ArrayLike, inner: float, outer: float, n: int | None = None) -> tuple[Loop, list[Loop]]:
     """(outline, holes) of a ring with the radii `inner` < `outer` (m), `n` points on each circle.
 
     Otherwise as `circle`: `fe.addPolygon(*ring((0, 0), .8, 1), size=.05, ...)`.
@@ -67,12 +70,11 @@ def ring(centre, inner, outer, n=None):
     inner = _length('inner', inner)
     outer = _length('outer', outer)
     if not inner < outer:
-        raise ValueError('inner is %g m, it must be less than outer, which is %g m.' %
-                         (inner, outer))
+        raise ValueError('inner is %g m, it must be less than outer, which is %g m.' % (inner, outer))
     return circle(centre, outer, n), [circle(centre, inner, n)]
 
 
-def voronoi(outline, n, seed=0, rounds=0, shortest=0):
+def voronoi(outline: ArrayLike, n: int, seed: int = 0, rounds: int = 0, shortest: float = 0) -> list[Loop]:
     """`n` grains that fill an outline, as a list of outlines: Voronoi cells of random points.
 
     outline  list of points (x, y) in m
@@ -97,7 +99,7 @@ def voronoi(outline, n, seed=0, rounds=0, shortest=0):
     return _yadefrag.voronoiOf(points, n, seed, rounds, shortest)
 
 
-def grainJoints(grains):
+def grainJoints(grains: Iterable[ArrayLike]) -> list[tuple[tuple, tuple]]:
     """The common sides of two grains, each once, for addPolygon's `joints`.
 
     grains  list of outlines, as `voronoi` returns them. A side is common if both its ends are the same

@@ -16,7 +16,7 @@ def _pieceOf(body):
 
 
 def _pieceAt(container, id):
-    isPlace = isinstance(id, numbers.Integral) and 0 <= id < len(container)
+    isPlace = isinstance(id, numbers.Integral) and 0 <= int(id) < len(container)
     return _pieceOf(container[int(id)]) if isPlace else None
 
 
@@ -81,8 +81,7 @@ def _guardBodies(function):
 
 
 def _guardPart(name):
-    """Body.state or Body.shape of a piece must not be replaced: other engines would end the
-    process."""
+    """Body.state or Body.shape of a piece must not be replaced: other engines would end the process."""
     part = getattr(wrapper.Body, name)
 
     def guarded(self, value):
@@ -111,8 +110,7 @@ def _withoutArguments(function):
 
 
 def _guardCopy(reduce):
-    """For copy and pickle: allowed only for a solver without bodies, since a copy would have none
-    of them."""
+    """For copy and pickle: allowed only for a solver without bodies, since a copy would have none of them."""
     def guarded(self, protocol):
         if len(self.masses) > 0:
             raise TypeError('an FESolver with bodies cannot be copied or pickled, since its '
@@ -122,7 +120,7 @@ def _guardCopy(reduce):
     return guarded
 
 
-def install():
+def install() -> None:
     wrapper.FESolver.removeBody = inWords(_guardRemove(wrapper.FESolver.removeBody))
     for name in ('criticalTimeStep', 'deepestOverlap'):
         setattr(wrapper.FESolver, name, inWords(_withoutArguments(getattr(wrapper.FESolver, name))))

@@ -1,7 +1,10 @@
 """Loads on the boundary that depend on its shape, and relaxation to a state of rest."""
 
+from __future__ import annotations
+
 import math
 import sys
+from collections.abc import Callable
 
 import numpy
 
@@ -9,6 +12,7 @@ from yade import wrapper
 from yadefrag.arguments import array, flag, number, positive, refuse, requireTakes, shown, whole
 from yadefrag.fe.between_steps import betweenSteps, calledInStep, requireBetweenSteps, requireNoStep
 from yadefrag.fe.motions import chosenNodes, tableOrNumber
+from yadefrag.hints import ArrayLike, FESolver, Nodes
 from yadefrag.messages import warn
 from yadefrag.scene import interrupts, lifecycle
 from yadefrag.scene.progress import runPart
@@ -16,7 +20,7 @@ from yadefrag.scene.progress import runPart
 _LOOK = 25  # steps from one evaluation of the motion to the next
 
 
-def getLoads(self):
+def getLoads(self: FESolver) -> numpy.ndarray:
     """Constant external forces on the nodes (N), array (n, 2); set the whole array, or None for no
     forces.
 
@@ -26,7 +30,7 @@ def getLoads(self):
     return self._loads
 
 
-def setLoads(self, loads):
+def setLoads(self: FESolver, loads: ArrayLike | None) -> None:
     requireBetweenSteps()
     forces = numpy.zeros((0, 2)) if loads is None else array(loads, float)
     if forces is None:
@@ -36,7 +40,8 @@ def setLoads(self, loads):
     self._setLoads(forces)
 
 
-def pressure(self, nodes, p, intoCracks=False):
+def pressure(self: FESolver, nodes: Nodes, p: ArrayLike | Callable[[float], float],
+             intoCracks: bool = False) -> None:
     """Applies a pressure, from now on, to the sides of the boundary whose two ends are among
     `nodes`.
 
@@ -59,15 +64,17 @@ def pressure(self, nodes, p, intoCracks=False):
     chosen = chosenNodes(self, nodes)
     if callable(p):
         requireTakes('p', p, 't')
+        function: Callable[[float], float] = p
+
         @calledInStep
         def value(time):
-            return number('p(%g)' % time, p(time), math.isfinite, 'a finite number (Pa)')
+            return number('p(%g)' % time, function(time), math.isfinite, 'a finite number (Pa)')
         self._pressure(chosen, (), (), value, intoCracks)
         return
     self._pressure(chosen, *tableOrNumber('p', p, 'Pa'), None, intoCracks)
 
 
-def absorb(self, nodes):
+def absorb(self: FESolver, nodes: Nodes) -> None:
     """Absorbs waves, from now on, at the sides of the boundary whose two ends are among `nodes`.
 
     nodes  as in `prescribe`
@@ -81,7 +88,7 @@ def absorb(self, nodes):
     self._absorb(chosenNodes(self, nodes))
 
 
-def relax(self, tolerance=1e-6, most=10**6):
+def relax(self: FESolver, tolerance: float = 1e-6, most: int = 10**6) -> int:
     """Runs the scene until its bodies are at rest; returns the number of steps (int).
 
     tolerance  criterion of rest: the kinetic energy is below this fraction of the strain energy, at
@@ -106,8 +113,7 @@ def relax(self, tolerance=1e-6, most=10**6):
         self.damping = before
     done = lifecycle.stepsDone() - begin
     if calm < 2:
-        warn('relax: after %d steps the kinetic energy is still %.3g of the strain energy.' %
-             (done, ratio))
+        warn('relax: after %d steps the kinetic energy is still %.3g of the strain energy.' % (done, ratio))
     return done
 
 

@@ -1,13 +1,17 @@
-"""Prescribed motions of nodes: constant, by node, by tables in time, by functions, and
-rotations."""
+"""Prescribed motions of nodes: constant, by node, by tables in time, by functions, and rotations."""
+
+from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy
 
 from yadefrag.arguments import array, flag, number, pair, real, refuse, requireTakes
 from yadefrag.fe.between_steps import calledInStep, requireBetweenSteps
 from yadefrag.fe.names import isBody
+from yadefrag.hints import ArrayLike, FESolver, Nodes
 from yadefrag.messages import warn
 
 _RIGHT = ('a finite number (m/s), an array of one for each of the nodes, a table of pairs (s, m/s), '
@@ -16,14 +20,13 @@ _NONE = (), ()
 _ROUNDING = 1e-9  # rounding of velocities that a script computes
 
 
-def chosenNodes(fe, nodes):
-    """(k) node numbers from the argument `nodes` of FESolver.prescribe; ValueError if it is
-    invalid."""
+def chosenNodes(fe: FESolver, nodes: Nodes) -> numpy.ndarray:
+    """(k) node numbers from the argument `nodes` of FESolver.prescribe; ValueError if it is invalid."""
     places = fe.nodes
+    chosen: Any
     if callable(nodes):
         requireTakes('nodes', nodes, 'x', 'y')
-        chosen = numpy.array([flag('nodes(%g, %g)' % (x, y), nodes(x, y)) for x, y in places],
-                             dtype=bool)
+        chosen = numpy.array([flag('nodes(%g, %g)' % (x, y), nodes(x, y)) for x, y in places], dtype=bool)
     elif isinstance(nodes, str):
         chosen = fe.nodesOf(nodes)
     else:
@@ -43,26 +46,23 @@ def chosenNodes(fe, nodes):
     return chosen.astype(numpy.uint32)
 
 
-def timeTable(name, value, unit):
+def timeTable(name: str, value: Any, unit: str) -> tuple[numpy.ndarray, numpy.ndarray] | None:
     """(times (k), values (k)) of a table of pairs; None for other types. ValueError for times that
     do not ascend and values that are not finite."""
     if callable(value) or isinstance(value, (str, bytes, dict, set)) or real(value) is not None:
         return None
     rows = array(value)
-    if rows is None or rows.ndim != 2 or rows.shape[1] != 2 or not len(rows) \
-            or rows.dtype.kind not in 'iuf':
+    if rows is None or rows.ndim != 2 or rows.shape[1] != 2 or not len(rows) or rows.dtype.kind not in 'iuf':
         return None
     rows = rows.astype(float)
     if not numpy.isfinite(rows).all():
-        raise ValueError('%s has a number that is not finite; a table has pairs (s, %s).' %
-                         (name, unit))
+        raise ValueError('%s has a number that is not finite; a table has pairs (s, %s).' % (name, unit))
     if not (numpy.diff(rows[:, 0]) > 0).all():
-        raise ValueError('%s has times that do not ascend; a table has pairs (s, %s).' %
-                         (name, unit))
+        raise ValueError('%s has times that do not ascend; a table has pairs (s, %s).' % (name, unit))
     return rows[:, 0].copy(), rows[:, 1].copy()
 
 
-def tableOrNumber(name, value, unit):
+def tableOrNumber(name: str, value: Any, unit: str) -> tuple[numpy.ndarray, numpy.ndarray]:
     """The same; a number is a table of one row."""
     if real(value) is not None:
         one = number(name, value, math.isfinite, 'a finite number (%s)' % unit)
@@ -96,7 +96,9 @@ def _kind(name, value, count):
     return 'each', each.astype(float)
 
 
-def prescribe(self, nodes, vx=None, vy=None):
+def prescribe(self: FESolver, nodes: Nodes,
+              vx: ArrayLike | Callable[[float, float, float], float] | None = None,
+              vy: ArrayLike | Callable[[float, float, float], float] | None = None) -> None:
     """Prescribes the nodes' velocities vx, vy (m/s) from now on; None: free in that direction.
 
     nodes   node numbers, a flag for each node, a function (x, y) → bool of the present positions,
@@ -116,8 +118,7 @@ def prescribe(self, nodes, vx=None, vy=None):
     chosen = chosenNodes(self, nodes)
     if not len(chosen):
         warn('prescribe: nodes selects none of the %d nodes.' % len(self.nodes))
-    kinds, values = zip(*[_kind(name, value, len(chosen))
-                          for name, value in (('vx', vx), ('vy', vy))])
+    kinds, values = zip(*[_kind(name, value, len(chosen)) for name, value in (('vx', vx), ('vy', vy))])
     held = sum(axis for axis, kind in ((1, kinds[0]), (2, kinds[1])) if kind != 'none')
     if not {'table', 'function'} & set(kinds):
         self._prescribe(chosen, held, numpy.column_stack(values))
@@ -156,7 +157,7 @@ def _velocities(kinds, values):
     return velocities
 
 
-def rotate(self, nodes, omega, centre):
+def rotate(self: FESolver, nodes: int | Nodes, omega: ArrayLike, centre: ArrayLike) -> None:
     """Rotates the nodes at `omega` about `centre` from now on, exactly: after any number of steps
     they are on their circles, except for rounding.
 
@@ -172,7 +173,8 @@ def rotate(self, nodes, omega, centre):
     _move(self, chosen, 3, pair('centre', centre), ('none', 'none'), (None, None), turn)
 
 
-def keepTurning(fe, component, held, velocity, spin, places, centroid):
+def keepTurning(fe: FESolver, component: int, held: numpy.ndarray, velocity: numpy.ndarray, spin: float,
+                places: numpy.ndarray, centroid: numpy.ndarray) -> None:
     """Held nodes of a new body with the velocities of a rotating rigid body continue to rotate.
 
     velocity  without that of `spin` about `centroid`
@@ -199,8 +201,8 @@ def keepTurning(fe, component, held, velocity, spin, places, centroid):
     # Open joints have doubled nodes, which come after all others.
     own = fe.nodesOf(component)
     present = fe.nodes[own]
-    held = set(map(tuple, present[fixed].tolist()))
-    doubled = [i for i in range(len(places), len(own)) if tuple(present[i].tolist()) in held]
+    heldPlaces = set(map(tuple, present[fixed].tolist()))
+    doubled = [i for i in range(len(places), len(own)) if tuple(present[i].tolist()) in heldPlaces]
     chosen = own[numpy.concatenate([fixed, doubled]).astype(int)].astype(numpy.uint32)
     drifts = [tableOrNumber('velocity', float(one), 'm/s') for one in drift]
     _move(fe, chosen, 3, tuple(map(float, centre)), ('table', 'table'), drifts,

@@ -1,16 +1,21 @@
 """Bodies by number or by name."""
 
+from typing import Any
+
+import numpy
+
 from yadefrag.arguments import isWhole, refuse, shown, text, whole
+from yadefrag.hints import FESolver
 
 _LONGEST = 80  # characters of a name
 
 
-def isBody(value):
+def isBody(value: object) -> bool:
     """True for a number or a name of one body, also for an invalid one."""
     return isinstance(value, str) or isWhole(value)
 
 
-def newName(fe, name):
+def newName(fe: FESolver, name: str | None) -> str:
     """The name of a body to be added: '' for None; ValueError for a name in use."""
     if name is None:
         return ''
@@ -18,12 +23,11 @@ def newName(fe, name):
     if not name or '\n' in name or len(name) > _LONGEST:
         refuse('name', name, 'a text of 1 to %d characters in one line' % _LONGEST)
     if name in fe._names:
-        raise ValueError("name is %s, which body %d has already." %
-                         (shown(name), fe._names.index(name)))
+        raise ValueError("name is %s, which body %d has already." % (shown(name), fe._names.index(name)))
     return name
 
 
-def bodyNumber(fe, value, argument='component', least=-2**31):
+def bodyNumber(fe: FESolver, value: Any, argument: str = 'component', least: int = -2**31) -> int:
     """The number of the body that `value`, a number or a name, refers to; ValueError for none."""
     names = fe._names
     if isinstance(value, str):
@@ -35,7 +39,7 @@ def bodyNumber(fe, value, argument='component', least=-2**31):
     return whole(argument, value, least, 'the number or the name of a body')
 
 
-def existingBody(fe, value, argument='component'):
+def existingBody(fe: FESolver, value: Any, argument: str = 'component') -> int:
     """The same for an existing body."""
     number = bodyNumber(fe, value, argument)
     if not 0 <= number < len(fe._names) or fe._isGone(number):
@@ -43,7 +47,7 @@ def existingBody(fe, value, argument='component'):
     return number
 
 
-def nodesOf(self, component):
+def nodesOf(self: FESolver, component: int | str) -> numpy.ndarray:
     """Numbers of a body's nodes, array (k), without those of removed fragments.
 
     component  the body's number, or its name. ValueError if there is no such body.
@@ -51,6 +55,6 @@ def nodesOf(self, component):
     return self._nodesOf(existingBody(self, component))
 
 
-def componentOf(self, name):
+def componentOf(self: FESolver, name: str) -> int:
     """The number of the body with this name; ValueError if there is none."""
     return existingBody(self, text('name', name), 'name')

@@ -1,6 +1,7 @@
 """Quality of a body's mesh, in numbers and in a picture."""
 
 import math
+from typing import Any
 
 import numpy
 
@@ -8,6 +9,7 @@ from yadefrag.arguments import isWhole, plain, refuse
 from yadefrag.fe.between_steps import betweenSteps
 from yadefrag.fe.contents import requireSolver
 from yadefrag.fe.names import existingBody
+from yadefrag.hints import FESolver, File
 from yadefrag.io.files import savePicture
 
 
@@ -26,7 +28,8 @@ def _component(fe, component):
     return int(component)
 
 
-def meshQuality(self, component=None, plot=None):
+def meshQuality(self: FESolver, component: int | str | None = None,
+                plot: File | None = None) -> dict[str, Any]:
     """Directional bias of the stress-free mesh of a body, and the shape of its triangles.
 
     component  the body's number or name; None if there is only one

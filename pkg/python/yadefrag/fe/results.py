@@ -1,5 +1,9 @@
 """Results of FESolver's bodies: reactions, contact forces, principal stresses, cracks."""
 
+from __future__ import annotations
+
+from typing import Any
+
 import numpy
 
 from yadefrag.arguments import path
@@ -7,6 +11,7 @@ from yadefrag.fe.between_steps import betweenSteps
 from yadefrag.fe.contents import requireSolver
 from yadefrag.fe.motions import chosenNodes
 from yadefrag.fe.names import existingBody, isBody
+from yadefrag.hints import FESolver, File, Nodes
 from yadefrag.io.files import writeText
 
 # (of the fracture energy) Rounding opens the faces of a loaded crack, such as a bond under its weight,
@@ -18,17 +23,18 @@ _CRACKS = (('component', '', int), ('other', '', int), ('x', 'm', float), ('y', 
            ('damage', '', float), ('held', '', bool), ('start', 's', float))
 
 
-def reaction(self, nodes):
+def reaction(self: FESolver, nodes: int | Nodes) -> tuple[float, float]:
     """(x, y) in N: the sum of `reactions` over nodes, in the last step.
 
     nodes  as in `prescribe`, or a body's number or name: the whole body
     """
     with betweenSteps(self):
         chosen = self.nodesOf(nodes) if isBody(nodes) else chosenNodes(self, nodes)
-        return tuple(self.reactions[chosen].sum(axis=0).tolist())
+        x, y = self.reactions[chosen].sum(axis=0).tolist()
+        return x, y
 
 
-def contactForce(self, a, b=None):
+def contactForce(self: FESolver, a: int | str, b: int | str | None = None) -> tuple[float, float]:
     """(x, y) in N: contact force on body a in the last step, of body b, or of all bodies.
 
     a, b  numbers or names of bodies of this engine; spheres are not included. 0 after O.load, until
@@ -37,12 +43,13 @@ def contactForce(self, a, b=None):
     with betweenSteps(self):
         first = existingBody(self, a, 'a')
         if b is None:
-            return tuple(self.contactForces[self.nodesOf(first)].sum(axis=0).tolist())
+            x, y = self.contactForces[self.nodesOf(first)].sum(axis=0).tolist()
+            return x, y
         second = existingBody(self, b, 'b')
         return (0., 0.) if first == second else self._pairForce(first, second)
 
 
-def principalStress(self):
+def principalStress(self: FESolver) -> numpy.ndarray:
     """Larger and smaller principal stress in the plane (Pa), and the angle of the direction of the
     larger one from the x axis (rad, above -π/2 and up to π/2), of the triangles, array (m, 3)."""
     xx, yy, xy = self.stress.T
@@ -51,7 +58,7 @@ def principalStress(self):
     return numpy.stack([mean + radius, mean - radius, numpy.arctan2(xy, half) / 2], axis=1)
 
 
-def crackCounts(self):
+def crackCounts(self: FESolver) -> dict[str, int]:
     """Numbers of the sides that are cracked at present, a dict: open (without cohesion), damaged (held by
     cohesion; part of their fracture energy is dissipated), whole (held; nothing is dissipated: bonds, and
     cracks that have not opened). They are the rows of crackTable: with bonds and open joints, without
@@ -62,7 +69,7 @@ def crackCounts(self):
     return {name: int(are.sum()) for name, are in counts.items()}
 
 
-def crackTable(fe, file=None):
+def crackTable(fe: FESolver, file: File | None = None) -> numpy.ndarray:
     """All cracked edges, as a NumPy array with named columns (k); bonds and open joints, too.
 
     Columns: component, other (the bodies on both sides), x, y (m, present position of its middle),
@@ -93,19 +100,19 @@ class Energies(dict):
 
     _ALIAS = 'external'
 
-    def __missing__(self, name):
+    def __missing__(self, name: str) -> float:
         if name != self._ALIAS:
             raise KeyError(name)
         return 0. - self['outside']
 
-    def __contains__(self, name):
+    def __contains__(self, name: object) -> bool:
         return name == self._ALIAS or dict.__contains__(self, name)
 
-    def get(self, name, default=None):
+    def get(self, name: str, default: Any = None) -> Any:
         return self[name] if name in self else default
 
 
-def energy(self):
+def energy(self: FESolver) -> Energies:
     """Dict of J: kinetic, strain, contact, friction, fracture, damping, outside (energy that left:
     negative where work was done on the bodies); with minFragmentArea, dropped (energy of removed
     fragments); total, their sum, is constant, except for impacts of soft bodies that rotate, which

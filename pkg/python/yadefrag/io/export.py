@@ -1,10 +1,13 @@
 """Files for other programs."""
 
+from collections.abc import Iterable
+
 import numpy
 
 from yadefrag.arguments import path, refuse
 from yadefrag.fe.between_steps import betweenSteps
 from yadefrag.fe.contents import heldCracks, requireSolver, shownMesh
+from yadefrag.hints import FESolver, File
 from yadefrag.io.files import replacing
 
 _OF_NODES = {'displacement': 'displacements', 'velocity': 'velocities',
@@ -20,7 +23,7 @@ def _spatial(values):
     return numpy.column_stack([values, numpy.zeros(len(values))])
 
 
-def exportVTK(fe, file, fields=None):
+def exportVTK(fe: FESolver, file: File, fields: Iterable[str] | None = None) -> None:
     """Writes the bodies of an FESolver to `file` for ParaView, as an unstructured grid (.vtu).
 
     Points are the nodes at their present positions (m); at points: displacement from the stress-free
@@ -44,16 +47,14 @@ def exportVTK(fe, file, fields=None):
         mesh.write(part, file_format='vtu')
 
 
-def fieldNames(fields):
-    """A tuple of names from a list of some of FIELDS, or None for all; ValueError for other
-    names."""
+def fieldNames(fields: Iterable[str] | None) -> tuple[str, ...]:
+    """A tuple of names from a list of some of FIELDS, or None for all; ValueError for other names."""
     if fields is None:
         return FIELDS
-    chosen = (fields,) if isinstance(fields, str) else fields
     try:
-        chosen = tuple(chosen)
+        chosen = (fields,) if isinstance(fields, str) else tuple(fields)
     except TypeError:
-        chosen = (None,)
+        chosen = ('',)
     if not all(isinstance(one, str) and one in FIELDS for one in chosen):
         refuse('fields', fields, 'some of %s' % ', '.join(FIELDS))
     return chosen

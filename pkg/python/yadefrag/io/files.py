@@ -6,6 +6,8 @@ import os
 import secrets
 import shutil
 import stat
+from collections.abc import Iterator
+from typing import Any
 
 from yadefrag.arguments import path
 
@@ -13,7 +15,7 @@ _BLOCK = 4096  # bytes, of a disk
 
 
 @contextlib.contextmanager
-def replacing(name):
+def replacing(name: str) -> Iterator[str]:
     """For `with`: the name of a file to write, with the ending of `name`; it replaces the file `name`
     after everything was written.
 
@@ -39,7 +41,7 @@ def replacing(name):
                 os.remove(part)
 
 
-def requireWritable(name):
+def requireWritable(name: str) -> None:
     """OSError that names `name` if it cannot be written; no file is left over."""
     with _named(name):
         target = os.path.realpath(name)
@@ -57,13 +59,13 @@ def requireWritable(name):
             os.remove(part)
 
 
-def writeText(name, text):
+def writeText(name: str, text: str) -> None:
     """Writes `text` as the whole contents of the file `name`, in UTF-8."""
     with replacing(name) as part, open(part, 'w', encoding='utf-8', newline='') as out:
         out.write(text)
 
 
-def appendText(name, text):
+def appendText(name: str, text: str) -> None:
     """Appends `text` to the file `name`: all of it, or nothing with an OSError."""
     with open(name, 'ab', buffering=0) as out:
         size = os.fstat(out.fileno()).st_size
@@ -77,9 +79,8 @@ def appendText(name, text):
             raise OSError(error.errno, error.strerror, name) from None
 
 
-def savePicture(figure, file, dpi):
-    """Saves Matplotlib's `figure` in `file`: a path, whose ending determines the format, or an open
-    file."""
+def savePicture(figure: Any, file: Any, dpi: float) -> None:
+    """Saves Matplotlib's `figure` in `file`: a path, whose ending determines the format, or an open file."""
     if hasattr(file, 'write'):
         figure.savefig(file, dpi=dpi)
         return
@@ -87,9 +88,8 @@ def savePicture(figure, file, dpi):
         figure.savefig(part, dpi=dpi)
 
 
-def pictureName(figure, file):
-    """The path of a picture, with Matplotlib's ending if there is none; ValueError for an unknown
-    ending."""
+def pictureName(figure: Any, file: Any) -> str:
+    """The path of a picture, with Matplotlib's ending if there is none; ValueError for an unknown ending."""
     name = path('file', file)
     ending = os.path.splitext(name)[1]
     known = sorted(figure.canvas.get_supported_filetypes())

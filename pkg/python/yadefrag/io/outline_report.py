@@ -1,6 +1,10 @@
 """Effect of an outline's finest feature on the time step, before a mesh is made."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Iterable
+from typing import Any
 
 import numpy
 
@@ -8,11 +12,14 @@ from yadefrag import _yadefrag
 from yadefrag.arguments import pointsOf, positive, refuse
 from yadefrag.fe.materials import oneMaterial
 from yadefrag.fe.meshing import simplified
+from yadefrag.hints import ArrayLike, FEMat, File
 from yadefrag.io.outlines import outlinesOf
 from yadefrag.io.readers import leftOutWords
 
 
-def outlineReport(outline, holes=(), *, size, material, simplify=None, **reading):
+def outlineReport(outline: ArrayLike | File, holes: Iterable[ArrayLike] = (), *, size: float,
+                  material: FEMat | str | int, simplify: float | None = None,
+                  **reading: Any) -> dict[str, Any]:
     """A dict with the effect of an outline's finest features on the time step; no mesh is made.
 
     outline, holes, simplify  as in addPolygon; or `outline` is the path of a file, of whose outlines the
@@ -43,8 +50,8 @@ def outlineReport(outline, holes=(), *, size, material, simplify=None, **reading
         refuse('holes', holes, 'a list of loops of points (x, y) in m')
     loops = [points] + [pointsOf('holes[%d]' % i, hole, 3) for i, hole in enumerate(holes)]
     if simplify is not None:
-        outline, holes, _ = simplified(points, loops[1:], simplify, None)
-        loops = [outline, *holes]
+        points, fewer, _ = simplified(points, loops[1:], simplify, None)
+        loops = [points, *fewer]
     return _report([loops], size, material)
 
 

@@ -3,10 +3,13 @@
 import math
 import os
 import sys
+from collections.abc import Iterable
+from typing import Any
 
 from yade import wrapper
 from yadefrag.arguments import path, shown, shownPath, whole
 from yadefrag.fe.between_steps import betweenSteps
+from yadefrag.hints import File
 from yadefrag.io.export import exportVTK, fieldNames
 from yadefrag.io.files import appendText, requireWritable, writeText
 from yadefrag.messages import warn
@@ -20,7 +23,8 @@ _NAMED = 'reaction %s of %s (N)'
 _complained = set()  # files for which a message was given
 
 
-def FERecorder(iterPeriod=0, file='run', fields=None, **settings):
+def FERecorder(iterPeriod: int = 0, file: File = 'run', fields: Iterable[str] | None = None,
+               **settings: Any) -> Any:
     """An engine, a PyRunner for the end of O.engines, that records the scene's FESolver.
 
     iterPeriod  steps between two records; or virtPeriod (s), realPeriod (s) and all other settings
@@ -51,7 +55,7 @@ def FERecorder(iterPeriod=0, file='run', fields=None, **settings):
         raise ValueError('A setting of FERecorder is too large: %s.' % shown(settings)) from None
 
 
-def record(name, fields):
+def record(name: str, fields: tuple[str, ...]) -> None:
     """The action of the engine."""
     solvers = [one for one in wrapper.Omega().engines if isinstance(one, wrapper.FESolver)]
     if not solvers:
@@ -159,6 +163,6 @@ def _entries(file):
     import xml.etree.ElementTree as tree
     try:
         root = tree.parse(file).getroot()
-        return [(float(one.get('timestep')), one.get('file')) for one in root.iter('DataSet')]
-    except (FileNotFoundError, tree.ParseError, TypeError, ValueError):
+        return [(float(one.attrib['timestep']), one.attrib['file']) for one in root.iter('DataSet')]
+    except (FileNotFoundError, tree.ParseError, KeyError, ValueError):
         return []

@@ -1,11 +1,18 @@
 """Matplotlib axes for the pictures of this package."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from yadefrag.arguments import refuse
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 MOST_PANELS = 12  # in one picture
 
 
-def requireAxes(ax):
+def requireAxes(ax: object) -> Axes:
     """`ax`; ValueError if it is not an Axes of Matplotlib."""
     from matplotlib.axes import Axes
     if not isinstance(ax, Axes):
@@ -13,13 +20,12 @@ def requireAxes(ax):
     return ax
 
 
-def newAxes():
-    """Axes of a new figure. Without pyplot: a picture for a file must not need, or open, a
-    window."""
+def newAxes() -> Axes:
+    """Axes of a new figure. Without pyplot: a picture for a file must not need, or open, a window."""
     return _figure(8, 6).add_subplot()
 
 
-def newPanels(count, width, height):
+def newPanels(count: int, width: float, height: float) -> list[Axes]:
     """A list of `count` axes in a new figure, for contents of `width` by `height`: side by side, or
     below each other if the contents are more than twice as wide as high."""
     shape = min(max(height / width if width > 0 else 1, .12), 2)

@@ -2,6 +2,8 @@
 
 import numpy
 
+from yadefrag.hints import FESolver
+
 # Twelve for curves in one picture. Any two differ by at least 0.25 in red, green and blue together.
 DISTINCT = ('#1f77b4', '#d62728', '#2ca02c', '#ff7f0e', '#9467bd', '#17becf', '#8c564b', '#e377c2',
             '#000000', '#bcbd22', '#7f7f7f', '#005a1e')
@@ -10,14 +12,14 @@ _MOST_PARTS = 100  # of a side
 _SATURATED = 10  # first colours of the palette, used before the pale ones
 
 
-def palette():
+def palette() -> list[tuple[float, float, float]]:
     """Twenty colours, the ten saturated ones first."""
     from matplotlib import colormaps
     pairs = colormaps['tab20'].colors
     return [*pairs[::2], *pairs[1::2]]
 
 
-def fragmentColours(fe, former=None):
+def fragmentColours(fe: FESolver, former: numpy.ndarray | None = None) -> numpy.ndarray:
     """(m) a small number for each triangle: the same within a fragment, different in adjacent ones;
     0 for removed triangles. Must be called between two steps.
 
@@ -60,8 +62,9 @@ def _neighbours(fe, shown, of, count):
         pairs = numpy.unique(numpy.stack([place.ravel(), owners], axis=1), axis=0)
         ends = numpy.nonzero(numpy.diff(pairs[:, 0]))[0] + 1
         for group in numpy.split(pairs[:, 1], ends):
-            for fragment in group if len(group) > 1 else ():
-                beside[fragment].update(group)
+            if len(group) > 1:
+                for fragment in group:
+                    beside[fragment].update(group)
     for fragment, others in enumerate(beside):
         others.discard(fragment)
     return beside

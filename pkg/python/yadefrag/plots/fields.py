@@ -1,8 +1,11 @@
 """Fields of plotMesh by name: values of triangles or nodes."""
 
+from typing import Any
+
 import numpy
 
 from yadefrag.arguments import refuse, shown
+from yadefrag.hints import FESolver
 
 UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
          'mises': 'von Mises stress (Pa)', 'sigma1': 'larger principal stress (Pa)',
@@ -11,12 +14,12 @@ UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
 _OTHER_NAMES = {'principal1': 'sigma1', 'principal2': 'sigma2'}
 
 
-def nameOf(field):
+def nameOf(field: Any) -> Any:
     """The name in UNITS of a field with several names; other values unchanged."""
     return _OTHER_NAMES.get(field, field) if isinstance(field, str) else field
 
 
-def fieldValues(fe, field):
+def fieldValues(fe: FESolver, field: Any) -> tuple[numpy.ndarray, bool] | tuple[None, None]:
     """(values, True for one per node) of a field except 'fragment', both None for no field."""
     if field is None:
         return None, None

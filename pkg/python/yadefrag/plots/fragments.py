@@ -1,6 +1,10 @@
 """Fragments of an FESolver's bodies: tables, pictures of their sizes, a record over time."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
 
 import numpy
 
@@ -8,9 +12,13 @@ from yadefrag.arguments import flag, isWhole, path, plain, refuse, shownPath
 from yadefrag.fe.between_steps import betweenSteps
 from yadefrag.fe.contents import requireSolver
 from yadefrag.fe.names import existingBody
+from yadefrag.hints import FESolver, File
 from yadefrag.io.files import appendText, savePicture, writeText
 from yadefrag.plots.axes import newAxes, requireAxes
 from yadefrag.plots.colours import DISTINCT
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 _COLUMNS = (('fragment', '', int), ('component', '', int), ('triangles', '', int),
             ('mass', 'kg', float), ('area', 'm²', float), ('size', 'm', float), ('x', 'm', float),
@@ -28,7 +36,7 @@ def _heading(name, unit):
     return '%s (%s)' % (name, unit) if unit else name
 
 
-def fragmentTable(fe, file=None):
+def fragmentTable(fe: FESolver, file: File | None = None) -> numpy.ndarray:
     """All fragments, the largest area first, as a NumPy array with named columns (k). What cohesion or a
     bond still holds together is one fragment.
 
@@ -52,7 +60,8 @@ def fragmentTable(fe, file=None):
     return table
 
 
-def plotFragmentSizes(fe, file=None, ax=None, components=None):
+def plotFragmentSizes(fe: FESolver, file: File | None = None, ax: Axes | None = None,
+                      components: str | Iterable[int | str] | None = None) -> Axes:
     """Draws the number of fragments that are at least as large as a size, with logarithmic axes; returns
     Matplotlib's axes.
 
@@ -74,8 +83,7 @@ def plotFragmentSizes(fe, file=None, ax=None, components=None):
     ax = newAxes() if ax is None else requireAxes(ax)
     # The curve falls after each size: the point (size, number) is the last one on its level.
     sizes = chosen['size'][::-1]
-    ax.step(sizes, numpy.arange(len(sizes), 0, -1), where='pre', marker='.', markersize=4,
-            linewidth=1)
+    ax.step(sizes, numpy.arange(len(sizes), 0, -1), where='pre', marker='.', markersize=4, linewidth=1)
     ax.set(xscale='log', yscale='log', xlabel='size of a fragment, √area (m)',
            ylabel='fragments at least as large')
     ax.grid(True, which='both', linewidth=.3)
@@ -114,7 +122,7 @@ def _componentNumbers(fe, components):
     return found
 
 
-def recordFracture(fe, file, append=False):
+def recordFracture(fe: FESolver, file: File, append: bool = False) -> Callable[[], None]:
     """Returns a function that appends a line to `file` (.csv) at each call; writes a first line at
     once.
 
@@ -148,8 +156,7 @@ def recordFracture(fe, file, append=False):
 
 
 def _linesOf(name):
-    """The lines of a file of recordFracture, with the heading; none if the file is of another
-    kind."""
+    """The lines of a file of recordFracture, with the heading; none if the file is of another kind."""
     with open(name, encoding='utf-8-sig', errors='replace') as file:
         lines = file.read().splitlines()
     return lines if lines and lines[0] in (_RECORDED, _FORMER) else []
@@ -164,12 +171,11 @@ def _recorded(file):
     except ValueError:
         data = numpy.empty(0)
     if data.ndim != 2 or data.shape[1] < len(_RECORD) - len(_STATES):
-        raise ValueError('%s has no lines of recordFracture, or a damaged one.' %
-                         shownPath(name))
+        raise ValueError('%s has no lines of recordFracture, or a damaged one.' % shownPath(name))
     return dict(zip(_RECORD, data.T))
 
 
-def plotFracture(file, picture=None):
+def plotFracture(file: File, picture: File | None = None) -> tuple[Axes, Axes]:
     """Draws a file of recordFracture: counts and energies over time; returns both axes.
 
     picture  path of the picture; its ending determines the format (.png, .pdf, .svg ...)

@@ -1,9 +1,18 @@
 """YADE's own bodies in Matplotlib's pictures: spheres, walls, boxes and facets."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
 import numpy
 
 from yade import wrapper
 from yadefrag import _yadefrag
+from yadefrag.hints import FESolver
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 WIDENING = .5  # of the other contents: largest enlargement of a picture by rigid bodies, per side
 
@@ -17,7 +26,7 @@ class YadeBodies:
     walls            [(axis that they cross, position on it in m)]
     """
 
-    def __init__(self, spheres, rigidBodies):
+    def __init__(self, spheres: bool, rigidBodies: bool) -> None:
         self._takeSpheres(wrapper.Omega().bodies if spheres else ())
         sections = _yadefrag.sectionsOfScene() if rigidBodies else ()
         self.outlines, self.lines, self.walls = [], [], []
@@ -41,7 +50,7 @@ class YadeBodies:
         table = table[numpy.isfinite(table).all(axis=1)]
         self.places, self.radii, self._shades = table[:, :2], table[:, 2], table[:, 3:].clip(0, 1)
 
-    def extent(self, low, high):
+    def extent(self, low: numpy.ndarray, high: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray]:
         """The lower left and upper right corner of a picture of all bodies and of the box from `low` to
         `high`, each (2) in m."""
         arms = self.radii[:, None]
@@ -60,7 +69,7 @@ class YadeBodies:
                 high = numpy.maximum(high, end.clip(lowest, highest))
         return low, high
 
-    def draw(self, ax, low, high):
+    def draw(self, ax: Axes, low: numpy.ndarray, high: numpy.ndarray) -> None:
         """Adds them to the axes, whose limits are extended up to extent(low, high)."""
         self._drawRigid(ax)
         self._drawSpheres(ax)
@@ -102,7 +111,7 @@ _OPEN = 'black'
 class CrackLines:
     """Lines of the cracks at positions of the nodes (n, 2). Must be created between two steps."""
 
-    def __init__(self, fe, places):
+    def __init__(self, fe: FESolver, places: numpy.ndarray) -> None:
         cracks = fe._cracks()
         held, sides = cracks['held'], places[cracks['nodes']].reshape(-1, 4, 2)
         # A cohesive crack has hardly any width: one line between its two sides.
@@ -110,7 +119,7 @@ class CrackLines:
         self.damage = cracks['damage'][held]
         self.open = sides[~held].reshape(-1, 2, 2)  # both faces
 
-    def draw(self, ax):
+    def draw(self, ax: Axes) -> Any:
         """Draws all; returns the lines with a colour scale, None without any."""
         from matplotlib.collections import LineCollection
         from matplotlib.colors import LinearSegmentedColormap, Normalize
@@ -127,7 +136,7 @@ class CrackLines:
         return scaled
 
 
-def damageBar(panels, lines):
+def damageBar(panels: Sequence[Axes], lines: Sequence[Any]) -> None:
     """One bar for the damage in all panels, if one of them has lines with a scale."""
     scaled = next((one for one in lines if one is not None), None)
     if scaled is not None:

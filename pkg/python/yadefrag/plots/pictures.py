@@ -1,20 +1,31 @@
 """Pictures of the bodies of an FESolver, with Matplotlib."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy
 
 from yadefrag.arguments import flag, number, numbersOf, path, refuse, whole
 from yadefrag.fe.between_steps import betweenSteps, requireNoStep
 from yadefrag.fe.contents import requireSolver, shownMesh
+from yadefrag.hints import ArrayLike, FESolver, File
 from yadefrag.io.files import replacing, requireWritable, savePicture
 from yadefrag.plots.axes import MOST_PANELS, newAxes, newPanels, requireAxes
 from yadefrag.plots.colours import fragmentColours, palette
 from yadefrag.plots.fields import UNITS, fieldValues, nameOf
 from yadefrag.plots.overlays import CrackLines, YadeBodies, damageBar
 
-def plotMesh(fe, field=None, file=None, ax=None, limits=None, *, fields=None, xlim=None, ylim=None,
-             spheres=True, rigidBodies=True, scale=1):
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | None = None,
+             ax: Axes | None = None, limits: Sequence | None = None, *,
+             fields: Sequence[str | ArrayLike | None] | None = None, xlim: ArrayLike | None = None,
+             ylim: ArrayLike | None = None, spheres: bool = True, rigidBodies: bool = True,
+             scale: float = 1) -> Axes | list[Axes]:
     """Draws the triangles of an FESolver at their present positions, without removed fragments; cracks
     that cohesion holds, coloured by their damage, and open ones black, above them; and YADE's spheres,
     walls, boxes and facets. Returns Matplotlib's axes.
@@ -115,6 +126,8 @@ class _Picture:
 
     def __init__(self, fe, field, former=None, scale=1):
         self.field = field = nameOf(field)
+        values: Any
+        perNode: bool | None
         with betweenSteps(fe):
             if isinstance(field, str) and field == 'fragment':
                 self.colours = fragmentColours(fe, former)
@@ -148,9 +161,10 @@ def _limits(limits):
     """A pair of floats; a pair of None for no limits."""
     if limits is None:
         return None, None
-    if not _isFinitePair(limits) or numbersOf(limits, 2) != tuple(sorted(numbersOf(limits, 2))):
+    ends = numbersOf(limits, 2)
+    if ends is None or not _isFinitePair(limits) or ends[0] > ends[1]:
         refuse('limits', limits, 'a pair of numbers (lowest, highest)')
-    return numbersOf(limits, 2)
+    return ends
 
 
 def _isFinitePair(value):
@@ -194,8 +208,7 @@ def _drawTriangles(ax, picture, limits):
         return
     low, high = limits
     if picture.perNode:
-        drawn = ax.tripcolor(x, y, values, triangles=triangles, shading='gouraud', vmin=low,
-                             vmax=high)
+        drawn = ax.tripcolor(x, y, values, triangles=triangles, shading='gouraud', vmin=low, vmax=high)
     else:
         drawn = ax.tripcolor(x, y, triangles=triangles, facecolors=values, vmin=low, vmax=high,
                              edgecolors='k', linewidth=lines / 3)
@@ -203,8 +216,9 @@ def _drawTriangles(ax, picture, limits):
     ax.figure.colorbar(drawn, ax=ax, label=label)
 
 
-def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=20,
-            spheres=True, rigidBodies=True, scale=1):
+def animate(fe: FESolver, file: File, steps: int, every: int, field: str | None = None,
+            limits: ArrayLike | None = None, window: Sequence[ArrayLike] | None = None, rate: float = 20,
+            spheres: bool = True, rigidBodies: bool = True, scale: float = 1) -> int:
     """Runs the scene for `steps` steps and writes a GIF with a frame at the start and after each
     `every` steps; returns the number of frames.
 
@@ -225,8 +239,7 @@ def animate(fe, file, steps, every, field=None, limits=None, window=None, rate=2
     _checkFilm(fe, field)
     scale = _scale(scale)
     steps, every = whole('steps', steps), whole('every', every)
-    rate = number('rate', rate, lambda r: .01 <= r <= 1000,
-                  'a number of frames per second from 0.01 to 1000')
+    rate = number('rate', rate, lambda r: .01 <= r <= 1000, 'a number of frames per second from 0.01 to 1000')
     limits, asked = _limits(limits), (flag('spheres', spheres), flag('rigidBodies', rigidBodies))
     low, high = _windowOf(fe) if window is None else _corners(window)
     name = path('file', file, '.gif')

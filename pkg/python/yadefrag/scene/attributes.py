@@ -5,6 +5,7 @@ wrong type is refused with one sentence; also for attributes of YADE's base clas
 import difflib
 import functools
 import warnings
+from typing import Any
 
 import numpy
 
@@ -20,14 +21,14 @@ _RIGHT = {'gravity': 'two or three numbers',
 _WRONG_KIND = (TypeError, OverflowError, UnicodeError)  # as Boost.Python refuses
 
 
-def install(cls):
+def install(cls: Any) -> None:
     """Checks every way to set attributes of `cls`: assignment, the constructor and updateAttrs."""
     cls.__setattr__ = __setattr__
     cls.__init__ = _guardConstructor(cls.__init__)
     cls.updateAttrs = updateAttrs
 
 
-def __setattr__(self, name, value):
+def __setattr__(self: Any, name: str, value: Any) -> None:
     if not hasattr(type(self), name) and not name.startswith('_'):
         _warnOfUnknown(self, name)
     value = _inSpace(self, name, value)
@@ -79,7 +80,7 @@ def _guardConstructor(make):
     return __init__
 
 
-def updateAttrs(self, attributes):
+def updateAttrs(self: Any, attributes: dict[str, Any]) -> None:
     """Sets all attributes of a dict, or none if one of them is refused."""
     if not isinstance(attributes, dict):
         refuse('attributes', attributes, 'a dict {name: value}')
@@ -107,8 +108,7 @@ def _findMisspelt(self, known, attributes):
 
 
 def _findWrong(scratch, settings):
-    """Raises TypeError for the first of the settings that is invalid for an object of this
-    class."""
+    """Raises TypeError for the first of the settings that is invalid for an object of this class."""
     known = scratch.dict()
     for name, value in settings.items():
         if name in known:

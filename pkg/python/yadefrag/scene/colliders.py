@@ -4,13 +4,14 @@ import builtins
 import functools
 import math
 import sys
+from collections.abc import Collection
 
 import numpy
 
 from yade import utils, wrapper
 
 
-def dumpBounds(self):
+def dumpBounds(self: wrapper.Collider) -> tuple[list[tuple], ...]:
     """The ends of all bounds along x, y and z, in ascending order: a tuple of three lists, as from
     InsertionSortCollider.
 
@@ -26,9 +27,9 @@ def dumpBounds(self):
         bound = body.bound
         ids.append(body.id)
         ends.append((bound.min, bound.max) if bound and math.isfinite(bound.min[0]) else [body.state.pos] * 2)
-    ids, ends = numpy.array(ids, int), numpy.array(ends, float).reshape(-1, 2, 3)
+    numbers, places = numpy.array(ids, int), numpy.array(ends, float).reshape(-1, 2, 3)
     spans = omega.cell.size if omega.periodic else (None,) * 3
-    return tuple(_sortedEnds(ids, ends[:, :, axis], span) for axis, span in enumerate(spans))
+    return tuple(_sortedEnds(numbers, places[:, :, axis], span) for axis, span in enumerate(spans))
 
 
 def _sortedEnds(ids, ends, span):
@@ -58,7 +59,7 @@ def _findingOurs(typedEngine, names):
     return found
 
 
-def install(names):
+def install(names: Collection[str]) -> None:
     """`names`: those of the colliders."""
     for name in names:
         getattr(wrapper, name).dumpBounds = dumpBounds

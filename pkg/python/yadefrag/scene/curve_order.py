@@ -1,13 +1,17 @@
 """Sorts bodies so that neighbours in space are neighbours in memory."""
 
+from collections.abc import Iterable
+from typing import TypeVar
+
 import numpy as np
 
 from yadefrag.arguments import refuse
 
+T = TypeVar('T')
 _BITS = 21  # per axis: three axes fit into 64 bits
 
 
-def inCurveOrder(bodies):
+def inCurveOrder(bodies: Iterable[T]) -> list[T]:
     """The same bodies in the order of their positions along the Lebesgue (Morton) curve.
 
     bodies  a sequence of Body that are not in O.bodies yet; or of positions, (x, y, z) or (position,

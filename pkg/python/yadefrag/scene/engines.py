@@ -1,12 +1,17 @@
 """A complete list of engines."""
 
+from __future__ import annotations
+
 import math
+from typing import Any
 
 from yade import wrapper
 from yadefrag.arguments import flag, number, numbersOf, refuse
+from yadefrag.hints import ArrayLike, FESolver
 
 
-def engines(fe, gravity=None, spheres=False, damping=0., collider=None, moving=False):
+def engines(fe: FESolver, gravity: ArrayLike | None = None, spheres: bool = False, damping: float = 0.,
+            collider: type | None = None, moving: bool = False) -> list[Any]:
     """List of engines for O.engines, in the correct order.
 
     fe        an FESolver

@@ -7,6 +7,8 @@ it in each thread that waits for a run."""
 import contextlib
 import signal
 import threading
+from collections.abc import Callable, Iterator
+from typing import Any
 
 from yade import wrapper
 from yadefrag import _yadefrag
@@ -20,7 +22,7 @@ _held = {}  # by thread: number of nested held()
 _waiting = {}  # by thread: number of nested waiting()
 
 
-def install():
+def install() -> None:
     """Replaces Python's own handler; a handler of the script is kept."""
     if threading.current_thread() is threading.main_thread() and \
             signal.getsignal(signal.SIGINT) is signal.default_int_handler:
@@ -73,19 +75,19 @@ def _remove(depths, me):
 class held:
     """A context: Ctrl-C raises KeyboardInterrupt at its beginning and at its end, nowhere within it."""
 
-    def __enter__(self):
+    def __enter__(self) -> None:
         if not hasattr(_seen, 'count'):
             _enter()
         _check()
         _add(_held, threading.get_ident())
 
-    def __exit__(self, error, *details):
+    def __exit__(self, error: type[BaseException] | None, *details: object) -> None:
         _remove(_held, threading.get_ident())
         if error is None:
             _check()
 
 
-def during(call, argument):
+def during(call: Callable[[Any], object], argument: Any) -> None:
     """`with held(): call(argument)`, in a third of the time: for O.step(), whose steps may be short."""
     if getattr(_seen, 'count', None) != _count:
         with held():
@@ -105,7 +107,7 @@ def during(call, argument):
 
 
 @contextlib.contextmanager
-def waiting():
+def waiting() -> Iterator[None]:
     """held() that also ends the run; for the time between its first step and its end."""
     me = threading.get_ident()
     install()
@@ -123,7 +125,7 @@ def waiting():
         raise
 
 
-def aside(call):
+def aside(call: Callable[[], object]) -> None:
     """call(), which waits for a run, in another thread: this one waits where Python can handle signals, which
     it cannot while YADE waits."""
     if threading.current_thread() is not threading.main_thread():

@@ -1,5 +1,4 @@
-"""Replaces functions of YADE's O for runs in the background: stop, save and reset act between
-steps."""
+"""Replaces functions of YADE's O for runs in the background: stop, save and reset act between steps."""
 
 import atexit
 import contextlib
@@ -18,12 +17,12 @@ _pauses = 0
 _stepsBefore = 0  # sum over all calls of O.resetTime()
 
 
-def pauses():
+def pauses() -> int:
     """Number of calls of O.pause()."""
     return _pauses
 
 
-def stepsDone():
+def stepsDone() -> int:
     """Steps so far: O.iter, corrected for O.resetTime()."""
     return _Omega().iter + _stepsBefore
 
@@ -40,8 +39,7 @@ def _resting():
         before = omega.stopAtIter, omega.stopAtTime, _pauses
         _yadefrag.stopRun()
         # A failed step, the end of the run and O.pause() are final.
-        isToGoOn = omega.subStep == -1 and \
-            before == (omega.stopAtIter, omega.stopAtTime, _pauses)
+        isToGoOn = omega.subStep == -1 and before == (omega.stopAtIter, omega.stopAtTime, _pauses)
         try:
             yield
         finally:
@@ -120,7 +118,7 @@ def _waitOn(omega, wait):
         interrupts.aside(lambda: wait(omega))
 
 
-def waitForEnd():
+def waitForEnd() -> None:
     """O.wait() without its delay of up to 40 ms; an exception of a step is not raised again."""
     with interrupts.waiting():
         while True:
@@ -203,7 +201,7 @@ def _underOldName(get):
     return item
 
 
-def install():
+def install() -> None:
     wrapper.EnergyTracker.__getitem__ = _underOldName(wrapper.EnergyTracker.__getitem__)
     for name in ('save', 'saveTmp', 'sceneToString'):
         setattr(_Omega, name, _savedWhole(getattr(_Omega, name)))

@@ -9,6 +9,7 @@ import functools
 import importlib.abc
 import importlib.util
 import sys
+from typing import Any
 
 from yade import wrapper
 
@@ -16,11 +17,11 @@ kModule = 'yade.mpy'
 kRival = 'InsertionSortCollider'
 
 
-def colliderClasses():
+def colliderClasses() -> tuple[type, ...]:
     return wrapper.LebesgueCollider, wrapper.LinearCodeCollider, wrapper.HierarchyCollider
 
 
-def ourCollider():
+def ourCollider() -> Any:
     """The first of our colliders in O.engines, or None."""
     ours = (e for e in wrapper.Omega().engines if isinstance(e, colliderClasses()))
     return next(ours, None)
@@ -38,11 +39,10 @@ def _isPiece(body):
     return body is not None and isinstance(body.shape, wrapper.SurfaceSegment)
 
 
-def reasonNotToSplit():
+def reasonNotToSplit() -> str | None:
     """One sentence, or None if this process's scene can be split."""
     omega = wrapper.Omega()
-    if any(isinstance(e, wrapper.FESolver) for e in omega.engines) or \
-            any(map(_isPiece, omega.bodies)):
+    if any(isinstance(e, wrapper.FESolver) for e in omega.engines) or any(map(_isPiece, omega.bodies)):
         return ('FESolver and its bodies work in one process only: yade.mpy cannot split this '
                 'scene; run it with O.run.')
     collider = ourCollider()
@@ -71,7 +71,7 @@ def _guardSplit(mpy, splitScene):
     """All processes split together: all refuse, or none."""
     @functools.wraps(splitScene)
     def split():
-        if not builtins.O.splittedOnce:  # an attribute of this object, not of the class
+        if not getattr(builtins, 'O').splittedOnce:  # an attribute of this object, not of the class
             reports = mpy.comm.allgather((reasonNotToSplit(), _smallestRadius()))
             for reason, _ in reports:
                 if reason:
@@ -108,16 +108,17 @@ class _WhenImported(importlib.abc.MetaPathFinder):
         sys.meta_path.remove(self)
         spec = importlib.util.find_spec(name)
         if spec is not None:
-            execute = spec.loader.exec_module
+            loader: Any = spec.loader
+            execute = loader.exec_module
 
             def executeAndAdapt(module):
                 execute(module)
                 _adapt(module)
-            spec.loader.exec_module = executeAndAdapt
+            loader.exec_module = executeAndAdapt
         return spec
 
 
-def install():
+def install() -> None:
     if kModule in sys.modules:
         _adapt(sys.modules[kModule])
     else:

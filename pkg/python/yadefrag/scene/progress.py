@@ -2,6 +2,7 @@
 
 import sys
 import time
+from collections.abc import Callable
 
 from yade import wrapper
 from yadefrag import _yadefrag
@@ -12,7 +13,7 @@ from yadefrag.scene import interrupts, lifecycle, refusals
 MOST_STEPS = 2**62  # the largest number that YADE can count
 
 
-def runSteps(steps, every=None, call=None):
+def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | None = None) -> int:
     """Runs `steps` steps of the scene; returns the number of steps done.
 
     every, call  if given, call() is called after each `every` steps
@@ -40,7 +41,7 @@ def runSteps(steps, every=None, call=None):
                 part, isPaused = runPart(now)
                 done += part
                 bar.show(done, omega.time)
-            if call is not None and part and done % every == 0:
+            if call is not None and every and part and done % every == 0:
                 call()
             if isPaused:
                 break
@@ -56,7 +57,7 @@ def runSteps(steps, every=None, call=None):
     return done
 
 
-def runPart(steps):
+def runPart(steps: int) -> tuple[int, bool]:
     """Runs `steps` steps; returns the number of steps done, and whether the run was paused
     meanwhile.
 

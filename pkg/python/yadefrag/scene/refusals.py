@@ -2,6 +2,7 @@
 the same error are not written. Errors of other engines are written as ever."""
 
 import contextlib
+from collections.abc import Iterator
 
 _LOGGERS = ('ThreadRunner', 'yadeWrapper.cpp')
 _waiting = 0  # runs that a script waits for, one within the other
@@ -9,7 +10,7 @@ _former = {}  # {logger: its level}
 
 
 @contextlib.contextmanager
-def raisedHere():
+def raisedHere() -> Iterator[None]:
     """The block waits for a run, and raises the error if FESolver refuses a step."""
     global _waiting
     _waiting += 1
@@ -21,7 +22,7 @@ def raisedHere():
             _restore()
 
 
-def silence():
+def silence() -> None:
     """FESolver calls this in a step that it refuses."""
     if not _waiting:
         return

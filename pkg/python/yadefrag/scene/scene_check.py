@@ -1,8 +1,11 @@
 """Messages about contacts, forces and steps that FE bodies of a scene will not have, one sentence each."""
 
 import weakref
+from collections.abc import Mapping
+from typing import Any
 
 from yade import wrapper
+from yadefrag.hints import FESolver
 from yadefrag.messages import warn
 
 # These engines apply no forces to bodies, or apply them anew in each step.
@@ -12,7 +15,7 @@ _RIGID = ('Wall', 'Box', 'Facet')  # shapes that FE bodies touch as rigid bodies
 _UNMOVED = ('O.engines has no FESolver, so that nothing moves its bodies: O.engines = engines(fe) sets the '
              'engines.')
 
-solvers = weakref.WeakSet()  # with bodies
+solvers: Any = weakref.WeakSet()  # with bodies
 _looked = None  # scene and number of its bodies when they were last searched
 
 
@@ -26,7 +29,8 @@ def _takes(functor, *shapes):
     return all(shape in functor.bases for shape in shapes)
 
 
-def sentences(kinds, beside, leaving, loose, gravityZ, rigidBodies, largest=0., thickness=0.):
+def sentences(kinds: Mapping[str, int], beside: int, leaving: int, loose: int, gravityZ: float,
+              rigidBodies: bool, largest: float = 0., thickness: float = 0.) -> list[str]:
     """List of sentences about the scene; FESolver calls it when bodies or engines are new.
 
     kinds                   {name of a shape: a body with it}, without surface segments; spheres of all
@@ -91,7 +95,7 @@ def _outOfPlane(beside, leaving, loose, gravityZ):
     return []
 
 
-def addSolver(solver):
+def addSolver(solver: FESolver) -> None:
     """Must be called for every solver to which a body is added."""
     solvers.add(solver)
 
@@ -112,7 +116,7 @@ def _isWithoutSolver():
                for body in omega.bodies)
 
 
-def tellUnmoved():
+def tellUnmoved() -> None:
     """Before a run: a warning about FE bodies whose FESolver is no engine, and has no step of its own in which
     it could warn. It is also in the `warnings` of all solvers with bodies."""
     if not _isWithoutSolver():

@@ -3,21 +3,27 @@
 import math
 import os
 import sys
+from collections.abc import Callable
+from typing import Any
 
 import numpy
 
 from yadefrag.arguments import isWhole, number, plain, positive, refuse, shown, text, whole
+from yadefrag.hints import File
 from yadefrag.io.files import requireWritable
 from yadefrag.studies.ensemble_table import COLUMNS, EnsembleRow, EnsembleTable
 from yadefrag.studies.grouping import passOn
 from yadefrag.studies.runs import Finished, Processes, jobOf, requireExecutor, requireOutside, runAll
+from yadefrag.studies.scene_choices import Choices
 from yadefrag.studies.tradeoff_grid import MOST_SECONDS, checkChoice, writeTable
 
 _MOST_RUNS = 10**6
 
 
-def ensemble(scene, runs, measure, *, duration, watch=None, every=0., limit=600., executor=None,
-             workers=None, resume=None, files=None, title=''):
+def ensemble(scene: Callable[[Choices], Any], runs: Any, measure: Callable[..., Any], *, duration: float,
+             watch: Callable[[Any], Any] | None = None, every: float = 0., limit: float = 600.,
+             executor: Any = None, workers: int | None = None, resume: File | None = None,
+             files: File | None = None, title: str = '') -> EnsembleTable:
     """Runs `scene` once for each row of a table; returns an EnsembleTable of the measured values.
 
     scene     function (choices) that builds the scene in O and sets O.engines and O.dt, as for

@@ -1,17 +1,25 @@
 """The table that ensemble() returns: rows, means with confidence bands, CSV, plot."""
 
+from __future__ import annotations
+
 import dataclasses
 import itertools
 import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy
 
 from yadefrag.arguments import array, number, path, refuse, text
+from yadefrag.hints import ArrayLike, File
 from yadefrag.io.files import savePicture, writeText
 from yadefrag.plots.colours import DISTINCT
 from yadefrag.studies import student
 from yadefrag.studies.grouping import grouped, samples, varying
 from yadefrag.studies.tradeoff_table import describe, tableText
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 COLUMNS = ('result', 'value', 'steps', 'wall', 'message', 'seconds', 'warnings')
 _PLACES = 200  # points of a curve
@@ -33,14 +41,14 @@ class EnsembleRow:
 
     settings: dict
     result: str = 'not run'
-    value: object = None
-    steps: int = None
-    wall: float = None
+    value: Any = None
+    steps: int | None = None
+    wall: float | None = None
     message: str = ''
-    seconds: float = None
+    seconds: float | None = None
     warnings: list = dataclasses.field(default_factory=list)
 
-    def take(self, found):
+    def take(self, found: dict[str, Any]) -> None:
         """Stores the result of a run."""
         if found['result'] == 'unloadable':
             raise RuntimeError('a run cannot load the scene: %s' % found['message'])
@@ -58,13 +66,13 @@ class EnsembleTable:
     (Student's t distribution). Numbers measured in one run may depend on each other; runs do not.
     """
 
-    def __init__(self, rows, title=''):
+    def __init__(self, rows: Sequence[EnsembleRow], title: str = '') -> None:
         isRight = isinstance(rows, (list, tuple)) and all(isinstance(r, EnsembleRow) for r in rows)
         if not isRight:
             refuse('rows', rows, 'a list of EnsembleRow')
         self.rows, self.title = list(rows), text('title', title)
 
-    def __str__(self):
+    def __str__(self) -> str:
         """A line for each row, and the means of the runs that differ in nothing but seeds and samples."""
         lines = [self.title] * bool(self.title) + [
             '%s: %s' % (describe(row.settings), _found(row)) for row in self.rows]
@@ -74,11 +82,12 @@ class EnsembleTable:
                 lines.append(describe(settings) * bool(settings) + ': ' * bool(settings) + _meanText(line, among))
         return '\n'.join(lines)
 
-    def good(self):
+    def good(self) -> list[EnsembleRow]:
         """Rows with a value."""
         return [row for row in self.rows if row.result == 'ok']
 
-    def statistics(self, by=None, reduce=numpy.mean, confidence=.95):
+    def statistics(self, by: str | None = None, reduce: Callable[[numpy.ndarray], Any] = numpy.mean,
+                   confidence: float = .95) -> numpy.ndarray:
         """Means of the measured values, with their confidence bands, as a NumPy array with named
         columns (k): one row for the runs that differ only in the seed, or in a number that is another one
         in each run.
@@ -118,7 +127,7 @@ class EnsembleTable:
         names = [name for name in names if name != by] + [by]
         return sorted(((of, of[by], rows) for of, rows in grouped(self.rows, names)), key=lambda one: one[1])
 
-    def shares(self, places=None, confidence=.95):
+    def shares(self, places: ArrayLike | None = None, confidence: float = .95) -> numpy.ndarray:
         """Fraction of a run's numbers that are at least as large as a given value, over all runs.
 
         places  values (k), or None: 200 from the smallest measured number to the largest, in equal
@@ -141,14 +150,15 @@ class EnsembleTable:
         names = ('place', 'mean', 'low', 'high')
         return numpy.array(list(zip(*columns)), dtype=[(name, float) for name in names])
 
-    def csv(self, file):
+    def csv(self, file: File) -> None:
         """Writes all rows: the settings, then COLUMNS; values as JSON, an empty cell for None."""
         names = list(dict.fromkeys(name for row in self.rows for name in row.settings))
         lines = [[row.settings.get(name) for name in names] + [getattr(row, c) for c in COLUMNS]
                  for row in self.rows]
         writeText(path('file', file), tableText(names + list(COLUMNS), lines))
 
-    def plot(self, file=None, ax=None, by=None, confidence=.95, label='measured value'):
+    def plot(self, file: File | None = None, ax: Axes | None = None, by: str | None = None,
+             confidence: float = .95, label: str = 'measured value') -> Axes:
         """Draws the table; returns Matplotlib's axes.
 
         by     None: the fraction of numbers at least as large as a value, each run in grey, and the
@@ -193,7 +203,7 @@ class EnsembleTable:
             _drawBand(ax, table['by'], table, table['runs'], confidence, 'o-', colour, of)
         ax.set(xlabel=by, ylabel=label)
 
-    def write(self, files):
+    def write(self, files: File) -> None:
         """Writes files.csv and, if a run has a value, files.png."""
         table, picture = self.namesOfFiles(files)
         self.csv(table)
@@ -201,7 +211,7 @@ class EnsembleTable:
             self.plot(picture)
 
     @staticmethod
-    def namesOfFiles(files):
+    def namesOfFiles(files: File) -> list[str]:
         """Names of the files that `write` writes."""
         return [path('files', files) + ending for ending in ('.csv', '.png')]
 
@@ -252,8 +262,7 @@ def _share(confidence):
 
 
 def _meanOf(table, confidence):
-    """(mean, deviation, half of the band) of each column of an array (runs, k); nan for too few
-    runs."""
+    """(mean, deviation, half of the band) of each column of an array (runs, k); nan for too few runs."""
     count = len(table)
     if count == 0:
         return (numpy.full(1, numpy.nan),) * 3

@@ -1,15 +1,18 @@
 """Runs of a table by what varies between them, and what they warn of."""
 
 import re
+from collections.abc import Iterable, Sequence
+from typing import Any, TypeVar
 
 from yadefrag.messages import warn
 
+Row = TypeVar('Row', bound=Any)
 SEED = 'seed'  # runs that differ in it only are repetitions
 _NUMBER = re.compile(r'[-+]?[\d.]+(e[-+]?\d+)?')
 _SHOWN = 200  # characters of a message
 
 
-def varying(rows):
+def varying(rows: Sequence[Any]) -> list[str]:
     """Names of the settings that vary and are neither a seed nor a sample, in their order.
 
     A sample is a number that is another one in each of several runs, as drawn from a distribution.
@@ -18,13 +21,13 @@ def varying(rows):
     return [name for name in names if name != SEED and len(_values(rows, name)) > 1 and not _isSample(rows, name)]
 
 
-def samples(rows):
+def samples(rows: Sequence[Any]) -> list[str]:
     """Names of the settings that are another number in each run, without the seed."""
     return [name for name in dict.fromkeys(n for row in rows for n in row.settings)
             if name != SEED and _isSample(rows, name)]
 
 
-def grouped(rows, names):
+def grouped(rows: Sequence[Row], names: Iterable[str]) -> list[tuple[dict[str, Any], list[Row]]]:
     """[(dict of the settings `names`, rows)] in the order of their first rows."""
     groups = {}
     for row in rows:
@@ -33,7 +36,7 @@ def grouped(rows, names):
     return list(groups.values())
 
 
-def passOn(what, rows):
+def passOn(what: str, rows: Sequence[Any]) -> None:
     """Warns once of each kind of message that runs gave, with the number of these runs."""
     kinds = {}
     for row in rows:

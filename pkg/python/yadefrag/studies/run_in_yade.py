@@ -11,6 +11,8 @@ import os
 import sys
 import time
 import warnings
+from collections.abc import Callable
+from typing import Any
 
 import numpy
 
@@ -28,8 +30,7 @@ MOST_RADII = 10  # largest displacement of a sphere in one step
 class BlewUp(Exception):
     """The run's results are not finite or not physical."""
 
-
-def load(job):
+def load(job: dict[str, Any]) -> list[Any]:
     """[function] of the job, with sys.path and sys.argv as for the script itself."""
     sys.path[:0] = [p for p in job['path'] if p not in sys.path]
     sys.argv[:] = [job['file']]
@@ -46,13 +47,13 @@ def load(job):
 class Clock:
     """Wall-clock and processor time (s) of the steps only."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.wall = self.cpu = 0.
 
-    def __enter__(self):
+    def __enter__(self) -> None:
         self._start = time.perf_counter(), time.process_time()
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.wall += time.perf_counter() - self._start[0]
         self.cpu += time.process_time() - self._start[1]
 
@@ -60,11 +61,11 @@ class Clock:
 class Sanity:
     """Checks a run: all values are finite, no energy is created, no sphere has an absurd speed."""
 
-    def __init__(self, omega):
+    def __init__(self, omega: Omega) -> None:
         self.omega = omega
         self.solvers = [e for e in omega.engines if type(e).__name__ == 'FESolver']
 
-    def check(self):
+    def check(self) -> None:
         """Raises BlewUp with a sentence."""
         for fe in self.solvers:
             excess, most, rounding = fe._energyBalance
@@ -85,9 +86,9 @@ class Sanity:
                              (body.id, speed * self.omega.dt / radius))
 
 
-def run(omega, duration, watch, every, built):
-    """Runs `duration` (s simulated); returns (clock, steps, simulated s, list of watch's
-    results)."""
+def run(omega: Omega, duration: float, watch: Callable[[Any], Any] | None, every: float,
+        built: Any) -> tuple[Clock, int, float, list]:
+    """Runs `duration` (s simulated); returns (clock, steps, simulated s, list of watch's results)."""
     if not (math.isfinite(omega.dt) and omega.dt > 0):
         raise ValueError('O.dt is %r s, the scene must set a positive one.' % omega.dt)
     if duration <= omega.dt / 2:
@@ -110,7 +111,7 @@ def run(omega, duration, watch, every, built):
     return clock, omega.iter - first, omega.time - begin, seen
 
 
-def advance(omega, until):
+def advance(omega: Omega, until: float) -> None:
     """Runs until `until` (s), at least one step and for no longer than CHECK_EVERY.
 
     With O.step, since O.run waits in units of 40 ms.
@@ -121,7 +122,7 @@ def advance(omega, until):
         omega.step()
 
 
-def measured(measure, watch, built, seen):
+def measured(measure: Callable, watch: Callable | None, built: Any, seen: list) -> float | list[float]:
     """A finite float, or a list of them; BlewUp if they are not finite."""
     value = measure(built, seen) if watch else measure(built)
     array = numpy.asarray(value, dtype=float)
@@ -133,7 +134,7 @@ def measured(measure, watch, built, seen):
     return array.tolist()
 
 
-def perform(job):
+def perform(job: dict[str, Any]) -> dict[str, Any]:
     """The result of a job, a dict; never raises exceptions of the scene."""
     choices = Choices(job['settings'])
     with warnings.catch_warnings(record=True) as caught:
@@ -147,7 +148,7 @@ def perform(job):
                 warnings=list(dict.fromkeys(said))[:MOST_WARNINGS])
 
 
-def attempt(job, choices):
+def attempt(job: dict[str, Any], choices: Choices) -> dict[str, Any]:
     """The result without the choices that were used."""
     try:
         scene, measure, watch = load(job)
@@ -174,7 +175,7 @@ def attempt(job, choices):
                 seconds=clock.wall, steps=steps, value=value)
 
 
-def main(jobFile, resultFile):
+def main(jobFile: str, resultFile: str) -> None:
     with open(jobFile, encoding='utf-8') as f:
         job = json.load(f)
     result = perform(job)

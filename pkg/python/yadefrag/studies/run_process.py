@@ -9,13 +9,14 @@ import os
 import signal
 import subprocess
 import tempfile
+from typing import Any
 
 _live = set()  # running processes
 # Environment variables of a worker started by MPI: its yade is not part of that MPI job.
 _OF_MPI = ('OMPI_', 'PMIX_', 'PMI_', 'MPI_', 'HYDRA_', 'PRTE_')
 
 
-def perform(job):
+def perform(job: dict[str, Any]) -> dict[str, Any]:
     """The result of a run, a dict as run_in_yade.perform returns it.
 
     job  JSON of the input of run_in_yade.py, and `yade`, `program`, `package` (paths), `inside` (name
@@ -51,7 +52,7 @@ def _performIn(folder, job):
         return json.load(f)
 
 
-def endAll():
+def endAll() -> None:
     """Ends the runs of this process."""
     for process in list(_live):
         _end(process)

@@ -7,8 +7,11 @@ import json
 import os
 import sys
 import time
+from collections.abc import Callable
+from typing import Any
 
 from yadefrag.arguments import path, refuse, shown, shownPath
+from yadefrag.hints import File
 from yadefrag.io.files import appendText, requireWritable, writeText
 from yadefrag.studies import run_process
 
@@ -19,20 +22,21 @@ _POLL = .02  # s between two checks of an executor's runs
 _BY_PATH = "__import__('runpy').run_path(program)['perform'](job)"
 
 
-def requireOutside(name):
+def requireOutside(name: str) -> None:
     """RuntimeError in a run that loads the script again."""
     if os.environ.get(INSIDE):
         raise RuntimeError('%s is called while one of its runs loads the script; put the call '
                            "after `if __name__ == '__main__':`." % name)
 
 
-def jobOf(scene, measure, watch):
+def jobOf(scene: Callable, measure: Callable, watch: Callable | None) -> dict[str, Any]:
     """The job of every run: functions and their file. ValueError for functions without a file."""
-    functions = [scene, measure] + [watch] * (watch is not None)
+    functions: list[Any] = [scene, measure] + [watch] * (watch is not None)
     for name, function in zip(('scene', 'measure', 'watch'), functions):
-        module = sys.modules.get(getattr(function, '__module__', None))
+        module = sys.modules.get(getattr(function, '__module__', ''))
+        found: Any = vars(module or os).get(getattr(function, '__name__', ''))
         if not callable(function) or not hasattr(function, '__code__') \
-                or inspect.unwrap(vars(module or os).get(function.__name__)) is not inspect.unwrap(function):
+                or inspect.unwrap(found) is not inspect.unwrap(function):
             refuse(name, function, 'a function at the top level of a file, which each run loads')
     modules = {function.__module__ for function in functions}
     if len(modules) > 1:
@@ -50,14 +54,15 @@ def jobOf(scene, measure, watch):
                 program=os.path.join(_HERE, 'run_in_yade.py'))
 
 
-def requireExecutor(executor):
+def requireExecutor(executor: Any) -> Any:
     """`executor`; ValueError if it has no method submit."""
     if executor is not None and not callable(getattr(executor, 'submit', None)):
         refuse('executor', executor, 'None, or an executor with a method submit')
     return executor
 
 
-def runAll(jobs, take, executor=None, one=run_process.perform):
+def runAll(jobs: list[dict[str, Any]], take: Callable[[int, dict[str, Any]], None], executor: Any = None,
+           one: Callable[[dict[str, Any]], dict[str, Any]] = run_process.perform) -> None:
     """Does the runs of `jobs`, and calls take(number in jobs, result) at the end of each.
 
     executor  None: one after the other, here, by `one`; or one with `submit`, whose futures have
@@ -95,11 +100,11 @@ def _resultOf(future):
 class Processes(concurrent.futures.ThreadPoolExecutor):
     """Parallel runs on this machine, each a process; they end at the end of the `with` block."""
 
-    def submit(self, function, *args):
+    def submit(self, function: Callable, *args: Any) -> Any:  # type: ignore[override]
         program = args[1]  # run_process, which ends the runs of this process
         return super().submit(run_process.perform, program['job'])
 
-    def __exit__(self, *problem):
+    def __exit__(self, *problem: Any) -> bool | None:
         if problem[0] is not None:
             self.shutdown(wait=False, cancel_futures=True)
             run_process.endAll()
@@ -109,11 +114,11 @@ class Processes(concurrent.futures.ThreadPoolExecutor):
 class Finished:
     """Results of runs in a file, one line of JSON each: a later call need not repeat these runs."""
 
-    def __init__(self, file, of):
+    def __init__(self, file: File | None, of: dict[str, Any]) -> None:
         """file: a path that ends with .jsonl, or None; of: identification of the runs, a dict."""
-        self.name = None if file is None else path('resume', file, '.jsonl')
+        self.name = '' if file is None else path('resume', file, '.jsonl')  # '': none
         self._known, of = {}, json.loads(json.dumps(of))
-        if self.name is None:
+        if not self.name:
             return
         requireWritable(self.name)
         lines = self._lines()
@@ -140,12 +145,12 @@ class Finished:
             raise ValueError('%s has no runs that can be continued.' % shownPath(self.name))
         return lines
 
-    def get(self, of):
+    def get(self, of: dict[str, Any]) -> dict[str, Any] | None:
         """The result of a run; None if it has not been done."""
         return self._known.get(_key(of))
 
-    def add(self, of, result):
-        if self.name is not None and result['result'] not in ('lost', 'unloadable'):
+    def add(self, of: dict[str, Any], result: dict[str, Any]) -> None:
+        if self.name and result['result'] not in ('lost', 'unloadable'):
             appendText(self.name, json.dumps(dict(of=of, result=result)) + '\n')
 
 

@@ -6,13 +6,14 @@ does not depend on which choices are varied.
 
 import math
 import os
+from typing import Any
 
 from yade import wrapper
 from yadefrag import arguments
 from yadefrag.fe.contents import requireSolver
+from yadefrag.hints import FEMat, FESolver
 
-COLLIDERS = ('LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider',
-             'InsertionSortCollider')
+COLLIDERS = ('LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider', 'InsertionSortCollider')
 LINEAR_VISCOSITY, QUADRATIC_VISCOSITY = .06, 1.2  # usual coefficients of bulk viscosity
 
 
@@ -64,9 +65,8 @@ KNOWN = {
 }
 
 
-def check(name, value):
-    """ValueError, with one sentence, for an invalid value of a known choice; other names are not
-    checked."""
+def check(name: str, value: Any) -> None:
+    """ValueError, with one sentence, for an invalid value of a known choice; other names are not checked."""
     if name in KNOWN and not KNOWN[name][0](value):
         raise ValueError('vary has the choice %s=%s, it must be %s.' %
                          (name, arguments.shown(value), KNOWN[name][1]))
@@ -80,43 +80,42 @@ class Choices:
     the scene used are recorded: a setting with a choice that the scene never used is refused.
     """
 
-    def __init__(self, settings):
+    def __init__(self, settings: dict[str, Any]) -> None:
         if not isinstance(settings, dict):
             arguments.refuse('settings', settings, 'a dict {name: value}')
         self._settings = dict(settings)
         self.used = {}  # name: value, of all choices that were used
 
-    def get(self, name, default=None):
+    def get(self, name: str, default: Any = None) -> Any:
         """The value of the choice `name`, or `default` if the setting does not have it."""
         value = self._settings.get(name, default)
         self.used[name] = value
         return value
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Any:
         if name not in self._settings:
-            raise ValueError('the scene needs the choice %s, which is not in vary.' %
-                             arguments.shown(name))
+            raise ValueError('the scene needs the choice %s, which is not in vary.' % arguments.shown(name))
         return self.get(name)
 
-    def neverAsked(self):
+    def neverAsked(self) -> list[str]:
         """Names in the setting that the scene did not use; `threads` is used in any case."""
         return [n for n in self._settings if n not in self.used and n != 'threads']
 
-    def size(self, default):
+    def size(self, default: float) -> float:
         """Length of the elements' edges (m); `default` if the setting does not have `size`."""
         return self.get('size', default)
 
-    def smooth(self, default=False):
+    def smooth(self, default: bool = False) -> bool:
         """True if the boundary is to be smooth, for addPolygon(smooth=...)."""
         return self.get('smooth', default)
 
-    def timeStep(self, critical, default=.8):
+    def timeStep(self, critical: float, default: float = .8) -> float:
         """(s) The setting's fraction `timeStep` of the critical time step `critical` (s)."""
         critical = arguments.number('critical', critical, lambda v: v > 0, 'a positive number (s)')
         return critical * arguments.number('timeStep', self.get('timeStep', default), lambda v: v > 0,
                                         KNOWN['timeStep'][1])
 
-    def solver(self, **settings):
+    def solver(self, **settings: Any) -> FESolver:
         """An FESolver with `settings`; passes, halo and bulk viscosity as in the setting. ValueError as
         FESolver."""
         settings.update(passes=self.get('passes', settings.get('passes', 1)),
@@ -135,7 +134,7 @@ class Choices:
             self.used['bulkViscosity'] = settings.get('linearViscosity', 0) / LINEAR_VISCOSITY
         return wrapper.FESolver(**settings)
 
-    def material(self, **attributes):
+    def material(self, **attributes: Any) -> FEMat:
         """An FEMat, added to O.materials; a BrittleFEMat if there is a `tensileStrength`.
 
         plane 'stress' or 'strain' sets planeStress; fracture 'none' omits tensileStrength and the
@@ -162,7 +161,7 @@ class Choices:
         wrapper.Omega().materials.append(made)
         return made
 
-    def collider(self, functors, default='LebesgueCollider'):
+    def collider(self, functors: list, default: str = 'LebesgueCollider') -> Any:
         """A collider with the bound functors `functors`; None if the setting has 'none'."""
         name = self.get('collider', default)
         distance = self.get('verletDist')
@@ -174,7 +173,7 @@ class Choices:
         self.used['verletDist'] = made.verletDist
         return made
 
-    def engines(self, fe, spheres=False):
+    def engines(self, fe: FESolver, spheres: bool = False) -> None:
         """Sets O.engines and O.dt for bodies of the FESolver `fe`, with `spheres` also for those.
 
         The step is the setting's fraction of fe.criticalTimeStep(), or .8 of it.

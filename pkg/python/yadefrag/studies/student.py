@@ -3,7 +3,7 @@
 import math
 
 
-def within(t, freedom):
+def within(t: float, freedom: int) -> float:
     """Probability of a value from -t to t: Abramowitz and Stegun 1964, 26.7.3 and 26.7.4."""
     angle = math.atan(t / math.sqrt(freedom))
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -16,9 +16,8 @@ def within(t, freedom):
     return 2 / math.pi * (angle + sine * total) if isOdd else sine * total
 
 
-def quantile(confidence, freedom):
-    """Inverse of `within`: the t for which a value is from -t to t with probability 0 < confidence
-    < 1."""
+def quantile(confidence: float, freedom: int) -> float:
+    """Inverse of `within`: the t for which a value is from -t to t with probability 0 < confidence < 1."""
     if freedom > 1000:  # then the normal distribution differs by less than 10⁻³
         from statistics import NormalDist
         return NormalDist().inv_cdf((1 + confidence) / 2)

@@ -4,6 +4,8 @@ scene_choices.py contains the known choices, runs.py the runs, run_in_yade.py a 
 tradeoff_table.py the table.
 """
 
+from __future__ import annotations
+
 import itertools
 import json
 import math
@@ -11,10 +13,13 @@ import os
 import statistics
 import sys
 import warnings
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy
 
 from yadefrag.arguments import number, path, plain, positive, refuse, shown, shownPath, text, whole
+from yadefrag.hints import ArrayLike, File
 from yadefrag.io.files import requireWritable
 from yadefrag.messages import warn
 from yadefrag.studies import run_process, scene_choices as known
@@ -26,8 +31,12 @@ MOST_SECONDS = 1e9  # longest time limit of a process
 _REPEATABLE = ('not run', 'ok')
 
 
-def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=0., repeats=3,
-             limit=60., files=None, title='', executor=None, resume=None, by=()):
+def tradeoff(scene: Callable[[known.Choices], Any], vary: dict[str, Sequence] | Sequence[dict[str, Sequence]],
+             measure: Callable[..., Any], *, duration: float,
+             reference: ArrayLike | File | dict[str, Any] = 0., watch: Callable[[Any], Any] | None = None,
+             every: float = 0., repeats: int = 3, limit: float = 60., files: File | None = None,
+             title: str = '', executor: Any = None, resume: File | None = None,
+             by: str | Sequence[str] = ()) -> TradeoffTable:
     """Runs `scene` over a grid of choices; returns a TradeoffTable of times and errors.
 
     scene      function (choices) that builds the scene in O and sets O.engines and O.dt, with the
@@ -96,7 +105,7 @@ def tradeoff(scene, vary, measure, *, duration, reference=0., watch=None, every=
     return table
 
 
-def writeTable(table, files):
+def writeTable(table: Any, files: File) -> None:
     """A full disk must not cost the results of the runs: the table is returned in any case."""
     try:
         table.write(files)
@@ -104,7 +113,7 @@ def writeTable(table, files):
         warn('the table could not be written: %s.' % error)
 
 
-def checkChoice(name, value, argument='vary', columns=COLUMNS):
+def checkChoice(name: Any, value: Any, argument: str = 'vary', columns: Sequence[str] = COLUMNS) -> Any:
     """`value`, as a plain number or text; ValueError with the argument if it is neither."""
     if not isinstance(name, str) or name in columns:
         raise ValueError('%s has the choice %s, a name must be a text that is no other column of '
@@ -122,8 +131,7 @@ def checkChoice(name, value, argument='vary', columns=COLUMNS):
 def _grid(vary):
     """List of settings (dicts), each once, all values checked."""
     grids = [vary] if isinstance(vary, dict) else vary
-    if not isinstance(grids, (list, tuple)) or not grids \
-            or not all(isinstance(grid, dict) for grid in grids):
+    if not isinstance(grids, (list, tuple)) or not grids or not all(isinstance(grid, dict) for grid in grids):
         refuse('vary', vary, 'a dict {name: [values]} or a list of those')
     settings = []
     for grid in grids:
@@ -178,14 +186,12 @@ def _reference(reference):
         except (TypeError, ValueError, OverflowError):
             numbersRead = numpy.array([math.nan])
     if numbersRead.size == 0 or numbersRead.ndim > 1 or not numpy.isfinite(numbersRead).all():
-        refuse('reference', reference,
-               "finite numbers, a file of them, 'finest' or a dict of choices")
+        refuse('reference', reference, "finite numbers, a file of them, 'finest' or a dict of choices")
     return numbersRead
 
 
 def _runAll(rows, settings, job, repeats, executor, finished):
-    """Runs all rows. The settings alternate, so that a slow minute of the machine affects all of
-    them."""
+    """Runs all rows. The settings alternate, so that a slow minute of the machine affects all of them."""
     import tqdm  # only if something runs
     bar = tqdm.tqdm(total=repeats * len(rows), unit='run', disable=None)
     try:

@@ -1,13 +1,23 @@
 """The picture of a TradeoffTable."""
 
+from __future__ import annotations
+
 import textwrap
+from typing import TYPE_CHECKING, Any
 
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, NullFormatter
 from matplotlib.transforms import Bbox
 
+from yadefrag.hints import File
+
 from yadefrag.io.files import savePicture
 from yadefrag.plots.axes import newAxes, requireAxes
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from yadefrag.studies.tradeoff_table import TradeoffTable
 
 _FRONT, _OTHER = '#d1495b', '#3d8fb5'
 # Possible positions of a point's text: offset in points, alignment.
@@ -17,10 +27,11 @@ _SIDES = [(6, 0, 'left', 'center'), (0, 6, 'center', 'bottom'), (0, -6, 'center'
           (0, -16, 'center', 'top')]
 
 
-def plot(table, file, ax, time, label, names):
+def plot(table: TradeoffTable, file: File | None, ax: Axes | None, time: str, label: str | None,
+         names: bool) -> Axes:
     """See TradeoffTable.plot."""
     front = table.front(time)
-    shown = [row for row in table.rows if row.error is not None and not table.isReference(row)]
+    shown: list[Any] = [row for row in table.rows if row.error is not None and not table.isReference(row)]
     if not shown:
         raise ValueError('no row of the table has an error to show.')
     if ax is not None:
@@ -54,8 +65,7 @@ def plot(table, file, ax, time, label, names):
         _marks(ax, [(at[id(row)], str(table.rows.index(row) + 1), row in front) for row in shown],
                isNeeded=True)
     else:
-        _marks(ax, [(at[id(row)], table.label(row), row in front) for row in shown],
-               isNeeded=False)
+        _marks(ax, [(at[id(row)], table.label(row), row in front) for row in shown], isNeeded=False)
     if file is not None:
         savePicture(ax.figure, file, dpi=110)
     return ax

@@ -1,14 +1,22 @@
 """The table that tradeoff() returns: rows, Pareto front, CSV, Markdown, plot."""
 
+from __future__ import annotations
+
 import csv
 import dataclasses
 import io
 import json
 import statistics
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
 
 from yadefrag.arguments import path, real, refuse, shownPath, text
+from yadefrag.hints import File
 from yadefrag.io.files import writeText
 from yadefrag.studies.grouping import SEED, grouped
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 _FORMER = ('result', 'wall', 'cpu', 'error', 'value', 'steps', 'walls', 'cpus', 'message')  # of version 0.1
 COLUMNS = (*_FORMER, 'seconds', 'warnings')
@@ -34,19 +42,19 @@ class TradeoffRow:
 
     settings: dict
     result: str = 'not run'
-    wall: float = None
-    cpu: float = None
-    error: float = None
-    value: object = None
-    steps: int = None
+    wall: float | None = None
+    cpu: float | None = None
+    error: float | None = None
+    value: Any = None
+    steps: int | None = None
     walls: list = dataclasses.field(default_factory=list)
     cpus: list = dataclasses.field(default_factory=list)
     message: str = ''
-    seconds: float = None
+    seconds: float | None = None
     warnings: list = dataclasses.field(default_factory=list)
 
 
-def describe(settings):
+def describe(settings: dict[str, Any]) -> str:
     """'passes=2, size=0.001'; 'as the scene is' for no choices."""
     return ', '.join('%s=%s' % (n, _text(v)) for n, v in settings.items()) or 'as the scene is'
 
@@ -62,7 +70,7 @@ class TradeoffTable:
     `read` reads a file written by `csv`; the reference's row is not marked there.
     """
 
-    def __init__(self, rows, title='', by=()):
+    def __init__(self, rows: Iterable[TradeoffRow], title: str = '', by: str | Sequence[str] = ()) -> None:
         try:
             self.rows = list(rows)
         except TypeError:
@@ -72,18 +80,18 @@ class TradeoffTable:
         self.title, self.by, self.references = text('title', title), namesOfCases(by), []
 
     @property
-    def reference(self):
+    def reference(self) -> TradeoffRow | None:
         return self.references[0] if self.references else None
 
     @reference.setter
-    def reference(self, row):
+    def reference(self, row: TradeoffRow | None) -> None:
         self.references = [] if row is None else [row]
 
-    def cases(self):
+    def cases(self) -> list[tuple[dict[str, Any], list[TradeoffRow]]]:
         """[(dict of settings, rows)]: the rows of one problem each, by `by` and the seed."""
         return grouped(self.rows, [*self.by, SEED])
 
-    def means(self):
+    def means(self) -> TradeoffTable:
         """A table with one row for the rows that differ in the seed only: medians of times, the mean of the
         errors, and in `message` their number; self without seeds."""
         names = [name for name in self.names() if name != SEED]
@@ -91,7 +99,7 @@ class TradeoffTable:
             return self
         rows = []
         for settings, group in grouped(self.rows, names):
-            good = [row for row in group if row.error is not None]
+            good: list[Any] = [row for row in group if row.error is not None]
             mean = TradeoffRow(settings, 'ok' if good else group[0].result, message='%d of %d seeds' %
                                (len(good), len(group)))
             for name in ('wall', 'cpu', 'steps', 'seconds') if good else ():
@@ -103,11 +111,11 @@ class TradeoffTable:
             rows.append(mean)
         return TradeoffTable(rows, self.title, self.by)
 
-    def names(self):
+    def names(self) -> list[str]:
         """Names of all choices, in the order in which they first occur."""
         return list(dict.fromkeys(name for row in self.rows for name in row.settings))
 
-    def label(self, row):
+    def label(self, row: TradeoffRow) -> str:
         """Difference of a row from the first: 'passes=2'; 'row 1' for that one."""
         _requireRow(row)
         if not self.rows:
@@ -117,7 +125,7 @@ class TradeoffTable:
                  if _encode(value) != _encode(first.get(name))}
         return describe(other) if other else 'row 1'
 
-    def front(self, time='wall'):
+    def front(self, time: str = 'wall') -> list[TradeoffRow]:
         """The Pareto front: rows for which no other row of the same problem is at least as fast and as
         accurate and better in one of both.
 
@@ -139,18 +147,17 @@ class TradeoffTable:
                 least = row.error
         return best
 
-    def isReference(self, row):
+    def isReference(self, row: TradeoffRow) -> bool:
         return any(row is one for one in self.references)
 
-    def ratio(self, row, time='wall'):
+    def ratio(self, row: TradeoffRow, time: str = 'wall') -> float | None:
         """Time over that of the first row, the median of adjacent runs; None without."""
         _requireRow(row)
         _requireTime(time)
-        pairs = [(a, b) for a, b in zip(getattr(row, time + 's'),
-                                        getattr(self.rows[0], time + 's')) if b > 0]
+        pairs = [(a, b) for a, b in zip(getattr(row, time + 's'), getattr(self.rows[0], time + 's')) if b > 0]
         return statistics.median(a / b for a, b in pairs) if pairs else None
 
-    def csv(self, file):
+    def csv(self, file: File) -> None:
         """Writes all rows: the choices, then COLUMNS; values as JSON, an empty cell for None."""
         names = self.names()
         lines = [[row.settings.get(name) for name in names] + [getattr(row, c) for c in COLUMNS]
@@ -158,7 +165,7 @@ class TradeoffTable:
         writeText(path('file', file), tableText(names + list(COLUMNS), lines))
 
     @classmethod
-    def read(cls, file, title=''):
+    def read(cls, file: File, title: str = '') -> TradeoffTable:
         """The table from a file written by `csv`. ValueError if a column is missing, or for a value
         that `csv` cannot have written."""
         name = path('file', file)
@@ -170,19 +177,18 @@ class TradeoffTable:
         head = lines[0] if lines else []
         columns = next((one for one in (COLUMNS, _FORMER) if tuple(head[-len(one):]) == one), None)
         if columns is None:
-            raise ValueError('%s does not end with the columns %s.' %
-                             (shownPath(name), ', '.join(COLUMNS)))
+            raise ValueError('%s does not end with the columns %s.' % (shownPath(name), ', '.join(COLUMNS)))
         rows = [_row(head, line, columns) for line in lines[1:]]
         if None in rows:
             raise ValueError('%s has a damaged row, the one after %d others.' %
                              (shownPath(name), rows.index(None)))
         return cls(rows, title)
 
-    def __str__(self):
+    def __str__(self) -> str:
         """As Markdown."""
         return self.markdown() if self.rows else 'no rows'
 
-    def markdown(self, file=None, time='wall'):
+    def markdown(self, file: File | None = None, time: str = 'wall') -> str:
         """The table as Markdown text, rows of the front in bold; written to `file` if it is given.
 
         Times are also shown relative to the first row (ratio), settings by `label`.
@@ -196,6 +202,7 @@ class TradeoffTable:
                 'Times are those of the steps: of a run, and per simulated second.\n',
                 '| # | setting | run, s | wall, s/s | cpu, s/s | %s × | steps | error |' % time,
                 '|--:|---|--:|--:|--:|--:|--:|--:|']
+        row: Any
         for number, row in enumerate(self.rows, 1):
             bold = '**' if row in front else ''
             cells = [str(number), bold + self.label(row) + bold]
@@ -221,12 +228,14 @@ class TradeoffTable:
         if means is self:
             return ''
         lines = ['', 'Means over the seeds:', '', '| setting | seeds | wall, s/s | error |', '|---|--:|--:|--:|']
+        row: Any
         for row in means.rows:
             numbers = ['', ''] if row.error is None else ['%.4g' % row.wall, '%.3g' % row.error]
             lines.append('| %s |' % ' | '.join([describe(row.settings), row.message, *numbers]).replace('\n', ' '))
         return '\n'.join(lines) + '\n'
 
-    def plot(self, file=None, ax=None, time='wall', names=True):
+    def plot(self, file: File | None = None, ax: Axes | None = None, time: str = 'wall',
+             names: bool = True) -> Axes:
         """Draws error over time, with the Pareto front as a line; returns Matplotlib's axes.
 
         Points have the numbers of the Markdown table, explained at the side; without `names` at the
@@ -236,7 +245,7 @@ class TradeoffTable:
         from yadefrag.studies import tradeoff_plot  # Matplotlib only if it is needed
         return tradeoff_plot.plot(self, file, ax, time, _TIMES.get(str(time)), names)
 
-    def write(self, files, time='wall'):
+    def write(self, files: File, time: str = 'wall') -> None:
         """files.csv, files.md and, if there is something to show, files.png."""
         table, readable, picture = self.namesOfFiles(files)
         self.csv(table)
@@ -245,12 +254,12 @@ class TradeoffTable:
             self.plot(picture, time=time)
 
     @staticmethod
-    def namesOfFiles(files):
+    def namesOfFiles(files: File) -> list[str]:
         """Names of the files that `write` writes."""
         return [path('files', files) + ending for ending in ('.csv', '.md', '.png')]
 
 
-def namesOfCases(by):
+def namesOfCases(by: str | Sequence[str]) -> tuple[str, ...]:
     """A tuple of names from one or several."""
     names = (by,) if isinstance(by, str) else by
     if not isinstance(names, (list, tuple)) or not all(isinstance(name, str) for name in names):
@@ -258,7 +267,7 @@ def namesOfCases(by):
     return tuple(names)
 
 
-def tableText(heading, lines):
+def tableText(heading: Sequence[str], lines: Iterable[Sequence]) -> str:
     """A CSV file as text: a heading, then lines of values."""
     out = io.StringIO(newline='')
     writer = csv.writer(out)

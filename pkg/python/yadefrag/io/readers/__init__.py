@@ -4,8 +4,13 @@ Each has `read(name, tolerance)`, which returns a Found, in the units of the fil
 these units, None if none was given. What is read is what the usual viewer shows.
 """
 
+from __future__ import annotations
+
 import collections
 import importlib
+from collections.abc import Iterable, Mapping
+from types import ModuleType
+from typing import NoReturn
 
 from yadefrag.arguments import shownPath
 
@@ -19,24 +24,23 @@ class Found:
              the file contains and a viewer does not show
     """
 
-    def __init__(self, lines=(), regions=()):
+    def __init__(self, lines: Iterable = (), regions: Iterable = ()) -> None:
         self.lines, self.regions = list(lines), list(regions)
         self.leftOut = collections.Counter()
 
-    def add(self, other):
+    def add(self, other: Found) -> None:
         self.lines += other.lines
         self.regions += other.regions
         self.leftOut += other.leftOut
 
 
-def leftOutWords(leftOut):
+def leftOutWords(leftOut: Mapping[str, int]) -> str:
     """'texts (3), masks (1)'."""
     return ', '.join('%s (%d)' % pair for pair in leftOut.items())
 
 
-def needed(module, package, file):
-    """The module of an optional library; ImportError with the name of Debian's package if it is
-    missing."""
+def needed(module: str, package: str, file: str) -> ModuleType:
+    """The module of an optional library; ImportError with the name of Debian's package if it is missing."""
     try:
         return importlib.import_module(module)
     except ImportError as error:
@@ -45,15 +49,14 @@ def needed(module, package, file):
                           (shownPath(file), module, error, package), name=module) from None
 
 
-def refuseFile(file, kind, error):
-    """ValueError: the contents of `file` do not match its ending; `error` is the library's
-    exception."""
+def refuseFile(file: str, kind: str, error: BaseException) -> NoReturn:
+    """ValueError: the contents of `file` do not match its ending; `error` is the library's exception."""
     words = ' '.join(str(error).split()).rstrip('.')[:120]
     raise ValueError('%s is not a readable %s: %s.' %
                      (shownPath(file), kind, words or type(error).__name__)) from None
 
 
-def requireTolerance(tolerance, file, what):
+def requireTolerance(tolerance: float | None, file: str, what: str) -> float:
     """`tolerance`; ValueError if it is None."""
     if tolerance is None:
         raise ValueError('tolerance is None, but %s %s: give the permitted deviation (m) of '

@@ -7,12 +7,12 @@ import os
 import re
 
 from yadefrag.io.readers.abaqus_places import Instance, Part, nodesOf, placed
-from yadefrag.io.readers.elements import counted
+from yadefrag.io.readers.elements import Elements, counted
 
 _CHANGES = ('NGEN', 'NFILL', 'NCOPY', 'NMAP', 'ELGEN', 'ELCOPY', 'SYSTEM', 'PARAMETER')
 
 
-def read(name):
+def read(name: str) -> Elements:
     """Elements; ValueError for a file that is not understood."""
     reader = _Reader()
     for keyword, options, rows in _keywords(name, 0):

@@ -1,7 +1,11 @@
 """Parts of an Abaqus file, and their instances at their places."""
 
+from __future__ import annotations
+
 import math
 import re
+from collections.abc import Iterable
+from typing import Any
 
 import numpy
 
@@ -16,32 +20,32 @@ _LINES = re.compile(r'[TB]\d|R2D2|[RMS]AX|PIPE|ELBOW|FRAME|CONN|SPRING|DASHPOT|G
 class Part:
     """Nodes, elements and sets of a part, of the assembly, or of a file without parts."""
 
-    def __init__(self, name):
+    def __init__(self, name: str) -> None:
         self.name = name
         self.nodes = {}  # {number: [x, y, z]}
         self.elements = {}  # {number: (type, numbers of nodes)}
         self.sets = {'NSET': {}, 'ELSET': {}}  # {NAME: (name, [(part or instance, number)])}
 
-    def addSet(self, kind, name, members):
+    def addSet(self, kind: str, name: str, members: Iterable[tuple[Part, int]]) -> None:
         self.sets[kind].setdefault(name.upper(), (name, []))[1].extend(members)
 
-    def all(self, what):
+    def all(self, what: str) -> dict[int, Any]:
         return getattr(self, what)
 
 
 class Instance(Part):
     """A moved copy of a part, which can have further nodes, elements and sets."""
 
-    def __init__(self, name, part):
+    def __init__(self, name: str, part: Part) -> None:
         super().__init__(name)
         self.part = part
         self.moves = []  # up to two rows: a translation; two points of an axis and an angle (degrees)
 
-    def all(self, what):
+    def all(self, what: str) -> dict[int, Any]:
         return {**getattr(self.part, what), **getattr(self, what)}
 
 
-def nodesOf(type):
+def nodesOf(type: str) -> int:
     """Number of nodes of a plane element; 0 for other types."""
     if type.startswith('STRI65'):
         return 6
@@ -49,7 +53,7 @@ def nodesOf(type):
     return int(found[1]) if found else 0
 
 
-def placed(instances, assembly, leftOut):
+def placed(instances: list[Instance], assembly: Part | None, leftOut: list[str]) -> Elements:
     """Elements of all instances; `assembly` is a Part with its sets, or None."""
     points, labels, corners, types = [], [], [], {}
     places = {'NSET': {}, 'ELSET': {}}  # {(instance, number in the file): number from 0}

@@ -16,7 +16,7 @@ _PACKAGE = 'python3-meshio'
 _LONGEST = 30, 3e-5  # s, and s for each byte: some of meshio's readers never end for an incomplete file
 
 
-def read(name):
+def read(name: str) -> Elements:
     """Elements; ImportError without the library, ValueError for a file that it cannot read."""
     meshio = needed('meshio', _PACKAGE, name)
     told = io.StringIO()
@@ -46,7 +46,7 @@ def read(name):
 
 def _inTime(function, seconds):
     """What `function()` returns or raises; TimeoutError if it takes longer, and then it is ended."""
-    result = []
+    result: list = []
 
     def work():
         try:
@@ -60,7 +60,7 @@ def _inTime(function, seconds):
         thread.join(seconds)
     finally:
         if thread.is_alive():
-            ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident), ctypes.py_object(SystemExit))
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident or 0), ctypes.py_object(SystemExit))
     if not result:
         raise TimeoutError('reading did not end within %.0f s, the file may be incomplete' % seconds)
     found, error = result[0]

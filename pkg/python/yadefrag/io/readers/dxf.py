@@ -6,6 +6,7 @@ Those of the model space that are shown, also from blocks, seen from above: z is
 import collections
 import importlib
 import math
+from collections.abc import Collection
 
 import numpy
 
@@ -18,7 +19,7 @@ _FRAME_POINT = 16  # flag of a polyline's vertex that only controls a spline
 _NAMELESS = '0'  # in a block: the layer of the block's insert
 
 
-def readLayers(name, tolerance, chosen):
+def readLayers(name: str, tolerance: float | None, chosen: Collection[str]) -> dict[str, Found]:
     """{layer: Found}, in the order of the file. `chosen` are names, in lower case, of layers that are
     read even if they are off or frozen."""
     ezdxf = needed('ezdxf', _PACKAGE, name)
@@ -169,8 +170,7 @@ def _arc(entity, tolerance, name):
     radius = abs(entity.dxf.radius)
     if radius == 0:
         return []
-    start, end = (0, 360) if entity.dxftype() == 'CIRCLE' else (entity.dxf.start_angle,
-                                                                entity.dxf.end_angle)
+    start, end = (0, 360) if entity.dxftype() == 'CIRCLE' else (entity.dxf.start_angle, entity.dxf.end_angle)
     sweep = math.radians((end - start) % 360 or 360)
     pieces = flatten.count(radius * sweep**2, tolerance, math.ceil(sweep / (math.pi / 4)))
     angles = [start + math.degrees(sweep) * k / pieces for k in range(pieces + 1)]

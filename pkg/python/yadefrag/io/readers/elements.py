@@ -34,17 +34,17 @@ class Elements:
     leftOut: list = dataclasses.field(default_factory=list)
 
 
-def cornersOf(kind):
+def cornersOf(kind: str) -> int:
     """Number of corners, which are the first nodes of an element; 0 if it is not plane."""
     return _CORNERS.get(_LAGRANGE.get(kind) or re.sub(r'\d+$', '', kind), 0)
 
 
-def orderOf(kind):
+def orderOf(kind: str) -> int:
     """Degree of the sides; 1 for those that are straight, and for kinds that are not known."""
     found = re.fullmatch(r'(triangle|quad)(\d+)', kind)
     return _ORDERS[found[1]].get(int(found[2]), 1) if found else 1
 
 
-def counted(number, word):
+def counted(number: int, word: str) -> str:
     """'1 line', '2 lines'."""
     return '%d %s%s' % (number, word, '' if number == 1 else 's')

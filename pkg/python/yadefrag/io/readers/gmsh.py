@@ -1,6 +1,8 @@
 """Meshes of gmsh (.msh), versions 2 and 4, text or binary: with the numbers of elements, elements in
 several groups, and groups of one name and several dimensions."""
 
+from __future__ import annotations
+
 import re
 
 import numpy
@@ -37,8 +39,7 @@ class _Numbers:
             self._place += count
         else:
             size = count * int(kind[1])
-            found = numpy.frombuffer(self._data[self._place:self._place + size],
-                                     self._order + kind)
+            found = numpy.frombuffer(self._data[self._place:self._place + size], self._order + kind)
             self._place += size
         if count < 0 or len(found) != count:
             raise ValueError('a section ends too early')
@@ -57,7 +58,7 @@ class _Numbers:
         return [found[str(i)] for i in range(len(kinds))]
 
 
-def read(name):
+def read(name: str) -> Elements:
     """Elements; a file of another format with this ending is left to meshio."""
     with open(name, 'rb') as file:
         data = file.read().removeprefix(b'\xef\xbb\xbf')
@@ -112,7 +113,7 @@ def _kind(type, label):
     if type not in _KINDS:
         raise ValueError("element %d has gmsh's type %d, which is unknown" % (label, type))
     kind = _KINDS[type]
-    return kind, int(re.search(r'\d+$', kind)[0])
+    return kind, int(re.sub(r'^\D+', '', kind))
 
 
 # --- version 2: each element has its tags, the first one is its group
@@ -177,7 +178,7 @@ def _entities4(section, order, isOld):
             tag = int(numbers.take('i4', 1)[0])
             numbers.take('f8', 3 if dimension == 0 and not isOld else 6)  # its box
             own = numbers.take('i4', numbers.take('u8', 1)[0])
-            groups[dimension, tag] = sorted(set(map(abs, own.tolist())))
+            groups[dimension, tag] = sorted({abs(group) for group in own.tolist()})
             if dimension > 0:
                 numbers.take('i4', numbers.take('u8', 1)[0])  # its boundary
     return groups

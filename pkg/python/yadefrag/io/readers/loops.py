@@ -1,13 +1,14 @@
 """Joins lines to loops; lines that are drawn twice."""
 
 import math
+from collections.abc import Sequence
 
 import numpy
 
 from yadefrag.arguments import shown
 
 
-def withoutCopies(shapes, gap):
+def withoutCopies(shapes: Sequence[list[numpy.ndarray]], gap: float) -> tuple[list[list[numpy.ndarray]], int]:
     """(shapes, number of omitted ones): without those that repeat another one's lines, in any
     direction. A shape is a list of lines (n, 2)."""
     lines = [line for shape in shapes for line in shape]
@@ -19,7 +20,7 @@ def withoutCopies(shapes, gap):
         candidates.setdefault(tuple(sorted(next(boxes) for _ in shape)), []).append(i)
     kept = []
     for those in candidates.values():
-        found = {} if len(those) > 1 else {None: those[0]}
+        found: dict = {} if len(those) > 1 else {None: those[0]}
         for i in those if not found else ():
             found.setdefault(tuple(sorted(_segments(line, gap) for line in shapes[i])), i)
         kept += found.values()
@@ -39,7 +40,7 @@ def _segments(line, gap):
     return pairs[numpy.lexsort(pairs.T)].tobytes()
 
 
-def joined(lines, gap):
+def joined(lines: Sequence[numpy.ndarray], gap: float) -> list[numpy.ndarray]:
     """[(n, 2)] closed loops, without the first point repeated at the end, from lines whose ends
     meet.
 
@@ -60,7 +61,7 @@ def joined(lines, gap):
     return [line[:-1] for line in loops]
 
 
-def withoutDoubles(line, gap):
+def withoutDoubles(line: numpy.ndarray, gap: float) -> numpy.ndarray:
     """The line without points within `gap` of the previous one; its last point is kept."""
     points, kept = line.tolist(), [0]
     for i in range(1, len(points)):
@@ -100,8 +101,7 @@ def _cell(chains, end, gap):
 
 
 def _walk(chains, partner, left):
-    """One loop of the chains in `left`, which are removed from it; its first point is repeated at
-    its end."""
+    """One loop of the chains in `left`, which are removed from it; its first point is repeated at its end."""
     first = end = (min(left), 0)
     parts = []
     while True:
@@ -115,12 +115,12 @@ def _walk(chains, partner, left):
     return numpy.concatenate(parts + [parts[0][:1]])
 
 
-def area(loop):
+def area(loop: numpy.ndarray) -> float:
     """Signed area, positive for counter-clockwise loops."""
     return float(areas([loop])[0])
 
 
-def areas(loops):
+def areas(loops: Sequence[numpy.ndarray]) -> numpy.ndarray:
     """Signed areas of a list of loops (n, 2)."""
     if not loops:
         return numpy.zeros(0)
@@ -133,7 +133,7 @@ def areas(loops):
     return numpy.add.reduceat(x * nextY - y * nextX, starts) / 2
 
 
-def extents(loops):
+def extents(loops: Sequence[numpy.ndarray]) -> numpy.ndarray:
     """The longer side of the box around each of a list of loops."""
     if not loops:
         return numpy.zeros(0)
@@ -146,6 +146,6 @@ def _boxes(lines):
     return numpy.minimum.reduceat(points, starts), numpy.maximum.reduceat(points, starts)
 
 
-def closed(loop):
+def closed(loop: numpy.ndarray) -> numpy.ndarray:
     """The loop as a line that ends where it begins."""
     return numpy.concatenate([loop, loop[:1]])

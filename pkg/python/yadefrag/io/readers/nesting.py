@@ -8,10 +8,11 @@ import numpy
 from yadefrag.arguments import shownPath
 from yadefrag.io.readers.loops import areas
 
+Region = tuple[numpy.ndarray, list[numpy.ndarray]]
 _CHUNK = 2 * 10**6  # pairs of an edge and a place per block
 
 
-def nested(regions, file):
+def nested(regions: list[Region], file: str) -> list[Region]:
     """[(outline, [holes])], all counter-clockwise, in the order of the regions whose outlines are
     outlines.
 
@@ -49,7 +50,7 @@ def _parts(outline, holes, isSplit):
     return [(loop, []) for loop in (outline, *holes)] if isSplit else [(outline, holes)]
 
 
-def around(regions):
+def around(regions: list[Region]) -> list[list[int]]:
     """For each region, whose loops are counter-clockwise, the numbers of those that contain it."""
     loops, owners, isHole = [], [], []
     for i, (outline, holes) in enumerate(regions):

@@ -11,7 +11,7 @@ _TIFF_BITS, _TIFF_GREY = 258, 262  # tags: bits of a value; 0: the value 0 is wh
 ENDINGS = ('.png', '.jpg', '.jpeg', '.bmp', '.tif', '.tiff')
 
 
-def read(name, tolerance):
+def read(name: str, tolerance: float | None) -> Found:
     """Contours of the areas darker than middle grey; transparent areas count as white."""
     requireTolerance(tolerance, name, 'is a picture')
     image = needed('PIL.Image', 'python3-pil', name)

@@ -20,7 +20,7 @@ def _contents(name):
     return data.decode('utf-16' if data[:2] in (b'\xff\xfe', b'\xfe\xff') else 'utf-8-sig', errors='replace')
 
 
-def readCsv(name, tolerance):
+def readCsv(name: str, tolerance: float | None) -> Found:
     """`x, y` on each line, an empty line between two loops, # before a comment, one heading without
     numbers. Numbers may be quoted; those with a decimal comma are separated by semicolons."""
     rows = _contents(name).splitlines()
@@ -55,7 +55,7 @@ def _number(cell):
         return None
 
 
-def readGeoJson(name, tolerance):
+def readGeoJson(name: str, tolerance: float | None) -> Found:
     """One GeoJSON text, or one on each line."""
     geometry = needed('shapely.geometry', _PACKAGE, name)
     found = Found()
@@ -95,7 +95,7 @@ def _geometries(data, leftOut):
     return [data]
 
 
-def readWkt(name, tolerance):
+def readWkt(name: str, tolerance: float | None) -> Found:
     """Geometries one after another, e.g. one on each line."""
     wkt = needed('shapely.wkt', _PACKAGE, name)
     found = Found()

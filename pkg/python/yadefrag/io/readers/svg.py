@@ -27,7 +27,7 @@ _UNIT = re.compile(r'[-+]?[\d.]+(?:[eE][-+]?\d+)?([a-zA-Z]+|%)?$')
 _UNITS = {None, '', '%', 'px', 'pt', 'pc', 'mm', 'cm', 'in', 'em', 'Q'}
 
 
-def read(name, tolerance):
+def read(name: str, tolerance: float | None) -> Found:
     svg = needed('svgelements', _PACKAGE, name)
     found = Found()
     try:
@@ -171,8 +171,7 @@ class _Walk:
             edge = self.svg.Path(self.svg.Rect(0, 0, width, height))
             clips += (Clip((Item(edge, matrix, True, False, 'nonzero'),)),)
         if box:
-            (across, right), (down, low) = _ratios(box, width, height,
-                                                   element.get('preserveAspectRatio', ''))
+            (across, right), (down, low) = _ratios(box, width, height, element.get('preserveAspectRatio', ''))
             matrix = matrix @ _shift(right, low) @ numpy.diag([across, down, 1]) @ _shift(-box[0], -box[1])
             width, height = box[2:]
         place = dataclasses.replace(place, matrix=matrix, view=(width, height), clips=clips)
@@ -255,8 +254,7 @@ class _Walk:
             return self.svg.Path(self.svg.Rect(length('x'), length('y'), width, height, *radii)) \
                 if width > 0 and height > 0 else None
         radii = [length('r')] * 2 if tag == 'circle' else radii
-        return self.svg.Path(self.svg.Ellipse(length('cx'), length('cy'), *radii)) \
-            if min(radii) > 0 else None
+        return self.svg.Path(self.svg.Ellipse(length('cx'), length('cy'), *radii)) if min(radii) > 0 else None
 
     def _parsed(self, text):
         """The path up to its first error, as viewers draw it."""

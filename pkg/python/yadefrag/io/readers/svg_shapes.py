@@ -1,6 +1,7 @@
 """Lines and regions of SVG shapes: curves flattened, filled by their rule, clipped."""
 
 import dataclasses
+from collections.abc import Iterable, Sequence
 
 import numpy
 
@@ -28,7 +29,8 @@ class Clip:
     items: tuple
 
 
-def appended(found, items, page, tolerance, name):
+def appended(found: Found, items: Iterable[Item], page: Sequence[float] | None, tolerance: float | None,
+             name: str) -> None:
     """Adds the items to a Found, with y upwards. `page` is (left, top, right, bottom) or None."""
     isAnythingSeen = False
     for item in items:
@@ -162,7 +164,8 @@ def _loops(polygon):
 
 def _subpaths(path, tolerance, name):
     """[(n, 2)] before the shape's transform."""
-    found, isOpen = [], False
+    found: list[list] = []
+    isOpen = False
     for segment in path:
         end = None if segment.end is None else numpy.array([[segment.end.x, segment.end.y]], dtype=float)
         kind = type(segment).__name__
@@ -184,6 +187,7 @@ def _isFlat(segment):
 
 def _curve(segment, tolerance):
     kind = type(segment).__name__
+    controls: tuple
     if kind == 'QuadraticBezier':
         controls = (segment.start, segment.control, segment.end)
     elif kind == 'CubicBezier':

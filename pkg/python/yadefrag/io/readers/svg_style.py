@@ -1,6 +1,9 @@
 """Style of SVG elements: attributes, style sheets, inheritance; which paint can be seen."""
 
 import re
+from collections import Counter
+from collections.abc import Mapping
+from xml.etree.ElementTree import Element
 
 INITIAL = {'fill': 'black', 'stroke': 'none', 'fill-rule': 'nonzero', 'clip-rule': 'nonzero',
            'visibility': 'visible', 'fill-opacity': '1', 'stroke-opacity': '1', 'stroke-width': '1',
@@ -24,7 +27,7 @@ _MATCHES = {None: lambda has, value: True, '=': lambda has, value: has == value,
             '*=': lambda has, value: bool(value) and value in has}
 
 
-def tagOf(element):
+def tagOf(element: Element) -> str:
     """The name without SVG's namespace; '' for comments and elements of other namespaces."""
     if not isinstance(element.tag, str):
         return ''
@@ -32,7 +35,7 @@ def tagOf(element):
     return tag if space in ('', '{http://www.w3.org/2000/svg') else ''
 
 
-def declarations(text):
+def declarations(text: str) -> list[tuple[str, str, bool]]:
     """[(property, value, is important)]."""
     found = []
     for one in re.sub(r'/\*.*?\*/', '', text, flags=re.DOTALL).split(';'):
@@ -46,7 +49,7 @@ def declarations(text):
 class Sheets:
     """The style sheets of a document."""
 
-    def __init__(self, root, leftOut):
+    def __init__(self, root: Element, leftOut: Counter[str]) -> None:
         self.parents = {child: parent for parent in root.iter() for child in parent}
         self._rules, self._leftOut = [], leftOut
         for element in root.iter():
@@ -72,7 +75,7 @@ class Sheets:
                 else:
                     self._rules.append((_specificity(steps), steps, declarations(block)))
 
-    def own(self, element):
+    def own(self, element: Element) -> dict[str, str]:
         """{property: value} of the element itself."""
         cascade = [(key, value, 0) for key, value in element.attrib.items()]
         cascade += [(key, value, 2 * isImportant + 1) for _, steps, block in self._rules
@@ -88,7 +91,7 @@ class Sheets:
                     found[one] = value
         return found
 
-    def computed(self, element, parent):
+    def computed(self, element: Element, parent: Mapping[str, str]) -> dict[str, str]:
         """{property: value} with what the element inherits from `parent`, a dict like it."""
         style = {**_OWN, **{key: parent[key] for key in INITIAL}}
         for key, value in self.own(element).items():
@@ -97,7 +100,7 @@ class Sheets:
             style[key] = re.sub(r'\bcurrentcolor$', style['color'], style[key], flags=re.IGNORECASE)
         return style
 
-    def around(self, element):
+    def around(self, element: Element) -> dict[str, str]:
         """What the element inherits from its own parents."""
         parent = self.parents.get(element)
         return INITIAL if parent is None else self.computed(parent, self.around(parent))
@@ -165,18 +168,18 @@ def _specificity(steps):
     return ids, sum(not part['type'] and not part['id'] for part in parts), types
 
 
-def urlOf(value):
+def urlOf(value: str) -> str | None:
     """The id in url(#id), or None."""
     found = re.match(r'url\(\s*["\']?#([^"\')]+)["\']?\s*\)', value)
-    return found and found[1].strip()
+    return found[1].strip() if found else None
 
 
-def isPaint(value):
+def isPaint(value: str) -> bool:
     return value.lower() in ('none', 'transparent', 'currentcolor', 'context-fill', 'context-stroke') \
         or value.startswith('url(') or colour(value) is not None
 
 
-def colour(value):
+def colour(value: str) -> int | None:
     """0xrrggbbaa, or None if it is no colour."""
     from svgelements import Color
     value = value.strip().lower().partition(' icc-color')[0]
@@ -188,7 +191,7 @@ def colour(value):
     return None if found is None or found == 255 and not black else found & 0xffffffff
 
 
-def isSeen(paint, opacity, ids):
+def isSeen(paint: str, opacity: str, ids: Mapping[str | None, Element]) -> bool:
     """True if a paint of that opacity leaves a trace."""
     if fraction(opacity) <= 0:
         return False
@@ -202,7 +205,7 @@ def isSeen(paint, opacity, ids):
     return found is not None and found & 0xff > 0
 
 
-def isPattern(paint, ids):
+def isPattern(paint: str, ids: Mapping[str | None, Element]) -> bool:
     server = ids.get(urlOf(paint))
     return server is not None and tagOf(server) == 'pattern'
 
@@ -218,15 +221,15 @@ def _hasStops(gradient, ids):
     return False
 
 
-def hrefOf(element):
-    return next((element.get(key) for key in _HREFS if key in element.attrib), '').strip()
+def hrefOf(element: Element) -> str:
+    return next((element.attrib[key] for key in _HREFS if key in element.attrib), '').strip()
 
 
-def isWhite(paint):
+def isWhite(paint: str) -> bool:
     return colour(paint) == _WHITE
 
 
-def fraction(text):
+def fraction(text: str) -> float:
     """An opacity: a number or a percentage; 1 for anything else."""
     try:
         return float(text[:-1]) / 100 if text.endswith('%') else float(text)

@@ -1,0 +1,5 @@
+# Made by the build.
+YADEFRAG: str
+VERSION: str
+SYSTEM: str
+ACCEPTED: dict[str, str]
