@@ -79,14 +79,15 @@ for _name in __all__:
     setattr(builtins, _name, globals()[_name])
     attributes.install(globals()[_name])
 
-__all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMesh',
-            'outlineReport', 'snapOutlines', 'voronoi', 'grainJoints', 'Mesh', 'polygonMesh', 'rectangleMesh', 'plotMesh', 'animate',
-            'exportVTK', 'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture',
-            'plotFracture', 'crackTable', 'engines', 'FERecorder', 'tradeoff', 'TradeoffTable',
-            'ensemble', 'EnsembleTable', 'inCurveOrder', 'about']
+__all__ += ['rectangle', 'circle', 'ring', 'readPolygon', 'readOutline', 'readMesh', 'outlineReport', 'snapOutlines',
+            'voronoi', 'grainJoints', 'Mesh', 'polygonMesh', 'rectangleMesh', 'plotMesh', 'animate', 'exportVTK',
+            'runSteps', 'fragmentTable', 'plotFragmentSizes', 'recordFracture', 'plotFracture', 'crackTable',
+            'engines', 'FERecorder', 'tradeoff', 'TradeoffTable', 'ensemble', 'EnsembleTable', 'inCurveOrder',
+            'about']
 for _name in __all__:
     if type(globals()[_name]) is type(inWords):
+        _function = inWords(globals()[_name])
         for _part in (sys.modules[__name__], io, plots, studies):
             if hasattr(_part, _name):
-                setattr(_part, _name, inWords(getattr(_part, _name)))
+                setattr(_part, _name, _function)
 __version__ = support.YADEFRAG

@@ -7,8 +7,9 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from yade.wrapper import FEMat, FESolver
+from yadefrag._yadefrag import Mesh
 
-__all__ = ['ArrayLike', 'ByPlace', 'FEMat', 'FESolver', 'File', 'Loop', 'Nodes', 'Shape']
+__all__ = ['ArrayLike', 'ByPlace', 'FEMat', 'FESolver', 'File', 'Loop', 'Mesh', 'Nodes', 'Shape']
 
 File = str | os.PathLike[str]
 Loop = list[tuple[float, float]]  # points (x, y) in m

@@ -146,3 +146,11 @@ def test_aRefusedStepIsToldOnce(folder):
     lines = [line for line in foreground.splitlines() if 'time step' in line]
     assert len(lines) == 3 and all(line.startswith('caught') for line in lines), done.stdout
     assert 'ERROR' not in foreground.replace('<', '').split('caught')[0] and done.stdout.count('FATAL') == 1
+
+
+def test_aWarningOfAFileIsAtTheLineOfTheScript(tmp_path):
+    square = '0, 0\n1, 0\n1, 1\n0, 1\n'
+    (tmp_path / 'twice.csv').write_text(square + '\n' + square)
+    with pytest.warns(UserWarning, match='second copies of a line') as caught:
+        assert len(yadefrag.readOutline(tmp_path / 'twice.csv')) == 1
+    assert caught[0].filename == __file__

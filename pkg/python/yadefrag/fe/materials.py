@@ -1,12 +1,14 @@
 """Materials of a body's triangles: one, or several by place, and the interfaces between them."""
 
 import math
+from typing import Any
 
 import numpy
 
 from yade import wrapper
 from yadefrag.arguments import array, isWhole, number, plain, positive, real, refuse, requireTakes, shown
 from yadefrag.fe.mesh_values import centroids
+from yadefrag.hints import FEMat, Mesh
 
 _RIGHT = 'an FEMat, its label or its number in O.materials'
 _SEVERAL = _RIGHT + ('; or a function (x, y) that returns one, a list of one for each triangle, or '
@@ -15,7 +17,7 @@ _SEVERAL = _RIGHT + ('; or a function (x, y) that returns one, a list of one for
 _INTERFACE = {'interfaceStrength': 'Pa', 'interfaceEnergy': 'J/m²'}
 
 
-def oneMaterial(material, name='material', right=_RIGHT):
+def oneMaterial(material: Any, name: str = 'material', right: str = _RIGHT) -> FEMat:
     """The FEMat that `material` refers to: the object, its label or its number in O.materials."""
     found = plain(material)
     if isinstance(found, str) or isWhole(found):
@@ -35,7 +37,7 @@ def oneMaterial(material, name='material', right=_RIGHT):
     return found
 
 
-def isField(material):
+def isField(material: object) -> bool:
     """True if it is given by place: a function, or a list."""
     if isinstance(material, type) or isinstance(material, (str, bytes, dict, set)):
         return False
@@ -47,7 +49,7 @@ class Materials:
     """Materials of a body: `of`, the FEMats in the order of their first triangles, and `numbers`,
     (m) the index of each triangle's material in it; empty for a body of one material."""
 
-    def __init__(self, mesh, material):
+    def __init__(self, mesh: Mesh, material: Any) -> None:
         self.of, self._places = [], {}
         self.numbers = numpy.empty(0, dtype=numpy.uint32)
         if not isField(material):
@@ -58,11 +60,11 @@ class Materials:
             self.numbers = numbers
 
     @property
-    def crack(self):
+    def crack(self) -> bool:
         """True if any of them can crack."""
         return any(isinstance(one, wrapper.BrittleFEMat) for one in self.of)
 
-    def find(self, material, name):
+    def find(self, material: Any, name: str) -> int | None:
         """Its number; None if no triangle has it."""
         return self._places.get(_key(oneMaterial(material, name)))
 
@@ -101,7 +103,7 @@ def _key(material):
     return ('number', material.id) if material.id >= 0 else ('object', id(material))
 
 
-def sidesBetween(triangles, numbers):
+def sidesBetween(triangles: numpy.ndarray, numbers: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray]:
     """(k, 2) nodes of the sides between triangles with different numbers, and (k, 2) these
     numbers."""
     sides = numpy.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)])
@@ -141,7 +143,8 @@ def _values(name, value, mesh, sides, both, materials):
     return result
 
 
-def interfaces(mesh, materials, strength, energy):
+def interfaces(mesh: Mesh, materials: Materials, strength: Any,
+               energy: Any) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray]:
     """(k, 2) nodes of the sides with an individual strength (Pa) or energy (J/m²), and (k) of both,
     NaN where the materials determine the value: addPolygon's interfaceStrength and -Energy."""
     nothing = numpy.empty((0, 2), dtype=numpy.uint32), numpy.empty(0), numpy.empty(0)

@@ -1,14 +1,19 @@
 """Mesh: the mesh of a body that is not added yet, held in C++; the forms in which a script may give one."""
 
+from __future__ import annotations
+
+from typing import Any
+
 import numpy
 
 from yadefrag import _yadefrag
+from yadefrag._yadefrag import Mesh
 from yadefrag.arguments import array, flag, pair, pointsOf, refuse, shown, whole
 from yadefrag.calls import inWords
+from yadefrag.hints import ArrayLike
 from yadefrag.io.mesh_checks import requireApart
 from yadefrag.io.mesh_files import MeshFile
 
-Mesh = _yadefrag.Mesh
 _fill = Mesh.__init__  # from checked arrays
 
 
@@ -29,9 +34,10 @@ def _init(self, nodes, triangles):
 def _withoutHeight(nodes):
     """Points of three columns, as other programs have them, without z if it is the same for all."""
     found = array(nodes, float)
-    isFlat = found is not None and found.ndim == 2 and found.shape[1] == 3 and len(found) > 0 \
-        and (found[:, 2] == found[0, 2]).all()
-    return found[:, :2] if isFlat else nodes
+    if found is None or found.ndim != 2 or found.shape[1] != 3 or not len(found) \
+            or not (found[:, 2] == found[0, 2]).all():
+        return nodes
+    return found[:, :2]
 
 
 def _boundaryLoops(points, triangles):
@@ -102,7 +108,7 @@ It is also the pair of both: `nodes, triangles = mesh`. It can be pickled.
 """
 
 
-def asMesh(mesh):
+def asMesh(mesh: Any) -> Mesh:
     """A Mesh from addMesh's `mesh`; of a given one the nodes, which may have been moved, are checked."""
     if isinstance(mesh, Mesh):
         requireApart(pointsOf("the mesh's nodes", mesh.nodes, 3), mesh.triangles, mesh.loops)
@@ -115,7 +121,7 @@ def asMesh(mesh):
     return Mesh(nodes, triangles)
 
 
-def rectangleMesh(low, high, nx, ny, crossed=False):
+def rectangleMesh(low: ArrayLike, high: ArrayLike, nx: int, ny: int, crossed: bool = False) -> Mesh:
     """A regular Mesh of nx × ny quads, which is also the pair (nodes (n, 2), triangles (m, 3)).
 
     Each quad is divided in two triangles, with diagonals of neighbours mirrored, or in four

@@ -1,11 +1,13 @@
 """Arguments of addPolygon and addMesh as arrays by triangle, joint or node."""
 
 import math
+from typing import Any
 
 import numpy
 
 from yadefrag import _yadefrag
 from yadefrag.arguments import array, number, pair, plain, real, refuse, requireTakes, shown
+from yadefrag.hints import Mesh
 
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
 # name: (unit, function that checks a value, description of valid values)
@@ -19,7 +21,7 @@ _BRITTLE = {
 }
 
 
-def centroids(mesh):
+def centroids(mesh: Mesh) -> numpy.ndarray:
     """(m, 2) of the triangles."""
     return mesh.nodes[mesh.triangles].mean(axis=1)
 
@@ -70,7 +72,8 @@ def _ofJoints(name, value, sides, count):
     return values.astype(float)[sides]
 
 
-def brittlePlaces(mesh, materials, interfaces, strength, fractureEnergy, jointStrength, jointEnergy):
+def brittlePlaces(mesh: Mesh, materials: Any, interfaces: tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray],
+                  strength: Any, fractureEnergy: Any, jointStrength: Any, jointEnergy: Any) -> Any:
     """_yadefrag.BrittlePlaces, for FESolver._addMesh. `interfaces`: result of materials.interfaces;
     values of joints have priority. ValueError for a material that does not crack, and for invalid
     values."""
@@ -91,7 +94,7 @@ def brittlePlaces(mesh, materials, interfaces, strength, fractureEnergy, jointSt
     return _yadefrag.brittlePlaces(*ofTriangles, edges, *values)
 
 
-def stressOfTriangles(stress, mesh):
+def stressOfTriangles(stress: Any, mesh: Mesh) -> numpy.ndarray:
     """(m, 3) Pa of the mesh's triangles, from a triple, a function (x, y) or an array; empty for
     None."""
     if stress is None:
@@ -120,7 +123,7 @@ def _triple(name, value):
     return values.astype(float)
 
 
-def field(name, value, nodes, isOptional=True):
+def field(name: str, value: Any, nodes: numpy.ndarray, isOptional: bool = True) -> numpy.ndarray:
     """(n, 2) from a pair or a function (x, y) → pair; empty for None."""
     if value is None and isOptional:
         return numpy.empty((0, 2))
@@ -130,7 +133,7 @@ def field(name, value, nodes, isOptional=True):
     return numpy.array([pair('%s(%g, %g)' % (name, x, y), value(x, y)) for x, y in nodes])
 
 
-def heldNodes(fixed, nodes):
+def heldNodes(fixed: Any, nodes: numpy.ndarray) -> numpy.ndarray:
     """(n) of 0 free, 1 held in x, 2 in y, 3 in both."""
     if fixed is None:
         return numpy.empty(0, dtype=numpy.uint8)
@@ -146,12 +149,12 @@ def heldNodes(fixed, nodes):
     return held
 
 
-def isClockwise(points):
+def isClockwise(points: numpy.ndarray) -> bool:
     x, y = (points - points[0]).T
     return float((x * numpy.roll(y, -1) - y * numpy.roll(x, -1)).sum()) < 0
 
 
-def smoothFlags(smooth, count):
+def smoothFlags(smooth: Any, count: int) -> bool | numpy.ndarray:
     """True, False, or an array with a flag for each of the outline's `count` points."""
     smooth = plain(smooth)
     if isinstance(smooth, bool):
@@ -165,7 +168,7 @@ def smoothFlags(smooth, count):
     return flags
 
 
-def smoothNodes(smooth, mesh, outline=()):
+def smoothNodes(smooth: bool | numpy.ndarray, mesh: Mesh, outline: Any = ()) -> numpy.ndarray:
     """(n) of 0 or 1: 1 for a node on a smooth part of the boundary; empty if there are none."""
     if isinstance(smooth, bool):
         if not smooth:

@@ -1,6 +1,10 @@
 """polygonMesh, and the arguments that it has in common with addPolygon: an outline with holes becomes a Mesh."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy
 
@@ -9,6 +13,7 @@ from yadefrag import _yadefrag
 from yadefrag.arguments import number, pair, pointsOf, positive, refuse, requireTakes, whole
 from yadefrag.fe.materials import isField
 from yadefrag.fe.mesh_values import isClockwise, smoothFlags, smoothNodes
+from yadefrag.hints import ArrayLike, ByPlace, FESolver, Mesh
 from yadefrag.messages import warn
 
 _SPACING = .2  # of the size: nearer vertices of the neighbours give one vertex
@@ -54,7 +59,8 @@ def _sampledSize(function, points):
         samples *= 2
 
 
-def simplified(points, holes, tolerance, flags):
+def simplified(points: numpy.ndarray, holes: list[numpy.ndarray], tolerance: float,
+               flags: numpy.ndarray | None) -> tuple[numpy.ndarray, list[numpy.ndarray], numpy.ndarray | None]:
     """Outline, holes and the outline's flags (None or an array) without the points that a
     simplification within `tolerance` (m) removes: addPolygon's `simplify`."""
     tolerance = positive('simplify', tolerance, 'm')
@@ -66,7 +72,7 @@ def simplified(points, holes, tolerance, flags):
             None if flags is None else flags[kept[0]])
 
 
-def isIrregular(mesh, material):
+def isIrregular(mesh: str | None, material: object) -> bool:
     """True for an irregular mesh, by the argument `mesh`; None: irregular for a body that can
     crack, or whose materials are known only after meshing."""
     if mesh is None:
@@ -76,7 +82,7 @@ def isIrregular(mesh, material):
     return mesh == 'irregular'
 
 
-def jointLines(joints):
+def jointLines(joints: Any) -> numpy.ndarray:
     """(k, 4) floats, the ends of each joint: addPolygon's `joints`."""
     lines = _listOf(joints)
     if lines is None:
@@ -98,7 +104,7 @@ def _listOf(value):
         return None
 
 
-def sizeOf(size, points):
+def sizeOf(size: Any, points: numpy.ndarray) -> tuple:
     """addPolygon's `size`, as _yadefrag.meshOfPolygon takes it: (m,), or a sampled function."""
     if callable(size):
         requireTakes('size', size, 'x', 'y')
@@ -107,7 +113,7 @@ def sizeOf(size, points):
                    'a positive number (m) or a function (x, y) that returns one'),)
 
 
-def leastSize(wanted):
+def leastSize(wanted: tuple) -> float:
     """(m) The smallest size of a result of sizeOf."""
     return wanted[0] if len(wanted) == 1 else float(wanted[4].min())
 
@@ -115,17 +121,17 @@ def leastSize(wanted):
 class Outline:
     """An outline, its holes, and the flags of `smooth`: True, False, or an array by point."""
 
-    def __init__(self, points, holes, smooth):
+    def __init__(self, points: numpy.ndarray, holes: list[numpy.ndarray], smooth: Any) -> None:
         self.points, self.holes, self.smooth = points, holes, smooth
 
-    def simplified(self, tolerance):
+    def simplified(self, tolerance: float) -> Outline:
         """The Outline without redundant points, as by addPolygon's `simplify`."""
         isOne = isinstance(self.smooth, bool)
         points, holes, flags = simplified(self.points, self.holes, tolerance,
                                           None if isOne else self.smooth)
         return Outline(points, holes, self.smooth if isOne else flags)
 
-    def snapped(self, fe, tolerance, size, matches):
+    def snapped(self, fe: FESolver, tolerance: float, size: float, matches: bool) -> tuple[Any, ...]:
         """(Outline, moved, inserted, farthest) on the present bodies of `fe`."""
         loops, *count = fe._snap(self.points, self.holes, (tolerance, _SPACING * size, matches))
         (points, vertex, inserted), *holes = loops
@@ -147,7 +153,9 @@ class Meshing:
     jointTolerance  m
     """
 
-    def __init__(self, outline, holes, size, mesh, meshSeed, smooth, simplify, joints, jointTolerance, material=None):
+    def __init__(self, outline: Any, holes: Any, size: Any, mesh: str | None, meshSeed: int, smooth: Any,
+                 simplify: float | None, joints: Any, jointTolerance: float | None,
+                 material: Any = None) -> None:
         points = pointsOf('outline', outline, 3)
         try:
             loops = None if isinstance(holes, (str, bytes, dict, set)) else list(holes)
@@ -166,15 +174,17 @@ class Meshing:
         self.jointTolerance = _JOINTS * self.size if jointTolerance is None else jointTolerance
         self._seed = whole('meshSeed', meshSeed, least=0, right='a whole number, 0 or more', most=2**63 - 1)
 
-    def mesh(self, outline, jointTolerance):
+    def mesh(self, outline: Outline, jointTolerance: float) -> Mesh:
         made = _yadefrag.meshOfPolygon(outline.points, outline.holes, self._sizes, self._irregular, self._seed,
                                        self.lines, jointTolerance)
         made.smooth = smoothNodes(outline.smooth, made, outline.points)
         return made
 
 
-def polygonMesh(outline, holes=(), *, size, mesh='irregular', meshSeed=0, smooth=False, simplify=None, joints=(),
-                jointTolerance=None):
+def polygonMesh(outline: ArrayLike, holes: Iterable[ArrayLike] = (), *, size: float | ByPlace,
+                mesh: str | None = 'irregular', meshSeed: int = 0, smooth: bool | Sequence[bool] = False,
+                simplify: float | None = None, joints: Iterable[Sequence[ArrayLike]] = (),
+                jointTolerance: float | None = None) -> Mesh:
     """The Mesh of a polygon, for one or several bodies: `fe.addMesh(polygonMesh(outline, size=.1), material)`.
 
     {arguments}
@@ -196,4 +206,4 @@ def polygonMesh(outline, holes=(), *, size, mesh='irregular', meshSeed=0, smooth
     return made
 
 
-polygonMesh.__doc__ = polygonMesh.__doc__.replace('{arguments}\n', ARGUMENTS)
+polygonMesh.__doc__ = (polygonMesh.__doc__ or '').replace('{arguments}\n', ARGUMENTS)

@@ -1,10 +1,15 @@
 """Outlines moved onto their neighbours: rounded coordinates make gaps and overlaps."""
 
+from collections.abc import Callable, Iterable
+from typing import Any
+
 import numpy
 
 from yadefrag import _yadefrag
 from yadefrag.arguments import number, pointsOf, positive, refuse
 from yadefrag.fe.mesh_values import isClockwise
+from yadefrag.fe.meshing import Meshing, Outline
+from yadefrag.hints import FESolver, Mesh
 from yadefrag.messages import warnOfOne
 
 OVERLAP = .05    # of the size: overlaps up to this are removed without a request
@@ -19,12 +24,12 @@ _HELPS = .5      # of the cost: an advice that leaves more is no advice
 class Overlap(ValueError):
     """A body would overlap another one, by `depth` (m)."""
 
-    def __init__(self, message, depth):
+    def __init__(self, message: str, depth: float) -> None:
         super().__init__(message)
         self.depth = depth
 
 
-def snapTolerance(snap, displacement):
+def snapTolerance(snap: Any, displacement: object) -> float | None:
     """addPolygon's `snap`: None, 0, or m."""
     if snap is None:
         return None
@@ -36,7 +41,8 @@ def snapTolerance(snap, displacement):
     return snap
 
 
-def addSnapped(fe, outline, snap, size, displacement, add):
+def addSnapped(fe: FESolver, outline: Outline, snap: float | None, size: float, displacement: object,
+               add: Callable[[Outline], int]) -> int:
     """Calls `add(outline)`, which adds a body and may raise Overlap, for the outline moved onto the
     bodies beside it as `snap` permits. `size` (m) is the length of the triangles' edges."""
     count = None
@@ -49,7 +55,7 @@ def addSnapped(fe, outline, snap, size, displacement, add):
             raise ValueError(_advised(fe, outline, overlap, snap, size, displacement)) from None
         body, count = _withoutOverlap(fe, outline, size, overlap, add)
     if count:
-        _tell(body, *count, size)
+        _tell(body, size, *count)
     return body
 
 
@@ -93,7 +99,7 @@ def _changes(fe, outline, tolerance, size):
     return moved + inserted > 0
 
 
-def _tell(body, moved, inserted, farthest, size):
+def _tell(body, size, moved, inserted, farthest):
     if farthest <= _TOLD * size:
         return
     warnOfOne('addPolygon: of body %d, %d vertices were moved onto the bodies beside it, and %d '
@@ -101,14 +107,14 @@ def _tell(body, moved, inserted, farthest, size):
                   (body, moved, inserted, farthest), 'bodies', body)
 
 
-def tellJoined(body, count, farthest, size):
+def tellJoined(body: int, size: float, count: int, farthest: float) -> None:
     if count:
         warnOfOne('addPolygon: of the joints of body %d, %d ends, crossings and bends near another '
                       'line were joined with it, and moved by at most %.3g m, %.2g of the size (snap=).'
                       % (body, count, farthest, farthest / size), 'bodies', body)
 
 
-def tellCostly(fe, body, mesh, meshing, outline, call):
+def tellCostly(fe: FESolver, body: int, mesh: Mesh, meshing: Meshing, outline: Outline, call: str) -> None:
     """Warns of a body whose mesh has a short time step. `mesh` is that of `outline`, by `meshing`, a Meshing;
     `call`: the name of the function that the script has called."""
     costly = fe._costlyStepWarning(body, meshing.size)
@@ -150,7 +156,7 @@ def _costAdvice(fe, body, mesh, meshing, outline, joining):
             'take them out.' % joining)
 
 
-def snapOutlines(shapes, tolerance):
+def snapOutlines(shapes: Iterable, tolerance: float) -> tuple[list, dict[str, Any]]:
     """Outlines that touch, without the gaps and overlaps of rounded coordinates: (shapes, report).
 
     shapes     list of outlines, or of (outline, holes), as readOutline returns them; the result has

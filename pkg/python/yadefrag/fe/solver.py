@@ -4,9 +4,13 @@ All arguments are checked before anything in the scene changes; ValueError state
 was given and what is valid.
 """
 
+from __future__ import annotations
+
 import functools
 import inspect
 import math
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy
 
@@ -27,6 +31,8 @@ from yadefrag.fe.names import componentOf, newName, nodesOf
 from yadefrag.fe.quality import meshQuality
 from yadefrag.fe.results import contactForce, crackCounts, energy, principalStress, reaction
 from yadefrag.fe.snapping import Overlap, addSnapped, snapTolerance, tellCostly, tellJoined
+from yadefrag.hints import ArrayLike, ByPlace, FEMat, FESolver
+from yadefrag.io.mesh_files import MeshFile
 from yadefrag.messages import forget, noteFixed, warnOfOne
 from yadefrag.scene.scene_check import addSolver
 
@@ -40,9 +46,14 @@ def _centroid(nodes, triangles):
     return (corners.mean(axis=1) * areas[:, None]).sum(axis=0) / areas.sum()
 
 
-def _add(fe, mesh, material, *, smooth=None, velocity=(0, 0), spin=0, displacement=None, stress=None, fixed=None,
-         thickness=1, selfContact=True, element='linear', strength=None, fractureEnergy=None, jointStrength=0,
-         jointEnergy=None, interfaceStrength=None, interfaceEnergy=None, name=None):
+def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
+         velocity: ArrayLike | ByPlace = (0, 0), spin: float = 0, displacement: ByPlace | None = None,
+         stress: ArrayLike | ByPlace | None = None, fixed: ByPlace | None = None, thickness: float = 1,
+         selfContact: bool = True, element: str = 'linear', strength: ArrayLike | ByPlace | None = None,
+         fractureEnergy: ArrayLike | ByPlace | None = None, jointStrength: ArrayLike | None = 0,
+         jointEnergy: ArrayLike | None = None,
+         interfaceStrength: float | ByPlace | dict[tuple, float] | None = None,
+         interfaceEnergy: float | ByPlace | dict[tuple, float] | None = None, name: str | None = None) -> int:
     """material        an FEMat, its label or its number in O.materials, with its present values: later
                     changes have no effect on the body. Or several: a function (x, y) that returns one,
                     called at the triangles' centroids; a list with one for each triangle; or a pair
@@ -125,7 +136,7 @@ def _add(fe, mesh, material, *, smooth=None, velocity=(0, 0), spin=0, displaceme
         raise Overlap(overlap, depth)
     addSolver(fe)
     if fixed is not None:
-        noteFixed(fixed, component, held.any())
+        noteFixed(fixed, component, bool(held.any()))
     keepTurning(fe, component, held, given, spin, present, centroid)
     problem = fe._zoneWarning(component)
     if problem:
@@ -137,18 +148,22 @@ def _takesBody(*without):
     """Decorator: `**body` of a method stands for the arguments of _add by name, and {body} in its docstring for
     their description."""
     def complete(method):
-        own = inspect.signature(method).parameters
+        whole = inspect.signature(method)
+        own = whole.parameters
         more = [one for key, one in inspect.signature(_add).parameters.items()
                 if one.kind is one.KEYWORD_ONLY and key not in own and key not in without]
-        method.__signature__ = inspect.Signature(
-            [one for one in own.values() if one.kind is not one.VAR_KEYWORD] + more)
-        method.__doc__ = method.__doc__.replace('{arguments}\n', ARGUMENTS).replace('{body}', _add.__doc__.rstrip())
+        method.__signature__ = whole.replace(
+            parameters=[one for one in own.values() if one.kind is not one.VAR_KEYWORD] + more)
+        text = (_add.__doc__ or '').rstrip()
+        method.__doc__ = method.__doc__.replace('{arguments}\n', ARGUMENTS).replace('{body}', text)
         return method
     return complete
 
 
 @_takesBody()
-def addMesh(self, mesh, material, *, smooth=None, **body):
+def addMesh(self: FESolver, mesh: Mesh | MeshFile | Sequence[ArrayLike],
+            material: FEMat | str | int | Sequence | ByPlace, *, smooth: bool | None = None,
+            **body: Any) -> int:
     """Adds a plane body with a given mesh; returns its number (int).
 
     mesh            a Mesh, of polygonMesh or rectangleMesh; the MeshFile of readMesh; or a pair of nodes
@@ -170,8 +185,10 @@ def addMesh(self, mesh, material, *, smooth=None, **body):
 
 
 @_takesBody()
-def addPolygon(self, outline, holes=(), *, size, material, smooth=False, mesh=None, meshSeed=0, simplify=None,
-               joints=(), snap=None, **body):
+def addPolygon(self: FESolver, outline: ArrayLike, holes: Iterable[ArrayLike] = (), *, size: float | ByPlace,
+               material: FEMat | str | int | Sequence | ByPlace, smooth: bool | Sequence[bool] = False,
+               mesh: str | None = None, meshSeed: int = 0, simplify: float | None = None,
+               joints: Iterable[Sequence[ArrayLike]] = (), snap: float | None = None, **body: Any) -> int:
     """Adds a plane body, meshed with triangles; returns its number (int).
 
     {arguments}
@@ -208,13 +225,15 @@ def addPolygon(self, outline, holes=(), *, size, material, smooth=False, mesh=No
 
     component = addSnapped(self, meshing.outline, snap, meshing.size, displacement, add)
     shape, made = used
-    tellJoined(component, *made.joined, meshing.size)
+    tellJoined(component, meshing.size, *made.joined)
     tellCostly(self, component, made, meshing, shape, 'addPolygon')
     return component
 
 
 @_takesBody('jointStrength', 'jointEnergy')
-def addTriangles(self, nodes, triangles, material, *, smooth=False, **body):
+def addTriangles(self: FESolver, nodes: ArrayLike, triangles: ArrayLike,
+                 material: FEMat | str | int | Sequence | ByPlace, *, smooth: bool = False,
+                 **body: Any) -> int:
     """Adds a body with a given mesh; returns its number (int): `addMesh((nodes, triangles), material, ...)`.
 
     nodes (n, 2) in m, or (n, 3) of one z, which is ignored, all of them used; triangles (m, 3) node
@@ -261,7 +280,7 @@ def _minAngle(self):
     return float(numpy.arccos(numpy.clip(cosine, -1, 1)).min())
 
 
-def install():
+def install() -> None:
     """Adds the methods to FESolver, and prevents O.bodies.erase and clumps from using its
     bodies."""
     wrapper.FESolver.addPolygon = inWords(addPolygon, _arrangedPolygon)

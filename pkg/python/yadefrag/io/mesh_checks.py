@@ -3,14 +3,14 @@
 import numpy
 
 from yadefrag.arguments import shownPath
-from yadefrag.io.readers.elements import cornersOf, counted, orderOf
+from yadefrag.io.readers.elements import Elements, cornersOf, counted, orderOf
 
 FLAT = 1e-9  # of the longest distance of two corners: points nearer to a line or plane are on it
 _BESIDE = 1e-3  # of an element's height: where points beside its side are examined
 _REMEDY = 'Correct it in the program that wrote the file.'
 
 
-def requirePlaneKinds(elements, name):
+def requirePlaneKinds(elements: Elements, name: str) -> None:
     """ValueError for solids and for kinds that are not known."""
     for kind, _, numbers in elements.blocks:
         if len(numbers) and not cornersOf(kind):
@@ -20,7 +20,7 @@ def requirePlaneKinds(elements, name):
                              (shownPath(name), shown, len(numbers), elements.labels[numbers[0]]))
 
 
-def usedPoints(elements, name):
+def usedPoints(elements: Elements, name: str) -> numpy.ndarray:
     """Numbers of the points of triangles and quads, also those between corners."""
     parts = [numpy.zeros(0, dtype=int)]
     for kind, nodes, numbers in elements.blocks:
@@ -39,7 +39,8 @@ def usedPoints(elements, name):
     return used
 
 
-def trianglesOf(elements, points, name):
+def trianglesOf(elements: Elements, points: numpy.ndarray,
+                name: str) -> tuple[numpy.ndarray, numpy.ndarray, list[str]]:
     """(triangles (m, 3) numbers of points, counter-clockwise; (m) number of the element of each; sentences
     about what is not as in the file). `points` (n, 2) in m. ValueError with the number of an element
     that is flat, collapsed, concave, doubled or inverted."""
@@ -181,7 +182,7 @@ class _Mesh:
                      (cause, self._labels[source[one]], self._at(starts[twice[0]]), self._at(ends[twice[0]])))
 
 
-def requireApart(points, triangles, loops):
+def requireApart(points: numpy.ndarray, triangles: numpy.ndarray, loops: list[numpy.ndarray]) -> None:
     """ValueError if parts of a mesh without common nodes overlap. Contact would not see that."""
     a, b, c = points[triangles].transpose(1, 0, 2)
     if sum((points[loop] * _rightOf(points[numpy.roll(loop, -1)])).sum() > 0 for loop in loops) < 2:

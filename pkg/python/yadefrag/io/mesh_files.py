@@ -6,6 +6,7 @@ import os
 import numpy
 
 from yadefrag.arguments import path, positive, shownPath
+from yadefrag.hints import File
 from yadefrag.io import mesh_checks
 from yadefrag.io.readers import abaqus, by_meshio, gmsh, refuseFile
 from yadefrag.io.readers.elements import cornersOf, counted
@@ -37,7 +38,7 @@ class MeshFile:
     leftOut: list = dataclasses.field(default_factory=list)
 
     @property
-    def material(self):
+    def material(self) -> tuple[list[str], numpy.ndarray]:
         """(names, (m) numbers among them): addTriangles' `material`, if O.materials has a material
         with the label of each group. ValueError if a triangle is in no group, or in two; groups that
         are no materials can be deleted before: `del mesh.groups['all']`."""
@@ -58,7 +59,7 @@ class MeshFile:
         return names, of
 
 
-def readMesh(file, scale=1):
+def readMesh(file: File, scale: float = 1) -> MeshFile:
     """A MeshFile from gmsh (.msh), Abaqus and CalculiX (.inp), and any format that meshio reads: VTK
     (.vtk, .vtu), Medit, Nastran ...
 

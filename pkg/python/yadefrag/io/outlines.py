@@ -1,25 +1,33 @@
 """Outlines from files of other programs, for FESolver.addPolygon."""
 
+from __future__ import annotations
+
 import math
 import os
-import warnings
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy
 
 from yadefrag import _yadefrag
 from yadefrag.arguments import flag, number, path, positive, refuse, shown, shownPath
 from yadefrag.fe.meshing import simplified
+from yadefrag.hints import File, Shape
 from yadefrag.io.readers import Found, dxf, leftOutWords, loops, nesting, picture, plain, svg
+from yadefrag.messages import warn
 
 _GAP = 1e-6  # of the longer side of the drawing: drawings have six digits
 _FLAT = 1e-12  # of the square of its extent: the area of a loop that is a line
-_READERS = {'.svg': svg.read, '.dxf': dxf.readLayers, '.csv': plain.readCsv, '.wkt': plain.readWkt,
-            '.json': plain.readGeoJson, '.geojson': plain.readGeoJson,
-            **{ending: picture.read for ending in picture.ENDINGS}}
+_READERS: dict[str, Callable] = {
+    '.svg': svg.read, '.dxf': dxf.readLayers, '.csv': plain.readCsv, '.wkt': plain.readWkt,
+    '.json': plain.readGeoJson, '.geojson': plain.readGeoJson,
+    **{ending: picture.read for ending in picture.ENDINGS}}
 
 
-def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None, leastArea=0., layers=None,
-                byLayer=False):
+def readOutline(file: File, tolerance: float | None = None, scale: float = 1, gap: float | None = None,
+                simplify: float | None = None, leastArea: float = 0.,
+                layers: str | Iterable[str] | None = None,
+                byLayer: bool = False) -> list[Shape] | dict[str, list[Shape]]:
     """Outlines from a drawing, a map or a picture: list of (outline, holes), as for addPolygon.
 
     `for shape in readOutline('plate.svg', 1e-5, scale=1e-3): fe.addPolygon(*shape, size=...)`.
@@ -58,12 +66,11 @@ def readOutline(file, tolerance=None, scale=1, gap=None, simplify=None, leastAre
     """
     found, leftOut = outlinesOf(file, tolerance, scale, gap, simplify, leastArea, layers, byLayer)
     if leftOut:
-        warnings.warn('readOutline: %s is read without: %s.' %
-                      (shownPath(os.fspath(file)), leftOutWords(leftOut)), stacklevel=2)
+        warn('readOutline: %s is read without: %s.' % (shownPath(os.fspath(file)), leftOutWords(leftOut)))
     return found
 
 
-def readPolygon(file):
+def readPolygon(file: File) -> Shape:
     """(outline, holes) from a text file: `x y` (m) on each line, an empty line between two loops.
 
     The first loop is the outline. `#` begins a comment, and a line with only a comment is skipped.
@@ -79,8 +86,10 @@ def readPolygon(file):
         raise ValueError('%s, %s' % (shownPath(name), error)) from None
 
 
-def outlinesOf(file, tolerance=None, scale=1, gap=None, simplify=None, leastArea=0., layers=None,
-               byLayer=False):
+def outlinesOf(file: File, tolerance: float | None = None, scale: float = 1, gap: float | None = None,
+               simplify: float | None = None, leastArea: float = 0.,
+               layers: str | Iterable[str] | None = None,
+               byLayer: bool = False) -> tuple[Any, dict[str, int]]:
     """(what readOutline returns, {what is left out: number})."""
     name = path('file', file)
     ending = os.path.splitext(name)[1].lower()
