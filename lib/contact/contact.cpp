@@ -30,9 +30,9 @@ double worthwhile(const ContactStep& step) {
                    tolerance::kRemainingPenetration * step.shortest, secondOrder});
 }
 
-/// True if two pieces meet in a joint that does not turn towards the void.
-bool meetInConvexJoint(const ContactSurfaces& surfaces, const PieceGeometry& geometry, EntryId a,
-                       EntryId b) {
+/// True if two pieces meet at a junction that does not turn towards the void.
+bool meetInConvexJunction(const ContactSurfaces& surfaces, const PieceGeometry& geometry, EntryId a,
+                          EntryId b) {
   if (surfaces.next[b.value] == a) std::swap(a, b);
   if (surfaces.next[a.value] != b) return false;
   return cross(geometry.tangent(a, geometry.range(a).end),
@@ -124,7 +124,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces, const Conta
 /// True if corrections since the last search for actives may have moved a slave deep into a master.
 /// Contacts that are less deep begin in the next step.
 bool Contact::mayHaveEntered(const ContactStep& step) const {
-  return 2 * sinceSearch_ > tolerance::kLateEntry * step.shortest;
+  return 2 * sinceSearch_ > tolerance::kLateContact * step.shortest;
 }
 
 void Contact::begin() {
@@ -176,7 +176,7 @@ void Contact::releaseUnsolved() {
 void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
                    double reach, double moved) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
-  const PathStart start{step.before, touches, tolerance::contact().entryDepth * step.shortest,
+  const PathStart start{step.before, touches, tolerance::contact().outsideDepth * step.shortest,
                         deepest_};
   search_.scan(candidates, surfaces, model.nodes.position, start, reach, step.threads,
                moved + sinceScan_);
@@ -236,7 +236,7 @@ void Contact::touch(NodeId node) {
 bool Contact::hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
                      SlaveMaster pair) const {
   return pairs_.any(pair.slave, [&](std::uint32_t, EntryId master) {
-    return master == pair.master || meetInConvexJoint(surfaces, before, master, pair.master);
+    return master == pair.master || meetInConvexJunction(surfaces, before, master, pair.master);
   });
 }
 

@@ -89,7 +89,7 @@ class Contact {
 
   Candidates candidates;
   std::vector<Touch> touches;  ///< by pair
-  /// (m) Largest correction of the last step. The first scan of the next one looks as far.
+  /// (m) Largest correction of the last step; the next step's first scan reaches farther than it.
   double lastCorrection = 0;
 
  private:

@@ -10,8 +10,11 @@
 
 namespace yadefrag {
 
-/// One active: a slave that penetrates a master, as a row of its group's system. The displacement
-/// of the slave relative to the master is the sum of weight × displacement over the nodes.
+/// One active: a slave that penetrates a master, as a row of its group's system (paper fig. 2). The
+/// slave S is a sampling point: a node, or the middle between two. The foot M is the point of the
+/// master nearest to S, between the master's nodes. S and M move with the nodes beside them by the
+/// shape functions h; the displacement of S relative to M is the sum of weight × displacement over
+/// all these nodes.
 struct ContactRow {
   static constexpr std::uint32_t kNone = 0xffffffff;
   /// Its nodes on a rigid boundary that obeys forces act together, as one part of that body.

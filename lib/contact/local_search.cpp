@@ -121,7 +121,8 @@ bool LocalSearch::findEnterable(const Candidates& candidates, const Geometry& be
   return any;
 }
 
-/// In rubble nearly every slave must be checked, and every piece is the master of several.
+/// Computes the chords of all pieces if many slaves must be checked: in rubble nearly all must be,
+/// and each piece is the master of several.
 template <class Geometry>
 void LocalSearch::findChords(const Candidates& candidates, const ContactSurfaces& surfaces,
                              const Geometry& geometry) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "contact/entry_path.hpp"
+#include "contact/crossing.hpp"
 #include "contact/slave_normals.hpp"
 #include "core/tolerances/contact.hpp"
 
@@ -44,8 +44,8 @@ class Path {
     return touchOn(step_.touches, master) != nullptr;
   }
 
-  /// True if ξ (0 at the begin of a piece, 1 at its end) is over the piece, or, at a concave joint,
-  /// no farther past it than a slave `depth` (m) behind the piece may be inside a notch.
+  /// True if ξ (0 at the begin of a piece, 1 at its end) is over the piece, or, at a concave
+  /// junction, no farther past it than a slave `depth` (m) behind the piece may be inside a notch.
   [[nodiscard]] bool isWithin(EntryId master, double xi, double length, double depth) const {
     const double past = tolerance::contact().pastConcave * depth / length;
     const double least = isConcave(surfaces_.prev[master.value], master) ? past : 0;
@@ -68,7 +68,7 @@ class Path {
   }
 
   [[nodiscard]] bool isConcave(EntryId first, EntryId second) const {
-    return isConcaveJoint(now_, first, second);
+    return isConcaveJunction(now_, first, second);
   }
 
   const ContactSurfaces& surfaces_;
@@ -102,7 +102,7 @@ void decideByPath(const ContactSurfaces& surfaces, const SlaveStep<Geometry>& st
     trial.active = trial.active && trial.opposed && trial.foot.gap < 0;
     trial.entered = trial.active;
   }
-  decideJoints(surfaces, step.now, trials);
+  decideJunctions(surfaces, step.now, trials);
 }
 
 template bool findEntered(const ContactSurfaces&, const SlaveStep<PieceGeometryOf<true>>&,

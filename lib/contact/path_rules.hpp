@@ -1,21 +1,23 @@
 #pragma once
 // Entry: a slave is active on a piece that its path from xⁿ to its present position crosses.
 //
-// No sides have to be stored. A slave that is behind a piece by no more than `depth` at xⁿ counts
-// as in front of it: rounding and unfinished corrections leave less. Only an active of the previous
-// step keeps its piece at any depth.
+// The paper stores a flag for each slave and master instead (fig. 8): true if the slave was in
+// front of the master's line (A), false if it was behind it (B); only a slave with the flag may
+// enter. Here no flags are needed. A slave that is behind a piece by no more than `depth` at xⁿ
+// counts as in front of it: rounding and unfinished corrections leave less. Only an active of the
+// previous step keeps its piece at any depth.
 //
 //     void          p0            The gap to the moving piece is a quadratic in time. The slave
 //     ──────────────●─ line       enters at the time at which it falls below −depth, or at the end
 //     body           ╲            of the step. The position on the piece at that time is decisive,
 //                     p*          also if the slave passes through a thin body or past an end.
 //
-// Joints: of two actives at a convex joint the nearer one is kept; at a concave joint, a slave past
-// both ends is inside, and both are active (paper §5.2).
+// Junctions: of two actives at a convex junction the nearer one is kept; at a concave one, a slave
+// past both ends is inside, and both are active (paper §5.2).
 
 #include <span>
 
-#include "contact/joint_rules.hpp"
+#include "contact/junction_rules.hpp"
 #include "contact/touch.hpp"
 
 namespace yadefrag {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/joint_rules.hpp"
+#include "contact/junction_rules.hpp"
 #include "contact/slave_normals.hpp"
 #include "core/tolerances/contact.hpp"
 
@@ -32,8 +32,8 @@ FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, 
   // In a notch the neighbour's normal would push the slave in the direction of its motion, which
   // creates energy.
   const bool isNotch = neighbour == surfaces.prev[master.value]
-                           ? isConcaveJoint(before, neighbour, master)
-                           : isConcaveJoint(before, master, neighbour);
+                           ? isConcaveJunction(before, neighbour, master)
+                           : isConcaveJunction(before, master, neighbour);
   if (isNotch) return {master, foot};
   const Foot other = before.foot(neighbour, slave);
   const PieceRange otherRange = before.range(neighbour);

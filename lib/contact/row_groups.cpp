@@ -18,7 +18,7 @@ void RowSweeps::clear() {
   system_.clear();
 }
 
-/// Rows of an earlier detection of the step: which of them have another gap or slip now?
+/// Rows of earlier detections of the step wait if their gap or slip has changed.
 void RowSweeps::update(std::span<const ContactRow> rows, double tolerance) {
   assert(order_.size() == system_.rows.size() && waits_.size() == system_.rows.size());
   for (std::size_t r = 0; r < system_.rows.size(); ++r) {
@@ -45,7 +45,7 @@ void RowSweeps::makeOneGroup() {
 }
 
 /// Divides this group: rows of a group are then next to each other. Where few sweeps are
-/// sufficient, that would not pay.
+/// sufficient, the division would take longer than it saves.
 void RowSweeps::divide() {
   assert(groups_.size() == 1 && !isDivided_);
   const Group all = groups_.front();

@@ -33,7 +33,7 @@ double RowSweeps::solve(std::span<ContactRow> rows, const Inertia& inertia, Stop
   return change;
 }
 
-/// With coupled forces the groups wait for the sweeps of these.
+/// Coupled forces are improved between the sweeps of the groups.
 double RowSweeps::sweepAll(Stop stop, Coupling* coupling, int threads) {
   const bool isCoupled = !shared_.empty();
   const int most = std::max(stop.most, tolerance::kMostSweeps);
@@ -68,7 +68,7 @@ void RowSweeps::sweepGroup(Group& group, int until, Stop stop) {
            (group.sweeps < stop.most || group.change > tolerance::kFarFromSolved * stop.change);
   };
   while (goesOn()) {
-    // Alternating directions: forces are transmitted along chains of pieces.
+    // Alternating directions: forces are transmitted along chains of rows.
     group.change = sweep(group, group.sweeps++ % 2 == 0, stop.change);
     if (!(group.change > stop.change)) break;
     if (group.sweeps >= tolerance::kSweepsToDescend) descendIfDue(group, stop.change);

@@ -9,14 +9,15 @@
 //
 // Sweeps from row to row (nonlinear block Gauss–Seidel of Moreau and Jean's contact dynamics),
 // without a matrix: each row uses the displacements of its nodes by the other rows so far. They
-// start from the forces of the last step and stay near them: where rows are redundant or pieces
-// jam, exact solutions have large forces that cancel each other, which friction converts into
-// energy. A remaining gap is corrected in the next step.
+// start from the forces of the last step and stay near them: where rows are redundant or
+// fragments jam, exact solutions have large forces that cancel each other, which friction converts
+// into energy. A remaining gap is corrected in the next step.
 //
-// Sweeps alone need thousands of passes where both sides of a joint with different meshes are
-// slaves, or along a high stack. Therefore conjugate gradients follow (row_gradients.hpp): they
-// move all forces that are within their bounds, up to the first bound that one of them reaches. In
-// rubble and in walls of blocks the next bound is near, therefore they are rare.
+// Thousands of sweeps would be needed along a high stack, or where two bodies with different meshes
+// touch along their sides and both are slaves. Therefore conjugate gradients follow
+// (row_gradients.hpp): they change all forces that are within their bounds, until the first of them
+// reaches a bound. In rubble and in walls of blocks the next bound is near; there they are tried
+// rarely.
 
 #include <array>
 #include <cstdint>

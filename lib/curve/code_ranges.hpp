@@ -1,5 +1,13 @@
 #pragma once
 // The ranges of the curve that cover a rectangle of boxes (paper §4.4, fig. 7).
+//
+//           │            A rectangle that crosses boundaries of the curve in both directions: its
+//      ┌────┼──┐         boxes are not consecutive on the curve. Cut at the highest boundary of
+//      │ 2  │ 4│         each axis it has four parts at most. The boxes of each part are in one
+//   ───┼────┼──┼───      range of codes, from that of the part's lower-left corner to that of its
+//      │ 1  │ 3│         upper-right one; a range may contain boxes outside the part.
+//      └────┼──┘
+//           │
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,21 @@
 // Position codes on the Lebesgue (Morton, Z-order) curve: paper §4.2 (numbering), fig. 6 (moves),
 // §4.4 (start and stop codes).
 //
-//   2D, 31 bits an axis:   0 … x2 y2 x1 y1 x0 y0      a quarter is 00 bottom left, 01 top left,
-//   3D, 21 bits an axis:   0 … x1 y1 z1 x0 y0 z0      10 bottom right, 11 top right (fig. 5)
+//   2D, 31 bits an axis:   0 … x2 y2 x1 y1 x0 y0
+//   3D, 21 bits an axis:   0 … x1 y1 z1 x0 y0 z0
+//
+// Fig. 5: the search area is divided into quarters, and each quarter again. The code of a box is
+// that of its quarter with two more bits; the curve visits the boxes in the order of their codes.
+//
+//   01 11          0101 0111 │ 1101 1111
+//   00 10          0100 0110 │ 1100 1110
+//                  ──────────┼──────────
+//                  0001 0011 │ 1001 1011
+//                  0000 0010 │ 1000 1010
+//
+// Fig. 6: a box with L boxes on its left moves to the right by one box. The lowest i + 1 bits of L
+// change, where i is the lowest set bit of L + 1 (of L for a move to the left). In the code these
+// are every second bit: one XOR with the mask (10)^(i+1), or (01)^(i+1) along y.
 //
 // Laws (tests/curve/position_code_test.cpp):
 //   decode(encode(c)) = c;  encode is monotone in every coordinate;

@@ -69,7 +69,7 @@ struct StressLimit {
 /// stress. The effective traction is not greater in any direction (`largestTraction` in
 /// fracture/separation.hpp). The measure is convex, so that this is also true for averages.
 [[gnu::always_inline]] inline bool isStressed(const Matrix2& f, double lame, double shear,
-                                              const StressLimit& look) {
+                                              const StressLimit& limit) {
   const double a = f.xx + f.yy;
   const double b = f.yx - f.xy;
   const double c = f.xx - f.yy;
@@ -78,9 +78,9 @@ struct StressLimit {
   const double mean = (lame + shear) * (std::sqrt(a * a + b * b) - 2);
   const double radius = shear * std::sqrt(c * c + d * d);
   const double pull = mean + radius > 0 ? mean + radius : 0;
-  const double sheared = radius * look.incline + look.friction * mean;
+  const double sheared = radius * limit.incline + limit.friction * mean;
   const double slip = sheared > 0 ? sheared : 0;
-  return pull * pull + look.shearWeight * slip * slip >= look.squared;
+  return pull * pull + limit.shearWeight * slip * slip >= limit.squared;
 }
 
 /// (J/m³) W.

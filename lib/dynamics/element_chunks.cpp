@@ -170,8 +170,8 @@ bool ElementChunks::watch(const std::vector<double>& leastStrength) {
       for (std::size_t c = chunk.firstComponent;
            c <= chunk.lastComponent && c < leastStrength.size(); ++c)
         if (leastStrength[c] > 0) least = std::min(least, leastStrength[c]);
-    const double look = tolerance::kStrengthCheck * least;
-    chunk.squaredStressLimit = look * look;
+    const double limit = tolerance::kStrengthCheck * least;
+    chunk.squaredStressLimit = limit * limit;
     any = any || chunk.squaredStressLimit < kNever;
   }
   return any;

@@ -16,7 +16,7 @@ template <bool kWatched, bool kMixed>
                                                      const ElementLaws* laws, Corners& c) {
   const double chunkLame = chunk.lame;
   const double chunkShear = chunk.shear;
-  const StressLimit look(chunk.shearFactor, chunk.friction, chunk.squaredStressLimit);
+  const StressLimit limit(chunk.shearFactor, chunk.friction, chunk.squaredStressLimit);
   int flat = 0;
   int stressed = 0;
 #pragma omp simd reduction(+ : flat, stressed)
@@ -31,7 +31,7 @@ template <bool kWatched, bool kMixed>
                                           c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],  //
                                           i11, i12, i21, i22);
     flat += determinant(f) > tolerance::kFlat ? 0 : 1;  // also for NaN
-    if constexpr (kWatched) stressed += isStressed(f, lame, shear, look) ? 1 : 0;
+    if constexpr (kWatched) stressed += isStressed(f, lame, shear, limit) ? 1 : 0;
     const Matrix2 p = firstPiola(f, lame, shear);
     const double v = e.volume[k];
     const double f1x = -v * (p.xx * i11 + p.xy * i12);

@@ -62,7 +62,7 @@ void ExplicitDynamics::addBarrierForces(const Model& model, const Chunk& chunk, 
 ExplicitDynamics::Flattest ExplicitDynamics::requireUpright(const Model& model, double dt,
                                                             double correction) const {
   Flattest found;
-  const auto look = [&](std::size_t begin, std::size_t end) {
+  const auto check = [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       const double area = determinant(deformationGradient(model, ElementId(e)));
       if (!(area > 0))
@@ -72,10 +72,10 @@ ExplicitDynamics::Flattest ExplicitDynamics::requireUpright(const Model& model, 
     }
   };
   if (anyLargeMove_ || correction > tolerance::kLargeMove * leastHeight_)
-    look(0, model.triangles.size());
+    check(0, model.triangles.size());
   else
     for (const Scratch& scratch : scratch_)
-      for (const ElementRange& range : scratch.flat) look(range.firstElement, range.lastElement);
+      for (const ElementRange& range : scratch.flat) check(range.firstElement, range.lastElement);
   return found;
 }
 

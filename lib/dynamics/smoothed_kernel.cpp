@@ -13,7 +13,7 @@ template <bool kWatched>
 [[gnu::always_inline]] inline Findings splitGradients(const ElementLanes& e, const Chunk& chunk,
                                                       const Corners& c, DistortionLanes& kept,
                                                       SplitGradient* weighted) {
-  const StressLimit look(chunk.shearFactor, chunk.friction, chunk.squaredStressLimit);
+  const StressLimit limit(chunk.shearFactor, chunk.friction, chunk.squaredStressLimit);
   int flat = 0;
   int stressed = 0;
 #pragma omp simd reduction(+ : flat, stressed)
@@ -22,7 +22,7 @@ template <bool kWatched>
         c.x[1][k] - c.x[0][k], c.y[1][k] - c.y[0][k], c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],
         e.inverseEdges[0][k], e.inverseEdges[1][k], e.inverseEdges[2][k], e.inverseEdges[3][k]);
     flat += determinant(f) > tolerance::kFlat ? 0 : 1;  // also for NaN
-    if constexpr (kWatched) stressed += isStressed(f, chunk.lame, chunk.shear, look) ? 1 : 0;
+    if constexpr (kWatched) stressed += isStressed(f, chunk.lame, chunk.shear, limit) ? 1 : 0;
     const double third = e.volume[k] * (1. / 3);
     const double c1 = f.xx - f.yy;
     const double c2 = f.yx + f.xy;

@@ -45,9 +45,9 @@ void StrengthCheck::checkCorners(const Model& model, const CrackEdges& edges, El
 
 void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeId node,
                               std::span<const double> leastStrength) {
-  assert(node.value < nodeLookedAt_.size());
-  if (nodeLookedAt_[node.value] == call_) return;
-  nodeLookedAt_[node.value] = call_;
+  assert(node.value < nodeTested_.size());
+  if (nodeTested_[node.value] == call_) return;
+  nodeTested_[node.value] = call_;
   // At one end of an edge, at least, the traction is not less than their mean: check the ends
   // first. Where materials meet, a node's mean is not that of its edges.
   const ComponentId body = model.nodes.component[node.value];
@@ -81,14 +81,14 @@ void StrengthCheck::prepare(const Model& model, const CrackEdges& edges) {
   elementSeen_.resize(model.triangles.size());
   elementStress_.resize(model.triangles.size());
   const std::size_t room = model.nodes.position.capacity();
-  for (auto* marks : {&nodeSeen_, &nodeTaken_, &nodeLookedAt_}) marks->reserve(room);
+  for (auto* marks : {&nodeSeen_, &nodeTaken_, &nodeTested_}) marks->reserve(room);
   nodeStress_.reserve(room);
   nodeSeen_.resize(model.nodes.size());
   nodeStress_.resize(model.nodes.size());
   isInside_.reserve(room);
   isInside_.resize(model.nodes.size());
   nodeTaken_.resize(model.nodes.size());
-  nodeLookedAt_.resize(model.nodes.size());
+  nodeTested_.resize(model.nodes.size());
   edgeSeen_.resize(edges.size());
 }
 

@@ -26,7 +26,7 @@ class StrengthCheck {
   /// Reserves memory for all that may be checked.
   void prepare(const Model& model, const CrackEdges& edges);
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kFracture, elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeLookedAt_,
+    footprint.add(Use::kFracture, elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeTested_,
                   elementStress_, nodeStress_, isInside_, fan_, around_, found_);
   }
 
@@ -52,7 +52,7 @@ class StrengthCheck {
 
   // Checked in this call if the mark is the call's number.
   std::uint32_t call_ = 0;
-  std::vector<std::uint32_t> elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeLookedAt_;
+  std::vector<std::uint32_t> elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeTested_;
   std::vector<Stress> elementStress_, nodeStress_;  // Pa: xx, yy, xy
   std::vector<std::uint8_t> isInside_;  // by node whose mean is known: 1 if its fan is a ring
   std::vector<ElementId> fan_, around_;

@@ -16,7 +16,7 @@
 #include "search/code_level.hpp"
 #include "search/contact_search.hpp"
 #include "search/level_grid.hpp"
-#include "search/row_places.hpp"
+#include "search/row_begins.hpp"
 #include "search/wide_boxes.hpp"
 
 namespace yadefrag {
@@ -68,7 +68,7 @@ class CodeSearch final : public ContactSearch {
   bool joinThinLevels();
   void listOccupiedLevels();
 
-  void pairsOf(int level, std::size_t i, RowPlaces& places, std::vector<BoxPair>& out,
+  void pairsOf(int level, std::size_t i, RowBegins& begins, std::vector<BoxPair>& out,
                Count& count) const;
   template <class Visit>
   void visitLaterNeighbours(const Level& level, int own, std::size_t i, Count& count,
@@ -83,7 +83,7 @@ class CodeSearch final : public ContactSearch {
   void outerRows(const Level& level, std::size_t i, std::vector<BlockRange>& ranges,
                  Count& count) const;
   template <class Visit>
-  void visitRectangle(const Box& box, int at, RowPlaces::OfLevel* places, Count& count,
+  void visitRectangle(const Box& box, int at, RowBegins::OfLevel* begins, Count& count,
                       Visit visit) const;
   std::uint32_t lowerBound(const Level& level, std::uint64_t code, Count& count) const;
   double lowestStart(const Box& box, int axis, int level) const;

@@ -18,7 +18,7 @@ void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
   const int parts = forEachPart(total, threads_, [&](std::size_t begin, std::size_t end, int part) {
     std::vector<BoxPair>& out = partPairs_[part];
     out.clear();
-    RowPlaces places;
+    RowBegins begins;
     std::size_t first = 0;
     for (const int level : occupied_) {
       const std::size_t size = levels_[level].size();
@@ -29,7 +29,7 @@ void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
       constexpr std::size_t ahead = 16;  // the boxes are in the order of their slots: prefetch
       for (std::size_t i = from; i < to && !alone && !isFull(out); ++i) {
         if (i + ahead < to) prefetch(boxes_[levels_[level].slot(i + ahead - first)]);
-        pairsOf(level, i - first, places, out, counts[part]);
+        pairsOf(level, i - first, begins, out, counts[part]);
       }
       first += size;
     }
@@ -56,7 +56,7 @@ bool CodeSearch<Numbering, Dim, Count>::searchesLevel(int own, int other) const 
 /// Pairs of the i-th box of a level with later boxes of its level, with boxes of all levels that
 /// this level searches, and with the wide boxes.
 template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, RowPlaces& places,
+void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, RowBegins& begins,
                                                 std::vector<BoxPair>& out, Count& count) const {
   const std::uint32_t slot = levels_[own].slot(i);
   const Box& box = boxes_[slot];
@@ -71,7 +71,7 @@ void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, RowPlace
       visitRange(level, filter, box, begin, range, count, take);
     };
     if (other != own)
-      visitRectangle(box, other, &places.of(other), count, test);
+      visitRectangle(box, other, &begins.of(other), count, test);
     else if (!Numbering::kIsSwept)
       visitLaterNeighbours(level, own, i, count, test);
   }
@@ -146,7 +146,7 @@ void CodeSearch<Numbering, Dim, Count>::sweepRows(int own, std::size_t from, std
   NearList near;
   std::vector<BlockRange> outer;
   std::array<BlockRange, Numbering::kLaterRows + 1> inner{};
-  std::array<std::size_t, Numbering::kLaterRows> places{};  // blocks in which the rows begin
+  std::array<std::size_t, Numbering::kLaterRows> begins{};  // blocks in which the rows begin
   for (std::size_t i = from; i < to && !isFull(out); ++i) {
     const std::uint32_t slot = level.slot(i);
     const std::uint64_t code = codes[i];
@@ -155,9 +155,9 @@ void CodeSearch<Numbering, Dim, Count>::sweepRows(int own, std::size_t from, std
       inner[0] = {i + 1, {code, code + Numbering::kPartsOfX}};
       for (int k = 0; k < Numbering::kLaterRows; ++k) {
         const CodeRange row = Numbering::laterRow(code, k);
-        std::size_t& place = places[k];
-        while (codes[place * width + width - 1] < row.start) ++place;
-        inner[k + 1] = {place * width, row};
+        std::size_t& begin = begins[k];
+        while (codes[begin * width + width - 1] < row.start) ++begin;
+        inner[k + 1] = {begin * width, row};
       }
     } else {
       outerRows(level, i, outer, count);
@@ -187,19 +187,19 @@ void CodeSearch<Numbering, Dim, Count>::outerRows(const Level& level, std::size_
   });
 }
 
-/// Visits all boxes of a level that can overlap `box`; it may visit others, too. `places`: where
+/// Visits all boxes of a level that can overlap `box`; it may visit others, too. `begins`: where
 /// the rows of the last rectangle on this level began, if boxes are visited in their order.
 template <class Numbering, int Dim, class Count>
 template <class Visit>
 void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at,
-                                                       RowPlaces::OfLevel* places, Count& count,
+                                                       RowBegins::OfLevel* begins, Count& count,
                                                        Visit visit) const {
   const Level& level = levels_[at];
   CodeRange corners;
   int row = 0;
   const auto visitRange = [&](const CodeRange& range) {
-    if (Numbering::kIsSwept && places)
-      visit(places->lowerBound(row++, level.codes(), range.start, count), range);
+    if (Numbering::kIsSwept && begins)
+      visit(begins->lowerBound(row++, level.codes(), range.start, count), range);
     else
       visit(lowerBound(level, range.start, count), range);
   };

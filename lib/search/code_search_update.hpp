@@ -102,8 +102,8 @@ int CodeSearch<Numbering, Dim, Count>::levelFor(const Box& box, double side) con
   return level;
 }
 
-/// Fig. 6: two comparisons per axis decide whether the box has kept its position code. Returns true
-/// if it has.
+/// Fig. 6 (position_code.hpp): two comparisons per axis decide whether the box has kept its
+/// position code. Returns true if it has.
 template <class Numbering, int Dim, class Count>
 bool CodeSearch<Numbering, Dim, Count>::stepWithin(const Box& box, Place& place,
                                                    Count& count) const {

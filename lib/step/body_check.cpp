@@ -10,7 +10,7 @@
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/mesh.hpp"
-#include "fracture/checks.hpp"
+#include "fracture/brittle_checks.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/initial_stress.hpp"
 #include "step/world.hpp"

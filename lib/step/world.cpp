@@ -11,7 +11,7 @@
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "dynamics/critical_time_step.hpp"
-#include "fracture/checks.hpp"
+#include "fracture/brittle_checks.hpp"
 #include "mesh/assembly.hpp"
 #include "step/body_check.hpp"
 

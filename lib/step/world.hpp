@@ -21,7 +21,7 @@
 #include "fracture/bonds.hpp"
 #include "fracture/conform.hpp"
 #include "fracture/fracture.hpp"
-#include "fracture/loose_pieces.hpp"
+#include "fracture/loose_fragments.hpp"
 #include "fracture/side_splitting.hpp"
 #include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
@@ -273,7 +273,7 @@ class World {
 
   ExplicitDynamics dynamics_;
   SplitResult split_;
-  LoosePieces loose_;
+  LooseFragments loose_;
   BodyPlaces places_;
   std::vector<NodeId> rigidNodes_;
   std::vector<Vec2> allOuterForces_;  // N, by node, with pressures; empty without any

@@ -1,7 +1,16 @@
 #pragma once
 // The smooth boundary around a node b between its neighbours a and c (paper eq. 2, fig. 1): the
 // cubic Bézier curve from the halfpoint of ab (ξ = 0) to that of bc (ξ = 1) whose inner control
-// points are the quarterpoints (a+3b)/4 and (3b+c)/4. Its tangent ¾[(1−ξ²)(b−a) + (2ξ−ξ²)(c−b)]
+// points are the quarterpoints (a+3b)/4 and (3b+c)/4.
+//
+//              b               H  halfpoints of ab and bc: the arc begins and ends there, with the
+//            Q   Q             directions of the segments, so that adjacent arcs have no corner
+//           ╱ ⌒⌒ ╲             Q  quarterpoints, at half the way from H to b
+//         H╱      ╲H
+//         ╱        ╲
+//        a          c
+//
+// Its tangent ¾[(1−ξ²)(b−a) + (2ξ−ξ²)(c−b)]
 // rotates in one direction only, from the first segment's to the second's: an arc has no
 // inflection.
 
@@ -30,12 +39,12 @@ inline Vec2 combine(const ArcWeights& h, Vec2 a, Vec2 b, Vec2 c) {
   return h[0] * a + h[1] * b + h[2] * c;
 }
 
-/// The quick test of §5.3: false only if the point cannot be on the material side of the arc with
-/// an orthogonal foot on it. At a concave node (the boundary turns right at b, with material on the
-/// left) the test line goes through the halfpoints, at a convex node through the quarterpoints;
-/// both lines are parallel to ac. At a very sharp corner a normal of the arc may point against the
-/// normal of the line. A deep point can then be beyond the line, and the test returns true for
-/// every point.
+/// The quick test of §5.3 (fig. 10): false only if the point cannot be on the material side of the
+/// arc with an orthogonal foot on it. At a concave node (the boundary turns right at b, with
+/// material on the left) the test line goes through the halfpoints, at a convex node through the
+/// quarterpoints; both lines are parallel to ac. At a very sharp corner a normal of the arc may
+/// point against the normal of the line. A deep point can then be beyond the line, and the test
+/// returns true for every point.
 bool mayPenetrateArc(Vec2 a, Vec2 b, Vec2 c, Vec2 point);
 
 /// The projection of a point on a boundary piece.

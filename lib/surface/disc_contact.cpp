@@ -16,14 +16,14 @@ bool isNone(Vec2 tangent) { return tangent == Vec2{}; }
 
 enum class Owner { kBefore, kCorner, kAfter, kBoth };
 
-/// A joint of two pieces relative to a point. It is computed from the same numbers for both pieces,
-/// so that their results agree to the last bit.
-struct Joint {
+/// A junction of two pieces relative to a point. It is computed from the same numbers for both
+/// pieces, so that their results agree to the last bit.
+struct Junction {
   Vec2 from;           ///< from the corner to the point
   Vec2 arrive, leave;  ///< tangents
   double past, ahead;  ///< distance of the point beyond the end of one, and along the other
 
-  Joint(Vec2 corner, Vec2 t0, Vec2 t1, Vec2 point)
+  Junction(Vec2 corner, Vec2 t0, Vec2 t1, Vec2 point)
       : from(point - corner), arrive(t0), leave(t1), past(dot(from, t0)), ahead(dot(from, t1)) {}
 
   [[nodiscard]] bool isConcave() const { return cross(arrive, leave) < 0; }
@@ -32,7 +32,7 @@ struct Joint {
     if (past >= 0) return ahead < 0 ? Owner::kCorner : Owner::kAfter;
     if (ahead < 0) return Owner::kBefore;
     if (isConcave()) return Owner::kBoth;
-    // Inside a convex corner, or with rounding at a flat joint: the side nearer to the void.
+    // Inside a convex corner, or with rounding at a flat junction: the side nearer to the void.
     return dot(from, rightOf(arrive)) >= dot(from, rightOf(leave)) ? Owner::kBefore : Owner::kAfter;
   }
 
@@ -91,15 +91,15 @@ std::optional<DiscContact> discContact(const BoundaryPiece& piece, Vec2 centre, 
       return cap.penetration > 0 ? std::optional(cap) : std::nullopt;
     }
   } else {
-    const Joint joint(piece.start, piece.before, leave, centre);
-    const Owner owner = joint.owner();
+    const Junction junction(piece.start, piece.before, leave, centre);
+    const Owner owner = junction.owner();
     if (owner == Owner::kBefore) return {};
     if (owner == Owner::kCorner) {
-      const DiscContact corner = joint.corner(radius);
+      const DiscContact corner = junction.corner(radius);
       const bool counts = corner.penetration > 0 && corner.penetration < 2 * radius;
       return counts ? std::optional(corner) : std::nullopt;
     }
-    if (owner == Owner::kBoth) shared += joint.sharedByAfter(radius);
+    if (owner == Owner::kBoth) shared += junction.sharedByAfter(radius);
   }
   if (isNone(piece.after)) {
     if (dot(centre - piece.end, arrive) >= 0) {
@@ -107,10 +107,10 @@ std::optional<DiscContact> discContact(const BoundaryPiece& piece, Vec2 centre, 
       return cap.penetration > 0 ? std::optional(cap) : std::nullopt;
     }
   } else {
-    const Joint joint(piece.end, arrive, piece.after, centre);
-    const Owner owner = joint.owner();
+    const Junction junction(piece.end, arrive, piece.after, centre);
+    const Owner owner = junction.owner();
     if (owner == Owner::kAfter || owner == Owner::kCorner) return {};
-    if (owner == Owner::kBoth) shared += joint.sharedByBefore(radius);
+    if (owner == Owner::kBoth) shared += junction.sharedByBefore(radius);
   }
   const Foot foot = footOn(piece, centre);
   const double penetration = radius - foot.gap - shared;

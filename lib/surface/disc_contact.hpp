@@ -10,7 +10,7 @@ namespace yadefrag {
 
 struct BoundaryPiece {
   Vec2 start, middle, end;  ///< m; `middle`, of an arc only: its central node
-  Vec2 before, after;  ///< unit tangents of the adjacent pieces at the joints; zero: a free end
+  Vec2 before, after;  ///< unit tangents of the adjacent pieces at the junctions; zero: a free end
   bool isArc = false;
 
   [[nodiscard]] Vec2 tangentAtStart() const;

@@ -100,13 +100,13 @@ class BodyBoxes {
     yade::mask_t mask = 0;
     yade::Body::id_t clump = yade::Body::ID_NONE;
   };
-  enum class Seen : unsigned char { kSame, kChanged, kOther };
+  enum class Checked : unsigned char { kSame, kChanged, kOther };
 
   void takeRule(yade::Scene& scene, const yade::BoundDispatcher& dispatcher, const SweepRule& rule,
                 double cellSlack);
   void gatherSpheres(yade::Scene& scene, int threads);
   bool gatherChanged(yade::Scene& scene, std::size_t most, bool quick, int threads);
-  Seen look(const yade::Body* body, std::size_t id);
+  Checked check(const yade::Body* body, std::size_t id);
   [[nodiscard]] bool keepsBall(const yade::Body& body, const Ball& ball) const;
   bool updateChangedOthers(yade::Scene& scene, yade::BoundDispatcher& dispatcher);
   bool keepsBox(const yade::Body& body, const Turning* was);

@@ -63,9 +63,9 @@ bool BodyBoxes::gatherChanged(yade::Scene& scene, std::size_t most, bool quick, 
     for (std::size_t id = begin; id < end && changed.size() <= most; ++id) {
       if (quick && bodies[id].get() == known_[id].body) continue;
       prefetch(bodies, id);
-      const Seen seen = look(bodies[id].get(), id);
-      if (seen == Seen::kChanged) changed.push_back(BoxId(id));
-      if (seen == Seen::kOther) others.push_back(BoxId(id));
+      const Checked result = check(bodies[id].get(), id);
+      if (result == Checked::kChanged) changed.push_back(BoxId(id));
+      if (result == Checked::kOther) others.push_back(BoxId(id));
     }
   };
   const int parts = forEachPart(bodies.size(), threads, work);
@@ -80,18 +80,19 @@ bool BodyBoxes::gatherChanged(yade::Scene& scene, std::size_t most, bool quick, 
 
 /// Checks one body. If it has changed, its box is computed here, except if its functor must do
 /// that.
-BodyBoxes::Seen BodyBoxes::look(const Body* body, std::size_t id) {
+BodyBoxes::Checked BodyBoxes::check(const Body* body, std::size_t id) {
   Known& known = known_[id];
-  if (!body && !known.body) return Seen::kSame;
+  if (!body && !known.body) return Checked::kSame;
   const bool same =
       body && body == known.body && body->groupMask == known.mask && body->clumpId == known.clump;
   if (same && kinds_[id] == Kind::kSphere && body->bound && keepsBall(*body, balls_[id]))
-    return Seen::kSame;
+    return Checked::kSame;
   const Kind before = kinds_[id];
-  if (same && before == Kind::kOther && !boundRadius(*body)) return Seen::kOther;
+  if (same && before == Kind::kOther && !boundRadius(*body)) return Checked::kOther;
   kinds_[id] = take(body, id);
-  if (kinds_[id] == Kind::kOther) return Seen::kOther;
-  return same && before == Kind::kNone && kinds_[id] == Kind::kNone ? Seen::kSame : Seen::kChanged;
+  if (kinds_[id] == Kind::kOther) return Checked::kOther;
+  return same && before == Kind::kNone && kinds_[id] == Kind::kNone ? Checked::kSame
+                                                                    : Checked::kChanged;
 }
 
 bool BodyBoxes::keepsBall(const Body& body, const Ball& ball) const {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "abi/yade.hpp"
-#include "collider/halo.hpp"
+#include "collider/sphere_reach.hpp"
 #include "core/csr.hpp"
 #include "core/tolerances/threads.hpp"
 #include "search/partner_table.hpp"

@@ -16,13 +16,13 @@ namespace yadefrag {
 /// reproducible.
 class Interval {
  public:
-  /// Adds a search that was due because a body had left its swept box. It checked `looked` bodies
+  /// Adds a search that was due because a body had left its swept box. It checked `checked` bodies
   /// and searched `searched` bodies; `halves` is the number of near neighbours of these that would
   /// not be near with sweeps half as long.
-  void add(double looked, double searched, double halves) {
-    work_ += searched == looked
+  void add(double checked, double searched, double halves) {
+    work_ += searched == checked
                  ? searched
-                 : tolerance::kCheckWork * looked + tolerance::kChangeWork * searched;
+                 : tolerance::kCheckWork * checked + tolerance::kChangeWork * searched;
     searched_ += searched;
     halves_ += halves;
   }

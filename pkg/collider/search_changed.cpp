@@ -23,7 +23,7 @@ bool SearchCollider::searchChanged(int threads) {
   SweepRule rule = chooseSweeps();
   const double soon = tolerance::kLookAhead * interval;
   rule.lookAhead = soon * scene->dt;
-  // If bodies are added at every step, the others are checked only now and then.
+  // If bodies are added at every step, the others are checked once in that time only.
   const bool quick = quickCheck_ && static_cast<double>(scene->iter - lastCheck_) < soon;
   const auto most =
       static_cast<std::size_t>(std::max(remainingWork() / tolerance::kChangeWork, 0.));
@@ -82,7 +82,7 @@ bool SearchCollider::isStillNear(Body::id_t id1, Body::id_t id2) const {
   const BoxPair pair{BoxId(static_cast<std::size_t>(id1)), BoxId(static_cast<std::size_t>(id2))};
   Neighbours unused;
   return overlaps(boxes_.boxes()[pair.first.value], boxes_.boxes()[pair.second.value]) &&
-         isNear(pair, Halo(boxes_.balls(), 0), unused);
+         isNear(pair, SphereReach(boxes_.balls(), 0), unused);
 }
 
 }  // namespace yadefrag

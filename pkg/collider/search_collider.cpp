@@ -100,10 +100,10 @@ void SearchCollider::chooseInterval() {
 }
 
 /// `pairsOfHalf` counts a pair twice if both its bodies were searched.
-void SearchCollider::countWork(double looked, double searchedNow, double halves) {
+void SearchCollider::countWork(double checked, double searchedNow, double halves) {
   searched = static_cast<long>(searchedNow);
   searchedTotal += searched;
-  if (sweepsEnded_) counts_.add(looked, searchedNow, halves);
+  if (sweepsEnded_) counts_.add(checked, searchedNow, halves);
   sweepsEnded_ = quickCheck_ = false;
 }
 
@@ -188,7 +188,7 @@ void SearchCollider::takeEntryPairs() {
 }
 
 void SearchCollider::findNeighbours(int threads) {
-  const Halo halo(boxes_.balls(), 2 * slack_);
+  const SphereReach reach(boxes_.balls(), 2 * slack_);
   near_.clear();
   nearByPart_.resize(static_cast<std::size_t>(threads));
   std::vector<std::size_t> ofHalf(static_cast<std::size_t>(threads), 0);
@@ -199,8 +199,8 @@ void SearchCollider::findNeighbours(int threads) {
     std::size_t ofHalves = 0;
     constexpr std::size_t ahead = 12;  // the balls are in the order of the bodies' ids: prefetch
     for (std::size_t i = begin; i < end; ++i) {
-      if (i + ahead < end) halo.prefetch(pairs_[i + ahead]);
-      if (!isNear(pairs_[i], halo, found)) continue;
+      if (i + ahead < end) reach.prefetch(pairs_[i + ahead]);
+      if (!isNear(pairs_[i], reach, found)) continue;
       out.push_back(found);
       ofHalves += !found.nearByHalf;
     }
@@ -217,15 +217,16 @@ void SearchCollider::findNeighbours(int threads) {
   }
 }
 
-bool SearchCollider::isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const {
+bool SearchCollider::isNear(const BoxPair& pair, const SphereReach& reach, Neighbours& out) const {
   out = {static_cast<Body::id_t>(pair.first.value), static_cast<Body::id_t>(pair.second.value),
          yade::Vector3i::Zero(), true};
-  if (!scene->isPeriodic) return !trueHalo || halo.mayTouch(pair, Vector3r::Zero(), out.nearByHalf);
+  if (!scene->isPeriodic)
+    return !trueHalo || reach.mayTouch(pair, Vector3r::Zero(), out.nearByHalf);
   const yade::Cell& cell = *scene->cell;
-  if (trueHalo && halo.areBalls(pair) && ballsFit(pair)) {
+  if (trueHalo && reach.areBalls(pair) && ballsFit(pair)) {
     const auto& balls = boxes_.balls();
     out.cellDist = nearestImage(balls[pair.first.value].centre, balls[pair.second.value].centre);
-    return halo.mayTouch(pair, cell.intrShiftPos(out.cellDist), out.nearByHalf);
+    return reach.mayTouch(pair, cell.intrShiftPos(out.cellDist), out.nearByHalf);
   }
   const Vector3r& size = cell.getSize();
   const PeriodicRules rules{{size[0], size[1], size[2]}, overlapTolerance, allowBiggerThanPeriod};

@@ -9,10 +9,10 @@
 #include "collider/body_boxes.hpp"
 #include "collider/error_messages.hpp"
 #include "collider/free_memory.hpp"
-#include "collider/halo.hpp"
 #include "collider/interaction_update.hpp"
 #include "collider/interval.hpp"
 #include "collider/motion_watch.hpp"
+#include "collider/sphere_reach.hpp"
 #include "core/parallel.hpp"
 #include "publish/attribute.hpp"
 #include "search/incremental_search.hpp"
@@ -80,7 +80,7 @@ class SearchCollider : public yade::Collider {
   [[nodiscard]] bool isStillNear(yade::Body::id_t id1, yade::Body::id_t id2) const;
   void chooseVerletDist();
   void chooseInterval();
-  void countWork(double looked, double searchedNow, double halves);
+  void countWork(double checked, double searchedNow, double halves);
   SweepRule chooseSweeps();
   void startSearchIfNeeded();
   void updateSearch(int threads);
@@ -88,7 +88,7 @@ class SearchCollider : public yade::Collider {
   void findPairs(Find find);
   void takeEntryPairs();
   void findNeighbours(int threads);
-  bool isNear(const BoxPair& pair, const Halo& halo, Neighbours& out) const;
+  bool isNear(const BoxPair& pair, const SphereReach& reach, Neighbours& out) const;
   [[nodiscard]] bool ballsFit(const BoxPair& pair) const;
   [[nodiscard]] yade::Vector3i nearestImage(const yade::Vector3r& a, const yade::Vector3r& b) const;
   [[nodiscard]] yade::Vector3r cellSpan() const;

@@ -106,11 +106,11 @@ std::vector<EntryId> piecesNear(const yade::Body& sphere, const EntryBodies& bod
   return near;
 }
 
-/// The touching piece with the fewest joints between it and `entry`; none() if all are far.
+/// The touching piece with the fewest junctions between it and `entry`; none() if all are far.
 EntryId nearestAlong(const ContactSurfaces& surfaces, EntryId entry,
                      const std::set<std::uint32_t>& touching) {
   EntryId ahead = entry, behind = entry;
-  for (int joints = 1; joints <= tolerance::kJointsToContact; ++joints) {
+  for (int junctions = 1; junctions <= tolerance::kJunctionsToContact; ++junctions) {
     ahead = surfaces.next[ahead.value], behind = surfaces.prev[behind.value];
     for (const EntryId one : {behind, ahead})
       if (touching.contains(one.value)) return one;

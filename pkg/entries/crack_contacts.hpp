@@ -1,12 +1,13 @@
 #pragma once
 // Contacts of spheres with a boundary that cracks. The contacts of one sphere with the pieces of a
 // boundary act as one spring. When a crack opens below the sphere, corners and faces appear that it
-// overlaps at once, and pieces that shared an overlap at a joint have all of it each. If YADE's law
-// had these overlaps, springs would be compressed although no force has done that work: a sphere
-// that breaks a wall gained up to 1.7 times its energy. Therefore each contact keeps its force and
-// its energy through the crack: by a share of the stiffness, and by an overlap that is tolerated,
-// i.e. gets no force (SurfaceSegment::Changed). A new face has no force, and tolerates its overlap.
-// Rejected: tolerated overlaps only. Pieces that shared a spring would have half of its energy.
+// overlaps at once, and pieces that shared an overlap at a junction have all of it each. If YADE's
+// law had these overlaps, springs would be compressed although no force has done that work: a
+// sphere that breaks a wall gained up to 1.7 times its energy. Therefore each contact keeps its
+// force and its energy through the crack: by a share of the stiffness, and by an overlap that is
+// tolerated, i.e. gets no force (SurfaceSegment::Changed). A new face has no force, and tolerates
+// its overlap. Rejected: tolerated overlaps only. Pieces that shared a spring would have half of
+// its energy.
 
 #include <vector>
 

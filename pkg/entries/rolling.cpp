@@ -107,11 +107,11 @@ bool RollingSpheres::carry(yade::Scene& scene, const EntryBodies& bodies,
     contacts[i].addForce(scene, contacts[i].shear - former[i], fromNextStep);
     any = !fromNextStep;
   }
-  remember(contacts);
+  store(contacts);
   return any;
 }
 
-void RollingSpheres::remember(const Contacts& contacts) {
+void RollingSpheres::store(const Contacts& contacts) {
   held_.clear();
   for (const Contact& one : contacts)
     if (one.normal > 0)

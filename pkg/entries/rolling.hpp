@@ -2,7 +2,7 @@
 // Spheres that roll along a boundary. YADE has a contact for each piece, and a new contact begins
 // without a tangential force, which a sphere that moves from one piece to the next would lose. That
 // force is transferred here. It is divided if a sphere touches two pieces at once, e.g. at the
-// joints of a slightly concave boundary, where one contact decreases as the other one increases.
+// junctions of a slightly concave boundary, where one contact decreases as the other one increases.
 
 #include <vector>
 
@@ -41,7 +41,7 @@ class RollingSpheres {
   static Contacts contactsOf(const EntryBodies& bodies);
   void carryEnded(Contacts& contacts, const yade::Scene& scene, const EntryBodies& bodies,
                   const ContactSurfaces& surfaces) const;
-  void remember(const Contacts& contacts);
+  void store(const Contacts& contacts);
 
   std::vector<Held> held_;  // by sphere, then piece
 };

@@ -32,7 +32,7 @@ class Ig2_Sphere_SurfaceSegment_ScGeom final
       "boundary is a prism along z. As with Ig2_Wall_Sphere_ScGeom the boundary has the "
       "sphere's radius, so that a flat one is as stiff as a Wall. Along a chain of segments "
       "every point belongs to one of them: no double force at "
-      "a flat or convex joint, two forces in a concave corner.";
+      "a flat or convex junction, two forces in a concave corner.";
   static constexpr auto attributes() { return std::tuple(); }
 
   bool go(const yade::shared_ptr<yade::Shape>& sphere, const yade::shared_ptr<yade::Shape>& segment,

@@ -27,7 +27,7 @@ void requireForces(const Engines& engines, std::size_t from, const yade::Engine*
   }
 }
 
-/// Does NewtonIntegrator use the forces of the engine at `from` before `solver` does.
+/// True if NewtonIntegrator uses the forces of the engine at `from` before `solver`.
 bool movesBefore(const Engines& engines, std::size_t from, const yade::Engine& solver) {
   for (std::size_t i = 1; i < engines.size(); ++i) {
     const yade::Engine* const next = engines[(from + i) % engines.size()];
@@ -65,22 +65,22 @@ void EngineOrder::requireReturn(const yade::Scene& scene, const yade::Engine& so
   }
 }
 
-bool EngineOrder::isKnown(const yade::Scene& scene, const yade::Engine& solver) const {
-  return std::equal(scene.engines.begin(), scene.engines.end(), known_.begin(), known_.end(),
-                    [&](const auto& engine, const Place& place) {
+bool EngineOrder::isUnchanged(const yade::Scene& scene, const yade::Engine& solver) const {
+  return std::equal(scene.engines.begin(), scene.engines.end(), checked_.begin(), checked_.end(),
+                    [&](const auto& engine, const Item& item) {
                       const yade::Engine& one = *engine;
-                      return place == Place{&typeid(one), &one == &solver, one.dead};
+                      return item == Item{&typeid(one), &one == &solver, one.dead};
                     });
 }
 
 bool EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) {
-  if (isKnown(scene, solver)) return false;
-  known_.clear();
-  std::vector<Place> places;
+  if (isUnchanged(scene, solver)) return false;
+  checked_.clear();
+  std::vector<Item> items;
   Engines alive;
   for (const auto& engine : scene.engines) {
     const yade::Engine& one = *engine;
-    places.push_back({&typeid(one), &one == &solver, one.dead});
+    items.push_back({&typeid(one), &one == &solver, one.dead});
     if (!one.dead) alive.push_back(&one);
   }
   const auto count = std::count(alive.begin(), alive.end(), &solver);
@@ -103,7 +103,7 @@ bool EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) 
     moveFirst = moveFirst || movesBefore(alive, i, solver);
   }
   spheresMoveFirst_ = moveFirst;
-  known_.swap(places);
+  checked_.swap(items);
   return true;
 }
 

@@ -14,8 +14,8 @@ class EngineOrder {
   /// before `solver` or NewtonIntegrator has used them: momentum would be lost. Checks only if
   /// engines have changed since the last call; returns true in that case.
   bool require(const yade::Scene& scene, const yade::Engine& solver);
-  /// Does NewtonIntegrator use the forces of InteractionLoop before `solver` does, in the engines
-  /// of the last `require`.
+  /// True if NewtonIntegrator used the forces of InteractionLoop before `solver`, in the engines of
+  /// the last `require`.
   [[nodiscard]] bool spheresMoveFirst() const { return spheresMoveFirst_; }
 
   /// Throws std::invalid_argument if the forces of `solver` on rigid bodies are reset within the
@@ -23,14 +23,14 @@ class EngineOrder {
   static void requireReturn(const yade::Scene& scene, const yade::Engine& solver, bool anyMovable);
 
  private:
-  struct Place {
+  struct Item {
     const std::type_info* type;
     bool isSolver, isDead;
-    bool operator==(const Place&) const = default;
+    bool operator==(const Item&) const = default;
   };
-  bool isKnown(const yade::Scene& scene, const yade::Engine& solver) const;
+  bool isUnchanged(const yade::Scene& scene, const yade::Engine& solver) const;
 
-  std::vector<Place> known_;
+  std::vector<Item> checked_;  // the engines of the last `require`
   bool spheresMoveFirst_ = false;
 };
 

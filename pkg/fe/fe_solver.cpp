@@ -14,7 +14,7 @@
 #include "core/tolerances/step.hpp"
 #include "fe/pair_source.hpp"
 #include "fe/running.hpp"
-#include "fracture/checks.hpp"
+#include "fracture/brittle_checks.hpp"
 
 namespace yadefrag {
 
@@ -94,7 +94,7 @@ void FESolver::checkScene(bool enginesAreNew) {
   const yade::NewtonIntegrator* newton = integrator(false);
   const yade::Vector3r theirs = newton ? newton->gravity : yade::Vector3r::Zero();
   if (takesOver()) world_.dynamicsSettings.gravity = {theirs[0], theirs[1]};
-  const bool bodiesAreNew = around_.look(*scene);
+  const bool bodiesAreNew = around_.check(*scene);
   const bool rigidChanged = std::exchange(checkedRigid_, rigidBodies) != rigidBodies;
   report(materials_.sentences());
   report(unusedSettings());

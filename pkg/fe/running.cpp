@@ -33,7 +33,7 @@ _Unwind_Ptr addressOf(Member member) {
   return address;
 }
 
-_Unwind_Reason_Code lookForStep(_Unwind_Context* context, void* found) {
+_Unwind_Reason_Code findStep(_Unwind_Context* context, void* found) {
   static const _Unwind_Ptr step = addressOf(&yade::Scene::moveToNextTimeStep);
   if (_Unwind_GetRegionStart(context) != step) return _URC_NO_REASON;
   *static_cast<bool*>(found) = true;
@@ -50,7 +50,7 @@ void replaceLoop() {
 
 bool isInStep() {
   bool found = false;
-  _Unwind_Backtrace(&lookForStep, &found);
+  _Unwind_Backtrace(&findStep, &found);
   return found;
 }
 

@@ -34,8 +34,8 @@ double spinBetween(const yade::Quaternionr& before, const yade::Quaternionr& aft
   return std::remainder(2 * std::atan2(turn.z(), turn.w()), 2 * M_PI) / dt;
 }
 
-/// The spring of a sphere and a piece. Pieces that share an overlap at a joint have a share of its
-/// stiffness each, and so may pieces that a crack has separated.
+/// The spring of a sphere and a piece. Pieces that share an overlap at a junction have a share of
+/// its stiffness each, and so may pieces that a crack has separated.
 struct Spring {
   double share = 1;  // of the law's stiffness
   double depth = 0;  // m, compression
@@ -153,7 +153,7 @@ std::vector<SceneEnergy::Touching> SceneEnergy::contactsOf(const yade::Scene& sc
   return found;
 }
 
-/// How YADE's bodies have moved since the last step, and the work of its forces on them.
+/// Finds how YADE's bodies have moved since the last step, and the work of its forces on them.
 void SceneEnergy::measureMotion(const yade::Scene& scene, const World& world) {
   const double dt = world.lastDt;
   for (Touching& one : touching_) {

@@ -28,8 +28,8 @@ class SceneEnergy {
     bool exists;
     bool isFirst;  ///< it has already used the forces of spheres of this step
   };
-  /// Before a step of the bodies, when their forces are known: settles the last step, in which
-  /// YADE's bodies have moved.
+  /// Before a step of the bodies, when their forces are known: completes the last step, in
+  /// which YADE's bodies have moved.
   void begin(const yade::Scene& scene, const World& world, const EntryBodies& entries,
              Integrator integrator);
   /// After it. `given`: forces on rigid boundaries.

@@ -9,12 +9,12 @@
 
 namespace yadefrag {
 
-bool SceneWatch::look(const yade::Scene& scene) {
+bool SceneWatch::check(const yade::Scene& scene) {
   const auto& bodies = scene.bodies->body;
   bool isNew = false;
-  looked_ = std::min(looked_, bodies.size());
-  for (; looked_ < bodies.size(); ++looked_) {
-    const yade::Body* body = bodies[looked_].get();
+  checked_ = std::min(checked_, bodies.size());
+  for (; checked_ < bodies.size(); ++checked_) {
+    const yade::Body* body = bodies[checked_].get();
     if (!body || !body->shape || body->isClump()) continue;
     if (dynamic_cast<const SurfaceSegment*>(body->shape.get())) continue;
     isNew = noteShape(*body) || isNew;

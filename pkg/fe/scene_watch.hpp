@@ -14,7 +14,7 @@ namespace yadefrag {
 class SceneWatch {
  public:
   /// Checks the bodies that were added since the last call. Returns true if there is a message.
-  bool look(const yade::Scene& scene);
+  bool check(const yade::Scene& scene);
   /// Messages about these bodies, from yadefrag/scene/scene_check.py; none if that fails.
   /// `gravity`: m/s², of NewtonIntegrator; `rigidBodies`: contact with YADE's walls, boxes and
   /// facets is on; `thickness`: m, largest of the bodies of FESolver. Acquires Python's lock.
@@ -30,7 +30,7 @@ class SceneWatch {
   bool noteShape(const yade::Body& body);
   bool noteSphere(const yade::Body& body, double radius);
 
-  std::size_t looked_ = 0;
+  std::size_t checked_ = 0;  // number of the scene's bodies at the last call
   std::vector<Kind> kinds_;
   // Spheres: one beside the plane of the bodies, one that leaves it, one that may leave it.
   yade::Body::id_t beside_ = -1, leaving_ = -1, loose_ = -1;

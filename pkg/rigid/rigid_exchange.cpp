@@ -1,4 +1,4 @@
-// Rigid boundaries: what a step of the bodies gets from YADE's bodies, and what these get from it.
+// Rigid boundaries: a step takes velocities and inertia from YADE's bodies, and gives them forces.
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fracture/checks.hpp"
+#include "fracture/brittle_checks.hpp"
 #include "script/calls.hpp"
 
 namespace yadefrag {

@@ -1,7 +1,7 @@
 #include "script/fe_arrays.hpp"
 
 #include "dynamics/element_state.hpp"
-#include "fracture/checks.hpp"
+#include "fracture/brittle_checks.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
 #include "script/fragments.hpp"

@@ -2,7 +2,7 @@
 // Python values and methods of FESolver; addPolygon and others are written in Python
 // (python/yadefrag/fe/solver.py).
 
-#include "fracture/checks.hpp"
+#include "fracture/brittle_checks.hpp"
 #include "script/body_python.hpp"
 #include "script/bonds_python.hpp"
 #include "script/calls.hpp"
@@ -50,7 +50,7 @@ void FESolver::pyExtra(PyClass& pyClass) {
       .def("criticalTimeStep", &Locked<criticalTimeStepOf>::call,
            "Critical time step (s) of the present mesh; of a body that can crack also when all "
            "its triangles are separated; infinite without bodies. An O.dt that changes all the "
-           "time should stay below a third of it. Spheres are not considered: see README.md, "
+           "time should stay below a third of it. Spheres are not considered: see the manual, "
            "Limits.")
       .def("deepestOverlap", &Locked<deepestOverlapOf>::call,
            "Deepest overlap (m) of any two triangles without a common node: the shortest "

@@ -87,7 +87,7 @@ struct Pen {
 
 /// Updates the pictures, except during a step: the step may be waiting for a lock that YADE holds
 /// while drawing.
-void Gl1_SurfaceSegment::look() {
+void Gl1_SurfaceSegment::takePictures() {
   if (!scene) return;
   for (const auto& engine : scene->engines) {
     const auto* solver = dynamic_cast<const FESolver*>(engine.get());
@@ -106,7 +106,7 @@ void Gl1_SurfaceSegment::go(const yade::shared_ptr<yade::Shape>& shape,
   if (segment.entry < 0 || !gl.isComplete) return;
   const auto stands = [&](const BodyPicture& picture) { return picture.entry == segment.entry; };
   // All bodies once per frame; the first segment starts it.
-  if (segment.entry == 0 || pictures_.empty()) look();
+  if (segment.entry == 0 || pictures_.empty()) takePictures();
   const auto picture = std::ranges::find_if(pictures_, stands);
   if (picture == pictures_.end()) return;
   const Pen pen{gl, {state->se3.position[0], state->se3.position[1]}};

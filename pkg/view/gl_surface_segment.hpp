@@ -26,7 +26,7 @@ class Gl1_SurfaceSegment final : public Published<Gl1_SurfaceSegment, yade::GlSh
   void initgl() override {}
 
  private:
-  void look();
+  void takePictures();
 
   std::vector<BodyPicture> pictures_;  // of the last update that did not have to wait
 };

@@ -31,7 +31,7 @@ struct Constant {
 };
 
 constexpr std::array<Constant, 6> kConstants{
-    {{"EntryDepth", [](Constants& c, double f) { c.entryDepth *= f; }},
+    {{"OutsideDepth", [](Constants& c, double f) { c.outsideDepth *= f; }},
      // A sine: twice the value is 43°, where one of the four impacts loses a contact.
      {"FaceAngle", [](Constants& c, double f) { c.faceAngle *= f; }, 1.5},
      {"Opposed", [](Constants& c, double f) { c.opposed *= f; }},

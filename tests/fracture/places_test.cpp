@@ -11,7 +11,7 @@
 #include "core/errors.hpp"
 #include "core/same_bits.hpp"
 #include "extremes/saved_world.hpp"
-#include "fracture/checks.hpp"
+#include "fracture/brittle_checks.hpp"
 #include "fracture/refused_body.hpp"
 #include "step/bodies.hpp"
 

@@ -1,4 +1,4 @@
-// An expanding ring breaks to pieces: how large they are on the mean, against
+// An expanding ring breaks into fragments: how large they are on the mean, against
 //   s/s₀ = 4.5 / (1 + 0.77 ė^0.25 + 5.4 ė^0.75), s₀ = E·Gc/σc², ė = ε̇/ė₀, ė₀ = c·σc³/(E²·Gc)
 // of Zhou, Molinari and Ramesh 2006 (Appl. Phys. Lett. 88, 261917: a ring in one dimension).
 
@@ -114,14 +114,14 @@ double meanSize(const Case& one, std::uint64_t seeds) {
   return sum / static_cast<double>(seeds) / expectedSize(one.rate);
 }
 
-// The two rings break to 118 and 115 pieces, 1.12 and 1.15 times as large as the formula's 132; as
-// much as a quarter is allowed, since it is a fit, and seeds differ by 5 %.
+// The two rings break into 118 and 115 fragments, 1.12 and 1.15 times as large as the formula's
+// 132; as much as a quarter is allowed, since it is a fit, and seeds differ by 5 %.
 TEST(Ring, PiecesAreAsLargeAsTheory) {
   test::figure("size_over_theory", meanSize({1e4, 500, 1e-6}, 2), 1, .25);
 }
 
 // Measured, coarse and fine mesh: 1.08 and 1.09 at 10³ s⁻¹, 1.11 and 1.06 at 10⁴, 1.16 and 1.21 at
-// 10⁵. At 10³, where a ring has no more than 60 pieces, 40 % are allowed. Several minutes.
+// 10⁵. At 10³, where a ring has no more than 60 fragments, 40 % are allowed. Several minutes.
 TEST(Ring, ThreeRatesFiveSeedsTwoMeshes) {
   if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   for (const Case& one : {Case{1e3, 500, 2.5e-6}, Case{1e4, 500, 1e-6}, Case{1e5, 2500, .3e-6}}) {
@@ -149,7 +149,7 @@ TriangleMesh polygonRing(double size, int rows, std::uint64_t seed) {
   return triangulate(polygon, size, {NodeLayout::kScattered, seed});
 }
 
-/// Pieces that nothing holds any more.
+/// Fragments that nothing holds any more.
 std::size_t countPieces(const World& world) {
   const CrackEdges& edges = world.fracture.edges;
   std::vector<std::uint32_t> root(world.model.triangles.size());
@@ -171,7 +171,7 @@ std::size_t countPieces(const World& world) {
   return count;
 }
 
-/// Pieces of a ring as a user gets it, over the formula's.
+/// Fragments of a ring as a user gets it, over the formula's.
 double piecesOverTheory(double rate, double width, int rows, double scatter, std::uint64_t seed) {
   World world;
   const TriangleMesh mesh = polygonRing(width / rows, rows, seed);
@@ -184,10 +184,10 @@ double piecesOverTheory(double rate, double width, int rows, double scatter, std
 
 // Wanted: 8 %. An irregular mesh has paths across that are up to 1.15 times as strong as others,
 // and breaks as one of rows does whose strengths scatter by ±5 %: weak places relieve the others,
-// and there are fewer pieces. Before ends that open differently counted by their mean, hinges held
-// rings of one row together: 30 pieces instead of 132 at 10⁴ s⁻¹, 1 instead of 498 at 10⁵.
-// Now they break to .75 and .91 of the formula's pieces. Of two rows .64, and .54 at 10⁵ (not run
-// here). The limits keep what was measured, and that no hinges come back.
+// and there are fewer fragments. Before ends that open differently counted by their mean, hinges
+// held rings of one row together: 30 fragments instead of 132 at 10⁴ s⁻¹, 1 instead of 498 at 10⁵.
+// Now they break to .75 and .91 of the formula's fragments. Of two rows .64, and .54 at 10⁵ (not
+// run here). The limits keep what was measured, and that no hinges come back.
 TEST(Ring, OnTheMeshOfAPolygon) {
   test::figure("pieces_1e4_1", piecesOverTheory(1e4, 1e-4, 1, 1e-4, 1), .75, .15);
   test::figure("pieces_1e4_2", piecesOverTheory(1e4, 1e-4, 2, 1e-4, 1), .65, .15);

@@ -6,25 +6,25 @@ namespace yadefrag::tolerance {
 
 /// The constants on which the outcome of contact depends besides rounding. Overlaps in the
 /// following are the largest ones of any two triangles in 24 impacts, in parts of the shortest
-/// segment: 7e-5 with these values; 4e-4 in 48 others.
+/// segment, when the value was chosen; docs/measured.md has the present ones.
 struct Contact {
   /// (of the shortest segment) A slave no deeper than this behind a piece at the start of a step
   /// counts as outside. It must exceed the errors of a step's corrections, otherwise a contact is
   /// lost.
-  double entryDepth = 4e-4;
+  double outsideDepth = 4e-4;
 
   /// (sine) Two adjacent pieces whose normals differ by less than this angle, 20°, are one face for
   /// a slave that slides from one to the other. A convex corner with a larger angle is sharp: it is
   /// a slave in a single pass, too, and it can touch a face only if neither of its sides is
   /// inclined into that face by more than this angle. Overlaps are the same from 5° to 31°; at 43°
-  /// one of four impacts loses a contact, at 60° pieces overlap by a half.
+  /// one of four impacts loses a contact, at 60° fragments overlap by half a segment.
   double faceAngle = .34;
 
   /// (cosine) The cosine between a slave's normal and its master's must be below this. It excludes
   /// the lateral faces at coincident corners, which are parallel except for rounding.
   double opposed = -.1;
 
-  /// (of a slave's depth behind a piece) At a concave joint a slave up to this far beyond the
+  /// (of a slave's depth behind a piece) At a concave junction a slave up to this far beyond the
   /// piece's end is still inside the piece: the value is reached at the bottom of a notch of 11°.
   double pastConcave = 10;
 
@@ -35,9 +35,9 @@ struct Contact {
 
   /// (count) Contact is solved by at most this number of sweeps at each of at most kDetections
   /// detections, unless they are far from a solution (kFarFromSolved); the next step goes on from
-  /// their forces. What remains must be less than
-  /// entryDepth: with 20 sweeps overlaps in impacts are 2e-4 to 9e-3, with 40 8e-5, with 160
-  /// overlaps are .8 times those with 80, for 1.4 times the time.
+  /// their forces. What remains must be less than outsideDepth: with 20 sweeps overlaps in impacts
+  /// are 2e-4 to 9e-3, with 40 8e-5, with 160 overlaps are .8 times those with 80, for 1.4 times
+  /// the time.
   int rowSweeps = 80;
 };
 
@@ -63,7 +63,7 @@ inline constexpr double kLineCorner = 1e-5;
 inline constexpr double kFinenessSteps = 8;
 
 /// (ξ) A foot this far beyond a piece's end is still on the piece: rounding must not leave a gap
-/// between two pieces at their joint.
+/// between two adjacent pieces.
 inline constexpr double kFootRange = 1e-9;
 
 /// (cosine) Two adjacent sides whose normals have a cosine below this are the two sides of one
@@ -75,8 +75,8 @@ inline constexpr double kFolded = -.999999;
 /// value gives the same bits in 24 impacts.
 inline constexpr double kFootBeyond = .25;
 
-/// (ξ) A foot this near to a node is at the node. In a wall of blocks that touch exactly, the
-/// forces of a joint's nodes then do not depend on those of the next joint.
+/// (ξ) A foot this near to a node is at the node. In a wall of blocks that touch exactly, forces at
+/// one end of a block's side then do not depend on those at its other end.
 inline constexpr double kFootAtNode = 1e-7;
 
 /// (ξ) The same for a slave without friction that has passed the end of its master within the step,
@@ -98,7 +98,7 @@ inline constexpr double kSecondOrder = .05, kMostRemainder = 1e-5;
 /// (of the shortest segment) Contacts that the corrections of a step cause begin in the next step,
 /// without another search, if they cannot be deeper than this. Walls at rest then need one search
 /// per step. With 1e-4 impacts take the same time.
-inline constexpr double kLateEntry = 1e-5;
+inline constexpr double kLateContact = 1e-5;
 
 /// (count) Maximum number of detections in one step. With 10 overlaps in impacts are the same, for
 /// 1.3 times the time.

@@ -26,12 +26,12 @@ inline constexpr int kSweepsToDivide = 10;
 /// between two of them, the ratio by which there are more sweeps after a bound has ended one, and
 /// iterations of one. In walls of blocks the next bound is always near: with the first one after
 /// 10, 20, 40 sweeps walls take 1.3, 1.2, 1.0 times the time, without gradients .95 times. But
-/// without them the two faces of a joint in two passes need thousands of sweeps.
+/// without them two sides that touch, both slaves in two passes, need thousands of sweeps.
 inline constexpr int kSweepsToDescend = 20, kSweepsAfterDescent = 2, kMoreSweeps = 4,
                      kDescents = 200;
 
 /// (of the response of the row alone) Compliance of a row in conjugate gradients, against the
-/// forces at their begin. Without it, jammed pieces get forces without bound; with 1e-6 and 1e-5
+/// forces at their begin. Without it, jammed fragments get forces without bound; with 1e-6 and 1e-5
 /// tests of patches, stacks, slopes and jams pass, with 1e-4 one patch has an error of 2e-6 (wanted
 /// 1e-6).
 inline constexpr double kCompliance = 1e-5;

@@ -8,9 +8,9 @@ namespace yadefrag::tolerance {
 /// positions before the step are computed back from those after it, with rounding.
 inline constexpr double kSameOverlap = 1e-9;
 
-/// (count) Joints along a boundary up to which a piece continues the contact of another one. A
+/// (count) Junctions along a boundary up to which a piece continues the contact of another one. A
 /// sphere moves from piece to piece in single steps; fans of new faces have some pieces between.
-inline constexpr int kJointsToContact = 8;
+inline constexpr int kJunctionsToContact = 8;
 
 /// ((ω Δt)², ω of the contact's spring between the masses that it moves) Up to this the step
 /// resolves a contact by 28 steps in a period, and a shorter one does not create less energy. In

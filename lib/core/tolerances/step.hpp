@@ -1,6 +1,6 @@
 #pragma once
-// Tolerances and thresholds of the step: motion, halo, watch over energies, each with its unit and
-// its reason.
+// Tolerances and thresholds of the step: motion, halo, messages about energies, each with its unit
+// and its reason.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ inline constexpr double kGivenEnergy = .01, kEvaluateAgain = 1.1;
 /// momentum. Cohesive tractions create none but for rounding.
 inline constexpr double kGivenSpin = .001;
 
-/// (of the longest step) The step that a message asks for: it must suffice although its digits are
+/// (of the longest step) The step that a message states: it must suffice although its digits are
 /// rounded.
 inline constexpr double kAdvised = .99;
 

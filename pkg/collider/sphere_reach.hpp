@@ -19,11 +19,11 @@ struct Neighbours {
   bool nearByHalf;  // true if they are near also with sweeps half as long
 };
 
-class Halo {
+class SphereReach {
  public:
   /// `slack` (m): the largest reduction of a distance by the cell's deformation before the next
   /// search.
-  Halo(const std::vector<Ball>& balls, double slack) : balls_(balls), slack_(slack) {}
+  SphereReach(const std::vector<Ball>& balls, double slack) : balls_(balls), slack_(slack) {}
 
   [[nodiscard]] bool areBalls(const BoxPair& pair) const {
     return balls_[pair.first.value].radius >= 0 && balls_[pair.second.value].radius >= 0;

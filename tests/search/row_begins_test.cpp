@@ -1,6 +1,6 @@
 // Rows of a sweep: the same places as std::lower_bound, for codes that advance, jump and return.
 
-#include "search/row_places.hpp"
+#include "search/row_begins.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,13 +25,13 @@ std::vector<std::uint64_t> randomCodes(std::mt19937_64& random, std::size_t coun
   return codes;
 }
 
-TEST(RowPlaces, AreLowerBounds) {
+TEST(RowBegins, AreLowerBounds) {
   std::mt19937_64 random(3);
   CountNothing uncounted;
   for (int list = 0; list < 2000; ++list) {
     const std::uint64_t most = 1 + random() % 5000;
     const auto codes = randomCodes(random, random() % 300, most);
-    RowPlaces::OfLevel places;
+    RowBegins::OfLevel places;
     std::uint64_t code = 0;
     for (int look = 0; look < 50; ++look) {
       code = random() % 4 ? code + random() % 40 : random() % (most + 10);
@@ -43,12 +43,12 @@ TEST(RowPlaces, AreLowerBounds) {
 }
 
 /// Lemma A.3 with neighbours in the order of the sweep: a constant number of steps for each.
-TEST(RowPlaces, AdvanceInAFewStepsEach) {
+TEST(RowBegins, AdvanceInAFewStepsEach) {
   std::mt19937_64 random(4);
   CountAll counted;
   constexpr std::size_t kCodes = 100000;
   const auto codes = randomCodes(random, kCodes, 3 * kCodes);
-  RowPlaces::OfLevel places;
+  RowBegins::OfLevel places;
   for (std::size_t i = 0; i < kCodes; ++i) places.lowerBound(0, codes, codes[i] + 500, counted);
   EXPECT_LE(counted.total().range, 3 * kCodes);
 }

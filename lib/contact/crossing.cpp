@@ -1,4 +1,4 @@
-#include "contact/entry_path.hpp"
+#include "contact/crossing.hpp"
 
 #include <algorithm>
 #include <cmath>

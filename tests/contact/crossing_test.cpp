@@ -1,6 +1,6 @@
 // Where a moving point goes through the line of a moving piece: against steps in time.
 
-#include "contact/entry_path.hpp"
+#include "contact/crossing.hpp"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -37,7 +37,7 @@ class Moves {
 };
 
 /// The lines' lengths vary, so the depth at the time found is `depth` only where they do not.
-TEST(EntryPath, SameAsManySmallSteps) {
+TEST(Crossing, SameAsManySmallSteps) {
   Moves moves;
   int crossings = 0, behind = 0, returns = 0;
   for (int trial = 0; trial < 20000; ++trial) {
@@ -81,7 +81,7 @@ TEST(EntryPath, SameAsManySmallSteps) {
 
 const PieceEnds kPiece{{0, 0}, {-1, 0}};  // its void side is above
 
-TEST(EntryPath, TheDepthCountsAsBefore) {
+TEST(Crossing, TheDepthCountsAsBefore) {
   constexpr double kDepth = 1e-3;
   const auto at = [](Vec2 point) { return PointAndPiece{point, kPiece}; };
   // What is left a little inside, and sinks on.
@@ -101,7 +101,7 @@ TEST(EntryPath, TheDepthCountsAsBefore) {
 }
 
 /// A common velocity changes nothing: only relative motion counts.
-TEST(EntryPath, SameInAnyFrame) {
+TEST(Crossing, SameInAnyFrame) {
   Moves moves;
   for (int trial = 0; trial < 1000; ++trial) {
     const PointAndPiece before = moves.state(), now = moves.state();
@@ -116,7 +116,7 @@ TEST(EntryPath, SameInAnyFrame) {
 }
 
 /// A piece whose ends meet has no line; nothing is found, and nothing is divided by 0.
-TEST(EntryPath, APieceWithoutLength) {
+TEST(Crossing, APieceWithoutLength) {
   const PieceEnds point{{0, 0}, {0, 0}};
   EXPECT_FALSE(crossing({{0, 1}, point}, {{0, -1}, point}, 1e-4));
 }

@@ -1,4 +1,4 @@
-#include "contact/joint_rules.hpp"
+#include "contact/junction_rules.hpp"
 
 namespace yadefrag {
 
@@ -18,7 +18,7 @@ template <class Geometry>
 void decideNeighbours(const Geometry& geometry, Trial& first, Trial& second) {
   const bool pastFirst = isBehindEnd(geometry, first.master, first.foot);
   const bool pastSecond = isBeforeBegin(geometry, second.master, second.foot);
-  const bool concave = isConcaveJoint(geometry, first.master, second.master);
+  const bool concave = isConcaveJunction(geometry, first.master, second.master);
   if (concave && pastFirst && pastSecond) {
     // No orthogonal correction is possible: correct to the corner, by the rows of both masters. In
     // a notch narrower than a right angle the slave may be behind one of them only.
@@ -36,8 +36,8 @@ void decideNeighbours(const Geometry& geometry, Trial& first, Trial& second) {
 }  // namespace
 
 template <class Geometry>
-void decideJoints(const ContactSurfaces& surfaces, const Geometry& geometry,
-                  std::span<Trial> trials) {
+void decideJunctions(const ContactSurfaces& surfaces, const Geometry& geometry,
+                     std::span<Trial> trials) {
   for (Trial& first : trials) {
     const EntryId after = surfaces.next[first.master.value];
     for (Trial& second : trials)
@@ -45,7 +45,9 @@ void decideJoints(const ContactSurfaces& surfaces, const Geometry& geometry,
   }
 }
 
-template void decideJoints(const ContactSurfaces&, const PieceGeometryOf<true>&, std::span<Trial>);
-template void decideJoints(const ContactSurfaces&, const PieceGeometryOf<false>&, std::span<Trial>);
+template void decideJunctions(const ContactSurfaces&, const PieceGeometryOf<true>&,
+                              std::span<Trial>);
+template void decideJunctions(const ContactSurfaces&, const PieceGeometryOf<false>&,
+                              std::span<Trial>);
 
 }  // namespace yadefrag

@@ -1,4 +1,4 @@
-#include "fracture/checks.hpp"
+#include "fracture/brittle_checks.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Small pieces that are detached from their body.
+// Small fragments that are detached from their body.
 
 #include <cstdint>
 #include <span>
@@ -10,22 +10,22 @@
 
 namespace yadefrag {
 
-class LoosePieces {
+class LooseFragments {
  public:
-  /// Finds the pieces with a triangle among `around` whose area (m², stress-free) is below `area`.
-  /// A piece is detached if it is not its whole body, no cohesive crack connects it to another
-  /// piece, and none of its nodes is held. The cost depends on `around` only: from each triangle at
-  /// most twice `area` is visited.
+  /// Finds the fragments with a triangle among `around` whose area (m², stress-free) is below
+  /// `area`. A fragment is detached if it is not its whole body, no cohesive crack connects it to
+  /// another fragment, and none of its nodes is held. The cost depends on `around` only: from each
+  /// triangle at most twice `area` is visited.
   void find(const Model& model, const CrackEdges& edges, const Cohesion& cohesion,
             std::span<const ElementId> around, double area);
 
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kFracture, triangles, met_, holds_, piece_);
+    footprint.add(Use::kFracture, triangles, met_, holds_, fragment_);
   }
 
   // Results.
-  std::vector<ElementId> triangles;  ///< of each piece, ascending, piece by piece
-  std::uint64_t count = 0;           ///< number of pieces
+  std::vector<ElementId> triangles;  ///< of each fragment, ascending, one after the other
+  std::uint64_t count = 0;           ///< number of fragments
 
  private:
   bool grow(const Model& model, const CrackEdges& edges, ElementId start, double area);
@@ -36,7 +36,7 @@ class LoosePieces {
   std::vector<std::uint64_t> met_;
   std::vector<std::uint8_t> holds_;
   std::uint64_t walk_ = 0, firstWalk_ = 0;  // numbers of the last walk, of this call's first
-  std::vector<ElementId> piece_;
+  std::vector<ElementId> fragment_;
 };
 
 }  // namespace yadefrag

@@ -2,7 +2,7 @@
 // Where the rows of a sweep over boxes in the order of linear codes begin.
 //
 // A sweep visits the boxes row by row. The boxes that one of them can meet lie in a few adjacent
-// rows, and the place of each of these in the list advances with the sweep: the next place is
+// rows, and the begin of each of these in the list advances with the sweep: the next begin is
 // found from the last one, by single steps, then by strides that double (paper §4.4, lemma A.3).
 // All look-ups of a row together take about as many steps as there are codes.
 
@@ -17,7 +17,7 @@
 
 namespace yadefrag {
 
-class RowPlaces {
+class RowBegins {
  public:
   class OfLevel {
    public:
@@ -26,16 +26,16 @@ class RowPlaces {
     template <class Count>
     std::uint32_t lowerBound(int row, std::span<const std::uint64_t> codes, std::uint64_t code,
                              Count& count) {
-      std::uint32_t& place = places_[static_cast<std::size_t>(row) % places_.size()];
+      std::uint32_t& begin = begins_[static_cast<std::size_t>(row) % begins_.size()];
       count.range(1);
-      if (place > 0 && codes[place - 1] >= code)
-        return place = bisectCodes(codes, 0, place - 1, code, count);
+      if (begin > 0 && codes[begin - 1] >= code)
+        return begin = bisectCodes(codes, 0, begin - 1, code, count);
       for (int step = 0; step < tolerance::kRowSteps; ++step) {
         count.range(1);
-        if (codes[place] >= code) return place;
-        ++place;
+        if (codes[begin] >= code) return begin;
+        ++begin;
       }
-      return place = gallop(codes, place, code, count);
+      return begin = gallop(codes, begin, code, count);
     }
 
    private:
@@ -52,7 +52,7 @@ class RowPlaces {
       return bisectCodes(codes, begin, std::min(last, begin + stride - 1), code, count);
     }
 
-    std::array<std::uint32_t, 16> places_{};
+    std::array<std::uint32_t, 16> begins_{};
   };
 
   OfLevel& of(int level) { return levels_[static_cast<std::size_t>(level)]; }

@@ -1,8 +1,14 @@
 #pragma once
-// Exceptions where two masters meet (paper §5.2, fig. 9):
+// Exceptions where two masters meet (paper §5.2).
 //
-// - case C of fig. 9: active on both, at a convex joint: the nearer one;
-// - near a concave corner without an orthogonal foot on either: correction to the corner's node.
+//          C              Fig. 9: a slave is inside a sharp corner (x), nearer to the right face.
+//     A    ╱╲    B        At xⁿ it was at A, B or C. From A it has entered through the left face:
+//         ╱  ╲            it is active on that one only, and a correction to the nearer face would
+//        ╱   x╲           accelerate it. From B it is active on the right face, from C on both.
+//       ╱ body ╲
+//
+// - Case C, active on both pieces at a convex junction: the nearer one.
+// - Near a concave corner without an orthogonal foot on either: correction to the corner's node.
 
 #include <span>
 
@@ -21,7 +27,7 @@ struct Trial {
   bool active = false;
 };
 
-/// True if a foot is over its piece; at a joint of two pieces, rounding leaves no gap between them.
+/// True if a foot is over its piece; at a junction, rounding leaves no gap between two pieces.
 template <class Geometry>
 bool isOver(const Geometry& geometry, EntryId master, const Foot& foot) {
   const PieceRange range = geometry.range(master);
@@ -31,14 +37,14 @@ bool isOver(const Geometry& geometry, EntryId master, const Foot& foot) {
 
 /// True if the boundary turns towards the void between two successive pieces.
 template <class Geometry>
-bool isConcaveJoint(const Geometry& geometry, EntryId first, EntryId second) {
+bool isConcaveJunction(const Geometry& geometry, EntryId first, EntryId second) {
   return cross(geometry.tangent(first, geometry.range(first).end),
                geometry.tangent(second, geometry.range(second).begin)) < 0;
 }
 
-/// Changes `active` at all joints among one slave's masters.
+/// Changes `active` at all junctions among one slave's masters.
 template <class Geometry>
-void decideJoints(const ContactSurfaces& surfaces, const Geometry& geometry,
-                  std::span<Trial> trials);
+void decideJunctions(const ContactSurfaces& surfaces, const Geometry& geometry,
+                     std::span<Trial> trials);
 
 }  // namespace yadefrag
