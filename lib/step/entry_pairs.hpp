@@ -1,6 +1,10 @@
 #pragma once
 // Between the global search, which uses boxes, and contact, which uses slaves and masters: the halo
 // (paper §4.1, §4.4).
+//
+//   ┌───────────────────────────┐   Fig. 4: the halo of a piece, straight or an arc, is a strip of
+//   │ δ   a ─────────────── b   │   width δ on both sides and beyond the ends. A slave in it is a
+//   └───────────────────────────┘   candidate. Boxes of entries are enlarged by δ/2 each.
 
 #include <span>
 #include <vector>
