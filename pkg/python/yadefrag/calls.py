@@ -17,7 +17,7 @@ def inWords(function: Callable,
 
     arranged  None, or a function of the arguments by position → (arguments by position, dict of others)
     """
-    # Behind a function of Boost.Python, which has none, inspect must not look.
+    # The wrapped function may be one of Boost.Python, which has no signature.
     signature = inspect.signature(function, follow_wrapped=False)
 
     @functools.wraps(function)

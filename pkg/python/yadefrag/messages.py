@@ -12,7 +12,7 @@ _SHOWN = 90  # characters of a message that is quoted
 _LISTED = 12  # bodies or bonds in a sentence
 _NUMBER = re.compile(r'[-+]?[\d.]+(e[-+]?\d+)?')
 _repeated = {}  # {message without its numbers: (the first message, 'bodies' or 'bonds', those that have it)}
-untold: set[object] = set()  # those that more bodies or bonds have than have been told, and functions of _nowhere
+untold: set[object] = set()  # those that further bodies or bonds have, and functions of _nowhere
 _nowhere = {}  # {a function `fixed`: the bodies of which it selects no node; None: it selects some of another one}
 
 

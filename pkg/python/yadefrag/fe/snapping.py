@@ -16,7 +16,7 @@ OVERLAP = .05    # of the size: overlaps up to this are removed without a reques
 _REACH = 2       # tolerance of that, in overlaps: vertices may be farther apart than the outlines
 _MOVES = 12      # most moves in sequence
 _CLOSABLE = .5   # of the size: overlaps up to this may be rounding, and snap= is advised
-_TOLD = 1e-3     # of the size: smaller displacements of vertices are not told
+_TOLD = 1e-3     # of the size: smaller displacements of vertices are not reported
 _WIDER = .3      # of the size: the tolerance that is tried against short steps
 _HELPS = .5      # of the cost: an advice that leaves more is no advice
 

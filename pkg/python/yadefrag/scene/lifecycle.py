@@ -56,8 +56,8 @@ def _savedWhole(save):
 
 
 def _savedOrRefused(save):
-    """O.save that names a file which cannot be written. YADE alone would not tell for a small scene, and
-    would never end for a compressed file."""
+    """O.save that names a file which cannot be written. YADE alone would not report it for a small scene,
+    and would never end for a compressed file."""
     @functools.wraps(save)
     def saved(self, *arguments, **settings):
         name = (*arguments, settings.get('file'))[0]
@@ -67,7 +67,7 @@ def _savedOrRefused(save):
                 requireWritable(name)
             save(self, *arguments, **settings)
             if isFile:
-                requireWritable(name)  # YADE does not tell if the last part of the file was lost
+                requireWritable(name)  # YADE does not report that the last part of the file was lost
         except (OSError, RuntimeError) as error:
             cause = getattr(error, 'strerror', '')
             if not cause and str(error) != 'output stream error':
