@@ -92,7 +92,9 @@ def page():
     """The whole text."""
     named = set()
     lines = ['# Reference\n', 'Of all names, with their arguments, from the docstrings by `docs/make_reference.py`. Units are SI. '
-             '`help(name)` shows the same in YADE.\n']
+             '`help(name)` shows the same in YADE, with the types of arguments.\n',
+             'All names are in `yadefrag`; those for many runs are also in `yadefrag.studies`, those that read or write '
+             'files in `yadefrag.io`, those that draw in `yadefrag.plots`.\n']
     for title, names in GROUPS:
         lines.append(f'## {title}\n')
         for name in names:

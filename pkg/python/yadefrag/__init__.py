@@ -25,12 +25,15 @@ from yade import wrapper  # noqa: E402
 from yadefrag import _yadefrag  # noqa: E402
 
 _yadefrag.checkRunningYade()
-__all__ = list(_yadefrag.publish())
-
-if TYPE_CHECKING:  # the classes of publish()
+if TYPE_CHECKING:  # what publish() adds
     from yade.wrapper import (Bo1_SurfaceSegment_Aabb, BrittleFEMat, FEMat, FESolver, Gl1_SurfaceSegment,
                               HierarchyCollider, Ig2_Sphere_SurfaceSegment_ScGeom, LebesgueCollider,
                               LinearCodeCollider, SurfaceSegment)
+    __all__ = ['Bo1_SurfaceSegment_Aabb', 'BrittleFEMat', 'FEMat', 'FESolver', 'Gl1_SurfaceSegment',
+               'HierarchyCollider', 'Ig2_Sphere_SurfaceSegment_ScGeom', 'LebesgueCollider',
+               'LinearCodeCollider', 'SurfaceSegment']
+else:
+    __all__ = list(_yadefrag.publish())
 
 # Only now, because these need FESolver.
 from yadefrag import io, plots, studies  # noqa: E402

@@ -76,6 +76,12 @@ def requireTakes(name: str, function: Callable, *arguments: str) -> None:
         pass  # a built-in function without a signature
 
 
+def atPlaces(name: str, function: Callable, places: numpy.ndarray, check: Callable[[str, Any], Any]) -> list:
+    """check(name of the value, value) for the values of a script's function of (x, y) at `places` (n, 2)."""
+    requireTakes(name, function, 'x', 'y')
+    return [check('%s(%g, %g)' % (name, x, y), function(x, y)) for x, y in places]
+
+
 def real(value: Any) -> float | None:
     """A float, or None if it is not a real number; an integer above all floats is infinite."""
     value = plain(value)

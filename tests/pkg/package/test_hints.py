@@ -7,6 +7,7 @@ import pathlib
 import pytest
 
 import yadefrag
+from yade import wrapper
 
 SOURCES = sorted(pathlib.Path(yadefrag.__file__).parent.rglob('*.py'))
 
@@ -43,3 +44,10 @@ def test_hintsAreShown():
         found = inspect.signature(function)
         assert found.return_annotation is not found.empty
         assert all(one.annotation is not one.empty for one in found.parameters.values())
+
+
+def test_classesForCheckersAreThoseThatArePublished():
+    tree = ast.parse(pathlib.Path(yadefrag.__file__).read_text())
+    named = [one.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module == 'yade.wrapper'
+             for one in node.names]
+    assert named == sorted(name for name in yadefrag.__all__ if hasattr(wrapper, name))

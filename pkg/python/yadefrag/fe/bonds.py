@@ -4,7 +4,7 @@ import numpy
 
 from yadefrag.arguments import positive
 from yadefrag.fe.between_steps import requireBetweenSteps
-from yadefrag.fe.names import bodyNumber
+from yadefrag.fe.contents import bodyNumber
 from yadefrag.hints import FESolver
 from yadefrag.messages import warn, warnOfOne
 

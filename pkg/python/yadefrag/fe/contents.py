@@ -1,9 +1,14 @@
-"""Contents of an FESolver for pictures and files: everything except removed fragments."""
+"""Contents of an FESolver: its bodies, by number or by name, and for pictures and files everything except removed
+fragments."""
+
+from typing import Any
 
 import numpy
 
-from yadefrag.arguments import refuse
+from yadefrag.arguments import isWhole, refuse, shown, text, whole
 from yadefrag.hints import FESolver
+
+_LONGEST = 80  # characters of a name
 
 
 def requireSolver(fe: FESolver) -> None:
@@ -36,3 +41,53 @@ def shownMesh(fe: FESolver) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray
         return numpy.arange(len(fe.nodes)), triangles, corners
     nodes, places = numpy.unique(corners[triangles], return_inverse=True)
     return nodes, triangles, places.reshape(-1, 3)
+
+
+def isBody(value: object) -> bool:
+    """True for a number or a name of one body, also for an invalid one."""
+    return isinstance(value, str) or isWhole(value)
+
+
+def newName(fe: FESolver, name: str | None) -> str:
+    """The name of a body to be added: '' for None; ValueError for a name in use."""
+    if name is None:
+        return ''
+    name = text('name', name)
+    if not name or '\n' in name or len(name) > _LONGEST:
+        refuse('name', name, 'a text of 1 to %d characters in one line' % _LONGEST)
+    if name in fe._names:
+        raise ValueError("name is %s, which body %d has already." % (shown(name), fe._names.index(name)))
+    return name
+
+
+def bodyNumber(fe: FESolver, value: Any, argument: str = 'component', least: int = -2**31) -> int:
+    """The number of the body that `value`, a number or a name, refers to; ValueError for none."""
+    names = fe._names
+    if isinstance(value, str):
+        known = [name for name in names if name]
+        if not value or value not in names:
+            refuse(argument, value, 'the number or the name of a body' +
+                   (', one of %s' % shown(known) if known else '; no body has a name'))
+        return names.index(value)
+    return whole(argument, value, least, 'the number or the name of a body')
+
+
+def existingBody(fe: FESolver, value: Any, argument: str = 'component') -> int:
+    """The same for an existing body."""
+    number = bodyNumber(fe, value, argument)
+    if not 0 <= number < len(fe._names) or fe._isGone(number):
+        raise ValueError('%s is %s, which is no body of this FESolver.' % (argument, shown(value)))
+    return number
+
+
+def nodesOf(self: FESolver, component: int | str) -> numpy.ndarray:
+    """Numbers of a body's nodes, array (k), without those of removed fragments.
+
+    component  the body's number, or its name. ValueError if there is no such body.
+    """
+    return self._nodesOf(existingBody(self, component))
+
+
+def componentOf(self: FESolver, name: str) -> int:
+    """The number of the body with this name; ValueError if there is none."""
+    return existingBody(self, text('name', name), 'name')

@@ -6,7 +6,7 @@ import numbers
 from yade import wrapper
 from yadefrag.calls import inWords
 from yadefrag.fe.between_steps import requireBetweenSteps
-from yadefrag.fe.names import bodyNumber
+from yadefrag.fe.contents import bodyNumber
 
 
 def _pieceOf(body):

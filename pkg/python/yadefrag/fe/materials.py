@@ -6,7 +6,7 @@ from typing import Any
 import numpy
 
 from yade import wrapper
-from yadefrag.arguments import array, isWhole, number, plain, positive, real, refuse, requireTakes, shown
+from yadefrag.arguments import array, atPlaces, isWhole, number, plain, positive, real, refuse, shown
 from yadefrag.fe.mesh_values import centroids
 from yadefrag.hints import FEMat, Mesh
 
@@ -24,14 +24,12 @@ def oneMaterial(material: Any, name: str = 'material', right: str = _RIGHT) -> F
         try:
             found = wrapper.Omega().materials[found]
         except (KeyError, IndexError, RuntimeError, OverflowError, UnicodeError):
-            raise ValueError('%s is %s, which is not in O.materials.' %
-                             (name, shown(material))) from None
+            raise ValueError('%s is %s, which is not in O.materials.' % (name, shown(material))) from None
     if not isinstance(found, wrapper.FEMat):
         refuse(name, material, right)
     positive("the material's young", found.young, 'Pa')
     positive("the material's density", found.density, 'kg/m³')
-    number("the material's poisson", found.poisson, lambda v: -1 < v < .5,
-           'above -1 and below 0.5')
+    number("the material's poisson", found.poisson, lambda v: -1 < v < .5, 'above -1 and below 0.5')
     number("the material's frictionAngle", found.frictionAngle, lambda v: 0 <= v < math.pi / 2,
            'at least 0 and below π/2 (rad)')
     return found
@@ -79,9 +77,7 @@ class Materials:
     def _ofTriangles(self, mesh, material):
         count = len(mesh.triangles)
         if callable(material):
-            requireTakes('material', material, 'x', 'y')
-            return [self._number(material(x, y), 'material(%g, %g)' % (x, y))
-                    for x, y in centroids(mesh)]
+            return atPlaces('material', material, centroids(mesh), lambda at, one: self._number(one, at))
         values = list(material)
         if len(values) == 2 and isinstance(values[0], (list, tuple)):
             listed, chosen = list(values[0]), array(values[1])
@@ -98,14 +94,12 @@ class Materials:
 
 
 def _key(material):
-    """Equal keys for the same material: objects from O.materials are created anew at each
-    access."""
+    """Equal keys for the same material: objects from O.materials are created anew at each access."""
     return ('number', material.id) if material.id >= 0 else ('object', id(material))
 
 
 def sidesBetween(triangles: numpy.ndarray, numbers: numpy.ndarray) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """(k, 2) nodes of the sides between triangles with different numbers, and (k, 2) these
-    numbers."""
+    """(k, 2) nodes of the sides between triangles with different numbers, and (k, 2) these numbers."""
     sides = numpy.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)])
     sides = numpy.sort(sides.astype(numpy.int64), axis=1)
     owner = numpy.tile(numbers, 3)
@@ -127,9 +121,8 @@ def _values(name, value, mesh, sides, both, materials):
     if real(value) is not None:
         return numpy.full(len(sides), number(name, value, _isValue, right))
     if callable(value):
-        requireTakes(name, value, 'x', 'y')
-        return numpy.array([number('%s(%g, %g)' % (name, x, y), value(x, y), _isValue, right)
-                            for x, y in mesh.nodes[sides].mean(axis=1)])
+        return numpy.array(atPlaces(name, value, mesh.nodes[sides].mean(axis=1),
+                                    lambda at, one: number(at, one, _isValue, right)))
     if not isinstance(value, dict):
         refuse(name, value, 'None, a number (%s), a function (x, y) that returns one, or a dict '
                'with one by pair of materials' % _INTERFACE[name])
@@ -152,8 +145,7 @@ def interfaces(mesh: Mesh, materials: Materials, strength: Any,
     if not given:
         return nothing
     if not len(materials.numbers):
-        raise ValueError('%s is given, but the body has one material; it must have several.' %
-                         given[0])
+        raise ValueError('%s is given, but the body has one material; it must have several.' % given[0])
     if strength is None and not materials.crack:
         raise ValueError('interfaceEnergy is given, but no material can crack; it needs an '
                          'interfaceStrength or a BrittleFEMat.')

@@ -130,6 +130,5 @@ def rectangleMesh(low: ArrayLike, high: ArrayLike, nx: int, ny: int, crossed: bo
     low, high = pair('low', low), pair('high', high)
     nx, ny, crossed = whole('nx', nx), whole('ny', ny), flag('crossed', crossed)
     if not (low[0] < high[0] and low[1] < high[1]):
-        raise ValueError('high is %s, it must be right of and above low, %s.' %
-                         (shown(high), shown(low)))
+        raise ValueError('high is %s, it must be right of and above low, %s.' % (shown(high), shown(low)))
     return _yadefrag.meshOfRectangle(*low, *high, nx, ny, crossed)

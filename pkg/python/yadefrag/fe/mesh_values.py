@@ -6,7 +6,7 @@ from typing import Any
 import numpy
 
 from yadefrag import _yadefrag
-from yadefrag.arguments import array, number, pair, plain, real, refuse, requireTakes, shown
+from yadefrag.arguments import array, atPlaces, number, pair, plain, real, refuse, shown
 from yadefrag.hints import Mesh
 
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
@@ -27,15 +27,12 @@ def centroids(mesh: Mesh) -> numpy.ndarray:
 
 
 def _ofTriangles(name, value, mesh):
-    """(m) floats of the mesh's triangles; a function is evaluated at their centroids; empty for
-    None."""
+    """(m) floats of the mesh's triangles; a function is evaluated at their centroids; empty for None."""
     if value is None:
         return numpy.empty(0)
     unit, isRight, right = _BRITTLE[name]
     if callable(value):
-        requireTakes(name, value, 'x', 'y')
-        return numpy.array([number('%s(%g, %g)' % (name, x, y), value(x, y), isRight, right)
-                            for x, y in centroids(mesh)])
+        return numpy.array(atPlaces(name, value, centroids(mesh), lambda at, one: number(at, one, isRight, right)))
     values = array(value)
     if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf':
         refuse(name, value, 'None, a function (x, y) that returns %s, or an array of one for each '
@@ -95,14 +92,11 @@ def brittlePlaces(mesh: Mesh, materials: Any, interfaces: tuple[numpy.ndarray, n
 
 
 def stressOfTriangles(stress: Any, mesh: Mesh) -> numpy.ndarray:
-    """(m, 3) Pa of the mesh's triangles, from a triple, a function (x, y) or an array; empty for
-    None."""
+    """(m, 3) Pa of the mesh's triangles, from a triple, a function (x, y) or an array; empty for None."""
     if stress is None:
         return numpy.empty((0, 3))
     if callable(stress):
-        requireTakes('stress', stress, 'x', 'y')
-        return numpy.array([_triple('stress(%g, %g)' % (x, y), stress(x, y))
-                            for x, y in centroids(mesh)])
+        return numpy.array(atPlaces('stress', stress, centroids(mesh), _triple))
     values = array(stress)
     if values is None or values.ndim != 2 or values.dtype.kind not in 'iuf':
         return numpy.tile(_triple('stress', stress), (len(mesh.triangles), 1))
@@ -129,8 +123,7 @@ def field(name: str, value: Any, nodes: numpy.ndarray, isOptional: bool = True) 
         return numpy.empty((0, 2))
     if not callable(value):
         return numpy.tile(pair(name, value), (len(nodes), 1))
-    requireTakes(name, value, 'x', 'y')
-    return numpy.array([pair('%s(%g, %g)' % (name, x, y), value(x, y)) for x, y in nodes])
+    return numpy.array(atPlaces(name, value, nodes, pair))
 
 
 def heldNodes(fixed: Any, nodes: numpy.ndarray) -> numpy.ndarray:
@@ -139,14 +132,14 @@ def heldNodes(fixed: Any, nodes: numpy.ndarray) -> numpy.ndarray:
         return numpy.empty(0, dtype=numpy.uint8)
     if not callable(fixed):
         refuse('fixed', fixed, "a function (x, y) that returns False, True, 'x' or 'y'")
-    requireTakes('fixed', fixed, 'x', 'y')
-    held = numpy.zeros(len(nodes), dtype=numpy.uint8)
-    for i, (x, y) in enumerate(nodes):
-        value = plain(fixed(x, y))
-        if not isinstance(value, (bool, str, type(None))) or value not in _HELD:
-            refuse('fixed(%g, %g)' % (x, y), value, "False, True, 'x' or 'y'")
-        held[i] = _HELD[value]
-    return held
+    return numpy.array(atPlaces('fixed', fixed, nodes, _held), dtype=numpy.uint8)
+
+
+def _held(name, value):
+    value = plain(value)
+    if not isinstance(value, (bool, str, type(None))) or value not in _HELD:
+        refuse(name, value, "False, True, 'x' or 'y'")
+    return _HELD[value]
 
 
 def isClockwise(points: numpy.ndarray) -> bool:

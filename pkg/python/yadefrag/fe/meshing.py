@@ -52,8 +52,7 @@ def _sampledSize(function, points):
         columns, rows = (max(2, int(math.ceil(side / cell - 1e-9)) + 1) for side in high - low)
         places = [(float(low[0] + i * cell), float(low[1] + j * cell)) for j in range(rows)
                   for i in range(columns)]
-        values = numpy.array([positive('size(%g, %g)' % (x, y), function(x, y), 'm')
-                              for x, y in places])
+        values = numpy.array([positive('size(%g, %g)' % (x, y), function(x, y), 'm') for x, y in places])
         if values.min() >= cell or samples >= _MOST_SAMPLES:
             return float(low[0]), float(low[1]), cell, columns, values
         samples *= 2
@@ -127,8 +126,7 @@ class Outline:
     def simplified(self, tolerance: float) -> Outline:
         """The Outline without redundant points, as by addPolygon's `simplify`."""
         isOne = isinstance(self.smooth, bool)
-        points, holes, flags = simplified(self.points, self.holes, tolerance,
-                                          None if isOne else self.smooth)
+        points, holes, flags = simplified(self.points, self.holes, tolerance, None if isOne else self.smooth)
         return Outline(points, holes, self.smooth if isOne else flags)
 
     def snapped(self, fe: FESolver, tolerance: float, size: float, matches: bool) -> tuple[Any, ...]:

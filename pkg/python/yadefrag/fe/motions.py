@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy
 
-from yadefrag.arguments import array, flag, number, pair, real, refuse, requireTakes
+from yadefrag.arguments import array, atPlaces, flag, number, pair, real, refuse, requireTakes
 from yadefrag.fe.between_steps import calledInStep, requireBetweenSteps
-from yadefrag.fe.names import isBody
+from yadefrag.fe.contents import isBody
 from yadefrag.hints import ArrayLike, FESolver, Nodes
 from yadefrag.messages import warn
 
@@ -25,8 +25,7 @@ def chosenNodes(fe: FESolver, nodes: Nodes) -> numpy.ndarray:
     places = fe.nodes
     chosen: Any
     if callable(nodes):
-        requireTakes('nodes', nodes, 'x', 'y')
-        chosen = numpy.array([flag('nodes(%g, %g)' % (x, y), nodes(x, y)) for x, y in places], dtype=bool)
+        chosen = numpy.array(atPlaces('nodes', nodes, places, flag), dtype=bool)
     elif isinstance(nodes, str):
         chosen = fe.nodesOf(nodes)
     else:

@@ -7,8 +7,7 @@ import numpy
 
 from yadefrag.arguments import isWhole, plain, refuse
 from yadefrag.fe.between_steps import betweenSteps
-from yadefrag.fe.contents import requireSolver
-from yadefrag.fe.names import existingBody
+from yadefrag.fe.contents import existingBody, requireSolver
 from yadefrag.hints import FESolver, File
 from yadefrag.io.files import savePicture
 

@@ -8,11 +8,10 @@ import numpy
 
 from yadefrag.arguments import path
 from yadefrag.fe.between_steps import betweenSteps
-from yadefrag.fe.contents import requireSolver
+from yadefrag.fe.contents import existingBody, isBody, requireSolver
 from yadefrag.fe.motions import chosenNodes
-from yadefrag.fe.names import existingBody, isBody
 from yadefrag.hints import FESolver, File, Nodes
-from yadefrag.io.files import writeText
+from yadefrag.io.files import writeColumns
 
 # (of the fracture energy) Rounding opens the faces of a loaded crack, such as a bond under its weight,
 # without damaging it.
@@ -88,10 +87,7 @@ def crackTable(fe: FESolver, file: File | None = None) -> numpy.ndarray:
     for column, _, _ in _CRACKS:
         table[column] = columns[column]
     if name is not None:
-        heading = ','.join('%s (%s)' % (n, unit) if unit else n for n, unit, _ in _CRACKS)
-        lines = [','.join(repr(int(v)) if isinstance(v, bool) else repr(v) for v in row)
-                 for row in table.tolist()]
-        writeText(name, '\n'.join([heading, *lines, '']))
+        writeColumns(name, _CRACKS, table)
     return table
 
 

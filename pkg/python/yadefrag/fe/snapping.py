@@ -33,8 +33,7 @@ def snapTolerance(snap: Any, displacement: object) -> float | None:
     """addPolygon's `snap`: None, 0, or m."""
     if snap is None:
         return None
-    snap = number('snap', snap, lambda v: 0 <= v < float('inf'),
-                  '0, a positive number (m), or None')
+    snap = number('snap', snap, lambda v: 0 <= v < float('inf'), '0, a positive number (m), or None')
     if snap and displacement is not None:
         raise ValueError('snap and displacement are both given, but only one of them can be: the '
                          'outline is the stress-free shape, which lies elsewhere.')
@@ -82,8 +81,7 @@ def _withoutOverlap(fe, outline, size, overlap, add):
 
 def _advised(fe, outline, overlap, snap, size, displacement):
     least = float('%.1e' % (1.1 * _REACH * overlap.depth))
-    if overlap.depth > _CLOSABLE * size or displacement is not None or \
-            not _changes(fe, outline, least, size):
+    if overlap.depth > _CLOSABLE * size or displacement is not None or not _changes(fe, outline, least, size):
         return '%s Move it by that, or more where it is deeper elsewhere.' % overlap
     if snap is None or snap < least:
         return '%s snap=%g moves its vertices onto the bodies beside it.' % (overlap, least)

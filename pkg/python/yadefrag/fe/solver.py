@@ -20,14 +20,13 @@ from yadefrag.calls import inWords
 from yadefrag.fe import guards
 from yadefrag.fe.between_steps import betweenSteps, requireBetweenSteps
 from yadefrag.fe.bonds import bond, bondAll
-from yadefrag.fe.contents import shownTriangles
+from yadefrag.fe.contents import componentOf, newName, nodesOf, shownTriangles
 from yadefrag.fe.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.fe.materials import Materials, interfaces, isField, oneMaterial
 from yadefrag.fe.mesh import Mesh, asMesh
 from yadefrag.fe.mesh_values import brittlePlaces, field, heldNodes, smoothNodes, stressOfTriangles
 from yadefrag.fe.meshing import ARGUMENTS, Meshing
 from yadefrag.fe.motions import keepTurning, prescribe, rotate
-from yadefrag.fe.names import componentOf, newName, nodesOf
 from yadefrag.fe.quality import meshQuality
 from yadefrag.fe.results import contactForce, crackCounts, energy, principalStress, reaction
 from yadefrag.fe.snapping import Overlap, addSnapped, snapTolerance, tellCostly, tellJoined
@@ -281,8 +280,7 @@ def _minAngle(self):
 
 
 def install() -> None:
-    """Adds the methods to FESolver, and prevents O.bodies.erase and clumps from using its
-    bodies."""
+    """Adds the methods to FESolver, and prevents O.bodies.erase and clumps from using its bodies."""
     wrapper.FESolver.addPolygon = inWords(addPolygon, _arrangedPolygon)
     for method in (addMesh, addTriangles, bond, bondAll, prescribe, rotate, nodesOf, componentOf, pressure, absorb,
                    relax, reaction, contactForce, meshQuality):

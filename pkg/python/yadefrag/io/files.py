@@ -6,8 +6,10 @@ import os
 import secrets
 import shutil
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
+
+import numpy
 
 from yadefrag.arguments import path
 
@@ -63,6 +65,13 @@ def writeText(name: str, text: str) -> None:
     """Writes `text` as the whole contents of the file `name`, in UTF-8."""
     with replacing(name) as part, open(part, 'w', encoding='utf-8', newline='') as out:
         out.write(text)
+
+
+def writeColumns(name: str, columns: Iterable[tuple[str, str, type]], table: numpy.ndarray) -> None:
+    """Writes an array with named columns, each (name, unit, type), as CSV: names and units are its first line."""
+    heading = ','.join('%s (%s)' % (column, unit) if unit else column for column, unit, _ in columns)
+    lines = [','.join(repr(int(v)) if isinstance(v, bool) else repr(v) for v in row) for row in table.tolist()]
+    writeText(name, '\n'.join([heading, *lines, '']))
 
 
 def appendText(name: str, text: str) -> None:

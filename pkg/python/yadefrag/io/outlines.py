@@ -100,8 +100,7 @@ def outlinesOf(file: File, tolerance: float | None = None, scale: float = 1, gap
     tolerance = None if tolerance is None else positive('tolerance', tolerance, 'm')
     gap = None if gap is None else positive('gap', gap, 'm')
     simplify = None if simplify is None else positive('simplify', simplify, 'm')
-    leastArea = number('leastArea', leastArea, lambda v: 0 <= v < math.inf,
-                       '0 or a positive number (m²)')
+    leastArea = number('leastArea', leastArea, lambda v: 0 <= v < math.inf, '0 or a positive number (m²)')
     byLayer = flag('byLayer', byLayer)
     if ending != '.dxf' and (byLayer or layers is not None):
         raise ValueError('layers or byLayer is given, but %s has no layers: only a .dxf file has.' %
@@ -124,8 +123,7 @@ def outlinesOf(file: File, tolerance: float | None = None, scale: float = 1, gap
             shapes = [_simplified(name, 'tolerance', tolerance, *shape) for shape in shapes]
         if simplify is not None:
             shapes = [_simplified(name, 'simplify', simplify, *shape) for shape in shapes]
-        found[layer] = [(_pairs(outline), [_pairs(hole) for hole in holes])
-                        for outline, holes in shapes]
+        found[layer] = [(_pairs(outline), [_pairs(hole) for hole in holes]) for outline, holes in shapes]
     return (found if byLayer else found['']), dict(whole.leftOut)
 
 

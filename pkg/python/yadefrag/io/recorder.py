@@ -5,6 +5,7 @@ import os
 import sys
 from collections.abc import Iterable
 from typing import Any
+from xml.sax.saxutils import escape
 
 from yade import wrapper
 from yadefrag.arguments import path, shown, shownPath, whole
@@ -141,14 +142,8 @@ def _appendPicture(fe, name, fields):
     picture = '%s_%06d.vtu' % (name, last + 1)
     exportVTK(fe, picture, fields)
     kept.append((fe.time, os.path.basename(picture)))
-    lines = '\n'.join(_ENTRY % (time, _quoted(one)) for time, one in kept)
+    lines = '\n'.join(_ENTRY % (time, escape(one, {'"': '&quot;'})) for time, one in kept)
     writeText(name + '.pvd', _HEAD + lines + '\n' + _END)
-
-
-def _quoted(text):
-    for sign, code in (('&', '&amp;'), ('"', '&quot;'), ('<', '&lt;'), ('>', '&gt;')):
-        text = text.replace(sign, code)
-    return text
 
 
 def _number(picture):

@@ -10,10 +10,9 @@ import numpy
 
 from yadefrag.arguments import flag, isWhole, path, plain, refuse, shownPath
 from yadefrag.fe.between_steps import betweenSteps
-from yadefrag.fe.contents import requireSolver
-from yadefrag.fe.names import existingBody
+from yadefrag.fe.contents import existingBody, requireSolver
 from yadefrag.hints import FESolver, File
-from yadefrag.io.files import appendText, savePicture, writeText
+from yadefrag.io.files import appendText, savePicture, writeColumns, writeText
 from yadefrag.plots.axes import newAxes, requireAxes
 from yadefrag.plots.colours import DISTINCT
 
@@ -30,10 +29,6 @@ _STATES = ('open', 'damaged', 'whole')
 _RECORD = _COUNTS + tuple('%s (J)' % e for e in _ENERGIES) + tuple('%s cracks' % s for s in _STATES)
 _RECORDED = ','.join(_RECORD)
 _FORMER = ','.join(_RECORD[:-len(_STATES)])  # of version 0.1, which can be drawn
-
-
-def _heading(name, unit):
-    return '%s (%s)' % (name, unit) if unit else name
 
 
 def fragmentTable(fe: FESolver, file: File | None = None) -> numpy.ndarray:
@@ -54,9 +49,7 @@ def fragmentTable(fe: FESolver, file: File | None = None) -> numpy.ndarray:
     table = numpy.array(rows, dtype=[(name, kind) for name, _, kind in _COLUMNS])
     table = table[numpy.argsort(-table['area'], kind='stable')]
     if name is not None:
-        heading = ','.join(_heading(name, unit) for name, unit, _ in _COLUMNS)
-        lines = [','.join(map(repr, row)) for row in table.tolist()]
-        writeText(name, '\n'.join([heading, *lines, '']))
+        writeColumns(name, _COLUMNS, table)
     return table
 
 

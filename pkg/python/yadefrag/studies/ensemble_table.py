@@ -12,11 +12,11 @@ import numpy
 
 from yadefrag.arguments import array, number, path, refuse, text
 from yadefrag.hints import ArrayLike, File
-from yadefrag.io.files import savePicture, writeText
+from yadefrag.io.files import savePicture
 from yadefrag.plots.colours import DISTINCT
 from yadefrag.studies import student
 from yadefrag.studies.grouping import grouped, samples, varying
-from yadefrag.studies.tradeoff_table import describe, tableText
+from yadefrag.studies.tradeoff_table import describe, writeRows
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -152,10 +152,7 @@ class EnsembleTable:
 
     def csv(self, file: File) -> None:
         """Writes all rows: the settings, then COLUMNS; values as JSON, an empty cell for None."""
-        names = list(dict.fromkeys(name for row in self.rows for name in row.settings))
-        lines = [[row.settings.get(name) for name in names] + [getattr(row, c) for c in COLUMNS]
-                 for row in self.rows]
-        writeText(path('file', file), tableText(names + list(COLUMNS), lines))
+        writeRows(file, self.rows, COLUMNS)
 
     def plot(self, file: File | None = None, ax: Axes | None = None, by: str | None = None,
              confidence: float = .95, label: str = 'measured value') -> Axes:

@@ -159,10 +159,7 @@ class TradeoffTable:
 
     def csv(self, file: File) -> None:
         """Writes all rows: the choices, then COLUMNS; values as JSON, an empty cell for None."""
-        names = self.names()
-        lines = [[row.settings.get(name) for name in names] + [getattr(row, c) for c in COLUMNS]
-                 for row in self.rows]
-        writeText(path('file', file), tableText(names + list(COLUMNS), lines))
+        writeRows(file, self.rows, COLUMNS)
 
     @classmethod
     def read(cls, file: File, title: str = '') -> TradeoffTable:
@@ -267,14 +264,16 @@ def namesOfCases(by: str | Sequence[str]) -> tuple[str, ...]:
     return tuple(names)
 
 
-def tableText(heading: Sequence[str], lines: Iterable[Sequence]) -> str:
-    """A CSV file as text: a heading, then lines of values."""
+def writeRows(file: File, rows: Sequence[Any], columns: Sequence[str]) -> None:
+    """Writes rows as CSV: their settings, then `columns`; values as JSON, an empty cell for None."""
+    names = dict.fromkeys(name for row in rows for name in row.settings)
     out = io.StringIO(newline='')
     writer = csv.writer(out)
-    writer.writerow(heading)
-    for line in lines:
-        writer.writerow([_encode(value) for value in line])
-    return out.getvalue()
+    writer.writerow([*names, *columns])
+    for row in rows:
+        cells = [*map(row.settings.get, names), *(getattr(row, column) for column in columns)]
+        writer.writerow(map(_encode, cells))
+    writeText(path('file', file), out.getvalue())
 
 
 def _requireRow(row, name='row'):
