@@ -18,6 +18,7 @@
 #include "fe/step_lock.hpp"
 #include "publish/published.hpp"
 #include "rigid/rigid_bodies.hpp"
+#include "script/definitions.hpp"
 #include "script/script_functions.hpp"
 #include "step/world.hpp"
 
@@ -79,16 +80,14 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
 
   static constexpr auto contactAttributes();
   static constexpr auto attributes();
-  template <class PyClass>
-  static void pyExtra(PyClass& pyClass);
+  static void pyExtra(SolverClass& solver) {
+    defineArrays(solver), defineBodies(solver), defineMotions(solver);
+    defineQuality(solver), defineResults(solver);
+  }
   template <class Archive>
   void archiveMore(Archive& archive);
 
  private:
-  template <class PyClass>
-  static void valuesOf(PyClass& pyClass);
-  template <class PyClass>
-  static void countersOf(PyClass& pyClass);
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
   [[nodiscard]] std::vector<std::string> unusedSettings() const;
@@ -221,5 +220,3 @@ void FESolver::archiveMore(Archive& archive) {
 }
 
 }  // namespace yadefrag
-
-#include "script/fe_python.hpp"

@@ -12,11 +12,7 @@
 #include "fe/running.hpp"
 #include "publish/publish.hpp"
 #include "python/list_items.hpp"
-#include "script/body_python.hpp"
-#include "script/mesh_python.hpp"
-#include "script/polygon_python.hpp"
-#include "script/section_python.hpp"
-#include "script/snap_python.hpp"
+#include "script/definitions.hpp"
 #include "view/gl_surface_segment.hpp"
 
 namespace yadefrag {
@@ -58,20 +54,9 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("checkRunningYade", &yadefrag::checkRunningYade,
           "Raises ImportError unless YADE's classes have the layout that this extension declares.");
   py::def("instructionSet", &yadefrag::instructionSet);
-  yadefrag::defineMesh();
-  py::class_<yadefrag::BrittlePlaces>("BrittlePlaces", py::no_init);
-  py::def("brittlePlaces", &yadefrag::brittlePlacesOf,
-          (py::arg("strength"), py::arg("fractureEnergy"), py::arg("edges"),
-           py::arg("edgeStrength"), py::arg("edgeEnergy")));
-  py::def("meshOfPolygon", &yadefrag::meshOfPolygon);
-  py::def("keptVertices", &yadefrag::keptVertices);
-  py::def("latticeTimeStep", &yadefrag::latticeTimeStepOf);
-  py::def("meshOfRectangle", &yadefrag::meshOfRectangle);
-  py::def("narrowestOf", &yadefrag::narrowestOf);
-  py::def("polygonOfText", &yadefrag::polygonOfText);
-  py::def("snapTogether", &yadefrag::snapTogetherOf);
-  py::def("sectionsOfScene", &yadefrag::sectionsOfScene);
-  py::def("voronoiOf", &yadefrag::voronoiOf);
+  yadefrag::defineBodyParts();
+  yadefrag::defineMeshes();
+  yadefrag::defineOutlines();
   py::def("isInStep", &yadefrag::isInStep);
   py::def("requirePaused", &yadefrag::requirePaused,
           "Raises RuntimeError if another thread runs the scene.");

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "abi/yade.hpp"
@@ -15,20 +16,12 @@ namespace yadefrag {
 
 /// NumPy's type of an element, and its numbers in a row; 0: the array has one dimension.
 template <class Element>
-struct ArrayKind;
-template <>
-struct ArrayKind<double> {
-  static constexpr const char* kType = "float64";
-  static constexpr int kColumns = 0;
-};
-template <>
-struct ArrayKind<std::uint32_t> {
-  static constexpr const char* kType = "uint32";
-  static constexpr int kColumns = 0;
-};
-template <>
-struct ArrayKind<std::uint8_t> {
-  static constexpr const char* kType = "uint8";
+struct ArrayKind {
+  static_assert(std::is_same_v<Element, double> || std::is_same_v<Element, std::uint32_t> ||
+                std::is_same_v<Element, std::uint8_t>);
+  static constexpr const char* kType = std::is_same_v<Element, double> ? "float64"
+                                       : sizeof(Element) == 1          ? "uint8"
+                                                                       : "uint32";
   static constexpr int kColumns = 0;
 };
 template <class Tag>

@@ -1,9 +1,8 @@
-#include "script/fe_arrays.hpp"
-
 #include "dynamics/element_state.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
+#include "script/definitions.hpp"
 #include "script/fragments.hpp"
 #include "script/shown_nodes.hpp"
 
@@ -20,67 +19,10 @@ py::object nodeArray(const FESolver& solver, const std::vector<Value>& column) {
   return toArray(ShownNodes(solver.world()).rows(column));
 }
 
-std::vector<NodeId> nodesFrom(const FESolver& solver, const py::object& numbers) {
-  return ShownNodes(solver.world()).nodes(fromArray<NodeId>(numbers));
-}
-
-}  // namespace
-
-void takeBody(FESolver& solver, int component) {
-  change(solver, [&] { solver.removeBody(component); });
-}
-
-void setLoads(FESolver& solver, const py::object& loads) {
-  change(solver, [&] {
-    World& world = solver.changeWorld();
-    world.setLoads(ShownNodes(world).column(fromArray<Vec2>(loads)));
-  });
-}
-
-void prescribe(FESolver& solver, const py::object& nodes, int held, const py::object& velocities) {
-  change(solver, [&] {
-    solver.changeWorld().prescribeEach(nodesFrom(solver, nodes), static_cast<std::uint8_t>(held),
-                                       fromArray<Vec2>(velocities));
-  });
-}
-
-namespace {
-
-std::uint32_t numberOf(FESolver& solver, const py::object& function) {
-  ScriptFunctions& functions = solver.scriptFunctions();
-  functions.keep(solver.world());
-  return function.is_none() ? 0 : functions.add(function);
-}
-
-}  // namespace
-
-void setPressure(FESolver& solver, const py::object& nodes, const py::object& times,
-                 const py::object& values, const py::object& function, bool intoCracks) {
-  change(solver, [&] {
-    solver.changeWorld().setPressure(nodesFrom(solver, nodes),
-                                     {fromArray<double>(times), fromArray<double>(values)},
-                                     numberOf(solver, function), intoCracks);
-  });
-}
-
-void setAbsorbing(FESolver& solver, const py::object& nodes) {
-  change(solver, [&] { solver.changeWorld().setAbsorbing(nodesFrom(solver, nodes)); });
-}
-
-void prescribeMotion(FESolver& solver, const py::object& nodes, int held, const py::tuple& centre,
-                     const py::tuple& speedX, const py::tuple& speedY, const py::tuple& turn,
-                     const py::object& function) {
-  const auto table = [](const py::tuple& columns) {
-    return TimeTable(fromArray<double>(columns[0]), fromArray<double>(columns[1]));
-  };
-  Motion motion;
-  motion.centre = {py::extract<double>(centre[0]), py::extract<double>(centre[1])};
-  motion.speedX = table(speedX), motion.speedY = table(speedY), motion.turn = table(turn);
-  change(solver, [&] {
-    motion.function = numberOf(solver, function);
-    solver.changeWorld().prescribeMotion(nodesFrom(solver, nodes), static_cast<std::uint8_t>(held),
-                                         std::move(motion));
-  });
+/// A column of the nodes as it is.
+template <auto column>
+py::object columnOf(const FESolver& solver) {
+  return nodeArray(solver, solver.world().model.nodes.*column);
 }
 
 py::object loadsOf(const FESolver& solver) {
@@ -89,12 +31,6 @@ py::object loadsOf(const FESolver& solver) {
   return toArray(std::vector<Vec2>(ShownNodes(solver.world()).size()));
 }
 
-py::object nodesOf(const FESolver& solver) {
-  return nodeArray(solver, solver.world().model.nodes.position);
-}
-py::object velocitiesOf(const FESolver& solver) {
-  return nodeArray(solver, solver.world().model.nodes.velocity);
-}
 py::object nodesOfBody(const FESolver& solver, int component) {
   const Nodes& nodes = solver.world().model.nodes;
   const ShownNodes all(solver.world());
@@ -104,19 +40,20 @@ py::object nodesOfBody(const FESolver& solver, int component) {
       own.push_back(all.number(NodeId(n)));
   return toArray(own);
 }
+
+/// By component, '' for those without a name.
 py::list namesOf(const FESolver& solver) {
   py::list names;
   for (const Component& body : solver.world().model.components)
     names.append(body.rigid ? "" : body.name);
   return names;
 }
+
 bool isGone(const FESolver& solver, int component) {
   const Component& body = solver.world().model.components[static_cast<std::size_t>(component)];
   return body.firstTriangle == body.lastTriangle;
 }
-py::object massesOf(const FESolver& solver) {
-  return nodeArray(solver, solver.world().model.nodes.mass);
-}
+
 py::object trianglesOf(const FESolver& solver) {
   const ShownNodes all(solver.world());
   auto triangles = solver.world().model.triangles.nodes;
@@ -125,7 +62,9 @@ py::object trianglesOf(const FESolver& solver) {
       for (NodeId& node : corners) node = all.number(node);
   return toArray(triangles);
 }
+
 py::object stressArrayOf(const FESolver& solver) { return toArray(stresses(solver.world().model)); }
+
 py::object componentsOf(const FESolver& solver) {
   return toArray(solver.world().model.triangles.component);
 }
@@ -134,6 +73,18 @@ py::object materialNumbersOf(const FESolver& solver) {
   const Triangles& triangles = solver.world().model.triangles;
   if (!triangles.material.empty()) return toArray(triangles.material);
   return toArray(std::vector<std::uint32_t>(triangles.size()));
+}
+
+py::object strainArrayOf(const FESolver& solver) {
+  const Model& model = solver.world().model;
+  std::vector<std::array<double, 3>> strains(model.triangles.size());
+  for (std::size_t e = 0; e < strains.size(); ++e) {
+    if (model.triangles.isDropped(e)) continue;
+    const Matrix2 f = deformationGradient(model, ElementId(e));
+    strains[e] = {(f.xx * f.xx + f.yx * f.yx - 1) / 2, (f.xy * f.xy + f.yy * f.yy - 1) / 2,
+                  (f.xx * f.xy + f.yx * f.yy) / 2};
+  }
+  return toArray(strains);
 }
 
 py::object displacementsOf(const FESolver& solver) {
@@ -165,8 +116,6 @@ py::object referenceOf(const FESolver& solver) {
   return nodeArray(solver, solver.world().reference);
 }
 
-namespace {
-
 /// True for a segment of a rigid boundary or of a removed fragment.
 bool isHidden(const World& world, SegmentId segment) {
   const ContactSurfaces& surfaces = world.surfaces;
@@ -174,8 +123,6 @@ bool isHidden(const World& world, SegmentId segment) {
   return surfaces.isGone(segment) ||
          world.model.components[surfaces.component[entry.value].value].rigid;
 }
-
-}  // namespace
 
 py::list surfacesOf(const FESolver& solver) {
   const ShownNodes all(solver.world());
@@ -194,51 +141,6 @@ py::list surfacesOf(const FESolver& solver) {
   return loops;
 }
 
-py::dict energyOf(const FESolver& solver) {
-  const World& world = solver.world();
-  const EnergyLedger& ledger = world.ledger;
-  const double kinetic = world.kineticEnergy();
-  const double strain = world.strainEnergy();
-  py::dict result;
-  result["kinetic"] = kinetic;
-  result["strain"] = strain;
-  result["contact"] = ledger.contact;
-  result["friction"] = ledger.friction;
-  result["fracture"] = ledger.fracture;
-  result["damping"] = ledger.damping;
-  if (solver.world().dropped.count > 0 || solver.world().fracture.minFragmentArea > 0)
-    result["dropped"] = ledger.dropped;
-  result["outside"] = -ledger.external;
-  result["total"] = ledger.total(kinetic, strain);
-  if (solver.balance().any())
-    result["scene"] = ledger.total(kinetic, strain) + solver.balance().created();
-  return result;
-}
-
-py::tuple energyBalanceOf(const FESolver& solver) {
-  const World& world = solver.world();
-  const double total = world.ledger.total(world.kineticEnergy(), world.strainEnergy());
-  const double excess = world.steps > 0 ? total - world.watch.expected : 0;
-  return py::make_tuple(excess, world.watch.most, world.roundingEnergy());
-}
-
-py::list warningsOf(const FESolver& solver) {
-  py::list result;
-  for (const std::string& sentence : solver.world().warnings) result.append(sentence);
-  return result;
-}
-
-py::dict droppedOf(const FESolver& solver) {
-  const World& world = solver.world();
-  const Dropped& dropped = world.dropped;
-  py::dict result;
-  result["mass"] = dropped.mass;
-  result["momentum"] = py::make_tuple(dropped.momentum.x, dropped.momentum.y);
-  result["energy"] = world.ledger.dropped;
-  result["count"] = dropped.count;
-  return result;
-}
-
 std::size_t segmentsOf(const FESolver& solver) {
   const ContactSurfaces& surfaces = solver.world().surfaces;
   std::size_t count = surfaces.segments();
@@ -248,22 +150,51 @@ std::size_t segmentsOf(const FESolver& solver) {
   return count;
 }
 
-py::list fragmentsOf(const FESolver& solver, bool held) {
-  const World& world = solver.world();
-  py::list result;
-  for (const Fragment& fragment :
-       findFragments(world.model, nullptr, held ? &world.fracture : nullptr)) {
-    py::dict one;
-    one["component"] = fragment.component.value;
-    one["triangles"] = fragment.triangles;
-    one["mass"] = fragment.mass;
-    one["area"] = fragment.area;
-    one["centroid"] = py::make_tuple(fragment.centroid.x, fragment.centroid.y);
-    one["velocity"] = py::make_tuple(fragment.velocity.x, fragment.velocity.y);
-    one["spin"] = fragment.spin;
-    result.append(one);
-  }
-  return result;
+}  // namespace
+
+void defineArrays(SolverClass& solver) {
+  solver
+      .add_property("nodes", &Locked<columnOf<&Nodes::position>>::call,
+                    "Positions (m), array (n, 2); a copy, as all arrays.")
+      .add_property("velocities", &Locked<columnOf<&Nodes::velocity>>::call,
+                    "Of the nodes (m/s), array (n, 2).")
+      .add_property("displacements", &Locked<displacementsOf>::call,
+                    "Of the nodes, from the stress-free shape (m), array (n, 2).")
+      .add_property("masses", &Locked<columnOf<&Nodes::mass>>::call,
+                    "Of the nodes (kg), array (n).")
+      .add_property("triangles", &Locked<trianglesOf>::call,
+                    "Node numbers, counter-clockwise, array (m, 3).")
+      .add_property("stress", &Locked<stressArrayOf>::call,
+                    "Cauchy stress xx, yy, xy (Pa) of the triangles, array (m, 3).")
+      .add_property(
+          "strain", &Locked<strainArrayOf>::call,
+          "Green and Lagrange's strain xx, yy, xy (half the shear angle) of the triangles, array "
+          "(m, 3): (FᵀF - 1)/2, of each triangle alone where `element` is 'smoothed', too.")
+      .add_property("components", &Locked<componentsOf>::call,
+                    "Number of each triangle's body, array (m).")
+      .add_property("materialNumbers", &Locked<materialNumbersOf>::call,
+                    "Number of each triangle's material among those of its body, in the order of "
+                    "their first triangles, array (m); 0 in bodies of one.")
+      .add_property(
+          "fragmentOf", &Locked<fragmentOf>::call,
+          "Number of each triangle's fragment, its place in fragments(), array (m); -1: removed.")
+      .add_property("contactForces", &Locked<contactForcesOf>::call,
+                    "Contact forces between bodies of this engine, on the nodes, in the last step "
+                    "(N), array (n, 2).")
+      .add_property("reactions", &Locked<reactionsOf>::call,
+                    "Reactions at held nodes in the last step (N), array (n, 2): the support's "
+                    "force, besides the node's own weight, its loads and all forces of bodies; 0 "
+                    "in free directions, and before the first step and after O.load.")
+      .add_property("surfaces", &Locked<surfacesOf>::call,
+                    "List of closed loops, each an array of node numbers, material on the left.")
+      .add_property("numSegments", &Locked<segmentsOf>::call,
+                    "Segments of all surfaces: each crack that opens adds two; those of removed "
+                    "fragments do not count.")
+      .add_property("_reference", &Locked<referenceOf>::call)
+      .add_property("_loads", &Locked<loadsOf>::call)
+      .add_property("_names", &Locked<namesOf>::call)
+      .def("_nodesOf", &Locked<nodesOfBody>::call)
+      .def("_isGone", &Locked<isGone>::call);
 }
 
 }  // namespace yadefrag

@@ -1,22 +1,26 @@
-#include "script/fe_results.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "dynamics/element_state.hpp"
-#include "fe/fe_solver.hpp"
+#include "fracture/brittle_checks.hpp"
 #include "fracture/cohesive_law.hpp"
 #include "fracture/edge_material.hpp"
 #include "script/arrays.hpp"
+#include "script/calls.hpp"
+#include "script/definitions.hpp"
+#include "script/fragments.hpp"
 #include "script/shown_nodes.hpp"
+#include "step/overlap_depth.hpp"
 
 namespace yadefrag {
 
 namespace py = yade::py;
 
+namespace {
+
+/// (N) A pair: force of contact of body b on body a in the last step.
 py::tuple pairForceOf(const FESolver& solver, int a, int b) {
   const World& world = solver.world();
   const ComponentId one(static_cast<std::size_t>(a)), other(static_cast<std::size_t>(b));
@@ -29,20 +33,6 @@ py::tuple pairForceOf(const FESolver& solver, int a, int b) {
   }
   return py::make_tuple(sum.x, sum.y);
 }
-
-py::object strainArrayOf(const FESolver& solver) {
-  const Model& model = solver.world().model;
-  std::vector<std::array<double, 3>> strains(model.triangles.size());
-  for (std::size_t e = 0; e < strains.size(); ++e) {
-    if (model.triangles.isDropped(e)) continue;
-    const Matrix2 f = deformationGradient(model, ElementId(e));
-    strains[e] = {(f.xx * f.xx + f.yx * f.yx - 1) / 2, (f.xy * f.xy + f.yy * f.yy - 1) / 2,
-                  (f.xx * f.xy + f.yx * f.yy) / 2};
-  }
-  return toArray(strains);
-}
-
-namespace {
 
 /// By edge: index among the cohesive cracks, or kLoose.
 constexpr std::uint32_t kLoose = std::numeric_limits<std::uint32_t>::max();
@@ -101,8 +91,8 @@ struct CrackColumns {
   }
 };
 
-}  // namespace
-
+/// A dict of arrays, one row per crack: component, other (bodies on both sides), x, y, nx, ny,
+/// opening, slip (m), damage, held, start (s; nan: cracked from the start).
 py::dict cracksOf(const FESolver& solver) {
   const World& world = solver.world();
   const CrackEdges& edges = world.fracture.edges;
@@ -129,6 +119,136 @@ py::dict cracksOf(const FESolver& solver) {
   table["held"] = toArray(columns.held).attr("view")("bool");
   table["start"] = toArray(columns.start);
   return table;
+}
+
+py::dict energyOf(const FESolver& solver) {
+  const World& world = solver.world();
+  const EnergyLedger& ledger = world.ledger;
+  const double kinetic = world.kineticEnergy();
+  const double strain = world.strainEnergy();
+  py::dict result;
+  result["kinetic"] = kinetic;
+  result["strain"] = strain;
+  result["contact"] = ledger.contact;
+  result["friction"] = ledger.friction;
+  result["fracture"] = ledger.fracture;
+  result["damping"] = ledger.damping;
+  if (solver.world().dropped.count > 0 || solver.world().fracture.minFragmentArea > 0)
+    result["dropped"] = ledger.dropped;
+  result["outside"] = -ledger.external;
+  result["total"] = ledger.total(kinetic, strain);
+  if (solver.balance().any())
+    result["scene"] = ledger.total(kinetic, strain) + solver.balance().created();
+  return result;
+}
+
+/// (J) Energy that the time integration has created, the largest energy that the bodies could have,
+/// and the energy of rounding errors.
+py::tuple energyBalanceOf(const FESolver& solver) {
+  const World& world = solver.world();
+  const double total = world.ledger.total(world.kineticEnergy(), world.strainEnergy());
+  const double excess = world.steps > 0 ? total - world.watch.expected : 0;
+  return py::make_tuple(excess, world.watch.most, world.roundingEnergy());
+}
+
+py::list warningsOf(const FESolver& solver) {
+  py::list result;
+  for (const std::string& sentence : solver.world().warnings) result.append(sentence);
+  return result;
+}
+
+py::dict droppedOf(const FESolver& solver) {
+  const World& world = solver.world();
+  const Dropped& dropped = world.dropped;
+  py::dict result;
+  result["mass"] = dropped.mass;
+  result["momentum"] = py::make_tuple(dropped.momentum.x, dropped.momentum.y);
+  result["energy"] = world.ledger.dropped;
+  result["count"] = dropped.count;
+  return result;
+}
+
+py::list fragmentsOf(const FESolver& solver, bool held) {
+  const World& world = solver.world();
+  py::list result;
+  for (const Fragment& fragment :
+       findFragments(world.model, nullptr, held ? &world.fracture : nullptr)) {
+    py::dict one;
+    one["component"] = fragment.component.value;
+    one["triangles"] = fragment.triangles;
+    one["mass"] = fragment.mass;
+    one["area"] = fragment.area;
+    one["centroid"] = py::make_tuple(fragment.centroid.x, fragment.centroid.y);
+    one["velocity"] = py::make_tuple(fragment.velocity.x, fragment.velocity.y);
+    one["spin"] = fragment.spin;
+    result.append(one);
+  }
+  return result;
+}
+
+double criticalTimeStepOf(FESolver& solver) { return solver.criticalTimeStep(); }
+std::string zoneWarningOf(const FESolver& solver, int component) {
+  const World& world = solver.world();
+  return cohesiveZoneWarning(world.model, world.fracture.edges, ComponentId(component));
+}
+void noteOf(FESolver& solver, std::string sentence) { solver.note(std::move(sentence)); }
+double timeOf(const FESolver& solver) { return solver.world().time; }
+std::uint64_t searchesOf(const FESolver& solver) { return solver.world().numSearches; }
+std::size_t activesOf(const FESolver& solver) { return solver.world().contact.rows().size(); }
+double penetrationOf(const FESolver& solver) { return solver.world().contact.maxPenetration(); }
+double deepestOverlapOf(const FESolver& solver) {
+  return deepestOverlap(solver.world().model, solver.world().threads);
+}
+std::uint64_t numCracksOf(const FESolver& solver) { return solver.world().fracture.numCracks(); }
+
+}  // namespace
+
+void defineResults(SolverClass& solver) {
+  solver
+      .def("criticalTimeStep", &Locked<criticalTimeStepOf>::call,
+           "Critical time step (s) of the present mesh; of a body that can crack also when all its "
+           "triangles are separated; infinite without bodies. An O.dt that changes all the time "
+           "should stay below a third of it. Spheres are not considered: see the manual, Limits.")
+      .def("deepestOverlap", &Locked<deepestOverlapOf>::call,
+           "Deepest overlap (m) of any two triangles without a common node: the shortest "
+           "translation that separates them, at most a triangle's height. Checks all triangles at "
+           "each call, independently of contact; maxPenetration considers only points in contact. "
+           "0, except for rounding, where bodies touch.")
+      .def("fragments", &Locked<fragmentsOf>::call, (yade::py::arg("held") = true),
+           "List of dicts, one per part that has come apart: component (of its first triangle), "
+           "triangles (their number), mass (kg), area (m²), centroid (m), velocity (m/s), spin "
+           "(rad/s). Parts that cohesion or a bond still holds together are one fragment; with "
+           "held=False every crack separates, also one that has hardly opened.")
+      .def("_zoneWarning", &Locked<zoneWarningOf>::call)
+      .def("_pairForce", &Locked<pairForceOf>::call)
+      .def("_cracks", &Locked<cracksOf>::call)
+      .def("_note", &Locked<noteOf>::call)
+      .def(
+          "_lock", +[](const FESolver& self) { self.betweenSteps().lock(); })
+      .def(
+          "_unlock", +[](const FESolver& self) { self.betweenSteps().unlock(); })
+      .add_property("time", &Locked<timeOf>::call,
+                    "Simulated time of the bodies (s); motions and loads that vary with time are "
+                    "functions of it.")
+      .add_property("dropped", &Locked<droppedOf>::call,
+                    "Removed fragments (smaller than minFragmentArea), a dict: mass (kg), momentum "
+                    "(kg m/s, a pair), energy (J) at their removal, count.")
+      .add_property("_energies", &Locked<energyOf>::call)
+      .add_property("_energyBalance", &Locked<energyBalanceOf>::call);
+  solver
+      .add_property("warnings", &Locked<warningsOf>::call,
+                    "Warnings of numerical errors: energy that contact, cracks or the time "
+                    "integration have created, above 1 % of the bodies' energy and above rounding, "
+                    "and penetration above a tenth of the shortest segment. One per doubling, each "
+                    "also written to stderr when it occurs.")
+      .add_property("numSearches", &Locked<searchesOf>::call, "Contact searches so far.")
+      .add_property("numActives", &Locked<activesOf>::call, "Points in contact in the last step.")
+      .add_property("maxPenetration", &Locked<penetrationOf>::call,
+                    "Deepest remaining penetration (m) at points in contact in the last step; "
+                    "deepestOverlap() checks all triangles.")
+      .add_property("numCracks", &Locked<numCracksOf>::call,
+                    "Cracked edges so far, without bonds and joints that are open from the start. "
+                    "Some may still hold: see crackCounts.");
 }
 
 }  // namespace yadefrag

@@ -13,10 +13,15 @@
 #include "outline/simplify.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
+#include "script/definitions.hpp"
 
 namespace yadefrag {
 
 namespace py = yade::py;
+
+Polygon polygonOf(const py::object& outline, const py::list& holes) {
+  return {fromArray<Vec2>(outline), fromArrays<Vec2>(holes)};
+}
 
 namespace {
 
@@ -71,9 +76,96 @@ void moveNodes(ScriptMesh& mesh, const py::object& nodes) {
   std::ranges::copy(places, mesh.nodes.begin());
 }
 
+/// The mesh of a polygon. `joints` are four numbers each, joined within the tolerance (m). `size`
+/// is a tuple: one number (m), or left, bottom and cell (m) of a grid, its columns, and its values.
+SharedMesh meshOfPolygon(const py::object& outline, const py::list& holes, const py::tuple& size,
+                         bool irregular, std::uint64_t seed, const py::object& joints,
+                         double jointTolerance) {
+  return asValueError([&] {
+    const MeshLayout layout{irregular ? NodeLayout::kScattered : NodeLayout::kRows, seed};
+    const Polygon polygon = checkPolygon(polygonOf(outline, holes));
+    const SizeField field = sizeField(size);
+    const auto lines = fromArray<std::array<Vec2, 2>>(joints);
+    return SharedMesh(new ScriptMesh{
+        triangulate(polygon, field, layout, memoryOfMachine(), lines, jointTolerance),
+        lines.size(),
+        {}});
+  });
+}
+
+/// Numbers of the vertices to keep, of the outline and of each hole: a list of arrays
+/// (outline/simplify.hpp). `pinned` has a flag for each point of the outline, or is empty.
+py::list keptVertices(const py::object& outline, const py::list& holes, double tolerance,
+                      const py::object& pinned) {
+  return asValueError([&] {
+    return toArrays(
+        verticesToKeep(polygonOf(outline, holes), tolerance, fromArray<std::uint8_t>(pinned)));
+  });
+}
+
+/// (m, corner counted over all loops) of outline/narrowest.hpp; each loop is an array of
+/// its points.
+py::tuple narrowestOf(const py::list& loops) {
+  const NarrowPlace place = narrowestPlace(fromArrays<Vec2>(loops));
+  return py::make_tuple(place.distance, place.corner);
+}
+
+/// A regular mesh of a rectangle.
+SharedMesh meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
+                           bool crossed) {
+  const QuadPattern pattern = crossed ? QuadPattern::kCrossed : QuadPattern::kUnionJack;
+  return SharedMesh(new ScriptMesh{
+      {structuredRectangle({left, bottom}, {right, top}, nx, ny, pattern), {}}, 0, {}});
+}
+
+/// yadefrag/fe/quality.py has checked the component.
+py::dict meshQualityOf(const FESolver& solver, int component) {
+  const World& world = solver.world();
+  const Component& body = world.model.components[component];
+  const TriangleMesh mesh = stressFreeMesh(world.model, world.reference, ComponentId(component));
+  const MeshQuality quality = meshQuality(mesh.nodes, mesh.triangles);
+  const auto byDirection = [](const auto& values) {
+    return toArray(std::vector<double>(values.begin(), values.end()));
+  };
+  py::dict result;
+  result["numTriangles"] = quality.numTriangles;
+  result["size"] = latticeSide(mesh);
+  result["shortestEdge"] = quality.shortestEdge;
+  result["minAngle"] = quality.minAngle;
+  result["timeStepRatio"] = meshTimeStep(mesh, body) / latticeTimeStep(body, latticeSide(mesh));
+  result["pathRatio"] = quality.meanPath;
+  result["pathSpread"] = quality.pathSpread;
+  result["edgeDeviation"] = quality.edgeDeviation;
+  result["pathRatioByDirection"] = byDirection(quality.paths);
+  result["edgesByDirection"] = byDirection(quality.edges);
+  return result;
+}
+
+/// A message if the component's mesh needs far shorter steps than triangles of `size` (m).
+std::string costlyStepWarningOf(const FESolver& solver, int component, double size) {
+  const World& world = solver.world();
+  const ComponentId id(component);
+  return costlyStepWarning(stressFreeMesh(world.model, world.reference, id),
+                           world.model.components[component], size);
+}
+
+/// The ratio of these steps for another mesh of the same material.
+double costOfMesh(const FESolver& solver, int component, double size, const ScriptMesh& mesh) {
+  const Component& body = solver.world().model.components[component];
+  return latticeTimeStep(body, size) / meshTimeStep(mesh, body);
+}
+
+/// (s) Critical step of equilateral triangles of edges `side` (m), with a material's constants.
+double latticeTimeStepOf(double young, double poisson, double density, bool planeStress,
+                         double side) {
+  Component component;
+  component.material = {young, poisson, density, planeStress};
+  return latticeTimeStep(component, side);
+}
+
 }  // namespace
 
-void defineMesh() {
+void defineMeshes() {
   py::class_<ScriptMesh, SharedMesh, boost::noncopyable>("Mesh", py::no_init)
       .def("__init__", py::make_constructor(
                            &meshOf, py::default_call_policies(),
@@ -110,86 +202,17 @@ void defineMesh() {
       .add_property(
           "_loopVertices", +[](const ScriptMesh& mesh) { return toArrays(mesh.loopVertices); })
       .def_readonly("_numJoints", &ScriptMesh::numJoints);
+  py::def("meshOfPolygon", &meshOfPolygon);
+  py::def("keptVertices", &keptVertices);
+  py::def("latticeTimeStep", &latticeTimeStepOf);
+  py::def("meshOfRectangle", &meshOfRectangle);
+  py::def("narrowestOf", &narrowestOf);
 }
 
-Polygon polygonOf(const py::object& outline, const py::list& holes) {
-  return {fromArray<Vec2>(outline), fromArrays<Vec2>(holes)};
-}
-
-SharedMesh meshOfPolygon(const py::object& outline, const py::list& holes, const py::tuple& size,
-                         bool irregular, std::uint64_t seed, const py::object& joints,
-                         double jointTolerance) {
-  return asValueError([&] {
-    const MeshLayout layout{irregular ? NodeLayout::kScattered : NodeLayout::kRows, seed};
-    const Polygon polygon = checkPolygon(polygonOf(outline, holes));
-    const SizeField field = sizeField(size);
-    const auto lines = fromArray<std::array<Vec2, 2>>(joints);
-    return SharedMesh(new ScriptMesh{
-        triangulate(polygon, field, layout, memoryOfMachine(), lines, jointTolerance),
-        lines.size(),
-        {}});
-  });
-}
-
-py::list keptVertices(const py::object& outline, const py::list& holes, double tolerance,
-                      const py::object& pinned) {
-  return asValueError([&] {
-    return toArrays(
-        verticesToKeep(polygonOf(outline, holes), tolerance, fromArray<std::uint8_t>(pinned)));
-  });
-}
-
-py::tuple narrowestOf(const py::list& loops) {
-  const NarrowPlace place = narrowestPlace(fromArrays<Vec2>(loops));
-  return py::make_tuple(place.distance, place.corner);
-}
-
-SharedMesh meshOfRectangle(double left, double bottom, double right, double top, int nx, int ny,
-                           bool crossed) {
-  const QuadPattern pattern = crossed ? QuadPattern::kCrossed : QuadPattern::kUnionJack;
-  return SharedMesh(new ScriptMesh{
-      {structuredRectangle({left, bottom}, {right, top}, nx, ny, pattern), {}}, 0, {}});
-}
-
-py::dict meshQualityOf(const FESolver& solver, int component) {
-  const World& world = solver.world();
-  const Component& body = world.model.components[component];
-  const TriangleMesh mesh = stressFreeMesh(world.model, world.reference, ComponentId(component));
-  const MeshQuality quality = meshQuality(mesh.nodes, mesh.triangles);
-  const auto byDirection = [](const auto& values) {
-    return toArray(std::vector<double>(values.begin(), values.end()));
-  };
-  py::dict result;
-  result["numTriangles"] = quality.numTriangles;
-  result["size"] = latticeSide(mesh);
-  result["shortestEdge"] = quality.shortestEdge;
-  result["minAngle"] = quality.minAngle;
-  result["timeStepRatio"] = meshTimeStep(mesh, body) / latticeTimeStep(body, latticeSide(mesh));
-  result["pathRatio"] = quality.meanPath;
-  result["pathSpread"] = quality.pathSpread;
-  result["edgeDeviation"] = quality.edgeDeviation;
-  result["pathRatioByDirection"] = byDirection(quality.paths);
-  result["edgesByDirection"] = byDirection(quality.edges);
-  return result;
-}
-
-std::string costlyStepWarningOf(const FESolver& solver, int component, double size) {
-  const World& world = solver.world();
-  const ComponentId id(component);
-  return costlyStepWarning(stressFreeMesh(world.model, world.reference, id),
-                           world.model.components[component], size);
-}
-
-double costOfMesh(const FESolver& solver, int component, double size, const ScriptMesh& mesh) {
-  const Component& body = solver.world().model.components[component];
-  return latticeTimeStep(body, size) / meshTimeStep(mesh, body);
-}
-
-double latticeTimeStepOf(double young, double poisson, double density, bool planeStress,
-                         double side) {
-  Component component;
-  component.material = {young, poisson, density, planeStress};
-  return latticeTimeStep(component, side);
+void defineQuality(SolverClass& solver) {
+  solver.def("_costOfMesh", &Locked<costOfMesh>::call)
+      .def("_meshQuality", &Locked<meshQualityOf>::call)
+      .def("_costlyStepWarning", &Locked<costlyStepWarningOf>::call);
 }
 
 }  // namespace yadefrag

@@ -46,27 +46,27 @@ def _boundaryLoops(points, triangles):
     used[triangles] = True
     if not used.all():
         raise ValueError('node %d belongs to no triangle.' % int(numpy.argmin(used)))
-    edges = [(int(t[i]), int(t[(i + 1) % 3])) for t in triangles for i in range(3)]
-    known = set(edges)
-    if len(known) != len(edges):
+    triangles = triangles.astype(numpy.int64)
+    starts, ends = triangles.ravel(), numpy.roll(triangles, -1, axis=1).ravel()
+    sides = starts * len(points) + ends
+    if len(numpy.unique(sides)) != len(sides):
         raise ValueError('two triangles have the same edge in the same direction: all must be '
                          'counter-clockwise, and no edge can have three.')
-    after = {}
-    for a, b in edges:
-        if (b, a) in known:
-            continue
-        if a in after:
-            raise ValueError('the boundary passes twice through node %d at (%g, %g): give each part that '
-                             'touches the others there only a node of its own.' % (a, *points[a]))
-        after[a] = b
-    loops = []
-    while after:
-        first = min(after)
-        loop, node = [], first
+    isOuter = ~numpy.isin(ends * len(points) + starts, sides)
+    starts, ends = starts[isOuter], ends[isOuter]
+    again = numpy.setdiff1d(numpy.arange(len(starts)), numpy.unique(starts, return_index=True)[1])
+    if len(again):
+        node = starts[again[0]]
+        raise ValueError('the boundary passes twice through node %d at (%g, %g): give each part that '
+                         'touches the others there only a node of its own.' % (node, *points[node]))
+    after, loops = dict(zip(starts.tolist(), ends.tolist())), []
+    for node in sorted(after):
+        loop = []
         while node in after:
             loop.append(node)
             node = after.pop(node)
-        loops.append(numpy.array(loop))
+        if loop:
+            loops.append(numpy.array(loop))
     return loops
 
 

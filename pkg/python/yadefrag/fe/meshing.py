@@ -155,10 +155,7 @@ class Meshing:
                  simplify: float | None, joints: Any, jointTolerance: float | None,
                  material: Any = None) -> None:
         points = pointsOf('outline', outline, 3)
-        try:
-            loops = None if isinstance(holes, (str, bytes, dict, set)) else list(holes)
-        except TypeError:
-            loops = None
+        loops = _listOf(holes)
         if loops is None:
             refuse('holes', holes, 'a list of loops of points (x, y) in m')
         loops = [pointsOf('holes[%d]' % i, loop, 3) for i, loop in enumerate(loops)]
@@ -200,7 +197,8 @@ def polygonMesh(outline: ArrayLike, holes: Iterable[ArrayLike] = (), *, size: fl
     count, farthest = made.joined
     if count:
         warn('polygonMesh: of the joints, %d ends, crossings and bends near another line were joined with it, and '
-             'moved by at most %.3g m, %.2g of the size (jointTolerance=).' % (count, farthest, farthest / meshing.size))
+             'moved by at most %.3g m, %.2g of the size (jointTolerance=).' %
+             (count, farthest, farthest / meshing.size))
     return made
 
 
