@@ -12,7 +12,7 @@ import pytest
 
 
 # They take minutes: begun last, one of them would run alone.
-kLongest = ['test_yade_own.py', 'test_threads.py', 'test_valgrind.py', 'test_cases.py',
+kLongest = ['test_yade_own.py', 'test_threads.py', 'test_valgrind.py',
             'test_published.py', 'test_collider_use.py', 'test_ensemble.py']
 
 

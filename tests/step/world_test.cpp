@@ -9,7 +9,7 @@
 
 #include "core/errors.hpp"
 #include "dynamics/element_state.hpp"
-#include "step/course.hpp"
+#include "step/run_result.hpp"
 #include "surface/surface_checks.hpp"
 
 namespace yadefrag::test {
@@ -269,42 +269,6 @@ TEST(WorldStep, AForceThatIsNotFiniteStopsTheRun) {
 
 // "Model only what the scene requires."
 
-TEST(WorldPays, OneBodyThatCannotTouchItselfIsNotSearched) {
-  for (const bool selfContact : {false, true}) {
-    World world;
-    const TriangleMesh mesh = block({0, 0}, 8);
-    BodySpec spec = moving(mesh, rubber(), {10, 3});
-    spec.selfContact = selfContact;
-    world.addBody(mesh, spec);
-    world.timing = true;
-    const double dt = .5 * world.criticalTimeStep();
-    for (int i = 0; i < 100; ++i) world.step(dt);
-    EXPECT_EQ(world.numSearches > 0, selfContact);
-    EXPECT_EQ(world.search.positions.empty(), !selfContact);
-    EXPECT_EQ(world.contact.candidates.offsets.empty(), !selfContact);
-    EXPECT_TRUE(world.contact.rows().empty());
-    EXPECT_EQ(world.times.contact() > 0, selfContact);
-    EXPECT_GT(world.times.forces, 0);
-  }
-}
-
-TEST(WorldPays, BodiesThatCannotTouchThemselvesHaveNoCandidatesOfTheirOwn) {
-  World world;
-  for (int k = 0; k < 2; ++k) {
-    const TriangleMesh mesh = block({1.001 * k, 0}, 6);
-    BodySpec spec = moving(mesh, rubber(), {1. - 2 * k, 0});
-    spec.selfContact = false;
-    world.addBody(mesh, spec);
-  }
-  world.step(.5 * world.criticalTimeStep());
-  const Candidates& candidates = world.contact.candidates;
-  EXPECT_GT(candidates.size(), 0U);
-  for (std::size_t row = 0; row < candidates.slaves.size(); ++row)
-    for (std::uint32_t c = candidates.offsets[row]; c < candidates.offsets[row + 1]; ++c)
-      EXPECT_NE(world.surfaces.component[candidates.slaves[row].value],
-                world.surfaces.component[candidates.masters[c].value]);
-}
-
 /// Slip is only computed, and tangential forces only solved for, where both bodies are rough.
 TEST(WorldPays, NoFrictionNoTangentialUnknowns) {
   for (const bool rough : {false, true}) {
@@ -341,14 +305,6 @@ TEST(WorldPays, NoLoadsNoArrays) {
   world.outerForces.assign(world.model.nodes.size(), {1, 0});
   world.step(dt);
   EXPECT_TRUE(world.outerForces.empty()) << "for one step only";
-}
-
-TEST(WorldPays, NoSmoothNodesNoArcs) {
-  World world;
-  const TriangleMesh mesh = block({0, 0}, 5);
-  world.addBody(mesh, moving(mesh, rubber(), {0, 0}));
-  EXPECT_EQ(world.surfaces.entries(), world.surfaces.segments());
-  for (const Piece piece : world.surfaces.piece) EXPECT_EQ(piece, Piece::kSegment);
 }
 
 TEST(WorldPays, AnEmptyWorldSteps) {

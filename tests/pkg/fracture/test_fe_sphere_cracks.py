@@ -96,10 +96,10 @@ def test_facesThatAppearBesideAnUnloadedSphereGetNoForce(height, part):
     assert not any('spheres has created' in sentence for sentence in solver.warnings)
 
 
-@pytest.mark.parametrize('part', [.8, .1])
-@pytest.mark.parametrize('young', [1e9, 2e11])
-def test_noStepAndNoStiffnessCreatesEnergy(young, part):
-    solver, body = impact('rows', .05, .35, False, young=young, part=part)
+@pytest.mark.parametrize('size, young, part', [(.05, 1e9, .8), (.05, 1e9, .1), (.05, 2e11, .8), (.05, 2e11, .1),
+                                               (.025, 5e10, .5)])
+def test_noStepSizeOrStiffnessCreatesEnergy(size, young, part):
+    solver, body = impact('rows', size, .35, False, young=young, part=part)
     before = energyOf(body)
     O.run(int(.002 / O.dt), True)
     assert -5e-3 < (energyOf(body) - before - solver.energy['outside']) / before < 1e-3
