@@ -1,4 +1,4 @@
-"""A scene run and dumped with full precision, for test_threads.py: CLASS gas|mixed|periodic."""
+"""A scene run and dumped with full precision, for test_threads.py: CLASS gas|mixed|periodic...; each scene a line of JSON."""
 import json
 import os
 import sys
@@ -52,4 +52,5 @@ def main(name, kind):
     print('\n@@@ ' + json.dumps(dict(threads=O.numThreads, moments=moments)), flush=True)
 
 
-main(*sys.argv[1:])
+for kind in sys.argv[2:]:
+    main(sys.argv[1], kind)
