@@ -2,17 +2,19 @@
 
 FOLDER has compile_commands.json. Several sources are checked as one unit that includes all of them
 (units.py), and if there is any finding, each of its sources is checked alone: only these findings
-count.
+count. A unit without findings is not checked again until a file of this project in it, its command,
+the checks or clang-tidy change.
 """
 import collections
 import concurrent.futures
+import hashlib
 import json
 import os
 import re
 import subprocess
 import sys
 
-from units import unitsOf
+from units import ROOT, headersOf, textOf, unitsOf
 
 MOST = 16  # sources in a unit: the checks spend most of their time on the headers
 
@@ -32,14 +34,26 @@ def tidy(folder, path):
     return run.returncode == 0, run.stdout
 
 
-def checkUnit(number, sources, folder, units):
+def digestOf(sources, command):
+    """Of all that the findings in a unit depend on, but for the headers of the system."""
+    paths = sorted(set(sources).union(*map(headersOf, sources), [os.path.join(ROOT, '.clang-tidy')]))
+    texts = [command, subprocess.run(['clang-tidy', '--version'], stdout=subprocess.PIPE, text=True).stdout]
+    return hashlib.sha1('\0'.join(texts + paths + list(map(textOf, paths))).encode()).hexdigest()
+
+
+def checkUnit(number, sources, folder, units, command):
     """Outputs of the sources with findings."""
-    if len(sources) > 1:
-        path = os.path.join(units, f'{number}.cpp')
-        if tidy(units, path)[0]:
-            return []
-    results = [tidy(folder, source) for source in sources]
-    return [output for fine, output in results if not fine]
+    fine = os.path.join(units, digestOf(sources, command) + '.fine')
+    path = os.path.join(units, f'{number}.cpp')
+    if os.path.exists(fine):
+        return []
+    results = []
+    if len(sources) == 1 or not tidy(units, path)[0]:
+        results = [tidy(folder, source) for source in sources]
+    found = [output for good, output in results if not good]
+    if not found:
+        open(fine, 'w').close()
+    return found
 
 
 def writeUnits(groups, commands, units):
@@ -69,7 +83,8 @@ def main(folder, jobs, *wanted):
     # YADE's headers take longest: first.
     order = sorted(range(len(groups)), key=lambda n: '/pkg/' not in groups[n][0])
     with concurrent.futures.ThreadPoolExecutor(int(jobs)) as pool:
-        found = list(pool.map(lambda n: checkUnit(n, groups[n], folder, units), order))
+        found = list(pool.map(
+            lambda n: checkUnit(n, groups[n], folder, units, commands[groups[n][0]]['command']), order))
     for outputs in found:
         print(''.join(outputs), end='')
     return int(any(found))
