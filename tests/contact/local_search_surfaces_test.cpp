@@ -7,7 +7,7 @@
 
 #include <map>
 
-#include "contact/chase.hpp"
+#include "contact/point_against_body.hpp"
 #include "step/entry_pairs.hpp"
 
 namespace yadefrag::test {
@@ -24,14 +24,14 @@ TEST(LocalSearch, ArcsHoldPointsUpToADepth) {
   for (int i = 0; i < 100; ++i) {
     const double angle = .0628 * i + .01;
     const Vec2 out{std::cos(angle), std::sin(angle)};
-    Chase chase(circle(12), smooth, -out, 1.1 * out);
-    chase.halo = .2;
-    EXPECT_TRUE(chase.masters(1.01 * out).empty());
-    const std::vector<Active> actives = chase.step(.95 * out, 1.1 * out);
+    PointAgainstBody point(circle(12), smooth, -out, 1.1 * out);
+    point.halo = .2;
+    EXPECT_TRUE(point.masters(1.01 * out).empty());
+    const std::vector<Active> actives = point.step(.95 * out, 1.1 * out);
     ASSERT_EQ(actives.size(), 1U) << angle;
     EXPECT_TRUE(actives[0].foot.inside);
     EXPECT_GT(dot(actives[0].foot.normal, out), .99);
-    Chase deep(circle(12), smooth, -out, 1.1 * out);
+    PointAgainstBody deep(circle(12), smooth, -out, 1.1 * out);
     deep.halo = .2;
     EXPECT_TRUE(deep.masters(.6 * out).empty()) << "deeper than the halo is on another side";
   }
@@ -41,7 +41,7 @@ std::vector<Active> find(LocalSearch& search, Candidates& candidates, const Surf
                          const std::vector<Vec2>& before, double reach, double halo,
                          double moved = INFINITY) {
   std::vector<Active> actives;
-  const PathStart start{before, {}, Chase::kDepth, 0};
+  const PathStart start{before, {}, PointAgainstBody::kDepth, 0};
   search.scan(candidates, scene.surfaces, scene.at, start, reach, 1, moved);
   search.findActives(candidates, scene.surfaces, scene.at, halo, actives);
   return actives;

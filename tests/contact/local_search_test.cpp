@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
-#include "contact/chase.hpp"
+#include "contact/point_against_body.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -15,7 +15,7 @@ std::vector<Active> actives(const SurfaceScene& scene, std::vector<SlaveMaster> 
                             const std::vector<Vec2>& before) {
   Candidates candidates;
   replaceCandidates(candidates, pairs);
-  const PathStart start{before, {}, Chase::kDepth, 0};
+  const PathStart start{before, {}, PointAgainstBody::kDepth, 0};
   LocalSearch search;
   std::vector<Active> found;
   search.scan(candidates, scene.surfaces, scene.at, start, kUnlimited, 1);

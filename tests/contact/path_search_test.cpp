@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/chase.hpp"
+#include "contact/point_against_body.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -62,7 +62,7 @@ void compareOneStep(Random& random, int kind, Counts& counts) {
     deepest = std::max(
         deepest,
         -scene.geometry().foot(touch.pair.master, scene.geometry().slave(touch.pair.slave)).gap);
-  const PathStart start{before, touches, Chase::kDepth, deepest};
+  const PathStart start{before, touches, PointAgainstBody::kDepth, deepest};
   moveAll(scene, random, kMove);
 
   LocalSearch search, all;
@@ -89,7 +89,7 @@ void compareTriedAgain(Random& random, int kind, Counts& counts) {
   std::vector<SlaveMaster> pairs = allPairs(scene.surfaces, false);
   replaceCandidates(candidates, pairs);
   const std::vector<Vec2> before = scene.at;
-  const PathStart start{before, {}, Chase::kDepth, 0};
+  const PathStart start{before, {}, PointAgainstBody::kDepth, 0};
   moveAll(scene, random, kMove);
   LocalSearch search;
   // Twice as far as the nodes may move in all detections.

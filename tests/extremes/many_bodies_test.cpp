@@ -7,8 +7,8 @@
 
 #include "extremes/limits.hpp"
 #include "step/bodies.hpp"
-#include "step/course.hpp"
 #include "step/figures.hpp"
+#include "step/run_result.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -97,20 +97,20 @@ World wedgeInCorner(double halfAngle, double friction) {
 }
 
 TEST(ExtremeCorner, AWedgeIsDrivenIn) {
-  Course worst;
+  RunResult worst;
   for (const double angle : {10., 29.9, 30., 30.1, 45.})
     for (const double friction : {0., .5, 100.}) {
       SCOPED_TRACE(angle);
       SCOPED_TRACE(friction);
       World world = wedgeInCorner(angle, friction);
-      const Course course = watch(world, 800, 20);
-      EXPECT_GT(course.touched, 100U);
-      EXPECT_LT(course.deepest, .05);
-      EXPECT_LT(course.growth, .02);
-      EXPECT_LT(course.drift, .01);
-      worst.deepest = std::max(worst.deepest, course.deepest);
-      worst.growth = std::max(worst.growth, course.growth);
-      worst.drift = std::max(worst.drift, course.drift);
+      const RunResult result = watch(world, 800, 20);
+      EXPECT_GT(result.touched, 100U);
+      EXPECT_LT(result.deepest, .05);
+      EXPECT_LT(result.growth, .02);
+      EXPECT_LT(result.drift, .01);
+      worst.deepest = std::max(worst.deepest, result.deepest);
+      worst.growth = std::max(worst.growth, result.growth);
+      worst.drift = std::max(worst.drift, result.drift);
     }
   record("deepest_in_segments", worst.deepest), record("growth", worst.growth);
   record("drift", worst.drift);
@@ -152,11 +152,11 @@ TEST(ExtremeCorner, ANodeIsPinchedBetweenThreeBodies) {
       SCOPED_TRACE(inner);
       SCOPED_TRACE(density);
       World world = threeTips(inner, density);
-      const Course course = watch(world, 4000, 40);
-      EXPECT_GT(course.touched, 100U);
-      figure("deepest_in_segments", course.deepest, 0, 1e-3);
-      figure("growth", course.growth, 0, 1e-3);
-      figure("drift", course.drift, 0, .01);
+      const RunResult result = watch(world, 4000, 40);
+      EXPECT_GT(result.touched, 100U);
+      figure("deepest_in_segments", result.deepest, 0, 1e-3);
+      figure("growth", result.growth, 0, 1e-3);
+      figure("drift", result.drift, 0, .01);
       Vec2 sum;
       double weight = 0;
       for (std::size_t c = 0; c < world.model.components.size(); ++c)

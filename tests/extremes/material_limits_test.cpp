@@ -9,8 +9,8 @@
 #include "extremes/limits.hpp"
 #include "fracture/random_cracks.hpp"
 #include "step/bodies.hpp"
-#include "step/course.hpp"
 #include "step/figures.hpp"
+#include "step/run_result.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -4,23 +4,24 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extremes/blow.hpp"
+#include "extremes/block_collision.hpp"
 
 namespace yadefrag::test {
 namespace {
 
 /// Blocks of one stiffness; the right one's density times `ratio`.
-Blow ofDensities(double ratio) {
+BlockCollision ofDensities(double ratio) {
   const double root = std::sqrt(ratio);
-  Blow blow{.gap = 1e-6 * std::min(1., root), .until = 6 * std::min(root, 1 / root), .parts = 2};
-  blow.right.density *= ratio;
-  return blow;
+  BlockCollision collision{
+      .gap = 1e-6 * std::min(1., root), .until = 6 * std::min(root, 1 / root), .parts = 2};
+  collision.right.density *= ratio;
+  return collision;
 }
 
 TEST(ExtremeRatio, OfMasses) {
   double least = kNone, most = kNone;
   for (const double ratio : {1e-16, 1e-12, 1e-8, 1e-4, 1., 1e4, 1e8, 1e12, 1e16}) {
-    const Outcome outcome = strike(ofDensities(ratio));
+    const Outcome outcome = collide(ofDensities(ratio));
     EXPECT_TRUE(outcome.isSound()) << ratio << ": " << outcome.refusal;
     // A heavy one goes on, a light one comes back, but for what the nodes that touch lose.
     if (ratio < 1e-3) {
@@ -40,10 +41,10 @@ TEST(ExtremeRatio, OfStiffnesses) {
   double least = kNone, most = kNone;
   for (const double ratio : {1e-8, 1e-4, 1., 1e4, 1e8}) {
     if (std::abs(std::log10(ratio)) > 7 && !longRun()) continue;
-    Blow blow{.gap = 1e-6, .parts = 1};
-    blow.right.young *= ratio;
-    blow.speed = .01 * std::min(waveSpeed(blow.left), waveSpeed(blow.right));
-    const Outcome outcome = strike(blow);
+    BlockCollision collision{.gap = 1e-6, .parts = 1};
+    collision.right.young *= ratio;
+    collision.speed = .01 * std::min(waveSpeed(collision.left), waveSpeed(collision.right));
+    const Outcome outcome = collide(collision);
     EXPECT_TRUE(outcome.isSound()) << ratio << ": " << outcome.refusal;
     EXPECT_NEAR(outcome.left.x, .33, .07) << ratio;
     if (std::isnan(least)) least = ratio;

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "extremes/blow.hpp"
+#include "extremes/block_collision.hpp"
 #include "outline/polygon.hpp"
 
 namespace yadefrag::test {
@@ -22,7 +22,7 @@ TriangleMesh needle(double degrees) {
 }
 
 /// A block comes onto a needle's tip (`side` 0), or onto its flank near the tip.
-Course2 hitNeedle(double degrees, int side) {
+TimedResult hitNeedle(double degrees, int side) {
   World world;
   world.contactSettings.passes = 2;
   const TriangleMesh thin = needle(degrees);
@@ -42,12 +42,12 @@ TEST(ExtremeShape, Slivers) {
   for (const double degrees : {10., 1., .1, .01}) {
     if (degrees < .05 && !longRun()) continue;
     for (const int side : {0, 1}) {
-      const Course2 course = hitNeedle(degrees, side);
+      const TimedResult result = hitNeedle(degrees, side);
       const double thickness = 2 * needle(degrees).nodes[2].y;
-      EXPECT_EQ(course.refusal, "") << degrees << " side " << side;
-      EXPECT_LE(course.deepest, .05 * thickness) << degrees << " side " << side;
-      EXPECT_LE(course.growth, 1e-3) << degrees << " side " << side;
-      EXPECT_TRUE(course.touched) << degrees << " side " << side;
+      EXPECT_EQ(result.refusal, "") << degrees << " side " << side;
+      EXPECT_LE(result.deepest, .05 * thickness) << degrees << " side " << side;
+      EXPECT_LE(result.growth, 1e-3) << degrees << " side " << side;
+      EXPECT_TRUE(result.touched) << degrees << " side " << side;
     }
     if (degrees >= .05) least = degrees;
   }
@@ -66,10 +66,10 @@ TEST(ExtremeShape, CoincidentNodesOfDifferentBodies) {
         for (Vec2& node : mesh.nodes) node += Vec2{shift, shift};
         world.addBody(mesh, moving(mesh, rubber(), 2 * (Vec2{.5, .5} - low)));
       }
-      const Course2 course = watchFor(world, .04);
-      EXPECT_EQ(course.refusal, "");
-      EXPECT_LE(course.deepest, shift > 0 ? 1e-7 : 1e-6);
-      EXPECT_LE(course.growth, 1e-3);
+      const TimedResult result = watchFor(world, .04);
+      EXPECT_EQ(result.refusal, "");
+      EXPECT_LE(result.deepest, shift > 0 ? 1e-7 : 1e-6);
+      EXPECT_LE(result.growth, 1e-3);
       for (std::size_t c = 0; c < 4; ++c) {
         const Vec2 end = (1 / mass(world, ComponentId(c))) * momentum(world, ComponentId(c));
         const Vec2 out{c % 2 == 0 ? -1. : 1., c < 2 ? -1. : 1.};
@@ -84,12 +84,12 @@ TEST(ExtremeShape, BodiesThatTouchExactly) {
   for (const double turn : {0., .3, 1.})
     for (const double far : {0., 1e6})
       for (const double speed : {0., 1.}) {
-        Blow blow{.speed = speed, .gap = 0, .turn = turn, .shift = {far, -far}};
-        World world = worldOf(blow);
-        const Course2 course = watchFor(world, .05);
-        EXPECT_EQ(course.refusal, "") << turn << " " << far << " " << speed;
+        BlockCollision collision{.speed = speed, .gap = 0, .turn = turn, .shift = {far, -far}};
+        World world = worldOf(collision);
+        const TimedResult result = watchFor(world, .05);
+        EXPECT_EQ(result.refusal, "") << turn << " " << far << " " << speed;
         // What a solution may leave at this speed; it is corrected in the next steps.
-        EXPECT_LE(course.deepest, speed > 0 ? 1e-6 : 1e-8) << turn << " " << far << " " << speed;
+        EXPECT_LE(result.deepest, speed > 0 ? 1e-6 : 1e-8) << turn << " " << far << " " << speed;
         const Vec2 left = turned(momentum(world, ComponentId(0UL)), -turn);
         if (speed > 0) {
           EXPECT_LT(left.x / mass(world, ComponentId(0UL)), .2) << turn << " " << far;

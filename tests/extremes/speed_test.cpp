@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "extremes/blow.hpp"
+#include "extremes/block_collision.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 TEST(ExtremeSpeed, FromANanometrePerSecondToTheWaveSpeed) {
   const double wave = waveSpeed(rubber());
   const auto at = [&](double speed) {
-    return strike({.speed = speed, .gap = std::min(1e-3, .1 * speed / wave), .shorten = true});
+    return collide({.speed = speed, .gap = std::min(1e-3, .1 * speed / wave), .shorten = true});
   };
   const Outcome usual = at(1e-3 * wave);
   double least = kNone, most = kNone;

@@ -3,23 +3,23 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include "extremes/blow.hpp"
+#include "extremes/block_collision.hpp"
 
 namespace yadefrag::test {
 namespace {
 
 TEST(ExtremeTimeStep, FromAThousandthOfTheCriticalOne) {
-  const Outcome usual = strike({.ofCritical = .1});
+  const Outcome usual = collide({.ofCritical = .1});
   double least = kNone, most = kNone;
   for (const double part : {1e-4, 1e-3, 1e-2, .1, .5, .9, .99, 1.}) {
     if (part < 1e-3 && !longRun()) continue;
-    const Outcome outcome = strike({.ofCritical = part});
+    const Outcome outcome = collide({.ofCritical = part});
     EXPECT_TRUE(outcome.isSound()) << part << outcome.refusal;
     EXPECT_NEAR(outcome.left.x, usual.left.x, .004) << part;
     if (part == 1e-3) least = part;
     most = part;
   }
-  const std::string beyond = strike({.ofCritical = 1.0001}).refusal;
+  const std::string beyond = collide({.ofCritical = 1.0001}).refusal;
   EXPECT_NE(beyond.find("must be above 0 and at most"), std::string::npos) << beyond;
   limit("time step, of the critical one", least, most,
         "below: works, down to 10⁻⁴ at least; above: refused, with the critical step");

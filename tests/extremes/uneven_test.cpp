@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "extremes/blow.hpp"
+#include "extremes/block_collision.hpp"
 #include "extremes/number_text.hpp"
 #include "outline/polygon.hpp"
 
@@ -25,7 +25,7 @@ struct Down {
   double ofCritical = .8;
 };
 
-Course2 fall(const Down& down) {
+TimedResult fall(const Down& down) {
   World world;
   world.contactSettings.passes = down.passes;
   const TriangleMesh uneven = unevenBlock(down.ratio);
@@ -41,11 +41,11 @@ TEST(ExtremeShape, SegmentsOfVeryDifferentLength) {
   for (const double ratio : {1e2, 1e3, 1e4}) {
     if (ratio > 5e3 && !longRun()) continue;
     for (const int passes : {1, 2}) {
-      const Course2 course = fall({ratio, 1e-5, passes});
-      EXPECT_EQ(course.refusal, "") << ratio;
-      EXPECT_LE(course.deepest, passes == 1 ? 1e-6 : 1e-3 / ratio) << ratio << " " << passes;
-      EXPECT_LE(course.growth, 1e-3) << ratio;
-      EXPECT_TRUE(course.touched) << ratio;
+      const TimedResult result = fall({ratio, 1e-5, passes});
+      EXPECT_EQ(result.refusal, "") << ratio;
+      EXPECT_LE(result.deepest, passes == 1 ? 1e-6 : 1e-3 / ratio) << ratio << " " << passes;
+      EXPECT_LE(result.growth, 1e-3) << ratio;
+      EXPECT_TRUE(result.touched) << ratio;
     }
     most = ratio;
   }
@@ -54,36 +54,37 @@ TEST(ExtremeShape, SegmentsOfVeryDifferentLength) {
           "not tried; for blows on the short ones see below");
 }
 
-/// The fastest blow (of the wave speed) that it stands; a faster one stops with a sentence, and no
-/// body is ever deeper in the other than a part of the shortest segment.
-double fastestBlow(double ratio, int passes) {
+/// The fastest collision (of the wave speed) that it stands; a faster one stops with a sentence,
+/// and no body is ever deeper in the other than a part of the shortest segment.
+double fastestCollision(double ratio, int passes) {
   double most = kNone;
   for (const double speed : {1e-4, 1e-3, .01, .1, 1.}) {
-    const Course2 course = fall({ratio, speed, passes, .5});
+    const TimedResult result = fall({ratio, speed, passes, .5});
     const std::string what = numberText(ratio) + " " + numberText(speed);
-    EXPECT_LE(course.deepest, (passes == 1 ? .5 : 1e-5) * .5 / ratio) << what;
-    EXPECT_LE(course.growth, 1e-3) << what;
-    EXPECT_TRUE(course.touched) << what;
-    if (course.refusal.empty()) {
+    EXPECT_LE(result.deepest, (passes == 1 ? .5 : 1e-5) * .5 / ratio) << what;
+    EXPECT_LE(result.growth, 1e-3) << what;
+    EXPECT_TRUE(result.touched) << what;
+    if (result.refusal.empty()) {
       most = speed;
       continue;
     }
-    EXPECT_NE(course.refusal.find("is pressed to"), std::string::npos) << course.refusal;
+    EXPECT_NE(result.refusal.find("is pressed to"), std::string::npos) << result.refusal;
     break;
   }
   return most;
 }
 
 TEST(ExtremeShape, HardBlowsOnShortSegments) {
-  EXPECT_EQ(fastestBlow(10, 2), .1);  // faster ones need a shorter step than half the critical one
-  EXPECT_EQ(fastestBlow(100, 1), .1);
+  EXPECT_EQ(fastestCollision(10, 2),
+            .1);  // faster ones need a shorter step than half the critical one
+  EXPECT_EQ(fastestCollision(100, 1), .1);
   limit("closing speed onto segments 100 times as short as others, of the wave speed", kNone,
-        fastestBlow(100, 2), "refused: an element that collapses needs a shorter step");
+        fastestCollision(100, 2), "refused: an element that collapses needs a shorter step");
   if (!longRun()) return;
-  EXPECT_EQ(fastestBlow(1e3, 1), .01);
-  EXPECT_EQ(fastestBlow(1e3, 2), .01);
+  EXPECT_EQ(fastestCollision(1e3, 1), .01);
+  EXPECT_EQ(fastestCollision(1e3, 2), .01);
   limit("closing speed onto segments 10⁴ times as short as others, of the wave speed", kNone,
-        fastestBlow(1e4, 2), "refused: an element that collapses needs a shorter step");
+        fastestCollision(1e4, 2), "refused: an element that collapses needs a shorter step");
 }
 
 }  // namespace

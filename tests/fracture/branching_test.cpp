@@ -26,16 +26,16 @@ struct Moment {
 };
 
 struct Growth {
-  std::vector<Moment> course;  // from the first edge that is through
-  std::vector<OpenEdge> open;  // at the end
-  double lost = 0;             // of all energies, over the work of the loads
+  std::vector<Moment> moments;  // from the first edge that is through
+  std::vector<OpenEdge> open;   // at the end
+  double lost = 0;              // of all energies, over the work of the loads
 
-  [[nodiscard]] double start() const { return course.front().time; }
+  [[nodiscard]] double start() const { return moments.front().time; }
 
   /// From the start until the tip has reached x = `end` (m).
   [[nodiscard]] std::vector<Moment> until(double end) const {
     std::vector<Moment> part;
-    for (const Moment& moment : course)
+    for (const Moment& moment : moments)
       if (moment.tip <= end) part.push_back(moment);
     return part;
   }
@@ -53,9 +53,9 @@ Growth follow(World& world, const std::function<bool(const Moment&)>& enough) {
   const double dt = .8 * world.criticalTimeStep();
   while (world.time < 90e-6) {
     world.step(dt);
-    if (world.fracture.cohesion.released.empty() && run.course.empty()) continue;
+    if (world.fracture.cohesion.released.empty() && run.moments.empty()) continue;
     const Moment now{world.time, tipOf(world), world.ledger.fracture};
-    run.course.push_back(now);
+    run.moments.push_back(now);
     if (now.tip > .98 * PulledPlate::kLong || enough(now)) break;
   }
   run.open = openEdges(world);
@@ -173,8 +173,8 @@ TEST(Branching, StartsWhenTheReleasedEnergySuffices) {
 /// Free cracks are slower, as the next test has it.
 TEST(Branching, StraightCrackSpendsItsFractureEnergy) {
   const Growth run = straightCrack(1e-3, 1, [](const Moment&) { return false; });
-  figure("speed_over_rayleigh", limitSpeed(run.course), .73, .03);
-  figure("work_by_length", workByLength(run.course), 1, .03);
+  figure("speed_over_rayleigh", limitSpeed(run.moments), .73, .03);
+  figure("work_by_length", workByLength(run.moments), 1, .03);
   EXPECT_NEAR(run.lost, 0, 1e-5);
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kWide = .02, kHigh = .04, kSize = 1.25e-3;  // m
 
-struct Course {
+struct RunResult {
   double first = 0;      ///< load at the first crack, over Mohr's and Coulomb's
   double peak = 0;       ///< the largest load, over the same
   double last = 0;       ///< at the end, over the same
@@ -36,7 +36,7 @@ class Press {
   Press(const Trial& trial, const BodySpec& rock, double confining);
   /// Until the load is below `least` of Mohr's and Coulomb's after the first crack, or the platens
   /// have gone `way` times as far as the elastic block does until it fails.
-  Course run(double way, double least);
+  RunResult run(double way, double least);
 
  private:
   void confine(const TriangleMesh& mesh, double pressure);
@@ -94,26 +94,26 @@ double Press::axialWork() const {
   return world_.ledger.external - lateral;
 }
 
-Course Press::run(double way, double least) {
+RunResult Press::run(double way, double least) {
   const double dt = .8 * world_.criticalTimeStep();
   const int every = static_cast<int>(crossing_ / dt / 4);
-  Course course;
+  RunResult result;
   double before = axialWork();
-  while (course.shortened < way) {
+  while (result.shortened < way) {
     for (int k = 0; k < every; ++k) world_.step(dt);
     const double work = axialWork();
-    course.last = (work - before) / (rate_ * kHigh * every * dt * kWide) / failure_;
+    result.last = (work - before) / (rate_ * kHigh * every * dt * kWide) / failure_;
     before = work;
-    course.shortened = world_.time / elastic_;
-    course.peak = std::max(course.peak, course.last);
+    result.shortened = world_.time / elastic_;
+    result.peak = std::max(result.peak, result.last);
     if (world_.fracture.numCracks() == 0) continue;
-    if (course.first == 0) course.first = course.last;
-    if (course.last < least) break;
+    if (result.first == 0) result.first = result.last;
+    if (result.last < least) break;
   }
-  return course;
+  return result;
 }
 
-Course uniaxial(const Trial& trial) { return Press(trial, rock(), 0).run(1.3, .2); }
+RunResult uniaxial(const Trial& trial) { return Press(trial, rock(), 0).run(1.3, .2); }
 
 bool isLong() { return std::getenv("YADEFRAG_LONG") != nullptr; }
 
@@ -121,11 +121,11 @@ bool isLong() { return std::getenv("YADEFRAG_LONG") != nullptr; }
 /// degrees. It brings about the collapse, and the load still rises until the waves of it arrive.
 constexpr double kFirst = .005, kPeak = .02;
 
-void expectPeakAndCollapse(const Course& course) {
-  figure("peak", course.peak, 1, kPeak);
-  figure("first_crack", course.first, 1, kFirst);
-  EXPECT_LT(course.last, .2) << "it collapses";
-  record("shortened", course.shortened);
+void expectPeakAndCollapse(const RunResult& result) {
+  figure("peak", result.peak, 1, kPeak);
+  figure("first_crack", result.first, 1, kFirst);
+  EXPECT_LT(result.last, .2) << "it collapses";
+  record("shortened", result.shortened);
 }
 
 class UniaxialMesh : public testing::TestWithParam<Trial> {};
@@ -141,9 +141,9 @@ INSTANTIATE_TEST_SUITE_P(Sizes, UniaxialMesh, testing::Values(Trial{2e-3}, Trial
 TEST(Uniaxial, TheLoadIsTheSameHoweverTheOutlineIsTurned) {
   double least = INFINITY, most = 0;
   for (const double turned : {0., 15., 30.}) {
-    const Course course = uniaxial({kSize, 1, turned});
-    expectPeakAndCollapse(course);
-    least = std::min(least, course.peak), most = std::max(most, course.peak);
+    const RunResult result = uniaxial({kSize, 1, turned});
+    expectPeakAndCollapse(result);
+    least = std::min(least, result.peak), most = std::max(most, result.peak);
   }
   figure("most_over_least", most / least, 1, .005);
 }
@@ -179,10 +179,10 @@ class BiaxialPressure : public testing::TestWithParam<double> {};
 /// afterwards, a quarter of the peak at 5 MPa, but to 0.6 to 0.9: see the next test.
 TEST_P(BiaxialPressure, CarriesTheMohrCoulombLoad) {
   for (const std::uint64_t seed : {1, 2}) {
-    const Course course = Press({1.6e-3, seed}, rock(), GetParam()).run(1.1, .5);
-    figure("peak", course.peak, 1, .04);
-    figure("first_crack", course.first, 1, kFirst);
-    EXPECT_LT(course.last, .9) << "the load falls";
+    const RunResult result = Press({1.6e-3, seed}, rock(), GetParam()).run(1.1, .5);
+    figure("peak", result.peak, 1, .04);
+    figure("first_crack", result.first, 1, kFirst);
+    EXPECT_LT(result.last, .9) << "the load falls";
   }
 }
 
@@ -193,10 +193,10 @@ INSTANTIATE_TEST_SUITE_P(Pressures, BiaxialPressure, testing::Values(1e6, 2.5e6,
 /// (Patton 1966, Proc. 1st Congr. ISRM, 509). With i ≈ 17°, as irregular edges have it, such rubble
 /// bears 8.2 σ₃, more than the whole block where σ₃ > 12 MPa.
 TEST(Biaxial, UnderHighPressureItYieldsThereAndHardens) {
-  const Course course = Press({2e-3}, rock(), 15e6).run(1.25, .5);
-  figure("first_crack", course.first, 1, kFirst);
-  figure("peak", course.peak, 1.1, .05);
-  figure("last", course.last, 1.1, .1);
+  const RunResult result = Press({2e-3}, rock(), 15e6).run(1.25, .5);
+  figure("first_crack", result.first, 1, kFirst);
+  figure("peak", result.peak, 1.1, .05);
+  figure("last", result.last, 1.1, .1);
 }
 
 }  // namespace

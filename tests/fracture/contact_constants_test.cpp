@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/tolerances/contact.hpp"
-#include "fracture/impact_course.hpp"
+#include "fracture/impact_result.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -56,10 +56,10 @@ TEST_P(ContactConstants, MayBeHalvedAndDoubled) {
           ImpactSetting{.fractureEnergy = 100, .speed = 50, .every = 20},
           ImpactSetting{
               .fractureEnergy = 100, .speed = 200, .every = 20, .nodes = NodeLayout::kScattered}}) {
-      const ImpactCourse course = runImpact(setting);
-      deepest = std::max(deepest, course.triangles);
-      given = std::max(given, course.given);
-      EXPECT_GT(course.growth, 2);
+      const ImpactResult result = runImpact(setting);
+      deepest = std::max(deepest, result.triangles);
+      given = std::max(given, result.given);
+      EXPECT_GT(result.growth, 2);
     }
     const std::string at = factor < 1 ? "_at_half" : "_at_most";
     // At the default values the largest overlap of 168 impacts is 3e-3, and 7e-5 in all but two.

@@ -12,14 +12,14 @@
 namespace yadefrag::test {
 namespace {
 
-struct FallCourse {
+struct FallResult {
   double fall = 0;   // of the energy: the largest decrease of `contact`, which only dissipates
   double drift = 0;  // of the energy: the balance
   std::size_t held = 0;
 };
 
 /// A brittle block falls on a rigid wall, obliquely.
-FallCourse fall(double partOfCritical, double friction, std::uint64_t seed) {
+FallResult fall(double partOfCritical, double friction, std::uint64_t seed) {
   const TriangleMesh mesh = triangulate({{{0, .001}, {.1, .001}, {.1, .051}, {0, .051}}, {}}, .008,
                                         {NodeLayout::kScattered, seed});
   BodySpec spec = moving(mesh, {30e9, .2, 2500, false}, {1, -15});
@@ -37,16 +37,16 @@ FallCourse fall(double partOfCritical, double friction, std::uint64_t seed) {
   const double dt = partOfCritical * world.criticalTimeStep();
   world.step(dt);
   const double whole = totalEnergy(world);
-  FallCourse course;
+  FallResult result;
   double highest = 0;
   while (world.time < 4e-4) {
     world.step(dt);
     highest = std::max(highest, world.ledger.contact);
-    course.fall = std::max(course.fall, (highest - world.ledger.contact) / whole);
-    course.drift = std::max(course.drift, std::abs(totalEnergy(world) / whole - 1));
+    result.fall = std::max(result.fall, (highest - world.ledger.contact) / whole);
+    result.drift = std::max(result.drift, std::abs(totalEnergy(world) / whole - 1));
   }
-  course.held = world.fracture.cohesion.edge.size();
-  return course;
+  result.held = world.fracture.cohesion.edge.size();
+  return result;
 }
 
 // If the tractions are found before contact and kept, `contact` falls by 1 to 3 %.
@@ -55,12 +55,12 @@ TEST(CrackUnderContact, ClosedFacesDoNoWorkAtAnyStep) {
     for (const double friction : {0., .5}) {
       SCOPED_TRACE(part);
       SCOPED_TRACE(friction);
-      const FallCourse course = fall(part, friction, 1);
-      EXPECT_GT(course.held, 20U);  // cracks are still cohesive
-      EXPECT_LT(course.fall, 1e-3);
-      EXPECT_LT(course.drift, 2e-3);
-      record("fall_of_contact", course.fall);
-      record("energy_drift", course.drift);
+      const FallResult result = fall(part, friction, 1);
+      EXPECT_GT(result.held, 20U);  // cracks are still cohesive
+      EXPECT_LT(result.fall, 1e-3);
+      EXPECT_LT(result.drift, 2e-3);
+      record("fall_of_contact", result.fall);
+      record("energy_drift", result.drift);
     }
 }
 

@@ -9,59 +9,59 @@
 
 #include "core/same_bits.hpp"
 #include "core/threads_for_few.hpp"
-#include "fracture/impact_course.hpp"
+#include "fracture/impact_result.hpp"
 
 namespace yadefrag::test {
 namespace {
 
 /// What must hold in any case. `given`: most that contact may give.
-void expectSound(const ImpactCourse& course, double given = .003) {
-  record("cracks", static_cast<double>(course.cracks));
-  record("growth", course.growth);
+void expectSound(const ImpactResult& result, double given = .003) {
+  record("cracks", static_cast<double>(result.cracks));
+  record("growth", result.growth);
   // What sweeps leave that end before all is solved, a part of a step's motion; up to 2e-4 of a
   // segment counts as touching.
-  figure("deepest_in_segments", course.deepest, 0, 5e-4);
-  figure("deepest_triangles_in_segments", course.triangles, 0, 5e-4);
-  figure("part_deeper_than_a_thousandth", course.mostDeep, 0, 0);
-  figure("energy_drift", course.drift, 0, .01);
+  figure("deepest_in_segments", result.deepest, 0, 5e-4);
+  figure("deepest_triangles_in_segments", result.triangles, 0, 5e-4);
+  figure("part_deeper_than_a_thousandth", result.mostDeep, 0, 0);
+  figure("energy_drift", result.drift, 0, .01);
   // Rounding of some 10⁴ sums.
-  figure("mass_error", course.massError, 0, 1e-12);
+  figure("mass_error", result.massError, 0, 1e-12);
   // Contact takes energy. It gives a little where it lets old overlaps out.
-  figure("given_by_contact", course.given, 0, given);
-  EXPECT_GT(course.contact, 0);
-  record("contact", course.contact);
-  record("fracture", course.fracture);
+  figure("given_by_contact", result.given, 0, given);
+  EXPECT_GT(result.contact, 0);
+  record("contact", result.contact);
+  record("fracture", result.fracture);
 }
 
 TEST(Impact, ABlockFallsToPieces) {
-  const ImpactCourse course = runImpact({.size = 8e-4});
-  expectSound(course);
-  EXPECT_GT(course.growth, 7);
-  EXPECT_EQ(course.fracture, 0);
+  const ImpactResult result = runImpact({.size = 8e-4});
+  expectSound(result);
+  EXPECT_GT(result.growth, 7);
+  EXPECT_EQ(result.fracture, 0);
 }
 
 /// As `addPolygon` meshes what can crack; the fastest.
 TEST(Impact, OnAnIrregularMesh) {
-  const ImpactCourse course = runImpact({.speed = 200, .nodes = NodeLayout::kScattered});
-  expectSound(course);
-  EXPECT_GT(course.growth, 7);
+  const ImpactResult result = runImpact({.speed = 200, .nodes = NodeLayout::kScattered});
+  expectSound(result);
+  EXPECT_GT(result.growth, 7);
 }
 
 TEST(Impact, CohesionTakesItsEnergy) {
-  const ImpactCourse course = runImpact({.fractureEnergy = 500});
+  const ImpactResult result = runImpact({.fractureEnergy = 500});
   // The tractions that keep the faces of a crack apart do not include what contact does afterwards
   // in the same step: one gives what the other takes. 0.013 measured, a third and a ninth of it
   // with half and a quarter of the step.
-  expectSound(course, .02);
-  EXPECT_GT(course.growth, 2);
-  EXPECT_GT(course.fracture, 0);
+  expectSound(result, .02);
+  EXPECT_GT(result.growth, 2);
+  EXPECT_GT(result.fracture, 0);
 }
 
 TEST(Impact, AFreeBlockKeepsTheMomentum) {
-  const ImpactCourse course = runImpact({.held = false});
-  expectSound(course);
+  const ImpactResult result = runImpact({.held = false});
+  expectSound(result);
   // Rounding: forces are summed by node in any order of size, 10³ nodes and 500 steps.
-  figure("momentum_error", course.momentumError, 0, 1e-12);
+  figure("momentum_error", result.momentumError, 0, 1e-12);
 }
 
 TEST(Impact, ThreadsDoNotChangeTheResult) {

@@ -73,7 +73,7 @@ double lawful(const TensionLaw& law, double& largest, double begin, double end) 
   return traction;
 }
 
-struct Course {
+struct RunResult {
   double worstTraction = 0;  // of the strength
   double worstEnergy = 0;    // of Gc·A
   double leastOpening = 0;   // m
@@ -82,7 +82,7 @@ struct Course {
 };
 
 /// Through the wanted openings in turn (of δc), each half at 50 m/s: in so many steps from 0 to δc.
-Course run(std::initializer_list<double> turns, int steps, const SofteningCurve& curve = {}) {
+RunResult run(std::initializer_list<double> turns, int steps, const SofteningCurve& curve = {}) {
   constexpr double kSpeed = 50;
   const TensionLaw law{curve, kStrength, curve.criticalOpening(kStrength, kEnergy)};
   const double critical = law.criticalOpening;
@@ -92,7 +92,7 @@ Course run(std::initializer_list<double> turns, int steps, const SofteningCurve&
   const auto least = [&] { return std::min(pair.opening(0), pair.opening(1)); };
   const double start = totalEnergy(world);
   double largest[2] = {0, 0};
-  Course course;
+  RunResult result;
   for (const double turn : turns) {
     const double sign = turn * critical > least() ? 1 : -1;
     // Those that are to close further than shut never come there.
@@ -103,19 +103,19 @@ Course run(std::initializer_list<double> turns, int steps, const SofteningCurve&
       double wanted = 0;
       for (std::size_t end = 0; end < 2; ++end) {
         wanted += lawful(law, largest[end], begin[end], pair.opening(end)) / 2;
-        course.largestStep = std::max(course.largestStep, std::abs(pair.opening(end) - begin[end]));
+        result.largestStep = std::max(result.largestStep, std::abs(pair.opening(end) - begin[end]));
       }
-      course.leastOpening = std::min(course.leastOpening, least());
+      result.leastOpening = std::min(result.leastOpening, least());
       // Shut faces push, too.
       if (least() > 1e-6 * critical)
-        course.worstTraction =
-            std::max(course.worstTraction, std::abs(traction - wanted) / kStrength);
-      course.worstEnergy =
-          std::max(course.worstEnergy, std::abs(totalEnergy(world) - start) / (kEnergy * kArea));
+        result.worstTraction =
+            std::max(result.worstTraction, std::abs(traction - wanted) / kStrength);
+      result.worstEnergy =
+          std::max(result.worstEnergy, std::abs(totalEnergy(world) - start) / (kEnergy * kArea));
     }
   }
-  course.spent = world.ledger.fracture / (kEnergy * kArea);
-  return course;
+  result.spent = world.ledger.fracture / (kEnergy * kArea);
+  return result;
 }
 
 // The traction computed from the momentum is the law's to rounding (3e-13; momenta are 10⁴ times
@@ -125,11 +125,11 @@ Course run(std::initializer_list<double> turns, int steps, const SofteningCurve&
 // (Δδ/δc)² of Gc.
 TEST(ModeOne, OpeningSpendsTheFractureEnergy) {
   for (const int steps : {40, 100, 400}) {
-    const Course course = run({1.2}, steps);
-    EXPECT_LT(course.worstTraction, 1e-11) << steps;
-    EXPECT_LT(course.worstEnergy, 1e-9) << steps;
-    const double part = course.largestStep / kCritical;
-    EXPECT_LT(std::abs(course.spent - 1), part * part + 1e-9) << steps;
+    const RunResult result = run({1.2}, steps);
+    EXPECT_LT(result.worstTraction, 1e-11) << steps;
+    EXPECT_LT(result.worstEnergy, 1e-9) << steps;
+    const double part = result.largestStep / kCritical;
+    EXPECT_LT(std::abs(result.spent - 1), part * part + 1e-9) << steps;
   }
 }
 
@@ -140,10 +140,10 @@ TEST(ModeOne, EveryCurveSpendsTheFractureEnergy) {
   for (const auto& [name, curve] : softeningCurves()) {
     double error[2];
     for (const int k : {0, 1}) {
-      const Course course = run({1.2}, k == 0 ? 400 : 1600, curve);
-      EXPECT_LT(course.worstTraction, 1e-10) << name;
-      EXPECT_LT(course.worstEnergy, 1e-9) << name;
-      error[k] = std::abs(course.spent - 1);
+      const RunResult result = run({1.2}, k == 0 ? 400 : 1600, curve);
+      EXPECT_LT(result.worstTraction, 1e-10) << name;
+      EXPECT_LT(result.worstEnergy, 1e-9) << name;
+      error[k] = std::abs(result.spent - 1);
     }
     EXPECT_LT(error[0], 1e-3) << name;
     EXPECT_LT(error[1], 1e-3 / 16 + 1e-8) << name;
@@ -157,33 +157,33 @@ TEST(ModeOne, EveryCurveSpendsTheFractureEnergy) {
 TEST(ModeOne, UnloadsTowardsTheOriginAndBack) {
   double more[2];
   for (const int k : {0, 1}) {
-    const Course course = run({.4, .1, .6, .2, 1.2}, k == 0 ? 200 : 400);
-    EXPECT_LT(course.worstTraction, 1e-11) << k;
-    EXPECT_LT(course.worstEnergy, 1e-9) << k;
-    more[k] = course.spent - 1;
+    const RunResult result = run({.4, .1, .6, .2, 1.2}, k == 0 ? 200 : 400);
+    EXPECT_LT(result.worstTraction, 1e-11) << k;
+    EXPECT_LT(result.worstEnergy, 1e-9) << k;
+    more[k] = result.spent - 1;
     EXPECT_GT(more[k], 0) << k;
-    EXPECT_LT(more[k], 4 * course.largestStep / kCritical) << k;
+    EXPECT_LT(more[k], 4 * result.largestStep / kCritical) << k;
   }
   EXPECT_NEAR(more[0] / more[1], 2, .2);
 }
 
 TEST(ModeOne, EveryCurveUnloadsTowardsTheOriginAndBack) {
   for (const auto& [name, curve] : softeningCurves()) {
-    const Course course = run({.4, .1, .6, .2, 1.2}, 1600, curve);
-    EXPECT_LT(course.worstTraction, 1e-10) << name;
-    EXPECT_LT(course.worstEnergy, 1e-9) << name;
-    EXPECT_GT(course.spent, 1 - 1e-4) << name;
-    EXPECT_LT(course.spent, 1.01) << name;
+    const RunResult result = run({.4, .1, .6, .2, 1.2}, 1600, curve);
+    EXPECT_LT(result.worstTraction, 1e-10) << name;
+    EXPECT_LT(result.worstEnergy, 1e-9) << name;
+    EXPECT_GT(result.spent, 1 - 1e-4) << name;
+    EXPECT_LT(result.spent, 1.01) << name;
   }
 }
 
 // Faces that are driven against each other while they still hold stop where they touch, and what
 // is left of the law is as it was.
 TEST(ModeOne, ShutFacesStayApart) {
-  const Course course = run({.4, -.1, 1.2}, 200);
-  EXPECT_GT(course.leastOpening, -1e-9 * kCritical);
-  EXPECT_LT(course.worstTraction, 1e-11);
-  EXPECT_LT(course.worstEnergy, 1e-9);
+  const RunResult result = run({.4, -.1, 1.2}, 200);
+  EXPECT_GT(result.leastOpening, -1e-9 * kCritical);
+  EXPECT_LT(result.worstTraction, 1e-11);
+  EXPECT_LT(result.worstEnergy, 1e-9);
 }
 
 /// (rad) Two halves turn about an end which still holds, by more than half a turn: the angle

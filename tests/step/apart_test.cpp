@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/errors.hpp"
-#include "step/course.hpp"
+#include "step/run_result.hpp"
 
 namespace yadefrag::test {
 namespace {

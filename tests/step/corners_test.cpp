@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "outline/polygon.hpp"
-#include "step/course.hpp"
 #include "step/figures.hpp"
+#include "step/run_result.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -27,11 +27,11 @@ World twoPasses() {
   return world;
 }
 
-void expectSound(const Course& course) {
-  EXPECT_LE(course.deepest, kWrongSide);
-  EXPECT_LE(course.growth, kGrowth);
-  EXPECT_LE(course.drift, kGrowth);
-  EXPECT_GT(course.touched, 0U);
+void expectSound(const RunResult& result) {
+  EXPECT_LE(result.deepest, kWrongSide);
+  EXPECT_LE(result.growth, kGrowth);
+  EXPECT_LE(result.drift, kGrowth);
+  EXPECT_GT(result.touched, 0U);
 }
 
 class CornerOnCorner : public testing::TestWithParam<double> {};

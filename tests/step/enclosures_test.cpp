@@ -8,7 +8,7 @@
 #include <random>
 
 #include "outline/polygon.hpp"
-#include "step/course.hpp"
+#include "step/run_result.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -47,11 +47,11 @@ TEST(Enclosures, TwentySquaresInABox) {
     const TriangleMesh square = structuredRectangle(low, low + Vec2{1, 1}, 4, 4);
     world.addBody(square, moving(square, rubber(), {speed(random), speed(random)}));
   }
-  const Course course = watch(world, 100000, 200);
-  EXPECT_LE(course.deepest, 5e-3) << "of the shortest segment";
-  EXPECT_LE(course.growth, 5e-3);
-  EXPECT_LE(course.drift, 5e-3);
-  EXPECT_GT(course.touched, 1000U);
+  const RunResult result = watch(world, 100000, 200);
+  EXPECT_LE(result.deepest, 5e-3) << "of the shortest segment";
+  EXPECT_LE(result.growth, 5e-3);
+  EXPECT_LE(result.drift, 5e-3);
+  EXPECT_GT(result.touched, 1000U);
 }
 
 class DiscInARing : public testing::TestWithParam<bool> {};
@@ -66,16 +66,16 @@ TEST_P(DiscInARing, Rattles) {
   if (GetParam()) smoothAll(hollow, outer), smoothAll(full, disc);
   world.addBody(outer, hollow);
   world.addBody(disc, full);
-  const Course course = watch(world, 10000, 50);
+  const RunResult result = watch(world, 10000, 50);
   // A smooth surface bulges over its segments, so nodes are inside the other's polygon by the
   // sagitta of an arc, up to a 16th of a segment here; halfpoints are what is held outside the
   // arcs.
   // A solution may leave kMostRemainder.
-  EXPECT_LE(GetParam() ? course.penetration : course.deepest, 2e-5) << "of the shortest segment";
-  EXPECT_LE(course.deepest, GetParam() ? 1. / 16 : 2e-5);
-  EXPECT_LE(course.growth, 5e-3);
-  EXPECT_LE(course.drift, 5e-3);
-  EXPECT_GT(course.touched, 1000U);
+  EXPECT_LE(GetParam() ? result.penetration : result.deepest, 2e-5) << "of the shortest segment";
+  EXPECT_LE(result.deepest, GetParam() ? 1. / 16 : 2e-5);
+  EXPECT_LE(result.growth, 5e-3);
+  EXPECT_LE(result.drift, 5e-3);
+  EXPECT_GT(result.touched, 1000U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, DiscInARing, testing::Bool(),

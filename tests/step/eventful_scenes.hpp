@@ -6,7 +6,7 @@
 #include <string>
 
 #include "extremes/saved_world.hpp"
-#include "step/course.hpp"
+#include "step/run_result.hpp"
 
 namespace yadefrag::test {
 

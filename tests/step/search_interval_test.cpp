@@ -8,7 +8,7 @@
 #include "core/same_bits.hpp"
 #include "core/tolerances/step.hpp"
 #include "outline/polygon.hpp"
-#include "step/course.hpp"
+#include "step/run_result.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "outline/polygon.hpp"
-#include "step/course.hpp"
+#include "step/run_result.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -14,11 +14,11 @@ TriangleMesh meshOf(std::vector<Vec2> outline, double size) {
   return triangulate(checkPolygon({std::move(outline), {}}), size);
 }
 
-void expectSound(const Course& course) {
-  EXPECT_LE(course.deepest, 1e-3);
-  EXPECT_LE(course.growth, 5e-3);
-  EXPECT_LE(course.drift, 5e-3);
-  EXPECT_GT(course.touched, 0U);
+void expectSound(const RunResult& result) {
+  EXPECT_LE(result.deepest, 1e-3);
+  EXPECT_LE(result.growth, 5e-3);
+  EXPECT_LE(result.drift, 5e-3);
+  EXPECT_GT(result.touched, 0U);
 }
 
 class Splinter : public testing::TestWithParam<std::tuple<double, int>> {};

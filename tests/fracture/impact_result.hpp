@@ -23,7 +23,7 @@ struct ImpactSetting {
   NodeLayout nodes = NodeLayout::kRows;
 };
 
-struct ImpactCourse {
+struct ImpactResult {
   double growth = 0;     ///< of the number of segments
   double deepest = 0;    ///< of the shortest segment: a node in another piece or its own
   double triangles = 0;  ///< the same of two triangles, which may cross without a node in either
@@ -65,36 +65,36 @@ inline World impact(const ImpactSetting& setting) {
   return world;
 }
 
-inline ImpactCourse runImpact(const ImpactSetting& setting) {
+inline ImpactResult runImpact(const ImpactSetting& setting) {
   World world = impact(setting);
   const double dt = .8 * world.criticalTimeStep();
   const double energy = world.kineticEnergy();
   const auto segments = static_cast<double>(world.surfaces.segments());
   const Sums start = sumsOf(world.model);
-  ImpactCourse course;
+  ImpactResult result;
   for (int i = 0; i < setting.steps; ++i) {
     const double taken = world.ledger.contact;
     world.step(dt);
-    course.given += std::max(0., taken - world.ledger.contact) / energy;
-    course.drift = std::max(course.drift, std::abs(totalEnergy(world) / energy - 1));
+    result.given += std::max(0., taken - world.ledger.contact) / energy;
+    result.drift = std::max(result.drift, std::abs(totalEnergy(world) / energy - 1));
     const Sums sums = sumsOf(world.model);
-    course.massError = std::max(course.massError, std::abs(sums.mass / start.mass - 1));
-    course.momentumError =
-        std::max(course.momentumError, norm(sums.momentum - start.momentum) / norm(start.momentum));
+    result.massError = std::max(result.massError, std::abs(sums.mass / start.mass - 1));
+    result.momentumError =
+        std::max(result.momentumError, norm(sums.momentum - start.momentum) / norm(start.momentum));
     if (i % setting.every != 0) continue;
     const Overlaps overlaps(world.model);
     const double shortest = shortestSide(world);
-    course.deepest = std::max(course.deepest, overlaps.deepest().depth / shortest);
-    course.triangles = std::max(course.triangles, overlaps.deepestTriangles() / shortest);
-    course.mostDeep = std::max(course.mostDeep, overlaps.partDeeperThan(1e-3 * shortest));
+    result.deepest = std::max(result.deepest, overlaps.deepest().depth / shortest);
+    result.triangles = std::max(result.triangles, overlaps.deepestTriangles() / shortest);
+    result.mostDeep = std::max(result.mostDeep, overlaps.partDeeperThan(1e-3 * shortest));
   }
-  course.growth = static_cast<double>(world.surfaces.segments()) / segments;
-  course.contact = world.ledger.contact / energy;
-  course.fracture = world.ledger.fracture / energy;
-  course.cracks = world.fracture.numCracks();
-  course.nodes = world.model.nodes;
+  result.growth = static_cast<double>(world.surfaces.segments()) / segments;
+  result.contact = world.ledger.contact / energy;
+  result.fracture = world.ledger.fracture / energy;
+  result.cracks = world.fracture.numCracks();
+  result.nodes = world.model.nodes;
   checkLaws(world.model, world.fracture.edges, world.surfaces);
-  return course;
+  return result;
 }
 
 }  // namespace yadefrag::test

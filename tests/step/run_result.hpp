@@ -9,7 +9,7 @@
 
 namespace yadefrag::test {
 
-struct Course {
+struct RunResult {
   double deepest = 0;       ///< of the shortest segment: a boundary node in another body
   double penetration = 0;   ///< of the shortest segment: what the correction left
   double growth = 0;        ///< of the start's energy: kinetic + strain
@@ -18,23 +18,23 @@ struct Course {
 };
 
 /// `every`: steps between two looks, which cost more than the steps.
-inline Course watch(World& world, int steps, int every, double ofCritical = .5) {
+inline RunResult watch(World& world, int steps, int every, double ofCritical = .5) {
   const double dt = ofCritical * world.criticalTimeStep();
   const double start = world.kineticEnergy() + world.strainEnergy();
   const double total = totalEnergy(world);
-  Course course;
+  RunResult result;
   for (int i = 0; i < steps; ++i) {
     world.step(dt);
-    course.penetration =
-        std::max(course.penetration, world.contact.maxPenetration() / world.search.shortest);
-    course.touched += world.contact.rows().size();
+    result.penetration =
+        std::max(result.penetration, world.contact.maxPenetration() / world.search.shortest);
+    result.touched += world.contact.rows().size();
     if (i % every != 0) continue;
-    course.deepest = std::max(course.deepest, deepestNode(world) / world.search.shortest);
+    result.deepest = std::max(result.deepest, deepestNode(world) / world.search.shortest);
     const double now = world.kineticEnergy() + world.strainEnergy();
-    course.growth = std::max(course.growth, now / start - 1);
-    course.drift = std::max(course.drift, std::abs(totalEnergy(world) / total - 1));
+    result.growth = std::max(result.growth, now / start - 1);
+    result.drift = std::max(result.drift, std::abs(totalEnergy(world) / total - 1));
   }
-  return course;
+  return result;
 }
 
 /// Rubber, soft enough that blows of some m/s deform bodies visibly.

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "extremes/limits.hpp"
-#include "step/course.hpp"
+#include "step/run_result.hpp"
 
 namespace yadefrag::test {
 
-struct Blow {
+struct BlockCollision {
   ElasticMaterial left = rubber(), right = rubber();
   double speed = 1;        ///< m/s, of the left one towards the right one
   double size = 1;         ///< m, edge of both
@@ -43,18 +43,20 @@ inline Vec2 turned(Vec2 a, double angle) {
           std::sin(angle) * a.x + std::cos(angle) * a.y};
 }
 
-inline void addBlock(World& world, const Blow& blow, Vec2 low, int parts,
+inline void addBlock(World& world, const BlockCollision& collision, Vec2 low, int parts,
                      const ElasticMaterial& material, double speed) {
   TriangleMesh mesh = structuredRectangle(low, low + Vec2{1, 1}, parts, parts);
-  for (Vec2& node : mesh.nodes) node = blow.shift + turned(blow.size * node, blow.turn);
-  world.addBody(mesh, moving(mesh, material, turned({speed, 0}, blow.turn)));
+  for (Vec2& node : mesh.nodes)
+    node = collision.shift + turned(collision.size * node, collision.turn);
+  world.addBody(mesh, moving(mesh, material, turned({speed, 0}, collision.turn)));
 }
 
-inline World worldOf(const Blow& blow) {
+inline World worldOf(const BlockCollision& collision) {
   World world;
-  world.contactSettings.passes = blow.passes;
-  addBlock(world, blow, {-1 - blow.gap, 0}, blow.parts, blow.left, blow.speed);
-  addBlock(world, blow, {0, blow.aside}, blow.parts + 1, blow.right, 0);
+  world.contactSettings.passes = collision.passes;
+  addBlock(world, collision, {-1 - collision.gap, 0}, collision.parts, collision.left,
+           collision.speed);
+  addBlock(world, collision, {0, collision.aside}, collision.parts + 1, collision.right, 0);
   return world;
 }
 
@@ -75,7 +77,7 @@ inline void stepOrShorter(World& world, double& dt, bool shorten) {
     }
 }
 
-struct Course2 {
+struct TimedResult {
   std::string refusal;
   double deepest = 0;  ///< m
   double growth = 0;   ///< of the start's energy
@@ -83,33 +85,33 @@ struct Course2 {
 };
 
 /// Runs for a time (s), and looks two hundred times.
-inline Course2 watchFor(World& world, double time, double ofCritical = .8) {
-  Course2 course;
+inline TimedResult watchFor(World& world, double time, double ofCritical = .8) {
+  TimedResult result;
   const double energy = world.kineticEnergy() + world.strainEnergy();
-  course.refusal = sentenceOf([&] {
+  result.refusal = sentenceOf([&] {
     double dt = ofCritical * world.criticalTimeStep(), look = 0;
     while (world.time < time) {
       stepOrShorter(world, dt, true);
-      course.touched = course.touched || !world.contact.rows().empty();
+      result.touched = result.touched || !world.contact.rows().empty();
       if (world.time < look) continue;
       look += time / 200;
-      course.deepest = std::max(course.deepest, deepestNode(world));
+      result.deepest = std::max(result.deepest, deepestNode(world));
       const double now = world.kineticEnergy() + world.strainEnergy();
-      if (energy > 0) course.growth = std::max(course.growth, now / energy - 1);
+      if (energy > 0) result.growth = std::max(result.growth, now / energy - 1);
     }
   });
-  return course;
+  return result;
 }
 
-/// Runs a blow, whose start `world` is.
-inline void runBlow(const Blow& blow, World& world, Outcome& outcome) {
-  const double slower = std::min(waveSpeed(blow.left), waveSpeed(blow.right));
-  const double end = blow.size * (blow.until / slower + blow.gap / blow.speed);
+/// Runs a collision, whose start `world` is.
+inline void runCollision(const BlockCollision& collision, World& world, Outcome& outcome) {
+  const double slower = std::min(waveSpeed(collision.left), waveSpeed(collision.right));
+  const double end = collision.size * (collision.until / slower + collision.gap / collision.speed);
   const double energy = world.kineticEnergy();
-  double dt = blow.ofCritical * world.criticalTimeStep();
+  double dt = collision.ofCritical * world.criticalTimeStep();
   double look = 0;
   while (world.time < end) {
-    stepOrShorter(world, dt, blow.shorten);
+    stepOrShorter(world, dt, collision.shorten);
     if (world.time < look) continue;
     look += end / 100;
     outcome.deepest = std::max(outcome.deepest, deepestNode(world) / world.search.shortest);
@@ -118,33 +120,33 @@ inline void runBlow(const Blow& blow, World& world, Outcome& outcome) {
   }
 }
 
-inline Outcome strike(const Blow& blow) {
+inline Outcome collide(const BlockCollision& collision) {
   Outcome outcome;
   World world;
   outcome.refusal = sentenceOf([&] {
-    world = worldOf(blow);
-    runBlow(blow, world, outcome);
+    world = worldOf(collision);
+    runCollision(collision, world, outcome);
   });
   if (world.model.components.size() < 2) return outcome;
   const ComponentId a(0UL), b(1UL);
   const Vec2 left = momentum(world, a), right = momentum(world, b);
-  const auto back = [&](Vec2 vector) { return turned(vector, -blow.turn); };
-  const double start = blow.speed * mass(world, a);
+  const auto back = [&](Vec2 vector) { return turned(vector, -collision.turn); };
+  const double start = collision.speed * mass(world, a);
   outcome.momentum = norm(back(left + right) - Vec2{start, 0}) / start;
   outcome.left = (1 / start) * back(left);
-  outcome.right = (1 / (blow.speed * mass(world, b))) * back(right);
+  outcome.right = (1 / (collision.speed * mass(world, b))) * back(right);
   for (const Vec2 node : world.model.nodes.position)
-    outcome.nodes.push_back(back(node - blow.shift));
+    outcome.nodes.push_back(back(node - collision.shift));
   return outcome;
 }
 
 /// (1) How far two outcomes differ, at nodes, of the blocks' size.
-inline double difference(const Blow& blow, const Outcome& outcome, const Blow& other,
-                         const Outcome& otherOutcome) {
+inline double difference(const BlockCollision& collision, const Outcome& outcome,
+                         const BlockCollision& other, const Outcome& otherOutcome) {
   double most = 0;
   for (std::size_t i = 0; i < outcome.nodes.size(); ++i)
-    most = std::max(
-        most, norm((1 / blow.size) * outcome.nodes[i] - (1 / other.size) * otherOutcome.nodes[i]));
+    most = std::max(most, norm((1 / collision.size) * outcome.nodes[i] -
+                               (1 / other.size) * otherOutcome.nodes[i]));
   return most;
 }
 

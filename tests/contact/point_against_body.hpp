@@ -21,10 +21,10 @@ inline std::vector<SlaveMaster> pairsOf(const std::vector<Active>& actives) {
 }
 
 /// The tip of a needle and all pieces of a body as its masters.
-class Chase {
+class PointAgainstBody {
  public:
-  Chase(const std::vector<Vec2>& points, const std::vector<std::uint8_t>& smooth, Vec2 direction,
-        Vec2 from) {
+  PointAgainstBody(const std::vector<Vec2>& points, const std::vector<std::uint8_t>& smooth,
+                   Vec2 direction, Vec2 from) {
     body_ = scene_.addBody(points, smooth);
     tip_ = scene_.addNeedle(direction);
     scene_.moveNeedle(tip_, from);
