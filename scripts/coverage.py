@@ -16,11 +16,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 def countsOf(data):
     """[(file, line, count)] of this project's sources, as gcov knows them from one file of counts."""
-    command = ['gcov', '--json-format', '--stdout', '--relative-only', '--source-prefix', str(ROOT), str(data)]
-    done = subprocess.run(command, stdout=subprocess.PIPE, check=True, cwd=data.parent)
-    return [(file['file'], line['line_number'], line['count'])
+    done = subprocess.run(['gcov', '--json-format', '--stdout', data], stdout=subprocess.PIPE, check=True,
+                          cwd=data.parent)
+    top = str(ROOT) + '/'
+    return [(file['file'][len(top):], line['line_number'], line['count'])
             for text in done.stdout.splitlines() if text for file in json.loads(text)['files']
-            for line in file['lines']]
+            if file['file'].startswith(top) for line in file['lines']]
 
 
 def linesIn(build):
