@@ -14,9 +14,9 @@ namespace yadefrag {
 
 namespace {
 
-double fastest(const Model& model, const ContactSurfaces& surfaces, SegmentId first) {
+double fastest(const Model& model, const ContactSurfaces& surfaces) {
   double most = 0;
-  for (const NodeId node : std::span(surfaces.segmentNode).subspan(first.value)) {
+  for (const NodeId node : surfaces.segmentNode) {
     const Vec2 velocity = model.nodes.velocity[node.value];
     most = std::max(most, dot(velocity, velocity));
   }
@@ -26,10 +26,10 @@ double fastest(const Model& model, const ContactSurfaces& surfaces, SegmentId fi
 }  // namespace
 
 double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
-                       std::span<const Vec2> positions, SegmentId first) {
+                       std::span<const Vec2> positions) {
   const bool anyRigid = std::ranges::any_of(model.components, &Component::rigid);
   double least = INFINITY;
-  for (std::size_t s = first.value; s < surfaces.segments(); ++s) {
+  for (std::size_t s = 0; s < surfaces.segments(); ++s) {
     if (surfaces.isGone(SegmentId(s))) continue;
     const ComponentId owner = surfaces.component[surfaces.segmentEntry[s].value];
     if (anyRigid && model.components[owner.value].rigid) continue;
@@ -42,13 +42,17 @@ double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
 }
 
 void HaloWatch::rebuild(const Scene& scene) {
-  if (isVoid && scene.canTouch) watchAll(scene);
+  if (isVoid() && scene.canTouch) watchAll(scene);
   const SearchBounds bounds = std::exchange(loaded, {});
   if (scene.canTouch) {
     apart_.takeFrom(scene.model, nodes);
     apart_.restoreSpare(bounds.spare);
     // A loaded state may crack before its first search.
     passRule_.update(scene.surfaces, scene.reference, scene.settings.passes, scene.hasRigid);
+  } else {
+    // There will be no search, but bounds for a collider, which watches them by itself.
+    shortest = scene.finest;
+    halo = tolerance::kNarrowestHalo * shortest;
   }
   scene.dynamics.setSpeedLimit(scene.canTouch ? bounds.speed : tolerance::kMostSpeed);
   search_.reset();
@@ -58,7 +62,7 @@ void HaloWatch::rebuild(const Scene& scene) {
 void HaloWatch::invalidate() {
   nodes.clear();
   positions.clear();
-  isVoid = true;
+  makeVoid();
   loaded = {};
 }
 
@@ -70,11 +74,10 @@ void HaloWatch::begin() {
 }
 
 /// Stores the state before the step changes the checked nodes or the candidates.
-void HaloWatch::keep(const Scene& scene) {
+void HaloWatch::keep() {
   if (former_.hasSearched) return;
   former_.search = *this;
   former_.apart = apart_;
-  former_.numSearches = scene.numSearches;
   former_.hasSearched = true;
 }
 
@@ -84,7 +87,6 @@ void HaloWatch::takeBack(const Scene& scene) {
   if (former_.hasSearched) {
     std::swap(static_cast<SearchState&>(*this), former_.search);
     std::swap(apart_, former_.apart);
-    scene.numSearches = former_.numSearches;
   }
   motion_ = former_.motion;
   apart_.restoreSpare(former_.spare);
@@ -102,8 +104,8 @@ void HaloWatch::foreseeMotion(const Scene& scene, double dt) {
   if (!scene.canTouch) return;
   const StageTimer timer(scene.times, &StageTimes::search);
   const double most = scene.dynamics.speedLimit() * dt;
-  motion_.isQuiet = scene.contact.candidates.size() == 0 && !isDue && !isVoid &&
-                    !scene.holdsCracks && motion_.farthest + most <= halo / 2 &&
+  motion_.isQuiet = scene.contact.candidates.size() == 0 && !isDue() && !scene.holdsCracks &&
+                    motion_.farthest + most <= halo / 2 &&
                     most <= tolerance::kFarthestMove * scene.finest &&
                     !(apart_.any() && apart_.spare() < 2 * most);
 }
@@ -155,8 +157,8 @@ void HaloWatch::watchApart(const Scene& scene) {
   if (apart_.spare() >= 0) return;
   apart_.look(scene.model, scene.surfaces, apartReach());
   if (apart_.spare() >= 0) return;
-  keep(scene);
-  isDue = true;
+  keep();
+  makeDue();
   chooseWatched(scene);
 }
 
@@ -166,18 +168,17 @@ void HaloWatch::chooseWatched(const Scene& scene) {
   const std::vector<ComponentId>& bodies = scene.model.nodes.component;
   std::erase_if(nodes, [&](NodeId node) { return apart_.isApart(bodies[node.value]); });
   positions.clear();
-  isVoid = true;
+  makeVoid();
 }
 
 /// Predicts whether the next step may leave the halo, or bring a body near an isolated one.
 void HaloWatch::foreseeSearch(const Scene& scene, double dt) {
-  if (isDue) return;
+  if (isDue()) return;
   const StageTimer timer(scene.times, &StageTimes::search);
   if (apart_.any() && apart_.spare() < 2 * scene.dynamics.speedLimit() * dt) {
     updateSpeedLimit(scene, dt);
     apart_.look(scene.model, scene.surfaces, apartReach());
-    isDue = apart_.spare() < 2 * scene.dynamics.speedLimit() * dt;
-    if (isDue) return;
+    if (apart_.spare() < 2 * scene.dynamics.speedLimit() * dt) return makeDue();
   }
   const double most = motion_.largest + scene.contact.largestCorrection();
   if (motion_.farthest + tolerance::kHaloSpare * most <= halo / 2) return;
@@ -187,17 +188,9 @@ void HaloWatch::foreseeSearch(const Scene& scene, double dt) {
     const double moved = norm(scene.model.nodes.position[node] - positions[i]);
     farthest = std::max(farthest, moved);
     const double next = tolerance::kHaloSpare * norm(scene.model.nodes.velocity[node]) * dt;
-    if (moved + next > halo / 2) {
-      isDue = true;
-      return;
-    }
+    if (moved + next > halo / 2) return makeDue();
   }
   motion_.farthest = farthest;
-}
-
-Box HaloWatch::boxOf(const Model& model, const ContactSurfaces& surfaces, EntryId entry) const {
-  if (surfaces.isGone(entry)) return Box::absent();
-  return entryBox(surfaces, model.nodes.position, entry, halo);
 }
 
 /// (m) δ for the next kHaloSteps steps with displacements of `move` (m), at most half the shortest
@@ -211,27 +204,16 @@ double HaloWatch::wideHalo(const ContactSettings& settings, double move) const {
   return std::max(wanted, 2 * move);
 }
 
-void HaloWatch::chooseHalo(const Scene& scene, double dt, SegmentId first) {
-  const double least =
-      shortestSegment(scene.model, scene.surfaces, scene.model.nodes.position, first);
-  shortest = first.value == 0 ? least : std::min(shortest, least);
-  motion_.fastest = first.value == 0
-                        ? fastest(scene.model, scene.surfaces, first)
-                        : std::max(motion_.fastest, fastest(scene.model, scene.surfaces, first));
-  const double fast = wideHalo(scene.settings, 2 * tolerance::kHaloSpare * motion_.fastest * dt);
+/// As wide as this step's own displacement demands, or, with isolated bodies, whose displacement is
+/// not known, as the largest velocity does.
+void HaloWatch::chooseHalo(const Scene& scene, double dt) {
+  shortest = shortestSegment(scene.model, scene.surfaces, scene.model.nodes.position);
+  const double spare = 2 * tolerance::kHaloSpare;
+  halo = wideHalo(scene.settings, apart_.any() ? spare * fastest(scene.model, scene.surfaces) * dt
+                                               : spare * motion_.largest);
   // A step that needs more is refused; until then not all pairs should become candidates.
-  const double most = 4 * tolerance::kHaloSpare * tolerance::kFarthestMove * shortest;
-  halo = std::min(fast, most);
-}
-
-void HaloWatch::takePairs(const Scene& scene, std::span<const BoxPair> overlapping, double lastDt) {
-  if (!scene.canTouch) {
-    isDue = isVoid = false;
-    return;
-  }
-  updateSpeedLimit(scene, lastDt);
-  chooseWatched(scene);
-  considerPairs(scene, overlapping);
+  if (apart_.any())
+    halo = std::min(halo, 4 * tolerance::kHaloSpare * tolerance::kFarthestMove * shortest);
 }
 
 void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overlapping) {
@@ -245,8 +227,8 @@ void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overl
   for (std::size_t i = 0; i < nodes.size(); ++i)
     positions[i] = scene.model.nodes.position[nodes[i].value];
   motion_.farthest = 0;
-  isDue = isVoid = false;
-  ++scene.numSearches;
+  validity = Validity::kValid;
+  ++count;
   // If all nodes are checked in every step, no bound of their speed is needed.
   if (!apart_.any() && scene.contact.candidates.size() > 0)
     scene.dynamics.setSpeedLimit(tolerance::kMostSpeed);
@@ -255,7 +237,7 @@ void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overl
 /// No contact is missed: independently of predictions, x* is decisive.
 void HaloWatch::searchIfLeft(const Scene& scene, double dt) {
   const StageTimer timer(scene.times, &StageTimes::search);
-  if (isDue || isVoid) return searchNow(scene, dt);
+  if (isDue()) return searchNow(scene, dt);
   if (motion_.farthest <= halo / 2) return;
   double most = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -266,26 +248,22 @@ void HaloWatch::searchIfLeft(const Scene& scene, double dt) {
   if (!(motion_.farthest <= halo / 2)) searchNow(scene, dt);
 }
 
-/// The world's own search, at x*: boxes of all entries except those of isolated bodies, update of
-/// the position codes, pairs.
+/// The search, at x*: boxes of all entries except those of isolated bodies, update of the position
+/// codes, pairs.
 void HaloWatch::searchNow(const Scene& scene, double dt) {
-  keep(scene);
-  // As wide as the collider's halo would be, and at least as wide as this step's own displacement.
-  if (apart_.any()) {
-    chooseHalo(scene, dt);
-  } else {
-    shortest = shortestSegment(scene.model, scene.surfaces, scene.model.nodes.position);
-    halo = wideHalo(scene.settings, 2 * tolerance::kHaloSpare * motion_.largest);
-  }
+  keep();
+  chooseHalo(scene, dt);
   updateSpeedLimit(scene, dt);
   chooseWatched(scene);
   // The pairs are sorted later, so that their order does not matter.
   if (!search_) search_ = makeSearch(SearchMethod::kFastest);
   boxes_.resize(scene.surfaces.entries());
-  for (std::size_t e = 0; e < boxes_.size(); ++e)
-    boxes_[e] = apart_.isApart(scene.surfaces.component[e])
-                    ? Box::absent()
-                    : boxOf(scene.model, scene.surfaces, EntryId(e));
+  for (std::size_t e = 0; e < boxes_.size(); ++e) {
+    const bool isOut =
+        scene.surfaces.isGone(EntryId(e)) || apart_.isApart(scene.surfaces.component[e]);
+    boxes_[e] = isOut ? Box::absent()
+                      : entryBox(scene.surfaces, scene.model.nodes.position, EntryId(e), halo);
+  }
   search_->setThreads(scene.threads);
   search_->update(boxes_);
   overlapping_.clear();

@@ -1,10 +1,11 @@
 #pragma once
-// The time of the next search for contact (paper §4.1), and the search itself: the halo, the nodes
-// that may have left it, and the isolated bodies, whose nodes are not checked. Most steps between
-// two searches check no node, since the sum of the largest displacements is a sufficient bound.
-// Independently of predictions x* is decisive: if a node has left the halo, a search is done in the
-// same step.
+// The search for contact, its result and the time of the next one (paper §4.1): the only owner of
+// all three. The pairs, and the bounds of entries for a collider, are valid while no node has left
+// the halo. Most steps between two searches check no node, since the sum of the largest
+// displacements is a sufficient bound; the nodes of isolated bodies are not checked. Independently
+// of predictions x* is decisive: if a node has left the halo, a search is done in the same step.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -30,15 +31,30 @@ struct SearchBounds {
 
 /// The state of the global search: its validity.
 struct SearchState {
+  enum class Validity : std::uint8_t {
+    kValid,
+    kDue,   ///< the next step may leave the halo
+    kVoid,  ///< entries were added, removed or moved: there are no valid candidates
+  };
+
   double halo = 0;      ///< m, δ of the last search
   double shortest = 0;  ///< m, shortest boundary segment then
-  bool isDue = true;    ///< the next step may leave the halo
-  bool isVoid = true;   ///< entries were added or removed: there are no valid candidates
+  Validity validity = Validity::kVoid;
+  std::uint64_t count = 0;  ///< number of searches so far
   /// The checked nodes: of the surfaces of all bodies that are not isolated; those from cracks are
   /// the last ones.
   std::vector<NodeId> nodes;
   std::vector<Vec2> positions;  ///< m, of those nodes at the last search, or when they were added
   SearchBounds loaded;          ///< from a saved state, until the first step after loading
+
+  [[nodiscard]] bool isVoid() const { return validity == Validity::kVoid; }
+  /// True if the next step does a search.
+  [[nodiscard]] bool isDue() const { return validity != Validity::kValid; }
+  void makeDue() {
+    if (validity == Validity::kValid) validity = Validity::kDue;
+  }
+  /// The next step does a search: nodes were moved from outside.
+  void makeVoid() { validity = Validity::kVoid; }
 };
 
 class HaloWatch : public SearchState {
@@ -55,7 +71,6 @@ class HaloWatch : public SearchState {
     StageTimes* times;  ///< null: not measured
     ExplicitDynamics& dynamics;
     Contact& contact;
-    std::uint64_t& numSearches;
   };
 
   /// Must be called after bodies were added or removed, and after loading.
@@ -79,13 +94,10 @@ class HaloWatch : public SearchState {
   /// Restores the state at `begin`, for a refused step. Allocates no memory.
   void takeBack(const Scene& scene);
 
-  // --- for a search by a collider
-  /// `first`: earlier segments have the same positions and velocities as at the last call.
-  void chooseHalo(const Scene& scene, double dt, SegmentId first = SegmentId(0));
-  /// Box of an entry's piece, enlarged by half the halo.
-  [[nodiscard]] Box boxOf(const Model& model, const ContactSurfaces& surfaces, EntryId entry) const;
-  /// `lastDt`: s, length of the last step.
-  void takePairs(const Scene& scene, std::span<const BoxPair> overlapping, double lastDt);
+  /// (m) Margin of bounds that a collider makes now, for contact with bodies that are not part of
+  /// the world: up to the next search no checked node moves farther from its present position. 0
+  /// before the first step.
+  [[nodiscard]] double boundMargin() const { return halo / 2 + std::min(motion_.farthest, halo); }
 
   // --- at a crack
   /// Nodes of removed triangles are no longer checked.
@@ -110,7 +122,6 @@ class HaloWatch : public SearchState {
     bool isQuiet = false;        // no body can come near another in this step
     double farthest = INFINITY;  // m, bound of the distance of surface nodes from their positions
                                  // at the last search
-    double fastest = 0;          // m/s, of all nodes when the halo was chosen
   };
   /// The state at the begin of the step; the second part only for a step with a search.
   struct Former {
@@ -121,7 +132,6 @@ class HaloWatch : public SearchState {
     SearchState search;
     ApartBodies apart;
     Candidates candidates;
-    std::uint64_t numSearches = 0;
   };
 
   void watchAll(const Scene& scene);
@@ -130,7 +140,8 @@ class HaloWatch : public SearchState {
   void chooseWatched(const Scene& scene);
   [[nodiscard]] double apartReach() const;
   [[nodiscard]] double wideHalo(const ContactSettings& settings, double move) const;
-  void keep(const Scene& scene);
+  void chooseHalo(const Scene& scene, double dt);
+  void keep();
   void searchNow(const Scene& scene, double dt);
   void considerPairs(const Scene& scene, std::span<const BoxPair> overlapping);
 
@@ -144,8 +155,8 @@ class HaloWatch : public SearchState {
   std::vector<Box> boxes_;
 };
 
-/// (m) Shortest segment from `first` on, without rigid boundaries; 0 if there is none.
+/// (m) Shortest segment, without rigid boundaries; 0 if there is none.
 double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
-                       std::span<const Vec2> positions, SegmentId first = SegmentId(0));
+                       std::span<const Vec2> positions);
 
 }  // namespace yadefrag

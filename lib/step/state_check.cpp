@@ -152,7 +152,7 @@ bool contactIsValid(const World& world) {
 bool searchIsValid(const World& world) {
   const SearchState& s = world.search;
   return s.halo >= 0 && std::isfinite(s.halo) && allBelow(s.nodes, world.model.nodes.size()) &&
-         (s.isVoid || s.positions.size() == s.nodes.size()) && allFinite(s.positions) &&
+         (s.isVoid() || s.positions.size() == s.nodes.size()) && allFinite(s.positions) &&
          s.loaded.farthest >= 0 && !std::isnan(s.loaded.spare) && s.loaded.speed >= 0;
 }
 

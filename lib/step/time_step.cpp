@@ -49,8 +49,8 @@ void World::advance(double dt) {
   cohere(length);
   requireBoundedMotion(dt);
 
-  // Global search, only if a node left the halo of the last one: usually a collider has searched,
-  // or the last candidates are still valid.
+  // Global search, only if a node left the halo of the last one: usually the last candidates are
+  // still valid.
   if (canTouch()) {
     search.measureMove(searchScene(), dt);
     search.searchIfLeft(searchScene(), dt);

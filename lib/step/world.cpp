@@ -128,9 +128,9 @@ void World::buildIfChanged() {
     dynamics_.reserve(room);
     contact.reserve(room);
   }
+  measureFinest();
   search.rebuild(searchScene());
   updateStressLimits();
-  finest_ = finestSegment();
   droppedBelow_ = 0;
   isBuilt_ = true;
 }

@@ -131,14 +131,6 @@ class World {
   /// (s) Of the present mesh; infinite without elements.
   [[nodiscard]] double criticalTimeStep() const;
 
-  /// Box of an entry's piece, enlarged by half the halo, for a search by a collider. If a search is
-  /// due, `chooseHalo` must be called before: the halo's width depends on the velocities.
-  [[nodiscard]] Box boxOf(EntryId entry) const;
-  /// `first`: earlier segments have the same positions and velocities as at the last call.
-  void chooseHalo(double dt, SegmentId first = SegmentId(0));
-  /// Uses pairs of entries whose boxes overlap at the present positions instead of the world's own
-  /// search.
-  void takePairs(std::span<const BoxPair> overlapping);
   /// To save.
   [[nodiscard]] SearchBounds searchBounds() const {
     return isBuilt_ ? search.bounds(dynamics_) : search.loaded;
@@ -208,8 +200,8 @@ class World {
   BulkViscosity stableViscosity;
 
   // --- counters
-  std::uint64_t numSearches = 0;
   StageTimes times;
+  [[nodiscard]] std::uint64_t numSearches() const { return search.count; }
   [[nodiscard]] std::span<const NodeId> surfaceNodes() const { return search.nodes; }
 
  private:
@@ -262,7 +254,7 @@ class World {
   void takeOut(std::span<const ElementId> triangles);
   void openJoints(std::span<const EdgeId> joints);
   void followSplit();
-  [[nodiscard]] double finestSegment() const;
+  void measureFinest();
   [[nodiscard]] bool canTouch() const;
   [[nodiscard]] HaloWatch::Scene searchScene();
   void predict(const StepLength& length);

@@ -6,7 +6,7 @@
 
 namespace yadefrag {
 
-double World::finestSegment() const { return shortestSegment(model, surfaces, reference); }
+void World::measureFinest() { finest_ = shortestSegment(model, surfaces, reference); }
 
 /// A single body that cannot touch itself needs neither search nor candidates.
 bool World::canTouch() const {
@@ -16,19 +16,9 @@ bool World::canTouch() const {
 }
 
 HaloWatch::Scene World::searchScene() {
-  return {model,      surfaces,           contactSettings, reference,
-          finest_,    canTouch(),         hasRigid(),      !fracture.cohesion.edge.empty(),
-          threads,    timesIfRequested(), dynamics_,       contact,
-          numSearches};
-}
-
-Box World::boxOf(EntryId entry) const { return search.boxOf(model, surfaces, entry); }
-
-void World::chooseHalo(double dt, SegmentId first) { search.chooseHalo(searchScene(), dt, first); }
-
-void World::takePairs(std::span<const BoxPair> overlapping) {
-  buildIfChanged();
-  search.takePairs(searchScene(), overlapping, lastDt);
+  return {model,   surfaces,           contactSettings, reference,
+          finest_, canTouch(),         hasRigid(),      !fracture.cohesion.edge.empty(),
+          threads, timesIfRequested(), dynamics_,       contact};
 }
 
 void World::correctContact(const StepLength& length) {

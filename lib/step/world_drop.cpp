@@ -67,7 +67,7 @@ void World::takeOut(std::span<const ElementId> triangles) {
   surfaces.drop(nodes);
   contact.removeGone(surfaces);
   search.removeDropped(model);
-  finest_ = finestSegment();
+  measureFinest();
 }
 
 }  // namespace yadefrag

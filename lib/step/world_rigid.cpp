@@ -110,7 +110,7 @@ void World::slideRigid(std::span<const Vec2> places) {
   for (std::size_t i = 0; i < places.size(); ++i)
     model.nodes.position[rigidNodes_[i].value] = reference[rigidNodes_[i].value] = places[i];
   places_.clear();
-  search.isVoid = true;
+  search.makeVoid();
 }
 
 Vec2 World::rigidVelocity(NodeId node) const {

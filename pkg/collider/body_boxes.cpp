@@ -201,7 +201,7 @@ void BodyBoxes::updateOthers(yade::Scene& scene, yade::BoundDispatcher& dispatch
   startDispatcher(scene, dispatcher);
   turning_.clear();
   undo_.clear();
-  segments_.clear();
+  isSegment_.clear();
   segmentCount_ = 0;
   hasOthers_ = hasFollowers_ = isSplit_ = false;
   for (std::size_t id = 0; id < kinds_.size(); ++id) {
@@ -239,10 +239,9 @@ void BodyBoxes::takeOther(const yade::shared_ptr<yade::Body>& body, yade::Scene&
 
 /// The bound already includes the halo and the permitted displacement of the piece.
 void BodyBoxes::takeSegment(const yade::Body& body) {
-  if (segments_.empty()) segments_.resize(kinds_.size(), nullptr);
-  const auto& segment = static_cast<const SurfaceSegment&>(*body.shape);
-  segments_[static_cast<std::size_t>(body.id)] = &segment;
-  body.bound->sweepLength = segment.halo;
+  isSegment_.resize(kinds_.size());
+  isSegment_[static_cast<std::size_t>(body.id)] = 1;
+  body.bound->sweepLength = static_cast<const SurfaceSegment&>(*body.shape).halo;
   ++segmentCount_;
 }
 

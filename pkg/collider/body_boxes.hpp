@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,8 +15,6 @@
 #include "core/parallel.hpp"
 
 namespace yadefrag {
-
-class SurfaceSegment;
 
 /// Radius and room of a body that is exactly a sphere, for the true-halo test.
 struct Ball {
@@ -66,8 +65,8 @@ class BodyBoxes {
   [[nodiscard]] const std::vector<Box>& boxes() const { return boxes_; }
   [[nodiscard]] const std::vector<Ball>& balls() const { return balls_; }
   [[nodiscard]] const std::vector<Turning>& turning() const { return turning_; }
-  /// By body id, null for a body that is not a surface segment; empty if there is none.
-  [[nodiscard]] const std::vector<const SurfaceSegment*>& segments() const { return segments_; }
+  /// By body id, 1 for a surface segment; empty if there is none.
+  [[nodiscard]] const std::vector<std::uint8_t>& isSegment() const { return isSegment_; }
   /// Displacement (m) of nodes without a bound up to which the boxes that follow them are valid;
   /// infinite if there are no such boxes.
   [[nodiscard]] double followerSweep() const { return hasFollowers_ ? rule_.most : INFINITY; }
@@ -136,7 +135,7 @@ class BodyBoxes {
   std::vector<PartList<BoxId>> changedByPart_, othersByPart_;
   bool onlyChanged_ = false;  // `commit` writes the boxes of `changed_` only
   std::vector<Turning> turning_;
-  std::vector<const SurfaceSegment*> segments_;
+  std::vector<std::uint8_t> isSegment_;
   std::size_t segmentCount_ = 0;
   bool hasOthers_ = false;
   bool hasFollowers_ = false;

@@ -56,7 +56,7 @@ void SearchCollider::searchAll(int threads) {
   boxes_.prepare(*scene, *boundDispatcher, rule, slack_, threads);
   startSearchIfNeeded();
   updateSearch(threads);
-  takeEntryPairs();
+  removeSegmentPairs();
   findNeighbours(threads);
   boxes_.commit(*scene, threads);
   interactions_.apply(
@@ -169,22 +169,13 @@ void SearchCollider::updateSearch(int threads) {
   comparisonsTotal += comparisons;
 }
 
-/// Moves pairs of surface segments from `pairs_` into a separate list.
-void SearchCollider::takeEntryPairs() {
-  entryPairs_.clear();
-  const auto& segments = boxes_.segments();
-  if (segments.empty()) return;
-  const auto& bodies = scene->bodies->body;
-  const auto isEntryPair = [&](const BoxPair& pair) {
-    const SurfaceSegment* first = segments[pair.first.value];
-    const SurfaceSegment* second = segments[pair.second.value];
-    if (!first || !second) return false;
-    if (first->mayTouch(*second) && mayCollide(bodies[pair.first.value].get(),
-                                               bodies[pair.second.value].get(), scene->subdomain))
-      entryPairs_.push_back(pair);
-    return true;
-  };
-  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), isEntryPair), pairs_.end());
+/// FESolver searches these itself.
+void SearchCollider::removeSegmentPairs() {
+  const std::vector<std::uint8_t>& isSegment = boxes_.isSegment();
+  if (isSegment.empty()) return;
+  std::erase_if(pairs_, [&](const BoxPair& pair) {
+    return isSegment[pair.first.value] != 0 && isSegment[pair.second.value] != 0;
+  });
 }
 
 void SearchCollider::findNeighbours(int threads) {
@@ -276,7 +267,7 @@ void SearchCollider::sceneIsSearched() {
   watch_.start(*scene, boxes_, slack_, span);
 }
 
-/// Faces of cracks are ignored if all bodies are segments: FESolver already handles them.
+/// Faces of cracks are ignored if all bodies are segments: FESolver handles their contact.
 bool SearchCollider::bodiesCame() const {
   const auto& bodies = scene->bodies->body;
   if (!onlySegments_ || bodies.size() < numBodies_) return bodies.size() != numBodies_;

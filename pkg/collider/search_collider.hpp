@@ -58,11 +58,6 @@ class SearchCollider : public yade::Collider {
   long searchedTotal = 0;
   yade::shared_ptr<yade::NewtonIntegrator> newton;
 
-  /// Pairs of surface segments whose bounds overlapped at the last search, by body id, in the order
-  /// of the search. They are not interactions: FESolver reads them here.
-  [[nodiscard]] const std::vector<BoxPair>& entryPairs() const { return entryPairs_; }
-  /// Step of the last search; -1: none since the collider was created or loaded.
-  [[nodiscard]] long lastSearch() const { return lastIter_; }
   [[nodiscard]] bool strideActive() const { return strideActive_; }
   [[nodiscard]] bool periodic() const { return periodic_; }
 
@@ -86,7 +81,7 @@ class SearchCollider : public yade::Collider {
   void updateSearch(int threads);
   template <class Find>
   void findPairs(Find find);
-  void takeEntryPairs();
+  void removeSegmentPairs();
   void findNeighbours(int threads);
   bool isNear(const BoxPair& pair, const SphereReach& reach, Neighbours& out) const;
   [[nodiscard]] bool ballsFit(const BoxPair& pair) const;
@@ -118,7 +113,6 @@ class SearchCollider : public yade::Collider {
   MotionWatch watch_;
   InteractionUpdate interactions_;
   std::vector<BoxPair> pairs_;
-  std::vector<BoxPair> entryPairs_;
   std::vector<Neighbours> near_;
   std::vector<PartList<Neighbours>> nearByPart_;
   std::size_t pairsOfHalf_ = 0;       // pairs near only because the sweeps are not half as long
@@ -132,7 +126,7 @@ class SearchCollider : public yade::Collider {
   std::size_t numBodies_ = 0;         // at the last search
   bool periodic_ = false;
   bool strideActive_ = false;
-  bool onlySegments_ = false;  // only FESolver requests searches
+  bool onlySegments_ = false;  // there are no bodies that segments could meet
 };
 
 /// An interaction takes far more memory than a pair: too many pairs are refused before interactions

@@ -96,7 +96,6 @@ void EntryBodies::append(yade::Scene& scene, const World& world, EntryId entry,
   shape->entry = static_cast<int>(entry.value);
   shape->component = static_cast<int>(component.value);
   shape->selfContact = world.model.components[component.value].selfContact;
-  shape->halo = .5 * world.search.halo;
   const yade::shared_ptr<yade::Body> body(new yade::Body);
   body->shape = shape;
   body->material = material;
@@ -269,6 +268,7 @@ void EntryBodies::update(const World& world, double dt, int threads, std::size_t
   const ContactSurfaces& surfaces = world.surfaces;
   const Nodes& nodes = world.model.nodes;
   const BoundaryPieces pieces(surfaces, nodes.position);
+  const double margin = world.search.boundMargin();
   pieces_.resize(ids_.size());
   const auto inParts = [&](const auto& work) {
     forEachPart(ids_.size() - first, threads, [&](std::size_t begin, std::size_t end, int) {
@@ -291,6 +291,7 @@ void EntryBodies::update(const World& world, double dt, int threads, std::size_t
     const BoundaryPiece& piece = pieces_[e];
     SurfaceSegment& shape = *shapes_[e];
     shape.kind = static_cast<int>(surfaces.piece[e]);  // cracks turn arcs into straight pieces
+    shape.halo = margin;
     shape.start = inSpace(piece.start);
     shape.end = inSpace(piece.end);
     shape.middle = inSpace(piece.middle);
@@ -300,15 +301,10 @@ void EntryBodies::update(const World& world, double dt, int threads, std::size_t
   });
 }
 
-void EntryBodies::setHalo(double halfHalo, std::size_t first) {
-  for (std::size_t e = first; e < shapes_.size(); ++e)
-    if (shapes_[e]) shapes_[e]->halo = halfHalo;
-}
-
-double EntryBodies::halo() const {
-  for (const auto& shape : shapes_)
-    if (shape) return shape->halo;
-  return NAN;
+bool EntryBodies::meetOthers(const yade::Scene& scene) const {
+  return std::ranges::any_of(scene.bodies->body, [&](const yade::shared_ptr<yade::Body>& body) {
+    return body && entryOf(body->id) == EntryId::none();
+  });
 }
 
 void EntryBodies::collectForces(yade::Scene& scene, const World& world,

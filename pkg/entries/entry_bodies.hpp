@@ -54,12 +54,11 @@ class EntryBodies {
   void requireAll(const yade::Scene& scene);
   /// Throws RunError if a body has no shape, state or material any more.
   void requireWhole() const;
-  /// Updates shapes and states. `dt`: time (s) for which an integrator will still move the bodies;
-  /// 0: none. `first`: only entries from this one on.
+  /// Updates shapes, with the margin of their bounds, and states. `dt`: time (s) for which an
+  /// integrator will still move the bodies; 0: none. `first`: only entries from this one on.
   void update(const World& world, double dt, int threads, std::size_t first = 0);
-  void setHalo(double halfHalo, std::size_t first = 0);
-  /// (m) The last value of setHalo; NaN without bodies.
-  [[nodiscard]] double halo() const;
+  /// True if the scene has bodies besides these: only they need bounds.
+  [[nodiscard]] bool meetOthers(const yade::Scene& scene) const;
   /// Converts forces and torques on the bodies to forces on the nodes, with the same resultant,
   /// moment and power. `forces` stays empty if there are none. Throws as requireWhole.
   void collectForces(yade::Scene& scene, const World& world, std::vector<Vec2>& forces) const;

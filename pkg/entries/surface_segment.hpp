@@ -44,10 +44,6 @@ class SurfaceSegment final
   std::vector<Changed> changed;  // usually empty
 
   [[nodiscard]] bool isArc() const { return kind == static_cast<int>(Piece::kArc); }
-  /// True if these two may touch each other. Pieces created by scripts are one rigid body.
-  [[nodiscard]] bool mayTouch(const SurfaceSegment& other) const {
-    return component != other.component || (component >= 0 && selfContact);
-  }
   [[nodiscard]] BoundaryPiece piece() const {
     const auto flat = [](const Vector3r& v) { return Vec2{v[0], v[1]}; };
     return {flat(start), flat(middle), flat(end), flat(before), flat(after), isArc()};

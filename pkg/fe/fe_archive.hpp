@@ -102,7 +102,7 @@ class WorldArchive {
     value("stableStep", world.stableStep);
     value("stableLinearViscosity", world.stableViscosity.linear);
     value("stableQuadraticViscosity", world.stableViscosity.quadratic);
-    value("numSearches", world.numSearches);
+    value("numSearches", world.search.count);
   }
 
   void watch(World& world) {
@@ -341,7 +341,12 @@ class WorldArchive {
   void search(World& world) {
     SearchState& search = world.search;
     value("halo", search.halo), value("shortest", search.shortest);
-    value("isDue", search.isDue), value("isVoid", search.isVoid);
+    bool isDue = search.isDue(), isVoid = search.isVoid();
+    value("isDue", isDue), value("isVoid", isVoid);
+    if constexpr (Archive::is_loading::value) {
+      using enum SearchState::Validity;
+      search.validity = isVoid ? kVoid : isDue ? kDue : kValid;
+    }
     column<std::uint32_t>("searchNodes", search.nodes);
     column<double>("searchPositions", search.positions);
     SearchBounds bounds = world.searchBounds();

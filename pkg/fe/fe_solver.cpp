@@ -12,7 +12,6 @@
 #include "collider/motion_watch.hpp"
 #include "core/errors.hpp"
 #include "core/tolerances/step.hpp"
-#include "fe/pair_source.hpp"
 #include "fe/running.hpp"
 #include "fracture/brittle_checks.hpp"
 
@@ -24,7 +23,6 @@ void FESolver::action() try {
   const std::lock_guard guard(betweenSteps_);
   given_.begin(*scene);
   if (bodies_.ids().empty()) return;
-  surveyed_ = 0;
   if (scene->isPeriodic)
     throw std::invalid_argument("FESolver: the scene is periodic, but FE bodies cannot be.");
   const bool enginesAreNew = order_.require(*scene, *this);
@@ -32,15 +30,8 @@ void FESolver::action() try {
   giveSettings();
   checkScene(enginesAreNew);
   followRigid(enginesAreNew);
-  if (world_.search.isDue || world_.search.isVoid) {
-    bodies_.requireWhole();
-    // After a refused step the halo is that of the world's own search, not that of the bounds.
-    const bool isSearched = bodies_.halo() == .5 * world_.search.halo;
-    // Rigid boundaries have no bodies of their own that a collider could find.
-    if (isSearched && !rigid_.any() && pairsOfCollider(*scene, *this, bodies_, pairs_))
-      world_.takePairs(pairs_);
-  }
-  const std::uint64_t dropped = world_.dropped.count;
+  if (world_.search.isDue()) bodies_.requireWhole();
+  const std::uint64_t dropped = world_.dropped.count, searches = world_.numSearches();
   const std::size_t known = world_.warnings.size();
   collectForces();
   functions_.giveValues(world_, scene->dt);
@@ -66,7 +57,8 @@ void FESolver::action() try {
   followCracks(dropped);
   given_.end(*scene);
   bodies_.update(world_, timeToIntegrate(), world_.threads);
-  prepareSearch(scene->dt);
+  // A search renews the halo, and with it the margin of the bounds.
+  if (world_.numSearches() != searches && bodies_.meetOthers(*scene)) scene->doSort = true;
   if (scene->trackEnergy) trackEnergy();
 } catch (const std::exception& error) {
   noteStop(error.what());
@@ -147,9 +139,8 @@ void FESolver::followRigid(bool enginesAreNew) {
          "after FESolver."});
 }
 
-/// Adds bodies for new faces, and removes those of removed fragments. FESolver already handles the
-/// contact of new faces with each other and with its other boundaries; a new search of the collider
-/// is needed only if the scene has other bodies.
+/// Adds bodies for new faces, and removes those of removed fragments. The world handles contact of
+/// new faces; a search of the collider is needed only if the scene has other bodies.
 void FESolver::followCracks(std::uint64_t dropped) {
   const bool wasDue = scene->doSort;
   const std::size_t first = bodies_.ids().size();
@@ -158,25 +149,7 @@ void FESolver::followCracks(std::uint64_t dropped) {
   if (bodies_.ids().size() > first)
     crackContacts_.change(*scene, world_, bodies_, first, scene->dt);
   if (world_.dropped.count != dropped) bodies_.drop(*scene, world_);
-  if (!rigid_.any() && scene->bodies->body.size() == bodies_.ids().size()) scene->doSort = wasDue;
-}
-
-/// If the collider is to search in the next step, the bounds must be valid for long enough.
-void FESolver::prepareSearch(double dt) {
-  if (!world_.search.isDue && !world_.search.isVoid) return;
-  world_.chooseHalo(dt);
-  bodies_.setHalo(.5 * world_.search.halo);
-  scene->doSort = true;
-}
-
-/// The same for the last body, whose entries begin at `first`. Bodies are usually added in
-/// sequence: as long as nothing moves, each one causes only its own cost.
-void FESolver::prepareNewcomer(std::size_t first) {
-  world_.chooseHalo(world_.lastDt, SegmentId(surveyed_));  // O.dt may not be set yet
-  surveyed_ = world_.surfaces.segments();
-  const double half = .5 * world_.search.halo;
-  bodies_.setHalo(half, bodies_.halo() == half ? first : 0);
-  scene->doSort = true;
+  if (!bodies_.meetOthers(*scene)) scene->doSort = wasDue;
 }
 
 /// Time for which an integrator after this engine moves the bodies: it also moves bodies that obey
@@ -266,18 +239,17 @@ int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
         "each other; it must be True, or the material an FEMat.");
   const ComponentId component = world_.addBody(mesh, spec);
   scene = &here;
-  const std::size_t first = bodies_.ids().size();
   bodies_.add(here, world_, materials);
   for (const auto& one : materials) materials_.add(one);
-  prepareNewcomer(first);
   return static_cast<int>(component.value);
 }
 
 /// Nodes have moved, or sides were divided.
 void FESolver::followBonds() {
-  bodies_.follow(*yade::Omega::instance().getScene(), world_);
+  yade::Scene& here = *yade::Omega::instance().getScene();
+  bodies_.follow(here, world_);
   bodies_.update(world_, 0, 1);
-  prepareNewcomer(0);
+  here.doSort = true;
 }
 
 void FESolver::removeBody(int component) {
@@ -288,7 +260,6 @@ void FESolver::removeBody(int component) {
   if (component < 0 || index >= components.size() ||
       components[index].firstTriangle == components[index].lastTriangle)
     throw InputError(fmt::format("component is {}, which is no body of this FESolver.", component));
-  surveyed_ = 0;
   bodies_.remove(here, world_, ComponentId(index));
   world_.removeBody(ComponentId(index));
 }

@@ -49,10 +49,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
 
   [[nodiscard]] double criticalTimeStep();
   [[nodiscard]] const World& world() const { return world_; }
-  [[nodiscard]] World& changeWorld() {
-    surveyed_ = 0;
-    return world_;
-  }
+  [[nodiscard]] World& changeWorld() { return world_; }
   [[nodiscard]] const EntryBodies& entryBodies() const { return bodies_; }
   /// Adds a message that has been written already.
   void note(std::string sentence) { world_.warnings.push_back(std::move(sentence)); }
@@ -101,8 +98,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   [[nodiscard]] const yade::NewtonIntegrator* integrator(bool behind) const;
   [[nodiscard]] bool takesOver() const { return takesGravity && gravity.isZero(0); }
   void followCracks(std::uint64_t dropped);
-  void prepareSearch(double dt);
-  void prepareNewcomer(std::size_t first);
   void followBonds();
   [[nodiscard]] double timeToIntegrate() const;
   void trackEnergy() const;
@@ -120,9 +115,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   CrackContacts crackContacts_;
   bool checkedRigid_ = true;  // `rigidBodies` when the scene was last checked
   ScriptFunctions functions_;
-  std::vector<BoxPair> pairs_;
-  /// Number of segments for which the halo was chosen, and that have not moved since.
-  std::size_t surveyed_ = 0;
   yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // value of `gravity` before it was set
   // Of settings that only this class has, likewise.
   std::string formerView_ = view, formerCorrection_ = correction, formerEntry_ = entry;
@@ -210,7 +202,6 @@ constexpr auto FESolver::attributes() {
 template <class Archive>
 void FESolver::archiveMore(Archive& archive) {
   std::vector<yade::Body::id_t> ids = bodies_.ids();
-  if constexpr (Archive::is_loading::value) surveyed_ = 0;
   WorldArchive<Archive>(archive).run(world_, ids);
   rigid_.archive(archive, world_);
   rolling_.archive(archive);

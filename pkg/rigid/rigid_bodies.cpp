@@ -72,7 +72,7 @@ bool RigidBodies::follow(yade::Scene& scene, World& world, EntryBodies& entries,
   const bool anyNew = takeNew(scene, element ? element->groupMask : 0);
   bool isBuilt = anyNew || !holds(scene, world, newton);
   if (isBuilt) build(scene, world, entries, newton);
-  const bool mayBeShort = any() && (world.search.isDue || world.search.isVoid);
+  const bool mayBeShort = any() && world.search.isDue();
   if (mayBeShort && !slideWalls(world)) {
     build(scene, world, entries, newton);
     isBuilt = true;

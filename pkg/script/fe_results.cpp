@@ -193,7 +193,7 @@ std::string zoneWarningOf(const FESolver& solver, int component) {
 }
 void noteOf(FESolver& solver, std::string sentence) { solver.note(std::move(sentence)); }
 double timeOf(const FESolver& solver) { return solver.world().time; }
-std::uint64_t searchesOf(const FESolver& solver) { return solver.world().numSearches; }
+std::uint64_t searchesOf(const FESolver& solver) { return solver.world().numSearches(); }
 std::size_t activesOf(const FESolver& solver) { return solver.world().contact.rows().size(); }
 double penetrationOf(const FESolver& solver) { return solver.world().contact.maxPenetration(); }
 double deepestOverlapOf(const FESolver& solver) {

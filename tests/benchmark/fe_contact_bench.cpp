@@ -61,13 +61,13 @@ void contactSteps(benchmark::State& state, const Scene& scene) {
   const double dt = .8 * world.criticalTimeStep();
   for (int i = 0; i < scene.toMeet; ++i) world.step(dt);
   world.timing = true;
-  const std::uint64_t searched = world.numSearches;
+  const std::uint64_t searched = world.numSearches();
   double rows = 0;
   for ([[maybe_unused]] auto once : state) {
     world.step(dt);
     rows += static_cast<double>(world.contact.rows().size());
   }
-  report(state, world, world.numSearches - searched, rows);
+  report(state, world, world.numSearches() - searched, rows);
 }
 
 void registerScene(const Scene& scene, std::int64_t size, std::int64_t threads) {

@@ -64,7 +64,7 @@ void run(World& world, double part, int steps) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   std::cout << "{\"triangles\": " << world.model.triangles.size()
             << ", \"entries\": " << world.surfaces.entries() << ", \"rows\": " << rows / steps
-            << ", \"searches\": " << world.numSearches
+            << ", \"searches\": " << world.numSearches()
             << ", \"cracks\": " << world.fracture.numCracks()
             << ", \"step\": " << took.count() / steps << ", \"peak\": " << peakMemory()
             << ", \"bytes\": {";

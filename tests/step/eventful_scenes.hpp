@@ -34,8 +34,8 @@ inline State stateOf(World& world) {
   for (const Vec2 velocity : world.model.nodes.velocity) add("velocity", velocity);
   for (const EntryId master : world.contact.candidates.masters) add("masters", master);
   for (const NodeId node : world.search.nodes) add("search", node);
-  add("search", world.search.halo), add("search", world.search.isDue);
-  add("search", world.search.isVoid), add("search", world.numSearches);
+  add("search", world.search.halo), add("search", world.search.validity);
+  add("search", world.numSearches());
   add("ledger", world.ledger);
   for (const auto& opening : world.fracture.cohesion.largest) add("openings", opening);
   for (const auto& traction : world.fracture.cohesion.traction) add("tractions", traction);

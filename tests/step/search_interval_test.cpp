@@ -76,7 +76,7 @@ TEST_P(Intervals, NothingIsMissedAtTheLargestVelocities) {
     for (std::size_t n = 0; n < forces.size(); ++n)
       forces[n] = .02 * speed / dt * seldom.model.nodes.mass[n] * Vec2{any(random), any(random)};
     seldom.outerForces = often.outerForces = forces;
-    often.search.isDue = true;
+    often.search.makeDue();
     seldom.step(dt);
     often.step(dt);
     ASSERT_EQ(activesOf(seldom), activesOf(often)) << "step " << i;
@@ -88,7 +88,7 @@ TEST_P(Intervals, NothingIsMissedAtTheLargestVelocities) {
     often.model.nodes.velocity = seldom.model.nodes.velocity;
   }
   EXPECT_GT(touched, 50U);
-  EXPECT_LT(seldom.numSearches, often.numSearches);
+  EXPECT_LT(seldom.numSearches(), often.numSearches());
 }
 
 INSTANTIATE_TEST_SUITE_P(SpeedsAndPasses, Intervals,
@@ -96,13 +96,14 @@ INSTANTIATE_TEST_SUITE_P(SpeedsAndPasses, Intervals,
 
 /// δ is at most half the shortest segment, at least a twentieth, and wide enough for some dozen
 /// steps at the largest velocity if that is less; only a motion of more than that in one step
-/// widens it.
+/// widens it. The first step searches.
 TEST(SearchInterval, WidthOfTheHalo) {
   for (const double speed : {.001, 1., 5., 10., 40., 100.}) {
     World world = row(speed, 1);
     const double dt = .3 * world.criticalTimeStep();
     const double shortest = shortestNow(world);
-    world.chooseHalo(dt);
+    world.step(dt);
+    EXPECT_EQ(world.numSearches(), 1U);
     EXPECT_NEAR(world.search.shortest, shortest, 1e-15);
     const double move = 2 * tolerance::kHaloSpare * speed * dt;
     EXPECT_GE(world.search.halo, .05 * shortest * (1 - 1e-12));
@@ -115,24 +116,46 @@ TEST(SearchInterval, WidthOfTheHalo) {
   }
 }
 
-/// Bodies that join one by one need not be looked at again and again.
-TEST(SearchInterval, HaloOfNewcomersIsThatOfAll) {
-  World world;
-  std::size_t known = 0;
-  const double dt = 1e-4;
-  for (const auto& [cells, speed] : {std::pair{4, 3.}, {8, 9.}, {5, 20.}, {6, 1.}}) {
-    const Vec2 low{2. * static_cast<double>(world.model.components.size()), 0};
-    const TriangleMesh mesh = structuredRectangle(low, low + Vec2{1, 1}, cells, cells);
-    world.addBody(mesh, moving(mesh, rubber(), {speed, 0}));
-    world.chooseHalo(dt, SegmentId(known));
-    known = world.surfaces.segments();
-    World whole;
-    whole.model = world.model;
-    whole.surfaces = world.surfaces;
-    whole.chooseHalo(dt);
-    EXPECT_EQ(world.search.halo, whole.search.halo);
-    EXPECT_EQ(world.search.shortest, whole.search.shortest);
+/// Bounds that a collider makes at any time, with the margin of that moment, contain all surface
+/// nodes until the next search.
+TEST(SearchInterval, MarginOfBoundsLastsUntilTheNextSearch) {
+  World world = row(10, 2);
+  EXPECT_EQ(world.search.boundMargin(), 0);
+  const double dt = .5 * world.criticalTimeStep();
+  struct Bounds {
+    std::vector<Vec2> position;
+    double margin;
+  };
+  std::vector<Bounds> made;
+  std::uint64_t searches = 0;
+  double most = 0;
+  for (int i = 0; i < 300; ++i) {
+    world.step(dt);
+    if (std::exchange(searches, world.numSearches()) != searches) made.clear();
+    for (const Bounds& bounds : made)
+      for (const NodeId node : world.surfaceNodes()) {
+        const double moved =
+            norm(world.model.nodes.position[node.value] - bounds.position[node.value]);
+        ASSERT_LE(moved, bounds.margin + largestCorrection(world, dt)) << "step " << i;
+        most = std::max(most, moved / bounds.margin);
+      }
+    made.push_back({world.model.nodes.position, world.search.boundMargin()});
   }
+  EXPECT_GT(searches, 5U);
+  EXPECT_GT(most, .5);
+}
+
+/// A collider has bounds of a body that is not searched itself.
+TEST(SearchInterval, BodyThatTouchesNothingHasAMargin) {
+  World world;
+  const TriangleMesh mesh = structuredRectangle({0, 0}, {1, 1}, 4, 4);
+  BodySpec spec = moving(mesh, rubber(), {1, 0});
+  spec.selfContact = false;
+  world.addBody(mesh, spec);
+  world.step(.5 * world.criticalTimeStep());
+  EXPECT_EQ(world.numSearches(), 0U);
+  EXPECT_NEAR(world.search.shortest, .25, 1e-15);
+  EXPECT_GE(world.search.boundMargin(), tolerance::kNarrowestHalo / 2 * .25);
 }
 
 /// During a run: half the shortest segment at most, no node leaves it by more than the correction
@@ -147,9 +170,9 @@ TEST(SearchInterval, HaloHoldsUntilTheNextSearch) {
       ASSERT_LE(world.search.halo, .5 * world.search.shortest * (1 + 1e-12));
       ASSERT_LE(farthest(world), world.search.halo / 2 + largestCorrection(world, dt));
     }
-    EXPECT_GT(world.numSearches, 1U);
+    EXPECT_GT(world.numSearches(), 1U);
     // k = δ/(2 u) steps (§4.1) hold at the fastest; blows make some nodes faster for a while.
-    EXPECT_LE(world.numSearches, steps / 4U) << speed;
+    EXPECT_LE(world.numSearches(), steps / 4U) << speed;
   }
 }
 
@@ -162,19 +185,18 @@ TEST(SearchInterval, WidthOfTheHaloMayBeSet) {
     World world = row(5, 2);
     world.contactSettings.halo = width;
     const double dt = .3 * world.criticalTimeStep();
-    world.chooseHalo(dt);
-    if (width > 0) {
-      EXPECT_NEAR(world.search.halo / world.search.shortest, width, 1e-12);
-    }
     std::size_t touching = 0;
     for (int i = 0; i < 1200; ++i) {
       world.step(dt);
+      if (i == 0 && width > 0) {
+        EXPECT_NEAR(world.search.halo / world.search.shortest, width, 1e-12);
+      }
       touching = std::max(touching, world.contact.rows().size());
     }
     EXPECT_GT(touching, 4U);
     if (first.empty()) first = world.model.nodes.position;
     EXPECT_TRUE(test::sameBits(world.model.nodes.position, first)) << width;
-    searches.push_back(world.numSearches);
+    searches.push_back(world.numSearches());
   }
   EXPECT_GT(searches[1], searches[0]);
   EXPECT_GT(searches[2], searches[1]);
@@ -185,11 +207,11 @@ TEST(SearchInterval, NoMotionNoSearch) {
   World world = row(0, 2);
   const double dt = .5 * world.criticalTimeStep();
   for (int i = 0; i < 500; ++i) world.step(dt);
-  EXPECT_EQ(world.numSearches, 1U);
+  EXPECT_EQ(world.numSearches(), 1U);
 }
 
-/// The collider has searched, but a force throws a node across the halo in the same step: the step
-/// itself searches again, at x*, and finds what it threw it into.
+/// No search is due, but a force throws a node across the halo: the step itself searches, at x*,
+/// and finds what it threw it into.
 TEST(SearchInterval, EmergencySearch) {
   World world;
   const TriangleMesh left = structuredRectangle({0, 0}, {1, 1}, 4, 4);
@@ -198,44 +220,37 @@ TEST(SearchInterval, EmergencySearch) {
   world.addBody(left, moving(left, rubber(), {0, 0}));
   const ComponentId thrown = world.addBody(right, moving(right, rubber(), {0, 0}));
   const double dt = .5 * world.criticalTimeStep();
-  world.chooseHalo(dt);
+  world.step(dt);
   EXPECT_LT(world.search.halo, .03) << "too narrow for the gap";
-  world.takePairs({});
-  EXPECT_EQ(world.numSearches, 1U);
+  EXPECT_EQ(world.numSearches(), 1U);
+  EXPECT_FALSE(world.search.isDue());
   EXPECT_EQ(world.contact.candidates.size(), 0U);
   world.outerForces.assign(world.model.nodes.size(), {});
   for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
     if (world.model.nodes.component[n] == thrown)
       world.outerForces[n] = {-world.model.nodes.mass[n] * .05 / (dt * dt), 0};
   world.step(dt);
-  EXPECT_EQ(world.numSearches, 2U);
+  EXPECT_EQ(world.numSearches(), 2U);
   EXPECT_FALSE(world.contact.rows().empty());
   EXPECT_LE(deepestNode(world), 1e-6);
   EXPECT_GE(world.search.halo, 2 * .05) << "as wide as the motion demands";
 }
 
-/// Without a force nothing is searched twice, and a collider's pairs serve until they are due.
-TEST(SearchInterval, ColliderIsCalledOnlyWhenDue) {
+/// Without a force a step searches if the one before has foreseen it, and hardly ever otherwise.
+TEST(SearchInterval, SearchesAreForeseen) {
   World world = row(10, 2);
   const double dt = .5 * world.criticalTimeStep();
-  std::uint64_t taken = 0;
+  std::uint64_t foreseen = 0;
   for (int i = 0; i < 200; ++i) {
-    if (world.search.isDue) {
-      world.chooseHalo(dt);
-      std::vector<Box> boxes;
-      for (std::size_t e = 0; e < world.surfaces.entries(); ++e)
-        boxes.push_back(world.boxOf(EntryId(e)));
-      const auto search = makeSearch(SearchMethod::kBruteForce);
-      std::vector<BoxPair> overlapping;
-      search->update(boxes);
-      search->findPairs(overlapping);
-      world.takePairs(overlapping);
-      ++taken;
-    }
+    const std::uint64_t before = world.numSearches();
+    const bool isDue = world.search.isDue();
     world.step(dt);
+    if (!isDue) continue;
+    EXPECT_EQ(world.numSearches(), before + 1);
+    ++foreseen;
   }
-  EXPECT_LT(taken, 50U);
-  EXPECT_LE(world.numSearches - taken, taken / 4) << "searches in the midst of a step are rare";
+  EXPECT_LT(foreseen, 50U);
+  EXPECT_LE(world.numSearches() - foreseen, foreseen / 4);
 }
 
 }  // namespace

@@ -124,14 +124,14 @@ End runWithSearches(bool forced, double speed, int passes, int count) {
   const double dt = .7 * world.criticalTimeStep();
   End end;
   for (int i = 0; i < count; ++i) {
-    world.search.isDue = world.search.isDue || forced;
+    if (forced) world.search.makeDue();
     world.step(dt);
     end.actives.push_back(activesOf(world));
   }
   end.position = world.model.nodes.position;
   end.velocity = world.model.nodes.velocity;
   end.contact = world.ledger.contact, end.friction = world.ledger.friction;
-  end.searches = world.numSearches;
+  end.searches = world.numSearches();
   return end;
 }
 

@@ -70,7 +70,7 @@ TEST(UnusedContact, OneBodyThatCannotTouchItselfHasNone) {
   const Ringing alone(uses, 1);
   EXPECT_EQ(alone.bytes(Use::kSearch), 0U);
   EXPECT_EQ(alone.bytes(Use::kContact), 0U);
-  EXPECT_EQ(alone.world.numSearches, 0U);
+  EXPECT_EQ(alone.world.numSearches(), 0U);
   uses.selfContact = true;
   EXPECT_GT(Ringing(uses, 1).bytes(Use::kSearch), 0U);
 }

@@ -188,7 +188,7 @@ TEST(WorldStep, AboveTheCriticalStepIsRefusedBeforeAnythingChanges) {
   EXPECT_EQ(stateOf(world, ComponentId(1UL)), before);
   EXPECT_EQ(world.steps, 0U);
   EXPECT_EQ(world.time, 0);
-  EXPECT_EQ(world.numSearches, 0U);
+  EXPECT_EQ(world.numSearches(), 0U);
   world.step(critical);
   EXPECT_EQ(world.steps, 1U);
   EXPECT_EQ(world.time, critical);
@@ -312,7 +312,7 @@ TEST(WorldPays, AnEmptyWorldSteps) {
   EXPECT_EQ(world.criticalTimeStep(), INFINITY);
   world.step(1);
   EXPECT_EQ(world.time, 1);
-  EXPECT_EQ(world.numSearches, 0U);
+  EXPECT_EQ(world.numSearches(), 0U);
 }
 
 }  // namespace

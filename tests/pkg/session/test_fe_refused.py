@@ -40,8 +40,7 @@ REFUSALS = {
 
 
 def state(solver):
-    # Without numSearches: the search that the collider made before the refused step stands.
-    return (solver.nodes, solver.velocities, solver.contactForces, solver.stress,
+    return (solver.numSearches, solver.nodes, solver.velocities, solver.contactForces, solver.stress,
             list(solver.energy.items()), list(solver.warnings), solver.numActives,
             solver.maxPenetration, [b.shape.halo for b in O.bodies if b],
             [tuple(b.state.pos) for b in O.bodies if b])

@@ -17,8 +17,8 @@ def engines(fe: FESolver, gravity: ArrayLike | None = None, spheres: bool = Fals
     fe        an FESolver
     gravity   m/s², for the FE bodies and spheres: a pair, or three numbers with z = 0; None: that of
               fe.gravity
-    spheres   False: no YADE spheres; the engines are [ForceResetter, fe], since FESolver does its own
-              search. True: also a collider, an InteractionLoop with Cundall and Strack's law among
+    spheres   False: no YADE spheres; the engines are [ForceResetter, fe], since FESolver searches
+              by itself. True: also a collider, an InteractionLoop with Cundall and Strack's law among
               spheres and between spheres and bodies, and NewtonIntegrator
     moving    without spheres: True if YADE's walls, boxes or facets move; adds NewtonIntegrator after
               fe, which moves them
