@@ -29,8 +29,7 @@ Shape shapeOf(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
 
 }  // namespace
 
-TriangleMesh stressFreeMesh(const Model& model, const std::vector<Vec2>& reference,
-                            ComponentId component) {
+TriangleMesh stressFreeMesh(const Model& model, ComponentId component) {
   const Component& body = model.components[component.value];
   TriangleMesh mesh;
   std::vector<std::uint32_t> numberOf(model.nodes.size(), NodeId::none().value);
@@ -41,7 +40,7 @@ TriangleMesh stressFreeMesh(const Model& model, const std::vector<Vec2>& referen
       const std::uint32_t node = model.triangles.nodes[t][k].value;
       if (numberOf[node] == NodeId::none().value) {
         numberOf[node] = static_cast<std::uint32_t>(mesh.nodes.size());
-        mesh.nodes.push_back(reference[node]);
+        mesh.nodes.push_back(model.nodes.reference[node]);
       }
       corners[k] = numberOf[node];
     }

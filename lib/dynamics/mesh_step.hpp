@@ -10,8 +10,7 @@ namespace yadefrag {
 
 /// The stress-free mesh of one component, with new node numbers, without loops and removed
 /// triangles. `reference` are the stress-free positions of the model's nodes.
-[[nodiscard]] TriangleMesh stressFreeMesh(const Model& model, const std::vector<Vec2>& reference,
-                                          ComponentId component);
+[[nodiscard]] TriangleMesh stressFreeMesh(const Model& model, ComponentId component);
 
 /// (s) Critical time step of a stress-free mesh with a component's material.
 [[nodiscard]] double meshTimeStep(const TriangleMesh& mesh, const Component& component);

@@ -44,8 +44,8 @@ AcrossAlong byDirection(Vec2 compliance, Vec2 normal) {
 
 }  // namespace
 
-void Cohesion::add(const Model& model, const CrackEdges& edges, EdgeId cracked,
-                   std::span<const Vec2> reference) {
+void Cohesion::add(const Model& model, const CrackEdges& edges, EdgeId cracked) {
+  const std::vector<Vec2>& reference = model.nodes.reference;
   const Side side = edges.side(cracked, 0);
   const Vec2 along =
       reference[lastNode(model, side).value] - reference[firstNode(model, side).value];
@@ -57,19 +57,9 @@ void Cohesion::add(const Model& model, const CrackEdges& edges, EdgeId cracked,
   area.push_back(norm(along) / 2 * thickness);
 }
 
-template <class Keep>
-void Cohesion::keepOnly(Keep keep) {
-  std::size_t kept = 0;
-  for (std::size_t c = 0; c < edge.size(); ++c)
-    if (keep(c)) {
-      edge[kept] = edge[c], largest[kept] = largest[c];
-      traction[kept] = traction[c], area[kept++] = area[c];
-    }
-  edge.resize(kept), largest.resize(kept), traction.resize(kept), area.resize(kept);
-}
-
 void Cohesion::renumberEdges(std::span<const EdgeId> renumbered) {
-  keepOnly([&](std::size_t c) { return renumbered[edge[c].value] != EdgeId::none(); });
+  keepRows(columns(), edge.size(),
+           [&](std::size_t c) { return renumbered[edge[c].value] != EdgeId::none(); });
   for (EdgeId& one : edge) one = renumbered[one.value];
 }
 
@@ -317,7 +307,7 @@ void Cohesion::settle(const Model& model, const CrackEdges& edges) {
   for (const std::uint32_t c : turned_) largest[c].fill(critical(c));
   turned_.clear();  // without a crack the next step collects nothing
   released.clear();
-  keepOnly([&](std::size_t c) {
+  keepRows(columns(), edge.size(), [&](std::size_t c) {
     const double wide = critical(c);
     const bool holds = counted(c, 0, wide) < wide || counted(c, 1, wide) < wide;
     if (!holds) released.push_back(edge[c]);
@@ -326,7 +316,7 @@ void Cohesion::settle(const Model& model, const CrackEdges& edges) {
 }
 
 void Cohesion::removeDropped(const Triangles& triangles, const CrackEdges& edges) {
-  keepOnly([&](std::size_t c) {
+  keepRows(columns(), edge.size(), [&](std::size_t c) {
     const auto& [a, b] = edges.element[edge[c].value];
     return !triangles.isDropped(a.value) && !triangles.isDropped(b.value);
   });

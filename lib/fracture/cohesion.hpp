@@ -37,8 +37,7 @@ namespace yadefrag {
 class Cohesion final : public CoupledForces {
  public:
   /// Makes a crack cohesive. `reference`: m, stress-free, by node.
-  void add(const Model& model, const CrackEdges& edges, EdgeId edge,
-           std::span<const Vec2> reference);
+  void add(const Model& model, const CrackEdges& edges, EdgeId edge);
   /// Changes edge numbers; none(): the edge was removed.
   void renumberEdges(std::span<const EdgeId> renumbered);
 
@@ -75,13 +74,6 @@ class Cohesion final : public CoupledForces {
   void removeDropped(const Triangles& triangles, const CrackEdges& edges);
 
   std::vector<EdgeId> released;  ///< cracks that were removed in the last step
-  void addTo(Footprint& footprint) const {
-    footprint.add(Use::kCohesion, edge, largest, traction, area, points_, couples_, firstAt_,
-                  groupOf_, groupOfNode_, grouped_, groups_.values, groups_.offsets,
-                  pointsAt_.values, pointsAt_.offsets, improved_, start_, turned_, released);
-    sets_.addTo(footprint, Use::kCohesion);
-    waiting_.addTo(footprint, Use::kCohesion);
-  }
 
   // By cohesive crack; each end of an edge has its own opening (see countedOpening).
   std::vector<EdgeId> edge;
@@ -91,6 +83,27 @@ class Cohesion final : public CoupledForces {
   /// the nodes; without start values the sweeps would converge slowly.
   std::vector<std::array<Vec2, 2>> traction;
   std::vector<double> area;  ///< m², half of the face's area
+
+  /// All of these (core/columns.hpp), in the order of saved states.
+  template <class Self>
+  static auto columnsOf(Self& self) {
+    return [&self](auto visit) {
+      visit(Column{"cohesiveEdge", Use::kCohesion}, self.edge);
+      visit(Column{"cohesiveLargest", Use::kCohesion}, self.largest);
+      visit(Column{"cohesiveTraction", Use::kCohesion}, self.traction);
+      visit(Column{"cohesiveArea", Use::kCohesion}, self.area);
+    };
+  }
+  auto columns() { return columnsOf(*this); }
+  auto columns() const { return columnsOf(*this); }
+  void addTo(Footprint& footprint) const {
+    yadefrag::addTo(footprint, columns());
+    footprint.add(Use::kCohesion, points_, couples_, firstAt_, groupOf_, groupOfNode_, grouped_,
+                  groups_.values, groups_.offsets, pointsAt_.values, pointsAt_.offsets, improved_,
+                  start_, turned_, released);
+    sets_.addTo(footprint, Use::kCohesion);
+    waiting_.addTo(footprint, Use::kCohesion);
+  }
 
  private:
   struct Point {
@@ -109,8 +122,6 @@ class Cohesion final : public CoupledForces {
     std::uint32_t couple;  // that of its crack; one or two consecutive points have the same
   };
 
-  template <class Keep>
-  void keepOnly(Keep keep);
   [[nodiscard]] double counted(std::size_t crack, std::size_t end, double critical) const {
     return countedOpening(largest[crack][end], largest[crack][1 - end], critical);
   }

@@ -74,6 +74,15 @@ std::vector<KeyedSide> sidesByNodes(const Model& model, const Component& body) {
   return sides;
 }
 
+void CrackEdges::append(Side a, Side b, double ofStrength, double ofEnergy, bool isCracked) {
+  ofElement[a.element.value][a.corner] = ofElement[b.element.value][b.corner] = EdgeId(size());
+  element.push_back({a.element, b.element});
+  corner.push_back({a.corner, b.corner});
+  strength.push_back(ofStrength);
+  fractureEnergy.push_back(ofEnergy);
+  cracked.push_back(isCracked ? 1 : 0);
+}
+
 std::vector<EdgeId> CrackEdges::addBody(const Model& model, ComponentId component,
                                         const BrittlePlaces& places) {
   const Component& body = model.components[component.value];
@@ -90,18 +99,15 @@ std::vector<EdgeId> CrackEdges::addBody(const Model& model, ComponentId componen
   // Two bodies of the same material get different random numbers.
   std::uint64_t number = std::uint64_t{component.value} << 32;
   for (const auto& [a, b] : innerEdges(model, body)) {
-    ofElement[a.element.value][a.corner] = ofElement[b.element.value][b.corner] = EdgeId(size());
-    element.push_back({a.element, b.element});
-    corner.push_back({a.corner, b.corner});
     // A third of each triangle belongs to each of its sides.
     const double area =
         model.triangles.area[a.element.value] + model.triangles.area[b.element.value];
     const BrittleMaterial material = materialAt(model, places, a.element, b.element);
-    strength.push_back(material.cracks() ? edgeStrength(material, number, body.thickness * area / 3)
-                                         : kUnbreakable);
+    append(a, b,
+           material.cracks() ? edgeStrength(material, number, body.thickness * area / 3)
+                             : kUnbreakable,
+           material.fractureEnergy, false);
     ++number;
-    fractureEnergy.push_back(material.fractureEnergy);
-    cracked.push_back(0);
     const auto [low, high] = std::minmax({firstNode(model, a), lastNode(model, a)});
     const auto joint = joints.find({low, high});
     if (joint == joints.end()) continue;
@@ -124,12 +130,7 @@ void CrackEdges::addBonds(const Model& model, std::span<const std::array<Side, 2
   ofNode.resize(model.nodes.size(), ElementId::none());
   for (const auto& both : sides) {
     const auto& [a, b] = std::minmax(both[0], both[1]);
-    ofElement[a.element.value][a.corner] = ofElement[b.element.value][b.corner] = EdgeId(size());
-    element.push_back({a.element, b.element});
-    corner.push_back({a.corner, b.corner});
-    strength.push_back(ofStrength);
-    fractureEnergy.push_back(ofEnergy);
-    cracked.push_back(1);
+    append(a, b, ofStrength, ofEnergy, true);
   }
 }
 
@@ -137,23 +138,20 @@ std::vector<EdgeId> CrackEdges::removeBody(const Model& model, ElementId first, 
                                            std::span<const NodeId> renumberedNodes) {
   const std::uint32_t gone = last.value - first.value;
   const auto shifted = [&](ElementId e) { return e < last ? e : ElementId(e.value - gone); };
-  std::size_t kept = 0;
   std::vector<EdgeId> renumbered(size(), EdgeId::none());
   const auto isGone = [&](ElementId e) { return e >= first && e < last; };
+  std::size_t kept = 0;
+  keepRows(columns(), size(), [&](std::size_t i) {
+    const bool stays = !isGone(element[i][0]) && !isGone(element[i][1]);
+    if (stays) renumbered[i] = EdgeId(kept++);
+    return stays;
+  });
   ofElement.assign(model.triangles.size(), kNoEdges);
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (isGone(element[i][0]) || isGone(element[i][1])) continue;
-    element[kept] = {shifted(element[i][0]), shifted(element[i][1])};
-    corner[kept] = corner[i];
-    strength[kept] = strength[i];
-    fractureEnergy[kept] = fractureEnergy[i];
-    cracked[kept] = cracked[i];
-    for (std::size_t k = 0; k < 2; ++k)
-      ofElement[element[kept][k].value][corner[kept][k]] = EdgeId(kept);
-    renumbered[i] = EdgeId(kept++);
-  }
-  element.resize(kept), corner.resize(kept), strength.resize(kept);
-  fractureEnergy.resize(kept), cracked.resize(kept);
+  for (std::size_t i = 0; i < size(); ++i)
+    for (std::size_t k = 0; k < 2; ++k) {
+      element[i][k] = shifted(element[i][k]);
+      ofElement[element[i][k].value][corner[i][k]] = EdgeId(i);
+    }
   std::vector<ElementId> elementOf(model.nodes.size(), ElementId::none());
   for (std::size_t n = 0; n < ofNode.size(); ++n)
     if (renumberedNodes[n] != NodeId::none() && ofNode[n] != ElementId::none())

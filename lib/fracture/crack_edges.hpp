@@ -58,11 +58,28 @@ struct CrackEdges {
   std::vector<double> fractureEnergy;  ///< J/m²; 0: a crack opens at once
   std::vector<std::uint8_t> cracked;
 
+  /// All arrays by edge (core/columns.hpp), in the order of saved states.
+  template <class Self>
+  static auto columnsOf(Self& self) {
+    return [&self](auto visit) {
+      visit(Column{"crackElement", Use::kFracture}, self.element);
+      visit(Column{"crackCorner", Use::kFracture}, self.corner);
+      visit(Column{"crackStrength", Use::kFracture}, self.strength);
+      visit(Column{"crackEnergy", Use::kFracture}, self.fractureEnergy);
+      visit(Column{"cracked", Use::kFracture}, self.cracked);
+    };
+  }
+  auto columns() { return columnsOf(*this); }
+  auto columns() const { return columnsOf(*this); }
+
   // By triangle and node of the whole model; none() for bodies that do not crack.
   std::vector<std::array<EdgeId, 3>> ofElement;  ///< by corner; none() on the boundary, too
   std::vector<ElementId> ofNode;                 ///< one triangle of its fan
 
   [[nodiscard]] std::size_t size() const { return element.size(); }
+
+  /// Adds an edge between two sides, that of the lower triangle first.
+  void append(Side a, Side b, double ofStrength, double ofEnergy, bool isCracked);
 
   /// Adds the inner edges of a body that was just added to the model, in the order of its
   /// triangles. An edge has the smaller of the values of its two triangles, by material or in

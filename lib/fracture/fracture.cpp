@@ -20,11 +20,10 @@ void Fracture::open(Model& model, const ContactSurfaces& surfaces, std::span<con
 }
 
 void Fracture::bond(const Model& model, std::span<const std::array<Side, 2>> sides, double strength,
-                    double energy, std::span<const Vec2> reference) {
+                    double energy) {
   const std::size_t first = edges.size();
   edges.addBonds(model, sides, strength, energy);
-  for (std::size_t i = first; i < edges.size(); ++i)
-    cohesion.add(model, edges, EdgeId(i), reference);
+  for (std::size_t i = first; i < edges.size(); ++i) cohesion.add(model, edges, EdgeId(i));
 }
 
 void Fracture::removeBody(const Model& model, ElementId first, ElementId last,
@@ -41,7 +40,7 @@ void Fracture::removeBody(const Model& model, ElementId first, ElementId last,
 
 void Fracture::prepare(Model& model) {
   const std::size_t count = model.nodes.size();
-  model.nodes.reserve(count + count / tolerance::kSpareNodes);
+  reserveRows(model.nodes.columns(), count + count / tolerance::kSpareNodes);
   edges.ofNode.reserve(count + count / tolerance::kSpareNodes);
   check_.prepare(model, edges);
 }
@@ -98,16 +97,15 @@ double Fracture::splitEnergy(const Model& model, std::span<const NodeId> origina
 }
 
 void Fracture::addTo(Footprint& footprint) const {
-  footprint.add(Use::kFracture, edges.element, edges.corner, edges.strength, edges.fractureEnergy,
-                edges.cracked, edges.ofElement, edges.ofNode, started, leastStrength, cracks_);
+  yadefrag::addTo(footprint, edges.columns());
+  footprint.add(Use::kFracture, edges.ofElement, edges.ofNode, started, leastStrength, cracks_);
   cohesion.addTo(footprint);
   check_.addTo(footprint);
 }
 
-void Fracture::cohere(const Model& model, std::span<const Vec2> reference) {
-  assert(reference.size() == model.nodes.size());
+void Fracture::cohere(const Model& model) {
   for (const EdgeId edge : cracks_)
-    if (edges.fractureEnergy[edge.value] > 0) cohesion.add(model, edges, edge, reference);
+    if (edges.fractureEnergy[edge.value] > 0) cohesion.add(model, edges, edge);
 }
 
 }  // namespace yadefrag

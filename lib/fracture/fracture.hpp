@@ -23,7 +23,7 @@ class Fracture {
             SplitResult& result);
   /// Bonds two bodies along these sides by cohesive cracks.
   void bond(const Model& model, std::span<const std::array<Side, 2>> sides, double strength,
-            double energy, std::span<const Vec2> reference);
+            double energy);
   /// Must be called after a body was removed; its triangles were [first, last).
   void removeBody(const Model& model, ElementId first, ElementId last,
                   std::span<const NodeId> renumberedNodes);
@@ -43,9 +43,8 @@ class Fracture {
   /// parts of a node no longer have a common mean strain. `originals` as in SplitResult.
   [[nodiscard]] double splitEnergy(const Model& model, std::span<const NodeId> originals,
                                    double dt) const;
-  /// Must be called after the reference positions of new nodes were set: makes the new cracks
-  /// cohesive by their law.
-  void cohere(const Model& model, std::span<const Vec2> reference);
+  /// Makes the cracks of the last call of `crack` cohesive by their law.
+  void cohere(const Model& model);
 
   [[nodiscard]] std::uint64_t numCracks() const { return numCracks_; }
   void restore(std::uint64_t numCracks) { numCracks_ = numCracks; }

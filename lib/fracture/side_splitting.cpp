@@ -33,8 +33,7 @@ Vec2 combine(const Weights& weight, const std::array<NodeId, 3>& nodes,
 
 class Conformed {
  public:
-  Conformed(Model& model, CrackEdges& edges, std::vector<Vec2>& reference)
-      : model_(model), t_(model.triangles), edges_(edges), reference_(reference) {}
+  Conformed(Model& model, CrackEdges& edges) : model_(model), t_(model.triangles), edges_(edges) {}
 
   void move(std::span<const NodeMove> moves) {
     if (moves.empty()) return;
@@ -55,7 +54,7 @@ class Conformed {
       const std::uint32_t node = moves[i].node.value;
       model_.nodes.position[node] = moves[i].to;
       if (model_.nodes.held[node] == kFree) model_.nodes.velocity[node] = carried[i][0];
-      reference_[node] = carried[i][1];
+      model_.nodes.reference[node] = carried[i][1];
     }
     for (const auto& [element, gradient] : changed) setShape(element, gradient);
   }
@@ -70,14 +69,8 @@ class Conformed {
     const Matrix2 gradient = deformationGradient(model_, side.element);
     const NodeId node = addNode(corners, corners[c], corners[c1], asked);
     const ElementId added(t_.size());
-    t_.nodes[e][c1] = node;
-    std::array<NodeId, 3> rest = corners;
-    rest[c] = node;
-    t_.nodes.push_back(rest);
-    t_.inverseEdges.emplace_back();
-    t_.area.push_back(0);
-    t_.component.push_back(ComponentId(t_.component[e]));
-    if (!t_.material.empty()) t_.material.push_back(std::uint32_t{t_.material[e]});
+    appendCopy(t_.columns(), e);
+    t_.nodes[e][c1] = t_.nodes.back()[c] = node;
     setShape(side.element, gradient);
     setShape(added, gradient);
     divideEdges(side.element, added, corners[c1], node, c1, c2);
@@ -93,13 +86,11 @@ class Conformed {
     std::ranges::stable_sort(order, {}, [&](ElementId e) { return t_.component[e.value]; });
     std::vector<ElementId> numberOf(t_.size());
     for (std::size_t i = 0; i < order.size(); ++i) numberOf[order[i].value] = ElementId(i);
-    const auto arrange = [&](auto& column) {
-      if (column.empty()) return;
-      auto former = column;
-      for (std::size_t i = 0; i < order.size(); ++i) column[i] = former[order[i].value];
-    };
-    arrange(t_.nodes), arrange(t_.inverseEdges), arrange(t_.area), arrange(t_.component);
-    arrange(t_.material), arrange(edges_.ofElement);
+    arrangeRows(t_.columns(), std::span<const ElementId>(order));
+    if (!edges_.ofElement.empty()) {
+      const auto former = edges_.ofElement;
+      for (std::size_t i = 0; i < order.size(); ++i) edges_.ofElement[i] = former[order[i].value];
+    }
     for (auto& both : edges_.element)
       for (ElementId& element : both) element = numberOf[element.value];
     for (ElementId& element : edges_.ofNode)
@@ -142,7 +133,8 @@ class Conformed {
       if (least <= most) continue;
       most = least;
       const auto& nodes = t_.nodes[element.value];
-      values = {combine(weight, nodes, model_.nodes.velocity), combine(weight, nodes, reference_)};
+      values = {combine(weight, nodes, model_.nodes.velocity),
+                combine(weight, nodes, model_.nodes.reference)};
     }
     return values;
   }
@@ -154,12 +146,13 @@ class Conformed {
     const Weights weight = weightsAt(
         {place[corners[0].value], place[corners[1].value], place[corners[2].value]}, asked.at);
     const Vec2 velocity = combine(weight, corners, nodes.velocity);
-    reference_.push_back(combine(weight, corners, reference_));
+    const Vec2 reference = combine(weight, corners, nodes.reference);
     const bool isSame =
         nodes.motion.empty() || nodes.motion[first.value] == nodes.motion[last.value];
     const NodeId node = nodes.duplicate(first);
     nodes.position[node.value] = asked.at;
     nodes.velocity[node.value] = velocity;
+    nodes.reference[node.value] = reference;
     if (!nodes.load.empty()) nodes.load[node.value] = {};
     nodes.held[node.value] &= isSame ? nodes.held[last.value] : std::uint8_t{kFree};
     if (nodes.motion.empty()) return node;
@@ -195,26 +188,23 @@ class Conformed {
     if (edges_.ofNode[last.value] == ElementId::none()) return;  // a body that does not crack
     if (edges_.ofNode[last.value] == divided) edges_.ofNode[last.value] = added;
     edges_.ofNode[node.value] = divided;
-    own[c1] = others[c2] = EdgeId(edges_.size());
-    edges_.element.push_back({divided, added});
-    edges_.corner.push_back({static_cast<std::uint8_t>(c1), static_cast<std::uint8_t>(c2)});
-    edges_.cracked.push_back(0);
-    addStrength(divided, added, former);
+    const auto [strength, energy] = strengthOf(divided, added, former);
+    edges_.append({divided, static_cast<std::uint8_t>(c1)}, {added, static_cast<std::uint8_t>(c2)},
+                  strength, energy, false);
   }
 
-  /// With strengths by place: those of the stronger edge of the triangle, since the other one may
-  /// be a joint.
-  void addStrength(ElementId divided, ElementId added, const std::array<EdgeId, 2>& former) {
+  /// Strength and fracture energy of the new edge. With strengths by place: those of the stronger
+  /// edge of the triangle, since the other one may be a joint.
+  [[nodiscard]] std::pair<double, double> strengthOf(ElementId divided, ElementId added,
+                                                     const std::array<EdgeId, 2>& former) const {
     const Component& body = model_.bodyOf(divided);
-    BrittleMaterial material = model_.materialOf(divided).brittle;
+    const BrittleMaterial material = model_.materialOf(divided).brittle;
     if (!body.brittleByPlace) {
       // No other edge of the body has this number.
       const std::uint64_t number =
-          std::uint64_t{t_.component[divided.value].value} << 32 | (edges_.size() | 1U << 31);
+          std::uint64_t{t_.component[divided.value].value} << 32 | ((edges_.size() + 1) | 1U << 31);
       const double area = t_.area[divided.value] + t_.area[added.value];
-      edges_.strength.push_back(edgeStrength(material, number, body.thickness * area / 3));
-      edges_.fractureEnergy.push_back(material.fractureEnergy);
-      return;
+      return {edgeStrength(material, number, body.thickness * area / 3), material.fractureEnergy};
     }
     double strength = 0, energy = material.fractureEnergy;
     for (const EdgeId edge : former) {
@@ -223,14 +213,12 @@ class Conformed {
         continue;
       strength = edges_.strength[edge.value], energy = edges_.fractureEnergy[edge.value];
     }
-    edges_.strength.push_back(strength > 0 ? strength : material.tensileStrength);
-    edges_.fractureEnergy.push_back(energy);
+    return {strength > 0 ? strength : material.tensileStrength, energy};
   }
 
   Model& model_;
   Triangles& t_;
   CrackEdges& edges_;
-  std::vector<Vec2>& reference_;
   std::map<Side, Side> moved_;  // sides that are sides of a new triangle now
 };
 
@@ -268,9 +256,9 @@ DividedSides dividedSides(const Model& model, const ContactSurfaces& surfaces,
 
 }  // namespace
 
-DividedSides conform(Model& model, CrackEdges& edges, std::vector<Vec2>& reference,
-                     const ContactSurfaces& surfaces, const ConformPlan& plan) {
-  Conformed mesh(model, edges, reference);
+DividedSides conform(Model& model, CrackEdges& edges, const ContactSurfaces& surfaces,
+                     const ConformPlan& plan) {
+  Conformed mesh(model, edges);
   mesh.move(plan.moves);
   std::vector<NodeId> begins, added;
   for (const NewNode& one : plan.newNodes) begins.push_back(firstNode(model, one.side));

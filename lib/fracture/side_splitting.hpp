@@ -16,11 +16,11 @@ struct DividedSides {
   std::vector<SegmentId> parents;  ///< by new segment, in order: the one that was divided
 };
 
-/// Positions, velocities and `reference` (m, by node) of moved and new nodes are those of the
+/// Positions (present and stress-free) and velocities of moved and new nodes are those of the
 /// triangles there; new nodes are held as both ends of their side are. New triangles follow those
 /// of their body, so that triangles of later bodies get higher numbers. The mass of a body changes
 /// only with its area.
-DividedSides conform(Model& model, CrackEdges& edges, std::vector<Vec2>& reference,
-                     const ContactSurfaces& surfaces, const ConformPlan& plan);
+DividedSides conform(Model& model, CrackEdges& edges, const ContactSurfaces& surfaces,
+                     const ConformPlan& plan);
 
 }  // namespace yadefrag

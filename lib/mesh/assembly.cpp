@@ -27,24 +27,11 @@ void appendTriangle(Triangles& triangles, const std::array<Vec2, 3>& x) {
   triangles.area.push_back(det / 2);
 }
 
-/// Keeps the items for which `keep(i)` is true, in order.
-template <class T, class Keep>
-void compact(std::vector<T>& items, Keep keep) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    if (keep(i)) items[kept++] = items[i];
-  items.resize(kept);
-}
-
 void removeTriangles(Model& model, Component& gone) {
-  Triangles& t = model.triangles;
   const std::uint32_t first = gone.firstTriangle;
   const std::uint32_t last = gone.lastTriangle;
-  t.nodes.erase(t.nodes.begin() + first, t.nodes.begin() + last);
-  t.inverseEdges.erase(t.inverseEdges.begin() + first, t.inverseEdges.begin() + last);
-  t.area.erase(t.area.begin() + first, t.area.begin() + last);
-  t.component.erase(t.component.begin() + first, t.component.begin() + last);
-  if (!t.material.empty()) t.material.erase(t.material.begin() + first, t.material.begin() + last);
+  keepRows(model.triangles.columns(), model.triangles.size(),
+           [&](std::size_t t) { return t < first || t >= last; });
   for (Component& c : model.components)
     if (c.firstTriangle >= last) {
       c.firstTriangle -= last - first;
@@ -97,15 +84,13 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
   Nodes& nodes = model.nodes;
   Triangles& triangles = model.triangles;
   const std::size_t firstNode = nodes.size();
-  const std::size_t count = firstNode + mesh.nodes.size();
 
-  nodes.position.insert(nodes.position.end(), mesh.nodes.begin(), mesh.nodes.end());
-  nodes.velocity.resize(count);
-  nodes.mass.resize(count);
-  nodes.held.resize(count, kFree);
-  nodes.component.resize(count, id);
-  if (!nodes.load.empty()) nodes.load.resize(count);
-  if (!nodes.motion.empty()) nodes.motion.resize(count), nodes.arm.resize(count);
+  static_assert(kFree == 0);  // as all values of new rows
+  resizeRows(nodes.columns(), firstNode + mesh.nodes.size());
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+    nodes.position[firstNode + i] = nodes.reference[firstNode + i] = mesh.nodes[i];
+    nodes.component[firstNode + i] = id;
+  }
 
   Component added = component;
   added.firstTriangle = static_cast<std::uint32_t>(triangles.size());
@@ -137,21 +122,14 @@ std::vector<NodeId> removeBody(Model& model, ComponentId component) {
 
 std::vector<NodeId> removeNodes(Model& model, const std::vector<std::uint8_t>& gone) {
   Nodes& nodes = model.nodes;
-  const auto stays = [&](std::size_t n) { return gone[nodes.component[n].value] == 0; };
   std::vector<NodeId> renumbered(nodes.size(), NodeId::none());
   std::size_t kept = 0;
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (stays(n)) renumbered[n] = NodeId(kept++);
+    if (gone[nodes.component[n].value] == 0) renumbered[n] = NodeId(kept++);
   for (auto& corners : model.triangles.nodes)
     for (NodeId& node : corners) node = renumbered[node.value];
-  compact(nodes.position, stays);
-  compact(nodes.velocity, stays);
-  compact(nodes.mass, stays);
-  compact(nodes.held, stays);
-  if (!nodes.load.empty()) compact(nodes.load, stays);
-  if (!nodes.motion.empty()) compact(nodes.motion, stays), compact(nodes.arm, stays);
-  // The array of components is last because the calls before it read it.
-  compact(nodes.component, [&](std::size_t n) { return renumbered[n] != NodeId::none(); });
+  keepRows(nodes.columns(), nodes.size(),
+           [&](std::size_t n) { return renumbered[n] != NodeId::none(); });
   return renumbered;
 }
 

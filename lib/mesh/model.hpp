@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/columns.hpp"
 #include "core/ids.hpp"
 #include "core/vec2.hpp"
 #include "mesh/body_material.hpp"
@@ -27,28 +28,32 @@ struct Nodes {
   /// By node: 1 + the index in Model::motions of the motion of a held node; 0: constant velocity.
   /// Empty if the scene has no motions.
   std::vector<std::uint32_t> motion;
-  std::vector<Vec2> arm;  ///< m, from the motion's centre at its begin; as long as `motion`
+  std::vector<Vec2> arm;        ///< m, from the motion's centre at its begin; as long as `motion`
+  std::vector<Vec2> reference;  ///< m, stress-free position
+
+  /// All arrays by node (core/columns.hpp), in the order of saved states.
+  template <class Self>
+  static auto columnsOf(Self& self) {
+    return [&self](auto visit) {
+      visit(Column{"position", Use::kMesh}, self.position);
+      visit(Column{"velocity", Use::kMesh}, self.velocity);
+      visit(Column{"mass", Use::kMesh}, self.mass);
+      visit(Column{"load", Use::kLoads, kOptional}, self.load);
+      visit(Column{"held", Use::kMesh}, self.held);
+      visit(Column{"nodeComponent", Use::kMesh}, self.component);
+      visit(Column{"motion", Use::kHeld, kOptional}, self.motion);
+      visit(Column{"arm", Use::kHeld, kOptional}, self.arm);
+      visit(Column{"reference", Use::kMesh}, self.reference);
+    };
+  }
+  auto columns() { return columnsOf(*this); }
+  auto columns() const { return columnsOf(*this); }
 
   [[nodiscard]] std::size_t size() const { return position.size(); }
-  void reserve(std::size_t count) {
-    position.reserve(count), velocity.reserve(count), mass.reserve(count);
-    held.reserve(count), component.reserve(count);
-    if (!load.empty()) load.reserve(count);
-    if (!motion.empty()) motion.reserve(count), arm.reserve(count);
-  }
-  /// Adds a node with the position and the motion of `node`; the caller sets its mass.
+  /// Adds a node with all values of `node`, but without a mass.
   NodeId duplicate(NodeId node) {
-    const std::uint32_t i = node.value;
-    position.push_back(Vec2(position[i]));
-    velocity.push_back(Vec2(velocity[i]));
-    mass.push_back(0);
-    held.push_back(std::uint8_t{held[i]});
-    component.push_back(ComponentId(component[i]));
-    if (!load.empty()) load.push_back(Vec2(load[i]));
-    if (!motion.empty()) {
-      motion.push_back(std::uint32_t{motion[i]});
-      arm.push_back(Vec2(arm[i]));
-    }
+    appendCopy(columns(), node.value);
+    mass.back() = 0;
     return NodeId(size() - 1);
   }
 };
@@ -61,6 +66,20 @@ struct Triangles {
   std::vector<ComponentId> component;
   /// Number of the triangle's material among its body's materials; empty if no body has several.
   std::vector<std::uint32_t> material;
+
+  /// All arrays by triangle, likewise.
+  template <class Self>
+  static auto columnsOf(Self& self) {
+    return [&self](auto visit) {
+      visit(Column{"triangles", Use::kMesh}, self.nodes);
+      visit(Column{"inverseEdges", Use::kMesh}, self.inverseEdges);
+      visit(Column{"area", Use::kMesh}, self.area);
+      visit(Column{"triangleComponent", Use::kMesh}, self.component);
+      visit(Column{"triangleMaterial", Use::kMaterials, kOptional}, self.material);
+    };
+  }
+  auto columns() { return columnsOf(*this); }
+  auto columns() const { return columnsOf(*this); }
 
   [[nodiscard]] std::size_t size() const { return nodes.size(); }
   /// A removed ("dropped") triangle keeps its number and its nodes, but takes part in nothing.

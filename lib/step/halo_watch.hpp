@@ -64,8 +64,7 @@ class HaloWatch : public SearchState {
     const Model& model;
     const ContactSurfaces& surfaces;
     const ContactSettings& settings;
-    std::span<const Vec2> reference;  ///< m, stress-free, by node
-    double finest;                    ///< m, shortest stress-free segment
+    double finest;  ///< m, shortest stress-free segment
     bool canTouch, hasRigid, holdsCracks;
     int threads;
     StageTimes* times;  ///< null: not measured

@@ -59,18 +59,14 @@ bool componentsAreValid(const Model& model) {
 
 bool motionsAreValid(const Model& model) {
   const Nodes& n = model.nodes;
-  return (n.motion.empty() || n.motion.size() == n.size()) && n.arm.size() == n.motion.size() &&
-         allFinite(n.arm) &&
+  return n.arm.size() == n.motion.size() && allFinite(n.arm) &&
          std::ranges::all_of(n.motion, [&](std::uint32_t m) { return m <= model.motions.size(); });
 }
 
 bool nodesAreValid(const World& world) {
   const Nodes& n = world.model.nodes;
-  const std::size_t count = n.size();
-  return n.velocity.size() == count && n.mass.size() == count && n.held.size() == count &&
-         n.component.size() == count && (n.load.empty() || n.load.size() == count) &&
-         world.reference.size() == count && allFinite(n.position) && allFinite(n.velocity) &&
-         allFinite(n.load) && allFinite(world.reference) &&
+  return haveLength(n.columns(), n.size()) && allFinite(n.position) && allFinite(n.velocity) &&
+         allFinite(n.load) && allFinite(n.reference) &&
          std::ranges::all_of(n.mass, [](double m) { return m >= 0 && std::isfinite(m); }) &&
          std::ranges::all_of(n.held, [](std::uint8_t h) { return h <= kHeldXY; }) &&
          allBelow(n.component, world.model.components.size()) && motionsAreValid(world.model);
@@ -96,9 +92,7 @@ bool triangleIsValid(const Model& model, std::size_t element) {
 bool trianglesAreValid(const Model& model) {
   const Triangles& t = model.triangles;
   const std::size_t count = t.size();
-  if (t.inverseEdges.size() != count || t.area.size() != count || t.component.size() != count ||
-      (!t.material.empty() && t.material.size() != count))
-    return false;
+  if (!haveLength(t.columns(), count)) return false;
   for (std::size_t e = 0; e < count; ++e)
     if (!triangleIsValid(model, e)) return false;
   return true;
@@ -107,9 +101,8 @@ bool trianglesAreValid(const Model& model) {
 bool segmentsAreValid(const World& world) {
   const ContactSurfaces& s = world.surfaces;
   const std::size_t count = s.segments();
-  return s.segmentNext.size() == count && areLinks(s.segmentNext, s.segmentPrev) &&
-         (s.segmentSmooth.empty() || s.segmentSmooth.size() == count) &&
-         s.segmentEntry.size() == count && allBelow(s.segmentEntry, s.entries()) &&
+  return haveLength(s.segmentColumns(), count) && areLinks(s.segmentNext, s.segmentPrev) &&
+         allBelow(s.segmentEntry, s.entries()) &&
          s.nodeSegment.size() <= world.model.nodes.size() && allBelowOrNone(s.nodeSegment, count) &&
          allBelow(s.segmentNode, s.nodeSegment.size());
 }
@@ -117,8 +110,7 @@ bool segmentsAreValid(const World& world) {
 bool entriesAreValid(const World& world) {
   const ContactSurfaces& s = world.surfaces;
   const std::size_t count = s.entries();
-  return s.next.size() == count && areLinks(s.next, s.prev) && s.piece.size() == count &&
-         s.loop.size() == count && s.component.size() == count &&
+  return haveLength(s.entryColumns(), count) && areLinks(s.next, s.prev) &&
          allBelow(s.entrySegment, s.segments()) &&
          allBelow(s.component, world.model.components.size()) &&
          std::ranges::all_of(s.piece, [](Piece p) { return p <= Piece::kGone; }) &&
@@ -159,8 +151,7 @@ bool searchIsValid(const World& world) {
 bool edgesAreValid(const World& world) {
   const CrackEdges& e = world.fracture.edges;
   const std::size_t count = e.size(), triangles = world.model.triangles.size();
-  if (e.corner.size() != count || e.strength.size() != count || e.fractureEnergy.size() != count ||
-      e.cracked.size() != count || e.ofElement.size() > triangles ||
+  if (!haveLength(e.columns(), count) || e.ofElement.size() > triangles ||
       e.ofNode.size() > world.model.nodes.size() || !allBelowOrNone(e.ofNode, triangles))
     return false;
   for (std::size_t i = 0; i < count; ++i)
@@ -183,8 +174,7 @@ bool fractureIsValid(const World& world) {
   const Cohesion& c = world.fracture.cohesion;
   return edgesAreValid(world) && world.fracture.started.size() <= world.fracture.edges.size() &&
          std::ranges::none_of(world.fracture.started, [](double t) { return std::isnan(t); }) &&
-         c.largest.size() == c.edge.size() && c.traction.size() == c.edge.size() &&
-         c.area.size() == c.edge.size() && allBelow(c.edge, world.fracture.edges.size());
+         haveLength(c.columns(), c.edge.size()) && allBelow(c.edge, world.fracture.edges.size());
 }
 
 }  // namespace

@@ -30,7 +30,6 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   component.element = spec.element;
   const std::size_t first = model.nodes.size();
   const ComponentId id = appendBody(model, mesh, component, spec.materials, spec.stress);
-  reference.insert(reference.end(), mesh.nodes.begin(), mesh.nodes.end());
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (!spec.displacement.empty()) model.nodes.position[first + i] += spec.displacement[i];
     if (!spec.velocity.empty()) model.nodes.velocity[first + i] = spec.velocity[i];
@@ -80,9 +79,6 @@ std::vector<EntryId> World::takeOff(const std::vector<std::uint8_t>& gone,
                                     std::span<const NodeId> renumbered) {
   search.invalidate();
   places_.clear();
-  for (std::size_t i = 0; i < renumbered.size(); ++i)
-    if (renumbered[i] != NodeId::none()) reference[renumbered[i].value] = reference[i];
-  reference.resize(model.nodes.size());
   removeLoads(gone);
   reactions.clear();
   std::vector<EntryId> entries = surfaces.removeComponents(gone);
@@ -123,7 +119,6 @@ void World::buildIfChanged() {
   if (fracture.isOn()) {
     fracture.prepare(model);
     const std::size_t room = model.nodes.position.capacity();
-    reference.reserve(room);
     surfaces.nodeSegment.reserve(room);
     dynamics_.reserve(room);
     contact.reserve(room);

@@ -187,7 +187,6 @@ class World {
   EnergyWatch watch;
   std::vector<std::string> warnings;  ///< all messages of the watch so far
   Dropped dropped;
-  std::vector<Vec2> reference;  ///< m, stress-free positions by node
   /// (N) Reactions in the last step, by node, in held directions: the force that the prescribed
   /// motion requires, besides weight, loads and all forces of bodies. Not saved; empty before the
   /// first step.

@@ -45,18 +45,17 @@ CommonSides World::conformedSides(std::span<const ComponentId> bodies, double re
   ConformPlan plan = planConforming(model, fracture.edges, bodies, reach);
   Model changed = model;
   CrackEdges edges = fracture.edges;
-  std::vector<Vec2> places = reference;
-  const DividedSides divided = conform(changed, edges, places, surfaces, plan);
+  const DividedSides divided = conform(changed, edges, surfaces, plan);
   found = commonSides(changed, edges, bodies, reach);
   accept(found);
   if (found.pairs.empty()) return found;
-  model = std::move(changed), fracture.edges = std::move(edges), reference = std::move(places);
+  model = std::move(changed), fracture.edges = std::move(edges);
   followDivision(divided);
   if (done != nullptr) *done = std::move(plan);
   return found;
 }
 
-/// Updates all arrays by node, segment or entry.
+/// Updates the boundary and all that refers to it.
 void World::followDivision(const DividedSides& divided) {
   const auto first = static_cast<std::uint32_t>(surfaces.segments());
   (void)relink(surfaces, divided.sides);
@@ -80,7 +79,7 @@ void World::followDivision(const DividedSides& divided) {
 }
 
 void World::bond(const CommonSides& sides, double strength, double energy) {
-  fracture.bond(model, sides.pairs, strength, energy, reference);
+  fracture.bond(model, sides.pairs, strength, energy);
   stableStep = 0;
   isBuilt_ = false;
 }

@@ -6,7 +6,7 @@
 
 namespace yadefrag {
 
-void World::measureFinest() { finest_ = shortestSegment(model, surfaces, reference); }
+void World::measureFinest() { finest_ = shortestSegment(model, surfaces, model.nodes.reference); }
 
 /// A single body that cannot touch itself needs neither search nor candidates.
 bool World::canTouch() const {
@@ -16,9 +16,17 @@ bool World::canTouch() const {
 }
 
 HaloWatch::Scene World::searchScene() {
-  return {model,   surfaces,           contactSettings, reference,
-          finest_, canTouch(),         hasRigid(),      !fracture.cohesion.edge.empty(),
-          threads, timesIfRequested(), dynamics_,       contact};
+  return {model,
+          surfaces,
+          contactSettings,
+          finest_,
+          canTouch(),
+          hasRigid(),
+          !fracture.cohesion.edge.empty(),
+          threads,
+          timesIfRequested(),
+          dynamics_,
+          contact};
 }
 
 void World::correctContact(const StepLength& length) {

@@ -58,7 +58,7 @@ void World::takeOut(std::span<const ElementId> triangles) {
     ledger.dropped += mass / 2 * dot(velocity, velocity);
     mass = 0;
     velocity = {};
-    model.nodes.position[node.value] = reference[node.value];
+    model.nodes.position[node.value] = model.nodes.reference[node.value];
     model.nodes.held[node.value] = kHeldXY;
   }
   for (const ElementId element : triangles) model.triangles.area[element.value] = 0;

@@ -6,19 +6,15 @@ namespace yadefrag {
 
 Footprint World::footprint() const {
   Footprint sum;
-  const Nodes& nodes = model.nodes;
-  const Triangles& triangles = model.triangles;
-  sum.add(Use::kMesh, nodes.position, nodes.velocity, nodes.mass, nodes.held, nodes.component,
-          triangles.nodes, triangles.inverseEdges, triangles.area, triangles.component,
-          model.components, reference);
-  sum.add(Use::kMaterials, triangles.material, model.materials);
-  sum.add(Use::kLoads, nodes.load, outerForces, allOuterForces_, pressures, absorbing.segments);
-  sum.add(Use::kHeld, nodes.motion, nodes.arm, model.motions, givenVelocities, undo_.driven,
-          reactions);
-  const ContactSurfaces& s = surfaces;
-  sum.add(Use::kSurfaces, s.segmentNode, s.segmentNext, s.segmentPrev, s.segmentEntry,
-          s.nodeSegment, s.entrySegment, s.piece, s.next, s.prev, s.loop, s.component);
-  sum.add(Use::kSmooth, s.segmentSmooth);
+  addTo(sum, model.nodes.columns());
+  addTo(sum, model.triangles.columns());
+  addTo(sum, surfaces.segmentColumns());
+  addTo(sum, surfaces.entryColumns());
+  sum.add(Use::kMesh, model.components);
+  sum.add(Use::kMaterials, model.materials);
+  sum.add(Use::kLoads, outerForces, allOuterForces_, pressures, absorbing.segments);
+  sum.add(Use::kHeld, model.motions, givenVelocities, undo_.driven, reactions);
+  sum.add(Use::kSurfaces, surfaces.nodeSegment);
   search.addTo(sum);
   sum.add(Use::kFracture, split_.changed, split_.originals, split_.sides, split_.onSurface);
   sum.add(Use::kCohesion, surfaceForces_);

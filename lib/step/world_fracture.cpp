@@ -35,7 +35,7 @@ bool World::crack() {
     watch.split += gained;
     followSplit();
   }
-  fracture.cohere(model, reference);
+  fracture.cohere(model);
   spreadPressures();
   return opened;
 }
@@ -44,15 +44,12 @@ bool World::crack() {
 void World::openJoints(std::span<const EdgeId> joints) {
   if (joints.empty()) return;
   fracture.open(model, surfaces, joints, split_);
-  for (const NodeId original : split_.originals)
-    reference.push_back(Vec2(reference[original.value]));
   (void)relink(surfaces, split_.sides);
 }
 
-/// Updates all arrays by node, triangle or entry.
+/// Updates all that is derived from nodes, triangles and the boundary.
 void World::followSplit() {
-  for (const NodeId original : split_.originals)
-    reference.push_back(Vec2(reference[original.value]));
+  const std::vector<Vec2>& reference = model.nodes.reference;
   const std::size_t count = model.nodes.size();
   contact.resize(count);
   dynamics_.follow(model, split_.changed, split_.originals);
@@ -67,7 +64,7 @@ void World::followSplit() {
   // may be in the halo of a new one.
   search.addCandidatesAround(searchScene(),
                              entriesAround(surfaces, contact.candidates, split_.sides));
-  assert(reference.size() == count && surfaces.nodeSegment.size() == count);
+  assert(haveLength(model.nodes.columns(), count) && surfaces.nodeSegment.size() == count);
   inheritTouches(contact.touches, surfaces, split_.originals, count);
   contact.allowOverlaps(surfaces, model.nodes.position, changed);
 }

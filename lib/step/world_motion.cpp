@@ -87,7 +87,7 @@ void World::requireResolvedMotion(double dt) {
   // The distance of two nodes decreases by at most twice the largest displacement.
   if (2 * search.largestMove() <= tolerance::kMostMotion * finest_) return;
   const PieceGeometry before(surfaces, dynamics_.previousPosition()),
-      now(surfaces, model.nodes.position), free(surfaces, reference);
+      now(surfaces, model.nodes.position), free(surfaces, model.nodes.reference);
   const Candidates& candidates = contact.candidates;
   double most = 0;
   EntryId fastest;

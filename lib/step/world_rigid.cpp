@@ -44,7 +44,6 @@ ComponentId World::appendRigid(const RigidSpec& spec) {
   outline.nodes = spec.shape.nodes;
   const std::size_t first = model.nodes.size();
   const ComponentId id = appendBody(model, outline, component);
-  reference.insert(reference.end(), outline.nodes.begin(), outline.nodes.end());
   const std::uint32_t motion = rigidMotion();
   for (std::size_t n = first; n < model.nodes.size(); ++n) {
     model.nodes.mass[n] = tolerance::kRigidMass;
@@ -107,8 +106,9 @@ void World::replaceRigid(std::span<const RigidSpec> specs, std::span<const std::
 }
 
 void World::slideRigid(std::span<const Vec2> places) {
+  Nodes& nodes = model.nodes;
   for (std::size_t i = 0; i < places.size(); ++i)
-    model.nodes.position[rigidNodes_[i].value] = reference[rigidNodes_[i].value] = places[i];
+    nodes.position[rigidNodes_[i].value] = nodes.reference[rigidNodes_[i].value] = places[i];
   places_.clear();
   search.makeVoid();
 }

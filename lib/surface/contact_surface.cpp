@@ -18,14 +18,6 @@ std::vector<IdType> compactNumbers(std::size_t count, Stays stays) {
   return numbers;
 }
 
-template <class T, class IdType>
-void keepRows(std::vector<T>& column, const std::vector<IdType>& numbers) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < column.size(); ++i)
-    if (numbers[i] != IdType::none()) column[kept++] = column[i];
-  column.resize(kept);
-}
-
 template <class IdType>
 void translate(std::vector<IdType>& links, const std::vector<IdType>& numbers) {
   for (IdType& link : links) link = numbers[link.value];
@@ -40,18 +32,19 @@ void appendSegments(ContactSurfaces& s, std::span<const NodeId> nodes,
   const std::size_t count = nodes.size();
   const auto last = std::max_element(nodes.begin(), nodes.end());
   if (last->value >= s.nodeSegment.size()) s.nodeSegment.resize(last->value + 1, SegmentId::none());
+  resizeRows(s.segmentColumns(), first + count);
   for (std::size_t i = 0; i < count; ++i) {
     assert(s.nodeSegment[nodes[i].value] == SegmentId::none());
     s.nodeSegment[nodes[i].value] = SegmentId(first + i);
-    s.segmentNode.push_back(nodes[i]);
-    s.segmentNext.push_back(SegmentId(first + (i + 1) % count));
-    s.segmentPrev.push_back(SegmentId(first + (i + count - 1) % count));
-    s.segmentEntry.push_back(EntryId::none());
+    s.segmentNode[first + i] = nodes[i];
+    s.segmentNext[first + i] = SegmentId(first + (i + 1) % count);
+    s.segmentPrev[first + i] = SegmentId(first + (i + count - 1) % count);
+    s.segmentEntry[first + i] = EntryId::none();
   }
   const auto isSmooth = [](std::uint8_t flag) { return flag != 0; };
   if (!s.anySmooth() && std::ranges::none_of(smooth, isSmooth)) return;
-  s.segmentSmooth.resize(first, 0);
-  for (const std::uint8_t flag : smooth) s.segmentSmooth.push_back(isSmooth(flag) ? 1 : 0);
+  s.segmentSmooth.resize(first + count);
+  for (std::size_t i = 0; i < count; ++i) s.segmentSmooth[first + i] = isSmooth(smooth[i]) ? 1 : 0;
 }
 
 }  // namespace
@@ -80,12 +73,13 @@ std::uint32_t ContactSurfaces::addLoop(std::span<const NodeId> nodes,
   }
 
   const std::size_t count = entries() - firstEntry;
+  resizeRows(entryColumns(), entries());
   for (std::size_t i = 0; i < count; ++i) {
-    next.push_back(EntryId(firstEntry + (i + 1) % count));
-    prev.push_back(EntryId(firstEntry + (i + count - 1) % count));
+    next[firstEntry + i] = EntryId(firstEntry + (i + 1) % count);
+    prev[firstEntry + i] = EntryId(firstEntry + (i + count - 1) % count);
+    loop[firstEntry + i] = number;
+    component[firstEntry + i] = owner;
   }
-  loop.resize(entries(), number);
-  component.resize(entries(), owner);
   return number;
 }
 
@@ -105,17 +99,10 @@ std::vector<EntryId> ContactSurfaces::removeComponents(const std::vector<std::ui
 
   for (SegmentId& segment : nodeSegment)
     if (segment != SegmentId::none()) segment = segmentNumbers[segment.value];
-  keepRows(segmentNode, segmentNumbers);
-  keepRows(segmentNext, segmentNumbers);
-  keepRows(segmentPrev, segmentNumbers);
-  if (anySmooth()) keepRows(segmentSmooth, segmentNumbers);
-  keepRows(segmentEntry, segmentNumbers);
-  keepRows(entrySegment, entryNumbers);
-  keepRows(piece, entryNumbers);
-  keepRows(next, entryNumbers);
-  keepRows(prev, entryNumbers);
-  keepRows(loop, entryNumbers);
-  keepRows(component, entryNumbers);
+  keepRows(segmentColumns(), segments(),
+           [&](std::size_t s) { return segmentNumbers[s] != SegmentId::none(); });
+  keepRows(entryColumns(), entries(),
+           [&](std::size_t e) { return entryNumbers[e] != EntryId::none(); });
 
   translate(segmentNext, segmentNumbers);
   translate(segmentPrev, segmentNumbers);

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "core/columns.hpp"
 #include "core/ids.hpp"
 #include "core/vec2.hpp"
 
@@ -70,6 +71,35 @@ class ContactSurfaces {
   /// `segmentNext`.
   std::vector<std::uint32_t> loop;
   std::vector<ComponentId> component;
+
+  /// All arrays by segment (core/columns.hpp), in the order of saved states.
+  template <class Self>
+  static auto segmentColumnsOf(Self& self) {
+    return [&self](auto visit) {
+      visit(Column{"segmentNode", Use::kSurfaces}, self.segmentNode);
+      visit(Column{"segmentNext", Use::kSurfaces}, self.segmentNext);
+      visit(Column{"segmentPrev", Use::kSurfaces}, self.segmentPrev);
+      visit(Column{"segmentSmooth", Use::kSmooth, kOptional}, self.segmentSmooth);
+      visit(Column{"segmentEntry", Use::kSurfaces}, self.segmentEntry);
+    };
+  }
+  auto segmentColumns() { return segmentColumnsOf(*this); }
+  auto segmentColumns() const { return segmentColumnsOf(*this); }
+
+  /// All arrays by entry, likewise.
+  template <class Self>
+  static auto entryColumnsOf(Self& self) {
+    return [&self](auto visit) {
+      visit(Column{"entrySegment", Use::kSurfaces}, self.entrySegment);
+      visit(Column{"piece", Use::kSurfaces}, self.piece);
+      visit(Column{"next", Use::kSurfaces}, self.next);
+      visit(Column{"prev", Use::kSurfaces}, self.prev);
+      visit(Column{"loop", Use::kSurfaces}, self.loop);
+      visit(Column{"entryComponent", Use::kSurfaces}, self.component);
+    };
+  }
+  auto entryColumns() { return entryColumnsOf(*this); }
+  auto entryColumns() const { return entryColumnsOf(*this); }
 
   [[nodiscard]] bool anySmooth() const { return !segmentSmooth.empty(); }
   [[nodiscard]] bool isSmooth(SegmentId segment) const {

@@ -61,11 +61,10 @@ class Relinking {
   }
 
   void appendSegments(std::size_t count) {
-    s_.segmentNode.resize(count);
     s_.segmentNext.resize(count, SegmentId::none());
     s_.segmentPrev.resize(count, SegmentId::none());
-    if (s_.anySmooth()) s_.segmentSmooth.resize(count, 0);
     s_.segmentEntry.resize(count, EntryId::none());
+    resizeRows(s_.segmentColumns(), count);
     std::size_t nodes = s_.nodeSegment.size();
     for (const SurfaceSide& side : sides_)
       nodes = std::max<std::size_t>(nodes, std::max(side.first, side.last).value + std::size_t{1});
@@ -96,12 +95,12 @@ class Relinking {
 
   EntryId append(SegmentId segment, Piece piece, ComponentId component, std::uint32_t loop) {
     const EntryId entry(s_.entries());
-    s_.entrySegment.push_back(segment);
-    s_.piece.push_back(piece);
-    s_.next.push_back(entry);
-    s_.prev.push_back(entry);
-    s_.loop.push_back(loop);
-    s_.component.push_back(component);
+    resizeRows(s_.entryColumns(), entry.value + std::size_t{1});
+    s_.entrySegment.back() = segment;
+    s_.piece.back() = piece;
+    s_.next.back() = s_.prev.back() = entry;
+    s_.loop.back() = loop;
+    s_.component.back() = component;
     s_.segmentEntry[segment.value] = entry;
     return entry;
   }

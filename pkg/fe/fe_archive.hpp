@@ -9,9 +9,12 @@
 #include <boost/serialization/nvp.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <functional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -28,6 +31,26 @@ inline constexpr bool kIgnoreChecksum = true;
 #else
 inline constexpr bool kIgnoreChecksum = false;
 #endif
+
+/// The numbers of which a value consists.
+template <class T>
+struct ScalarOf {
+  using Type = T;
+};
+template <>
+struct ScalarOf<Vec2> {
+  using Type = double;
+};
+template <>
+struct ScalarOf<Piece> {
+  using Type = std::uint8_t;
+};
+template <class Tag>
+struct ScalarOf<Id<Tag>> {
+  using Type = std::uint32_t;
+};
+template <class T, std::size_t kCount>
+struct ScalarOf<std::array<T, kCount>> : ScalarOf<T> {};
 
 template <class Archive>
 class WorldArchive {
@@ -78,9 +101,10 @@ class WorldArchive {
   }
 
   void state(World& world) {
-    nodes(world.model.nodes);
+    const auto isLate = [](std::string_view name) { return name == "reference"; };
+    table(world.model.nodes.columns(), std::not_fn(isLate));
     motions(world.model.motions);
-    triangles(world.model.triangles);
+    table(world.model.triangles.columns());
     components(world.model.components);
     materials(world.model.materials);
     surfaces(world.surfaces);
@@ -97,7 +121,7 @@ class WorldArchive {
     value("droppedMass", dropped.mass), value("dropped", dropped.count);
     value("droppedMomentumX", dropped.momentum.x), value("droppedMomentumY", dropped.momentum.y);
     watch(world);
-    column<double>("reference", world.reference);
+    table(world.model.nodes.columns(), isLate);
     value("steps", world.steps), value("time", world.time), value("lastDt", world.lastDt);
     value("stableStep", world.stableStep);
     value("stableLinearViscosity", world.stableViscosity.linear);
@@ -190,12 +214,17 @@ class WorldArchive {
     for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i];
   }
 
-  void nodes(Nodes& nodes) {
-    column<double>("position", nodes.position), column<double>("velocity", nodes.velocity);
-    column<double>("mass", nodes.mass), column<double>("load", nodes.load);
-    column<std::uint8_t>("held", nodes.held);
-    column<std::uint32_t>("nodeComponent", nodes.component);
-    value("motion", nodes.motion), column<double>("arm", nodes.arm);
+  /// The columns of a table (core/columns.hpp) whose names are `wanted`.
+  template <class Columns, class Wanted>
+  void table(const Columns& columns, Wanted wanted) {
+    columns([&]<class Element>(const Column& of, std::vector<Element>& array) {
+      if (wanted(std::string_view(of.name)))
+        column<typename ScalarOf<Element>::Type>(of.name, array);
+    });
+  }
+  template <class Columns>
+  void table(const Columns& columns) {
+    table(columns, [](std::string_view) { return true; });
   }
 
   void motions(std::vector<Motion>& motions) {
@@ -203,13 +232,6 @@ class WorldArchive {
     value("motionCounts", flat.counts), value("motionNumbers", flat.numbers);
     if constexpr (Archive::is_loading::value)
       if (!unflatten(flat, motions)) refuse("its motions are invalid");
-  }
-
-  void triangles(Triangles& triangles) {
-    column<std::uint32_t>("triangles", triangles.nodes);
-    column<double>("inverseEdges", triangles.inverseEdges), column<double>("area", triangles.area);
-    column<std::uint32_t>("triangleComponent", triangles.component);
-    column<std::uint32_t>("triangleMaterial", triangles.material);
   }
 
   void components(std::vector<Component>& rows) {
@@ -288,14 +310,9 @@ class WorldArchive {
   }
 
   void surfaces(ContactSurfaces& s) {
-    using Index = std::uint32_t;
-    column<Index>("segmentNode", s.segmentNode);
-    column<Index>("segmentNext", s.segmentNext), column<Index>("segmentPrev", s.segmentPrev);
-    column<std::uint8_t>("segmentSmooth", s.segmentSmooth);
-    column<Index>("segmentEntry", s.segmentEntry), column<Index>("nodeSegment", s.nodeSegment);
-    column<Index>("entrySegment", s.entrySegment), column<std::uint8_t>("piece", s.piece);
-    column<Index>("next", s.next), column<Index>("prev", s.prev);
-    column<Index>("loop", s.loop), column<Index>("entryComponent", s.component);
+    table(s.segmentColumns());
+    column<std::uint32_t>("nodeSegment", s.nodeSegment);
+    table(s.entryColumns());
   }
 
   void loads(World& world) {
@@ -358,17 +375,14 @@ class WorldArchive {
   void fracture(Fracture& fracture) {
     using Index = std::uint32_t;
     CrackEdges& edges = fracture.edges;
-    column<Index>("crackElement", edges.element);
-    column<std::uint8_t>("crackCorner", edges.corner);
-    column<double>("crackStrength", edges.strength);
+    const auto isLate = [](std::string_view name) {
+      return name == "crackEnergy" || name == "cracked";
+    };
+    table(edges.columns(), std::not_fn(isLate));
     value("crackStart", fracture.started);
-    column<double>("crackEnergy", edges.fractureEnergy),
-        column<std::uint8_t>("cracked", edges.cracked);
+    table(edges.columns(), isLate);
     column<Index>("elementEdges", edges.ofElement), column<Index>("nodeElement", edges.ofNode);
-    column<Index>("cohesiveEdge", fracture.cohesion.edge);
-    column<double>("cohesiveLargest", fracture.cohesion.largest);
-    column<double>("cohesiveTraction", fracture.cohesion.traction);
-    column<double>("cohesiveArea", fracture.cohesion.area);
+    table(fracture.cohesion.columns());
     std::uint64_t numCracks = fracture.numCracks();
     value("numCracks", numCracks);
     fracture.restore(numCracks);

@@ -89,7 +89,8 @@ py::object strainArrayOf(const FESolver& solver) {
 
 py::object displacementsOf(const FESolver& solver) {
   std::vector<Vec2> moved = solver.world().model.nodes.position;
-  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= solver.world().reference[i];
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    moved[i] -= solver.world().model.nodes.reference[i];
   return nodeArray(solver, moved);
 }
 
@@ -113,7 +114,7 @@ py::object fragmentOf(const FESolver& solver) {
 }
 
 py::object referenceOf(const FESolver& solver) {
-  return nodeArray(solver, solver.world().reference);
+  return nodeArray(solver, solver.world().model.nodes.reference);
 }
 
 /// True for a segment of a rigid boundary or of a removed fragment.

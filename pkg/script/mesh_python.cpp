@@ -122,7 +122,7 @@ SharedMesh meshOfRectangle(double left, double bottom, double right, double top,
 py::dict meshQualityOf(const FESolver& solver, int component) {
   const World& world = solver.world();
   const Component& body = world.model.components[component];
-  const TriangleMesh mesh = stressFreeMesh(world.model, world.reference, ComponentId(component));
+  const TriangleMesh mesh = stressFreeMesh(world.model, ComponentId(component));
   const MeshQuality quality = meshQuality(mesh.nodes, mesh.triangles);
   const auto byDirection = [](const auto& values) {
     return toArray(std::vector<double>(values.begin(), values.end()));
@@ -145,8 +145,8 @@ py::dict meshQualityOf(const FESolver& solver, int component) {
 std::string costlyStepWarningOf(const FESolver& solver, int component, double size) {
   const World& world = solver.world();
   const ComponentId id(component);
-  return costlyStepWarning(stressFreeMesh(world.model, world.reference, id),
-                           world.model.components[component], size);
+  return costlyStepWarning(stressFreeMesh(world.model, id), world.model.components[component],
+                           size);
 }
 
 /// The ratio of these steps for another mesh of the same material.

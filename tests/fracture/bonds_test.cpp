@@ -79,8 +79,8 @@ std::vector<std::array<double, 2>> pulseAbove(const std::vector<TriangleMesh>& p
   const World world = pulseIn(parts, 2e-7);
   std::vector<std::array<double, 2>> result;
   for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
-    if (world.reference[n].y > kHeight - 1e-9)
-      result.push_back({world.reference[n].x, world.model.nodes.velocity[n].x});
+    if (world.model.nodes.reference[n].y > kHeight - 1e-9)
+      result.push_back({world.model.nodes.reference[n].x, world.model.nodes.velocity[n].x});
   std::sort(result.begin(), result.end());
   return result;
 }

@@ -57,8 +57,8 @@ void lookAtCrack(const World& world, Split& split) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (edges.cracked[i] == 0) continue;
     const Side side = edges.side(EdgeId(i), 0);
-    const Vec2 a = world.reference[firstNode(world.model, side).value];
-    const Vec2 b = world.reference[lastNode(world.model, side).value];
+    const Vec2 a = world.model.nodes.reference[firstNode(world.model, side).value];
+    const Vec2 b = world.model.nodes.reference[lastNode(world.model, side).value];
     split.at = (.5 / kRadius) * (a + b);
     split.turned = std::atan2(std::abs((b - a).x), std::abs((b - a).y));
     return;

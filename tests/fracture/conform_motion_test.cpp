@@ -26,8 +26,8 @@ double pulseErrorIn(const std::vector<TriangleMesh>& parts) {
   const double run = std::sqrt(kMaterial.young / kMaterial.density) * (world.time - dt / 2);
   double worst = 0;
   for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
-    worst = std::max(worst,
-                     std::abs(world.model.nodes.velocity[n].x - pulse(world.reference[n].x - run)));
+    worst = std::max(worst, std::abs(world.model.nodes.velocity[n].x -
+                                     pulse(world.model.nodes.reference[n].x - run)));
   return worst;
 }
 

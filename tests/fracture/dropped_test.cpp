@@ -70,7 +70,7 @@ void expectInert(const World& world) {
   const Model& model = world.model;
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
     if (model.nodes.mass[n] == 0) {
-      EXPECT_EQ(model.nodes.position[n], world.reference[n]);
+      EXPECT_EQ(model.nodes.position[n], world.model.nodes.reference[n]);
       EXPECT_EQ(model.nodes.velocity[n], Vec2{});
     }
   const auto isGone = [&](EntryId entry) { return world.surfaces.isGone(entry); };
@@ -199,7 +199,7 @@ TEST(DropFragmentsOf, WholeAndHeldBodiesStay) {
   EXPECT_GT(held.dropped.count, 5U);
   std::size_t bottom = 0;
   for (std::size_t n = 0; n < held.model.nodes.size(); ++n) {
-    if (held.reference[n].y > -.01 + 1e-9) continue;
+    if (held.model.nodes.reference[n].y > -.01 + 1e-9) continue;
     ++bottom;
     EXPECT_GT(held.model.nodes.mass[n], 0);
   }

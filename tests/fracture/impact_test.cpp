@@ -97,7 +97,8 @@ TEST(Impact, NewFacesTouchInTheNextStep) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Side side = edges.side(EdgeId(i), 0);
     for (const NodeId node : {firstNode(world.model, side), lastNode(world.model, side)})
-      if (std::abs(world.reference[node.value].x - world.reference[node.value].y) > 1e-9)
+      if (std::abs(world.model.nodes.reference[node.value].x -
+                   world.model.nodes.reference[node.value].y) > 1e-9)
         edges.strength[i] = INFINITY;
   }
   const double dt = .8 * world.criticalTimeStep();

@@ -115,7 +115,7 @@ TEST(Joints, OpenJointsCutABodyBeforeTheFirstStep) {
   World world;
   const ComponentId body = world.addBody(mesh, spec);
   EXPECT_EQ(world.model.nodes.size(), mesh.nodes.size() + mesh.joints.size() + 1);
-  EXPECT_EQ(world.reference.size(), world.model.nodes.size());
+  EXPECT_EQ(world.model.nodes.reference.size(), world.model.nodes.size());
   EXPECT_NEAR(mass(world, body), 2, 1e-12);
   EXPECT_NEAR(totalEnergy(world), .01, 1e-12);
   EXPECT_EQ(world.fracture.numCracks(), 0);
@@ -125,7 +125,8 @@ TEST(Joints, OpenJointsCutABodyBeforeTheFirstStep) {
     for (const NodeId node : world.model.triangles.nodes[e]) {
       const auto& [a, b, c] = world.model.triangles.nodes[e];
       const double middle =
-          (world.reference[a.value].x + world.reference[b.value].x + world.reference[c.value].x) /
+          (world.model.nodes.reference[a.value].x + world.model.nodes.reference[b.value].x +
+           world.model.nodes.reference[c.value].x) /
           3;
       if (middle < .8) left.push_back(node);
     }
@@ -182,7 +183,7 @@ Broken breakBar(double jointStrength, double jointEnergy, double size) {
     const Side side = edges.side(EdgeId(i), 0);
     for (const NodeId node : {firstNode(world.model, side), lastNode(world.model, side)})
       broken.farthest =
-          std::max(broken.farthest, std::abs(world.reference[node.value].x - kSection));
+          std::max(broken.farthest, std::abs(world.model.nodes.reference[node.value].x - kSection));
   }
   broken.spent = world.ledger.fracture;
   broken.cracks = world.fracture.numCracks();

@@ -59,8 +59,8 @@ struct Trial {
 /// Nodes at the height `y` (m) of the stress-free shape.
 inline std::vector<NodeId> nodesAtHeight(const World& world, double y) {
   std::vector<NodeId> found;
-  for (std::size_t n = 0; n < world.reference.size(); ++n)
-    if (std::abs(world.reference[n].y - y) < 1e-9) found.emplace_back(n);
+  for (std::size_t n = 0; n < world.model.nodes.reference.size(); ++n)
+    if (std::abs(world.model.nodes.reference[n].y - y) < 1e-9) found.emplace_back(n);
   return found;
 }
 
@@ -70,8 +70,8 @@ inline Vec2 firstCrack(const World& world) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (edges.cracked[i] == 0) continue;
     const Side side = edges.side(EdgeId(i), 0);
-    return .5 * (world.reference[firstNode(world.model, side).value] +
-                 world.reference[lastNode(world.model, side).value]);
+    return .5 * (world.model.nodes.reference[firstNode(world.model, side).value] +
+                 world.model.nodes.reference[lastNode(world.model, side).value]);
   }
   return {NAN, NAN};
 }

@@ -147,8 +147,9 @@ void checkInterface(std::vector<BodyMaterial> materials) {
   const CrackEdges& edges = world.fracture.edges;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (edges.cracked[i] == 0) continue;
-    EXPECT_NEAR(world.reference[firstNode(world.model, edges.side(EdgeId(i), 0)).value].x,
-                kLength / 2, 1e-9);
+    EXPECT_NEAR(
+        world.model.nodes.reference[firstNode(world.model, edges.side(EdgeId(i), 0)).value].x,
+        kLength / 2, 1e-9);
   }
   // To what steps make of the law's work.
   EXPECT_NEAR(world.ledger.fracture / (kEnergy * kHeight), 1, .01);

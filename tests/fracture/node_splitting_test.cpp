@@ -18,8 +18,6 @@ namespace {
 void crackEdges(World& world, std::vector<EdgeId> batch, SplitResult& result) {
   std::sort(batch.begin(), batch.end());
   splitNodes(world.model, world.fracture.edges, world.surfaces, batch, result);
-  for (const NodeId original : result.originals)
-    world.reference.push_back(Vec2(world.reference[original.value]));
   world.contact.resize(world.model.nodes.size());
   relink(world.surfaces, result.sides);
 }
@@ -44,7 +42,7 @@ void checkReport(const Model& model, const ContactSurfaces& surfaces, const Worl
                 nodes.velocity[first + i] == model.nodes.velocity[original] &&
                 nodes.held[first + i] == model.nodes.held[original] &&
                 nodes.component[first + i] == model.nodes.component[original]);
-    ASSERT_EQ(after.reference[first + i], after.reference[original]);
+    ASSERT_EQ(after.model.nodes.reference[first + i], after.model.nodes.reference[original]);
   }
   std::vector<ElementId> changed;
   for (std::size_t e = 0; e < model.triangles.size(); ++e)
@@ -87,7 +85,7 @@ void removeOne(World& world, RandomCracks& random) {
   const std::vector<EdgeRecord> expected = recordsWithout(world, gone);
   world.removeBody(gone);
   ASSERT_EQ(recordsWithout(world, gone), expected);
-  ASSERT_EQ(world.reference.size(), world.model.nodes.size());
+  ASSERT_EQ(world.model.nodes.reference.size(), world.model.nodes.size());
   checkAll(world);
 }
 

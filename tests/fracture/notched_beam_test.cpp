@@ -53,8 +53,8 @@ SizeField sizes(double size) {
 }
 
 NodeId nodeAt(const World& world, Vec2 place) {
-  for (std::size_t n = 0; n < world.reference.size(); ++n)
-    if (norm(world.reference[n] - place) < 1e-9) return NodeId(n);
+  for (std::size_t n = 0; n < world.model.nodes.reference.size(); ++n)
+    if (norm(world.model.nodes.reference[n] - place) < 1e-9) return NodeId(n);
   ADD_FAILURE() << "no node at the place";
   return NodeId::none();
 }
@@ -63,7 +63,8 @@ NodeId nodeAt(const World& world, Vec2 place) {
 void crackOnlyLigament(World& world) {
   CrackEdges& edges = world.fracture.edges;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Vec2 at = world.reference[firstNode(world.model, edges.side(EdgeId(i), 0)).value];
+    const Vec2 at =
+        world.model.nodes.reference[firstNode(world.model, edges.side(EdgeId(i), 0)).value];
     if (std::abs(at.x) > .3 * kDepth || at.y > .9 * kDepth) edges.strength[i] = INFINITY;
   }
 }

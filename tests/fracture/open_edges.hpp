@@ -20,8 +20,8 @@ inline std::vector<OpenEdge> openEdges(const World& world) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (edges.cracked[i] == 0 || std::ranges::find(holding, EdgeId(i)) != holding.end()) continue;
     const Side side = edges.side(EdgeId(i), 0);
-    open.push_back({world.reference[firstNode(world.model, side).value],
-                    world.reference[lastNode(world.model, side).value]});
+    open.push_back({world.model.nodes.reference[firstNode(world.model, side).value],
+                    world.model.nodes.reference[lastNode(world.model, side).value]});
   }
   return open;
 }

@@ -131,8 +131,8 @@ class Overlaps {
 inline double shortestSide(const World& world) {
   double least = INFINITY;
   for (const Side side : boundarySides(world.model))
-    least = std::min(least, norm(world.reference[lastNode(world.model, side).value] -
-                                 world.reference[firstNode(world.model, side).value]));
+    least = std::min(least, norm(world.model.nodes.reference[lastNode(world.model, side).value] -
+                                 world.model.nodes.reference[firstNode(world.model, side).value]));
   return least;
 }
 

@@ -72,7 +72,7 @@ double farthestCrack(const World& world) {
     if (edges.cracked[i] == 0) continue;
     const Side side = edges.side(EdgeId(i), 0);
     for (const NodeId node : {firstNode(world.model, side), lastNode(world.model, side)})
-      farthest = std::max(farthest, fromSection(world.reference[node.value]));
+      farthest = std::max(farthest, fromSection(world.model.nodes.reference[node.value]));
   }
   return farthest;
 }

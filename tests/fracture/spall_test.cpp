@@ -79,8 +79,8 @@ Spall strike(double size, double flyer, double relative, double share = 0) {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       if (edges.cracked[i] == 0) continue;
       const Side side = edges.side(EdgeId(i), 0);
-      sum += world.reference[firstNode(world.model, side).value].x / 2 +
-             world.reference[lastNode(world.model, side).value].x / 2;
+      sum += world.model.nodes.reference[firstNode(world.model, side).value].x / 2 +
+             world.model.nodes.reference[lastNode(world.model, side).value].x / 2;
       ++count;
     }
     spall.firstCrack = kPlate - sum / count;

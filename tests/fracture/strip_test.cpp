@@ -89,7 +89,8 @@ void crackOnlyMiddle(World& world, double size) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Side side = edges.side(EdgeId(i), 0);
     for (const NodeId node : {firstNode(world.model, side), lastNode(world.model, side)})
-      if (std::abs(world.reference[node.value].y) > size / 8) edges.strength[i] = INFINITY;
+      if (std::abs(world.model.nodes.reference[node.value].y) > size / 8)
+        edges.strength[i] = INFINITY;
   }
 }
 

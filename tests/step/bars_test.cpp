@@ -136,7 +136,8 @@ double sectionStress(const World& world, ComponentId of, double at) {
   for (std::size_t e = 0; e < all.size(); ++e) {
     if (world.model.triangles.component[e] != of) continue;
     double x = 0;
-    for (const NodeId node : world.model.triangles.nodes[e]) x += world.reference[node.value].x / 3;
+    for (const NodeId node : world.model.triangles.nodes[e])
+      x += world.model.nodes.reference[node.value].x / 3;
     if (std::abs(x - at) > .002) continue;
     sum -= all[e][0] * world.model.triangles.area[e];
     area += world.model.triangles.area[e];

@@ -72,10 +72,10 @@ void smoothNear(BodySpec& spec, const TriangleMesh& mesh, double reach) {
 /// An even load on the flat top.
 void loadTop(World& world, ComponentId cylinder, const Hertz& hertz) {
   std::vector<std::pair<double, std::size_t>> row;
-  for (std::size_t i = 0; i < world.reference.size(); ++i)
+  for (std::size_t i = 0; i < world.model.nodes.reference.size(); ++i)
     if (world.model.nodes.component[i] == cylinder &&
-        world.reference[i].y > hertz.radius * (1 - 1e-9))
-      row.emplace_back(world.reference[i].x, i);
+        world.model.nodes.reference[i].y > hertz.radius * (1 - 1e-9))
+      row.emplace_back(world.model.nodes.reference[i].x, i);
   std::sort(row.begin(), row.end());
   world.model.nodes.load.assign(world.model.nodes.size(), {});
   for (std::size_t k = 0; k + 1 < row.size(); ++k)

@@ -51,9 +51,10 @@ TriangleMesh block(double bottom, int n, bool jitter, std::mt19937& random) {
 /// Nodes of a component on the line y, at the start.
 Row rowAt(const World& world, double y, ComponentId component) {
   Row row;
-  for (std::size_t i = 0; i < world.reference.size(); ++i)
-    if (world.model.nodes.component[i] == component && std::abs(world.reference[i].y - y) < 1e-9)
-      row.emplace_back(world.reference[i].x, i);
+  for (std::size_t i = 0; i < world.model.nodes.reference.size(); ++i)
+    if (world.model.nodes.component[i] == component &&
+        std::abs(world.model.nodes.reference[i].y - y) < 1e-9)
+      row.emplace_back(world.model.nodes.reference[i].x, i);
   std::sort(row.begin(), row.end());
   return row;
 }
@@ -90,7 +91,7 @@ Errors errors(const World& world) {
   const auto all = stresses(world.model);
   for (std::size_t e = 0; e < all.size(); ++e)
     for (const NodeId node : world.model.triangles.nodes[e])
-      if (std::abs(world.reference[node.value].y - kSide) < 1e-9)
+      if (std::abs(world.model.nodes.reference[node.value].y - kSide) < 1e-9)
         worst.stress = std::max(worst.stress, std::abs(all[e][1] / kPressure + 1));
   for (const std::size_t side : {0, 1}) {
     const Row row = rowAt(world, kSide, ComponentId(side));

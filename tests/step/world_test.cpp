@@ -61,7 +61,7 @@ TEST(WorldBodies, ArraysOfAnotherLengthAreRefused) {
   EXPECT_TRUE(contains(text, "triangle 2")) << text;
   // Nothing has changed.
   EXPECT_EQ(world.model.nodes.size(), 16U);
-  EXPECT_EQ(world.reference.size(), 16U);
+  EXPECT_EQ(world.model.nodes.reference.size(), 16U);
   EXPECT_EQ(world.model.components.size(), 1U);
   EXPECT_EQ(world.surfaces.segments(), 12U);
   world.step(.5 * world.criticalTimeStep());
@@ -94,7 +94,7 @@ BodyState stateOf(const World& world, ComponentId component) {
     if (world.model.nodes.component[n] != component) continue;
     state.position.push_back(world.model.nodes.position[n]);
     state.velocity.push_back(world.model.nodes.velocity[n]);
-    state.reference.push_back(world.reference[n]);
+    state.reference.push_back(world.model.nodes.reference[n]);
   }
   for (const BodyLoop& loop : loopsOf(world))
     if (loop.component == component) state.loops.push_back(loop.points);
@@ -124,7 +124,7 @@ TEST(WorldBodies, RemovingOneLeavesTheOthersAsTheyAre) {
     const std::size_t left = nodes - before[gone].position.size();
     world.removeBody(ComponentId(std::size_t{gone}));
     EXPECT_EQ(world.model.nodes.size(), left);
-    EXPECT_EQ(world.reference.size(), left);
+    EXPECT_EQ(world.model.nodes.reference.size(), left);
     EXPECT_TRUE(world.contact.forces().known.empty());
     checkLinks(world.surfaces);
     for (std::size_t k = 0; k < 3; ++k) {
