@@ -91,3 +91,40 @@ def test_pairsBecomeInteractionsElsewhereAndGo(collider):
     O.engines = ours
     O.step()
     assert len(O.interactions.all()) == 0
+
+
+def test_boundsHoldUntilTheNextSearch(collider):
+    """A body that falls, turns and rebounds among spheres: where spheres are looked for, its pieces
+    are within their bounds, though the collider does not search in each step."""
+    import yadefrag
+    O.materials.append(w.FEMat(young=1e6, poisson=.3, density=1000, frictionAngle=.3, label='m'))
+    fe = w.FESolver()
+    fe.addPolygon(yadefrag.rectangle((0, .1), (1, .6)), size=.1, material='m',
+                  velocity=lambda x, y: (-.7 * y, .7 * x - 1))
+    fe.addPolygon(yadefrag.rectangle((-.5, -.5), (1.5, 0)), size=.1, material='m',
+                  fixed=lambda x, y: y < -.499)
+    O.bodies.append([chain.ball((x, .9), .1, O.materials[0]) for x in (-.2, .3, .8)])
+    O.engines = yadefrag.engines(fe, spheres=True, gravity=(0, -10), collider=getattr(w, collider.name))
+    O.dt = .5 * fe.criticalTimeStep()
+    finder, least = O.engines[1], []
+
+    def look():
+        for b in O.bodies:
+            if isinstance(b.shape, w.SurfaceSegment):
+                for at in (b.shape.start, b.shape.end):
+                    least.append(builtins.min(builtins.min(at[i] - b.bound.min[i],
+                                                           b.bound.max[i] - at[i]) for i in range(2)))
+
+    O.engines = O.engines[:3] + [w.PyRunner(iterPeriod=1, command='look()')] + O.engines[3:]
+    builtins.look = look
+    steps, met = 1000, 0
+    try:
+        for k in range(steps):
+            O.step()
+            if k % 20 == 0:
+                met = builtins.max(met, len(list(O.interactions)))
+    finally:
+        del builtins.look
+    assert fe.energy['contact'] != 0 and met > 0
+    assert min(least) >= 0
+    assert 2 < finder.numAction < steps / 2
