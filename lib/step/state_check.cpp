@@ -119,8 +119,8 @@ bool entriesAreValid(const World& world) {
 
 bool loadsAreValid(const World& world) {
   const std::size_t count = world.surfaces.segments();
-  return allBelow(world.absorbing.segments, count) &&
-         std::ranges::all_of(world.pressures, [&](const Pressure& p) {
+  return allBelow(world.loads.absorbing.segments, count) &&
+         std::ranges::all_of(world.loads.pressures, [&](const Pressure& p) {
            const bool staysOut = p.firstNew == Pressure::kNever;
            return allBelow(p.segments, count) && (staysOut || p.firstNew <= count);
          });

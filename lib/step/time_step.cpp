@@ -38,7 +38,7 @@ void World::advance(double dt) {
   // The leapfrog's energy is that of a step: it is not defined before the first one.
   if (steps == 0) watch.begin(kineticEnergy() + yadefrag::strainEnergy(model, dt), ledger);
   drive(dt);
-  sumOuterForces();
+  loads.sum(model, surfaces, time);
   search.foreseeMotion(searchScene(), dt);
 
   // Internal forces, then v* and x*, without contact.
@@ -75,11 +75,10 @@ void World::conclude(double dt) {
   ++steps;
   time += dt;
   lastDt = dt;
-  outerForces.clear();
+  loads.endStep();
   givenVelocities.clear();
   rigidVelocities.clear();
   rigidMasses.clear();
-  givenPressures.clear();
   watch.addOfChange(ofChange_);
   watchEnergy();
 
@@ -91,9 +90,15 @@ void World::conclude(double dt) {
   if (canTouch()) search.foreseeSearch(searchScene(), dt);
 }
 
+void World::absorb(const StepLength& length) {
+  if (loads.absorbing.segments.empty()) return;
+  loads.absorbing.correct(model, surfaces, dynamics_.previousPosition(),
+                          dynamics_.previousVelocity(), length, dynamicsSettings.drag(length));
+}
+
 void World::predict(const StepLength& length) {
   const StageTimer timer(timesIfRequested(), &StageTimes::forces);
-  dynamics_.predict(model, length, dynamicsSettings, allOuterForces(), threads);
+  dynamics_.predict(model, length, dynamicsSettings, loads.forces(), threads);
   undo_.hasMoved = true;
 }
 
@@ -120,15 +125,15 @@ void World::finish(const StepLength& length) {
     ledger.spin +=
         length.velocity * moment(dynamics_.previousPosition(), std::span<const Vec2>(pushes_));
   }
-  dynamics_.finish(model, length, dynamicsSettings, allOuterForces(), pushes_, ledger, threads);
-  if (!absorbing.segments.empty())
-    absorbing.addWork(ledger, model, dynamics_.previousVelocity(), length);
+  dynamics_.finish(model, length, dynamicsSettings, loads.forces(), pushes_, ledger, threads);
+  if (!loads.absorbing.segments.empty())
+    loads.absorbing.addWork(ledger, model, dynamics_.previousVelocity(), length);
 }
 
 void World::measureReactions(const StepLength& length) {
   if (dynamics_.holdsNone()) return reactions.clear();
   const StageTimer timer(timesIfRequested(), &StageTimes::forces);
-  dynamics_.measureReactions(model, length, dynamicsSettings, allOuterForces(), pushes_, reactions);
+  dynamics_.measureReactions(model, length, dynamicsSettings, loads.forces(), pushes_, reactions);
 }
 
 }  // namespace yadefrag

@@ -79,23 +79,35 @@ std::vector<EntryId> World::takeOff(const std::vector<std::uint8_t>& gone,
                                     std::span<const NodeId> renumbered) {
   search.invalidate();
   places_.clear();
-  removeLoads(gone);
   reactions.clear();
-  std::vector<EntryId> entries = surfaces.removeComponents(gone);
+  auto [segments, entries] = surfaces.removeComponents(gone);
+  loads.renumber(segments);
   surfaces.renumberNodes(renumbered, model.nodes.size());
   removeUnusedMotions();
   contact.renumber(entries);
   rebuild();
-  return entries;
+  return std::move(entries);
 }
 
-void World::setLoads(std::vector<Vec2> loads) {
-  if (!loads.empty() && loads.size() != model.nodes.size())
+void World::setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function,
+                        bool intoCracks) {
+  requireNodes(nodes);
+  loads.setPressure(model, surfaces, nodes, std::move(value), function, intoCracks);
+}
+
+void World::setAbsorbing(std::span<const NodeId> nodes) {
+  requireNodes(nodes);
+  loads.setAbsorbing(model, surfaces, nodes);
+}
+
+void World::setLoads(std::vector<Vec2> byNode) {
+  if (!byNode.empty() && byNode.size() != model.nodes.size())
     throw InputError(
-        fmt::format("There are {} loads, but {} nodes.", loads.size(), model.nodes.size()));
-  for (std::size_t i = 0; i < loads.size(); ++i)
-    if (!isFinite(loads[i])) throw InputError(fmt::format("The load of node {} is not finite.", i));
-  model.nodes.load = std::move(loads);
+        fmt::format("There are {} loads, but {} nodes.", byNode.size(), model.nodes.size()));
+  for (std::size_t i = 0; i < byNode.size(); ++i)
+    if (!isFinite(byNode[i]))
+      throw InputError(fmt::format("The load of node {} is not finite.", i));
+  model.nodes.load = std::move(byNode);
 }
 
 void World::rebuild() {
@@ -111,7 +123,7 @@ void World::buildIfChanged() {
   if (isBuilt_) return;
   places_.clear();
   dynamics_.rebuild(model);
-  absorbing.findTriangles(model, surfaces);
+  loads.absorbing.findTriangles(model, surfaces);
   reactions.clear();
   const auto& owners = surfaces.component;
   severalBodies_ =

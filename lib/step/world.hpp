@@ -17,7 +17,6 @@
 #include "core/stage_times.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "dynamics/explicit_dynamics.hpp"
-#include "dynamics/surface_loads.hpp"
 #include "fracture/bonds.hpp"
 #include "fracture/conform.hpp"
 #include "fracture/fracture.hpp"
@@ -30,6 +29,7 @@
 #include "step/body_places.hpp"
 #include "step/energy_watch.hpp"
 #include "step/halo_watch.hpp"
+#include "step/loads.hpp"
 #include "step/step_undo.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -103,7 +103,7 @@ class World {
   CommonSides bondAll(double reach, double strength, double energy, ConformPlan* done = nullptr);
 
   /// (N) Constant external forces by node; empty: none. InputError unless one per node, all finite.
-  void setLoads(std::vector<Vec2> loads);
+  void setLoads(std::vector<Vec2> byNode);
   /// Applies a pressure (Pa, as a function of the simulated time), from now on, to the sides of the
   /// boundary whose two ends are among the nodes, in place of an earlier one; 0: none. It follows
   /// the sides' rotation and the split of nodes. `intoCracks`: it also acts on faces of cracks that
@@ -159,8 +159,6 @@ class World {
   ContactSettings contactSettings;
   int threads = 1;
   bool timing = false;  ///< fill `times`
-  /// (N) By node, for the next step only; empty: none.
-  std::vector<Vec2> outerForces;
   /// (m/s) By node, for the next step only: of nodes whose motion has a function.
   std::vector<Vec2> givenVelocities;
   /// (m/s) By index in `rigidNodes`, for the next step only; empty: they do not move.
@@ -168,18 +166,11 @@ class World {
   /// Rigid boundaries that obey forces, for the next step only: contact forces change their
   /// velocity in the step. Empty: all have the velocities above.
   RigidMasses rigidMasses;
-  /// Values of pressures with a function, for the next step only.
-  struct GivenPressure {
-    std::uint32_t function;
-    double value;  ///< Pa
-  };
-  std::vector<GivenPressure> givenPressures;
 
   // --- state
   Model model;
   ContactSurfaces surfaces;
-  std::vector<Pressure> pressures;
-  AbsorbingBoundary absorbing;
+  Loads loads;
   Contact contact;
   HaloWatch search;
   Fracture fracture;
@@ -204,14 +195,6 @@ class World {
   [[nodiscard]] std::span<const NodeId> surfaceNodes() const { return search.nodes; }
 
  private:
-  [[nodiscard]] std::vector<SegmentId> segmentsAmong(std::span<const NodeId> nodes) const;
-  void removeUnusedPressures();
-  void spreadPressures();
-  void removeLoads(const std::vector<std::uint8_t>& gone);
-  void sumOuterForces();
-  [[nodiscard]] const std::vector<Vec2>& allOuterForces() const {
-    return pressures.empty() ? outerForces : allOuterForces_;
-  }
   void absorb(const StepLength& length);
   void requireNodes(std::span<const NodeId> nodes) const;
   void removeUnusedMotions();
@@ -267,9 +250,8 @@ class World {
   LooseFragments loose_;
   BodyPlaces places_;
   std::vector<NodeId> rigidNodes_;
-  std::vector<Vec2> allOuterForces_;  // N, by node, with pressures; empty without any
-  std::vector<Vec2> surfaceForces_;   // N, by node, of contact and cohesion
-  std::span<const Vec2> pushes_;      // N, the same or those of contact only, in the present step
+  std::vector<Vec2> surfaceForces_;  // N, by node, of contact and cohesion
+  std::span<const Vec2> pushes_;     // N, the same or those of contact only, in the present step
   bool isBuilt_ =
       false;  // do the arrays below fit the model: many bodies join, then one step comes
   bool severalBodies_ = false;

@@ -1,6 +1,5 @@
 // World: bonds between bodies.
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -57,21 +56,8 @@ CommonSides World::conformedSides(std::span<const ComponentId> bodies, double re
 
 /// Updates the boundary and all that refers to it.
 void World::followDivision(const DividedSides& divided) {
-  const auto first = static_cast<std::uint32_t>(surfaces.segments());
   (void)relink(surfaces, divided.sides);
-  const auto inherit = [&](std::vector<SegmentId>& segments) {
-    const std::vector<SegmentId> former = segments;
-    for (std::size_t i = 0; i < divided.parents.size(); ++i)
-      if (std::ranges::count(former, divided.parents[i]) > 0) segments.emplace_back(first + i);
-  };
-  for (Pressure& pressure : pressures) {
-    inherit(pressure.segments);
-    // The new segments are no faces of cracks.
-    if (pressure.firstNew == first)
-      pressure.firstNew = static_cast<std::uint32_t>(surfaces.segments());
-  }
-  inherit(absorbing.segments);
-  std::ranges::sort(absorbing.segments);
+  loads.followDivision(surfaces, divided.parents);
   search.invalidate();
   places_.clear();
   rebuild();

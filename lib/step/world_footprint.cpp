@@ -12,9 +12,9 @@ Footprint World::footprint() const {
   addTo(sum, surfaces.entryColumns());
   sum.add(Use::kMesh, model.components);
   sum.add(Use::kMaterials, model.materials);
-  sum.add(Use::kLoads, outerForces, allOuterForces_, pressures, absorbing.segments);
   sum.add(Use::kHeld, model.motions, givenVelocities, undo_.driven, reactions);
   sum.add(Use::kSurfaces, surfaces.nodeSegment);
+  loads.addTo(sum);
   search.addTo(sum);
   sum.add(Use::kFracture, split_.changed, split_.originals, split_.sides, split_.onSurface);
   sum.add(Use::kCohesion, surfaceForces_);

@@ -36,7 +36,7 @@ bool World::crack() {
     followSplit();
   }
   fracture.cohere(model);
-  spreadPressures();
+  loads.spread(model, surfaces, fracture);
   return opened;
 }
 

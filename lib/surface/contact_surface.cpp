@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "surface/bezier_arc.hpp"
 
@@ -90,9 +91,9 @@ void ContactSurfaces::removeComponent(ComponentId gone) {
   removeComponents(all);
 }
 
-std::vector<EntryId> ContactSurfaces::removeComponents(const std::vector<std::uint8_t>& gone) {
+auto ContactSurfaces::removeComponents(const std::vector<std::uint8_t>& gone) -> Numbers {
   const auto stays = [&](EntryId entry) { return gone[component[entry.value].value] == 0; };
-  const auto segmentNumbers =
+  auto segmentNumbers =
       compactNumbers<SegmentId>(segments(), [&](std::size_t s) { return stays(segmentEntry[s]); });
   auto entryNumbers =
       compactNumbers<EntryId>(entries(), [&](std::size_t e) { return stays(EntryId(e)); });
@@ -118,7 +119,7 @@ std::vector<EntryId> ContactSurfaces::removeComponents(const std::vector<std::ui
   for (std::uint32_t& number : loop)
     number = static_cast<std::uint32_t>(
         std::lower_bound(remaining.begin(), remaining.end(), number) - remaining.begin());
-  return entryNumbers;
+  return {std::move(segmentNumbers), std::move(entryNumbers)};
 }
 
 void ContactSurfaces::drop(std::span<const NodeId> nodes) {

@@ -46,9 +46,13 @@ class ContactSurfaces {
                         ComponentId component);
   /// Removes all loops of a component; later entries move up, in order.
   void removeComponent(ComponentId component);
-  /// The same for all components with a mark in `gone`. Returns the new number of each entry,
-  /// none() for removed ones.
-  std::vector<EntryId> removeComponents(const std::vector<std::uint8_t>& gone);
+  /// New numbers of segments and entries; none() of removed ones.
+  struct Numbers {
+    std::vector<SegmentId> segments;
+    std::vector<EntryId> entries;
+  };
+  /// The same for all components with a mark in `gone`.
+  Numbers removeComponents(const std::vector<std::uint8_t>& gone);
   /// Marks all pieces that begin at or after these nodes as removed; the nodes must be whole loops.
   void drop(std::span<const NodeId> nodes);
   /// Changes node numbers: `renumbered[old]` is the new number, none() for a removed node.

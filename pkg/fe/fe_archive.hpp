@@ -316,17 +316,17 @@ class WorldArchive {
   }
 
   void loads(World& world) {
-    std::uint64_t count = world.pressures.size();
+    std::uint64_t count = world.loads.pressures.size();
     value("pressures", count);
     if (count > world.surfaces.segments()) refuse("its pressures are invalid");
-    world.pressures.resize(count);
-    for (Pressure& one : world.pressures) {
+    world.loads.pressures.resize(count);
+    for (Pressure& one : world.loads.pressures) {
       column<std::uint32_t>("pressureSegments", one.segments);
       value("pressureFunction", one.function);
       value("pressureFirstNew", one.firstNew);
       table("pressure", one.value);
     }
-    column<std::uint32_t>("absorbing", world.absorbing.segments);
+    column<std::uint32_t>("absorbing", world.loads.absorbing.segments);
   }
 
   void table(const char* name, TimeTable& table) {

@@ -67,11 +67,11 @@ void FESolver::action() try {
 
 /// Of spheres and other bodies on the boundary.
 void FESolver::collectForces() {
-  bodies_.collectForces(*scene, world_, world_.outerForces);
-  if (world_.outerForces.empty()) return rolling_.clear();
+  bodies_.collectForces(*scene, world_, world_.loads.outerForces);
+  if (world_.loads.outerForces.empty()) return rolling_.clear();
   // The forces must stay the same on both sides of each contact.
   if (rolling_.carry(*scene, bodies_, world_.surfaces, order_.spheresMoveFirst()))
-    bodies_.collectForces(*scene, world_, world_.outerForces);
+    bodies_.collectForces(*scene, world_, world_.loads.outerForces);
 }
 
 /// Writes the new warnings.

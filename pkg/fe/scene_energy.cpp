@@ -139,7 +139,7 @@ std::vector<SceneEnergy::Touching> SceneEnergy::contactsOf(const yade::Scene& sc
                                                            const EntryBodies& entries) {
   std::vector<Touching> found;
   pieces_.clear();
-  if (world.outerForces.empty()) return found;
+  if (world.loads.outerForces.empty()) return found;
   std::vector<std::tuple<yade::Body::id_t, EntryId, const yade::Interaction*>> contacts;
   for (std::size_t e = 0; e < entries.ids().size(); ++e) {
     if (!entries.hasBody(EntryId(e))) continue;

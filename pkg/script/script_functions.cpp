@@ -69,20 +69,21 @@ void ScriptFunctions::keep(const World& world) {
   std::erase_if(functions_, [&](const auto& one) {
     const auto isOf = [&](const auto& user) { return user.function == one.first; };
     return std::ranges::none_of(world.model.motions, isOf) &&
-           std::ranges::none_of(world.pressures, isOf);
+           std::ranges::none_of(world.loads.pressures, isOf);
   });
   // After loading, motions may have numbers of missing functions: no other function gets these.
   for (const Motion& motion : world.model.motions)
     if (motion.isScripted()) functions_.try_emplace(motion.function);
-  for (const Pressure& pressure : world.pressures)
+  for (const Pressure& pressure : world.loads.pressures)
     if (pressure.function != 0) functions_.try_emplace(pressure.function);
 }
 
 void ScriptFunctions::giveValues(World& world, double dt) const {
   world.givenVelocities.clear();
-  world.givenPressures.clear();
+  world.loads.givenPressures.clear();
   if (std::ranges::none_of(world.model.motions, [](const Motion& m) { return m.isScripted(); }) &&
-      std::ranges::none_of(world.pressures, [](const Pressure& p) { return p.function != 0; }))
+      std::ranges::none_of(world.loads.pressures,
+                           [](const Pressure& p) { return p.function != 0; }))
     return;
   const WithGil gil;
   try {
@@ -108,10 +109,10 @@ void ScriptFunctions::giveVelocities(World& world, double dt) const {
 }
 
 void ScriptFunctions::givePressures(World& world) const {
-  for (const Pressure& pressure : world.pressures) {
+  for (const Pressure& pressure : world.loads.pressures) {
     const auto known = functions_.find(pressure.function);
     if (known == functions_.end() || known->second.is_none()) continue;
-    world.givenPressures.push_back(
+    world.loads.givenPressures.push_back(
         {pressure.function, py::extract<double>(known->second(world.time))});
   }
 }

@@ -249,14 +249,14 @@ TEST(Conform, HeldNodesPressureAndLoadsFollow) {
   const std::size_t added = world.model.nodes.size() - nodes;
   ASSERT_GT(added, 0U);
   double held = 0;
-  for (const SegmentId segment : world.pressures[0].segments) {
+  for (const SegmentId segment : world.loads.pressures[0].segments) {
     const NodeId a = world.surfaces.segmentNode[segment.value];
     const NodeId b = world.surfaces.segmentNode[world.surfaces.segmentNext[segment.value].value];
     held += norm(world.model.nodes.position[b.value] - world.model.nodes.position[a.value]);
     EXPECT_EQ(world.model.nodes.held[a.value], kHeldXY);
   }
   EXPECT_NEAR(held, kHeight, 1e-12);
-  EXPECT_EQ(world.absorbing.segments.size(), world.pressures[0].segments.size());
+  EXPECT_EQ(world.loads.absorbing.segments.size(), world.loads.pressures[0].segments.size());
   for (std::size_t n = nodes; n < world.model.nodes.size(); ++n)
     EXPECT_EQ(world.model.nodes.load[n], Vec2());
   const double dt = .5 * world.criticalTimeStep();

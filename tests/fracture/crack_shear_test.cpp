@@ -53,7 +53,7 @@ class Pair {
   /// press the faces together by `pressure` (Pa).
   void step(Vec2 speed, double pressure = 0) {
     Nodes& nodes = world.model.nodes;
-    world.outerForces.assign(nodes.size(), {});
+    world.loads.outerForces.assign(nodes.size(), {});
     Vec2 push;
     for (std::size_t element = 0; element < 2; ++element) {
       const double sign = element == 0 ? -1 : 1;
@@ -63,7 +63,7 @@ class Pair {
         Vec2 force = share * (sign * speed - nodes.velocity[corners[i].value]);
         // Pressed faces keep apart by themselves.
         if (pressure > 0) force.x = i == (element == 0 ? 2U : 1U) ? 0 : -sign * pressure * kHalf;
-        world.outerForces[corners[i].value] = force;
+        world.loads.outerForces[corners[i].value] = force;
         if (element == 0) push += force;
       }
     }
@@ -251,10 +251,10 @@ TEST(CrackShear, ObliqueHoldingIsNoException) {
   const auto& right = world.model.triangles.nodes[1];
   for (int n = 0; n < 400; ++n) {
     const double force = 3 * kStrength * kHalf * (1 + .5 * std::sin(n / 5.));
-    world.outerForces.assign(world.model.nodes.size(), {});
+    world.loads.outerForces.assign(world.model.nodes.size(), {});
     for (const std::size_t end : {0, 1}) {
-      world.outerForces[left[end].value].x = force;
-      world.outerForces[right[end == 0 ? 0 : 2].value].x = -force;
+      world.loads.outerForces[left[end].value].x = force;
+      world.loads.outerForces[right[end == 0 ? 0 : 2].value].x = -force;
     }
     world.step(kStep);
     for (const std::size_t end : {0, 1}) {

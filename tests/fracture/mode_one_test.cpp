@@ -35,11 +35,11 @@ class TwoTriangles {
   /// In the next step forces give each half this speed (m/s), away from the other.
   void drive(double speed, double dt) {
     Nodes& nodes = world.model.nodes;
-    world.outerForces.assign(nodes.size(), {});
+    world.loads.outerForces.assign(nodes.size(), {});
     for (std::size_t element = 0; element < 2; ++element)
       for (const NodeId node : world.model.triangles.nodes[element]) {
         const Vec2 wanted{element == 0 ? -speed : speed, 0};
-        world.outerForces[node.value] =
+        world.loads.outerForces[node.value] =
             (nodes.mass[node.value] / dt) * (wanted - nodes.velocity[node.value]);
       }
   }
@@ -48,7 +48,7 @@ class TwoTriangles {
   double step(double dt) {
     double push = 0;
     for (const NodeId node : world.model.triangles.nodes[0])
-      if (!world.outerForces.empty()) push += world.outerForces[node.value].x;
+      if (!world.loads.outerForces.empty()) push += world.loads.outerForces[node.value].x;
     const double before = momentum();
     world.step(dt);
     return ((momentum() - before) / dt - push) / kArea;

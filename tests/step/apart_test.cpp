@@ -43,10 +43,10 @@ TEST_P(Apart, NothingIsMissed) {
       const ComponentId hit(static_cast<std::size_t>(random() % 4));
       const Vec2 push = speed * Vec2{any(random), .1 * any(random)};
       for (World* world : {&seldom, &always}) {
-        world->outerForces.assign(world->model.nodes.size(), {});
+        world->loads.outerForces.assign(world->model.nodes.size(), {});
         for (std::size_t n = 0; n < world->model.nodes.size(); ++n)
           if (world->model.nodes.component[n] == hit)
-            world->outerForces[n] = world->model.nodes.mass[n] / dt * push;
+            world->loads.outerForces[n] = world->model.nodes.mass[n] / dt * push;
       }
     }
     seldom.step(dt);
@@ -86,11 +86,11 @@ TEST(ApartBodies, OnlyThoseThatAreNearAreWatched) {
 
 /// (m) Throws the last body `way` towards the others in one step.
 void throwLast(World& world, double way, double dt) {
-  world.outerForces.assign(world.model.nodes.size(), {});
+  world.loads.outerForces.assign(world.model.nodes.size(), {});
   const ComponentId last(world.model.components.size() - 1);
   for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
     if (world.model.nodes.component[n] == last)
-      world.outerForces[n] = {-world.model.nodes.mass[n] * way / (dt * dt), 0};
+      world.loads.outerForces[n] = {-world.model.nodes.mass[n] * way / (dt * dt), 0};
 }
 
 /// A body that is not watched is thrown to its neighbour in one step: the step finds it there.
@@ -127,7 +127,7 @@ TEST(ApartBodies, ThrownBeyondTheOthers) {
     EXPECT_LE(norm(world.model.nodes.position[n] - position[n]), 1e-14);
     EXPECT_LE(norm(world.model.nodes.velocity[n] - velocity[n]), 1e-9);
   }
-  world.outerForces.clear();
+  world.loads.outerForces.clear();
   for (int i = 0; i < 5; ++i) world.step(dt);
   EXPECT_TRUE(world.contact.rows().empty());
 }

@@ -265,7 +265,7 @@ TEST(EnergyWatch, GrowthIsReportedAfterALongRest) {
   std::vector<Vec2> push(world.model.nodes.size());
   push.front() = {1e4, 2e3};
   for (int i = 0; i < 100; ++i) {
-    world.outerForces = push;
+    world.loads.outerForces = push;
     world.step(dt);
   }
   EXPECT_TRUE(world.warnings.empty()) << world.warnings.front();

@@ -29,7 +29,7 @@ inline State stateOf(World& world) {
     add("contact forces", world.contact.forces()[n]);
   add("figures", world.contact.largestCorrection());
   add("figures", world.contact.maxPenetration());
-  for (const Vec2 force : world.outerForces) add("outer forces", force);
+  for (const Vec2 force : world.loads.outerForces) add("outer forces", force);
   for (const Vec2 position : world.model.nodes.position) add("position", position);
   for (const Vec2 velocity : world.model.nodes.velocity) add("velocity", velocity);
   for (const EntryId master : world.contact.candidates.masters) add("masters", master);

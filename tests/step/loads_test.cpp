@@ -54,9 +54,9 @@ TEST(Pressure, TheLastOneCounts) {
   World world = oneBlock();
   const auto left = nodesWhere(world, [](Vec2 x) { return x.x == 0; });
   for (const double pressure : {1., 2., 3.}) world.setPressure(left, TimeTable(pressure));
-  EXPECT_EQ(world.pressures.size(), 1U);
+  EXPECT_EQ(world.loads.pressures.size(), 1U);
   world.setPressure(left, TimeTable(0));
-  EXPECT_TRUE(world.pressures.empty());
+  EXPECT_TRUE(world.loads.pressures.empty());
 }
 
 TEST(Pressure, StaysWithItsBodyWhenAnotherLeaves) {
@@ -69,10 +69,10 @@ TEST(Pressure, StaysWithItsBodyWhenAnotherLeaves) {
   const double dt = .1 * world.criticalTimeStep();
   world.step(dt);
   EXPECT_NEAR(totalMomentum(world).x, 10 * dt, 1e-9 * dt);
-  EXPECT_EQ(world.absorbing.segments.size(), 3U);
+  EXPECT_EQ(world.loads.absorbing.segments.size(), 3U);
   world.removeBody(ComponentId(1));
-  EXPECT_TRUE(world.pressures.empty());
-  EXPECT_TRUE(world.absorbing.segments.empty());
+  EXPECT_TRUE(world.loads.pressures.empty());
+  EXPECT_TRUE(world.loads.absorbing.segments.empty());
 }
 
 // Sides that come after the call, and are connected with one that has it, from either end.
@@ -172,8 +172,8 @@ TEST(Loads, WrongOnesAreRefused) {
   EXPECT_THROW(world.setPressure(none, TimeTable(1)), InputError);
   EXPECT_THROW(world.setPressure(left, TimeTable({1, 0}, {1, 1})), InputError);
   EXPECT_THROW(world.setAbsorbing(one), InputError);
-  EXPECT_TRUE(world.pressures.empty());
-  EXPECT_TRUE(world.absorbing.segments.empty());
+  EXPECT_TRUE(world.loads.pressures.empty());
+  EXPECT_TRUE(world.loads.absorbing.segments.empty());
 }
 
 }  // namespace

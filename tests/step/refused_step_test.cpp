@@ -90,19 +90,19 @@ class Twins {
     std::vector<Vec2> forces(asked_.model.nodes.size());
     forces[node] = force * Vec2{1, chance_.from(-1, 1)};
     if (isAccepted(forces)) return;
-    asked_.outerForces = std::move(forces);
+    asked_.loads.outerForces = std::move(forces);
     std::string sentence = attempt(reason, dt_);
     EXPECT_NE(sentence, "") << force;
     for (const char* part : {"is inverted", "be missed", "a node moves by", "range of numbers",
                              "not finite", "contact moves"})
       if (sentence.find(part) != std::string::npos) ++refusals[part];
-    asked_.outerForces.clear();
+    asked_.loads.outerForces.clear();
   }
 
   /// Tried on a copy: such a step would spoil the scene.
   bool isAccepted(const std::vector<Vec2>& forces) {
     World copy = copyOf(asked_);
-    copy.outerForces = forces;
+    copy.loads.outerForces = forces;
     return sentenceOf([&] { copy.step(dt_); }).empty();
   }
 

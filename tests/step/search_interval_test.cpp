@@ -75,7 +75,7 @@ TEST_P(Intervals, NothingIsMissedAtTheLargestVelocities) {
     std::vector<Vec2> forces(seldom.model.nodes.size());
     for (std::size_t n = 0; n < forces.size(); ++n)
       forces[n] = .02 * speed / dt * seldom.model.nodes.mass[n] * Vec2{any(random), any(random)};
-    seldom.outerForces = often.outerForces = forces;
+    seldom.loads.outerForces = often.loads.outerForces = forces;
     often.search.makeDue();
     seldom.step(dt);
     often.step(dt);
@@ -225,10 +225,10 @@ TEST(SearchInterval, EmergencySearch) {
   EXPECT_EQ(world.numSearches(), 1U);
   EXPECT_FALSE(world.search.isDue());
   EXPECT_EQ(world.contact.candidates.size(), 0U);
-  world.outerForces.assign(world.model.nodes.size(), {});
+  world.loads.outerForces.assign(world.model.nodes.size(), {});
   for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
     if (world.model.nodes.component[n] == thrown)
-      world.outerForces[n] = {-world.model.nodes.mass[n] * .05 / (dt * dt), 0};
+      world.loads.outerForces[n] = {-world.model.nodes.mass[n] * .05 / (dt * dt), 0};
   world.step(dt);
   EXPECT_EQ(world.numSearches(), 2U);
   EXPECT_FALSE(world.contact.rows().empty());

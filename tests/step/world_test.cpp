@@ -256,13 +256,13 @@ TEST(WorldStep, AForceThatIsNotFiniteStopsTheRun) {
   const double dt = .5 * world.criticalTimeStep();
   for (int i = 0; i < 20; ++i) world.step(dt);
   const std::vector<Vec2> before = world.model.nodes.position;
-  world.outerForces.assign(world.model.nodes.size(), {});
-  world.outerForces[17].y = NAN;
+  world.loads.outerForces.assign(world.model.nodes.size(), {});
+  world.loads.outerForces[17].y = NAN;
   const std::string text = sentence<RunError>([&] { world.step(dt); });
   EXPECT_TRUE(contains(text, "Step 20") && contains(text, "node 17")) << text;
   EXPECT_EQ(world.steps, 20U);
   EXPECT_EQ(world.model.nodes.position, before);
-  world.outerForces.clear();
+  world.loads.outerForces.clear();
   world.step(dt);
   EXPECT_EQ(world.steps, 21U) << "without that force the run goes on";
 }
@@ -299,12 +299,12 @@ TEST(WorldPays, NoLoadsNoArrays) {
   const double dt = .5 * world.criticalTimeStep();
   world.step(dt);
   EXPECT_EQ(world.model.nodes.load.capacity(), 0U);
-  EXPECT_EQ(world.outerForces.capacity(), 0U);
+  EXPECT_EQ(world.loads.outerForces.capacity(), 0U);
   EXPECT_EQ(world.ledger.external, 0);
   EXPECT_EQ(world.ledger.damping, 0);
-  world.outerForces.assign(world.model.nodes.size(), {1, 0});
+  world.loads.outerForces.assign(world.model.nodes.size(), {1, 0});
   world.step(dt);
-  EXPECT_TRUE(world.outerForces.empty()) << "for one step only";
+  EXPECT_TRUE(world.loads.outerForces.empty()) << "for one step only";
 }
 
 TEST(WorldPays, AnEmptyWorldSteps) {

@@ -1,17 +1,18 @@
-// World: loads on pieces of the boundary.
+#include "step/loads.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "core/errors.hpp"
-#include "step/world.hpp"
 
 namespace yadefrag {
+namespace {
 
 /// All segments whose two ends are among the nodes, ascending; InputError if there are none.
-std::vector<SegmentId> World::segmentsAmong(std::span<const NodeId> nodes) const {
-  requireNodes(nodes);
-  std::vector<bool> chosen(model.nodes.size());
+std::vector<SegmentId> segmentsAmong(const ContactSurfaces& surfaces, std::size_t nodeCount,
+                                     std::span<const NodeId> nodes) {
+  std::vector<bool> chosen(nodeCount);
   for (const NodeId node : nodes) chosen[node.value] = true;
   std::vector<SegmentId> segments;
   for (std::size_t s = 0; s < surfaces.segments(); ++s)
@@ -23,9 +24,14 @@ std::vector<SegmentId> World::segmentsAmong(std::span<const NodeId> nodes) const
   return segments;
 }
 
-void World::setPressure(std::span<const NodeId> nodes, TimeTable value, std::uint32_t function,
+bool spreads(const Pressure& pressure) { return pressure.firstNew != Pressure::kNever; }
+
+}  // namespace
+
+void Loads::setPressure(const Model& model, const ContactSurfaces& surfaces,
+                        std::span<const NodeId> nodes, TimeTable value, std::uint32_t function,
                         bool intoCracks) {
-  std::vector<SegmentId> segments = segmentsAmong(nodes);
+  std::vector<SegmentId> segments = segmentsAmong(surfaces, model.nodes.size(), nodes);
   if (!value.times().empty() && !TimeTable::isValid(value.times(), value.values()))
     throw InputError("The times of a pressure must ascend, and its values be finite.");
   // The new pressure replaces earlier ones on these segments.
@@ -34,11 +40,12 @@ void World::setPressure(std::span<const NodeId> nodes, TimeTable value, std::uin
   const auto firstNew = static_cast<std::uint32_t>(surfaces.segments());
   pressures.push_back(
       {std::move(segments), std::move(value), function, intoCracks ? firstNew : Pressure::kNever});
-  removeUnusedPressures();
+  removeUnused();
 }
 
-void World::setAbsorbing(std::span<const NodeId> nodes) {
-  std::vector<SegmentId> segments = segmentsAmong(nodes);
+void Loads::setAbsorbing(const Model& model, const ContactSurfaces& surfaces,
+                         std::span<const NodeId> nodes) {
+  std::vector<SegmentId> segments = segmentsAmong(surfaces, model.nodes.size(), nodes);
   segments.insert(segments.end(), absorbing.segments.begin(), absorbing.segments.end());
   std::ranges::sort(segments);
   segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
@@ -47,38 +54,46 @@ void World::setAbsorbing(std::span<const NodeId> nodes) {
 }
 
 /// Removes pressures without segments, or with a constant value of 0.
-void World::removeUnusedPressures() {
+void Loads::removeUnused() {
   std::erase_if(pressures, [](const Pressure& p) {
     return p.segments.empty() || (p.function == 0 && p.value.values() == std::vector<double>{0});
   });
 }
 
-/// Must be called before the component is removed from the surfaces: later segments get lower
-/// numbers.
-void World::removeLoads(const std::vector<std::uint8_t>& gone) {
-  std::vector<SegmentId> numbers(surfaces.segments(), SegmentId::none());
-  std::size_t kept = 0;
-  for (std::size_t s = 0; s < numbers.size(); ++s)
-    if (gone[surfaces.component[surfaces.segmentEntry[s].value].value] == 0)
-      numbers[s] = SegmentId(kept++);
-  const auto renumber = [&](std::vector<SegmentId>& segments) {
+void Loads::renumber(std::span<const SegmentId> numbers) {
+  const auto change = [&](std::vector<SegmentId>& segments) {
     for (SegmentId& segment : segments) segment = numbers[segment.value];
     std::erase(segments, SegmentId::none());
   };
   for (Pressure& pressure : pressures) {
-    renumber(pressure.segments);
-    if (pressure.firstNew != Pressure::kNever)
+    change(pressure.segments);
+    if (spreads(pressure))
       pressure.firstNew -= static_cast<std::uint32_t>(
           std::count(numbers.begin(), numbers.begin() + pressure.firstNew, SegmentId::none()));
   }
-  renumber(absorbing.segments);
-  removeUnusedPressures();
+  change(absorbing.segments);
+  removeUnused();
 }
 
-/// Must be called after cracks have opened or lost their cohesion. Faces of cohesive cracks have no
-/// pressure.
-void World::spreadPressures() {
-  const auto spreads = [](const Pressure& p) { return p.firstNew != Pressure::kNever; };
+void Loads::followDivision(const ContactSurfaces& surfaces, std::span<const SegmentId> parents) {
+  const auto count = static_cast<std::uint32_t>(surfaces.segments());
+  assert(parents.size() <= count);
+  const auto first = static_cast<std::uint32_t>(count - parents.size());
+  const auto inherit = [&](std::vector<SegmentId>& segments) {
+    const std::vector<SegmentId> former = segments;
+    for (std::size_t i = 0; i < parents.size(); ++i)
+      if (std::ranges::count(former, parents[i]) > 0) segments.emplace_back(first + i);
+  };
+  for (Pressure& pressure : pressures) {
+    inherit(pressure.segments);
+    // The new segments are no faces of cracks.
+    if (pressure.firstNew == first) pressure.firstNew = count;
+  }
+  inherit(absorbing.segments);
+  std::ranges::sort(absorbing.segments);
+}
+
+void Loads::spread(const Model& model, const ContactSurfaces& surfaces, const Fracture& fracture) {
   if (std::ranges::none_of(pressures, spreads)) return;
   std::vector<bool> isHeld(surfaces.segments());
   for (const EdgeId edge : fracture.cohesion.edge)
@@ -93,38 +108,31 @@ void World::spreadPressures() {
     }
   for (Pressure& pressure : pressures) {
     if (!spreads(pressure)) continue;
-    spread(pressure, surfaces);
+    yadefrag::spread(pressure, surfaces);
     std::erase_if(pressure.segments, [&](SegmentId segment) {
       return segment.value >= pressure.firstNew && isHeld[segment.value];
     });
   }
 }
 
-/// External forces and pressures together.
-void World::sumOuterForces() {
-  allOuterForces_.clear();
-  if (pressures.empty()) return;
-  allOuterForces_ = outerForces;
-  allOuterForces_.resize(model.nodes.size());
-  for (const Pressure& pressure : pressures) {
-    double value = pressure.value.at(time);
-    if (pressure.function != 0) {
-      const auto given =
-          std::ranges::find(givenPressures, pressure.function, &GivenPressure::function);
-      if (given == givenPressures.end())
-        throw RunError(
-            "a pressure is a function of the script, which a saved file does not have; call "
-            "FESolver.pressure for it again.");
-      value = given->value;
-    }
-    addPressure(model, surfaces, pressure.segments, value, allOuterForces_);
-  }
+double Loads::valueOf(const Pressure& pressure, double time) const {
+  if (pressure.function == 0) return pressure.value.at(time);
+  const auto given =
+      std::ranges::find(givenPressures, pressure.function, &GivenPressure::function);
+  if (given == givenPressures.end())
+    throw RunError(
+        "a pressure is a function of the script, which a saved file does not have; call "
+        "FESolver.pressure for it again.");
+  return given->value;
 }
 
-void World::absorb(const StepLength& length) {
-  if (absorbing.segments.empty()) return;
-  absorbing.correct(model, surfaces, dynamics_.previousPosition(), dynamics_.previousVelocity(),
-                    length, dynamicsSettings.drag(length));
+void Loads::sum(const Model& model, const ContactSurfaces& surfaces, double time) {
+  sum_.clear();
+  if (pressures.empty()) return;
+  sum_ = outerForces;
+  sum_.resize(model.nodes.size());
+  for (const Pressure& pressure : pressures)
+    addPressure(model, surfaces, pressure.segments, valueOf(pressure, time), sum_);
 }
 
 }  // namespace yadefrag
