@@ -54,6 +54,7 @@ void mergeByPair(std::vector<Touch>& touches) {
 
 }  // namespace
 
+/// Deletes candidates and stored contacts.
 void Contact::reset() {
   candidates.clear();
   touches.clear();
@@ -85,7 +86,13 @@ void Contact::reserve(std::size_t nodes) {
 }
 
 void Contact::correct(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
+  assert(forces_.empty() || forces_.size() == model.nodes.size());  // `resize` follows new nodes
+  assert(std::ranges::none_of(touches, [&](const Touch& touch) {
+    return surfaces.isGone(touch.pair.slave) || surfaces.isGone(touch.pair.master);
+  }));
   begin();
+  assert(step.rigid.nodesOf.rows() == step.rigid.masses.size() &&
+         step.rigid.nodesOf.values.size() == step.rigid.members.size());
   rigidLoads_.assign(step.rigid.masses.size(), {});
   deepest_ = deepestTouch(surfaces, step.before);
   bool gapsAreKnown = false;
@@ -176,8 +183,8 @@ void Contact::releaseUnsolved() {
 void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,
                    double reach, double moved) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
-  const PathStart start{step.before, touches, tolerance::contact().outsideDepth * step.shortest,
-                        deepest_};
+  const PathStart start{step.before, touches, step.constants.outsideDepth * step.shortest, deepest_,
+                        step.constants};
   search_.scan(candidates, surfaces, model.nodes.position, start, reach, step.threads,
                moved + sinceScan_);
   sinceScan_ = 0;
@@ -187,10 +194,10 @@ void Contact::scan(const Model& model, const ContactSurfaces& surfaces, const Co
 double Contact::solve(Model& model, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
   const Inertia inertia{model.nodes, step.length, step.drag, step.rigid.masses};
-  const RowSweeps::Stop stop{tolerance::kChange * worthwhile(step), tolerance::contact().rowSweeps};
+  const RowSweeps::Stop stop{tolerance::kChange * worthwhile(step), step.constants.rowSweeps};
   std::optional<Coupling> coupling;
   if (step.coupled != nullptr)
-    coupling.emplace(Coupling{*step.coupled, step.cohesive, model.nodes.position, displacement_});
+    coupling.emplace(Coupling{*step.coupled, model.nodes.position, displacement_});
   inexact_ = sweeps_.solve(rows_, inertia, stop, coupling ? &*coupling : nullptr, step.threads);
   now_.sweeps += sweeps_.sweeps();
   return coupling ? coupling->moved : 0;
@@ -214,7 +221,7 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
     if (hasRow(surfaces, before, active.pair)) continue;
     if (stored.empty() && isThroughItself(surfaces, before, active.pair, step)) continue;
     const double friction = frictionOf(active.pair, model, surfaces);
-    ContactRow row = makeRow(surfaces, before, active, friction > 0);
+    ContactRow row = makeRow(surfaces, before, active, step.constants.faceAngle, friction > 0);
     row.friction = friction;
     startRow(row, model, surfaces, before, touchOn(stored, active.pair.master), step);
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);

@@ -8,6 +8,7 @@
 
 #include "contact/candidates.hpp"
 #include "contact/contact_row.hpp"
+#include "contact/contact_settings.hpp"
 #include "contact/coupled_forces.hpp"
 #include "contact/inertia.hpp"
 #include "contact/local_search.hpp"
@@ -32,9 +33,7 @@ struct ContactStep {
   std::span<const Vec2> before;  ///< m, xⁿ; of surface nodes only
   int threads;
   const RigidMasses& rigid;  ///< rigid boundaries that obey forces
-  /// By node: number of the nodes that cohesive cracks hold to each other; 0: none. Empty without
-  /// such cracks.
-  std::span<const std::uint32_t> cohesive;
+  const tolerance::Contact& constants;
   StageTimes* times = nullptr;       ///< null: not measured
   CoupledForces* coupled = nullptr;  ///< cohesion; null: none
 };
@@ -56,18 +55,15 @@ class Contact {
   /// velocities. Allocates no memory.
   void takeBack();
 
-  /// Must be called after nodes or entries were renumbered or added: deletes candidates and stored
-  /// contacts.
-  void reset();
   /// After entries were renumbered: `numbers` by former number; none() of removed ones. Contacts
   /// are kept: a deep one would be lost otherwise.
   void renumber(std::span<const EntryId> numbers);
-  /// Must be called after nodes were added.
+  /// Follows added nodes.
   void resize(std::size_t nodes);
   /// Reserves memory for this number of nodes.
   void reserve(std::size_t nodes);
 
-  /// Must be called after pieces of surfaces were removed: deletes their contacts.
+  /// Deletes the contacts of removed pieces of surfaces; `correct` asserts that there are none.
   void removeGone(const ContactSurfaces& surfaces);
 
   /// Tolerates overlaps at `positions` (m, by node) of masters that approached their slaves by a
@@ -101,6 +97,7 @@ class Contact {
   };
 
   void makeRoom(std::size_t nodes);
+  void reset();
   void begin();
   void clearForces();
   void scan(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step,

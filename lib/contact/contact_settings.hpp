@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/tolerances/contact.hpp"
+
 namespace yadefrag {
 
 struct ContactSettings {
@@ -8,6 +10,7 @@ struct ContactSettings {
   int passes = 1;
   /// Width of the halo over the shortest segment; 0: determined by the bodies' speed.
   double halo = 0;
+  tolerance::Contact constants = {};  ///< tests halve and double each of them
 };
 
 }  // namespace yadefrag

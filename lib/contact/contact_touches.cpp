@@ -23,14 +23,16 @@ std::vector<Touch> renumbered(std::vector<Touch> touches, std::span<const EntryI
 
 /// True if cohesion holds both sides of a row to each other. It would undo in every step what
 /// contact does to reduce their overlap: contact would create energy, and cohesion would take it.
-bool isHeldByCohesion(const ContactRow& row, std::span<const std::uint32_t> cohesive) {
-  if (cohesive.empty()) return false;
-  const auto groupOf = [&](std::size_t k) { return cohesive[row.node[k].value]; };
+bool isHeldByCohesion(const ContactRow& row, const CoupledForces* cohesion) {
+  if (cohesion == nullptr) return false;
   const auto count = static_cast<std::size_t>(row.count);
-  for (std::size_t k = 0; k < count; ++k)
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!(row.weight[k] > 0)) continue;
+    const std::uint32_t group = cohesion->groupOf(row.node[k]);
+    if (group == CoupledForces::kNoGroup) continue;
     for (std::size_t m = 0; m < count; ++m)
-      if (row.weight[k] > 0 && row.weight[m] < 0 && groupOf(k) != 0 && groupOf(k) == groupOf(m))
-        return true;
+      if (row.weight[m] < 0 && cohesion->groupOf(row.node[m]) == group) return true;
+  }
   return false;
 }
 
@@ -61,7 +63,7 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
                        const ContactStep& step) const {
   row.gap -= dot(relative(row, displacement_), row.normal);
   if (row.friction > 0) row.slip = slipOf(row, model, step);
-  const double decay = isHeldByCohesion(row, step.cohesive) ? 0 : tolerance::contact().overlapDecay;
+  const double decay = isHeldByCohesion(row, step.coupled) ? 0 : step.constants.overlapDecay;
   if (former != nullptr) {
     row.toleratedGap =
         std::min(0., former->toleratedGap + decay * std::min(-former->toleratedGap, step.move));
@@ -109,9 +111,8 @@ void Contact::allowOverlaps(const ContactSurfaces& surfaces, std::span<const Vec
       if (std::ranges::find(masters, pair.master) == masters.end()) continue;
       const Foot foot = geometry.foot(pair.master, geometry.slave(pair.slave));
       const double gap = foot.gap;
-      // A change of shape is a fraction of a piece's length only.
       if (gap >= 0 || !isOver(geometry, pair.master, foot) ||
-          gap < -.25 * geometry.length(pair.master))
+          gap < -tolerance::kStraightened * geometry.length(pair.master))
         continue;
       const auto at =
           std::lower_bound(touches.begin(), touches.end(), pair,

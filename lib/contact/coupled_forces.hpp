@@ -15,6 +15,10 @@ namespace yadefrag {
 class CoupledForces {
  public:
   virtual ~CoupledForces() = default;
+  static constexpr std::uint32_t kNoGroup = ~std::uint32_t{0};
+  /// Number of the group of nodes that these forces connect in this step; kNoGroup: none acts
+  /// there.
+  [[nodiscard]] virtual std::uint32_t groupOf(NodeId node) const = 0;
   /// Before the sweeps, at `position` (m, by node).
   virtual void begin(std::span<const Vec2> position) = 0;
   /// Contact has moved a node: the forces there must be improved.
@@ -30,10 +34,9 @@ class CoupledForces {
 /// What the sweeps need for them.
 struct Coupling {
   CoupledForces& forces;
-  std::span<const std::uint32_t> group;  ///< by node; 0: without such forces
-  std::vector<Vec2>& position;           ///< m, by node
-  std::span<const Vec2> displaced;       ///< m, by node: by contact, included in `position`
-  double moved = 0;                      ///< m, bound of the displacements by these forces
+  std::vector<Vec2>& position;      ///< m, by node
+  std::span<const Vec2> displaced;  ///< m, by node: by contact, included in `position`
+  double moved = 0;                 ///< m, bound of the displacements by these forces
 };
 
 }  // namespace yadefrag

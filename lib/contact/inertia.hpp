@@ -34,7 +34,7 @@ struct RigidMasses {
   std::vector<Member> members;  ///< by node
   Csr<NodeId> nodesOf;          ///< by body
 
-  /// Must be called after a change of `masses` or `members`.
+  /// Follows a change of `masses` or `members`; Contact::correct asserts it.
   void index() {
     fillRows(
         nodesOf, masses.size(), members.size(), [&](std::size_t i) { return members[i].mass; },

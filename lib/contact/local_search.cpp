@@ -160,7 +160,8 @@ double LocalSearch::scanRow(const Candidates& candidates, const Geometry& geomet
     const double wide = reach_ + chord.bulge;
     const double leverage = beside.leverage(geometry.isArc(master));
     const double before = beside.gap - chord.bulge;
-    if (beside.gap < wide && beside.gap > -wide - deepest && beside.beyond < 6 * (wide + deepest))
+    if (beside.gap < wide && beside.gap > -wide - deepest &&
+        beside.beyond < tolerance::kBeside * (wide + deepest))
       found.push_back({row, c, true, (before - tolerance::kTouching / chord.inverse) / leverage});
     // A master in which the slave is deeper than any contact cannot become active.
     const bool behind = beside.gap < -deepest;
@@ -265,7 +266,7 @@ void LocalSearch::tryRow(const Query& query, const Geometry& geometry,
   addTrials(true);
   if (allKnown) return part.trials.clear();
   const Geometry before(query.surfaces, start_.positions, pointsBefore_);
-  const SlaveStep<Geometry> step{before, geometry, slave, touches, start_.depth};
+  const SlaveStep<Geometry> step{before, geometry, slave, touches, start_.depth, start_.constants};
   if (!findEntered(query.surfaces, step, part.trials, query.deepest)) return part.trials.clear();
   addTrials(false);
   std::ranges::sort(part.trials, {}, &Trial::master);

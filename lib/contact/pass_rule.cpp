@@ -26,13 +26,13 @@ bool isSharp(const ContactSurfaces& surfaces, const PieceGeometry& geometry, Ent
 
 }  // namespace
 
-void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> reference, int passes,
-                      bool anyRigid) {
-  passes_ = passes;
+void PassRule::update(const ContactSurfaces& surfaces, std::span<const Vec2> reference,
+                      const ContactSettings& settings, bool anyRigid) {
+  passes_ = settings.passes;
   anyRigid_ = anyRigid;
-  if (passes == 2 && !anyRigid) return;
+  if (passes_ == 2 && !anyRigid) return;
   // With two passes only corners of rigid boundaries are determined.
-  const double sine = passes == 2 ? tolerance::kLineCorner : tolerance::contact().faceAngle;
+  const double sine = passes_ == 2 ? tolerance::kLineCorner : settings.constants.faceAngle;
   const PieceGeometry geometry(surfaces, reference);
   const std::size_t count = surfaces.entries();
   std::uint32_t loops = 0;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/contact_settings.hpp"
 #include "core/footprint.hpp"
 #include "mesh/model.hpp"
 #include "surface/contact_surface.hpp"
@@ -22,8 +23,8 @@ class PassRule {
  public:
   /// `reference`: m, stress-free, by node, so that motion does not change the roles. `anyRigid`:
   /// true if there are rigid boundaries.
-  void update(const ContactSurfaces& surfaces, std::span<const Vec2> reference, int passes,
-              bool anyRigid = false);
+  void update(const ContactSurfaces& surfaces, std::span<const Vec2> reference,
+              const ContactSettings& settings, bool anyRigid = false);
 
   [[nodiscard]] bool mayBeSlave(const Model& model, const ContactSurfaces& surfaces, EntryId slave,
                                 EntryId master) const {

@@ -47,7 +47,7 @@ class Path {
   /// True if ξ (0 at the begin of a piece, 1 at its end) is over the piece, or, at a concave
   /// junction, no farther past it than a slave `depth` (m) behind the piece may be inside a notch.
   [[nodiscard]] bool isWithin(EntryId master, double xi, double length, double depth) const {
-    const double past = tolerance::contact().pastConcave * depth / length;
+    const double past = step_.constants.pastConcave * depth / length;
     const double least = isConcave(surfaces_.prev[master.value], master) ? past : 0;
     const double most = isConcave(master, surfaces_.next[master.value]) ? past : 0;
     return xi >= -least - tolerance::kFootRange && xi <= 1 + most + tolerance::kFootRange;
@@ -98,7 +98,7 @@ void decideByPath(const ContactSurfaces& surfaces, const SlaveStep<Geometry>& st
   const SlaveNormals normals = slaveNormals(surfaces, step.now, step.slave);
   for (Trial& trial : trials) {
     path.findFoot(trial);
-    trial.opposed = normals.oppose(trial.foot.normal);
+    trial.opposed = normals.oppose(trial.foot.normal, step.constants);
     trial.active = trial.active && trial.opposed && trial.foot.gap < 0;
     trial.entered = trial.active;
   }

@@ -28,6 +28,7 @@ struct PathStart {
   std::span<const Touch> touches;   ///< by pair
   double depth = 0;                 ///< m, depth from which a slave counts as behind a line
   double deepest = 0;               ///< m, largest depth of the touches
+  tolerance::Contact constants = {};
 };
 
 /// The step of one slave.
@@ -37,6 +38,7 @@ struct SlaveStep {
   EntryId slave;
   std::span<const Touch> touches;  ///< stored contacts of the slave
   double depth;                    ///< m, as in PathStart
+  const tolerance::Contact& constants;
 };
 
 /// Sets `active` for the masters that a slave has entered; returns true if there are any. Depths in

@@ -20,7 +20,7 @@ struct FootOn {
 /// boundary does not turn towards the void between them (otherwise the adjacent piece has another
 /// normal). A piece of which the slave is an end is excluded: it cannot be pushed away from itself.
 FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair,
-                  Vec2 slave) {
+                  Vec2 slave, double faceAngle) {
   const EntryId master = pair.master;
   const Foot foot = before.foot(master, slave);
   const PieceRange range = before.range(master);
@@ -38,7 +38,7 @@ FootOn footBefore(const ContactSurfaces& surfaces, const PieceGeometry& before, 
   const Foot other = before.foot(neighbour, slave);
   const PieceRange otherRange = before.range(neighbour);
   const bool overOther = other.xi >= otherRange.begin && other.xi <= otherRange.end;
-  if (overOther && areOneFace(other.normal, foot.normal)) return {neighbour, other};
+  if (overOther && areOneFace(other.normal, foot.normal, faceAngle)) return {neighbour, other};
   return {master, foot};
 }
 
@@ -69,16 +69,17 @@ double usableXi(const PieceGeometry& before, EntryId master, double xi, bool atC
 
 /// True if the boundary continues past that end of a piece without a significant corner.
 bool goesOn(const ContactSurfaces& surfaces, const PieceGeometry& before, EntryId master, double xi,
-            Vec2 slave) {
+            Vec2 slave, double faceAngle) {
   const bool atBegin = xi < before.range(master).begin;
   const EntryId neighbour = atBegin ? surfaces.prev[master.value] : surfaces.next[master.value];
-  return areOneFace(before.foot(neighbour, slave).normal, before.foot(master, slave).normal);
+  return areOneFace(before.foot(neighbour, slave).normal, before.foot(master, slave).normal,
+                    faceAngle);
 }
 
 }  // namespace
 
 ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
-                   const Active& active, bool hasFriction) {
+                   const Active& active, double faceAngle, bool hasFriction) {
   const Stencil slave = surfaces.slave(active.pair.slave);
   const Vec2 point = before.slave(active.pair.slave);
   const PieceRange range = before.range(active.pair.master);
@@ -86,10 +87,10 @@ ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
   const bool past = active.foot.xi < range.begin - tolerance::kFootRange ||
                     active.foot.xi > range.end + tolerance::kFootRange;
   const bool atCorner =
-      past && !goesOn(surfaces, before, active.pair.master, active.foot.xi, point);
+      past && !goesOn(surfaces, before, active.pair.master, active.foot.xi, point, faceAngle);
   FootOn on{active.pair.master, active.foot};
   if (!atCorner)
-    on = footBefore(surfaces, before, active.pair, point);
+    on = footBefore(surfaces, before, active.pair, point, faceAngle);
   else if (!hasFriction)
     on = footAtCorner(before, active, point);
   ContactRow row;

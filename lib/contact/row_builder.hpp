@@ -10,10 +10,10 @@
 
 namespace yadefrag {
 
-/// `before`: positions xⁿ. The row's gap is that of the active; its `toleratedGap` is 0, its
-/// friction is not set.
+/// `before`: positions xⁿ; `faceAngle`: as in tolerance::Contact. The row's gap is that of the
+/// active; its `toleratedGap` is 0, its friction is not set.
 ContactRow makeRow(const ContactSurfaces& surfaces, const PieceGeometry& before,
-                   const Active& active, bool hasFriction = false);
+                   const Active& active, double faceAngle, bool hasFriction = false);
 
 /// (m) Gap of a row's slave relative to its master's line or arc; negative: penetration.
 template <bool kSmooth>

@@ -101,7 +101,8 @@ void RowSweeps::share(const Coupling* coupling, std::size_t modelNodes) {
   shared_.clear();
   if (coupling == nullptr) return;
   for (std::uint32_t i = 0; i < system_.nodes.size(); ++i)
-    if (system_.nodes[i].value < modelNodes && coupling->group[system_.nodes[i].value] != 0)
+    if (system_.nodes[i].value < modelNodes &&
+        coupling->forces.groupOf(system_.nodes[i]) != CoupledForces::kNoGroup)
       shared_.push_back({i, system_.nodes[i]});
   if (!shared_.empty()) coupling->forces.begin(coupling->position);
 }

@@ -8,9 +8,10 @@
 
 namespace yadefrag {
 
-/// True if two adjacent pieces with these unit normals are one face for a slave that slides.
-inline bool areOneFace(Vec2 a, Vec2 b) {
-  return dot(a, b) > 0 && std::abs(cross(a, b)) < tolerance::contact().faceAngle;
+/// True if two adjacent pieces with these unit normals are one face for a slave that slides;
+/// `faceAngle`: a sine.
+inline bool areOneFace(Vec2 a, Vec2 b, double faceAngle) {
+  return dot(a, b) > 0 && std::abs(cross(a, b)) < faceAngle;
 }
 
 /// The slave's outward normals: those of the previous piece and of its own piece. A convex corner
@@ -20,13 +21,13 @@ inline bool areOneFace(Vec2 a, Vec2 b) {
 /// master's end and the slave's side.
 struct SlaveNormals {
   Vec2 before, after;
-  [[nodiscard]] bool oppose(Vec2 normal) const {
+  [[nodiscard]] bool oppose(Vec2 normal, const tolerance::Contact& constants) const {
     const bool convex = cross(before, after) > 0 || dot(before, after) < tolerance::kFolded;
     const double leaning = std::min(cross(normal, before), cross(after, normal));
     if (convex && leaning >= 0) return true;
-    const bool sharp = convex && !areOneFace(before, after);
-    if (sharp && leaning < -tolerance::contact().faceAngle) return false;
-    return std::min(dot(before, normal), dot(after, normal)) < tolerance::contact().opposed;
+    const bool sharp = convex && !areOneFace(before, after, constants.faceAngle);
+    if (sharp && leaning < -constants.faceAngle) return false;
+    return std::min(dot(before, normal), dot(after, normal)) < constants.opposed;
   }
 };
 

@@ -30,8 +30,7 @@ class ExplicitDynamics {
  public:
   explicit ExplicitDynamics(InstructionSet set = bestInstructionSet()) : set_(set) {}
 
-  /// Must be called after nodes or triangles were added, removed or renumbered, before the next
-  /// step.
+  /// Follows added, removed or renumbered nodes and triangles; `predict` asserts it.
   void rebuild(const Model& model);
 
   /// The same after a mere split of nodes, at a cost that grows with the number of changed
@@ -84,8 +83,7 @@ class ExplicitDynamics {
   [[noreturn]] void refuseFlat(const Model& model, const Flattest& flattest, double dt,
                                double stable) const;
 
-  /// Must be called for a held node whose velocity contact has changed: it belongs to a rigid
-  /// boundary that obeys forces.
+  /// Contact has changed the velocity of a held node, of a rigid boundary that obeys forces.
   void setHeld(NodeId node, Vec2 velocity) { heldVelocity_[node.value] = velocity; }
 
   /// Undoes `predict` and all later changes of positions and velocities.

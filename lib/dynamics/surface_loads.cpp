@@ -1,6 +1,7 @@
 #include "dynamics/surface_loads.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace yadefrag {
@@ -65,6 +66,7 @@ void AbsorbingBoundary::findTriangles(const Model& model, const ContactSurfaces&
 
 void AbsorbingBoundary::collect(const Model& model, const ContactSurfaces& surfaces,
                                 std::span<const Vec2> place) {
+  assert(behind_.empty() || behind_.size() == segments.size());
   dashpots_.clear();
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const SegmentId segment = segments[i];

@@ -41,8 +41,8 @@ class AbsorbingBoundary {
  public:
   std::vector<SegmentId> segments;
 
-  /// Must be called after bodies or segments changed: finds the triangles behind the segments of
-  /// bodies with several materials.
+  /// Finds the triangles behind the segments of bodies with several materials; `correct` asserts
+  /// that it has been called for the present segments.
   void findTriangles(const Model& model, const ContactSurfaces& surfaces);
   /// Corrects the velocities by the dashpots' forces. Implicit, −C(vⁿ⁻½ + vⁿ⁺½)/2, and therefore
   /// stable for any step; `before` (m/s): vⁿ⁻½, `place` (m): xⁿ, by node.

@@ -243,20 +243,6 @@ void Cohesion::addForces(std::vector<Vec2>& forces) const {
   }
 }
 
-std::span<const std::uint32_t> Cohesion::groupsOfNodes(std::size_t nodes) {
-  assert(points_.empty() || groupOf_.size() == points_.size());
-  for (const NodeId node : grouped_) groupOfNode_[node.value] = 0;
-  grouped_.clear();
-  if (points_.empty()) return {};
-  groupOfNode_.resize(nodes);
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    for (const NodeId node : {points_[i].here, points_[i].there}) {
-      groupOfNode_[node.value] = groupOf_[i] + 1;
-      grouped_.push_back(node);
-    }
-  return groupOfNode_;
-}
-
 void Cohesion::addWork(EnergyLedger& ledger, const Model& model,
                        std::span<const Vec2> previousVelocity, const StepLength& step) const {
   const auto mean = [&](NodeId node) {

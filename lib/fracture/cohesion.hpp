@@ -46,6 +46,7 @@ class Cohesion final : public CoupledForces {
   void correct(Model& model, const CrackEdges& edges, std::span<const Vec2> before,
                const StepLength& step, double drag);
   // While contact is solved (cohesion_coupled.cpp):
+  [[nodiscard]] std::uint32_t groupOf(NodeId node) const override;
   void begin(std::span<const Vec2> position) override;
   void noteMoved(NodeId node) override;
   double sweep(std::vector<Vec2>& position, double tolerance) override;
@@ -66,9 +67,8 @@ class Cohesion final : public CoupledForces {
 
   /// (N) Adds the forces of the present step's tractions, by node.
   void addForces(std::vector<Vec2>& forces) const;
-  /// By node: number, from 1 on, of the nodes that the present step's tractions connect; 0: none.
-  /// Empty without tractions; valid until the next call.
-  [[nodiscard]] std::span<const std::uint32_t> groupsOfNodes(std::size_t nodes);
+  /// True if the present step has tractions.
+  [[nodiscard]] bool isPulling() const { return !points_.empty(); }
 
   /// Removes cracks between removed triangles.
   void removeDropped(const Triangles& triangles, const CrackEdges& edges);
@@ -98,9 +98,9 @@ class Cohesion final : public CoupledForces {
   auto columns() const { return columnsOf(*this); }
   void addTo(Footprint& footprint) const {
     yadefrag::addTo(footprint, columns());
-    footprint.add(Use::kCohesion, points_, couples_, firstAt_, groupOf_, groupOfNode_, grouped_,
-                  groups_.values, groups_.offsets, pointsAt_.values, pointsAt_.offsets, improved_,
-                  start_, turned_, released);
+    footprint.add(Use::kCohesion, points_, couples_, firstAt_, groupOf_, groups_.values,
+                  groups_.offsets, pointsAt_.values, pointsAt_.offsets, improved_, start_, turned_,
+                  released);
     sets_.addTo(footprint, Use::kCohesion);
     waiting_.addTo(footprint, Use::kCohesion);
   }
@@ -139,13 +139,12 @@ class Cohesion final : public CoupledForces {
   static double moved(const Point& point);
 
   std::vector<Point> points_;
-  std::vector<FaceCouple> couples_;         // of the cracks with points
-  std::vector<std::uint32_t> firstAt_;      // by node of a point: the first point there
-  DisjointSets sets_;                       // sets of points
-  std::vector<std::uint32_t> groupOf_;      // by point
-  std::vector<std::uint32_t> groupOfNode_;  // by node, for groupsOfNodes; 0 but at these nodes:
-  std::vector<NodeId> grouped_;
-  Csr<std::uint32_t> groups_;  // groups of points that share nodes
+  std::vector<FaceCouple> couples_;  // of the cracks with points
+  /// By node: the first point there; of a node without points, any number.
+  std::vector<std::uint32_t> firstAt_;
+  DisjointSets sets_;                   // sets of points
+  std::vector<std::uint32_t> groupOf_;  // by point
+  Csr<std::uint32_t> groups_;           // groups of points that share nodes
   double residual_ = 0;
   // While contact is solved:
   Csr<std::uint32_t> pointsAt_;             // by firstAt_: all points of a node

@@ -1,11 +1,19 @@
 // Cohesion: sweeps over the tractions at nodes that contact moves, too.
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/tolerances/fracture.hpp"
 #include "fracture/cohesion.hpp"
 
 namespace yadefrag {
+
+std::uint32_t Cohesion::groupOf(NodeId node) const {
+  assert(groupOf_.size() == points_.size() && node.value < firstAt_.size());
+  const std::uint32_t i = firstAt_[node.value];
+  if (i >= points_.size() || (points_[i].here != node && points_[i].there != node)) return kNoGroup;
+  return groupOf_[i];
+}
 
 void Cohesion::begin(std::span<const Vec2> position) {
   start_.clear();

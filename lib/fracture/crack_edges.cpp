@@ -136,6 +136,8 @@ void CrackEdges::addBonds(const Model& model, std::span<const std::array<Side, 2
 
 std::vector<EdgeId> CrackEdges::removeBody(const Model& model, ElementId first, ElementId last,
                                            std::span<const NodeId> renumberedNodes) {
+  assert(renumberedNodes.size() >= ofNode.size());
+  assert(first <= last && model.triangles.size() + (last.value - first.value) >= ofElement.size());
   const std::uint32_t gone = last.value - first.value;
   const auto shifted = [&](ElementId e) { return e < last ? e : ElementId(e.value - gone); };
   std::vector<EdgeId> renumbered(size(), EdgeId::none());

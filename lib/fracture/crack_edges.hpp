@@ -94,8 +94,8 @@ struct CrackEdges {
     const auto& [a, b] = element[edge.value];
     return model.triangles.component[a.value] != model.triangles.component[b.value];
   }
-  /// Must be called after a body was removed from the model: changes all numbers. Returns the new
-  /// numbers of the edges, none() for removed ones.
+  /// Follows the removal of a body from the model: changes all numbers. Returns the new numbers of
+  /// the edges, none() for removed ones.
   std::vector<EdgeId> removeBody(const Model& model, ElementId first, ElementId last,
                                  std::span<const NodeId> renumberedNodes);
 

@@ -14,8 +14,8 @@ namespace yadefrag {
 
 class Fracture {
  public:
-  /// Must be called after a body was added to the model; does nothing unless it can crack. Returns
-  /// the edges to be opened now: those of joints without strength.
+  /// Follows a body that was just added to the model; does nothing unless it can crack. Returns the
+  /// edges to be opened now: those of joints without strength.
   std::vector<EdgeId> addBody(const Model& model, ComponentId component,
                               const BrittlePlaces& places = {});
   /// Opens edges without strength, and splits nodes; these do not count as cracks.
@@ -24,7 +24,7 @@ class Fracture {
   /// Bonds two bodies along these sides by cohesive cracks.
   void bond(const Model& model, std::span<const std::array<Side, 2>> sides, double strength,
             double energy);
-  /// Must be called after a body was removed; its triangles were [first, last).
+  /// Follows the removal of a body; its triangles were [first, last).
   void removeBody(const Model& model, ElementId first, ElementId last,
                   std::span<const NodeId> renumberedNodes);
 

@@ -48,8 +48,7 @@ void HaloWatch::rebuild(const Scene& scene) {
     apart_.takeFrom(scene.model, nodes);
     apart_.restoreSpare(bounds.spare);
     // A loaded state may crack before its first search.
-    passRule_.update(scene.surfaces, scene.model.nodes.reference, scene.settings.passes,
-                     scene.hasRigid);
+    passRule_.update(scene.surfaces, scene.model.nodes.reference, scene.settings, scene.hasRigid);
   } else {
     // There will be no search, but bounds for a collider, which watches them by itself.
     shortest = scene.finest;
@@ -218,8 +217,7 @@ void HaloWatch::chooseHalo(const Scene& scene, double dt) {
 }
 
 void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overlapping) {
-  passRule_.update(scene.surfaces, scene.model.nodes.reference, scene.settings.passes,
-                   scene.hasRigid);
+  passRule_.update(scene.surfaces, scene.model.nodes.reference, scene.settings, scene.hasRigid);
   pairs_.clear();
   selectPairs(scene.model, scene.surfaces, passRule_, scene.model.nodes.position, halo, overlapping,
               pairs_);

@@ -31,8 +31,6 @@ HaloWatch::Scene World::searchScene() {
 
 void World::correctContact(const StepLength& length) {
   const double most = search.largestMove();
-  const std::span<const std::uint32_t> cohesive =
-      fracture.cohesion.groupsOfNodes(model.nodes.size());
   const ContactStep now{length,
                         dynamicsSettings.drag(length),
                         most,
@@ -42,9 +40,9 @@ void World::correctContact(const StepLength& length) {
                         dynamics_.previousPosition(),
                         threads,
                         rigidMasses,
-                        cohesive,
+                        contactSettings.constants,
                         timesIfRequested(),
-                        cohesive.empty() ? nullptr : &fracture.cohesion};
+                        fracture.cohesion.isPulling() ? &fracture.cohesion : nullptr};
   undo_.hasCorrected = true;
   contact.correct(model, surfaces, now);
   for (const RigidMasses::Member& member : rigidMasses.members)

@@ -41,16 +41,17 @@ class Interval {
     const bool known = steps_ > 0 && work_ > 0;
     *this = {};
     if (!known) return interval;
-    return std::clamp(interval * std::clamp(std::sqrt(ratio), .5, tolerance::kIntervalGrowth),
+    return std::clamp(interval * std::clamp(std::sqrt(ratio), tolerance::kIntervalShrinking,
+                                            tolerance::kIntervalGrowth),
                       tolerance::kLeastInterval, tolerance::kMostInterval);
   }
 
  private:
-  /// Time of a search per body over that of a potential interaction per step: about 0.25 µs over
-  /// 0.06 µs while a scene fits into the processor's caches, over 0.3 µs if every interaction is
-  /// read from memory (2-core machine, November 2026). The caches are full at 3·10³ to 10⁵ bodies.
+  /// Time of a search per body over that of a potential interaction per step.
   static double searchOverPair(double bodies) {
-    return std::clamp(4 * std::pow(3000 / bodies, .4), 1.5, 4.);
+    using namespace tolerance;
+    return std::clamp(kSearchOverPair * std::pow(kCachedBodies / bodies, kCacheExponent),
+                      kLeastSearchOverPair, kSearchOverPair);
   }
 
   double work_ = 0, searched_ = 0, halves_ = 0, steps_ = 0;

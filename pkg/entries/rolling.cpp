@@ -11,6 +11,11 @@
 namespace yadefrag {
 namespace {
 
+/// As in contact of FE bodies.
+bool areOneFace(Vec2 a, Vec2 b) {
+  return yadefrag::areOneFace(a, b, tolerance::Contact().faceAngle);
+}
+
 using yade::Vector3r;
 
 Vec2 leftOf(Vec2 v) { return {-v.y, v.x}; }

@@ -123,7 +123,7 @@ class TwoSearches {
     }
     std::vector<SlaveMaster> pairs = allPairs(scene.surfaces, selfContact);
     replaceCandidates(all_, pairs);
-    rule_.update(scene.surfaces, scene.at, 2);
+    rule_.update(scene.surfaces, scene.at, {.passes = 2});
     renew();
   }
 

@@ -27,7 +27,7 @@ struct Roles {
       : surfaces(scene.surfaces) {
     model.components.resize(scene.components);
     if (brittle < scene.components) model.components[brittle].brittle.tensileStrength = 1;
-    rule.update(surfaces, scene.at, passes);
+    rule.update(surfaces, scene.at, {.passes = passes});
   }
 
   [[nodiscard]] bool mayBeSlave(EntryId slave, EntryId master) const {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "contact/contact_scenes.hpp"
+#include "core/tolerances/contact.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -29,7 +30,8 @@ struct Approach {
   [[nodiscard]] ContactRow row(EntryId master) const {
     const PieceGeometry now = scene.geometry();
     return makeRow(scene.surfaces, {scene.surfaces, before},
-                   {{tip, master}, now.foot(master, now.slave(tip))});
+                   {{tip, master}, now.foot(master, now.slave(tip))},
+                   tolerance::Contact().faceAngle);
   }
 
   [[nodiscard]] Vec2 masterPoint(const ContactRow& row) const {
@@ -166,8 +168,9 @@ TEST(RowBuilder, HalfpointsAreSlavesOfTwoNodes) {
   // The halfpoint between the first two nodes: (.25, 2.45); the square's top is at 1.
   const PieceGeometry geometry = scene.geometry();
   const EntryId top(std::size_t{2});
-  const ContactRow row = makeRow(scene.surfaces, geometry,
-                                 {{smooth, top}, geometry.foot(top, geometry.slave(smooth))});
+  const ContactRow row =
+      makeRow(scene.surfaces, geometry, {{smooth, top}, geometry.foot(top, geometry.slave(smooth))},
+              tolerance::Contact().faceAngle);
   ASSERT_EQ(row.count, 4);
   EXPECT_EQ(row.weight[0], .5);
   EXPECT_EQ(row.weight[1], .5);

@@ -21,6 +21,7 @@ struct ImpactSetting {
   int steps = 500, every = 5;  // steps between two looks at all overlaps
   int threads = 1;
   NodeLayout nodes = NodeLayout::kRows;
+  tolerance::Contact constants = {};
 };
 
 struct ImpactResult {
@@ -40,6 +41,7 @@ inline World impact(const ImpactSetting& setting) {
   constexpr double kWidth = 20e-3, kHeight = 10e-3, kRadius = 5e-3;  // m
   World world;
   world.contactSettings.passes = 2;
+  world.contactSettings.constants = setting.constants;
   world.threads = setting.threads;
   const TriangleMesh block = triangulate(
       {{{-kWidth / 2, -kHeight}, {kWidth / 2, -kHeight}, {kWidth / 2, 0}, {-kWidth / 2, 0}}, {}},

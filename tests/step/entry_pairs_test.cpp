@@ -84,7 +84,7 @@ TEST_P(EntryPairs, AllSlavesInTheHaloForEverySearch) {
     const RandomBodies bodies(random, GetParam());
     const double halo = even(random, .01, .2);
     PassRule rule;
-    rule.update(bodies.scene.surfaces, bodies.scene.at, 1 + scene % 2);
+    rule.update(bodies.scene.surfaces, bodies.scene.at, {.passes = 1 + scene % 2});
     const std::size_t count = bodies.scene.surfaces.entries();
     Pairs wanted;
     for (std::size_t s = 0; s < count; ++s)
@@ -133,7 +133,7 @@ TEST_P(EntryPairs, AllThatTouchWithinTheHaloWerePairs) {
       point += .5 * halo * Vec2{std::cos(angle), std::sin(angle)};
     }
     PassRule rule;
-    rule.update(bodies.scene.surfaces, bodies.scene.at, 2);
+    rule.update(bodies.scene.surfaces, bodies.scene.at, {.passes = 2});
     const auto pairs = bodies.select(rule, halo, SearchMethod::kLebesgue);
     far += bodies.distance({tip, master}) > halo / 2;
     ASSERT_TRUE(std::ranges::count(pairs, SlaveMaster{tip, master}) == 1) << "scene " << scene;

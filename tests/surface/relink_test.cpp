@@ -291,7 +291,7 @@ TEST(Relink, ContactTakesTwoHalvesBetweenCorners) {
   component.brittle.tensileStrength = 1;
   model.components = {component, Component{}};
   PassRule rule;
-  rule.update(mesh.surfaces, mesh.positions, 1);
+  rule.update(mesh.surfaces, mesh.positions, {.passes = 1});
   // Even the point at which two halves go straight on is a slave: the next crack may make it a
   // corner.
   const EntryId other = firstAt(mesh, {9, 0}, {9.125, 0});

@@ -41,12 +41,6 @@ struct Contact {
   int rowSweeps = 80;
 };
 
-/// Tests halve and double each of these values.
-inline Contact& contact() {
-  static constinit Contact values;
-  return values;
-}
-
 /// (of a piece's length) A slave no deeper than this inside a master counts as outside: bodies
 /// placed exactly on each other differ by rounding.
 inline constexpr double kTouching = 1e-9;
@@ -99,6 +93,14 @@ inline constexpr double kSecondOrder = .05, kMostRemainder = 1e-5;
 /// without another search, if they cannot be deeper than this. Walls at rest then need one search
 /// per step. With 1e-4 impacts take the same time.
 inline constexpr double kLateContact = 1e-5;
+
+/// (of the reach plus the depth of the deepest contact) A slave past a piece's end by more than this
+/// is not near the piece: within the step both move by at most the reach together.
+inline constexpr double kBeside = 6;
+
+/// (of a piece's length) An overlap that a crack causes by straightening an arc is tolerated up to
+/// this depth; a deeper slave is in another part of the body.
+inline constexpr double kStraightened = .25;
 
 /// (count) Maximum number of detections in one step. With 10 overlaps in impacts are the same, for
 /// 1.3 times the time.
