@@ -23,9 +23,9 @@ bool RowGradients::descend(RowSystem& system, RowRange range, double tolerance) 
   bool isBounded = false;
   for (int i = 0; i < tolerance::kDescents && worst > tolerance && !isBounded; ++i) {
     turnDirection(range, kept);
-    const double curvature = findResponses(system, range);
-    if (!(curvature > 0)) break;
-    const double step = square / curvature, bound = stepToBound(system, range);
+    const Curvature curvature = findResponses(system, range);
+    if (!(curvature.together > tolerance::kContrary * curvature.alone)) break;
+    const double step = square / curvature.together, bound = stepToBound(system, range);
     isBounded = bound < step;
     worst = advance(system, range, std::min(bound, step));
     const double former = std::exchange(square, scaledSquare(range));
@@ -70,9 +70,7 @@ void RowGradients::turnDirection(RowRange range, double kept) {
   }
 }
 
-/// Each row has a small compliance: where rows contradict each other, a direction would have no
-/// response at all. Returns the quadratic's second derivative in the direction (N m).
-double RowGradients::findResponses(const RowSystem& system, RowRange range) {
+RowGradients::Curvature RowGradients::findResponses(const RowSystem& system, RowRange range) {
   for (std::uint32_t r = range.begin; r < range.end; ++r) {
     const RowSystem::Ends& ends = system.ends[r];
     for (std::uint32_t k = 0; k < ends.count; ++k) along_.nodes[ends.node[k]].shift = {};
@@ -83,16 +81,15 @@ double RowGradients::findResponses(const RowSystem& system, RowRange range) {
     system.push(row, system.ends[r],
                 direction_[r].normal * row.normal + direction_[r].tangent * row.along(), along_);
   }
-  double curvature = 0;
+  Curvature curvature;
   for (std::uint32_t r = range.begin; r < range.end; ++r) {
     const RowSystem::Row& row = system.rows[r];
+    const Pair& d = direction_[r];
     const Vec2 moved = system.relativeMotion(row, system.ends[r], system.ends[r].count, along_);
-    response_[r] = {
-        dot(moved, row.normal) + tolerance::kCompliance * row.normalResponse * direction_[r].normal,
-        dot(moved, row.along()) +
-            tolerance::kCompliance * row.tangentResponse * direction_[r].tangent};
-    curvature +=
-        direction_[r].normal * response_[r].normal + direction_[r].tangent * response_[r].tangent;
+    response_[r] = {dot(moved, row.normal), dot(moved, row.along())};
+    curvature.together += d.normal * response_[r].normal + d.tangent * response_[r].tangent;
+    curvature.alone +=
+        d.normal * row.normalResponse * d.normal + d.tangent * row.tangentResponse * d.tangent;
   }
   return curvature;
 }

@@ -1,7 +1,8 @@
 #pragma once
 // Conjugate gradients on the forces within their bounds. They minimise ½λᵀGλ + gᵀλ, with the
-// responses of single rows as a preconditioner, up to the first bound that a force reaches: which
-// forces are at a bound is decided by the sweeps.
+// responses of single rows as a preconditioner, up to the first bound that a force reaches, or to a
+// direction in which rows contradict each other: which forces are at a bound is decided by the
+// sweeps, and rows without a solution are left to them.
 
 #include <vector>
 
@@ -29,8 +30,14 @@ class RowGradients {
     double normal = 0, tangent = 0;
   };
 
+  /// (N m) Second derivative of the quadratic in a direction, and the sum of those of each row
+  /// alone.
+  struct Curvature {
+    double together = 0, alone = 0;
+  };
+
   void turnDirection(RowRange range, double kept);
-  double findResponses(const RowSystem& system, RowRange range);
+  Curvature findResponses(const RowSystem& system, RowRange range);
   [[nodiscard]] double scaledSquare(RowRange range) const;
   [[nodiscard]] double stepToBound(const RowSystem& system, RowRange range) const;
   double advance(RowSystem& system, RowRange range, double step);

@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6551893191868547);
-  expectNear(places.y, 1.4498235153262777);
-  expectNear(speeds, 4509.7548055452626);
-  expectNear(totalEnergy(world), 89.99937558625912);
-  expectNear(world.ledger.contact, 5.1065728902333722);
+  expectNear(places.x, 3.6551931696832405);
+  expectNear(places.y, 1.4498209617232505);
+  expectNear(speeds, 4510.0509602410248);
+  expectNear(totalEnergy(world), 89.999376203822692);
+  expectNear(world.ledger.contact, 5.1053676649502968);
 }
 
 }  // namespace
