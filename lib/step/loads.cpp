@@ -117,8 +117,7 @@ void Loads::spread(const Model& model, const ContactSurfaces& surfaces, const Fr
 
 double Loads::valueOf(const Pressure& pressure, double time) const {
   if (pressure.function == 0) return pressure.value.at(time);
-  const auto given =
-      std::ranges::find(givenPressures, pressure.function, &GivenPressure::function);
+  const auto given = std::ranges::find(givenPressures, pressure.function, &GivenPressure::function);
   if (given == givenPressures.end())
     throw RunError(
         "a pressure is a function of the script, which a saved file does not have; call "

@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6551931696832405);
-  expectNear(places.y, 1.4498209617232505);
-  expectNear(speeds, 4510.0509602410248);
-  expectNear(totalEnergy(world), 89.999376203822692);
-  expectNear(world.ledger.contact, 5.1053676649502968);
+  expectNear(places.x, 3.655193167199164);
+  expectNear(places.y, 1.4498209609898485);
+  expectNear(speeds, 4510.0508784059921);
+  expectNear(totalEnergy(world), 89.99937620412571);
+  expectNear(world.ledger.contact, 5.1053690732496797);
 }
 
 }  // namespace

@@ -94,8 +94,8 @@ inline constexpr double kSecondOrder = .05, kMostRemainder = 1e-5;
 /// per step. With 1e-4 impacts take the same time.
 inline constexpr double kLateContact = 1e-5;
 
-/// (of the reach plus the depth of the deepest contact) A slave past a piece's end by more than this
-/// is not near the piece: within the step both move by at most the reach together.
+/// (of the reach plus the depth of the deepest contact) A slave past a piece's end by more than
+/// this is not near the piece: within the step both move by at most the reach together.
 inline constexpr double kBeside = 6;
 
 /// (of a piece's length) An overlap that a crack causes by straightening an arc is tolerated up to
