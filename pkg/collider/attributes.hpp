@@ -75,9 +75,14 @@ void SearchCollider::pyExtra(PyClass& pyClass) {
   pyClass.add_property("periodic", getter([](Self& self) { return self.periodic(); }),
                        "True if the last search was in a periodic cell.");
   pyClass.def(
-      "entryPairs", getter([](Self&) { return yade::py::list(); }),
-      "Accepted for scripts of earlier versions; an empty list. FESolver finds the pairs of "
-      "SurfaceSegment bodies itself; they never become interactions.");
+      "entryPairs", getter([](Self& self) {
+        yade::py::list pairs;
+        for (const BoxPair& pair : self.entryPairs())
+          pairs.append(yade::py::make_tuple(pair.first.value, pair.second.value));
+        return pairs;
+      }),
+      "Pairs (id1, id2) of SurfaceSegment bodies whose bounds overlapped at the last search. They "
+      "never become interactions, and FESolver does not use them: it searches itself.");
   pyClass.add_property(
       "newton", getter([](Self& self) { return self.newton; }),
       py::make_function(

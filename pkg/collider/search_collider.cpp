@@ -10,6 +10,7 @@
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
 #include "entries/surface_segment.hpp"
+#include "search/overlapping_pairs.hpp"
 #include "search/periodic_overlap.hpp"
 
 namespace yadefrag {
@@ -176,6 +177,25 @@ void SearchCollider::removeSegmentPairs() {
   std::erase_if(pairs_, [&](const BoxPair& pair) {
     return isSegment[pair.first.value] != 0 && isSegment[pair.second.value] != 0;
   });
+}
+
+std::vector<BoxPair> SearchCollider::entryPairs() {
+  const std::vector<std::uint8_t>& isSegment = boxes_.isSegment();
+  if (isSegment.empty()) return {};
+  std::vector<Box> boxes(boxes_.boxes().begin(), boxes_.boxes().end());
+  for (std::size_t id = 0; id < boxes.size(); ++id)
+    if (id >= isSegment.size() || isSegment[id] == 0) boxes[id] = Box::absent();
+  std::vector<BoxPair> pairs = overlappingPairs(boxes);
+  const auto& bodies = scene->bodies->body;
+  std::erase_if(pairs, [&](const BoxPair& pair) {
+    const Body *first = bodies[pair.first.value].get(), *second = bodies[pair.second.value].get();
+    if (!first || !second || !mayCollide(first, second, scene->subdomain)) return true;
+    const auto& a = static_cast<const SurfaceSegment&>(*first->shape);
+    const auto& b = static_cast<const SurfaceSegment&>(*second->shape);
+    // Pieces created by scripts are one rigid body.
+    return a.component == b.component && !(a.component >= 0 && a.selfContact);
+  });
+  return pairs;
 }
 
 void SearchCollider::findNeighbours(int threads) {

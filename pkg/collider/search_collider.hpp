@@ -58,6 +58,9 @@ class SearchCollider : public yade::Collider {
   long searchedTotal = 0;
   yade::shared_ptr<yade::NewtonIntegrator> newton;
 
+  /// Pairs of surface segments that may touch each other and whose bounds overlapped at the last
+  /// search, by body id; found anew by each call. They are not interactions.
+  [[nodiscard]] std::vector<BoxPair> entryPairs();
   [[nodiscard]] bool strideActive() const { return strideActive_; }
   [[nodiscard]] bool periodic() const { return periodic_; }
 

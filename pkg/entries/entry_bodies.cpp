@@ -167,6 +167,18 @@ void EntryBodies::requireWhole() const {
     if (hasBody(EntryId(e))) requireWhole(e);
 }
 
+bool EntryBodies::haveExcludingMasks() const {
+  std::vector<yade::mask_t> masks;
+  for (std::size_t e = 0; e < bodies_.size(); ++e) {
+    if (!hasBody(EntryId(e))) continue;
+    const yade::mask_t mask = bodies_[e]->groupMask;
+    if (std::ranges::find(masks, mask) == masks.end()) masks.push_back(mask);
+  }
+  return std::ranges::any_of(masks, [&](yade::mask_t a) {
+    return std::ranges::any_of(masks, [a](yade::mask_t b) { return (a & b) == 0; });
+  });
+}
+
 /// The entry that represents its component. It is never an entry of a crack, since those are last.
 EntryId EntryBodies::firstOf(const World& world, ComponentId component) {
   if (firstOf_.size() != world.model.components.size()) {

@@ -54,6 +54,8 @@ class EntryBodies {
   void requireAll(const yade::Scene& scene);
   /// Throws RunError if a body has no shape, state or material any more.
   void requireWhole() const;
+  /// True if the masks of two bodies exclude interactions between them.
+  [[nodiscard]] bool haveExcludingMasks() const;
   /// Updates shapes, with the margin of their bounds, and states. `dt`: time (s) for which an
   /// integrator will still move the bodies; 0: none. `first`: only entries from this one on.
   void update(const World& world, double dt, int threads, std::size_t first = 0);

@@ -30,7 +30,7 @@ void FESolver::action() try {
   giveSettings();
   checkScene(enginesAreNew);
   followRigid(enginesAreNew);
-  if (world_.search.isDue()) bodies_.requireWhole();
+  if (world_.search.isDue()) checkBodies();
   const std::uint64_t dropped = world_.dropped.count, searches = world_.numSearches();
   const std::size_t known = world_.warnings.size();
   collectForces();
@@ -63,6 +63,16 @@ void FESolver::action() try {
 } catch (const std::exception& error) {
   noteStop(error.what());
   throw;
+}
+
+/// Of the surface pieces, which a script can change.
+void FESolver::checkBodies() {
+  bodies_.requireWhole();
+  if (bodies_.haveExcludingMasks())
+    report(
+        {"Masks of FE bodies exclude interactions between them, but have no effect on contact of "
+         "FE "
+         "bodies with each other; they have with spheres and other bodies of YADE."});
 }
 
 /// Of spheres and other bodies on the boundary.

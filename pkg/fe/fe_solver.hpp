@@ -89,6 +89,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void checkSettings() const;
   [[nodiscard]] std::vector<std::string> unusedSettings() const;
   void giveSettings();
+  void checkBodies();
   void collectForces();
   void warn(std::size_t known) const;
   void checkScene(bool enginesAreNew);

@@ -41,12 +41,26 @@ def overlapping():
     return found
 
 
+def isSelf(pair):
+    return O.bodies[pair[0]].shape.component == O.bodies[pair[1]].shape.component
+
+
 @pytest.mark.parametrize('selfContact', [False, True])
-def test_pairsAreNoInteractions(collider, selfContact):
+def test_pairsAreThoseOfTheBounds(collider, selfContact):
     finder = scene(collider, selfContact)
     O.step()
-    assert overlapping() and len(O.interactions.all()) == 0
-    assert finder.entryPairs() == []  # for scripts of earlier versions
+    wanted = {p for p in overlapping() if selfContact or not isSelf(p)}
+    assert wanted and set(finder.entryPairs()) == wanted
+    assert len(finder.entryPairs()) == len(wanted)
+    assert len(O.interactions.all()) == 0
+
+
+def test_masksHoldForPairs(collider):
+    finder = scene(collider)
+    for b in O.bodies:
+        b.mask = 1 if b.shape.component == 1 else 2
+    O.step()
+    assert overlapping() and not finder.entryPairs()
 
 
 def test_segmentsAloneAreSearchedOnDemand(collider):
@@ -68,19 +82,28 @@ def test_segmentsAloneAreSearchedOnDemand(collider):
 
 
 def test_spheresAmongSegments(collider):
-    """Spheres meet segments by interactions, segments never do."""
-    scene(collider, spheres=[(0, 1.25), (2, 1.35)])
+    """Spheres meet segments by interactions; segments meet each other by pairs, as before."""
+    finder = scene(collider, spheres=[(0, 1.25), (2, 1.35)])
     O.dt = 1e-6
     O.step()
+    assert set(finder.entryPairs()) == {p for p in overlapping() if not isSelf(p)}
     kinds = {tuple(sorted(type(O.bodies[k].shape).__name__ for k in (i.id1, i.id2)))
              for i in O.interactions.all()}
     assert kinds == {('Sphere', 'SurfaceSegment')}
     assert len(list(O.interactions)) >= 2
 
 
+def test_withoutSegmentsThereAreNoPairs(collider):
+    finder = collider([w.Bo1_Sphere_Aabb()])
+    O.bodies.append([chain.ball((x, 0), .6, w.FEMat()) for x in range(3)])
+    chain.engines(finder)
+    O.step()
+    assert finder.entryPairs() == [] and len(O.interactions.all()) == 2
+
+
 def test_pairsBecomeInteractionsElsewhereAndGo(collider):
     """After another collider has made interactions of them, ours takes them back."""
-    scene(collider)
+    finder = scene(collider)
     ours = O.engines
     rival = collider.rival([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()], verletDist=0)
     O.engines = [ours[0], rival, *ours[2:]]
@@ -90,7 +113,7 @@ def test_pairsBecomeInteractionsElsewhereAndGo(collider):
     assert found == overlapping() and not list(O.interactions)
     O.engines = ours
     O.step()
-    assert len(O.interactions.all()) == 0
+    assert set(finder.entryPairs()) < found and len(O.interactions.all()) == 0
 
 
 def test_boundsHoldUntilTheNextSearch(collider):

@@ -65,6 +65,19 @@ def test_shapesThatBodiesGoThroughAreReported(make, shape, capfd, folder):
     assert solver.warnings == [sentence] and 'WARN  FESolver' not in capfd.readouterr().err
 
 
+def test_masksThatExcludeContactOfBodiesAreReported(capfd):
+    solver = scene()
+    solver.addPolygon(yadefrag.rectangle((0, 1.2), (1, 2)), size=.5, material='m')
+    for body in O.bodies:
+        body.mask = 1 + body.shape.component
+    steps(2)
+    [sentence] = messages(solver, capfd)
+    assert sentence.startswith('Masks of FE bodies exclude interactions between them, but have no effect ')
+    for body in O.bodies:
+        body.mask = 3
+    assert len(solver.warnings) == 1
+
+
 def test_otherShapesAreReported(capfd):
     solver = scene()
     O.bodies.append(utils.tetra([(0, -1, 0), (0, -2, 0), (1, -1, 0), (0, -1, 1)], material='m'))
