@@ -11,7 +11,7 @@ py::object newArray(const void* data, std::size_t bytes, const char* type, std::
                     int columns) {
   const py::object shape =
       columns > 0 ? py::object(py::make_tuple(rows, columns)) : py::object(rows);
-  const py::object array = py::import("numpy").attr("empty")(shape, type);
+  py::object array = py::import("numpy").attr("empty")(shape, type);
   Py_buffer view;
   if (PyObject_GetBuffer(array.ptr(), &view, PyBUF_CONTIG) != 0) py::throw_error_already_set();
   if (bytes > 0) std::memcpy(view.buf, data, bytes);

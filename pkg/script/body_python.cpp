@@ -153,7 +153,7 @@ py::tuple bondAllOf(FESolver& solver, double reach, double strength, double ener
 
 void defineBodyParts() {
   using py::arg;
-  py::class_<BrittlePlaces>("BrittlePlaces", py::no_init);
+  [[maybe_unused]] const py::class_<BrittlePlaces> places("BrittlePlaces", py::no_init);
   py::def("brittlePlaces", &brittlePlacesOf,
           (arg("strength"), arg("fractureEnergy"), arg("edges"), arg("edgeStrength"),
            arg("edgeEnergy")));

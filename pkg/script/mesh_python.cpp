@@ -41,7 +41,7 @@ SizeField sizeField(const py::tuple& size) {
 SharedMesh meshOf(const py::object& nodes, const py::object& triangles, const py::list& loops,
                   const py::list& loopVertices, const py::object& joints, const py::tuple& joined,
                   std::size_t numJoints, const py::object& smooth) {
-  const SharedMesh mesh(new ScriptMesh);
+  SharedMesh mesh(new ScriptMesh);
   mesh->nodes = fromArray<Vec2>(nodes);
   mesh->triangles = fromArray<std::array<std::uint32_t, 3>>(triangles);
   mesh->loops = fromArrays<std::uint32_t>(loops);
