@@ -9,6 +9,7 @@ import signal
 import sys
 
 import pytest
+from _pytest.runner import runtestprotocol
 
 
 # They take minutes: begun last, one of them would run alone.
@@ -43,8 +44,15 @@ class Shared:
     def pytest_runtest_protocol(self, item, nextitem):
         if item.path not in self.mine:
             self.mine[item.path] = self.take(item.path)
-        # True: nothing else has to be done for this test.
-        return None if self.mine[item.path] else True
+        if not self.mine[item.path]:
+            return True  # nothing else has to be done for this test
+        if nextitem is None or nextitem.path == item.path:
+            return None
+        # The next item may be another process's: this one leaves nothing set up for it.
+        item.ihook.pytest_runtest_logstart(nodeid=item.nodeid, location=item.location)
+        runtestprotocol(item, nextitem=None)
+        item.ihook.pytest_runtest_logfinish(nodeid=item.nodeid, location=item.location)
+        return True
 
 
 def located(argument):
