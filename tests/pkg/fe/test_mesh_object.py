@@ -156,7 +156,7 @@ def test_wrongCallsGiveASentence():
 
 
 def test_messagesOfAPolygonsMesh():
-    """Joined joints are told by polygonMesh, a short time step when the body is added."""
+    """polygonMesh warns of joined joints, addMesh of a short time step."""
     fe = solver()
     near = [((.1, .5), (.9, .5)), ((.5, .505), (.5, .9))]
     with pytest.warns(UserWarning, match=r'polygonMesh: of the joints, \d+ ends'):
