@@ -30,9 +30,22 @@ def ran(solver, steps, each=None):
     return solver.warnings
 
 
+def ranAt(part, solver, steps, engines=None):
+    """The same at a part of the critical step, with the usual engines unless others are given."""
+    O.engines = yadefrag.engines(solver) if engines is None else engines
+    O.dt = part * solver.criticalTimeStep()
+    return ran(solver, steps)
+
+
 def steel(**settings):
     O.materials.append(w.FEMat(young=2e11, poisson=.3, density=7800, frictionAngle=.2, label='steel'))
     return w.FESolver(**settings)
+
+
+def steelBlock(**settings):
+    solver = steel(**settings)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    return solver
 
 
 def advised(sentence):
@@ -45,9 +58,7 @@ def advised(sentence):
 def aboveCritical(factor):
     solver = steel()
     solver.addPolygon(yadefrag.rectangle((0, 0), (.04, .02)), size=.01, material='steel')
-    O.engines = yadefrag.engines(solver)
-    O.dt = factor * solver.criticalTimeStep()
-    return ran(solver, 10)
+    return ranAt(factor, solver, 10)
 
 
 def varying(draw, factor=.9):
@@ -124,9 +135,7 @@ def blow(**settings):
     for k in range(2):
         nodes, triangles = yadefrag.rectangleMesh((.01 * k, -.001 * k), (.01 * k + .01, -.001 * k + .01), 6 + k, 6 + k)
         solver.addTriangles(nodes, triangles, material='steel', velocity=(20 * (1 - k), 0))
-    O.engines = yadefrag.engines(solver)
-    O.dt = .8 * solver.criticalTimeStep()
-    return ran(solver, 400)
+    return ranAt(.8, solver, 400)
 
 
 # --- YADE's bodies
@@ -137,9 +146,7 @@ def withSpheres(make, engines=None, gravity=None, thickness=.1, blocked='zXY', r
     sphere = utils.sphere((.2, .3, z), radius, material='steel')
     sphere.state.blockedDOFs = blocked
     O.bodies.append(sphere)
-    O.engines = make(solver)
-    O.dt = .1 * solver.criticalTimeStep()
-    return ran(solver, 3)
+    return ranAt(.1, solver, 3, make(solver))
 
 
 def usual(solver):
@@ -169,58 +176,42 @@ def resetterLate(solver):
 
 
 def moving(flag):
-    solver = steel()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    solver = steelBlock()
     wall = O.bodies[O.bodies.append(utils.wall(.3, axis=1, material='steel'))]
     wall.state.vel = (0, -1, 0)
-    O.engines = yadefrag.engines(solver, moving=flag)
-    O.dt = .1 * solver.criticalTimeStep()
-    return ran(solver, 3)
+    return ranAt(.1, solver, 3, yadefrag.engines(solver, moving=flag))
 
 
 def facets(corners):
-    solver = steel()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    solver = steelBlock()
     O.bodies.append(utils.facet(corners, material='steel'))
-    O.engines = yadefrag.engines(solver)
-    O.dt = .1 * solver.criticalTimeStep()
-    return ran(solver, 3)
+    return ranAt(.1, solver, 3)
 
 
 def otherShape(isFE):
-    solver = steel()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    solver = steelBlock()
     if isFE:
         solver.addPolygon(yadefrag.rectangle((0, -1), (1, -.5)), size=.5, material='steel', fixed=lambda x, y: True)
     else:
         O.bodies.append(utils.tetra([(0, -1, 0), (0, -2, 0), (1, -1, 0), (0, -1, 1)], material='steel'))
-    O.engines = yadefrag.engines(solver)
-    O.dt = .1 * solver.criticalTimeStep()
-    return ran(solver, 3)
+    return ranAt(.1, solver, 3)
 
 
 def rigidOff(flag):
-    solver = steel(rigidBodies=flag)
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    solver = steelBlock(rigidBodies=flag)
     O.bodies.append(utils.wall(-1, axis=1, material='steel'))
-    O.engines = yadefrag.engines(solver)
-    O.dt = .1 * solver.criticalTimeStep()
-    return ran(solver, 3)
+    return ranAt(.1, solver, 3)
 
 
 def forceEngine(engines):
-    solver = steel()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
-    O.engines = engines(solver)
-    O.dt = .1 * solver.criticalTimeStep()
-    return ran(solver, 3)
+    solver = steelBlock()
+    return ranAt(.1, solver, 3, engines(solver))
 
 
 # --- the first step
 
 def defaultStep(dt):
-    solver = steel()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
+    solver = steelBlock()
     O.engines = yadefrag.engines(solver)
     O.dt = dt or .8 * solver.criticalTimeStep()
     return ran(solver, 2)
@@ -236,17 +227,12 @@ def changedMaterial(when):
     if when == 'again':
         solver.removeBody(0)
         solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
-    O.engines = yadefrag.engines(solver)
-    O.dt = .5 * solver.criticalTimeStep()
-    return ran(solver, 2)
+    return ranAt(.5, solver, 2)
 
 
 def withoutSolver(isIn):
-    solver = steel()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=.1, material='steel')
-    O.engines = yadefrag.engines(solver) if isIn else [w.ForceResetter(), w.NewtonIntegrator()]
-    O.dt = .5 * solver.criticalTimeStep()
-    return ran(solver, 2)
+    solver = steelBlock()
+    return ranAt(.5, solver, 2, yadefrag.engines(solver) if isIn else [w.ForceResetter(), w.NewtonIntegrator()])
 
 
 def uniform(low):
