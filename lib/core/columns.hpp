@@ -73,13 +73,17 @@ void keepRows(const Columns& columns, std::size_t count, Stays stays) {
   resizeRows(columns, kept);
 }
 
-/// Puts the rows into this order: `order[i]` is the former number of row i.
+/// Puts an array into this order: `order[i]` is the former number of element i.
+template <class Array, class IdType>
+void arrange(Array& array, std::span<const IdType> order) {
+  const Array former = array;
+  for (std::size_t i = 0; i < order.size(); ++i) array[i] = former[order[i].value];
+}
+
 template <class Columns, class IdType>
 void arrangeRows(const Columns& columns, std::span<const IdType> order) {
   columns([&](const Column& column, auto& array) {
-    if (!column.isUsed(array)) return;
-    const auto former = array;
-    for (std::size_t i = 0; i < order.size(); ++i) array[i] = former[order[i].value];
+    if (column.isUsed(array)) arrange(array, order);
   });
 }
 

@@ -86,11 +86,9 @@ class Conformed {
     std::ranges::stable_sort(order, {}, [&](ElementId e) { return t_.component[e.value]; });
     std::vector<ElementId> numberOf(t_.size());
     for (std::size_t i = 0; i < order.size(); ++i) numberOf[order[i].value] = ElementId(i);
-    arrangeRows(t_.columns(), std::span<const ElementId>(order));
-    if (!edges_.ofElement.empty()) {
-      const auto former = edges_.ofElement;
-      for (std::size_t i = 0; i < order.size(); ++i) edges_.ofElement[i] = former[order[i].value];
-    }
+    const std::span<const ElementId> former = order;
+    arrangeRows(t_.columns(), former);
+    if (!edges_.ofElement.empty()) arrange(edges_.ofElement, former);
     for (auto& both : edges_.element)
       for (ElementId& element : both) element = numberOf[element.value];
     for (ElementId& element : edges_.ofNode)

@@ -5,57 +5,13 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
-#include "contact/contact_scenes.hpp"
-#include "core/threads_for_few.hpp"
+#include "contact/row_scenes.hpp"
 
 namespace yadefrag::test {
 namespace {
 
-constexpr double kDt = 1e-3;
 /// (of the largest gap) What rows with common nodes may leave.
 constexpr double kLeft = 1e-9;
-
-/// (m) The last change.
-double solveAll(std::span<ContactRow> rows, const Nodes& nodes, double drag = 0,
-                RowSweeps::Stop stop = {1e-17, 10000}) {
-  RowSweeps sweeps;
-  return sweeps.solve(rows, {nodes, kDt, drag}, stop);
-}
-
-/// Node `slave` on the segment of nodes a and b at ξ.
-ContactRow onSegment(std::size_t slave, std::size_t a, std::size_t b, double xi, double gap,
-                     double friction = 0, double slip = 0) {
-  ContactRow row;
-  row.normal = {0, 1};
-  row.gap = gap;
-  row.friction = friction;
-  row.slip = slip;
-  row.add({{NodeId(slave), {}, {}}, {1, 0, 0}, 1}, 1);
-  row.add({{NodeId(a), NodeId(b), {}}, {1 - xi, xi, 0}, 2}, -1);
-  return row;
-}
-
-/// (m) What the rows' forces move a node by: u = Δt² F/[m(1+d)].
-std::vector<Vec2> displacements(const std::vector<ContactRow>& rows, const Nodes& nodes,
-                                double drag = 0) {
-  std::vector<Vec2> u(nodes.size());
-  for (const ContactRow& row : rows)
-    for (int k = 0; k < row.count; ++k) {
-      const std::uint32_t n = row.node[k].value;
-      const double rate = kDt * kDt / (nodes.mass[n] * (1 + drag));
-      const Vec2 by = rate * row.weight[k] * row.force();
-      if ((nodes.held[n] & kHeldX) == 0) u[n].x += by.x;
-      if ((nodes.held[n] & kHeldY) == 0) u[n].y += by.y;
-    }
-  return u;
-}
-
-double gapAfter(const ContactRow& row, const std::vector<Vec2>& u) {
-  return row.gap + dot(relative(row, u), row.normal);
-}
-double slipAfter(const ContactRow& row, const std::vector<Vec2>& u) {
-  return row.slip + dot(relative(row, u), row.tangent());
-}
 
 Nodes threeNodes() {
   Nodes nodes = plainNodes(3);
@@ -246,22 +202,6 @@ TEST(RowSweeps, BothPassesOfMatchingFaces) {
   }
 }
 
-/// Rows that share no node get what they would get alone.
-TEST(RowSweeps, RowsWithoutACommonNodeDoNotInteract) {
-  Nodes nodes = plainNodes(6);
-  nodes.mass = {1, 2, 3, 4, 5, 6};
-  std::vector<ContactRow> first{onSegment(0, 1, 2, .3, -1e-4, .2, 1e-5)};
-  std::vector<ContactRow> second{onSegment(3, 4, 5, .7, -1e-9, .2, 1e-5)};
-  std::vector<ContactRow> both{first[0], second[0]};
-  solveAll(first, nodes);
-  solveAll(second, nodes);
-  solveAll(both, nodes);
-  EXPECT_EQ(both[0].normalForce, first[0].normalForce);
-  EXPECT_EQ(both[0].tangentForce, first[0].tangentForce);
-  EXPECT_EQ(both[1].normalForce, second[0].normalForce);
-  EXPECT_EQ(both[1].tangentForce, second[0].tangentForce);
-}
-
 /// Gaps such that random forces solve the problem: 0, or with a closed gap. The gaps that they
 /// leave are unique, also where the forces are not. Returns these gaps.
 std::vector<double> plantSolution(Random& random, std::vector<ContactRow>& rows,
@@ -279,24 +219,6 @@ std::vector<double> plantSolution(Random& random, std::vector<ContactRow>& rows,
     rows[r].normalForce = 0;
   }
   return left;
-}
-
-/// Two faces of unequal meshes of `a` and `b` segments, all nodes of which are slaves: conjugate
-/// gradients are needed from some ten on.
-std::vector<ContactRow> bothFaces(std::size_t a, std::size_t b) {
-  std::vector<ContactRow> rows;
-  const auto add = [&](std::size_t n, std::size_t others, std::size_t own, std::size_t other,
-                       double normal) {
-    for (std::size_t i = 0; i <= n; ++i) {
-      const double at = double(i) / double(n) * double(others);
-      const std::size_t k = std::min(others - 1, static_cast<std::size_t>(at));
-      rows.push_back(onSegment(own + i, other + k, other + k + 1, at - double(k), 0));
-      rows.back().normal = {0, normal};
-    }
-  };
-  add(a, b, 0, a + 1, 1);
-  add(b, a, a + 1, 0, -1);
-  return rows;
 }
 
 void expectPlanted(Random& random, std::vector<ContactRow> rows, const Nodes& nodes) {
@@ -333,62 +255,6 @@ TEST(RowSweeps, ALaterSolutionGoesOn) {
   EXPECT_GT(solutions, 2);
   const std::vector<Vec2> u = displacements(rows, nodes);
   for (std::size_t r = 0; r < rows.size(); ++r) ASSERT_NEAR(gapAfter(rows[r], u), left[r], 3e-6);
-}
-
-/// Joints of several sizes with friction, each with nodes of its own, and their rows in turn.
-struct Joints {
-  Nodes nodes;
-  std::vector<std::vector<ContactRow>> rows;  // by joint
-  [[nodiscard]] std::vector<ContactRow> inTurn() const {
-    std::vector<ContactRow> all;
-    std::size_t most = 0;
-    for (const auto& joint : rows) most = std::max(most, joint.size());
-    for (std::size_t i = 0; i < most; ++i)
-      for (const auto& joint : rows)
-        if (i < joint.size()) all.push_back(joint[i]);
-    return all;
-  }
-};
-
-Joints manyJoints(Random& random) {
-  Joints joints;
-  std::size_t first = 0;
-  for (int i = 0; i < 60; ++i) {
-    const std::size_t a = 1 + random() % 12, b = 1 + random() % 12;
-    auto& rows = joints.rows.emplace_back(bothFaces(a, b));
-    for (ContactRow& row : rows) {
-      for (int k = 0; k < row.count; ++k) row.node[k] = NodeId(row.node[k].value + first);
-      row.gap = even(random, -1e-4, 2e-5), row.slip = even(random, -1e-4, 1e-4), row.friction = .4;
-    }
-    first += a + b + 2;
-  }
-  joints.nodes = plainNodes(first);
-  for (double& mass : joints.nodes.mass) mass = even(random, .5, 2);
-  return joints;
-}
-
-/// Bit by bit: the forces of a joint are those that it has alone, for any number of threads.
-TEST(RowSweeps, GroupsDoNotDependOnOthersNorOnThreads) {
-  Random random(35);
-  const Joints joints = manyJoints(random);
-  std::vector<std::vector<ContactRow>> alone = joints.rows;
-  const RowSweeps::Stop stop{1e-12, 80};
-  for (auto& rows : alone) {
-    RowSweeps sweeps;
-    sweeps.solve(rows, {joints.nodes, kDt, 0}, stop);
-  }
-  const std::vector<ContactRow> wanted = Joints{{}, alone}.inTurn();
-  const ThreadsForFew few;
-  for (const int threads : {1, 2, 3}) {
-    std::vector<ContactRow> rows = joints.inTurn();
-    ASSERT_EQ(rows.size(), wanted.size());
-    RowSweeps sweeps;
-    sweeps.solve(rows, {joints.nodes, kDt, 0}, stop, nullptr, threads);
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      ASSERT_EQ(rows[r].normalForce, wanted[r].normalForce) << threads << " threads, row " << r;
-      ASSERT_EQ(rows[r].tangentForce, wanted[r].tangentForce) << threads << " threads, row " << r;
-    }
-  }
 }
 
 /// Halfpoints of a smooth surface on a rigid plane: row i moves nodes i and i + 1.
