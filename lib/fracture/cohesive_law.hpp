@@ -1,6 +1,5 @@
 #pragma once
 // The cohesive law: tractions on an edge that has begun to open.
-//   against the slip.
 
 #include "mesh/softening_curve.hpp"
 

@@ -1,6 +1,6 @@
 """Thousands of calls of all that is public with wrong values, seeded, each batch in a yade of its own.
 
-YADEFRAG_API_SECONDS: for how long (60), YADEFRAG_API_SEED: the first seed (1).
+YADEFRAG_API_SECONDS: for how long (30), YADEFRAG_API_SEED: the first seed (1).
 """
 import os
 import re
@@ -9,7 +9,7 @@ import time
 
 from project import yadeCommand
 
-kSeconds = float(os.environ.get('YADEFRAG_API_SECONDS', '60'))
+kSeconds = float(os.environ.get('YADEFRAG_API_SECONDS', '30'))
 kSeed = int(os.environ.get('YADEFRAG_API_SEED', '1'))
 kCalls = 200  # of a batch
 kLimit = 300  # s for a batch
