@@ -9,6 +9,7 @@
 
 #include "core/errors.hpp"
 #include "core/tolerances/fracture.hpp"
+#include "fracture/coarse_mesh.hpp"
 #include "fracture/edge_material.hpp"
 #include "fracture/edge_strength.hpp"
 
@@ -69,9 +70,10 @@ struct Cohesive {
   double strength;        // Pa
   double fractureEnergy;  // J/m²
   std::string name;       // for messages: the energy, and the edge or body that has it
-  const SofteningCurve& curve;
-  double sliding = 1;  // κ/β², factor of the zone's length for a sliding crack
-  [[nodiscard]] double steep() const { return curve.steepOpening(strength, fractureEnergy); }
+  const BrittleMaterial& material;
+  [[nodiscard]] double steep() const {
+    return material.softening.steepOpening(strength, fractureEnergy);
+  }
 };
 
 /// `crossed` (m): the closing of the crack in one step by its tractions.
@@ -79,7 +81,7 @@ void requireResolved(const Cohesive& edge, double crossed, double meanLength, do
   const double steep = edge.steep();
   if (crossed < steep) return;
   const double ratio = steep / crossed;
-  const bool isLine = edge.curve == SofteningCurve();
+  const bool isLine = edge.material.softening == SofteningCurve();
   // Masses are proportional to the size squared. With a step in proportion to the size, `crossed`
   // is proportional to the size.
   throw InputError(fmt::format(
@@ -93,29 +95,27 @@ void requireResolved(const Cohesive& edge, double crossed, double meanLength, do
       meanLength));
 }
 
-/// κ/β²: the cohesive zone of a sliding crack has the length E·κGc/(βσc)².
-double slidingOf(const BrittleMaterial& brittle) {
-  return brittle.shearEnergyFactor / brittle.shearFactor / brittle.shearFactor;
-}
-
-/// (m) E·Gc/σc², or κ/β² times that if it is shorter. Of a curve with a steeper part, Gc is the
-/// area below a line of that slope: the zone at the peak load is that of the line.
-double zoneLength(double young, double energy, double strength, const SofteningCurve& curve,
-                  double sliding) {
-  return young / strength * (energy * curve.steepPart()) / strength * std::min(1., sliding);
+/// True if the zone of a sliding crack is the shorter one.
+bool isOfSliding(const BrittleMaterial& m) {
+  return m.shearEnergyFactor / m.shearFactor / m.shearFactor < 1;
 }
 
 std::string zoneSentence(double young, const Cohesive& edge, double size) {
-  const double zone =
-      zoneLength(young, edge.fractureEnergy, edge.strength, edge.curve, edge.sliding);
+  const double zone = cohesiveZone(young, edge.fractureEnergy, edge.strength, edge.material);
   const double wanted = zone / tolerance::kZoneElements;
   if (size <= wanted) return {};
   return fmt::format(
       "{}: the cohesive zone {}is {:.4g} m long, less than four elements of {:.4g} m; notched or "
       "cracked "
       "bodies carry too much load; elements of at most {:.3g} m are sufficient.",
-      edge.name, edge.sliding < 1 ? "of a sliding crack " : "", zone, size,
+      edge.name, isOfSliding(edge.material) ? "of a sliding crack " : "", zone, size,
       atMost(tolerance::kAdvisedSize * wanted));
+}
+
+std::string withRemedy(std::string sentence) {
+  if (sentence.empty()) return sentence;
+  sentence.pop_back();
+  return sentence + "; coarseMesh='strength' gives cracks the right load on this mesh.";
 }
 
 /// (m²/kg) (L/2)(1/m₁ + 1/m₂) of an edge, where m is the least mass of a node with one triangle
@@ -169,8 +169,7 @@ Cohesive valuesOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
                                  energy, one.value, other.value);
   const BrittleMaterial& brittle = materialBetween(model, a, b).brittle;
   return {edges.strength[edge.value], energy,
-          fmt::format("{} at ({:.4g}, {:.4g})", name, at.x, at.y), brittle.softening,
-          slidingOf(brittle)};
+          fmt::format("{} at ({:.4g}, {:.4g})", name, at.x, at.y), brittle};
 }
 
 double crossedBy(const Model& model, const CrackEdges& edges, EdgeId edge, double dt) {
@@ -206,8 +205,8 @@ double youngAt(const Model& model, const CrackEdges& edges, EdgeId edge) {
 double zoneOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const auto [a, b] = edges.element[edge.value];
   const BrittleMaterial& brittle = materialBetween(model, a, b).brittle;
-  return zoneLength(youngAt(model, edges, edge), edges.fractureEnergy[edge.value],
-                    edges.strength[edge.value], brittle.softening, slidingOf(brittle));
+  return cohesiveZone(youngAt(model, edges, edge), edges.fractureEnergy[edge.value],
+                      edges.strength[edge.value], brittle);
 }
 
 }  // namespace
@@ -239,7 +238,7 @@ void checkCohesiveResolution(const Model& model, ComponentId component, double d
   const double strength = likelyLargestStrength(body.brittle, sums.inner, sums.leastVolume);
   const double crossed = dt * dt * body.thickness * sums.lightest * strength / 4;
   const double energy = body.brittle.fractureEnergy;
-  requireResolved({strength, energy, named(energy, component), body.brittle.softening}, crossed,
+  requireResolved({strength, energy, named(energy, component), body.brittle}, crossed,
                   sums.meanLength, dt);
 }
 
@@ -266,10 +265,9 @@ std::string cohesiveZoneWarning(const Model& model, ComponentId component) {
   const BrittleMaterial& brittle = body.brittle;
   if (!brittle.cracks() || brittle.fractureEnergy <= 0) return {};
   const std::string name = named(brittle.fractureEnergy, component);
-  return zoneSentence(body.material.young,
-                      {brittle.tensileStrength, brittle.fractureEnergy, name, brittle.softening,
-                       slidingOf(brittle)},
-                      sumsOf(model, body).meanLength);
+  return withRemedy(zoneSentence(body.material.young,
+                                 {brittle.tensileStrength, brittle.fractureEnergy, name, brittle},
+                                 sumsOf(model, body).meanLength));
 }
 
 std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,
@@ -280,8 +278,8 @@ std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,
       leastOf(model, edges, EdgeId(std::size_t{0}), inside(model, edges, component),
               [&](EdgeId edge) { return zoneOf(model, edges, edge); });
   if (worst == EdgeId::none()) return {};
-  return zoneSentence(youngAt(model, edges, worst), valuesOf(model, edges, worst),
-                      sumsOf(model, body).meanLength);
+  return withRemedy(zoneSentence(youngAt(model, edges, worst), valuesOf(model, edges, worst),
+                                 sumsOf(model, body).meanLength));
 }
 
 std::string bondZoneWarning(const Model& model, const CrackEdges& edges, EdgeId first) {

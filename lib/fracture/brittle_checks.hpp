@@ -34,10 +34,8 @@ void checkCohesiveResolution(const Model& model, const CrackEdges& edges, Compon
 void checkBondResolution(const Model& model, const CrackEdges& edges, double dt);
 
 /// A message if the cohesive zone is shorter than four elements, so that bodies with a notch or a
-/// crack carry too much load; otherwise empty. The length of the zone is E·Gc/σc² (Hillerborg,
-/// Modéer and Petersson 1976, Cem. Concr. Res. 6, 773), and that of a sliding crack E·κGc/(βσc)²:
-/// the shorter one is used. For a softening curve with a steeper part, Gc is replaced by the area
-/// ½σcδs below a line of its slope. An element's length is the mean of the component's edges.
+/// crack carry too much load (`cohesiveZone`); otherwise empty. An element's length is the mean of
+/// the component's edges.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, ComponentId component);
 /// The same for the shortest zone of a body whose strength or fracture energy varies by place.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,

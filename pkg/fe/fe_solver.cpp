@@ -14,6 +14,7 @@
 #include "core/tolerances/step.hpp"
 #include "fe/running.hpp"
 #include "fracture/brittle_checks.hpp"
+#include "fracture/coarse_mesh.hpp"
 
 namespace yadefrag {
 
@@ -231,10 +232,35 @@ BodyMaterial bodyMaterialOf(const FEMat& material) {
   return one;
 }
 
+/// BrittleFEMat.coarseMesh: changes `spec.places`. Returns a sentence on that, or an empty one.
+std::string fitToCoarseMesh(const TriangleMesh& mesh, BodySpec& spec,
+                            const std::vector<yade::shared_ptr<FEMat>>& materials) {
+  std::vector<CoarseMesh> choices;
+  for (const auto& one : materials) {
+    const auto* brittle = dynamic_cast<const BrittleFEMat*>(one.get());
+    choices.push_back(brittle ? coarseMeshNamed(brittle->coarseMesh) : CoarseMesh::kWarn);
+  }
+  const BodyMaterial& one = spec;
+  const std::span<const BodyMaterial> all =
+      spec.materials.empty() ? std::span(&one, 1) : std::span(spec.materials.materials);
+  const FittedValues fitted =
+      fitToMesh(mesh, {all, choices, spec.materials.ofTriangle}, spec.places);
+  if (fitted.triangles == 0) return {};
+  std::string changed;
+  if (fitted.leastStrength < 1)
+    changed = fmt::format("the strength is reduced, to {:.3g} of it", fitted.leastStrength);
+  if (fitted.mostEnergy > 1)
+    changed += fmt::format("{}the fracture energy is raised, to {:.3g} times it",
+                           changed.empty() ? "" : ", ", fitted.mostEnergy);
+  return fmt::format(
+      "{} of {} triangles do not resolve the cohesive zone: {} for the largest (coarseMesh).",
+      fitted.triangles, mesh.triangles.size(), changed);
+}
+
 }  // namespace
 
-int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
-                      const std::vector<yade::shared_ptr<FEMat>>& materials) {
+AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
+                            const std::vector<yade::shared_ptr<FEMat>>& materials) {
   yade::Scene& here = *yade::Omega::instance().getScene();
   if (here.isPeriodic) throw InputError("The scene is periodic, but FE bodies cannot be.");
   bodies_.requireAll(here);
@@ -247,11 +273,12 @@ int FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
     throw InputError(
         "selfContact is False, but the material is a BrittleFEMat, whose fragments must touch "
         "each other; it must be True, or the material an FEMat.");
+  std::string fitted = fitToCoarseMesh(mesh, spec, materials);
   const ComponentId component = world_.addBody(mesh, spec);
   scene = &here;
   bodies_.add(here, world_, materials);
   for (const auto& one : materials) materials_.add(one);
-  return static_cast<int>(component.value);
+  return {static_cast<int>(component.value), std::move(fitted)};
 }
 
 /// Nodes have moved, or sides were divided.

@@ -24,6 +24,11 @@
 
 namespace yadefrag {
 
+struct AddedBody {
+  int component;
+  std::string fitted;  ///< a message on strengths or energies for a coarse mesh; or empty
+};
+
 class FESolver final : public Published<FESolver, yade::GlobalEngine> {
  public:
   static constexpr const char* kName = "FESolver";
@@ -39,8 +44,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   /// Adds a body, and the bodies of its entries to the scene of `O`. Throws InputError before
   /// anything is changed. `materials`: one, or those to whose numbers `spec.materials.ofTriangle`
   /// refers.
-  int addBody(const TriangleMesh& mesh, BodySpec spec,
-              const std::vector<yade::shared_ptr<FEMat>>& materials);
+  AddedBody addBody(const TriangleMesh& mesh, BodySpec spec,
+                    const std::vector<yade::shared_ptr<FEMat>>& materials);
   void removeBody(int component);
   /// Runs `work`, which bonds bodies of the world; `done` of its result (a ConformPlan) tells what
   /// it changed on the boundary, which the scene's bodies then follow.

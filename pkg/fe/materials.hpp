@@ -1,6 +1,7 @@
 #pragma once
 // Materials of finite-element bodies. YADE's own Ip2 functors treat them as FrictMat.
 
+#include <string>
 #include <tuple>
 
 #include "abi/yade.hpp"
@@ -43,6 +44,7 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
   int seed = 0;
   double referenceVolume = 0;
   SofteningChoice softening;
+  std::string coarseMesh = "warn";
 
   template <class PyClass>
   static void pyExtra(PyClass& /*pyClass*/) {
@@ -95,7 +97,18 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
                   "ft*exp(-w*ft/Gc), to 0 at 7*Gc/ft. 'reinhardt': ft*((1 + (3*w/wc)**3)*"
                   "exp(-6.93*w/wc) - 28*exp(-6.93)*w/wc), wc = 5.14*Gc/ft (Cornelissen, Hordijk "
                   "and Reinhardt 1986, Heron 31, 45). Or a list of points (w/wc, traction/ft) "
-                  "from (0, 1) to (1, 0). Unloading is towards the origin."));
+                  "from (0, 1) to (1, 0). Unloading is towards the origin."),
+        attribute(
+            "coarseMesh", &C::coarseMesh,
+            "What a body gets whose triangles, of size h, do not resolve the cohesive zone "
+            "l = young*fractureEnergy/tensileStrength**2 (4*h > l); strength and energy "
+            "cannot both be kept. 'warn': both as given, with a message; cracks need too much "
+            "load. 'strength': the strength is reduced to sqrt(l/(4*h)) of it: cracks run at "
+            "the right load, and uncracked bodies break too early. 'energy': the energy is "
+            "raised to 4*h/l of it: uncracked bodies have the right strength, and cracked "
+            "ones carry too much. By triangle, when the body is added; a message names the "
+            "values (scaling as in Bazant and Oh 1983, Materials and Structures 16, 155). Without "
+            "fractureEnergy it has no effect."));
   }
 };
 

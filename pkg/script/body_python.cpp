@@ -30,8 +30,9 @@ BrittlePlaces brittlePlacesOf(const py::object& strength, const py::object& frac
   return places;
 }
 
-/// `FESolver._addMesh` of yadefrag/fe/solver.py, which has checked all input: (component, '', 0),
-/// or, without any change, (-1, message, depth (m)) for a body that would overlap another one.
+/// `FESolver._addMesh` of yadefrag/fe/solver.py, which has checked all input: (component, message
+/// on coarseMesh or '', 0), or, without any change, (-1, message, depth (m)) for a body that would
+/// overlap another one.
 /// Arrays are by node, `stress` and `materialOf` (index in `materials`) by triangle; empty: none.
 py::tuple addMesh(FESolver& solver, const ScriptMesh& mesh, const py::list& materials,
                   const py::object& materialOf, const BrittlePlaces& places,
@@ -55,7 +56,8 @@ py::tuple addMesh(FESolver& solver, const ScriptMesh& mesh, const py::list& mate
     own.push_back(py::extract<yade::shared_ptr<FEMat>>(materials[i]));
   return change(solver, [&] {
     try {
-      return py::make_tuple(solver.addBody(mesh, std::move(spec), own), "", 0.);
+      const AddedBody added = solver.addBody(mesh, std::move(spec), own);
+      return py::make_tuple(added.component, added.fitted, 0.);
     } catch (const OverlapError& overlap) {
       return py::make_tuple(-1, overlap.what(), overlap.depth);
     }

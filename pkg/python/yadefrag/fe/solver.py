@@ -127,17 +127,18 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
     held = heldNodes(fixed, nodes)
     if not len(fe.masses):
         forget()  # messages of another solver
-    component, overlap, depth = fe._addMesh(
+    component, message, depth = fe._addMesh(
         mesh=mesh, materials=materials.of, materialOf=materials.numbers, places=places, velocity=speed,
         displacement=moved, stress=stressed, held=held, smooth=smooth, thickness=thickness,
         selfContact=selfContact, smoothed=element == 'smoothed', name=name)
-    if overlap:
-        raise Overlap(overlap, depth)
+    if component < 0:
+        raise Overlap(message, depth)
     addSolver(fe)
     if fixed is not None:
         noteFixed(fixed, component, bool(held.any()))
     keepTurning(fe, component, held, given, spin, present, centroid)
-    problem = fe._zoneWarning(component)
+    fits = all(getattr(one, 'coarseMesh', 'warn') != 'warn' for one in materials.of)
+    problem = message or ('' if fits else fe._zoneWarning(component))
     if problem:
         warnOfOne(problem, 'bodies', component)
     return component
