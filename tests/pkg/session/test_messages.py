@@ -130,7 +130,7 @@ def kicked(part):
 
 # --- contact
 
-def blow(**settings):
+def impact(**settings):
     solver = steel(**settings)
     for k in range(2):
         nodes, triangles = yadefrag.rectangleMesh((.01 * k, -.001 * k), (.01 * k + .01, -.001 * k + .01), 6 + k, 6 + k)
@@ -264,9 +264,9 @@ TABLE = {
     'smoothed elements nearly collapse: step': (
         PRESSED + 'take a step of at most', lambda: rubber(element='smoothed'),
         lambda: rubber(asked=6, element='smoothed')),
-    'a penalty': ("correction='penalty' has no effect", lambda: blow(correction='penalty'), blow),
-    'its factor': ('penaltyFactor=0.1 has no effect', lambda: blow(penaltyFactor=.1), blow),
-    'entry by flags': ("entry='flags' has no effect", lambda: blow(entry='flags'), blow),
+    'a penalty': ("correction='penalty' has no effect", lambda: impact(correction='penalty'), impact),
+    'its factor': ('penaltyFactor=0.1 has no effect', lambda: impact(penaltyFactor=.1), impact),
+    'entry by flags': ("entry='flags' has no effect", lambda: impact(entry='flags'), impact),
     'spheres without their functor': (
         'no InteractionLoop has an Ig2_Sphere_SurfaceSegment', lambda: withSpheres(withoutFunctor),
         lambda: withSpheres(usual)),
