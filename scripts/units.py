@@ -19,6 +19,8 @@ DEFINITIONS = [re.compile(pattern, re.M) for pattern in (
     r'^(?!using|return|namespace|[A-Z_]+\()\w[^(=\n]*?\b(\w+)\(',
     r'^(?=\w)(?!using |namespace )[^(;\n]*?\b(\w+)(?=(?:\[.*\])?(?: =|\{|;))',
     r'\b(k[A-Z]\w*)(?=(?:\[.*\])?(?: =|\{))')]
+# The same alias may be defined twice.
+ALIAS = re.compile(r'^using (\w+) =([^;]*);', re.M)
 STATIC = re.compile(r'^(?:static .*?|int (?=main))(\w+)\(', re.M)
 INCLUDE = re.compile(r'^#include "(.*)"', re.M)
 
@@ -51,18 +53,20 @@ class Unit:
     """Sources with no private name that another source or its headers define, too."""
 
     def __init__(self, path=None):
-        self.sources, self.private, self.own, self.seen = [], set(), set(), set()
+        self.sources, self.private, self.own, self.seen, self.aliases = [], set(), set(), set(), {}
         if path:
             self.sources = [path]
-            self.private = set(STATIC.findall(textOf(path))).union(
-                *map(definedIn, PRIVATE.findall(textOf(path))))
+            blocks = PRIVATE.findall(textOf(path))
+            self.private = set(STATIC.findall(textOf(path))).union(*map(definedIn, blocks))
+            self.aliases = dict(alias for block in blocks for alias in ALIAS.findall(block))
             self.seen = set().union(*(definedIn(textOf(header)) for header in headersOf(path)))
             self.own = self.private - self.seen  # the others are none: the source compiles alone
 
     def accepts(self, other):
         """True if both can be one unit."""
-        return not (
-            self.private & other.private or self.own & other.seen or other.own & self.seen)
+        equal = {name for name, meaning in self.aliases.items() if other.aliases.get(name) == meaning}
+        return not ((self.private & other.private) - equal
+                    or self.own & other.seen or other.own & self.seen)
 
     def add(self, other):
         """Take the sources of another unit."""
@@ -70,6 +74,7 @@ class Unit:
         self.private |= other.private
         self.own |= other.own
         self.seen |= other.seen
+        self.aliases.update(other.aliases)
 
 
 def unitsOf(paths, most=MOST):

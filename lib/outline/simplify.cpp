@@ -24,12 +24,12 @@ namespace {
 
 namespace simplification = CGAL::Polyline_simplification_2;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = simplification::Vertex_base_2<Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
-using Storage = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using LineVertexBase = simplification::Vertex_base_2<Kernel>;
+using LineFaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
+using LineStorage = CGAL::Triangulation_data_structure_2<LineVertexBase, LineFaceBase>;
 using Tag = CGAL::No_constraint_intersection_requiring_constructions_tag;
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Storage, Tag>;
-using Triangulation = CGAL::Constrained_triangulation_plus_2<Delaunay>;
+using LineDelaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, LineStorage, Tag>;
+using LineTriangulation = CGAL::Constrained_triangulation_plus_2<LineDelaunay>;
 using Loop = std::vector<Vec2>;
 
 /// Squared distances that are made different where they are equal: CGAL would process equal ones in
@@ -116,8 +116,8 @@ class Simplification {
 
   const std::vector<const Loop*>& loops_;
   double scale_, farthest_ = 0;
-  Triangulation triangulation_;
-  std::vector<Triangulation::Constraint_id> constraints_;
+  LineTriangulation triangulation_;
+  std::vector<LineTriangulation::Constraint_id> constraints_;
 };
 
 /// A power of two that scales all coordinates to at most 1.

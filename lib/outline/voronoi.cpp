@@ -24,13 +24,13 @@
 namespace yadefrag {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Double = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_2;
-using Shape = CGAL::Polygon_2<Kernel>;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
-using Storage = CGAL::Triangulation_data_structure_2<VertexBase>;
-using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, Storage>;
+using ExactPoint = ExactKernel::Point_2;
+using Shape = CGAL::Polygon_2<ExactKernel>;
+using CellVertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, ExactKernel>;
+using CellStorage = CGAL::Triangulation_data_structure_2<CellVertexBase>;
+using Delaunay = CGAL::Delaunay_triangulation_2<ExactKernel, CellStorage>;
 using Loop = std::vector<Vec2>;
 
 Shape toShape(const Loop& loop) {
@@ -42,7 +42,7 @@ Shape toShape(const Loop& loop) {
 /// Rounded only once, so that equal points give equal bits.
 Loop rounded(const Shape& shape) {
   Loop loop;
-  for (const Point& p : shape.container()) {
+  for (const ExactPoint& p : shape.container()) {
     const Vec2 at{CGAL::to_double(p.x().exact()), CGAL::to_double(p.y().exact())};
     if (loop.empty() || loop.back() != at) loop.push_back(at);
   }
@@ -51,17 +51,17 @@ Loop rounded(const Shape& shape) {
 }
 
 /// The part of a convex shape that is nearer to `own` than to `other`.
-Shape nearerHalf(const Shape& shape, const Point& own, const Point& other) {
-  const Kernel::Line_2 bisector = CGAL::bisector(own, other);  // `own` is on its left
+Shape nearerHalf(const Shape& shape, const ExactPoint& own, const ExactPoint& other) {
+  const ExactKernel::Line_2 bisector = CGAL::bisector(own, other);  // `own` is on its left
   Shape half;
   for (std::size_t i = 0; i < shape.size(); ++i) {
-    const Point& a = shape[i];
-    const Point& b = shape[(i + 1) % shape.size()];
+    const ExactPoint& a = shape[i];
+    const ExactPoint& b = shape[(i + 1) % shape.size()];
     const auto sideOfA = bisector.oriented_side(a), sideOfB = bisector.oriented_side(b);
     if (sideOfA != CGAL::ON_NEGATIVE_SIDE) half.push_back(a);
     if (sideOfA * sideOfB >= 0) continue;
-    const auto crossing = CGAL::intersection(bisector, Kernel::Line_2(a, b));
-    half.push_back(get<Point>(*crossing));  // Boost's variant; since CGAL 6, that of std
+    const auto crossing = CGAL::intersection(bisector, ExactKernel::Line_2(a, b));
+    half.push_back(get<ExactPoint>(*crossing));  // Boost's variant; since CGAL 6, that of std
   }
   return half;
 }
@@ -104,12 +104,12 @@ class Grains {
     Delaunay delaunay;
     std::vector<Delaunay::Vertex_handle> vertices;
     for (std::uint32_t i = 0; i < places_.size(); ++i) {
-      vertices.push_back(delaunay.insert(Point(places_[i].x, places_[i].y)));
+      vertices.push_back(delaunay.insert(ExactPoint(places_[i].x, places_[i].y)));
       vertices.back()->info() = i;
     }
     std::vector<std::vector<Loop>> all(places_.size());
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      std::vector<CGAL::Polygon_with_holes_2<Kernel>> parts;
+      std::vector<CGAL::Polygon_with_holes_2<ExactKernel>> parts;
       CGAL::intersection(cellOf(delaunay, vertices[i]), outline_, std::back_inserter(parts));
       for (const auto& part : parts) {
         Loop grain = rounded(part.outer_boundary());
