@@ -95,11 +95,6 @@ void requireResolved(const Cohesive& edge, double crossed, double meanLength, do
       meanLength));
 }
 
-/// True if the zone of a sliding crack is the shorter one.
-bool isOfSliding(const BrittleMaterial& m) {
-  return m.shearEnergyFactor / m.shearFactor / m.shearFactor < 1;
-}
-
 std::string zoneSentence(double young, const Cohesive& edge, double size) {
   const double zone = cohesiveZone(young, edge.fractureEnergy, edge.strength, edge.material);
   const double wanted = zone / tolerance::kZoneElements;
@@ -108,7 +103,7 @@ std::string zoneSentence(double young, const Cohesive& edge, double size) {
       "{}: the cohesive zone {}is {:.4g} m long, less than four elements of {:.4g} m; notched or "
       "cracked "
       "bodies carry too much load; elements of at most {:.3g} m are sufficient.",
-      edge.name, isOfSliding(edge.material) ? "of a sliding crack " : "", zone, size,
+      edge.name, slidingZone(edge.material) < 1 ? "of a sliding crack " : "", zone, size,
       atMost(tolerance::kAdvisedSize * wanted));
 }
 

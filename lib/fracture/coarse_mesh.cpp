@@ -39,13 +39,14 @@ CoarseMesh coarseMeshNamed(const std::string& name) {
 }
 
 double cohesiveZone(double young, double energy, double strength, const BrittleMaterial& material) {
-  const double sliding = material.shearEnergyFactor / material.shearFactor / material.shearFactor;
   return young / strength * (energy * material.softening.steepPart()) / strength *
-         std::min(1., sliding);
+         std::min(1., slidingZone(material));
 }
 
 FittedValues fitToMesh(const TriangleMesh& mesh, const MaterialsOfMesh& body,
                        BrittlePlaces& places) {
+  const auto isKept = [](CoarseMesh choice) { return choice == CoarseMesh::kWarn; };
+  if (std::ranges::all_of(body.choices, isKept)) return {};
   const std::size_t count = mesh.triangles.size();
   const auto numberOf = [&](std::size_t t) { return body.numbers.empty() ? 0 : body.numbers[t]; };
   const auto brittleOf = [&](std::size_t t) -> const BrittleMaterial& {
@@ -57,7 +58,7 @@ FittedValues fitToMesh(const TriangleMesh& mesh, const MaterialsOfMesh& body,
   complete(energy, count, [&](std::size_t t) { return brittleOf(t).fractureEnergy; });
   for (std::size_t t = 0; t < count; ++t) {
     const CoarseMesh choice = body.choices[numberOf(t)];
-    if (choice == CoarseMesh::kWarn || !brittleOf(t).cracks() || energy[t] <= 0) continue;
+    if (isKept(choice) || !brittleOf(t).cracks() || energy[t] <= 0) continue;
     const double young = body.materials[numberOf(t)].material.young;
     const double zone = cohesiveZone(young, energy[t], strength[t], brittleOf(t));
     const double part = zone / (tolerance::kZoneElements * sizeOf(mesh, t));

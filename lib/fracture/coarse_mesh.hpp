@@ -23,6 +23,11 @@ enum class CoarseMesh : std::uint8_t {
 /// By name: 'warn', 'strength', 'energy'. Throws InputError for another one.
 [[nodiscard]] CoarseMesh coarseMeshNamed(const std::string& name);
 
+/// κ/β²: the length of a sliding crack's zone over that of an opening one's.
+[[nodiscard]] inline double slidingZone(const BrittleMaterial& material) {
+  return material.shearEnergyFactor / material.shearFactor / material.shearFactor;
+}
+
 /// (m) Length of the cohesive zone, E·Gc/σc² (Hillerborg, Modéer and Petersson 1976, Cem. Concr.
 /// Res. 6, 773), and that of a sliding crack, E·κGc/(βσc)²: the shorter one. For a softening curve
 /// with a steeper part, Gc is replaced by the area ½σcδs below a line of its slope: the zone at the

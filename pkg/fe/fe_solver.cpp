@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -232,14 +233,19 @@ BodyMaterial bodyMaterialOf(const FEMat& material) {
   return one;
 }
 
-/// BrittleFEMat.coarseMesh: changes `spec.places`. Returns a sentence on that, or an empty one.
-std::string fitToCoarseMesh(const TriangleMesh& mesh, BodySpec& spec,
-                            const std::vector<yade::shared_ptr<FEMat>>& materials) {
+/// BrittleFEMat.coarseMesh of each material.
+std::vector<CoarseMesh> choicesOf(const std::vector<yade::shared_ptr<FEMat>>& materials) {
   std::vector<CoarseMesh> choices;
   for (const auto& one : materials) {
     const auto* brittle = dynamic_cast<const BrittleFEMat*>(one.get());
     choices.push_back(brittle ? coarseMeshNamed(brittle->coarseMesh) : CoarseMesh::kWarn);
   }
+  return choices;
+}
+
+/// Changes `spec.places`. Returns a sentence on that, or an empty one.
+std::string fitToCoarseMesh(const TriangleMesh& mesh, BodySpec& spec,
+                            std::span<const CoarseMesh> choices) {
   const BodyMaterial& one = spec;
   const std::span<const BodyMaterial> all =
       spec.materials.empty() ? std::span(&one, 1) : std::span(spec.materials.materials);
@@ -273,12 +279,15 @@ AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
     throw InputError(
         "selfContact is False, but the material is a BrittleFEMat, whose fragments must touch "
         "each other; it must be True, or the material an FEMat.");
-  std::string fitted = fitToCoarseMesh(mesh, spec, materials);
+  const std::vector<CoarseMesh> choices = choicesOf(materials);
+  std::string message = fitToCoarseMesh(mesh, spec, choices);
   const ComponentId component = world_.addBody(mesh, spec);
+  if (message.empty() && std::ranges::find(choices, CoarseMesh::kWarn) != choices.end())
+    message = cohesiveZoneWarning(world_.model, world_.fracture.edges, component);
   scene = &here;
   bodies_.add(here, world_, materials);
   for (const auto& one : materials) materials_.add(one);
-  return {static_cast<int>(component.value), std::move(fitted)};
+  return {static_cast<int>(component.value), std::move(message)};
 }
 
 /// Nodes have moved, or sides were divided.

@@ -26,7 +26,7 @@ namespace yadefrag {
 
 struct AddedBody {
   int component;
-  std::string fitted;  ///< a message on strengths or energies for a coarse mesh; or empty
+  std::string message;  ///< on a mesh that does not resolve the cohesive zone; or empty
 };
 
 class FESolver final : public Published<FESolver, yade::GlobalEngine> {

@@ -101,7 +101,8 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
         attribute(
             "coarseMesh", &C::coarseMesh,
             "What a body gets whose triangles, of size h, do not resolve the cohesive zone "
-            "l = young*fractureEnergy/tensileStrength**2 (4*h > l); strength and energy "
+            "l = g*young*fractureEnergy/tensileStrength**2 (4*h > l; g: that of softening, see the "
+            "manual, Fracture); strength and energy "
             "cannot both be kept. 'warn': both as given, with a message; cracks need too much "
             "load. 'strength': the strength is reduced to sqrt(l/(4*h)) of it: cracks run at "
             "the right load, and uncracked bodies break too early. 'energy': the energy is "

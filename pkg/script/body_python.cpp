@@ -31,9 +31,9 @@ BrittlePlaces brittlePlacesOf(const py::object& strength, const py::object& frac
 }
 
 /// `FESolver._addMesh` of yadefrag/fe/solver.py, which has checked all input: (component, message
-/// on coarseMesh or '', 0), or, without any change, (-1, message, depth (m)) for a body that would
-/// overlap another one.
-/// Arrays are by node, `stress` and `materialOf` (index in `materials`) by triangle; empty: none.
+/// on a coarse mesh or '', 0), or, without any change, (-1, message, depth (m)) for a body that
+/// would overlap another one. Arrays are by node, `stress` and `materialOf` (index in `materials`)
+/// by triangle; empty: none.
 py::tuple addMesh(FESolver& solver, const ScriptMesh& mesh, const py::list& materials,
                   const py::object& materialOf, const BrittlePlaces& places,
                   const py::object& velocity, const py::object& displacement,
@@ -57,7 +57,7 @@ py::tuple addMesh(FESolver& solver, const ScriptMesh& mesh, const py::list& mate
   return change(solver, [&] {
     try {
       const AddedBody added = solver.addBody(mesh, std::move(spec), own);
-      return py::make_tuple(added.component, added.fitted, 0.);
+      return py::make_tuple(added.component, added.message, 0.);
     } catch (const OverlapError& overlap) {
       return py::make_tuple(-1, overlap.what(), overlap.depth);
     }

@@ -4,7 +4,6 @@
 #include <limits>
 #include <vector>
 
-#include "fracture/brittle_checks.hpp"
 #include "fracture/cohesive_law.hpp"
 #include "fracture/edge_material.hpp"
 #include "script/arrays.hpp"
@@ -187,10 +186,6 @@ py::list fragmentsOf(const FESolver& solver, bool held) {
 }
 
 double criticalTimeStepOf(FESolver& solver) { return solver.criticalTimeStep(); }
-std::string zoneWarningOf(const FESolver& solver, int component) {
-  const World& world = solver.world();
-  return cohesiveZoneWarning(world.model, world.fracture.edges, ComponentId(component));
-}
 void noteOf(FESolver& solver, std::string sentence) { solver.note(std::move(sentence)); }
 double timeOf(const FESolver& solver) { return solver.world().time; }
 std::uint64_t searchesOf(const FESolver& solver) { return solver.world().numSearches(); }
@@ -219,7 +214,6 @@ void defineResults(SolverClass& solver) {
            "triangles (their number), mass (kg), area (m²), centroid (m), velocity (m/s), spin "
            "(rad/s). Parts that cohesion or a bond still holds together are one fragment; with "
            "held=False every crack separates, also one that has hardly opened.")
-      .def("_zoneWarning", &Locked<zoneWarningOf>::call)
       .def("_pairForce", &Locked<pairForceOf>::call)
       .def("_cracks", &Locked<cracksOf>::call)
       .def("_note", &Locked<noteOf>::call)

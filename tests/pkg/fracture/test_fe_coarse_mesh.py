@@ -42,8 +42,7 @@ def beamLoad(choice, perZone):
     O.engines = yadefrag.engines(fe)
     O.dt = .8 * fe.criticalTimeStep()
     fe.damping = 1 / period
-    top = np.nonzero(
-        (abs(fe.nodes[:, 0]) < 1e-6) & (abs(fe.nodes[:, 1] - kDepth) < 1e-9))[0]
+    top = np.nonzero((abs(fe.nodes[:, 0]) < 1e-6) & (abs(fe.nodes[:, 1] - kDepth) < 1e-9))[0]
     fe.prescribe(top, vy=[(0, 0), (period, -speed)])
     loads = []
     while O.time < 30 * period:

@@ -137,10 +137,8 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
     if fixed is not None:
         noteFixed(fixed, component, bool(held.any()))
     keepTurning(fe, component, held, given, spin, present, centroid)
-    fits = all(getattr(one, 'coarseMesh', 'warn') != 'warn' for one in materials.of)
-    problem = message or ('' if fits else fe._zoneWarning(component))
-    if problem:
-        warnOfOne(problem, 'bodies', component)
+    if message:
+        warnOfOne(message, 'bodies', component)
     return component
 
 
