@@ -40,6 +40,14 @@ std::array<double, 3> stressOf(const Model& model, ElementId element) {
   return cauchy(deformationGradient(model, element), Moduli(model.materialOf(element).material));
 }
 
+std::array<double, 3> strainRateOf(const Model& model, ElementId element) {
+  const Matrix2 f = deformationGradient(model, element);
+  const Matrix2 rate = gradient(model, element, model.nodes.velocity);
+  const double det = determinant(f);
+  return {(rate.xx * f.yy - rate.xy * f.yx) / det, (rate.yy * f.xx - rate.yx * f.xy) / det,
+          (rate.xy * f.xx - rate.xx * f.xy + rate.yx * f.yy - rate.yy * f.yx) / (2 * det)};
+}
+
 std::vector<std::array<double, 3>> stresses(const Model& model) {
   std::vector<std::array<double, 3>> result(model.triangles.size());
   for (const Component& c : model.components) {

@@ -31,6 +31,9 @@ Matrix2 deformationStep(const Model& model, ElementId element, double dt);
 /// it over the elements at a node, which is a smoothing of its own.
 std::array<double, 3> stressOf(const Model& model, ElementId element);
 
+/// (1/s) Rate of deformation xx, yy, xy of one element: the symmetric part of ḞF⁻¹.
+std::array<double, 3> strainRateOf(const Model& model, ElementId element);
+
 /// (Pa) The stress of every element from which its forces are computed.
 std::vector<std::array<double, 3>> stresses(const Model& model);
 

@@ -16,6 +16,9 @@
 namespace yadefrag {
 namespace {
 
+/// Of a factor of at most 1000, it is a finite number.
+constexpr double kMostPower = 10;
+
 /// A permitted value for messages, with a margin for the rounding to three digits.
 double atMost(double value) { return .99 * value; }
 
@@ -65,6 +68,19 @@ std::string named(double fractureEnergy, ComponentId component) {
                      component.value);
 }
 
+/// The factor of the rate effect at which an edge is the hardest to resolve: its zone and its
+/// openings over their closing in one step are both proportional to the factor to the power of p −
+/// 2. 1 for cracks, which have their final values.
+double hardestFactor(const BrittleMaterial& material, bool isCrack = false) {
+  if (isCrack || !material.rate.isOn()) return 1;
+  return material.rateEnergyPower <= 2 ? material.rate.largest() : material.rate.least();
+}
+
+double hardestFactor(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const auto [a, b] = edges.element[edge.value];
+  return hardestFactor(materialBetween(model, a, b).brittle, edges.cracked[edge.value] != 0);
+}
+
 /// Cohesive values of one edge.
 struct Cohesive {
   double strength;        // Pa
@@ -73,6 +89,12 @@ struct Cohesive {
   const BrittleMaterial& material;
   [[nodiscard]] double steep() const {
     return material.softening.steepOpening(strength, fractureEnergy);
+  }
+  /// At the strain rate of this factor.
+  [[nodiscard]] Cohesive raised(double factor) const {
+    if (factor == 1) return *this;
+    return {factor * strength, std::pow(factor, material.rateEnergyPower) * fractureEnergy,
+            fmt::format("{}, with the factor {:.3g} of rateEffect", name, factor), material};
   }
 };
 
@@ -172,14 +194,23 @@ double crossedBy(const Model& model, const CrackEdges& edges, EdgeId edge, doubl
   return dt * dt * thickness * lightnessOf(model, edges, edge) * edges.strength[edge.value] / 4;
 }
 
+/// Opening over closing in one step, and length of the zone: at a factor of the rate effect, over
+/// those without it.
+double byRate(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const double factor = hardestFactor(model, edges, edge);
+  if (factor == 1) return 1;
+  const auto [a, b] = edges.element[edge.value];
+  return std::pow(factor, materialBetween(model, a, b).brittle.rateEnergyPower - 2);
+}
+
 /// The edge whose opening is the smallest in relation to its closing in one step.
 template <class Counts>
 EdgeId leastResolved(const Model& model, const CrackEdges& edges, Counts counts, double dt) {
   return leastOf(model, edges, EdgeId(std::size_t{0}), counts, [&](EdgeId edge) {
     const auto& [a, b] = edges.element[edge.value];
     const SofteningCurve& curve = materialBetween(model, a, b).brittle.softening;
-    return curve.steepOpening(edges.strength[edge.value], edges.fractureEnergy[edge.value]) /
-           crossedBy(model, edges, edge, dt);
+    return curve.steepOpening(edges.strength[edge.value], edges.fractureEnergy[edge.value]) *
+           byRate(model, edges, edge) / crossedBy(model, edges, edge, dt);
   });
 }
 
@@ -200,8 +231,9 @@ double youngAt(const Model& model, const CrackEdges& edges, EdgeId edge) {
 double zoneOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const auto [a, b] = edges.element[edge.value];
   const BrittleMaterial& brittle = materialBetween(model, a, b).brittle;
-  return cohesiveZone(youngAt(model, edges, edge), edges.fractureEnergy[edge.value],
-                      edges.strength[edge.value], brittle);
+  return byRate(model, edges, edge) * cohesiveZone(youngAt(model, edges, edge),
+                                                   edges.fractureEnergy[edge.value],
+                                                   edges.strength[edge.value], brittle);
 }
 
 }  // namespace
@@ -223,6 +255,9 @@ void checkBrittle(const BrittleMaterial& material) {
           "positive and finite, or 0 for strengths on which the volume has no influence");
   require(material.strengthScatter >= 0 && material.strengthScatter < 1, "strengthScatter",
           material.strengthScatter, "", "at least 0 and below 1");
+  require(material.rateEnergyPower >= 0 && material.rateEnergyPower <= kMostPower,
+          "rateEnergyPower", material.rateEnergyPower, "",
+          "from 0, for an energy without a rate effect, to 10");
 }
 
 void checkCohesiveResolution(const Model& model, ComponentId component, double dt) {
@@ -231,10 +266,11 @@ void checkCohesiveResolution(const Model& model, ComponentId component, double d
   const EdgeSums sums = sumsOf(model, body);
   if (sums.inner == 0) return;
   const double strength = likelyLargestStrength(body.brittle, sums.inner, sums.leastVolume);
-  const double crossed = dt * dt * body.thickness * sums.lightest * strength / 4;
+  const double factor = hardestFactor(body.brittle);
+  const double crossed = dt * dt * body.thickness * sums.lightest * (factor * strength) / 4;
   const double energy = body.brittle.fractureEnergy;
-  requireResolved({strength, energy, named(energy, component), body.brittle}, crossed,
-                  sums.meanLength, dt);
+  const Cohesive edge{strength, energy, named(energy, component), body.brittle};
+  requireResolved(edge.raised(factor), crossed, sums.meanLength, dt);
 }
 
 void checkCohesiveResolution(const Model& model, const CrackEdges& edges, ComponentId component,
@@ -243,8 +279,9 @@ void checkCohesiveResolution(const Model& model, const CrackEdges& edges, Compon
   if (!body.brittleByPlace) return checkCohesiveResolution(model, component, dt);
   const EdgeId worst = leastResolved(model, edges, inside(model, edges, component), dt);
   if (worst == EdgeId::none()) return;
-  requireResolved(valuesOf(model, edges, worst), crossedBy(model, edges, worst, dt),
-                  sumsOf(model, body).meanLength, dt);
+  const double factor = hardestFactor(model, edges, worst);
+  requireResolved(valuesOf(model, edges, worst).raised(factor),
+                  factor * crossedBy(model, edges, worst, dt), sumsOf(model, body).meanLength, dt);
 }
 
 void checkBondResolution(const Model& model, const CrackEdges& edges, double dt) {
@@ -260,8 +297,8 @@ std::string cohesiveZoneWarning(const Model& model, ComponentId component) {
   const BrittleMaterial& brittle = body.brittle;
   if (!brittle.cracks() || brittle.fractureEnergy <= 0) return {};
   const std::string name = named(brittle.fractureEnergy, component);
-  return withRemedy(zoneSentence(body.material.young,
-                                 {brittle.tensileStrength, brittle.fractureEnergy, name, brittle},
+  const Cohesive edge{brittle.tensileStrength, brittle.fractureEnergy, name, brittle};
+  return withRemedy(zoneSentence(body.material.young, edge.raised(hardestFactor(brittle)),
                                  sumsOf(model, body).meanLength));
 }
 
@@ -273,8 +310,10 @@ std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,
       leastOf(model, edges, EdgeId(std::size_t{0}), inside(model, edges, component),
               [&](EdgeId edge) { return zoneOf(model, edges, edge); });
   if (worst == EdgeId::none()) return {};
-  return withRemedy(zoneSentence(youngAt(model, edges, worst), valuesOf(model, edges, worst),
-                                 sumsOf(model, body).meanLength));
+  return withRemedy(
+      zoneSentence(youngAt(model, edges, worst),
+                   valuesOf(model, edges, worst).raised(hardestFactor(model, edges, worst)),
+                   sumsOf(model, body).meanLength));
 }
 
 std::string bondZoneWarning(const Model& model, const CrackEdges& edges, EdgeId first) {

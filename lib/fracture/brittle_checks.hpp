@@ -22,7 +22,8 @@ void checkBrittle(const BrittleMaterial& material);
 /// 1 Pa at one end of an edge of length L, which has half of the edge; m is a third of a triangle's
 /// mass, the least mass that a node can have. The factor ¼ is due to the leapfrog, which is stable
 /// up to ω = 2/Δt: ¼kσ is the smallest opening at which the slope of the law is resolved. Without a
-/// fracture energy there is no condition.
+/// fracture energy there is no condition. With a rate effect it is required at the factor at which
+/// it is the hardest to satisfy; so is the message about the zone.
 void checkCohesiveResolution(const Model& model, ComponentId component, double dt);
 
 /// The same; for a body whose strength or fracture energy varies by place, edge by edge with the

@@ -32,6 +32,9 @@ void Fracture::removeBody(const Model& model, ElementId first, ElementId last,
   if (edges.ofNode.empty()) return;
   const std::vector<EdgeId> renumbered = edges.removeBody(model, first, last, renumberedNodes);
   cohesion.renumberEdges(renumbered);
+  std::erase_if(overloads,
+                [&](const Overload& one) { return renumbered[one.edge.value] == EdgeId::none(); });
+  for (Overload& one : overloads) one.edge = renumbered[one.edge.value];
   started.resize(std::min(started.size(), renumbered.size()));
   for (std::size_t i = 0; i < started.size(); ++i)
     if (renumbered[i] != EdgeId::none()) started[renumbered[i].value] = started[i];
@@ -46,13 +49,21 @@ void Fracture::prepare(Model& model) {
 }
 
 bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
-                     std::span<const ElementRange> where, SplitResult& result) {
+                     std::span<const ElementRange> where, const StepTime& step,
+                     SplitResult& result) {
   cracks_.clear();
-  if (where.empty() || numCracks_ >= maxCracks) return false;
-  cracks_ = check_.overstressed(model, edges, where, leastStrength);
+  hasRaised_ = false;
+  if (where.empty() || numCracks_ >= maxCracks) {
+    overloads.clear();
+    return false;
+  }
+  cracks_ = check_.overstressed(model, edges, where, leastStrength, step, overloads);
   if (cracks_.size() > maxCracks - numCracks_) cracks_.resize(maxCracks - numCracks_);
   if (cracks_.empty()) return false;
   numCracks_ += cracks_.size();
+  hasRaised_ = check_.raise(model, edges, cracks_);
+  std::erase_if(overloads,
+                [&](const Overload& one) { return std::ranges::binary_search(cracks_, one.edge); });
   splitNodes(model, edges, surfaces, cracks_, result);
   return !result.sides.empty();
 }
@@ -98,7 +109,8 @@ double Fracture::splitEnergy(const Model& model, std::span<const NodeId> origina
 
 void Fracture::addTo(Footprint& footprint) const {
   yadefrag::addTo(footprint, edges.columns());
-  footprint.add(Use::kFracture, edges.ofElement, edges.ofNode, started, leastStrength, cracks_);
+  footprint.add(Use::kFracture, edges.ofElement, edges.ofNode, started, leastStrength, cracks_,
+                overloads);
   cohesion.addTo(footprint);
   check_.addTo(footprint);
 }

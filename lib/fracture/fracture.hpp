@@ -34,9 +34,10 @@ class Fracture {
   /// Reserves memory for cracks, so that the first ones need no allocation.
   void prepare(Model& model);
   /// Cracks all edges that have reached their strength at the present positions, and splits nodes.
+  /// With a rate effect these edges get the strength and the energy of their strain rate.
   /// Returns true if `result` contains changes that other arrays must follow.
   bool crack(Model& model, const ContactSurfaces& surfaces, std::span<const ElementRange> where,
-             SplitResult& result);
+             const StepTime& step, SplitResult& result);
   /// Stores `time` (s) as the start of the cracks of the last call.
   void noteStart(double time);
   /// (J) Energy that bodies with smoothed strains gain when nodes split, at the half step: the
@@ -45,6 +46,9 @@ class Fracture {
                                    double dt) const;
   /// Makes the cracks of the last call of `crack` cohesive by their law.
   void cohere(const Model& model);
+
+  /// True if strengths changed in the last call of `crack`.
+  [[nodiscard]] bool hasRaised() const { return hasRaised_; }
 
   [[nodiscard]] std::uint64_t numCracks() const { return numCracks_; }
   void restore(std::uint64_t numCracks) { numCracks_ = numCracks; }
@@ -60,6 +64,8 @@ class Fracture {
   /// (s) By edge, start time of its crack; -1: not cracked, or cracked from the start. Edges after
   /// the last stored one have no value.
   std::vector<double> started;
+  /// Edges that a rate effect keeps from cracking, ascending.
+  std::vector<Overload> overloads;
   std::vector<double> leastStrength;  ///< Pa, by component; derived from the edges
   Cohesion cohesion;
 
@@ -67,6 +73,7 @@ class Fracture {
   StrengthCheck check_;
   std::vector<EdgeId> cracks_;
   std::uint64_t numCracks_ = 0;
+  bool hasRaised_ = false;
 };
 
 }  // namespace yadefrag

@@ -48,4 +48,16 @@ struct Traction {
   return std::sqrt(tension * tension + shear * shear);
 }
 
+/// (1/s) Rate of the strain in the direction of the largest principal stress, from the rate of
+/// deformation (1/s: xx, yy, xy); negative while the material shortens there. Where all directions
+/// are principal: the mean.
+[[nodiscard]] inline double strainRateAlong(const std::array<double, 3>& stress,
+                                            const std::array<double, 3>& rate) {
+  const double half = .5 * (stress[0] - stress[1]);
+  const double radius = std::sqrt(half * half + stress[2] * stress[2]);
+  const double mean = .5 * (rate[0] + rate[1]);
+  if (radius == 0) return mean;
+  return mean + (.5 * (rate[0] - rate[1]) * half + rate[2] * stress[2]) / radius;
+}
+
 }  // namespace yadefrag

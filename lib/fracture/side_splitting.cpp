@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dynamics/element_state.hpp"
+#include "fracture/edge_material.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
 
@@ -206,12 +207,18 @@ class Conformed {
     }
     double strength = 0, energy = material.fractureEnergy;
     for (const EdgeId edge : former) {
-      if (edge == EdgeId::none() || edges_.isBond(model_, edge) ||
+      if (edge == EdgeId::none() || edges_.isBond(model_, edge) || isRaised(edge) ||
           edges_.strength[edge.value] <= strength)
         continue;
       strength = edges_.strength[edge.value], energy = edges_.fractureEnergy[edge.value];
     }
     return {strength > 0 ? strength : material.tensileStrength, energy};
+  }
+
+  /// True for a crack that may have the strength of its strain rate.
+  [[nodiscard]] bool isRaised(EdgeId edge) const {
+    const auto [a, b] = edges_.element[edge.value];
+    return edges_.cracked[edge.value] != 0 && materialBetween(model_, a, b).brittle.rate.isOn();
   }
 
   Model& model_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "dynamics/element_state.hpp"
 #include "fracture/edge_material.hpp"
@@ -22,14 +23,21 @@ bool haveSeveralMaterials(const Model& model, std::span<const ElementId> element
 
 std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackEdges& edges,
                                                 std::span<const ElementRange> where,
-                                                std::span<const double> leastStrength) {
+                                                std::span<const double> leastStrength,
+                                                const StepTime& step,
+                                                std::vector<Overload>& overloads) {
   prepare(model, edges);
   ++call_;
   found_.clear();
+  over_.clear();
+  step_ = step;
+  former_ = overloads;
   // The stress of a checked node is needed for all edges that end there, of any triangle.
   for (const ElementRange& range : where)
     for (std::uint32_t e = range.firstElement; e < range.lastElement; ++e)
       if (!model.triangles.isDropped(e)) checkCorners(model, edges, ElementId(e), leastStrength);
+  std::ranges::sort(over_, {}, &Overload::edge);
+  overloads.swap(over_);
   return pickApart(model, edges);
 }
 
@@ -71,8 +79,8 @@ void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeI
       if (edge == EdgeId::none() || edges.cracked[edge.value] != 0) continue;
       if (edgeSeen_[edge.value] == call_) continue;
       edgeSeen_[edge.value] = call_;
-      const double ratio = ratioOf(model, edges, edge);
-      if (ratio >= 1) found_.push_back({ratio, edge});
+      const Overstressed one = compare(model, edges, edge);
+      if (one.ratio >= 1) found_.push_back(one);
     }
   }
 }
@@ -104,32 +112,36 @@ const StrengthCheck::Stress& StrengthCheck::stressAt(const Model& model, const C
   Stress& mean = nodeStress_[node.value];
   if (nodeSeen_[node.value] == call_) return mean;
   nodeSeen_[node.value] = call_;
-  return mean = meanAt(model, edges, node, [](ElementId) { return true; });
+  return mean = meanAt(
+             model, edges, node, [](ElementId) { return true; },
+             [&](ElementId e) { return stressOf(model, e); });
 }
 
-/// Stress at an end of an edge: the mean over the triangles with one of the edge's two materials.
-StrengthCheck::Stress StrengthCheck::stressOfMaterials(const Model& model, const CrackEdges& edges,
-                                                       EdgeId edge, NodeId node) {
+/// Value at an end of an edge: the mean over the triangles with one of the edge's two materials.
+template <class Of>
+std::array<double, 3> StrengthCheck::meanOfMaterials(const Model& model, const CrackEdges& edges,
+                                                     EdgeId edge, NodeId node, Of of) {
   const auto number = [&](ElementId e) { return model.triangles.material[e.value]; };
   const auto [a, b] = edges.element[edge.value];
   const std::uint32_t first = number(a), second = number(b);
-  return meanAt(model, edges, node,
-                [&](ElementId e) { return number(e) == first || number(e) == second; });
+  return meanAt(
+      model, edges, node, [&](ElementId e) { return number(e) == first || number(e) == second; },
+      of);
 }
 
 /// Mean by area over the triangles of a node's fan for which `counts` is true.
-template <class Counts>
-StrengthCheck::Stress StrengthCheck::meanAt(const Model& model, const CrackEdges& edges,
-                                            NodeId node, Counts counts) {
+template <class Counts, class Of>
+std::array<double, 3> StrengthCheck::meanAt(const Model& model, const CrackEdges& edges,
+                                            NodeId node, Counts counts, Of of) {
   fan_.clear();
   isInside_[node.value] = edges.appendFan(model, node, fan_) ? 1 : 0;
-  Stress mean{};
+  std::array<double, 3> mean{};
   double whole = 0;
   for (const ElementId element : fan_) {
     if (!counts(element)) continue;
     const double area = model.triangles.area[element.value];
-    const Stress& stress = stressOf(model, element);
-    for (std::size_t i = 0; i < 3; ++i) mean[i] += area * stress[i];
+    const std::array<double, 3> value = of(element);
+    for (std::size_t i = 0; i < 3; ++i) mean[i] += area * value[i];
     whole += area;
   }
   assert(whole > 0);
@@ -137,13 +149,37 @@ StrengthCheck::Stress StrengthCheck::meanAt(const Model& model, const CrackEdges
   return mean;
 }
 
-double StrengthCheck::ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
+/// (1/s) Rate of the strain at an edge with this mean stress, in the direction of its largest
+/// principal value.
+double StrengthCheck::strainRateAt(const Model& model, const CrackEdges& edges, EdgeId edge,
+                                   const Stress& stress) {
+  const Side side = edges.side(edge, 0);
+  const bool isMixed = model.bodyOf(side.element).isMixed();
+  const auto rateOf = [&](ElementId e) { return strainRateOf(model, e); };
+  const auto at = [&](NodeId node) {
+    if (isMixed) return meanOfMaterials(model, edges, edge, node, rateOf);
+    return meanAt(
+        model, edges, node, [](ElementId) { return true; }, rateOf);
+  };
+  std::array<double, 3> mean = at(firstNode(model, side));
+  const std::array<double, 3> other = at(lastNode(model, side));
+  for (std::size_t i = 0; i < 3; ++i) mean[i] = .5 * (mean[i] + other[i]);
+  return strainRateAlong(stress, mean);
+}
+
+/// The traction on an edge over its strength.
+StrengthCheck::Overstressed StrengthCheck::compare(const Model& model, const CrackEdges& edges,
+                                                   EdgeId edge) {
   const Side side = edges.side(edge, 0);
   const NodeId a = firstNode(model, side), b = lastNode(model, side);
   const bool isMixed = model.bodyOf(side.element).isMixed();
-  Stress mean = isMixed ? stressOfMaterials(model, edges, edge, a) : stressAt(model, edges, a);
-  const Stress other =
-      isMixed ? stressOfMaterials(model, edges, edge, b) : stressAt(model, edges, b);
+  const auto at = [&](NodeId node) -> Stress {
+    if (!isMixed) return stressAt(model, edges, node);
+    return meanOfMaterials(model, edges, edge, node,
+                           [&](ElementId e) { return stressOf(model, e); });
+  };
+  Stress mean = at(a);
+  const Stress other = at(b);
   for (std::size_t i = 0; i < 3; ++i) mean[i] = .5 * (mean[i] + other[i]);
   const Vec2 across = rightOf(model.nodes.position[b.value] - model.nodes.position[a.value]);
   const Vec2 normal = (1 / norm(across)) * across;
@@ -153,7 +189,44 @@ double StrengthCheck::ratioOf(const Model& model, const CrackEdges& edges, EdgeI
   double most = effectiveTraction(traction.normal, traction.shear, brittle, friction);
   if (edges.fractureEnergy[edge.value] > 0)
     for (const NodeId end : {a, b}) most = std::max(most, pullAt(model, edges, edge, end, normal));
-  return most / edges.strength[edge.value];
+  const double ratio = most / edges.strength[edge.value];
+  if (!brittle.rate.isOn() || ratio < 1) return {ratio, edge, 1};
+  const double factor = factorAt(model, edges, edge, ratio, mean);
+  return {ratio / factor, edge, factor};
+}
+
+/// Factor of the strength by the mean strain rate of an edge's overload. `ratio`: the traction over
+/// the strength in slow tests, at least 1.
+double StrengthCheck::factorAt(const Model& model, const CrackEdges& edges, EdgeId edge,
+                               double ratio, const Stress& stress) {
+  const auto [a, b] = edges.element[edge.value];
+  const double strain = (ratio - 1) * edges.strength[edge.value] / modulusBetween(model, a, b);
+  const auto former = std::ranges::lower_bound(former_, edge, {}, &Overload::edge);
+  double lasted = step_.length;
+  if (former != former_.end() && former->edge == edge) {
+    lasted = step_.end - former->since;
+  } else {
+    // It began within this step, at the present rate of the strain.
+    const double rate = strainRateAt(model, edges, edge, stress);
+    if (strain < rate * lasted) lasted = strain / rate;
+  }
+  over_.push_back({edge, step_.end - lasted});
+  return materialBetween(model, a, b).brittle.rate.factor(lasted > 0 ? strain / lasted : 0);
+}
+
+bool StrengthCheck::raise(const Model& model, CrackEdges& edges,
+                          std::span<const EdgeId> cracks) const {
+  assert(std::ranges::is_sorted(cracks));
+  bool any = false;
+  for (const Overstressed& one : found_) {
+    if (one.factor == 1 || !std::ranges::binary_search(cracks, one.edge)) continue;
+    const auto [a, b] = edges.element[one.edge.value];
+    edges.strength[one.edge.value] *= one.factor;
+    edges.fractureEnergy[one.edge.value] *=
+        std::pow(one.factor, materialBetween(model, a, b).brittle.rateEnergyPower);
+    any = true;
+  }
+  return any;
 }
 
 /// (Pa) Traction at the tip of a notch or a crack; 0 at any other node.

@@ -4,6 +4,13 @@
 // meet, only those of the edge's own one or two materials are used: along an interface the stress
 // component parallel to it jumps, only the traction on it is continuous. With a fracture energy,
 // the traction at the tip of a notch or a crack is used as well (tip_pull.hpp).
+//
+// With a rate effect an edge is overloaded from the strength of slow tests on, and cracks when its
+// traction reaches that strength times the factor of the strain rate. The rate is the mean one of
+// the overload: the traction in excess of the strength, over the modulus and the time that it has
+// lasted. The rate of one step does not do: at the peak of a pulse it is 0, so that any pulse above
+// the strength of slow tests would break the material, and vibrations of the mesh are faster than
+// the load.
 
 #include <array>
 #include <span>
@@ -15,19 +22,35 @@
 
 namespace yadefrag {
 
+/// An edge whose traction exceeds its strength in slow tests.
+struct Overload {
+  EdgeId edge;
+  double since;  ///< s, time
+};
+
+/// End and length of a step (s).
+struct StepTime {
+  double end, length;
+};
+
 class StrengthCheck {
  public:
   /// The edges at these triangles' nodes that crack now, ascending. If cracks open at once (no
   /// fracture energy), only the most overstressed of all edges that meet at a node cracks: its
-  /// opening unloads the others.
+  /// opening unloads the others. `overloads`: of materials with a rate effect, by edge, ascending;
+  /// those after the last step become those after this one.
   std::vector<EdgeId> overstressed(const Model& model, const CrackEdges& edges,
                                    std::span<const ElementRange> where,
-                                   std::span<const double> leastStrength);
+                                   std::span<const double> leastStrength, const StepTime& step,
+                                   std::vector<Overload>& overloads);
+  /// Multiplies strength and energy of the given edges, found by the last call of `overstressed`,
+  /// by the factors of their strain rates. Returns true if any changed.
+  bool raise(const Model& model, CrackEdges& edges, std::span<const EdgeId> cracks) const;
   /// Reserves memory for all that may be checked.
   void prepare(const Model& model, const CrackEdges& edges);
   void addTo(Footprint& footprint) const {
     footprint.add(Use::kFracture, elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeTested_,
-                  elementStress_, nodeStress_, isInside_, fan_, around_, found_);
+                  elementStress_, nodeStress_, isInside_, fan_, around_, found_, over_);
   }
 
  private:
@@ -35,6 +58,7 @@ class StrengthCheck {
   struct Overstressed {
     double ratio;
     EdgeId edge;
+    double factor;  // of the strength, by the strain rate
   };
 
   void checkCorners(const Model& model, const CrackEdges& edges, ElementId element,
@@ -43,10 +67,17 @@ class StrengthCheck {
                  std::span<const double> leastStrength);
   const Stress& stressOf(const Model& model, ElementId element);
   const Stress& stressAt(const Model& model, const CrackEdges& edges, NodeId node);
-  template <class Counts>
-  Stress meanAt(const Model& model, const CrackEdges& edges, NodeId node, Counts counts);
-  Stress stressOfMaterials(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node);
-  double ratioOf(const Model& model, const CrackEdges& edges, EdgeId edge);
+  template <class Counts, class Of>
+  std::array<double, 3> meanAt(const Model& model, const CrackEdges& edges, NodeId node,
+                               Counts counts, Of of);
+  template <class Of>
+  std::array<double, 3> meanOfMaterials(const Model& model, const CrackEdges& edges, EdgeId edge,
+                                        NodeId node, Of of);
+  Overstressed compare(const Model& model, const CrackEdges& edges, EdgeId edge);
+  double factorAt(const Model& model, const CrackEdges& edges, EdgeId edge, double ratio,
+                  const Stress& stress);
+  double strainRateAt(const Model& model, const CrackEdges& edges, EdgeId edge,
+                      const Stress& stress);
   double pullAt(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node, Vec2 normal);
   std::vector<EdgeId> pickApart(const Model& model, const CrackEdges& edges);
 
@@ -57,6 +88,10 @@ class StrengthCheck {
   std::vector<std::uint8_t> isInside_;  // by node whose mean is known: 1 if its fan is a ring
   std::vector<ElementId> fan_, around_;
   std::vector<Overstressed> found_;
+  // With a rate effect:
+  std::vector<Overload> over_;
+  StepTime step_{};
+  std::span<const Overload> former_;
 };
 
 }  // namespace yadefrag

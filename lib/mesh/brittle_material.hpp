@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/rate_effect.hpp"
 #include "mesh/softening_curve.hpp"
 
 namespace yadefrag {
@@ -22,6 +23,9 @@ struct BrittleMaterial {
   std::uint64_t seed = 0;      ///< of the scatter
   double referenceVolume = 0;  ///< m³, V₀ of the Weibull scatter; 0: the volume has no influence
   SofteningCurve softening{};  ///< the traction by opening, of a crack with a fracture energy
+  /// Factor of the strength by the strain rate with which an edge cracks; it keeps that strength.
+  RateEffect rate{};
+  double rateEnergyPower = 1;  ///< p: Gc is multiplied by that factor to the power of p
 
   [[nodiscard]] bool cracks() const { return tensileStrength > 0; }
 };

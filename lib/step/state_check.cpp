@@ -39,7 +39,8 @@ bool materialIsValid(const BodyMaterial& one) {
   return isPositive(m.young) && m.poisson > -1 && m.poisson < .5 && isPositive(m.density) &&
          one.friction >= 0 && std::isfinite(one.friction) && one.brittle.tensileStrength >= 0 &&
          one.brittle.fractureEnergy >= 0 && one.brittle.shearFactor > 0 &&
-         one.brittle.shearEnergyFactor > 0 && one.brittle.referenceVolume >= 0;
+         one.brittle.shearEnergyFactor > 0 && one.brittle.referenceVolume >= 0 &&
+         one.brittle.rateEnergyPower >= 0 && std::isfinite(one.brittle.rateEnergyPower);
 }
 
 bool isValid(const Component& c, const Model& model) {
@@ -170,9 +171,17 @@ bool edgesAreValid(const World& world) {
   });
 }
 
+bool overloadsAreValid(const Fracture& fracture) {
+  return std::ranges::is_sorted(fracture.overloads, {}, &Overload::edge) &&
+         std::ranges::all_of(fracture.overloads, [&](const Overload& one) {
+           return one.edge.value < fracture.edges.size() && std::isfinite(one.since);
+         });
+}
+
 bool fractureIsValid(const World& world) {
   const Cohesion& c = world.fracture.cohesion;
   return edgesAreValid(world) && world.fracture.started.size() <= world.fracture.edges.size() &&
+         overloadsAreValid(world.fracture) &&
          std::ranges::none_of(world.fracture.started, [](double t) { return std::isnan(t); }) &&
          haveLength(c.columns(), c.edge.size()) && allBelow(c.edge, world.fracture.edges.size());
 }

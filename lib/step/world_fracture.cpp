@@ -27,7 +27,7 @@ bool World::crack() {
   if (!fracture.isOn()) return false;
   const StageTimer timer(timesIfRequested(), &StageTimes::fracture);
   fracture.cohesion.settle(model, fracture.edges);
-  const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), split_);
+  const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), {time, lastDt}, split_);
   fracture.noteStart(time);
   if (opened) {
     const double gained = fracture.splitEnergy(model, split_.originals, lastDt);
@@ -37,6 +37,8 @@ bool World::crack() {
   }
   fracture.cohere(model);
   loads.spread(model, surfaces, fracture);
+  // A loaded state computes the limits from the present strengths.
+  if (fracture.hasRaised()) updateStressLimits();
   return opened;
 }
 

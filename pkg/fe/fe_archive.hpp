@@ -73,7 +73,7 @@ class WorldArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 15;
+  static constexpr std::uint64_t kFormat = 16;
   /// (count) A damaged length must not exhaust the memory: values are read in parts of this size,
   /// and the archive ends before the memory is full.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -271,29 +271,35 @@ class WorldArchive {
     member("strengthScatter", rows, [](C& c) -> double& { return c.brittle.strengthScatter; });
     member("seed", rows, [](C& c) -> std::uint64_t& { return c.brittle.seed; });
     member("referenceVolume", rows, [](C& c) -> double& { return c.brittle.referenceVolume; });
-    softening(rows);
+    curves("softeningCounts", "softeningPoints", rows,
+           [](C& c) -> SofteningCurve& { return c.brittle.softening; });
+    curves("rateCounts", "ratePoints", rows, [](C& c) -> RateEffect& { return c.brittle.rate; });
+    member("rateEnergyPower", rows, [](C& c) -> double& { return c.brittle.rateEnergyPower; });
     flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
   }
 
-  template <class C>
-  void softening(std::vector<C>& rows) {
+  /// Of existing rows: curves that consist of points.
+  template <class C, class Read>
+  void curves(const char* countsName, const char* pointsName, std::vector<C>& rows, Read read) {
+    using Curve = std::remove_cvref_t<decltype(read(rows.front()))>;
+    using Point = std::remove_cvref_t<decltype(read(rows.front()).points().front())>;
     std::vector<std::uint32_t> counts;
-    std::vector<SofteningPoint> points;
-    for (const C& c : rows) {
-      const std::vector<SofteningPoint>& own = c.brittle.softening.points();
+    std::vector<Point> points;
+    for (C& c : rows) {
+      const std::vector<Point>& own = read(c).points();
       counts.push_back(static_cast<std::uint32_t>(own.size()));
       points.insert(points.end(), own.begin(), own.end());
     }
-    value("softeningCounts", counts), column<double>("softeningPoints", points);
+    value(countsName, counts), column<double>(pointsName, points);
     if constexpr (Archive::is_loading::value) {
       std::size_t at = 0;
-      if (counts.size() != rows.size()) refuse("softeningCounts has a wrong length");
+      if (counts.size() != rows.size()) refuse(std::string(countsName) + " has a wrong length");
       for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (counts[i] > points.size() - at) refuse("softeningPoints has a wrong length");
+        if (counts[i] > points.size() - at) refuse(std::string(pointsName) + " has a wrong length");
         const auto begin = points.begin() + static_cast<std::ptrdiff_t>(at);
-        std::vector<SofteningPoint> own(begin, begin + counts[i]);
-        if (!SofteningCurve::isValid(own)) refuse("softeningPoints is invalid");
-        rows[i].brittle.softening = SofteningCurve(std::move(own));
+        std::vector<Point> own(begin, begin + counts[i]);
+        if (!Curve::isValid(own)) refuse(std::string(pointsName) + " is invalid");
+        read(rows[i]) = Curve(std::move(own));
         at += counts[i];
       }
     }
@@ -380,6 +386,9 @@ class WorldArchive {
     };
     table(edges.columns(), std::not_fn(isLate));
     value("crackStart", fracture.started);
+    auto& overloads = fracture.overloads;
+    member("overloadEdge", overloads, [](Overload& o) -> Index& { return o.edge.value; });
+    member("overloadSince", overloads, [](Overload& o) -> double& { return o.since; });
     table(edges.columns(), isLate);
     column<Index>("elementEdges", edges.ofElement), column<Index>("nodeElement", edges.ofNode);
     table(fracture.cohesion.columns());

@@ -227,7 +227,9 @@ BodyMaterial bodyMaterialOf(const FEMat& material) {
                    .strengthScatter = brittle->strengthScatter,
                    .seed = static_cast<std::uint64_t>(brittle->seed),
                    .referenceVolume = brittle->referenceVolume,
-                   .softening = brittle->softening.curve()};
+                   .softening = brittle->softening.law(),
+                   .rate = brittle->rateEffect.law(),
+                   .rateEnergyPower = brittle->rateEnergyPower};
     checkBrittle(one.brittle);
   }
   return one;

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "abi/yade.hpp"
-#include "fe/softening_choice.hpp"
+#include "fe/law_choice.hpp"
 #include "publish/indexed.hpp"
 #include "publish/published.hpp"
 
@@ -45,10 +45,12 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
   double referenceVolume = 0;
   SofteningChoice softening;
   std::string coarseMesh = "warn";
+  RateChoice rateEffect;
+  double rateEnergyPower = 1;
 
   template <class PyClass>
   static void pyExtra(PyClass& /*pyClass*/) {
-    convertSoftening();
+    convertLaws();
   }
 
   static constexpr auto attributes() {
@@ -109,7 +111,30 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
             "raised to 4*h/l of it: uncracked bodies have the right strength, and cracked "
             "ones carry too much. By triangle, when the body is added; a message names the "
             "values (scaling as in Bazant and Oh 1983, Materials and Structures 16, 155). Without "
-            "fractureEnergy it has no effect."));
+            "fractureEnergy it has no effect."),
+        attribute(
+            "rateEffect", &C::rateEffect,
+            "By which factor the strength increases with the strain rate at which an edge cracks. "
+            "The rate is the mean one since the edge's traction t exceeded the strength ft of slow "
+            "tests: (t - ft)/young over that time (plane strain: young/(1 - poisson**2)); the edge "
+            "cracks when t reaches ft*factor(rate). 'none': 1. 'ceb-fip-2010', concrete (fib Model "
+            "Code 2010, 5.1.11.2): (rate/1e-6)**0.018 up to 10 /s, 0.0062*(rate/1e-6)**(1/3) "
+            "above, "
+            "1 below 1e-6 /s, constant (4.15) from 300 /s on. Or a list of points (strain rate in "
+            "1/s, factor), rates increasing, factors at least 1; between them log(factor) is "
+            "linear in log(rate), outside the factor is that of the nearest point. It multiplies "
+            "the strength that an edge has by tensileStrength, strength, jointStrength, scatter "
+            "and coarseMesh, and so the cohesion shearFactor*tensileStrength, but not the "
+            "friction. "
+            "An edge between two materials has the effect of the weaker one, bonds have none. A "
+            "crack keeps its factor."),
+        attribute(
+            "rateEnergyPower", &C::rateEnergyPower,
+            "p: where rateEffect multiplies the strength of an edge by a factor, its "
+            "fractureEnergy "
+            "is multiplied by factor**p (as repow of LS-DYNA's MAT_CSCM, Murray 2007, "
+            "FHWA-HRT-05-062). 1: the critical opening stays the same; 0: the energy does; 2: the "
+            "length of the cohesive zone does."));
   }
 };
 

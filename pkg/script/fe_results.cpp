@@ -56,7 +56,7 @@ double damageOf(const Model& model, const Fracture& fracture, EdgeId edge, std::
 struct CrackColumns {
   std::vector<std::uint32_t> component, other, triangle;
   std::vector<std::array<NodeId, 4>> nodes;  // nodes of both sides, in opposite pairs
-  std::vector<double> x, y, nx, ny, opening, slip, damage, start;
+  std::vector<double> x, y, nx, ny, opening, slip, damage, start, strength, energy;
   std::vector<std::uint8_t> held;
 
   void add(const World& world, EdgeId edge, std::uint32_t hold) {
@@ -87,11 +87,15 @@ struct CrackColumns {
     const auto& started = world.fracture.started;
     const bool isKnown = edge.value < started.size() && started[edge.value] >= 0;
     start.push_back(isKnown ? started[edge.value] : NAN);
+    energy.push_back(edges.fractureEnergy[edge.value]);
+    const bool isOpenJoint = !isKnown && energy.back() == 0;
+    strength.push_back(isOpenJoint ? 0 : edges.strength[edge.value]);
   }
 };
 
 /// A dict of arrays, one row per crack: component, other (bodies on both sides), x, y, nx, ny,
-/// opening, slip (m), damage, held, start (s; nan: cracked from the start).
+/// opening, slip (m), damage, held, start (s; nan: cracked from the start), strength (Pa), energy
+/// (J/m²).
 py::dict cracksOf(const FESolver& solver) {
   const World& world = solver.world();
   const CrackEdges& edges = world.fracture.edges;
@@ -117,6 +121,8 @@ py::dict cracksOf(const FESolver& solver) {
   table["damage"] = toArray(columns.damage);
   table["held"] = toArray(columns.held).attr("view")("bool");
   table["start"] = toArray(columns.start);
+  table["strength"] = toArray(columns.strength);
+  table["energy"] = toArray(columns.energy);
   return table;
 }
 

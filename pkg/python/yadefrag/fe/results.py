@@ -19,7 +19,8 @@ _ROUNDING = 1e-9
 
 _CRACKS = (('component', '', int), ('other', '', int), ('x', 'm', float), ('y', 'm', float),
            ('nx', '', float), ('ny', '', float), ('opening', 'm', float), ('slip', 'm', float),
-           ('damage', '', float), ('held', '', bool), ('start', 's', float))
+           ('damage', '', float), ('held', '', bool), ('start', 's', float), ('strength', 'Pa', float),
+           ('energy', 'J/m²', float))
 
 
 def reaction(self: FESolver, nodes: int | Nodes) -> tuple[float, float]:
@@ -75,8 +76,8 @@ def crackTable(fe: FESolver, file: File | None = None) -> numpy.ndarray:
     nx, ny (normal, from the first side to the other), opening, slip (m, of the middles of both
     sides, across and along; slip is positive if the other side moves along (-ny, nx)), damage
     (dissipated fraction of its fracture energy, 1 without cohesion), held (True if the crack is
-    cohesive), start (s of fe.time; nan: cracked from the start). Cracks of removed fragments are
-    left out.
+    cohesive), start (s of fe.time; nan: cracked from the start), strength (Pa) and energy (J/m²; 0:
+    it opened at once), with the factor by rateEffect. Cracks of removed fragments are left out.
     file  path of a .csv to write as well, with the units in its first line
     ValueError for another ending, before anything is written.
     """

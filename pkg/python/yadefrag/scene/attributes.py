@@ -17,7 +17,8 @@ _OF_NUMPY = (numpy.generic, numpy.ndarray)
 _LISTS = (list, tuple, numpy.ndarray)
 _RIGHT = {'gravity': 'two or three numbers',
           'softening': 'a name, or a list of points (opening over critical opening, traction over '
-                       'strength)'}
+                       'strength)',
+          'rateEffect': 'a name, or a list of points (strain rate in 1/s, factor of the strength)'}
 _WRONG_KIND = (TypeError, OverflowError, UnicodeError)  # as Boost.Python refuses
 
 
@@ -126,7 +127,7 @@ def _fitting(present, value):
     """`value` for an attribute with the value `present`: NumPy's numbers become Python's. TypeError
     for values that Boost.Python would accept, too: 7 for a flag, bytes for a text, no dispatcher."""
     value = plain(value)
-    if isinstance(value, numpy.ndarray) and value.ndim == 1:
+    if isinstance(value, numpy.ndarray) and value.ndim in (1, 2):
         return tuple(value.tolist())
     if isinstance(value, (list, tuple)) and any(isinstance(v, _OF_NUMPY) for v in value):
         return tuple(map(plain, value))

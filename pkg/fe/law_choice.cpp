@@ -1,4 +1,4 @@
-#include "fe/softening_choice.hpp"
+#include "fe/law_choice.hpp"
 
 #include <new>
 
@@ -16,6 +16,7 @@ namespace py = yade::py;
 }
 
 /// Throws TypeError unless it is a sequence of pairs of numbers.
+template <class Choice>
 std::vector<double> tableOf(const py::object& given) {
   std::vector<double> table;
   try {
@@ -29,35 +30,34 @@ std::vector<double> tableOf(const py::object& given) {
     PyErr_Clear();
   }
   const std::string shown = py::extract<std::string>(py::str(given));
-  raise(PyExc_TypeError, "softening is " + shown +
-                             "; it must be a name, or a list of points (opening over critical "
-                             "opening, traction over strength).");
+  raise(PyExc_TypeError, std::string(Choice::kAttribute) + " is " + shown +
+                             "; it must be a name, or a list of points (" + Choice::kPoints + ").");
 }
 
+template <class Choice>
 struct FromPython {
   static void* accepts(PyObject* object) { return object; }
 
   static void construct(PyObject* object, py::converter::rvalue_from_python_stage1_data* data) {
-    SofteningChoice choice;
+    Choice choice;
     const py::object given{py::handle<>(py::borrowed(object))};
     const bool isName = PyUnicode_Check(object) != 0;
-    if (isName)
-      choice.name = py::extract<std::string>(given);
-    else
-      choice.name.clear(), choice.table = tableOf(given);
+    choice.name = isName ? std::string(py::extract<std::string>(given)) : std::string();
+    if (!isName) choice.table = tableOf<Choice>(given);
     try {
-      (void)(isName ? softeningNamed(choice.name) : choice.curve());
+      (void)(isName ? Choice::named(choice.name) : choice.law());
     } catch (const InputError& error) {
       raise(PyExc_ValueError, error.what());
     }
-    using Storage = py::converter::rvalue_from_python_storage<SofteningChoice>;
+    using Storage = py::converter::rvalue_from_python_storage<Choice>;
     void* const place = reinterpret_cast<Storage*>(data)->storage.bytes;  // NOLINT: Boost's way
-    data->convertible = new (place) SofteningChoice(std::move(choice));
+    data->convertible = new (place) Choice(std::move(choice));
   }
 };
 
+template <class Choice>
 struct ToPython {
-  static PyObject* convert(const SofteningChoice& choice) {
+  static PyObject* convert(const Choice& choice) {
     if (!choice.name.empty()) return py::incref(py::object(choice.name).ptr());
     py::list points;
     for (std::size_t i = 0; i + 1 < choice.table.size(); i += 2)
@@ -66,19 +66,35 @@ struct ToPython {
   }
 };
 
-}  // namespace
-
-SofteningCurve SofteningChoice::curve() const {
-  if (!name.empty()) return softeningNamed(name);
-  std::vector<SofteningPoint> points;
+template <class Point>
+std::vector<Point> pointsOf(const std::vector<double>& table) {
+  std::vector<Point> points;
   for (std::size_t i = 0; i + 1 < table.size(); i += 2) points.push_back({table[i], table[i + 1]});
-  return SofteningCurve(std::move(points));
+  return points;
 }
 
-void convertSoftening() {
-  py::converter::registry::push_back(&FromPython::accepts, &FromPython::construct,
-                                     py::type_id<SofteningChoice>());
-  py::to_python_converter<SofteningChoice, ToPython>();
+template <class Choice>
+void convertLaw() {
+  py::converter::registry::push_back(&FromPython<Choice>::accepts, &FromPython<Choice>::construct,
+                                     py::type_id<Choice>());
+  py::to_python_converter<Choice, ToPython<Choice>>();
+}
+
+}  // namespace
+
+SofteningCurve SofteningChoice::law() const {
+  return name.empty() ? SofteningCurve(pointsOf<SofteningPoint>(table)) : named(name);
+}
+
+RateEffect RateChoice::law() const {
+  if (!name.empty()) return named(name);
+  if (table.empty()) throw InputError("rateEffect has no points; it must have at least two.");
+  return RateEffect(pointsOf<RatePoint>(table));
+}
+
+void convertLaws() {
+  convertLaw<SofteningChoice>();
+  convertLaw<RateChoice>();
 }
 
 }  // namespace yadefrag

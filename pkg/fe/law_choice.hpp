@@ -1,0 +1,51 @@
+#pragma once
+// The attributes BrittleFEMat.softening and rateEffect: a name, or a list of points.
+
+#include <boost/serialization/nvp.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/rate_effect.hpp"
+#include "mesh/softening_curve.hpp"
+
+namespace yadefrag {
+
+struct LawChoice {
+  std::string name;           ///< empty: points are given
+  std::vector<double> table;  ///< both coordinates of each point
+
+  template <class Archive>
+  void serialize(Archive& archive, unsigned /*version*/) {
+    archive& BOOST_SERIALIZATION_NVP(name) & BOOST_SERIALIZATION_NVP(table);
+  }
+};
+
+struct SofteningChoice : LawChoice {
+  static constexpr const char* kAttribute = "softening";
+  static constexpr const char* kPoints = "opening over critical opening, traction over strength";
+
+  SofteningChoice() : LawChoice{"linear", {}} {}
+  [[nodiscard]] static SofteningCurve named(std::string_view name) { return softeningNamed(name); }
+  /// Throws InputError for an unknown name or invalid points.
+  [[nodiscard]] SofteningCurve law() const;
+};
+
+struct RateChoice : LawChoice {
+  static constexpr const char* kAttribute = "rateEffect";
+  static constexpr const char* kPoints = "strain rate in 1/s, factor of the strength";
+
+  RateChoice() : LawChoice{"none", {}} {}
+  [[nodiscard]] static RateEffect named(std::string_view name) { return rateEffectNamed(name); }
+  /// Throws InputError for an unknown name or invalid points.
+  [[nodiscard]] RateEffect law() const;
+};
+
+/// Registers the conversions: from a str or pairs of numbers (ValueError or TypeError for others),
+/// and to a str or a list of tuples.
+void convertLaws();
+
+}  // namespace yadefrag
