@@ -53,8 +53,12 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
     convertLaws();
   }
 
-  static constexpr auto attributes() {
-    using C = BrittleFEMat;
+  static constexpr auto attributes() { return std::tuple_cat(ofStrength(), ofScatter(), ofLaw()); }
+
+ private:
+  using C = BrittleFEMat;
+
+  static constexpr auto ofStrength() {
     return std::tuple(
         attribute("tensileStrength", &C::tensileStrength,
                   "Tensile strength ft (Pa). An edge between two triangles cracks where its normal "
@@ -74,7 +78,11 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
             "kappa: energy per area that a crack dissipates in pure shear, relative to "
             "fractureEnergy, that in pure tension (Snozzi and Molinari 2013, Int. J. Numer. Meth. "
             "Eng. 93, 510). Friction between the faces dissipates additional energy. Without "
-            "fractureEnergy it has no effect."),
+            "fractureEnergy it has no effect."));
+  }
+
+  static constexpr auto ofScatter() {
+    return std::tuple(
         attribute(
             "weibullModulus", &C::weibullModulus,
             "Modulus m of a Weibull scatter of the strength (Weibull 1951, J. Appl. Mech. 18, "
@@ -89,7 +97,11 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
                   "a finer mesh is not weaker. V is thickness times a third of the areas of the "
                   "edge's two triangles, so all edges together have the body's volume. 0: the "
                   "scale is tensileStrength for edges of any size, and the more edges, the weaker "
-                  "the weakest. Without weibullModulus it has no effect."),
+                  "the weakest. Without weibullModulus it has no effect."));
+  }
+
+  static constexpr auto ofLaw() {
+    return std::tuple(
         attribute("softening", &C::softening,
                   "How the traction of a crack decreases with its opening w; fractureEnergy Gc is "
                   "the area below it, ft the strength, wc the opening without traction. "
