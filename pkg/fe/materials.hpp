@@ -53,8 +53,6 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
     convertLaws();
   }
 
-  static constexpr auto attributes() { return std::tuple_cat(ofStrength(), ofScatter(), ofLaw()); }
-
  private:
   using C = BrittleFEMat;
 
@@ -148,6 +146,9 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
             "FHWA-HRT-05-062). 1: the critical opening stays the same; 0: the energy does; 2: the "
             "length of the cohesive zone does."));
   }
+
+ public:
+  static constexpr auto attributes() { return std::tuple_cat(ofStrength(), ofScatter(), ofLaw()); }
 };
 
 }  // namespace yadefrag
