@@ -35,7 +35,7 @@ CoarseMesh coarseMeshNamed(const std::string& name) {
   if (name == "strength") return CoarseMesh::kStrength;
   if (name == "energy") return CoarseMesh::kEnergy;
   throw InputError(
-      fmt::format("coarseMesh is '{}'; it must be 'warn', 'strength' or 'energy'.", name));
+      fmt::format("coarseMesh is '{:.60}'; it must be 'warn', 'strength' or 'energy'.", name));
 }
 
 double cohesiveZone(double young, double energy, double strength, const BrittleMaterial& material) {

@@ -71,7 +71,7 @@ RateEffect rateEffectNamed(std::string_view name) {
   if (name == "ceb-fip-2010")
     return RateEffect({{1e-6, 1}, {10, std::pow(1e7, .018)}, {300, .0062 * std::cbrt(3e8)}});
   throw InputError(
-      fmt::format("rateEffect is '{}'; it must be one of '{}', or points (strain rate in 1/s, "
+      fmt::format("rateEffect is '{:.60}'; it must be one of '{}', or points (strain rate in 1/s, "
                   "factor of the strength).",
                   name, fmt::join(kNames, "', '")));
 }

@@ -91,7 +91,7 @@ SofteningCurve softeningNamed(std::string_view name) {
   if (name == "exponential") return polygonOf(7, exponential);
   if (name == "reinhardt") return polygonOf(6.93, reinhardt);
   throw InputError(
-      fmt::format("softening is '{}'; it must be one of '{}', or points (opening over "
+      fmt::format("softening is '{:.60}'; it must be one of '{}', or points (opening over "
                   "critical opening, traction over strength).",
                   name, fmt::join(kNames, "', '")));
 }

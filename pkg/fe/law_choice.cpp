@@ -29,7 +29,7 @@ std::vector<double> tableOf(const py::object& given) {
   } catch (const py::error_already_set&) {
     PyErr_Clear();
   }
-  const std::string shown = py::extract<std::string>(py::str(given));
+  const std::string shown = py::extract<std::string>(py::str(given).slice(0, 100));
   raise(PyExc_TypeError, std::string(Choice::kAttribute) + " is " + shown +
                              "; it must be a name, or a list of points (" + Choice::kPoints + ").");
 }
