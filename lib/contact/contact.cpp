@@ -221,7 +221,9 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
     if (hasRow(surfaces, before, active.pair)) continue;
     if (stored.empty() && isThroughItself(surfaces, before, active.pair, step)) continue;
     const double friction = frictionOf(active.pair, model, surfaces);
-    ContactRow row = makeRow(surfaces, before, active, step.constants.faceAngle, friction > 0);
+    // A line of its own: instructions are counted by line, and the call is no cost of friction.
+    const bool sticks = friction > 0;
+    ContactRow row = makeRow(surfaces, before, active, step.constants.faceAngle, sticks);
     row.friction = friction;
     startRow(row, model, surfaces, before, touchOn(stored, active.pair.master), step);
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
