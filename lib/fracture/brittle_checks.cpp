@@ -223,9 +223,7 @@ double lengthOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
 /// (Pa) For a crack between two materials: the modulus of their mean compliance.
 double youngAt(const Model& model, const CrackEdges& edges, EdgeId edge) {
   const auto [a, b] = edges.element[edge.value];
-  const double first = model.materialOf(a).material.young;
-  const double second = model.materialOf(b).material.young;
-  return first == second ? first : 2 / (1 / first + 1 / second);
+  return modulusOfBoth(model.materialOf(a).material.young, model.materialOf(b).material.young);
 }
 
 double zoneOf(const Model& model, const CrackEdges& edges, EdgeId edge) {

@@ -33,14 +33,18 @@ struct EdgeMaterial {
           std::min(model.materialOf(a).friction, model.materialOf(b).friction)};
 }
 
+/// (Pa) The modulus of the mean compliance of two.
+[[nodiscard]] inline double modulusOfBoth(double first, double second) {
+  return first == second ? first : 2 / (1 / first + 1 / second);
+}
+
 /// (Pa) σ/ε of a bar in tension, in plane stress or strain as the body; of their mean compliance.
 [[nodiscard]] inline double modulusBetween(const Model& model, ElementId a, ElementId b) {
   const auto modulus = [&](ElementId e) {
     const ElasticMaterial& m = model.materialOf(e).material;
     return m.planeStress ? m.young : m.young / (1 - m.poisson * m.poisson);
   };
-  const double first = modulus(a), second = modulus(b);
-  return first == second ? first : 2 / (1 / first + 1 / second);
+  return modulusOfBoth(modulus(a), modulus(b));
 }
 
 /// The law of an edge with its own strength and energy; the curve is that of the weaker material.

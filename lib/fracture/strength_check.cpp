@@ -19,6 +19,11 @@ bool haveSeveralMaterials(const Model& model, std::span<const ElementId> element
                              [&](ElementId e) { return number(e) != number(elements.front()); });
 }
 
+/// Of both ends of an edge.
+std::array<double, 3> meanOf(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return {.5 * (a[0] + b[0]), .5 * (a[1] + b[1]), .5 * (a[2] + b[2])};
+}
+
 }  // namespace
 
 std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackEdges& edges,
@@ -161,10 +166,7 @@ double StrengthCheck::strainRateAt(const Model& model, const CrackEdges& edges, 
     return meanAt(
         model, edges, node, [](ElementId) { return true; }, rateOf);
   };
-  std::array<double, 3> mean = at(firstNode(model, side));
-  const std::array<double, 3> other = at(lastNode(model, side));
-  for (std::size_t i = 0; i < 3; ++i) mean[i] = .5 * (mean[i] + other[i]);
-  return strainRateAlong(stress, mean);
+  return strainRateAlong(stress, meanOf(at(firstNode(model, side)), at(lastNode(model, side))));
 }
 
 /// The traction on an edge over its strength.
@@ -178,9 +180,7 @@ StrengthCheck::Overstressed StrengthCheck::compare(const Model& model, const Cra
     return meanOfMaterials(model, edges, edge, node,
                            [&](ElementId e) { return stressOf(model, e); });
   };
-  Stress mean = at(a);
-  const Stress other = at(b);
-  for (std::size_t i = 0; i < 3; ++i) mean[i] = .5 * (mean[i] + other[i]);
+  const Stress mean = meanOf(at(a), at(b));
   const Vec2 across = rightOf(model.nodes.position[b.value] - model.nodes.position[a.value]);
   const Vec2 normal = (1 / norm(across)) * across;
   const Traction traction = tractionOn(mean, normal);
