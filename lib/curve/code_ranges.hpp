@@ -13,6 +13,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 #include "core/tolerances/search.hpp"
 #include "curve/position_code.hpp"
@@ -53,13 +54,21 @@ inline int cutAtHighestBoundary(const CodeRange& axis, std::uint64_t mask, std::
   return 2;
 }
 
+/// By insertion: there are at most 2^Dim. GCC 13 and later take std::sort's branch for more than
+/// sixteen for a read past the last one.
+template <int Dim>
+void sortByStart(CodeRanges<Dim>& ranges) {
+  auto& range = ranges.range;
+  for (int r = 1; r < ranges.count; ++r)
+    for (int at = r; at > 0 && range[at].start < range[at - 1].start; --at)
+      std::swap(range[at], range[at - 1]);
+}
+
 /// Parts longer than two boxes can give overlapping ranges: their codes vary on levels above the
 /// one on which another axis was cut. This function joins such ranges.
 template <int Dim>
 void joinOverlapping(CodeRanges<Dim>& ranges) {
-  const auto begin = ranges.range.begin();
-  std::sort(begin, begin + ranges.count,
-            [](const CodeRange& a, const CodeRange& b) { return a.start < b.start; });
+  sortByStart(ranges);
   int kept = 0;
   for (int r = 1; r < ranges.count; ++r) {
     CodeRange& last = ranges.range[kept];
