@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -21,7 +22,7 @@ _JOINTS = .1   # of the size: default tolerance of joints
 _LEAST_SAMPLES, _MOST_SAMPLES = 128, 1024  # of a size function, along the outline's longer side
 
 # Arguments of polygonMesh and addPolygon.
-ARGUMENTS = """outline, holes  list of points (x, y) in m, and a list of such lists
+ARGUMENTS = inspect.cleandoc("""outline, holes  list of points (x, y) in m, and a list of such lists
     size            length of the triangles' edges (m), or a function (x, y) → m. The function is
                     sampled on a grid of at least 128 and at most 1024 cells along the longer side.
                     Where it grows by more than 0.25 m per metre, it is lowered to that.
@@ -40,7 +41,13 @@ ARGUMENTS = """outline, holes  list of points (x, y) in m, and a list of such li
                     lines. Lines may cross each other and the outline; parts outside are ignored.
                     Ends and crossings nearer than a tolerance to each other, to another line or to the
                     outline are joined; a warning states how many and how far
-"""
+""")
+
+
+def withArguments(text: str | None) -> str:
+    """A docstring with ARGUMENTS for its {arguments}. Both without indentation: Python removes that of docstrings
+    since 3.13."""
+    return inspect.cleandoc(text or '').replace('{arguments}', ARGUMENTS)
 
 
 def _sampledSize(function, points):
@@ -202,4 +209,4 @@ def polygonMesh(outline: ArrayLike, holes: Iterable[ArrayLike] = (), *, size: fl
     return made
 
 
-polygonMesh.__doc__ = (polygonMesh.__doc__ or '').replace('{arguments}\n', ARGUMENTS)
+polygonMesh.__doc__ = withArguments(polygonMesh.__doc__)

@@ -25,7 +25,7 @@ from yadefrag.fe.loads import absorb, getLoads, pressure, relax, setLoads
 from yadefrag.fe.materials import Materials, interfaces, isField, oneMaterial
 from yadefrag.fe.mesh import Mesh, asMesh
 from yadefrag.fe.mesh_values import brittlePlaces, field, heldNodes, smoothNodes, stressOfTriangles
-from yadefrag.fe.meshing import ARGUMENTS, Meshing
+from yadefrag.fe.meshing import Meshing, withArguments
 from yadefrag.fe.motions import keepTurning, prescribe, rotate
 from yadefrag.fe.quality import meshQuality
 from yadefrag.fe.results import contactForce, crackCounts, energy, principalStress, reaction
@@ -152,8 +152,7 @@ def _takesBody(*without):
                 if one.kind is one.KEYWORD_ONLY and key not in own and key not in without]
         method.__signature__ = whole.replace(
             parameters=[one for one in own.values() if one.kind is not one.VAR_KEYWORD] + more)
-        text = (_add.__doc__ or '').rstrip()
-        method.__doc__ = method.__doc__.replace('{arguments}\n', ARGUMENTS).replace('{body}', text)
+        method.__doc__ = withArguments(method.__doc__).replace('{body}', inspect.cleandoc(_add.__doc__ or ''))
         return method
     return complete
 
