@@ -1,8 +1,8 @@
-"""Scenes for every geometry functor of YADE 2023.02a and 2025.2.0: bodies that fly through each other.
+"""Scenes for every geometry functor of YADE up to 2026.1.0: bodies that fly through each other.
 
 `kScenes` has one scene per functor, `kNoScene` the reason where there is none; `isHere` is true for the
-functors of this YADE (2025.2.0 has new ones, and Debian's package of it lacks some features). All bodies keep their
-velocity whatever forces act, so that a run does not depend on the order of summation. Positions are
+functors of this YADE (later ones have more, and Debian's packages of these lack some features). All bodies
+keep their velocity whatever forces act, so that a run does not depend on the order of summation. Positions are
 in m, in a unit box; a step takes 1 s.
 """
 import itertools
@@ -26,7 +26,8 @@ kNearIsReal = ('Ig2_Facet_Polyhedra_PolyhedraGeom', 'Ig2_Wall_Polyhedra_Polyhedr
                'Ig2_Polyhedra_Polyhedra_PolyhedraGeom', 'Ig2_Polyhedra_Polyhedra_ScGeom',
                'Ig2_Polyhedra_Polyhedra_PolyhedraGeomOrScGeom',
                'Ig2_Sphere_ChainedCylinder_CylScGeom', 'Ig2_Sphere_ChainedCylinder_CylScGeom6D',
-               'Ig2_LevelSet_LevelSet_VolumeGeom', 'Ig2_Wall_LevelSet_VolumeGeom')
+               'Ig2_LevelSet_LevelSet_VolumeGeom', 'Ig2_LevelSet_LevelSet_LSnodeGeom',
+               'Ig2_Wall_LevelSet_VolumeGeom')
 
 kNoScene = {
     'Ig2_Tetra_Tetra_TTetraGeom':
@@ -99,10 +100,15 @@ def tetrahedra(rng, n=25):
                           material='m') for _ in range(n)])
 
 
-def levelSets(rng, n=26):
+def levelSets(rng, n=26, **more):
     fly(rng, [utils.levelSetBody('superellipsoid', extents=(.12, .09, .07), epsilons=(.7, 1.2),
-                                 spacing=.03, nSurfNodes=102, material='m') for _ in range(n)],
+                                 spacing=.03, nSurfNodes=102, material='m', **more) for _ in range(n)],
         turn=.02)
+
+
+def levelSetsOfNeighbours(rng):
+    """With the six neighbours of each surface node."""
+    levelSets(rng, n_neighborsNodes=6)
 
 
 def floor(rng, n=1):
@@ -203,10 +209,11 @@ class Scene:
 
     def __init__(self, *bodies, material=frictMat, physics=('Ip2_FrictMat_FrictMat_FrictPhys',),
                  laws=('Law2_ScGeom_FrictPhys_CundallStrack',), others=(), grid=False,
-                 cohesive=False):
+                 cohesive=False, loopAttributes=None):
         self.bodies, self.material = bodies, material
         self.physics, self.laws, self.others = list(physics), list(laws), list(others)
         self.grid, self.cohesive = grid, cohesive
+        self.loopAttributes = loopAttributes or {}
 
     def build(self, functor, rng, offset=0):
         """Fills the scene; returns the arguments of scenes.setEngines."""
@@ -239,7 +246,7 @@ class Scene:
         # Sorted: functors of chains and grids look at other interactions of the same step.
         return w.InteractionLoop([functorOf(entry) for entry in geometry], physics,
                                  [functorOf(entry) for entry in laws],
-                                 loopOnSortedInteractions=True)
+                                 loopOnSortedInteractions=True, **self.loopAttributes)
 
 
 def functorOf(entry):
@@ -287,6 +294,10 @@ kScenes = {
     'Ig2_GridConnection_GridConnection_GridCoGridCoGeom': Scene(connections, grid=True),
     'Ig2_GridConnection_PFacet_ScGeom': Scene(connections, pfacets, others=kGridContacts, grid=True),
     'Ig2_GridNode_GridNode_GridNodeGeom6D': Scene(looseNodes, grid=True),
+    # It makes contacts of near bodies before they touch, and asks itself for their removal.
+    'Ig2_LevelSet_LevelSet_LSnodeGeom': Scene(
+        levelSetsOfNeighbours, laws=[('Law2_ScGeom_FrictPhys_CundallStrack', dict(neverErase=True))],
+        loopAttributes=dict(warnRoleIg2=False)),
     'Ig2_LevelSet_LevelSet_MultiScGeom': Scene(levelSets, **kSeveralPoints),
     'Ig2_LevelSet_LevelSet_ScGeom': Scene(levelSets),
     'Ig2_LevelSet_LevelSet_VolumeGeom': Scene(levelSets, **kOverlapVolume),

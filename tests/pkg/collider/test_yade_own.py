@@ -21,7 +21,8 @@ kChecks = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
 # Not here: checkList.py runs the others; the MPI scripts start other programs;
 # checkColliderConstantness.py reads the rival's sort lists (test_constantness.py stands for it);
 # YADE itself skips checkCapillaryEngineStandalone.py, which fails with its own collider, and
-# DEM-PFV-check.py, which fails with its own collider as soon as that searches in every step.
+# DEM-PFV-check.py, which fails with its own collider as soon as that searches in every step, and
+# checkPolyhedraDrum.py.
 kQuickChecks = [
     'checkAvoidSelfInteractionMask.py', 'checkBlockGen.py',
     'checkCapillaryModels.py', 'checkColliderCorrectness.py', 'checkFlipCell.py',
@@ -33,20 +34,24 @@ kQuickChecks = [
     # of YADE 2025.2.0
     'checkCohesiveFrictionalLaw.py', 'checkKineticEnergy.py', 'checkMultiScGeom.py',
     'checkRotAlgorithmNonSpherical.py', 'checkSetPerm.py', 'checkTesselationWrapper.py',
-    'checkViscElBC.py']
+    'checkViscElBC.py',
+    # of YADE 2026.1.0
+    'checkCoatingOfSegBodies.py', 'checkLS_DEM_viscoelastic.py', 'checkPeriodicThermalConduction.py',
+    'checkPolyhedra_shearForce.py', 'checkShapeVolume.py']
 kLongChecks = [
     'checkAlpha.py', 'checkClumpHopper.py', 'checkDEM-PFVPressureInjection.py',
     'checkFlipSpheres.py', 'checkJCFpm.py', 'checkLS_DEM.py', 'checkLS_DEM_pbc.py',
     'checkPotentialBlocks.py', 'checkSaveLoadClumps.py', 'checkTestDummy.py',
     'checkThermalEngine.py', 'check_TwoPhaseFlowEngine_PressureInjection.py',
     'checkbf_simple.py', 'checkbf_unixial_clump.py', 'colliderTorture.py']
-# They do nothing in a YADE that is built without the feature, as that of Debian 13.
+# They do nothing in a YADE that is built without the feature, as those of Debian 13 and 14.
 kNeeds = {
-    'checkHertzExtended.py': 'CGAL', 'checkPolyhedraCrush.py': 'CGAL', 'checkTesselationWrapper.py': 'CGAL',
+    'checkHertzExtended.py': 'CGAL', 'checkPolyhedraCrush.py': 'CGAL', 'checkPolyhedra_shearForce.py': 'CGAL',
+    'checkTesselationWrapper.py': 'CGAL', 'checkPeriodicThermalConduction.py': 'THERMAL',
     'checkDEM-PFVPressureInjection.py': 'PFVFLOW', 'checkSetPerm.py': 'PFVFLOW',
     'checkThermalEngine.py': 'THERMAL', 'check_TwoPhaseFlowEngine_PressureInjection.py': 'TWOPHASEFLOW'}
 # No collider runs in these; the last three need a feature that Debian's YADE is built without.
-kNoCollider = {'checkAlpha.py', 'checkTestDummy.py', 'checkPotentialBlocks.py',
+kNoCollider = {'checkAlpha.py', 'checkShapeVolume.py', 'checkTestDummy.py', 'checkPotentialBlocks.py',
                'checkBlockGen.py', 'checkLiquidMigration.py'}
 # The collider is never among O.engines in a run: called by hand, or inside an integrator.
 kNoRun = {'checkAvoidSelfInteractionMask.py', 'checkFlipCell.py',

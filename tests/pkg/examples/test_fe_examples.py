@@ -5,6 +5,7 @@ import re
 import select
 import signal
 import subprocess
+import termios
 import time
 
 import numpy as np
@@ -217,6 +218,7 @@ def test_interruptedRunStillReports(folder):
     # On a terminal a bar shows that the run has started: an interrupt before that ends the script. It
     # has to be read, too, and one that Python loses while it writes the bar has to be sent again.
     terminal, its = pty.openpty()
+    termios.tcsetwinsize(its, (24, 80))     # tqdm 4.70 shows no bar in a terminal without a width
     running = start('squares', '--n', '4', '--steps', '10000000', '--out', folder, stderr=its)
     shown, sent, end = b'', -kHanging, time.monotonic() + kHanging
     try:
