@@ -16,6 +16,10 @@ endif()
 
 file(STRINGS /etc/os-release os_lines REGEX "^VERSION_ID=")
 string(REGEX REPLACE "[^0-9.]" "" os_version "${os_lines}")
+file(STRINGS /etc/os-release is_forky REGEX "^VERSION_CODENAME=forky")
+if(is_forky)
+  set(os_version 14)  # it has no number there before its release
+endif()
 execute_process(COMMAND dpkg-query -W -f "\${source:Upstream-Version}" yade
                 OUTPUT_VARIABLE yade_upstream ERROR_QUIET)
 find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)

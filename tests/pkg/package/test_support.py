@@ -48,8 +48,8 @@ def test_versionOfAnotherBuildIsNamedAsSuch():
 
 def test_untriedVersionIsRefusedInOneSentence(monkeypatch):
     """A build for a YADE whose layout is known, but without a test run."""
-    monkeypatch.setattr(support, 'VERSION', '2026.1.0')
-    sentence = support.describeMismatch('2026.1.0', 'PrecisionDouble', STOCK)
+    monkeypatch.setattr(support, 'VERSION', '2027.1.0')
+    sentence = support.describeMismatch('2027.1.0', 'PrecisionDouble', STOCK)
     assert 'never tested with it' in sentence and '2023.02a' in sentence
     assert sentence.endswith('.') and '\n' not in sentence
 
