@@ -73,9 +73,9 @@ def test_formatIsAsInTheTable(folder, monkeypatch, row):
         found.append('-' if file is None else outcome(file, column))
     if found == ['-'] * len(found) and expected != found:
         pytest.skip('a library of this format is missing here')
-    assert found == expected
+    assert all(one in cell.split(' or ') for one, cell in zip(found, expected, strict=True)), (found, expected)
 
 
 def test_tableHasAllFormats():
     from meshio._helpers import _writer_map
-    assert sorted(row[0] for row in rows()[1]) == sorted(_writer_map)
+    assert sorted(row[0] for row in rows()[1]) == sorted({*_writer_map, 'dgf'})     # dgf: later ones than Debian 12's
