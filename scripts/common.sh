@@ -12,6 +12,16 @@ die() {
   exit 1
 }
 
+# YADE_PREFIX: where a YADE that its user built is installed (YADE_SOURCE: its sources, if they have moved). The
+# plugin for it has a build folder of its own; otherwise YADE is that of the system.
+release_dir=$root/build/release
+yade=/usr/bin/yade
+if [ -n "${YADE_PREFIX:-}" ]; then
+  release_dir=$root/build/own
+  yade=$(find "$YADE_PREFIX/bin" -name 'yade*' ! -name '*-batch' 2>/dev/null | sort | tail -n 1)
+  [ -n "$yade" ] || die "YADE_PREFIX=$YADE_PREFIX has no bin/yade*: no YADE is installed there."
+fi
+
 # The project's own runs use Debian's Python packages only.
 use_only_debian_python() {
   export PYTHONNOUSERSITE=1
@@ -20,7 +30,7 @@ use_only_debian_python() {
 
 # Processes started from here find `import yadefrag`; it is built first if it does not exist.
 use_plugin() {
-  local package_dir=$root/build/release/python
+  local package_dir=$release_dir/python
   if [ ! -e "$package_dir/yadefrag/__init__.py" ] || [ ! -e "$package_dir/yadefrag/_yadefrag.so" ]; then
     "$root/scripts/setup" plugin >&2
     "$root/scripts/build" release _yadefrag >&2

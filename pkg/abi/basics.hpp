@@ -1,6 +1,20 @@
 #pragma once
 // Types used by all YADE classes declared here.
 
+#ifdef YADEFRAG_YADE_SOURCE
+
+#include <boost/python.hpp>
+
+#include <lib/base/Math.hpp>
+
+namespace yade {
+
+namespace py = boost::python;
+
+}  // namespace yade
+
+#else
+
 #include <Eigen/Dense>
 #include <boost/python.hpp>
 #include <boost/shared_ptr.hpp>
@@ -26,3 +40,5 @@ using Quaternionr = Eigen::Quaternion<Real>;
 using mask_t = int;
 
 }  // namespace yade
+
+#endif

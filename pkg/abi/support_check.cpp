@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "abi/layout.hpp"
 #include "abi/round_trip.hpp"
+#include "abi/yade_build.hpp"
 
 namespace yadefrag {
 
@@ -16,15 +16,15 @@ namespace {
 
 // "yadefrag needs YADE 2023.02a as Debian 12 packages it, and the running yade "
 std::string needed() {
-  return std::string("yadefrag needs YADE ") + kYadeVersion + " as " + kYadeSystem +
-         " packages it, and the running yade ";
+  return std::string("yadefrag needs YADE ") + kYadeVersion + " as " + kYadeBuild +
+         ", and the running yade ";
 }
 
 }  // namespace
 
 void throwMisplaced(const std::string& typeAndMember) {
   throw UnsupportedYade(needed() + "differs: " + typeAndMember +
-                        " is not where that package keeps it.");
+                        " is not where that build has it.");
 }
 
 namespace {
@@ -114,7 +114,9 @@ void checkBody() {
   body.check("id", body->id, 5);
   body.check("groupMask", body->groupMask, 6);
   body.check("flags", body->flags, 14);
+#ifdef YADE_MPI
   body.check("subdomain", body->subdomain, 8);
+#endif
   body.check("clumpId", body->clumpId, 5);
   body.check("iterBorn", body->iterBorn, 10);
   body.check("timeBorn", body->timeBorn, 11.5);
@@ -224,8 +226,10 @@ void checkScene(const Scratch<yade::Scene>& scene) {
   scene.check("doSort", scene->doSort, true);
   scene.check("runInternalConsistencyChecks", scene->runInternalConsistencyChecks, false);
   scene.check("selectedBody", scene->selectedBody, 11);
+#ifdef YADE_MPI
   scene.check("subdomain", scene->subdomain, 12);
   scene.check("subD", scene->subD, Scratch<yade::Shape>("Sphere").pointer());
+#endif
   scene.check("cell", scene->cell, Scratch<yade::Cell>("Cell").pointer());
   scene.check("bound", scene->bound, Scratch<yade::Bound>("Aabb").pointer());
   const Scratch<yade::Engine> engine("ForceResetter");
@@ -261,7 +265,9 @@ void checkContainers(const Scratch<yade::Scene>& scene) {
   checkIds(bodies, "insertedBodies", bodies->insertedBodies, 20);
   checkIds(bodies, "erasedBodies", bodies->erasedBodies, 30);
   checkIds(bodies, "realBodies", bodies->realBodies, 40);
+#ifdef YADE_MPI
   checkIds(bodies, "subdomainBodies", bodies->subdomainBodies, 50);
+#endif
 
   const Scratch<yade::InteractionContainer> contacts("InteractionContainer", scene->interactions);
   contacts.check("dirty", contacts->dirty, false);

@@ -3,8 +3,7 @@
 # one.
 
 set(YADEFRAG_YADE_VERSION "")
-set(generated_dir ${CMAKE_CURRENT_BINARY_DIR}/generated)
-set(abi_dir ${CMAKE_CURRENT_SOURCE_DIR}/abi)
+set(yade_unused_sources "")
 set(yade_config ${YADEFRAG_YADE_LIBDIR}/py/yade/config.py)
 set(found_version "")
 if(EXISTS ${yade_config})
@@ -14,7 +13,7 @@ endif()
 
 execute_process(
   COMMAND ${Python3_EXECUTABLE} ${abi_dir}/tools/make_table.py "${found_version}" ${YADEFRAG_VERSION}
-          ${generated_dir}/abi/layout_table.hpp ${package_dir}/_built.py
+          ${generated_dir}/abi ${package_dir}/_built.py
   OUTPUT_VARIABLE reason OUTPUT_STRIP_TRAILING_WHITESPACE
   RESULT_VARIABLE failed)
 file(GLOB version_files CONFIGURE_DEPENDS ${abi_dir}/versions/*.json)
@@ -49,4 +48,13 @@ function(yadefrag_check_virtuals)
     COMMENT "Comparing the virtual functions of pkg/abi with those of YADE ${YADEFRAG_YADE_VERSION}"
     COMMAND_EXPAND_LISTS VERBATIM)
   add_custom_target(yadefrag_abi DEPENDS ${stamp})
+endfunction()
+
+# yadefrag_use_yade(options): the features of Debian's packages, with the declarations of pkg/abi.
+function(yadefrag_use_yade options)
+  target_compile_definitions(
+    ${options} INTERFACE EIGEN_DONT_VECTORIZE EIGEN_DONT_ALIGN BOOST_BIND_GLOBAL_PLACEHOLDERS YADE_MPI
+                         YADE_OPENGL YADE_OPENMP)
+  yadefrag_check_headers(${CMAKE_CURRENT_SOURCE_DIR} ${options})
+  yadefrag_check_virtuals()
 endfunction()

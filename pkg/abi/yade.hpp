@@ -1,8 +1,11 @@
 #pragma once
 // YADE's declarations for this project: the one include for all files in pkg/ that use YADE. Names,
-// namespace, members and access are those of YADE. This file may therefore be replaced by one that
-// includes YADE's real headers (pkg/README.md explains how).
+// namespace, members and access are those of YADE, so that its own headers can replace those here:
+// they do for a yade that was built from its sources.
 
+#ifdef YADEFRAG_YADE_SOURCE
+#include "abi/source_headers.hpp"
+#else
 #include "abi/body.hpp"
 #include "abi/bound.hpp"
 #include "abi/cell.hpp"
@@ -21,3 +24,4 @@
 #include "abi/scene.hpp"
 #include "abi/shape.hpp"
 #include "abi/state.hpp"
+#endif

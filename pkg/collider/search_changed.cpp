@@ -44,7 +44,7 @@ bool SearchCollider::searchChanged(int threads) {
   boxes_.commit(*scene, threads);
   interactions_.applyChanged(
       *scene, near_, boxes_.boxes(), boxes_.changed(),
-      [this](const Body* a, const Body* b) { return mayCollide(a, b, scene->subdomain); },
+      [this](const Body* a, const Body* b) { return mayMeet(a, b); },
       [this](Body::id_t id1, Body::id_t id2) { return isStillNear(id1, id2); });
   if (!quick) lastCheck_ = scene->iter;
   searchedSinceAll_ += boxes_.changed().size();

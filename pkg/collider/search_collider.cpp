@@ -61,8 +61,8 @@ void SearchCollider::searchAll(int threads) {
   findNeighbours(threads);
   boxes_.commit(*scene, threads);
   interactions_.apply(
-      *scene, near_, boxes_.boxes(),
-      [this](const Body* a, const Body* b) { return mayCollide(a, b, scene->subdomain); }, threads);
+      *scene, near_, boxes_.boxes(), [this](const Body* a, const Body* b) { return mayMeet(a, b); },
+      threads);
   keptWith_ = choices();
   lastCheck_ = scene->iter;
   searchedSinceAll_ = 0;
@@ -189,7 +189,7 @@ std::vector<BoxPair> SearchCollider::entryPairs() {
   const auto& bodies = scene->bodies->body;
   std::erase_if(pairs, [&](const BoxPair& pair) {
     const Body *first = bodies[pair.first.value].get(), *second = bodies[pair.second.value].get();
-    if (!first || !second || !mayCollide(first, second, scene->subdomain)) return true;
+    if (!first || !second || !mayMeet(first, second)) return true;
     const auto& a = static_cast<const SurfaceSegment&>(*first->shape);
     const auto& b = static_cast<const SurfaceSegment&>(*second->shape);
     // Pieces created by scripts are one rigid body.

@@ -106,7 +106,23 @@ class SearchCollider : public yade::Collider {
     friend bool operator==(const Choices&, const Choices&) = default;
   };
   [[nodiscard]] Choices choices() const {
-    return {trueHalo, avoidSelfInteractionMask, scene->subdomain};
+    return {trueHalo, avoidSelfInteractionMask, subdomain()};
+  }
+  /// Number of this process's part of the scene; 0 in a YADE without MPI.
+  [[nodiscard]] int subdomain() const {
+#ifdef YADE_MPI
+    return scene->subdomain;
+#else
+    return 0;
+#endif
+  }
+  /// False for two bodies that YADE keeps apart: masks, clumps, parts of other processes.
+  [[nodiscard]] bool mayMeet(const yade::Body* a, const yade::Body* b) {
+#ifdef YADE_MPI
+    return mayCollide(a, b, scene->subdomain);
+#else
+    return mayCollide(a, b);
+#endif
   }
   std::optional<Choices> keptWith_;  // no value: all bodies must be searched
   BodyBoxes boxes_;

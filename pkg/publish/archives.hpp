@@ -21,7 +21,9 @@ namespace boost::archive::detail {
 YADEFRAG_YADE_ARCHIVES(yade::BoundFunctor)
 YADEFRAG_YADE_ARCHIVES(yade::Collider)
 YADEFRAG_YADE_ARCHIVES(yade::FrictMat)
+#ifdef YADE_OPENGL
 YADEFRAG_YADE_ARCHIVES(yade::GlShapeFunctor)
+#endif
 YADEFRAG_YADE_ARCHIVES(yade::GlobalEngine)
 YADEFRAG_YADE_ARCHIVES(yade::IGeomFunctor)
 YADEFRAG_YADE_ARCHIVES(yade::Shape)

@@ -13,7 +13,9 @@
 #include "publish/publish.hpp"
 #include "python/list_items.hpp"
 #include "script/definitions.hpp"
+#ifdef YADE_OPENGL
 #include "view/gl_surface_segment.hpp"
+#endif
 
 namespace yadefrag {
 
@@ -26,9 +28,13 @@ struct ClassList {
 };
 
 // Every class that this project adds to YADE.
-using NewClasses = ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider, FEMat,
-                             BrittleFEMat, SurfaceSegment, Bo1_SurfaceSegment_Aabb,
-                             Ig2_Sphere_SurfaceSegment_ScGeom, Gl1_SurfaceSegment, FESolver>;
+using NewClasses =
+    ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider, FEMat, BrittleFEMat,
+              SurfaceSegment, Bo1_SurfaceSegment_Aabb, Ig2_Sphere_SurfaceSegment_ScGeom,
+#ifdef YADE_OPENGL
+              Gl1_SurfaceSegment,
+#endif
+              FESolver>;
 
 /// The instruction set that is used on this processor.
 std::string instructionSet() {
@@ -41,9 +47,11 @@ void toImportError(const UnsupportedYade& error) {
 
 /// A renderer that was created before the classes of this module has no functors and no table
 /// entries for the new shapes: YADE would end the process.
-void renewRenderer(const py::object& renderer) {
+void renewRenderer([[maybe_unused]] const py::object& renderer) {
+#ifdef YADE_OPENGL
   yade::Serializable& object = py::extract<yade::Serializable&>(renderer);
   if (object.getClassName() == "OpenGLRenderer") static_cast<yade::OpenGLRenderer&>(object).init();
+#endif
 }
 
 }  // namespace yadefrag

@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""make_table.py VERSION OWN HEADER MODULE: generates files of the build from
+"""make_table.py VERSION OWN FOLDER MODULE: generates files of the build from
 pkg/abi/versions/VERSION.json.
+make_table.py --source SOURCE FEATURES YADE VERSION OWN FOLDER MODULE: those of a build with YADE's own
+headers; YADE is its command.
 
-HEADER: sizes and offsets, for the compiler. MODULE, for Python: the YADE version of this build and
-the version of yadefrag, OWN. Exit code 2 and one sentence: this version of YADE is unknown.
+FOLDER gets layout_table.hpp, sizes and offsets for the compiler, and yade_build.hpp, the YADE of this
+build. MODULE is the same for Python, with the version of yadefrag, OWN. Exit code 2 and one sentence:
+this version of YADE is unknown.
 """
 
 import pathlib
@@ -11,7 +14,7 @@ import sys
 
 import versions
 
-HEADER = '''#pragma once
+TABLE = '''#pragma once
 // Made by pkg/abi/tools/make_table.py from pkg/abi/versions/%(version)s.json.
 
 #include "abi/layout_entry.hpp"
@@ -20,9 +23,6 @@ HEADER = '''#pragma once
 
 namespace yadefrag {
 
-inline constexpr const char* kYadeVersion = "%(version)s";
-inline constexpr const char* kYadeSystem = "%(system)s";
-
 inline constexpr LayoutEntry kLayout[] = {
 %(rows)s
 };
@@ -30,14 +30,29 @@ inline constexpr LayoutEntry kLayout[] = {
 }  // namespace yadefrag
 '''
 
-MODULE = '''"""This build of yadefrag and its version of YADE. Made by pkg/abi/tools/make_table.py."""
+BUILD = '''#pragma once
+// Made by pkg/abi/tools/make_table.py.
+
+namespace yadefrag {
+
+inline constexpr const char* kYadeVersion = "%(version)s";
+/// For messages: "YADE <version> as ...".
+inline constexpr const char* kYadeBuild = "%(build)s";
+
+}  // namespace yadefrag
+'''
+
+MODULE = '''"""This build of yadefrag and its YADE. Made by pkg/abi/tools/make_table.py."""
 
 YADEFRAG = %(own)r
 VERSION = %(version)r
-SYSTEM = %(system)r
-# True if this project has been tested with it.
-RUN = %(run)r
-# Every version that a build can be for.
+# For messages: "YADE <version> as ...".
+BUILD = %(build)r
+# Features of a YADE whose own headers were used; None with the declarations of pkg/abi.
+FEATURES = %(features)r
+# The command of that YADE.
+COMMAND = %(command)r
+# Every version of a package for which a build can be made, with its system.
 ACCEPTED = %(accepted)r
 '''
 
@@ -56,19 +71,30 @@ def writeIfNew(path, text):
         path.write_text(text)
 
 
-def main(version, own, header, module):
+def main(version, own, folder, module, source=None, features=None, command='yade'):
     known = versions.known()
-    if version not in known:
-        print('yadefrag supports YADE %s, and not %s; see "How to move to another YADE" in '
-              'pkg/README.md.' % (', '.join(known), version or 'an unknown version'))
+    if source is None and version not in known:
+        print('yadefrag supports the packages of YADE %s, and not %s; a YADE that you build can have any version: '
+              'see "A YADE of your own" in docs/getting_started.md.' % (
+                  ', '.join(known), version or 'an unknown version'))
         return 2
-    facts = known[version]
-    writeIfNew(header, HEADER % {**facts, 'number': versions.number(version),
-                                 'rows': '\n'.join(rows(facts['classes']))})
+    folder = pathlib.Path(folder)
+    if source is None:
+        facts = known[version]
+        writeIfNew(folder / 'layout_table.hpp', TABLE % {
+            'version': version, 'number': versions.number(version), 'rows': '\n'.join(rows(facts['classes']))})
+        build = '%s packages it' % facts['system']
+    else:
+        build = 'it was built from %s' % source
+    writeIfNew(folder / 'yade_build.hpp', BUILD % {'version': version, 'build': build})
     accepted = {name: other['system'] for name, other in known.items() if other['run']}
-    writeIfNew(module, MODULE % {**facts, 'own': own, 'accepted': accepted})
+    writeIfNew(module, MODULE % {
+        'version': version, 'own': own, 'build': build, 'command': command, 'accepted': accepted,
+        'features': None if features is None else sorted(features.split())})
     return 0
 
 
 if __name__ == '__main__':
+    if sys.argv[1:2] == ['--source']:
+        sys.exit(main(*sys.argv[5:], source=sys.argv[2], features=sys.argv[3], command=sys.argv[4]))
     sys.exit(main(*sys.argv[1:]))

@@ -26,24 +26,9 @@ import tempfile
 
 import class_dump
 import versions
+import yade_build
 
 LIBRARIES = '/usr/lib/x86_64-linux-gnu/yade-double'
-
-# Macros that YADE's CMakeLists.txt defines for a feature; other features do not change the
-# headers.
-DEFINES = {
-    'LOGGER': ['YADE_BOOST_LOG', 'BOOST_LOG_DYN_LINK'], 'COMPLEX_MP': ['YADE_COMPLEX_MP'],
-    'MPFR': ['YADE_MPFR'], 'VTK': ['YADE_VTK'], 'OPENMP': ['YADE_OPENMP'], 'GTS': ['YADE_GTS'],
-    'QT5': ['YADE_OPENGL', 'YADE_QT5', 'QT_NO_KEYWORDS'], 'CGAL': ['YADE_CGAL'],
-    'PFVFLOW': ['FLOW_ENGINE'], 'LINSOLV': ['LINSOLV'], 'MPI': ['YADE_MPI'],
-    'TWOPHASEFLOW': ['TWOPHASEFLOW'], 'LS_DEM': ['YADE_LS_DEM'], 'FEMLIKE': ['YADE_FEM'],
-    'GL2PS': ['YADE_GL2PS'], 'LBMFLOW': ['LBM_ENGINE'], 'THERMAL': ['THERMAL'],
-    'PARTIALSAT': ['PARTIALSAT'], 'POTENTIAL_PARTICLES': ['YADE_POTENTIAL_PARTICLES'],
-    'POTENTIAL_BLOCKS': ['YADE_POTENTIAL_BLOCKS'], 'SPH': ['YADE_SPH'],
-    'DEFORM': ['YADE_DEFORM'], 'LIQMIGRATION': ['YADE_LIQMIGRATION'],
-    'PROFILING': ['USE_TIMING_DELTAS', 'ISC_TIMING'], 'BODY_CALLBACK': ['YADE_BODY_CALLBACK'],
-    'MASK_ARBITRARY': ['YADE_MASK_ARBITRARY', 'YADE_MASK_ARBITRARY_SIZE=256'],
-}
 
 # Run by gdb: {class: size, members}, as JSON.
 IN_GDB = r'''
@@ -91,34 +76,12 @@ def run(*command, **options):
     return done.stdout
 
 
-def readConfig(libraries):
-    """The package's features and version, and the size of its floating-point numbers."""
-    text = (libraries / 'py' / 'yade' / 'config.py').read_text()
-
-    def value(name):
-        return re.search(r"^%s\s*=\s*'?([^'\n]*)" % name, text, re.M).group(1)
-
-    return {'version': value('version'), 'features': value('features').split(),
-            'bits': int(value('highPrecisionBits')),
-            'decimals': int(value('highPrecisionDecimalPlaces'))}
-
-
-def compilerFlags(config):
-    defines = ['YADE_REAL_BIT=%d' % config['bits'], 'YADE_REAL_DEC=%d' % config['decimals'],
-               'YADE_ODEINT', 'MAX_LOG_LEVEL=5', 'BOOST_BIND_GLOBAL_PLACEHOLDERS']
-    for feature in config['features']:
-        defines += DEFINES.get(feature, [])
-    if 'VECTORIZE' not in config['features']:
-        defines += ['EIGEN_DONT_VECTORIZE', 'EIGEN_DONT_ALIGN',
-                    'EIGEN_DISABLE_UNALIGNED_ARRAY_ASSERT']
-    flags = ['-D' + define for define in dict.fromkeys(defines)]
-    if 'OPENMP' in config['features']:
-        flags.append('-fopenmp')
+def allFlags(config):
     qt = '/usr/include/x86_64-linux-gnu/qt5'
     folders = [sysconfig.get_paths()['include'], '/usr/include/eigen3', qt, qt + '/QtGui',
                qt + '/QtCore', '/usr/lib/python3/dist-packages/mpi4py/include',
                '/usr/lib/x86_64-linux-gnu/openmpi/include']
-    return flags + ['-isystem' + folder for folder in folders]
+    return yade_build.compilerFlags(config) + ['-isystem' + folder for folder in folders]
 
 
 def definingHeaders(source, classes):
@@ -184,12 +147,14 @@ def main():
     given = parser.parse_args()
     # The classes that pkg/abi declares: those of every existing file.
     classes = sorted(next(iter(versions.known().values()))['classes'])
-    config = readConfig(given.libraries)
+    config = yade_build.readConfig(given.libraries)
     found, missing = measure(given.source.resolve(), classes,
-                             compilerFlags(config) + shlex.split(given.flags))
+                             allFlags(config) + shlex.split(given.flags))
     if missing:
         sys.exit('not found: %s' % ', '.join(missing))
-    written = versions.write({'version': config['version'], 'system': given.system, 'run': False,
+    former = versions.known().get(config['version'], {})
+    kept = {'sources': former['sources']} if 'sources' in former else {}
+    written = versions.write({'version': config['version'], 'system': given.system, **kept, 'run': False,
                               'classes': found})
     print('YADE %s: %d classes in %s' % (config['version'], len(found), written))
 

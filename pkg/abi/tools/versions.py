@@ -2,6 +2,7 @@
 
 version     as in yade.config
 system      the distribution of the package
+sources     its source archive in Debian's pool, and the SHA-256 of that; not every version has it
 run         true if this project has been tested with it; otherwise `import yadefrag` refuses it
 classes     name: size and offsets in bytes, members as [name, type, offset], virtual functions as in
             class_dump.py
@@ -23,13 +24,6 @@ def known():
     return {path.stem: read(path.stem) for path in sorted(FOLDER.glob('*.json'))}
 
 
-def versionOf(libraries):
-    """Version of the YADE whose libraries are in a folder; '' if it is not given there."""
-    config = pathlib.Path(libraries) / 'py' / 'yade' / 'config.py'
-    found = re.search(r"^version\s*=\s*'([^']*)'", config.read_text(), re.M)
-    return found.group(1) if found else ''
-
-
 def number(version):
     """202302 of '2023.02a': the number for the preprocessor."""
     year, month = re.match(r'(\d+)\.(\d+)', version).groups()
@@ -47,7 +41,7 @@ def write(facts):
             json.dumps(name), entry['size'], '\n' + members if members else '',
             '\n' + tables if tables else ''))
     head = ',\n '.join('%s: %s' % (json.dumps(key), json.dumps(facts[key]))
-                       for key in ('version', 'system', 'run'))
+                       for key in ('version', 'system', 'sources', 'run') if key in facts)
     path = FOLDER / (facts['version'] + '.json')
     path.write_text('{%s,\n "classes": {\n%s}}\n' % (head, ',\n'.join(blocks)))
     return path

@@ -12,9 +12,10 @@ from yadefrag import _built, _yadefrag, support
 from yadefrag.arguments import refuse
 
 _OWN = pathlib.Path(__file__).resolve().parent
-# Folders of a source tree (by links in its build folder) and of installations below /usr,
-# /usr/local.
-_PLACES = ((_OWN / '../../..').resolve(), (_OWN / '../../../../share/doc/yadefrag').resolve())
+# Folders of a source tree (by links in its build folder) and of installations: below /usr, /usr/local, or in the
+# folder of a YADE that its user built.
+_PLACES = tuple((_OWN / place).resolve() for place in
+                ('../../..', '../../../../share/doc/yadefrag', '../../../../../share/doc/yadefrag'))
 
 
 def about(show: Callable[[str], Any] = print) -> bool:
@@ -40,8 +41,10 @@ def about(show: Callable[[str], Any] = print) -> bool:
 def _rows():
     """(name, text, True if it is correct), line by line."""
     yield 'yadefrag', '%s in %s' % (support.YADEFRAG, _OWN), True
-    yield 'YADE', '%s; built for %s of %s' % (config.version, _built.VERSION, _built.SYSTEM), (
+    yield 'YADE', '%s in %s; built for %s as %s' % (config.version, config.libDir, _built.VERSION, _built.BUILD), (
         config.version == _built.VERSION)
+    yield 'built with', ("the declarations of pkg/abi, for a YADE package without headers" if _built.FEATURES is None
+                         else "YADE's own headers, for its features " + ', '.join(_built.FEATURES)), True
     yield 'Python', platform.python_version(), True
     problem = support.describeSurroundings() or _problemOfInterface()
     yield 'interface', problem or "YADE's classes have the expected layout", not problem

@@ -10,13 +10,14 @@ from typing import Any
 from yadefrag import _built
 
 YADEFRAG = _built.YADEFRAG
-# The extension is built for the layout of one version: that of the YADE that was installed at the
-# build.
+# The extension is built for the layout of one YADE: that which was installed at the build.
 VERSION = _built.VERSION
-# Every version for which a build can be made, with the system of its package.
+# Every version of a package for which a build can be made, with its system.
 ACCEPTED = _built.ACCEPTED
 PRECISION = 'PrecisionDouble'
-# Features that move members of YADE's classes: these add members that the extension expects ...
+# With YADE's own headers the layout is that of exactly these features.
+FEATURES = _built.FEATURES
+# With the declarations of pkg/abi: features that add members of YADE's classes that the extension expects ...
 NEEDED = ('OPENMP', 'MPI', 'QT5', 'FEMLIKE')
 # ... and these add, widen or align members that it does not expect.
 REFUSED = ('VECTORIZE', 'MASK_ARBITRARY', 'SPH', 'LIQMIGRATION', 'DEFORM', 'BODY_CALLBACK')
@@ -34,25 +35,30 @@ def describeMismatch(version: str, precision: str, features: Collection[str]) ->
     if precision != PRECISION:
         found.append('numbers of %s' % precision)
         needed.append('numbers of %s' % PRECISION)
-    for feature in NEEDED:
+    expected, unexpected = NEEDED, REFUSED
+    if FEATURES is not None:
+        expected, unexpected = FEATURES, sorted(set(features) - set(FEATURES))
+    for feature in expected:
         if feature not in features:
             found.append('no %s' % feature)
             needed.append('%s' % feature)
-    for feature in REFUSED:
+    for feature in unexpected:
         if feature in features:
             found.append('%s' % feature)
             needed.append('no %s' % feature)
     if found:
-        return ('this build of yadefrag needs YADE %s as %s packages it, with %s; the running yade '
-                'has %s%s.' % (VERSION, _built.SYSTEM, ', '.join(needed), ', '.join(found),
+        return ('this build of yadefrag needs YADE %s as %s, with %s; the running yade '
+                'has %s%s.' % (VERSION, _built.BUILD, ', '.join(needed), ', '.join(found),
                                describeRemedy(version)))
     return describeUntried(version)
 
 
 def describeRemedy(version: str) -> str:
     """The remedy for a version: for the end of a sentence."""
+    if FEATURES is not None:
+        return ', for which yadefrag must be built again'
     if version == VERSION:
-        return ''
+        return '; one that is built from its sources needs a plugin that is built with them'
     if version in ACCEPTED:
         return ', for which yadefrag must be built or installed again'
     return '; builds can be for %s' % ' and '.join('YADE %s (%s)' % item for item in sorted(ACCEPTED.items()))
@@ -60,7 +66,7 @@ def describeRemedy(version: str) -> str:
 
 def describeUntried(version: str) -> str:
     """'' unless the layout of `version` is known, but was never tested."""
-    if version in ACCEPTED:
+    if version in ACCEPTED or FEATURES is not None:
         return ''
     return ('yadefrag is prepared for YADE %s, but was never tested with it and therefore refuses it; '
             'it accepts %s.' % (version, ' and '.join(sorted(ACCEPTED))))

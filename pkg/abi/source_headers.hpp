@@ -1,0 +1,42 @@
+#pragma once
+// YADE's own headers, for a yade that was built from its sources: layouts follow that build's
+// features.
+
+#include <boost/python.hpp>
+
+#include <core/Aabb.hpp>
+#include <core/Body.hpp>
+#include <core/BodyContainer.hpp>
+#include <core/Bound.hpp>
+#include <core/Cell.hpp>
+#include <core/Dispatcher.hpp>
+#include <core/Dispatching.hpp>
+#include <core/EnergyTracker.hpp>
+#include <core/Engine.hpp>
+#include <core/ForceContainer.hpp>
+#include <core/Functor.hpp>
+#include <core/GlobalEngine.hpp>
+#include <core/IGeom.hpp>
+#include <core/IPhys.hpp>
+#include <core/Interaction.hpp>
+#include <core/InteractionContainer.hpp>
+#include <core/Material.hpp>
+#include <core/Omega.hpp>
+#include <core/Scene.hpp>
+#include <core/Shape.hpp>
+#include <core/State.hpp>
+#include <lib/base/Math.hpp>
+#include <lib/factory/ClassFactory.hpp>
+#include <pkg/common/Bo1_Aabb.hpp>
+#include <pkg/common/Box.hpp>
+#include <pkg/common/Collider.hpp>
+#include <pkg/common/ElastMat.hpp>
+#include <pkg/common/Facet.hpp>
+#include <pkg/common/NormShearPhys.hpp>
+#include <pkg/common/Sphere.hpp>
+#include <pkg/common/Wall.hpp>
+#include <pkg/dem/NewtonIntegrator.hpp>
+#include <pkg/dem/ScGeom.hpp>
+#ifdef YADE_OPENGL
+#include <pkg/common/OpenGLRenderer.hpp>
+#endif
