@@ -45,6 +45,11 @@ struct Contact {
 /// placed exactly on each other differ by rounding.
 inline constexpr double kTouching = 1e-9;
 
+/// (of the shortest segment) A new contact of pieces that cohesion holds together begins only if it
+/// is deeper than this. It must be well below Contact::outsideDepth, otherwise contacts are lost.
+/// With 1e-5 and 4e-5 a ring of two rows takes 2.6 and 1.5 times the time; overlaps are the same.
+inline constexpr double kHeldDepth = 1e-4;
+
 /// (of the coordinates) The same for large coordinates: some roundings of a coordinate.
 inline constexpr double kTouchRounding = 0x1p-50;
 
