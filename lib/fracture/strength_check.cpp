@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/tolerances/fracture.hpp"
 #include "dynamics/element_state.hpp"
 #include "fracture/edge_material.hpp"
 #include "fracture/separation.hpp"
@@ -188,7 +189,8 @@ StrengthCheck::Overstressed StrengthCheck::compare(const Model& model, const Cra
   const auto [brittle, friction] = materialBetween(model, first, second);
   double most = effectiveTraction(traction.normal, traction.shear, brittle, friction);
   if (edges.fractureEnergy[edge.value] > 0)
-    for (const NodeId end : {a, b}) most = std::max(most, pullAt(model, edges, edge, end, normal));
+    for (const NodeId end : {a, b})
+      most = std::max(most, tractionAtTip(model, edges, edge, end, normal));
   const double ratio = most / edges.strength[edge.value];
   if (!brittle.rate.isOn() || ratio < 1) return {ratio, edge, 1};
   const double factor = factorAt(model, edges, edge, ratio, mean);
@@ -229,13 +231,22 @@ bool StrengthCheck::raise(const Model& model, CrackEdges& edges,
   return any;
 }
 
-/// (Pa) Traction at the tip of a notch or a crack; 0 at any other node.
-double StrengthCheck::pullAt(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node,
-                             Vec2 normal) {
+/// (Pa) Effective traction at the tip of a notch or a crack; 0 at any other node. Shear counts only
+/// if no other edge there is about to open: a crack that slides in solid material turns.
+double StrengthCheck::tractionAtTip(const Model& model, const CrackEdges& edges, EdgeId edge,
+                                    NodeId node, Vec2 normal) {
   if (model.nodes.held[node.value] != kFree) return 0;
   fan_.clear();
   if (edges.appendFan(model, node, fan_) || !isTip(model, fan_, node)) return 0;
-  return tipPull(model, edges, edge, node, fan_, normal);
+  const Traction traction = tipTraction(model, edges, edge, node, fan_, normal);
+  const double strength = edges.strength[edge.value];
+  if (traction.normal >= strength) return traction.normal;
+  const auto [first, second] = edges.element[edge.value];
+  const auto [brittle, friction] = materialBetween(model, first, second);
+  const double both = effectiveTraction(traction.normal, traction.shear, brittle, friction);
+  if (both < strength) return traction.normal;
+  const double other = otherPull(model, edges, edge, node, fan_);
+  return both >= tolerance::kShearLead * other * strength ? both : traction.normal;
 }
 
 std::vector<EdgeId> StrengthCheck::pickApart(const Model& model, const CrackEdges& edges) {

@@ -78,7 +78,8 @@ class StrengthCheck {
                   const Stress& stress);
   double strainRateAt(const Model& model, const CrackEdges& edges, EdgeId edge,
                       const Stress& stress);
-  double pullAt(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node, Vec2 normal);
+  double tractionAtTip(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node,
+                       Vec2 normal);
   std::vector<EdgeId> pickApart(const Model& model, const CrackEdges& edges);
 
   // Checked in this call if the mark is the call's number.

@@ -57,8 +57,8 @@ bool isTip(const Model& model, std::span<const ElementId> fan, NodeId node) {
   return angleOf(model, fan, node) > tolerance::kTipAngle;
 }
 
-double tipPull(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId tip,
-               std::span<const ElementId> fan, Vec2 normal) {
+Traction tipTraction(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId tip,
+                     std::span<const ElementId> fan, Vec2 normal) {
   const auto placeOf = [&](int which) {
     return std::find(fan.begin(), fan.end(), edges.side(edge, which).element) - fan.begin();
   };
@@ -78,7 +78,24 @@ double tipPull(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId 
   const Vec2 pull = (1 / (mass[0] + mass[1])) * (mass[1] * force[0] - mass[0] * force[1]);
   const double length =
       (lengthOf(model, edges.side(edge, 0)) + crackAt(model, edges, fan, tip)) / 2;
-  return -dot(normal, pull) / length;
+  return {-dot(normal, pull) / length, cross(pull, normal) / length};
+}
+
+double otherPull(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId tip,
+                 std::span<const ElementId> fan) {
+  double most = 0;
+  for (const ElementId element : fan) {
+    const auto corner = static_cast<std::uint8_t>(cornerOf(model, element, tip));
+    const EdgeId other = edges.ofElement[element.value][corner];
+    if (other == EdgeId::none() || other == edge || edges.cracked[other.value] != 0) continue;
+    const Side side = edges.side(other, 0);
+    const Vec2 across = rightOf(model.nodes.position[lastNode(model, side).value] -
+                                model.nodes.position[firstNode(model, side).value]);
+    const Vec2 normal = (1 / norm(across)) * across;
+    most = std::max(most, tipTraction(model, edges, other, tip, fan, normal).normal /
+                              edges.strength[other.value]);
+  }
+  return most;
 }
 
 }  // namespace yadefrag

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "fracture/crack_edges.hpp"
+#include "fracture/separation.hpp"
 
 namespace yadefrag {
 
@@ -16,10 +17,13 @@ namespace yadefrag {
 
 /// (Pa) Traction that holds the triangles on the two sides of an edge together at the tip where it
 /// ends, from the forces of their present stress, if both sides move with the same acceleration;
-/// component along `normal` (outward from the edge's first triangle). It acts on half of the edge,
-/// and on half of the crack that ends there, which will be cohesive, too. Only the normal component
-/// is used: with the shear, cracks in mode II propagated too early (Kalthoff's test: at 30 to 42°).
-[[nodiscard]] double tipPull(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId tip,
-                             std::span<const ElementId> fan, Vec2 normal);
+/// along `normal` (outward from the edge's first triangle) and across. It acts on half of the edge,
+/// and on half of the crack that ends there, which will be cohesive, too.
+[[nodiscard]] Traction tipTraction(const Model& model, const CrackEdges& edges, EdgeId edge,
+                                   NodeId tip, std::span<const ElementId> fan, Vec2 normal);
+
+/// Largest pull at the tip of the other edges that end there, over their strength.
+[[nodiscard]] double otherPull(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId tip,
+                               std::span<const ElementId> fan);
 
 }  // namespace yadefrag
