@@ -181,8 +181,11 @@ TEST(Strip, SlidingCrackHasItsOwnZone) {
   const Outcome six = pullUntilBreak({.rows = 24, .shear = true});
   const Outcome same = pullUntilBreak({.rows = 24, .shear = true, .beta = 2, .kappa = 4});
   const Outcome sixteen = pullUntilBreak({.rows = 16, .shear = true, .kappa = 4});
+  const Outcome four = pullUntilBreak({.rows = 16, .shear = true});
+  RecordProperty("release_4", std::to_string(four.release));
   RecordProperty("release_6", std::to_string(six.release));
   RecordProperty("release_16", std::to_string(sixteen.release));
+  EXPECT_NEAR(four.release, 1.05, .1);
   EXPECT_NEAR(six.release, 1.05, .05);
   EXPECT_NEAR(same.release, six.release, .04);
   EXPECT_NEAR(sixteen.release, 1.05, .05);
