@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.655193167199164);
-  expectNear(places.y, 1.4498209609898485);
-  expectNear(speeds, 4510.0508784059921);
-  expectNear(totalEnergy(world), 89.99937620412571);
-  expectNear(world.ledger.contact, 5.1053690732496797);
+  expectNear(places.x, 3.6280455788128765);
+  expectNear(places.y, 1.4476885719463695);
+  expectNear(speeds, 4564.013157146107);
+  expectNear(totalEnergy(world), 89.999543193769014);
+  expectNear(world.ledger.contact, 5.4665939191275843);
 }
 
 }  // namespace
