@@ -9,10 +9,10 @@ namespace yadefrag::tolerance {
 /// boundary fills π; a deformed or rounded one some degrees more.
 inline constexpr double kTipAngle = 3.46;
 
-/// Shear counts at a tip if the edge is nearer its strength than this times each other edge there by
-/// its pull. At the tip of a crack that slides in solid material the largest pull, 70° off, is 1.15
-/// times the shear ahead: there the crack must turn. With 1.5 one of five meshes of Kalthoff's test
-/// cracks at 58° instead of 65°.
+/// Shear counts at a tip if the edge is nearer its strength than this times each other edge there
+/// by its pull. At the tip of a crack that slides in solid material the largest pull, 70° off,
+/// is 1.15 times the shear ahead: there the crack must turn. With 1.5 one of five meshes of
+/// Kalthoff's test cracks at 58° instead of 65°.
 inline constexpr double kShearLead = 3;
 
 /// (elements) Minimum number of elements along the cohesive zone. With four, a notched beam carries

@@ -1,5 +1,7 @@
 # Made by the build.
 YADEFRAG: str
 VERSION: str
-SYSTEM: str
+BUILD: str
+FEATURES: list[str] | None
+COMMAND: str
 ACCEPTED: dict[str, str]

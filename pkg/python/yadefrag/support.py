@@ -35,7 +35,8 @@ def describeMismatch(version: str, precision: str, features: Collection[str]) ->
     if precision != PRECISION:
         found.append('numbers of %s' % precision)
         needed.append('numbers of %s' % PRECISION)
-    expected, unexpected = NEEDED, REFUSED
+    expected: Collection[str] = NEEDED
+    unexpected: Collection[str] = REFUSED
     if FEATURES is not None:
         expected, unexpected = FEATURES, sorted(set(features) - set(FEATURES))
     for feature in expected:
