@@ -18,7 +18,7 @@ release_dir=$root/build/release
 yade=/usr/bin/yade
 if [ -n "${YADE_PREFIX:-}" ]; then
   release_dir=$root/build/own
-  yade=$(find "$YADE_PREFIX/bin" -name 'yade*' ! -name '*-batch' ! -name '*.py' 2>/dev/null | sort | tail -n 1)
+  yade=$(find "$YADE_PREFIX/bin" -name 'yade*' ! -name '*-batch' ! -name '*.py' 2>/dev/null | sort | tail -n 1) || true
   [ -n "$yade" ] || die "YADE_PREFIX=$YADE_PREFIX has no bin/yade*: no YADE is installed there."
 fi
 
