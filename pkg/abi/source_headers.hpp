@@ -4,6 +4,16 @@
 
 #include <boost/python.hpp>
 
+#include <lib/factory/ClassFactory.hpp>
+#include <lib/serialization/Serializable.hpp>
+
+// YADE registers each class in each file that includes its header. YADE's libraries have done that;
+// here it would register them a second time, and the compiler would take ten times as long.
+#undef REGISTER_FACTORABLE
+#define REGISTER_FACTORABLE(name)
+#undef REGISTER_SERIALIZABLE
+#define REGISTER_SERIALIZABLE(name)
+
 #include <core/Aabb.hpp>
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
@@ -26,7 +36,6 @@
 #include <core/Shape.hpp>
 #include <core/State.hpp>
 #include <lib/base/Math.hpp>
-#include <lib/factory/ClassFactory.hpp>
 #include <pkg/common/Bo1_Aabb.hpp>
 #include <pkg/common/Box.hpp>
 #include <pkg/common/Collider.hpp>
