@@ -8,7 +8,7 @@
 #include <lib/serialization/Serializable.hpp>
 
 // YADE registers each class in each file that includes its header. YADE's libraries have done that;
-// here it would register them a second time, and the compiler would take ten times as long.
+// here it would register them a second time, and the compiler would take five times as long.
 #undef REGISTER_FACTORABLE
 #define REGISTER_FACTORABLE(name)
 #undef REGISTER_SERIALIZABLE
