@@ -67,6 +67,7 @@ def test_plainPythonStartsAYade():
     assert lines[-1] == 'All is well.' and support.VERSION in byName(lines)['YADE']
 
 
+@pytest.mark.skipif(support.FEATURES is not None, reason='the path of its YADE is known')
 def test_yadeThatDoesNotWorkIsReported(tmp_path):
     """In place of yade: a program that fails before any report."""
     program = tmp_path / 'yade'

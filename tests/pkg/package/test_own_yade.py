@@ -82,6 +82,10 @@ def test_wrongPrefixIsNamed(tmp_path):
     assert 'needs YADE_PREFIX' in ' '.join(found(YADE_SOURCE=tmp_path).stderr.split())
 
 
+def test_theRunningYadeIsAccepted():
+    assert support.describeSurroundings() == ''
+
+
 def test_importComparesAllFeatures(monkeypatch):
     monkeypatch.setattr(support, 'FEATURES', ['LIQMIGRATION', 'OPENMP'])
     assert support.describeMismatch(support.VERSION, 'PrecisionDouble', ['OPENMP', 'LIQMIGRATION']) == ''
