@@ -1,0 +1,202 @@
+#pragma once
+// Columns of plain numbers in YADE's archives, with a checksum of all values. Damaged lengths are
+// refused before memory is needed for them.
+
+#include <boost/serialization/array_wrapper.hpp>
+#include <boost/serialization/nvp.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "core/checksum.hpp"
+#include "core/errors.hpp"
+#include "step/world.hpp"
+
+namespace yadefrag {
+
+/// The numbers of which a value consists.
+template <class T>
+struct ScalarOf {
+  using Type = T;
+};
+template <>
+struct ScalarOf<Vec2> {
+  using Type = double;
+};
+template <>
+struct ScalarOf<Piece> {
+  using Type = std::uint8_t;
+};
+template <class Tag>
+struct ScalarOf<Id<Tag>> {
+  using Type = std::uint32_t;
+};
+template <class T, std::size_t kCount>
+struct ScalarOf<std::array<T, kCount>> : ScalarOf<T> {};
+
+template <class Archive>
+class ColumnArchive {
+ public:
+  explicit ColumnArchive(Archive& archive) : archive_(archive) {}
+
+ protected:
+  /// (count) A damaged length must not exhaust the memory: values are read in parts of this size,
+  /// and the archive ends before the memory is full.
+  static constexpr std::uint64_t kPart = 1 << 16;
+
+  [[noreturn]] static void refuse(const std::string& what) {
+    throw InputError("The saved state of FESolver is damaged or from another version (" + what +
+                     "); load another save.");
+  }
+
+  /// Of all values so far: false if the stored one is another.
+  bool checksum() {
+    std::uint64_t stored = sum_.value();
+    archive_& boost::serialization::make_nvp("checksum", stored);
+    return stored == sum_.value();
+  }
+
+  void lines(const char* name, std::vector<std::string>& all) {
+    std::vector<char> text;
+    for (const std::string& line : all) {
+      text.insert(text.end(), line.begin(), line.end());
+      text.push_back('\n');
+    }
+    value(name, text);
+    if constexpr (Archive::is_loading::value) {
+      all.clear();
+      std::istringstream lines(std::string(text.begin(), text.end()));
+      for (std::string line; std::getline(lines, line);) all.push_back(line);
+    }
+  }
+
+  template <class Value>
+  void value(const char* name, Value& value) {
+    static_assert(std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>);
+    archive_& boost::serialization::make_nvp(name, value);
+    sum_.add(&value, sizeof value);
+  }
+  /// In a damaged file a bool could have any value.
+  void value(const char* name, bool& value) {
+    std::uint8_t flag = value ? 1 : 0;
+    this->value(name, flag);
+    value = flag != 0;
+  }
+  template <class Scalar>
+  void value(const char* name, std::vector<Scalar>& values) {
+    std::uint64_t count = values.size();
+    value("count", count);
+    if constexpr (Archive::is_loading::value) values.clear();
+    for (std::uint64_t begin = 0; begin < count; begin += kPart) {
+      const std::uint64_t size = std::min(kPart, count - begin);
+      if constexpr (Archive::is_loading::value) values.resize(begin + size);
+      const auto part = boost::serialization::make_array(values.data() + begin, size);
+      archive_& boost::serialization::make_nvp(name, part);
+    }
+    if (count > 0) sum_.add(values.data(), count * sizeof(Scalar));
+  }
+
+  /// A column of values that consist of plain numbers.
+  template <class Element>
+  void column(const char* name, std::vector<Element>& column) {
+    numbers<typename ScalarOf<Element>::Type>(name, column);
+  }
+  template <class Scalar, class Element>
+  void numbers(const char* name, std::vector<Element>& column) {
+    // NOLINTNEXTLINE(bugprone-sizeof-expression): also correct for a column of plain numbers
+    constexpr std::size_t each = sizeof(Element) / sizeof(Scalar);
+    static_assert(std::is_trivially_copyable_v<Element> &&
+                  sizeof(Element) == each * sizeof(Scalar));
+    std::vector<Scalar> flat(column.size() * each);
+    if (!column.empty()) std::memcpy(flat.data(), column.data(), flat.size() * sizeof(Scalar));
+    value(name, flat);
+    if (flat.size() % each != 0) refuse(std::string(name) + " has a wrong length");
+    column.resize(flat.size() / each);
+    if (!column.empty())
+      std::memcpy(static_cast<void*>(column.data()), flat.data(), flat.size() * sizeof(Scalar));
+  }
+
+  /// One member of structures with several types of members.
+  template <class Element, class Read>
+  void member(const char* name, std::vector<Element>& rows, Read read) {
+    using Value = std::remove_cvref_t<decltype(read(rows.front()))>;
+    std::vector<Value> flat(rows.size());
+    for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = read(rows[i]);
+    value(name, flat);
+    // The first member determines the number of rows.
+    if (rows.empty()) rows.resize(flat.size());
+    if (rows.size() != flat.size()) refuse(std::string(name) + " has a wrong length");
+    for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i];
+  }
+
+  /// The columns of a table (core/columns.hpp) whose names are `wanted`.
+  template <class Columns, class Wanted>
+  void table(const Columns& columns, Wanted wanted) {
+    columns([&]<class Element>(const Column& of, std::vector<Element>& array) {
+      if (wanted(std::string_view(of.name))) column(of.name, array);
+    });
+  }
+  template <class Columns>
+  void table(const Columns& columns) {
+    table(columns, [](std::string_view) { return true; });
+  }
+
+  /// Of existing rows: curves that consist of points.
+  template <class C, class Read>
+  void curves(const char* countsName, const char* pointsName, std::vector<C>& rows, Read read) {
+    using Curve = std::remove_cvref_t<decltype(read(rows.front()))>;
+    using Point = std::remove_cvref_t<decltype(read(rows.front()).points().front())>;
+    std::vector<std::uint32_t> counts;
+    std::vector<Point> points;
+    for (C& c : rows) {
+      const std::vector<Point>& own = read(c).points();
+      counts.push_back(static_cast<std::uint32_t>(own.size()));
+      points.insert(points.end(), own.begin(), own.end());
+    }
+    value(countsName, counts), numbers<double>(pointsName, points);
+    if constexpr (Archive::is_loading::value) {
+      std::size_t at = 0;
+      if (counts.size() != rows.size()) refuse(std::string(countsName) + " has a wrong length");
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (counts[i] > points.size() - at) refuse(std::string(pointsName) + " has a wrong length");
+        const auto begin = points.begin() + static_cast<std::ptrdiff_t>(at);
+        std::vector<Point> own(begin, begin + counts[i]);
+        if (!Curve::isValid(own)) refuse(std::string(pointsName) + " is invalid");
+        read(rows[i]) = Curve(std::move(own));
+        at += counts[i];
+      }
+    }
+  }
+
+  /// For existing rows: the elements of a vector of bool cannot be referenced.
+  template <class Element, class Read>
+  void flags(const char* name, std::vector<Element>& rows, Read read) {
+    std::vector<std::uint8_t> flat(rows.size());
+    for (std::size_t i = 0; i < flat.size(); ++i) flat[i] = read(rows[i]) ? 1 : 0;
+    value(name, flat);
+    if (flat.size() != rows.size()) refuse(std::string(name) + " has a wrong length");
+    for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i] != 0;
+  }
+
+  void table(const char* name, TimeTable& table) {
+    std::vector<double> times = table.times(), values = table.values();
+    value(name, times), value(name, values);
+    if constexpr (Archive::is_loading::value) {
+      if (!times.empty() || !values.empty())
+        if (!TimeTable::isValid(times, values)) refuse(std::string(name) + " is invalid");
+      table = TimeTable(std::move(times), std::move(values));
+    }
+  }
+
+ private:
+  Archive& archive_;
+  Checksum sum_;
+};
+
+}  // namespace yadefrag
