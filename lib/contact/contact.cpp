@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "contact/held_rows.hpp"
 #include "contact/row_builder.hpp"
 #include "core/errors.hpp"
 #include "core/tolerances/contact.hpp"
@@ -225,13 +224,14 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
     // A line of its own: instructions are counted by line, and the call is no cost of friction.
     const bool sticks = friction > 0;
     ContactRow row = makeRow(surfaces, before, active, step.constants.faceAngle, sticks);
+    const Touch* const known = touchOn(stored, active.pair.master);
     // Cohesion keeps corners of one split node together. Their rows would be as many as its cracks,
-    // and coupled with all of them: two rows of triangles in a ring took six times as long.
-    if (touchOn(stored, active.pair.master) == nullptr &&
-        row.gap >= -tolerance::kHeldDepth * step.shortest && isHeldByCohesion(row, step.coupled))
+    // and coupled with all of them (Ring.OnTheMeshOfAPolygon).
+    if (known == nullptr && row.gap >= -tolerance::kHeldDepth * step.shortest &&
+        isHeldByCohesion(row, step.coupled))
       continue;
     row.friction = friction;
-    startRow(row, model, surfaces, before, touchOn(stored, active.pair.master), step);
+    startRow(row, model, surfaces, before, known, step);
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
     if (!step.rigid.empty()) joinRigid(row, model.nodes, step);
     rows_.push_back(row);

@@ -116,6 +116,7 @@ class Contact {
                 const PieceGeometry& before, const Touch* former, const ContactStep& step) const;
   [[nodiscard]] static double frictionOf(SlaveMaster pair, const Model& model,
                                          const ContactSurfaces& surfaces);
+  [[nodiscard]] static bool isHeldByCohesion(const ContactRow& row, const CoupledForces* cohesion);
   [[nodiscard]] double slipOf(const ContactRow& row, const Model& model,
                               const ContactStep& step) const;
   void updateGaps(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "contact/contact.hpp"
-#include "contact/held_rows.hpp"
 #include "core/tolerances/contact.hpp"
 
 namespace yadefrag {
@@ -23,6 +22,21 @@ std::vector<Touch> renumbered(std::vector<Touch> touches, std::span<const EntryI
 }
 
 }  // namespace
+
+/// True if cohesion holds both sides of a row to each other. It would undo in every step what
+/// contact does to reduce their overlap: contact would create energy, and cohesion would take it.
+bool Contact::isHeldByCohesion(const ContactRow& row, const CoupledForces* cohesion) {
+  if (cohesion == nullptr) return false;
+  const auto count = static_cast<std::size_t>(row.count);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!(row.weight[k] > 0)) continue;
+    const std::uint32_t group = cohesion->groupOf(row.node[k]);
+    if (group == CoupledForces::kNoGroup) continue;
+    for (std::size_t m = 0; m < count; ++m)
+      if (row.weight[m] < 0 && cohesion->groupOf(row.node[m]) == group) return true;
+  }
+  return false;
+}
 
 /// (m) Slip in the step without contact.
 double Contact::slipOf(const ContactRow& row, const Model& model, const ContactStep& step) const {

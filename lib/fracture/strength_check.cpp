@@ -182,15 +182,12 @@ StrengthCheck::Overstressed StrengthCheck::compare(const Model& model, const Cra
                            [&](ElementId e) { return stressOf(model, e); });
   };
   const Stress mean = meanOf(at(a), at(b));
-  const Vec2 across = rightOf(model.nodes.position[b.value] - model.nodes.position[a.value]);
-  const Vec2 normal = (1 / norm(across)) * across;
-  const Traction traction = tractionOn(mean, normal);
+  const Traction traction = tractionOn(mean, normalOf(model, edges, edge));
   const auto [first, second] = edges.element[edge.value];
   const auto [brittle, friction] = materialBetween(model, first, second);
   double most = effectiveTraction(traction.normal, traction.shear, brittle, friction);
   if (edges.fractureEnergy[edge.value] > 0)
-    for (const NodeId end : {a, b})
-      most = std::max(most, tractionAtTip(model, edges, edge, end, normal));
+    for (const NodeId end : {a, b}) most = std::max(most, tractionAtTip(model, edges, edge, end));
   const double ratio = most / edges.strength[edge.value];
   if (!brittle.rate.isOn() || ratio < 1) return {ratio, edge, 1};
   const double factor = factorAt(model, edges, edge, ratio, mean);
@@ -234,11 +231,11 @@ bool StrengthCheck::raise(const Model& model, CrackEdges& edges,
 /// (Pa) Effective traction at the tip of a notch or a crack; 0 at any other node. Shear counts only
 /// if no other edge there is about to open: a crack that slides in solid material turns.
 double StrengthCheck::tractionAtTip(const Model& model, const CrackEdges& edges, EdgeId edge,
-                                    NodeId node, Vec2 normal) {
+                                    NodeId node) {
   if (model.nodes.held[node.value] != kFree) return 0;
   fan_.clear();
   if (edges.appendFan(model, node, fan_) || !isTip(model, fan_, node)) return 0;
-  const Traction traction = tipTraction(model, edges, edge, node, fan_, normal);
+  const Traction traction = tipTraction(model, edges, edge, node, fan_);
   const double strength = edges.strength[edge.value];
   if (traction.normal >= strength) return traction.normal;
   const auto [first, second] = edges.element[edge.value];

@@ -78,8 +78,7 @@ class StrengthCheck {
                   const Stress& stress);
   double strainRateAt(const Model& model, const CrackEdges& edges, EdgeId edge,
                       const Stress& stress);
-  double tractionAtTip(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node,
-                       Vec2 normal);
+  double tractionAtTip(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId node);
   std::vector<EdgeId> pickApart(const Model& model, const CrackEdges& edges);
 
   // Checked in this call if the mark is the call's number.

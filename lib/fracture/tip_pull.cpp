@@ -57,8 +57,15 @@ bool isTip(const Model& model, std::span<const ElementId> fan, NodeId node) {
   return angleOf(model, fan, node) > tolerance::kTipAngle;
 }
 
+Vec2 normalOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
+  const Side side = edges.side(edge, 0);
+  const Vec2 across = rightOf(model.nodes.position[lastNode(model, side).value] -
+                              model.nodes.position[firstNode(model, side).value]);
+  return (1 / norm(across)) * across;
+}
+
 Traction tipTraction(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId tip,
-                     std::span<const ElementId> fan, Vec2 normal) {
+                     std::span<const ElementId> fan) {
   const auto placeOf = [&](int which) {
     return std::find(fan.begin(), fan.end(), edges.side(edge, which).element) - fan.begin();
   };
@@ -78,6 +85,7 @@ Traction tipTraction(const Model& model, const CrackEdges& edges, EdgeId edge, N
   const Vec2 pull = (1 / (mass[0] + mass[1])) * (mass[1] * force[0] - mass[0] * force[1]);
   const double length =
       (lengthOf(model, edges.side(edge, 0)) + crackAt(model, edges, fan, tip)) / 2;
+  const Vec2 normal = normalOf(model, edges, edge);
   return {-dot(normal, pull) / length, cross(pull, normal) / length};
 }
 
@@ -88,12 +96,8 @@ double otherPull(const Model& model, const CrackEdges& edges, EdgeId edge, NodeI
     const auto corner = static_cast<std::uint8_t>(cornerOf(model, element, tip));
     const EdgeId other = edges.ofElement[element.value][corner];
     if (other == EdgeId::none() || other == edge || edges.cracked[other.value] != 0) continue;
-    const Side side = edges.side(other, 0);
-    const Vec2 across = rightOf(model.nodes.position[lastNode(model, side).value] -
-                                model.nodes.position[firstNode(model, side).value]);
-    const Vec2 normal = (1 / norm(across)) * across;
-    most = std::max(most, tipTraction(model, edges, other, tip, fan, normal).normal /
-                              edges.strength[other.value]);
+    most = std::max(
+        most, tipTraction(model, edges, other, tip, fan).normal / edges.strength[other.value]);
   }
   return most;
 }

@@ -15,12 +15,14 @@ namespace yadefrag {
 /// the tip of a notch or a crack. `fan`: all these triangles, counter-clockwise.
 [[nodiscard]] bool isTip(const Model& model, std::span<const ElementId> fan, NodeId node);
 
+/// Unit normal of an edge, outward from its first triangle.
+[[nodiscard]] Vec2 normalOf(const Model& model, const CrackEdges& edges, EdgeId edge);
+
 /// (Pa) Traction that holds the triangles on the two sides of an edge together at the tip where it
-/// ends, from the forces of their present stress, if both sides move with the same acceleration;
-/// along `normal` (outward from the edge's first triangle) and across. It acts on half of the edge,
-/// and on half of the crack that ends there, which will be cohesive, too.
+/// ends, from the forces of their present stress, if both sides move with the same acceleration. It
+/// acts on half of the edge, and on half of the crack that ends there, which will be cohesive, too.
 [[nodiscard]] Traction tipTraction(const Model& model, const CrackEdges& edges, EdgeId edge,
-                                   NodeId tip, std::span<const ElementId> fan, Vec2 normal);
+                                   NodeId tip, std::span<const ElementId> fan);
 
 /// Largest pull at the tip of the other edges that end there, over their strength.
 [[nodiscard]] double otherPull(const Model& model, const CrackEdges& edges, EdgeId edge, NodeId tip,
