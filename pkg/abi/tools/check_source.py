@@ -28,7 +28,7 @@ import yade_build
 
 POOL = 'http://deb.debian.org/debian/pool/main/y/yade/'
 CACHE = pathlib.Path(os.environ.get('YADEFRAG_ROOTS', pathlib.Path.home() / '.cache' / 'yadefrag'))
-# Features that change the layout of the classes that are used.
+# Those of the packages that move members: support.NEEDED.
 FEATURES = ['OPENMP', 'MPI', 'QT5', 'FEMLIKE']
 PKG = versions.FOLDER.parent.parent
 

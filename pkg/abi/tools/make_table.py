@@ -85,7 +85,7 @@ def main(version, own, folder, module, source=None, features=None, command='yade
             'version': version, 'number': versions.number(version), 'rows': '\n'.join(rows(facts['classes']))})
         build = '%s packages it' % facts['system']
     else:
-        build = 'it was built from %s' % source
+        build = 'built from %s' % source
     writeIfNew(folder / 'yade_build.hpp', BUILD % {'version': version, 'build': build})
     accepted = {name: other['system'] for name, other in known.items() if other['run']}
     writeIfNew(module, MODULE % {

@@ -82,6 +82,12 @@ def test_wrongPrefixIsNamed(tmp_path):
     assert 'needs YADE_PREFIX' in ' '.join(found(YADE_SOURCE=tmp_path).stderr.split())
 
 
+def test_headersAreComparedWithTheFeaturesOfThePackages(monkeypatch):
+    monkeypatch.syspath_prepend(str(TOOL.parent))
+    import check_source
+    assert check_source.FEATURES == list(support.NEEDED)
+
+
 def test_theRunningYadeIsAccepted():
     assert support.describeSurroundings() == ''
 
