@@ -1,4 +1,5 @@
-"""One scene in one or more processes: `[mpiexec -n RANKS] yade -n -x mpi_scene.py COLLIDER FOLDER SCENE [ARGUMENTS]`.
+"""One scene in one or more processes:
+`[mpiexec -n RANKS] yade -n -x mpi_scene.py COLLIDER FOLDER SCENE [ARGUMENTS]`.
 
 SCENE is a function here, or the path of one of YADE's scripts, in which COLLIDER takes the place of
 YADE's. Each process writes FOLDER/RANK.json: its bodies, the contacts of these, and what the scene
@@ -18,98 +19,16 @@ from yade import wrapper as w
 
 import yadefrag
 
-O = builtins.O      # mpy keeps attributes of its own in this object
-kRadius = .5
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+from mpi_bodies import assign, clumpedGas, columns, gas, isMerged, kRadius, owners, place, run, state
+
+O = builtins.O
 kSteps = 200
+kAppended = 2000
 
 
 class YadeCheckError(Exception):
     """The name that YADE's check scripts raise."""
-
-
-def place(collider, **settings):
-    """`settings` of the collider; its label is the name by which mpy finds it."""
-    O.engines = [
-        w.ForceResetter(),
-        getattr(w, collider)([w.Bo1_Sphere_Aabb(), w.Bo1_Box_Aabb(), w.Bo1_Facet_Aabb()],
-                             label='collider', **settings),
-        w.InteractionLoop(
-            [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom()],
-            [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
-        w.NewtonIntegrator(gravity=(0, -10, 0), damping=0, label='newton')]
-    O.materials.append(w.FrictMat(young=1e6, poisson=.3, density=1000, frictionAngle=.5))
-
-
-def assign(width, workers=None):
-    """Slices along x, one for each worker; in one process all bodies remain in the master, since
-    NewtonIntegrator moves only those."""
-    workers = mp.numThreads - 1 if workers is None else workers
-    for body in O.bodies:
-        if workers > 0 and isinstance(body.shape, w.Sphere):
-            body.subdomain = 1 + min(workers - 1, max(0, int(body.state.pos[0] / width * workers)))
-
-
-def columns():
-    """Leaning columns of equal spheres that fall on a plate and push each other aside."""
-    for i in range(24):
-        for j in range(10):
-            O.bodies.append(utils.sphere((i * .999 + j / 30, j * 1.01, 0), kRadius))
-    O.bodies.append(utils.box((12, -.5, 0), (24, 0, 2), fixed=True))
-    O.dt = 1e-3
-    return 24
-
-
-def gas():
-    """Spheres of different sizes that fly through a box, on a floor of two facets."""
-    chance = random.Random(1)
-    for i in range(8):
-        for j in range(6):
-            for k in range(6):
-                at = [1.3 * n + chance.uniform(-.05, .05) for n in (i, j, k)]
-                ball = utils.sphere(at, kRadius * chance.uniform(.4, 1))
-                ball.state.vel = [chance.uniform(-12, 12) for _ in range(3)]
-                O.bodies.append(ball)
-    low, high = (-.7, -.7, -.7), (9.8, 7.2, 7.2)
-    O.bodies.append(utils.aabbWalls([low, high], thickness=.1))
-    corners = [(-.7, -.6, -.7), (9.8, -.6, -.7), (9.8, -.6, 7.2), (-.7, -.6, 7.2)]
-    O.bodies.append([utils.facet([corners[n] for n in one]) for one in ((0, 1, 2), (0, 2, 3))])
-    O.dt = 1e-3
-    return 9.1
-
-
-def run(steps, merge=True):
-    if mp.numThreads > 1:
-        mp.mpirun(steps, mp.numThreads, merge)
-    else:
-        O.run(steps, True)
-
-
-def contactsHere():
-    """[id1, id2, overlap] of real contacts with a body of this process; all in a merged scene."""
-    return sorted([min(i.id1, i.id2), max(i.id1, i.id2), overlap(i)]
-                  for i in O.interactions if i.isReal and (isMerged() or mp.rank in (
-                      O.bodies[i.id1].subdomain, O.bodies[i.id2].subdomain)))
-
-
-def overlap(contact):
-    """Of two spheres; 1 m for others. (YADE does not send penetrationDepth to other processes.)"""
-    one, two = O.bodies[contact.id1], O.bodies[contact.id2]
-    if not (isinstance(one.shape, w.Sphere) and isinstance(two.shape, w.Sphere)):
-        return 1.
-    return one.shape.radius + two.shape.radius - (one.state.pos - two.state.pos).norm()
-
-
-def isMerged():
-    return mp.rank == 0 and not O.splitted
-
-
-def bodiesHere():
-    return {b.id: [*b.state.pos, *b.state.vel, *b.state.angVel] for b in O.bodies
-            if b and not b.isSubdomain and (isMerged() or b.subdomain == mp.rank)}
-
-
-def state():
-    return dict(bodies=bodiesHere(), contacts=contactsHere())
 
 
 def columnsRun():
@@ -157,15 +76,9 @@ def changing():
     return dict(changed=changed)
 
 
-def owners():
-    """{id: process} of all bodies, in each process."""
-    mine = {b.id: mp.rank for b in O.bodies if b and b.subdomain == mp.rank and not b.isSubdomain}
-    return {k: r for one in mp.comm.allgather(mine) for k, r in one.items()}
-
-
 def mergeAndSplit():
     """Three runs with a merged scene after each, bodies erased in all processes together, and a run
-    of the master alone."""
+    of the master alone. A scene that only the master has changed cannot be split again."""
     assign(columns())
     run(kSteps // 4)
     moments = [state()]
@@ -178,14 +91,150 @@ def mergeAndSplit():
         for body in O.bodies:
             body.subdomain = 0
         O.run(20, True)
-    return dict(moments=moments, gone=gone)
+    return dict(moments=moments, gone=gone, message=messageOf(1, None) if mp.numThreads > 1 else '')
+
+
+def clumps():
+    """Clumps of two and three spheres and single spheres that fly through a box. The processes are chosen
+    by mpy. Members, whole clumps and single spheres are erased, in a split and in a merged scene."""
+    whole = clumpedGas()
+    mp.DOMAIN_DECOMPOSITION = True
+    mp.REALLOCATE_FREQUENCY = 1
+    run(60, merge=False)
+    before = owners()
+    mp.bodyErase([body for made in whole[::9] for body in made])
+    run(60)
+    mp.bodyErase([clump[0] for clump in whole[4::9] if len(clump) > 2])
+    run(80, merge=False)
+    after = owners()
+    report = dict(apart=state(), changed=sum(after[k] != before[k] for k in after))
+    if mp.numThreads > 1:
+        mp.mergeScene()
+    return dict(report, divided=sum(b.subdomain != O.bodies[b.clumpId].subdomain
+                                    for b in O.bodies if isMerged() and b.isClumpMember),
+                materials=sum(b.material is not None for b in O.bodies if b.isClump))
+
+
+def inserted():
+    """Bodies are inserted and erased by engines before the collider and after the integrator, between
+    two runs and in a merged scene."""
+    assign(columns())
+    O.engines = [w.PyRunner(iterPeriod=20, command='dropAll()'), *O.engines,
+                 w.PyRunner(iterPeriod=20, command='dropClumps(); dropOwn(); eraseSome()')]
+    run(1, merge=False)
+    reserve()
+    for merge in (False, True, False):
+        run(60, merge=merge)
+        dropAll()
+    run(19, merge=False)
+    apart = state()
+    if mp.numThreads > 1:
+        mp.mergeScene()
+    return dict(apart=apart)
+
+
+def reserve():
+    """Bodies that are appended from now on have the same ids in any number of processes."""
+    O.bodies.insertAtId(w.Body(), kAppended - 1)
+    O.bodies.erase(kAppended - 1)
+
+
+def processOf(x, width=24):
+    """As assign()."""
+    return 1 + min(mp.numThreads - 2, int(x / width * (mp.numThreads - 1))) if mp.numThreads > 1 else 0
+
+
+def drop(balls, velocity, ids=None):
+    """One ball, or several as a clump; with the next ids, or `ids`."""
+    ids = [O.bodies.insertAtId(*one) for one in zip(balls, ids)] if ids else O.bodies.append(balls)
+    if len(ids) > 1:
+        ids.append(O.bodies.clump(ids))
+    for k in ids:
+        O.bodies[k].subdomain = processOf(O.bodies[ids[-1]].state.pos[0])
+    O.bodies[ids[-1]].state.vel = velocity
+
+
+def dropAll():
+    """Spheres that touch those below at once, from all processes; all insert them."""
+    for i in range(8):
+        drop([utils.sphere((3 * i + .7, 10.35 + O.iter / 20, .1), kRadius)], (0, -9, 0))
+
+
+def dropClumps():
+    for i in range(4):
+        drop([utils.sphere((5 * i + 2.2 + .6 * m, 10.8 + O.iter / 20, 0), .4) for m in (0, 1)], (0, -12, 0))
+
+
+def dropOwn():
+    """Only the process to which a body belongs inserts it, by a number that no other body has."""
+    for i in range(6):
+        x = 4 * i + 1.9
+        if mp.rank == processOf(x):
+            drop([utils.sphere((x, 10.7 + O.iter / 20, .2), kRadius)], (0, -12, 0),
+                 [1000 + 4 * O.iter + i])
+
+
+def eraseSome():
+    """Bodies of all processes, some of which are not there any more."""
+    mp.bodyErase([*range(O.iter // 20, 240, 29), kAppended + O.iter // 40])
+
+
+def periodic():
+    """Spheres and clumps that leave a cell through all of its sides while it is sheared and compressed;
+    bodies are inserted and erased, change their process, are merged and split."""
+    chance = random.Random(3)
+    O.periodic = True
+    O.cell.setBox(10, 5, 5)
+    for i in range(10):
+        for j in range(5):
+            for k in range(5):
+                at = [n + .5 + chance.uniform(-.03, .03) for n in (i, j, k)]
+                O.bodies.append(utils.sphere(at, .45 * chance.uniform(.8, 1.1)))
+                O.bodies[-1].state.vel = [chance.uniform(-9, 9) for _ in range(3)]
+    for clump in ([i * 25, i * 25 + 5] for i in range(10)):
+        O.bodies[O.bodies.clump(clump)].state.vel = (-7, 5, 3)
+    O.cell.velGrad = ((-.2, .5, 0), (0, -.2, 0), (0, 0, 0))
+    O.dt = 1e-3
+    for body in O.bodies:
+        lead = O.bodies[body.clumpId] if body.isClumpMember else body
+        body.subdomain = processOf(lead.state.pos[0], 10)
+    mp.REALLOCATE_FREQUENCY = 1
+    O.engines = [*O.engines, w.PyRunner(iterPeriod=20, command='dropInCell(); eraseSome()')]
+    run(1, merge=False)
+    reserve()
+    for merge in (False, True, False):
+        run(40, merge=merge)
+    apart = state()
+    if mp.numThreads > 1:
+        mp.mergeScene()
+    return dict(apart=apart, cell=[list(row) for row in O.cell.hSize])
+
+
+def dropInCell():
+    for i in range(4):
+        drop([utils.sphere((3 * i + .2, 5.1 + O.iter / 20, 12), .3)], (3, -9, 5))
 
 
 def refused():
-    """Scenes that mpy cannot split: `tried` for a collider without a label, and for an FESolver."""
+    """Scenes that mpy cannot split: what `tried` reports, by the name of the case."""
+    ranks = None if mp.numThreads > 1 else 3
+    cases = dict(unlabelled=unlabelled, elements=elements, divided=divided, factory=factory,
+                 controller=controller)
+    report = {}
+    for name, make in cases.items():
+        O.reset()
+        place('LebesgueCollider', verletDist=.1)
+        make()
+        report[name] = tried(10, ranks)
+    return report
+
+
+def unlabelled():
     assign(columns())
     O.engines[1].label = ''
-    report = dict(unlabelled=tried(10, None if mp.numThreads > 1 else 3))
+
+
+def elements():
     O.reset()
     O.materials.append(w.FEMat(young=1e7, poisson=.3, density=1000, label='m'))
     solver = w.FESolver()
@@ -193,20 +242,42 @@ def refused():
     O.engines = yadefrag.engines(solver, spheres=True)
     O.engines[1].label = 'collider'
     O.dt = .1 * solver.criticalTimeStep()
-    return dict(report, elements=tried(10, None if mp.numThreads > 1 else 3))
+
+
+def divided():
+    assign(columns(), workers=2)
+    O.bodies.clump([0, 239])
+
+
+def factory():
+    assign(columns())
+    O.engines = [*O.engines, w.BoxFactory(maxParticles=1, extents=(8, .4, .4), center=(12, 14, 0), vMin=5,
+                                          vMax=5, rMin=.3, rMax=.3, normal=(0, -1, 0), massFlowRate=1,
+                                          materialId=0)]
+
+
+def controller():
+    O.periodic = True
+    O.cell.setBox(200, 200, 200)
+    assign(columns())
+    O.engines = [*O.engines, w.PeriTriaxController(goal=(-1e3, -1e3, -1e3), stressMask=7)]
 
 
 def tried(steps, ranks):
     """Message of mpirun in this process, the scene compared with that before, a run without mpy."""
     before = sceneNow()
-    message = ''
-    try:
-        mp.mpirun(steps, ranks, True)
-    except RuntimeError as error:
-        message = str(error)
+    message = messageOf(steps, ranks)
     report = dict(message=message, isUnchanged=sceneNow() == before, ranks=mp.numThreads)
     O.run(2, True)
     return dict(report, steps=O.iter)
+
+
+def messageOf(steps, ranks):
+    try:
+        mp.mpirun(steps, ranks, True)
+    except RuntimeError as error:
+        return str(error)
+    return ''
 
 
 def sceneNow():

@@ -140,6 +140,43 @@ def test_mergeSplitAndErase(once, alone):
         compare(moment(expected), moment(found))
     assert not {str(k) for k in three['gone']} & three['bodies'].keys()
     compare(moment(one), moment(three))
+    assert re.fullmatch(r'Body #\d+ is not the same in the merged scene and in the process that owns it: .*',
+                        three['message'])
+
+
+def same(once, scene, ranks):
+    """A scene in `ranks` processes is that in one, before and after it is merged; what each reports."""
+    alone, reports = merged(once(1, 'LebesgueCollider', scene)), once(ranks, 'LebesgueCollider', scene)
+    assert len(reports) == ranks
+    compare(alone, united([r['apart'] for r in reports]))
+    compare(alone, merged(reports))
+    return reports
+
+
+@pytest.mark.parametrize('ranks', [2, 4])
+def test_clumps(once, ranks):
+    """A clump remains in its process, in which mpy has put all of its members."""
+    reports = same(once, 'clumps', ranks)
+    assert (reports[0]['changed'] > 0) == (ranks > 2)
+    assert [reports[0][name] for name in ('divided', 'materials')] == [0, 0]
+
+
+@pytest.mark.parametrize('ranks', [2, 4])
+def test_bodiesInsertedAndErased(once, ranks):
+    reports = same(once, 'inserted', ranks)
+    ids = {int(k) for k in reports[0]['bodies']}
+    assert any(1000 < k < 2000 for k in ids) and any(k > 2000 for k in ids) and 30 not in ids
+
+
+@pytest.mark.parametrize('ranks', [2, 4])
+def test_periodicCell(once, ranks):
+    reports = same(once, 'periodic', ranks)
+    cells = [r['cell'] for r in once(1, 'LebesgueCollider', 'periodic') + reports]
+    assert all(cell == cells[0] for cell in cells)
+    positions = [body[:3] for body in reports[0]['bodies'].values()]
+    for axis in range(3):
+        places = [p[axis] for p in positions]
+        assert min(places) < 0 and max(places) > cells[0][axis][axis]
 
 
 def test_processWithoutBodies(once, alone):
@@ -169,7 +206,13 @@ def test_processesThatMpirunStarts(once, alone):
     ('elements', 'FESolver and its bodies work in one process only: yade.mpy cannot split this '
                  'scene; run it with O.run.'),
     ('unlabelled', "yade.mpy finds its collider by the label 'collider', but this one has no label: "
-                   "write LebesgueCollider([...], label='collider').")])
+                   "write LebesgueCollider([...], label='collider')."),
+    ('divided', 'Clump #241 and its members belong to different processes of yade.mpy: give them the same '
+                'body.subdomain.'),
+    ('factory', 'BoxFactory would insert other bodies in each process of yade.mpy: insert them by a PyRunner '
+                'that does the same in all.'),
+    ('controller', 'PeriTriaxController would move the cell by the contacts of one process of yade.mpy only: '
+                   'run this scene with O.run.')])
 def test_refused(once, ranks, case, message):
     """Before processes are started, or in all processes that run already; the scene of each still runs
     alone."""

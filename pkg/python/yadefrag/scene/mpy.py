@@ -1,4 +1,5 @@
-"""YADE's MPI engine, yade.mpy: finds our colliders, and refuses scenes that it cannot split.
+"""YADE's MPI engine, yade.mpy: finds our colliders, and refuses scenes that it cannot split. Scenes that
+are split are in split_scene.py and split_cell.py.
 
 The name of this file is that of YADE's: mpirun lets its workers run the script of the innermost frame
 that is in no file of that name.
@@ -12,6 +13,8 @@ import sys
 from typing import Any
 
 from yade import wrapper
+
+from yadefrag.scene import split_cell, split_scene
 
 kModule = 'yade.mpy'
 kRival = 'InsertionSortCollider'
@@ -45,13 +48,36 @@ def reasonNotToSplit() -> str | None:
     if any(isinstance(e, wrapper.FESolver) for e in omega.engines) or any(map(_isPiece, omega.bodies)):
         return ('FESolver and its bodies work in one process only: yade.mpy cannot split this '
                 'scene; run it with O.run.')
-    collider = ourCollider()
-    if collider is not None and collider.label != 'collider':
+    return _reasonOf(ourCollider(), omega)
+
+
+def _reasonOf(collider, omega):
+    """YADE's own collider fails in these scenes, too: that is left to it."""
+    if collider is None:
+        return None
+    name = type(collider).__name__
+    if collider.label != 'collider':
         return ("yade.mpy finds its collider by the label 'collider', but this one has %s: write "
                 "%s([...], label='collider')."
-                % ("the label '%s'" % collider.label if collider.label else 'no label',
-                   type(collider).__name__))
+                % ("the label '%s'" % collider.label if collider.label else 'no label', name))
+    controller = split_cell.controller()
+    if controller is not None:
+        return ('%s would move the cell by the contacts of one process of yade.mpy only: run this scene with '
+                'O.run.' % type(controller).__name__)
+    factory = next((e for e in omega.engines if isinstance(e, wrapper.SpheresFactory) and not e.dead), None)
+    if factory is not None:
+        return ('%s would insert other bodies in each process of yade.mpy: insert them by a PyRunner that '
+                'does the same in all.' % type(factory).__name__)
     return None
+
+
+def _reasonOfClumps(mpy):
+    """The master's decomposition makes clumps whole."""
+    divided = None if mpy.DOMAIN_DECOMPOSITION or ourCollider() is None else split_scene.dividedClump()
+    if divided is None:
+        return None
+    return ('Clump #%d and its members belong to different processes of yade.mpy: give them the same '
+            'body.subdomain.' % divided)
 
 
 def _smallestRadius():
@@ -67,17 +93,30 @@ def _shareVerletDist(reports):
         collider.verletDist *= -least
 
 
+def _refuseTogether(reasons):
+    for reason in reasons:
+        if reason:
+            raise RuntimeError(reason)
+
+
 def _guardSplit(mpy, splitScene):
     """All processes split together: all refuse, or none."""
     @functools.wraps(splitScene)
     def split():
-        if not getattr(builtins, 'O').splittedOnce:  # an attribute of this object, not of the class
-            reports = mpy.comm.allgather((reasonNotToSplit(), _smallestRadius()))
-            for reason, _ in reports:
-                if reason:
-                    raise RuntimeError(reason)
-            _shareVerletDist(reports)
+        omega: Any = getattr(builtins, 'O')  # splittedOnce is an attribute of this object, not of the class
+        if omega.splittedOnce:
+            split_scene.checkMerged(mpy)
+            splitScene()
+            mpy.checkAndCollide()
+            return
+        reports = mpy.comm.allgather((reasonNotToSplit() or _reasonOfClumps(mpy), _smallestRadius()))
+        _refuseTogether(reason for reason, _ in reports)
+        _shareVerletDist(reports)
+        if mpy.DOMAIN_DECOMPOSITION and mpy.rank == 0:
+            split_scene.keepClumpsWhole()
         splitScene()
+        if ourCollider() is not None:
+            split_scene.searchBeforeTheCollider(mpy, ourCollider())
     return split
 
 
@@ -87,13 +126,17 @@ def _guardRun(mpy, mpirun):
     def run(nSteps, np=None, withMerge=False):
         wanted = mpy.numThreads if np is None else np
         isAlone = mpy.comm is None or mpy.numThreads == 1 or mpy.waitingCommands
-        if mpy.rank == 0 and isAlone and wanted != 1 and reasonNotToSplit():
-            raise RuntimeError(reasonNotToSplit())
+        if mpy.rank == 0 and isAlone and wanted != 1:
+            _refuseTogether([reasonNotToSplit() or _reasonOfClumps(mpy)])
+        if getattr(builtins, 'O').splitted and wanted == mpy.numThreads != 1:
+            split_scene.searchTogether(mpy)
         return mpirun(nSteps, np, withMerge)
     return run
 
 
 def _adapt(mpy):
+    split_scene.complete(mpy)
+    split_cell.complete(mpy, ourCollider)
     mpy.typedEngine = _findOurs(mpy.typedEngine)
     mpy.splitScene = _guardSplit(mpy, mpy.splitScene)
     mpy.mpirun = _guardRun(mpy, mpy.mpirun)

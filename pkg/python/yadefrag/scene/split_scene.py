@@ -1,0 +1,204 @@
+"""A scene that yade.mpy has split: clumps, and bodies that scripts insert or erase while it runs.
+
+All functions take YADE's module, whose functions they complete.
+"""
+
+import builtins
+import collections
+import contextlib
+import functools
+from typing import Any
+
+from yade import wrapper
+
+kInEachProcess = "O.splitted and sys.modules['yade.mpy'].checkAndCollide()"
+
+
+def _omega() -> Any:
+    return getattr(builtins, 'O')  # mpy stores attributes in this object, not in its class
+
+
+def _exists(id):
+    bodies = wrapper.Omega().bodies
+    return 0 <= id < len(bodies) and bodies[id] is not None
+
+
+def dividedClump() -> int | None:
+    """Id of a clump that is not in the same process as its members."""
+    bodies = wrapper.Omega().bodies
+    for body in bodies:
+        if body.isClumpMember and (not _exists(body.clumpId)
+                                   or bodies[body.clumpId].subdomain != body.subdomain):
+            return body.clumpId
+    return None
+
+
+def keepClumpsWhole() -> None:
+    """YADE's decomposition assigns members by their own position. Only the master calls it."""
+    from yade import bisectionDecomposition
+    decomposition: Any = bisectionDecomposition.decompBodiesSerial
+    yades = decomposition.partitionDomain
+    if hasattr(yades, '__wrapped__'):
+        return
+
+    @functools.wraps(yades)
+    def partition(self, *arguments):
+        yades(self, *arguments)
+        bodies = wrapper.Omega().bodies
+        for body in bodies:
+            if body.isClumpMember:
+                body.subdomain = bodies[body.clumpId].subdomain
+    decomposition.partitionDomain = partition
+
+
+def _enlarge(size):
+    """YADE accesses ids that other processes have inserted without a check."""
+    bodies = wrapper.Omega().bodies
+    if len(bodies) < size:
+        bodies.insertAtId(wrapper.Body(), size - 1)
+        bodies.erase(size - 1)
+
+
+def _listOwn(mpy):
+    """YADE's method does nothing in the master."""
+    subdomain = _omega().subD
+    subdomain.updateLocalIds(True)
+    if mpy.rank == 0:
+        subdomain.ids = [b.id for b in wrapper.Omega().bodies if b.subdomain == 0 and not b.isSubdomain]
+
+
+def _takeInserted(mpy):
+    """All processes call this together. YADE leaves bodies that were inserted out of the box around
+    this process's bodies, and out of the merged scene."""
+    _enlarge(mpy.comm.allreduce(len(wrapper.Omega().bodies), op=mpy.MPI.MAX))
+    _listOwn(mpy)
+
+
+def _releaseCopies():
+    """Copies of other processes' bodies are here without their clump, which YADE needs to erase a
+    member."""
+    bodies = wrapper.Omega().bodies
+    for ids in _omega().subD.mirrorIntersections:
+        for body in (bodies[id] for id in ids if _exists(id)):
+            if body.isClumpMember and not _exists(body.clumpId):
+                body.updateAttrs({'clumpId': -1})
+
+
+def _search(mpy, parallelCollide):
+    @functools.wraps(parallelCollide)
+    def search():
+        _takeInserted(mpy)
+        parallelCollide()
+        _releaseCopies()
+    return search
+
+
+def _erase(mpy, bodyErase):
+    @functools.wraps(bodyErase)
+    def erase(ids):
+        if not mpy.numThreads or mpy.numThreads == 1:
+            return bodyErase(ids)
+        _enlarge(1 + (max(ids, default=-1) if isinstance(ids, list) else ids))
+        _listOwn(mpy)
+        erased = bodyErase(ids)
+        _listOwn(mpy)  # a clump is erased with its last member
+        return erased
+    return erase
+
+
+def _migrate(mpy, migrateBodies):
+    """Clumps remain in their process: the filter chooses single members."""
+    @functools.wraps(migrateBodies)
+    def migrate(ids, origin, destination):
+        if mpy.rank == origin:
+            bodies = wrapper.Omega().bodies
+            ids = [id for id in ids if bodies[id].isStandalone]
+        migrateBodies(ids, origin, destination)
+    return migrate
+
+
+@contextlib.contextmanager
+def _clumpsWithMaterial(mpy):
+    """YADE replaces the material of each body that the master receives, but a clump has none."""
+    bodies = wrapper.Omega().bodies
+    lent = [b.id for b in bodies if b.isClump and b.subdomain == mpy.rank and b.material is None]
+    for id in lent:
+        bodies[id].material = bodies[min(bodies[id].shape.members)].material
+    allLent = mpy.comm.allgather(lent)
+    yield
+    for id in (id for ids in allLent for id in ids if _exists(id)):
+        bodies[id].material = None
+
+
+def _refuseTwins(mpy):
+    """All processes call this together."""
+    own = [id for ids in mpy.comm.allgather(list(_omega().subD.ids)) for id in ids]
+    if len(set(own)) < len(own):
+        raise RuntimeError('Two processes of yade.mpy have inserted different bodies with the number %d.'
+                           % min(id for id, count in collections.Counter(own).items() if count > 1))
+
+
+def _merge(mpy, mergeScene):
+    @functools.wraps(mergeScene)
+    def merge():
+        if mpy.rank == 0 and mpy.waitingCommands:
+            mpy.sendCommand('slaves', 'mergeScene()', False)
+        if _omega().splitted:
+            _takeInserted(mpy)
+            _refuseTwins(mpy)
+            with _clumpsWithMaterial(mpy), _withoutCommands(mpy):
+                mergeScene()
+    return merge
+
+
+@contextlib.contextmanager
+def _withoutCommands(mpy):
+    """The master has sent its command already."""
+    waiting, mpy.waitingCommands = mpy.waitingCommands, False
+    yield
+    mpy.waitingCommands = waiting
+
+
+def searchTogether(mpy: Any) -> None:
+    """Before a run of a scene that is split: a body may have been inserted by one process, whose
+    collider would search alone. A worker that executes the master's command was asked before."""
+    if mpy.waitingCommands:
+        if mpy.rank > 0:
+            return
+        mpy.sendCommand('slaves', 'checkAndCollide()', False)
+    mpy.checkAndCollide()
+
+
+def searchBeforeTheCollider(mpy: Any, collider: Any) -> None:
+    """mpy asks all processes for a search at the end of a step only: after the engines that insert
+    bodies, unless they stand before the collider, which would then search alone."""
+    omega = _omega()
+    engines = omega.engines
+    at = engines.index(collider)
+    mayInsert = any(isinstance(e, wrapper.PyRunner) for e in engines[:at])
+    if mpy.comm.allreduce(mayInsert, op=mpy.MPI.LOR):
+        asks = wrapper.PyRunner(iterPeriod=1, initRun=True, command=kInEachProcess)
+        omega.engines = omega.splittedEngines = [*engines[:at], asks, *engines[at:]]
+
+
+def checkMerged(mpy: Any) -> None:
+    """Before a merged scene is split again: YADE drops bodies that only the master has inserted. All
+    processes call this together."""
+    if mpy.DOMAIN_DECOMPOSITION and mpy.RESET_SUBDOMAINS_WHEN_COLLIDE:
+        return  # YADE distributes all bodies anew
+    owners = {b.id: b.subdomain for b in wrapper.Omega().bodies
+              if not b.isSubdomain and b.subdomain != 0 and mpy.rank in (0, b.subdomain)}
+    inMaster, *others = mpy.comm.allgather(owners)
+    inOthers = {id: rank for one in others for id, rank in one.items()}
+    different = inMaster.items() ^ inOthers.items()
+    if different:
+        raise RuntimeError('Body #%d is not the same in the merged scene and in the process that owns it: '
+                           'insert bodies in all processes, erase them by yade.mpy.bodyErase, and keep '
+                           'their subdomain.' % min(different)[0])
+
+
+def complete(mpy: Any) -> None:
+    mpy.parallelCollide = _search(mpy, mpy.parallelCollide)
+    mpy.bodyErase = _erase(mpy, mpy.bodyErase)
+    mpy.migrateBodies = _migrate(mpy, mpy.migrateBodies)
+    mpy.mergeScene = _merge(mpy, mpy.mergeScene)
