@@ -19,6 +19,9 @@ kProgram = os.path.join(kTests, 'yadefrag_unused')
 kCounting = os.path.join(kTests, 'yadefrag_counting.so')
 kMost = .01
 
+pytestmark = pytest.mark.skipif(not os.path.exists(kProgram) or not os.path.exists(kCounting),
+                                reason='needs yadefrag_unused and yadefrag_counting, which scripts/build makes')
+
 
 @pytest.fixture(scope='module')
 def rings(tmp_path_factory):

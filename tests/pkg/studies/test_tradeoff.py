@@ -356,7 +356,7 @@ kExamples = os.path.join(ROOT, 'examples',
 
 @pytest.mark.parametrize('name, size, most', [
     ('bars', 2e-3, .08), ('hertz', 2e-3, .06), ('rolling', 2e-3, .03), ('ring', 2e-4, .3),
-    ('compression', 2.5e-3, .1)])
+    ('compressed_rock', 2.5e-3, .1)])
 def test_problemsOfTheBenchmark(monkeypatch, name, size, most):
     monkeypatch.syspath_prepend(kExamples)
     problem = importlib.import_module(name)

@@ -22,6 +22,9 @@ def read(name: str, tolerance: float | None) -> Found:
             tags = dict(getattr(picture, 'tag_v2', {}))
             key = picture.info.get('transparency')
             others = getattr(picture, 'n_frames', 1) - 1
+            # Pillow 11 and 12 map the values of a TIFF that is stored on its side into memory with the sizes
+            # of the turned picture. They do not if they know no file of this name.
+            picture.filename = ''
             picture.load()  # turns a TIFF, which exif_transpose would turn once more
             upright = picture if picture.format == 'TIFF' else operations.exif_transpose(picture)
             dark = _darkness(image, upright, tags, key)
