@@ -26,6 +26,8 @@ kRounding = 1e-12 * kRadius
 # both with a search at every step, differ by 4·10⁻⁹ m.
 kParted = 1e-7 * kRadius
 
+pytestmark = pytest.mark.skipif('MPI' not in yade.config.features, reason='this YADE is built without MPI')
+
 
 def run(ranks, collider, scene, *arguments):
     """What each process reports, by rank."""

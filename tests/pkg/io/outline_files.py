@@ -57,6 +57,7 @@ def read(file, tolerance=None, **more):
     """(outlines, words of readOutline's message or '')."""
     with warnings.catch_warnings(record=True) as seen:
         warnings.simplefilter('always')
+        warnings.simplefilter('ignore', DeprecationWarning)  # of ezdxf's own code with Debian 14's pyparsing
         found = readOutline(file, tolerance, **more)
     assert len(seen) < 2
     return found, str(seen[0].message) if seen else ''
