@@ -215,6 +215,28 @@ def dropInCell():
         drop([utils.sphere((3 * i + .2, 5.1 + O.iter / 20, 12), .3)], (3, -9, 5))
 
 
+def contradicting():
+    """All processes insert a body without a subdomain, two insert different bodies with one number, and one
+    changes the cell."""
+    O.periodic = True
+    O.cell.setBox(100, 100, 100)
+    assign(columns())
+    O.bodies.erase(240)  # the plate
+    run(2, merge=False)
+    O.bodies.append(utils.sphere((50, 50, 50), kRadius))
+    report = dict(unassigned=messageOf(2, None))
+    O.bodies.erase(len(O.bodies) - 1)
+    if mp.rank > 0:
+        ball = utils.sphere((mp.rank, 50, 50), kRadius)
+        ball.subdomain = mp.rank
+        O.bodies.insertAtId(ball, 500)
+    report['twins'] = messageOf(2, None)
+    mp.bodyErase(500)
+    if mp.rank == 1:
+        O.cell.velGrad = ((.1, 0, 0), (0, 0, 0), (0, 0, 0))
+    return dict(report, cell=messageOf(100, None))
+
+
 def refused():
     """Scenes that mpy cannot split: what `tried` reports, by the name of the case."""
     ranks = None if mp.numThreads > 1 else 3

@@ -224,6 +224,16 @@ def test_refused(once, ranks, case, message):
         assert found['isUnchanged'] and found['steps'] == 2
 
 
+def test_processesThatContradictEachOther(once):
+    """All of them raise, before the master merges their bodies."""
+    for report in once(3, 'LebesgueCollider', 'contradicting'):
+        assert re.fullmatch(r'Body #\d+ was inserted without body.subdomain, the process of yade.mpy that '
+                            r'moves it\.', report['unassigned'])
+        assert report['twins'] == ('Two processes of yade.mpy have inserted different bodies with the number '
+                                   '500.')
+        assert 'The periodic cell is not the same in all processes of yade.mpy: ' in report['cell']
+
+
 def test_manual():
     """The script of docs/colliders.md, which lets mpy distribute the bodies."""
     text = (ROOT / 'docs' / 'colliders.md').read_text()

@@ -135,8 +135,8 @@ def _guardRun(mpy, mpirun):
 
 
 def _adapt(mpy):
-    split_scene.complete(mpy)
     split_cell.complete(mpy, ourCollider)
+    split_scene.complete(mpy)  # its merge sends the master's command before the cells are compared
     mpy.typedEngine = _findOurs(mpy.typedEngine)
     mpy.splitScene = _guardSplit(mpy, mpy.splitScene)
     mpy.mpirun = _guardRun(mpy, mpy.mpirun)

@@ -57,6 +57,16 @@ def _all(mpy, ourCollider, genLocalIntersections):
     return generate
 
 
+def _merge(mpy, ourCollider, mergeScene):
+    @functools.wraps(mergeScene)
+    def merge():
+        if _isPeriodic(ourCollider):
+            _checkCell(mpy)
+        mergeScene()
+    return merge
+
+
 def complete(mpy: Any, ourCollider: Any) -> None:
     mpy.updateDomainBounds = _noBoxes(mpy, ourCollider, mpy.updateDomainBounds)
     mpy.genLocalIntersections = _all(mpy, ourCollider, mpy.genLocalIntersections)
+    mpy.mergeScene = _merge(mpy, ourCollider, mpy.mergeScene)

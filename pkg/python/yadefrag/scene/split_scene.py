@@ -4,7 +4,6 @@ All functions take YADE's module, whose functions they complete.
 """
 
 import builtins
-import collections
 import contextlib
 import functools
 from typing import Any
@@ -12,6 +11,7 @@ from typing import Any
 from yade import wrapper
 
 kInEachProcess = "O.splitted and sys.modules['yade.mpy'].checkAndCollide()"
+_known: set[int] = set()  # bodies of this process at the last search
 
 
 def _omega() -> Any:
@@ -70,8 +70,36 @@ def _listOwn(mpy):
 def _takeInserted(mpy):
     """All processes call this together. YADE leaves bodies that were inserted out of the box around
     this process's bodies, and out of the merged scene."""
-    _enlarge(mpy.comm.allreduce(len(wrapper.Omega().bodies), op=mpy.MPI.MAX))
     _listOwn(mpy)
+    own = set(_omega().subD.ids)
+    new = sorted(own - _known)
+    sizes, inserted, unassigned = zip(*mpy.comm.allgather(
+        (len(wrapper.Omega().bodies), new, _movedByTheMaster(mpy, new))))
+    if any(unassigned):
+        raise RuntimeError('Body #%d was inserted without body.subdomain, the process of yade.mpy that '
+                           'moves it.' % min(unassigned[0]))
+    _enlarge(max(sizes))
+    if any(inserted):
+        _refuseTwins(mpy, own, inserted)
+    _known.clear()
+    _known.update(own)
+
+
+def _movedByTheMaster(mpy, new):
+    """The other processes would not know where these are."""
+    if mpy.rank > 0 or mpy.MASTER_UPDATE_STATES or not _omega().splitted:
+        return []
+    return [id for id in new if wrapper.Omega().bodies[id].dynamic]
+
+
+def _refuseTwins(mpy, own, inserted):
+    """YADE would take one for a copy of the other."""
+    others = (ids for rank, ids in enumerate(inserted) if rank != mpy.rank)
+    twins = [id for found in mpy.comm.allgather([id for ids in others for id in ids if id in own])
+             for id in found]
+    if twins:
+        raise RuntimeError('Two processes of yade.mpy have inserted different bodies with the number %d.'
+                           % min(twins))
 
 
 def _releaseCopies():
@@ -87,6 +115,8 @@ def _releaseCopies():
 def _search(mpy, parallelCollide):
     @functools.wraps(parallelCollide)
     def search():
+        if not _omega().splitted:
+            _known.clear()
         _takeInserted(mpy)
         parallelCollide()
         _releaseCopies()
@@ -125,17 +155,11 @@ def _clumpsWithMaterial(mpy):
     for id in lent:
         bodies[id].material = bodies[min(bodies[id].shape.members)].material
     allLent = mpy.comm.allgather(lent)
-    yield
-    for id in (id for ids in allLent for id in ids if _exists(id)):
-        bodies[id].material = None
-
-
-def _refuseTwins(mpy):
-    """All processes call this together."""
-    own = [id for ids in mpy.comm.allgather(list(_omega().subD.ids)) for id in ids]
-    if len(set(own)) < len(own):
-        raise RuntimeError('Two processes of yade.mpy have inserted different bodies with the number %d.'
-                           % min(id for id, count in collections.Counter(own).items() if count > 1))
+    try:
+        yield
+    finally:
+        for id in (id for ids in allLent for id in ids if _exists(id)):
+            bodies[id].material = None
 
 
 def _merge(mpy, mergeScene):
@@ -145,7 +169,6 @@ def _merge(mpy, mergeScene):
             mpy.sendCommand('slaves', 'mergeScene()', False)
         if _omega().splitted:
             _takeInserted(mpy)
-            _refuseTwins(mpy)
             with _clumpsWithMaterial(mpy), _withoutCommands(mpy):
                 mergeScene()
     return merge
@@ -155,8 +178,10 @@ def _merge(mpy, mergeScene):
 def _withoutCommands(mpy):
     """The master has sent its command already."""
     waiting, mpy.waitingCommands = mpy.waitingCommands, False
-    yield
-    mpy.waitingCommands = waiting
+    try:
+        yield
+    finally:
+        mpy.waitingCommands = waiting
 
 
 def searchTogether(mpy: Any) -> None:
