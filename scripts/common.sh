@@ -38,4 +38,9 @@ use_plugin() {
   export PYTHONPATH="$package_dir${PYTHONPATH:+:$PYTHONPATH}"
 }
 
+# Where the plugin is installed in the YADE below YADE_PREFIX, which finds it there before any other one.
+installed_plugin() {
+  [ -z "${YADE_PREFIX:-}" ] || find "$YADE_PREFIX"/lib*/ -maxdepth 4 -path '*/yade*/py/yadefrag' | head -n 1
+}
+
 jobs_at_once() { echo "${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"; }

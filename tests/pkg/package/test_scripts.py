@@ -56,6 +56,17 @@ def test_wrongArgumentsAreNamed(command, words):
     assert done.stderr.count('\n') == 1 and words in done.stderr
 
 
+def test_anInstalledPluginIsNotTestedInsteadOfTheBuiltOne(tmp_path):
+    """A YADE that its user built finds it before the built one."""
+    installed = tmp_path / 'lib' / 'x86_64-linux-gnu' / 'yade-mine' / 'py' / 'yadefrag'
+    installed.mkdir(parents=True)
+    (tmp_path / 'bin').mkdir()
+    (tmp_path / 'bin' / 'yade-mine').touch()
+    done = ask('test', 'yade', YADE_PREFIX=str(tmp_path))
+    assert done.returncode == 1 and done.stdout == ''
+    assert done.stderr.count('\n') == 1 and 'installed in %s,' % installed in done.stderr
+
+
 def test_anUnreachableServerHasACodeOfItsOwn(tmp_path):
     """CI goes on then; here a debootstrap that fails stands for it."""
     (tmp_path / 'bin').mkdir()
