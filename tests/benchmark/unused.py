@@ -27,6 +27,7 @@ RINGS, STEPS = 8, 100
 # Scenes of bodies far from each other: steps, enough to look whether they still are.
 FAR = dict(blocks=100, squares=400, farRings=400)
 WAYS = ('absent', 'imported', 'used')
+YADE = getattr(sys, 'yade_argv', ['/usr/bin/yade'])[0]  # the one that runs the tests
 
 
 def features(root=ROOT):
@@ -75,7 +76,7 @@ def farShare(program, folder, scene, root=ROOT):
     return contactCode(root).share(costs)
 
 
-def spheres(ways, counting, number, steps, yade='/usr/bin/yade'):
+def spheres(ways, counting, number, steps, yade=YADE):
     """The command that runs unused_spheres.py; `counting`: path of yadefrag_counting.so."""
     return ['/usr/bin/python3', yade, '-n', '-x', '-j1', os.path.join(HERE, 'unused_spheres.py'),
             counting, str(number), str(steps), *ways]
@@ -92,7 +93,7 @@ def countSpheres(counting, folder, number, steps):
     return dict(zip(WAYS, dumps[1:])), printed(text)
 
 
-def addingPerEntry(counting, folder, few=20, many=420, counted=4, yade='/usr/bin/yade'):
+def addingPerEntry(counting, folder, few=20, many=420, counted=4, yade=YADE):
     """Instructions that adding a body takes for each entry that was there before."""
     command = ['/usr/bin/python3', yade, '-n', '-x', '-j1', os.path.join(HERE, 'unused_adding.py'),
                counting, str(few), str(many), str(counted)]

@@ -112,7 +112,7 @@ def test_ownCopiesOfEigenCgalAndFmtStayInside():
     names = [line.split(' ', 2)[2] for line in names]
     assert 'PyInit__yadefrag' in names
     assert any(name.startswith('typeinfo for yade') for name in names), 'one with YADE\'s'
-    # A template of ours may return one of Eigen's types: its name then begins with that type.
+    # A template of ours, or of std at -O1, may return one of Eigen's types: its name then begins with that type.
     functions = [name for name in names if ' yadefrag::' not in name and re.match(
-        r'.*CGAL::|.*fmt::v|(guard variable for |void |)Eigen::', name)]
+        r'.*CGAL::|.*fmt::v|(guard variable for |void |)Eigen::(?![^(]*[>&*] std::)', name)]
     assert functions == []
