@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import fe_chain as chain
+import yadefrag  # noqa: F401
 from yade import wrapper as w
 
 O = builtins.O
