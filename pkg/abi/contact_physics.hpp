@@ -2,6 +2,7 @@
 // Forces of a contact, as computed by YADE's laws with a normal and a shear part.
 
 #include "abi/indexable.hpp"
+#include "abi/layout.hpp"
 #include "abi/serializable.hpp"
 
 namespace yade {
@@ -10,6 +11,17 @@ class IPhys : public Serializable, public Indexable {
  public:
   IPhys() = delete;
   ~IPhys() override;
+
+ protected:
+  int& modifyClassIndex() override;
+
+ public:
+  const int& getClassIndex() const override;
+  const int& getBaseClassIndex(int depth) const override;
+  const int& getMaxCurrentlyUsedClassIndexOfKin() const override;
+
+ protected:
+  void incrementMaxCurrentlyUsedClassIndexOfKin() override;
 };
 
 class NormPhys : public IPhys {
@@ -29,6 +41,17 @@ class NormShearPhys : public NormPhys {
 
   NormShearPhys() = delete;
   ~NormShearPhys() override;
+};
+
+class FrictPhys : public NormShearPhys {
+ public:
+  Real tangensOfFrictionAngle;
+#if YADEFRAG_YADE >= 202601
+  Real frictDissip;
+#endif
+
+  FrictPhys() = delete;
+  ~FrictPhys() override;
 };
 
 }  // namespace yade

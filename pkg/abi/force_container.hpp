@@ -1,12 +1,14 @@
 #pragma once
-// Forces and torques per body and thread: a member of Scene whose data are not declared here.
+// Forces and torques per body and thread: a member of Scene.
 
 #include "abi/basics.hpp"
 
 namespace yade {
 
 class ForceContainer {
-  alignas(8) unsigned char hidden_[304];
+  vector<vector<Vector3r>> _forceData;
+  vector<vector<Vector3r>> _torqueData;
+  alignas(8) unsigned char hidden_[256];
 
  public:
   ForceContainer() = delete;
@@ -19,6 +21,9 @@ class ForceContainer {
   void sync();
   const Vector3r& getForce(int id);
   const Vector3r& getTorque(int id);
+
+ private:
+  friend struct LayoutProbe;
 };
 
 }  // namespace yade

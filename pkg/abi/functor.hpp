@@ -1,5 +1,6 @@
 #pragma once
-// Functors that compute the bounds of shapes, and functors that compute the geometry of contacts.
+// Functors that compute the bounds of shapes, and the geometry, the properties and the forces of
+// contacts.
 
 #include <stdexcept>
 
@@ -87,6 +88,39 @@ class IGeomFunctor : public Functor, public GeomCalls {
 
  protected:
   IGeomFunctor() = default;
+};
+
+class Ig2_Sphere_Sphere_ScGeom : public IGeomFunctor {
+ public:
+  Real interactionDetectionFactor;
+  bool avoidGranularRatcheting;
+  Ig2_Sphere_Sphere_ScGeom() = delete;
+  ~Ig2_Sphere_Sphere_ScGeom() override;
+};
+
+class IPhysFunctor : public Functor, public PhysCalls {
+ public:
+  IPhysFunctor() = delete;
+  ~IPhysFunctor() override;
+};
+
+class LawFunctor : public Functor, public LawCalls {
+ public:
+  LawFunctor() = delete;
+  ~LawFunctor() override;
+};
+
+class Law2_ScGeom_FrictPhys_CundallStrack : public LawFunctor {
+  alignas(8) unsigned char plasticDissipation_[24];
+
+ public:
+  bool neverErase;
+  bool sphericalBodies;
+  bool traceEnergy;
+  int plastDissipIx;
+  int elastPotentialIx;
+  Law2_ScGeom_FrictPhys_CundallStrack() = delete;
+  ~Law2_ScGeom_FrictPhys_CundallStrack() override;
 };
 
 }  // namespace yade

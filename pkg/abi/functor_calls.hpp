@@ -84,4 +84,40 @@ class GeomCalls {
   [[noreturn]] static void unused() { throw std::logic_error("a functor's unused slot is called"); }
 };
 
+// For functors whose call has three arguments.
+template <class Result, class... Arguments>
+class ThreeArgumentCalls {
+ public:
+  virtual ~ThreeArgumentCalls() = default;
+  virtual string checkOrder() const { return {}; }
+
+ private:
+  virtual Result go1() { unused(); }
+  virtual Result go2() { unused(); }
+
+ public:
+  virtual Result go(Arguments...) { unused(); }
+
+ private:
+  virtual Result go4() { unused(); }
+  virtual Result go5() { unused(); }
+  virtual Result go6() { unused(); }
+  virtual Result go7() { unused(); }
+  virtual Result goReverse1() { unused(); }
+  virtual Result goReverse2() { unused(); }
+  virtual Result goReverse3() { unused(); }
+  virtual Result goReverse4() { unused(); }
+  virtual Result goReverse5() { unused(); }
+  virtual Result goReverse6() { unused(); }
+  virtual Result goReverse7() { unused(); }
+  [[noreturn]] static void unused() { throw std::logic_error("a functor's unused slot is called"); }
+};
+
+class IGeom;
+class IPhys;
+
+using PhysCalls = ThreeArgumentCalls<void, const shared_ptr<Material>&, const shared_ptr<Material>&,
+                                     const shared_ptr<Interaction>&>;
+using LawCalls = ThreeArgumentCalls<bool, shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*>;
+
 }  // namespace yade

@@ -264,6 +264,37 @@ CHECK_MEMBER(Scene, miscParams);
 CHECK_SIZE(ClassFactory);
 CHECK_MEMBER(ClassFactory, pluginClasses);
 
+CHECK_SIZE(IGeomFunctor);
+CHECK_SIZE(IPhysFunctor);
+CHECK_SIZE(LawFunctor);
+CHECK_SIZE(Ig2_Sphere_Sphere_ScGeom);
+CHECK_MEMBER(Ig2_Sphere_Sphere_ScGeom, interactionDetectionFactor);
+CHECK_MEMBER(Ig2_Sphere_Sphere_ScGeom, avoidGranularRatcheting);
+CHECK_SIZE(Law2_ScGeom_FrictPhys_CundallStrack);
+CHECK_MEMBER(Law2_ScGeom_FrictPhys_CundallStrack, neverErase);
+CHECK_MEMBER(Law2_ScGeom_FrictPhys_CundallStrack, sphericalBodies);
+CHECK_MEMBER(Law2_ScGeom_FrictPhys_CundallStrack, traceEnergy);
+CHECK_MEMBER(Law2_ScGeom_FrictPhys_CundallStrack, plastDissipIx);
+CHECK_MEMBER(Law2_ScGeom_FrictPhys_CundallStrack, elastPotentialIx);
+
+CHECK_SIZE(FrictPhys);
+CHECK_MEMBER(FrictPhys, tangensOfFrictionAngle);
+
+CHECK_SIZE(IntrCallback);
+CHECK_MEMBER(IntrCallback, scene);
+CHECK_SIZE(IGeomDispatcher);
+CHECK_MEMBER(IGeomDispatcher, functors);
+CHECK_SIZE(IPhysDispatcher);
+CHECK_MEMBER(IPhysDispatcher, functors);
+CHECK_SIZE(LawDispatcher);
+CHECK_MEMBER(LawDispatcher, functors);
+CHECK_SIZE(InteractionLoop);
+CHECK_MEMBER(InteractionLoop, geomDispatcher);
+CHECK_MEMBER(InteractionLoop, physDispatcher);
+CHECK_MEMBER(InteractionLoop, lawDispatcher);
+CHECK_MEMBER(InteractionLoop, callbacks);
+CHECK_MEMBER(InteractionLoop, loopOnSortedInteractions);
+
 // The offsets of State's two reference members cannot be measured: the two are between the base and
 // the mutex, in this order.
 static_assert(offsetof(State, updateMutex) == 24 + sizeof(Indexable) + 2 * sizeof(void*));
@@ -276,6 +307,9 @@ static_assert(offsetof(ScGeom, penetrationDepth) ==
 
 // BoundDispatcher's members begin after YADE's template.
 static_assert(sizeof(Dispatcher1D<BoundFunctor>) == 152);
+
+// The table of functors, and that of swapped arguments, begin after Dispatcher.
+static_assert(offsetof(IPhysDispatcher, functors) == sizeof(Dispatcher) + 2 * sizeof(vector<int>));
 
 // A friend of the classes whose inline functions read private members.
 struct LayoutProbe {
@@ -291,6 +325,9 @@ struct LayoutProbe {
   CHECK_MEMBER(NewtonIntegrator, bodySelected);
   CHECK_MEMBER(NewtonIntegrator, dVelGrad);
   CHECK_MEMBER(NewtonIntegrator, dSpin);
+  CHECK_MEMBER(ForceContainer, _forceData);
+  CHECK_MEMBER(ForceContainer, _torqueData);
+  CHECK_MEMBER(InteractionLoop, eraseAfterLoopIds);
   CHECK_MEMBER(ScGeom, twist_axis);
   CHECK_MEMBER(ScGeom, orthonormal_axis);
   CHECK_MEMBER(Cell, _invTrsf);

@@ -53,6 +53,22 @@ CHECK_FUNCTION(IGeomFunctor::goReverse,
                bool (IGeomFunctor::*)(const shared_ptr<Shape>&, const shared_ptr<Shape>&,
                                       const State&, const State&, const Vector3r&, const bool&,
                                       const shared_ptr<Interaction>&));
+CHECK_FUNCTION(IPhysFunctor::go,
+               void (IPhysFunctor::*)(const shared_ptr<Material>&, const shared_ptr<Material>&,
+                                      const shared_ptr<Interaction>&));
+CHECK_FUNCTION(LawFunctor::go,
+               bool (LawFunctor::*)(shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*));
+CHECK_FUNCTION(IGeomDispatcher::getFunctor2D,
+               shared_ptr<IGeomFunctor> (IGeomDispatcher::*)(shared_ptr<Shape>&, shared_ptr<Shape>&,
+                                                             bool&));
+CHECK_FUNCTION(IPhysDispatcher::getFunctor2D,
+               shared_ptr<IPhysFunctor> (IPhysDispatcher::*)(shared_ptr<Material>&,
+                                                             shared_ptr<Material>&, bool&));
+CHECK_FUNCTION(LawDispatcher::getFunctor2D,
+               shared_ptr<LawFunctor> (LawDispatcher::*)(shared_ptr<IGeom>&, shared_ptr<IPhys>&,
+                                                         bool&));
+CHECK_FUNCTION(IntrCallback::stepInit, IntrCallback::FuncPtr (IntrCallback::*)());
+CHECK_FUNCTION(InteractionLoop::action, void (InteractionLoop::*)());
 #ifdef YADE_OPENGL
 CHECK_FUNCTION(GlShapeFunctor::renders, string (GlShapeFunctor::*)() const);
 CHECK_FUNCTION(GlShapeFunctor::initgl, void (GlShapeFunctor::*)());

@@ -1,6 +1,8 @@
 #pragma once
 // YADE's own headers, for a yade that was built from its sources: layouts follow that build's
-// features.
+// features. Empty for a package, which has no headers.
+
+#ifdef YADEFRAG_YADE_SOURCE
 
 #include <boost/python.hpp>
 
@@ -30,6 +32,7 @@
 #include <core/IPhys.hpp>
 #include <core/Interaction.hpp>
 #include <core/InteractionContainer.hpp>
+#include <core/InteractionLoop.hpp>
 #include <core/Material.hpp>
 #include <core/Omega.hpp>
 #include <core/Scene.hpp>
@@ -44,8 +47,13 @@
 #include <pkg/common/NormShearPhys.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
+#include <pkg/dem/ElasticContactLaw.hpp>
+#include <pkg/dem/FrictPhys.hpp>
+#include <pkg/dem/Ig2_Sphere_Sphere_ScGeom.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
 #ifdef YADE_OPENGL
 #include <pkg/common/OpenGLRenderer.hpp>
+#endif
+
 #endif

@@ -18,6 +18,7 @@
 #include "abi/factory.hpp"
 #include "abi/functor.hpp"
 #include "abi/interaction.hpp"
+#include "abi/interaction_loop.hpp"
 #include "abi/material.hpp"
 #include "abi/newton.hpp"
 #include "abi/renderer.hpp"

@@ -26,6 +26,7 @@ YADEFRAG_YADE_ARCHIVES(yade::GlShapeFunctor)
 #endif
 YADEFRAG_YADE_ARCHIVES(yade::GlobalEngine)
 YADEFRAG_YADE_ARCHIVES(yade::IGeomFunctor)
+YADEFRAG_YADE_ARCHIVES(yade::InteractionLoop)
 YADEFRAG_YADE_ARCHIVES(yade::Shape)
 YADEFRAG_YADE_ARCHIVES(yade::Vector3r)
 YADEFRAG_YADE_ARCHIVES(yade::Matrix3r)

@@ -10,6 +10,7 @@
 #include "fe/fe_solver.hpp"
 #include "fe/materials.hpp"
 #include "fe/running.hpp"
+#include "loop/curve_loop.hpp"
 #include "publish/publish.hpp"
 #include "python/list_items.hpp"
 #include "script/definitions.hpp"
@@ -28,13 +29,13 @@ struct ClassList {
 };
 
 // Every class that this project adds to YADE.
-using NewClasses =
-    ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider, FEMat, BrittleFEMat,
-              SurfaceSegment, Bo1_SurfaceSegment_Aabb, Ig2_Sphere_SurfaceSegment_ScGeom,
+using NewClasses = ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider, CurveLoop,
+                             FEMat, BrittleFEMat, SurfaceSegment, Bo1_SurfaceSegment_Aabb,
+                             Ig2_Sphere_SurfaceSegment_ScGeom,
 #ifdef YADE_OPENGL
-              Gl1_SurfaceSegment,
+                             Gl1_SurfaceSegment,
 #endif
-              FESolver>;
+                             FESolver>;
 
 /// The instruction set that is used on this processor.
 std::string instructionSet() {

@@ -40,12 +40,12 @@ class Runner:
     def __init__(self, options):
         self.options, self.rows = options, []
 
-    def measure(self, collider, scene, n, budget, **settings):
+    def measure(self, collider, scene, n, budget, threads=1, **settings):
         """One measurement; returns its row, with the key `error` if there is none."""
         o = self.options
         arguments = dict(scene=scene, n=n, seed=o.seed, collider=collider, budget=budget,
                          **settings)
-        command = [o.yade, '-n', '-x', '-j1', os.path.join(HERE, 'measure.py')]
+        command = [o.yade, '-n', '-x', f'-j{threads}', os.path.join(HERE, 'measure.py')]
         command += [f'{k}={v}' for k, v in arguments.items()]
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    stdin=subprocess.DEVNULL, text=True, start_new_session=True)

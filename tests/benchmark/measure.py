@@ -6,6 +6,7 @@
 budget   seconds for the measured steps (the scene and the first activation are not included)
 steps    at most so many measured steps (0: by the number of bodies, see `_stepLimit`)
 warm     steps before these, for a collider that adapts (0: at most 60, see `_warmUp`)
+loop     class of the interaction loop (InteractionLoop, CurveLoop)
 other    attributes of the collider
 
 Small scenes are built and measured again, up to five times within the budget, and the medians kept
@@ -28,7 +29,7 @@ import time
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 import yade.wrapper  # noqa: E402
 from yade import O, config  # noqa: E402
-from yade.wrapper import ForceResetter, InteractionLoop, NewtonIntegrator  # noqa: E402
+from yade.wrapper import ForceResetter, NewtonIntegrator  # noqa: E402
 
 import scenes  # noqa: E402
 
@@ -42,11 +43,11 @@ def main(arguments):
     try:
         for argument in arguments:
             key, _, value = argument.partition('=')
-            settings[key] = value if key in ('scene', 'collider') else json.loads(_number(value))
+            settings[key] = value if key in ('scene', 'collider', 'loop') else json.loads(_number(value))
         row = measure(settings.pop('scene', 'gas'), settings.pop('n', 1000),
                       settings.pop('seed', 1), settings.pop('collider', 'InsertionSortCollider'),
                       settings.pop('budget', 10), (settings.pop('steps', 0), settings.pop('warm', 0)),
-                      settings)
+                      settings, settings.pop('loop', 'InteractionLoop'))
     except LookupError as error:
         row = dict(error=str(error))
     except Exception as error:  # the caller needs one line of JSON in any case
@@ -54,18 +55,19 @@ def main(arguments):
     print(json.dumps(row), flush=True)
 
 
-def measure(scene, n, seed, collider, budget, lengths, settings):
+def measure(scene, n, seed, collider, budget, lengths, settings, loop='InteractionLoop'):
     """Measure, with `lengths` = (measured steps, steps before); returns the dict that is printed.
 
-    Raises LookupError for an unknown collider.
+    Raises LookupError for an unknown collider or loop.
     """
-    makeCollider = _findCollider(collider)
+    makeCollider, makeLoop = _findEngine(collider), _findEngine(loop)
     row = dict(scene=scene, n=n, seed=seed, collider=collider, settings=settings,
                yade=config.version)
     end, rounds = time.perf_counter() + budget, []
     while len(rounds) < MOST_ROUNDS:
         start = time.perf_counter()
-        rounds.append(_round(scene, n, seed, lambda b: makeCollider(b, **settings), budget, lengths))
+        rounds.append(_round(scene, n, seed, lambda b: makeCollider(b, **settings), makeLoop, budget,
+                             lengths))
         now = time.perf_counter()
         if now + (now - start) > end:
             break
@@ -73,12 +75,12 @@ def measure(scene, n, seed, collider, budget, lengths, settings):
     return dict(row, rounds=len(rounds), **medians, peakMemory=_peakMemory())
 
 
-def _round(scene, n, seed, makeCollider, budget, lengths):
+def _round(scene, n, seed, makeCollider, makeLoop, budget, lengths):
     """Build the scene and measure it once; returns a dict of numbers."""
     start = time.perf_counter()
     parts = scenes.build(scene, n, seed)
     engines = [ForceResetter(), makeCollider(parts['bound']),
-               InteractionLoop(parts['geom'], parts['phys'], parts['law']),
+               makeLoop(parts['geom'], parts['phys'], parts['law']),
                NewtonIntegrator(**parts['newton'])]
     O.engines = engines
     O.timingEnabled = True
@@ -175,8 +177,8 @@ def _activations(records, stepper, collider, budget):
                 activationsForced=len(times) - met, perActivationLongest=max(times))
 
 
-def _findCollider(name):
-    """The collider class of this name, from yadefrag or from YADE."""
+def _findEngine(name):
+    """The class of engines of this name, from yadefrag or from YADE."""
     try:
         import yadefrag
         found = getattr(yadefrag, name, None)
@@ -185,7 +187,7 @@ def _findCollider(name):
         found, reason = None, f'yadefrag cannot be imported ({error})'
     found = found or getattr(yade.wrapper, name, None)
     if not found:
-        raise LookupError(f'no collider {name}: {reason}')
+        raise LookupError(f'no class {name}: {reason}')
     return found
 
 

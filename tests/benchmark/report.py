@@ -26,7 +26,7 @@ TIMES = [('first', 'first activation'), ('perActivation', 'each later activation
 def write(folder, rows, grids, options):
     """Write colliders.json, colliders.md and the plots into the folder, and print their folder."""
     os.makedirs(folder, exist_ok=True)
-    machine = _machine(rows)
+    machine = machineOf(rows)
     raw = dict(machine=machine, repeat=options.repeat, seed=options.seed, budget=options.budget,
                rows=rows, grids=grids)
     with open(os.path.join(folder, 'colliders.json'), 'w') as f:
@@ -68,7 +68,7 @@ def summarise(rows):
     return summary
 
 
-def _machine(rows):
+def machineOf(rows):
     """Machine, date, versions."""
     return dict(machine=origin.machine(), date=origin.date(), commit=origin.commit(),
                 yade=next((r['yade'] for r in rows if 'yade' in r), 'unknown'))

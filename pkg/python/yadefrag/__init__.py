@@ -26,10 +26,10 @@ from yadefrag import _yadefrag  # noqa: E402
 
 _yadefrag.checkRunningYade()
 if TYPE_CHECKING:  # what publish() adds
-    from yade.wrapper import (Bo1_SurfaceSegment_Aabb, BrittleFEMat, FEMat, FESolver, Gl1_SurfaceSegment,
+    from yade.wrapper import (Bo1_SurfaceSegment_Aabb, BrittleFEMat, CurveLoop, FEMat, FESolver, Gl1_SurfaceSegment,
                               HierarchyCollider, Ig2_Sphere_SurfaceSegment_ScGeom, LebesgueCollider,
                               LinearCodeCollider, SurfaceSegment)
-    __all__ = ['Bo1_SurfaceSegment_Aabb', 'BrittleFEMat', 'FEMat', 'FESolver', 'Gl1_SurfaceSegment',
+    __all__ = ['Bo1_SurfaceSegment_Aabb', 'BrittleFEMat', 'CurveLoop', 'FEMat', 'FESolver', 'Gl1_SurfaceSegment',
                'HierarchyCollider', 'Ig2_Sphere_SurfaceSegment_ScGeom', 'LebesgueCollider',
                'LinearCodeCollider', 'SurfaceSegment']
 else:

@@ -27,19 +27,23 @@ class _Constructor(type):
 class Swap:
     """`target` is the class to put in; YADE's own works too (then objects are left as they are).
 
-    `everyStep` takes the strides away, whatever a script sets: the reference for contacts.
+    `everyStep` takes the strides away, whatever a script sets: the reference for contacts. `loop`: the
+    name of a class in the place of InteractionLoop, where scripts make one; `loops` counts runs with it.
     """
 
-    def __init__(self, target, everyStep=False):
+    def __init__(self, target, everyStep=False, loop=None):
         self.target, self.everyStep = target, everyStep
+        self.loop = getattr(w, loop) if loop else None
         self.rivals = {name: getattr(w, name) for name in kRivals}
         self.left = [c for c in self.rivals.values() if c is not target]
-        self.count = collections.Counter(made=0, found=0, runs=0, rivals=0)
+        self.count = collections.Counter(made=0, found=0, runs=0, rivals=0, loops=0)
 
     def install(self, namespace):
         """From here on, everywhere; `namespace` is the dict of globals that scripts run in."""
         for name, rival in self.rivals.items():
             self._rename(rival, self._constructor(name), namespace)
+        if self.loop:
+            self._rename(w.InteractionLoop, self.loop, namespace)
         original = yade.utils.typedEngine
         self._rename(original, lambda name: original(
             self.target.__name__ if name in kRivals else name), namespace)
@@ -100,6 +104,7 @@ class Swap:
                 if isinstance(engine, w.Collider):
                     engine.verletDist = 0
         self.count['runs'] += any(type(e) is self.target for e in engines)
+        self.count['loops'] += self.loop is not None and any(type(e) is self.loop for e in engines)
         self.count['rivals'] += any(self.isRival(e) for e in engines)
 
     _get = staticmethod(w.Omega.engines.fget)

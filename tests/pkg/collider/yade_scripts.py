@@ -194,12 +194,13 @@ def runExamples(swap, names, scope):
 
 
 def main(scope):
-    """CLASS checks|unit|examples|reference NAME...; a reference is an example searched every step.
+    """CLASS[+CurveLoop] checks|unit|examples|reference NAME...; a reference is an example searched every step.
 
     `scope`: the globals of yade's __main__, where YADE's runners look names up, too."""
     name, kind, *names = sys.argv[1:]
     sys.argv = sys.argv[:1]
-    swap = Swap(colliderClass(name), everyStep=kind == 'reference')
+    name, *loop = name.split('+')
+    swap = Swap(colliderClass(name), everyStep=kind == 'reference', loop=loop[0] if loop else None)
     swap.install(scope)
     if kind == 'checks':
         runChecks(swap, names, scope)

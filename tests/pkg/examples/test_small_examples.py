@@ -101,7 +101,8 @@ def test_crusherKeepsMomentum(folder):
     largest, static = found['largest force']
     assert .7 * static < largest < 3 * static
     pieces, cracks, change = found['pieces']
-    assert pieces > 20 and cracks > 100 and change < 1e-3
+    # 18 pieces: shear counts at the tips of cracks; with opening alone there are some 30.
+    assert pieces > 10 and cracks > 100 and change < 1e-3
 
 
 def test_ringsBreakAsInTheoryOfOneDimension(folder):

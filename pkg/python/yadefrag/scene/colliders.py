@@ -1,4 +1,4 @@
-"""What scripts ask of InsertionSortCollider besides its attributes, for the colliders of this module."""
+"""What scripts ask of InsertionSortCollider and InteractionLoop besides their attributes, for our classes."""
 
 import builtins
 import functools
@@ -47,13 +47,13 @@ def _sortedEnds(ids, ends, span):
 
 
 def _findingOurs(typedEngine, names):
-    """utils.typedEngine('InsertionSortCollider') in a scene with one of these colliders instead."""
+    """utils.typedEngine of YADE's class in a scene with a class of `names` (of YADE's: ours) instead."""
     @functools.wraps(typedEngine)
     def found(name):
         engines = wrapper.Omega().engines
-        if name == 'InsertionSortCollider' and all(type(one).__name__ != name for one in engines):
+        if all(type(one).__name__ != name for one in engines):
             for one in engines:
-                if type(one).__name__ in names:
+                if type(one).__name__ in names.get(name, ()):
                     return one
         return typedEngine(name)
     return found
@@ -64,7 +64,8 @@ def install(names: Collection[str]) -> None:
     for name in names:
         getattr(wrapper, name).dumpBounds = dumpBounds
     former = utils.typedEngine
+    found = _findingOurs(former, {'InsertionSortCollider': names, 'InteractionLoop': ['CurveLoop']})
     # YADE has copied its functions to the names of scripts.
     for holder in utils, builtins, sys.modules['__main__']:
         if getattr(holder, 'typedEngine', None) is former:
-            holder.typedEngine = _findingOurs(former, names)
+            holder.typedEngine = found

@@ -1,0 +1,66 @@
+#pragma once
+// A drop-in for YADE's InteractionLoop.
+
+#include "loop/pair_step.hpp"
+#include "publish/attribute.hpp"
+#include "publish/published.hpp"
+
+namespace yadefrag {
+
+class ContactLoop : public yade::InteractionLoop {
+ public:
+  void action() override;
+
+  long fastGeometries = 0;
+  long fastForces = 0;
+  int threads = 0;
+
+  static constexpr auto attributes() {
+    using C = ContactLoop;
+    using yade::Attr::noSave;
+    using yade::Attr::readonly;
+    return std::tuple(
+        attribute(
+            "fastGeometries", &C::fastGeometries,
+            "Number of contacts in the last step whose geometry the loop computed itself, as "
+            "Ig2_Sphere_Sphere_ScGeom does; that of all others was computed by YADE's functors.",
+            readonly | noSave),
+        attribute("fastForces", &C::fastForces,
+                  "Number of contacts in the last step whose forces the loop computed itself, as "
+                  "Law2_ScGeom_FrictPhys_CundallStrack does; those of all others were computed by "
+                  "YADE's functors.",
+                  readonly | noSave),
+        attribute(
+            "threads", &C::threads,
+            "Number of threads in the last step: at most ompThreads, or all, and one for each "
+            "512 interactions.",
+            readonly | noSave));
+  }
+
+ private:
+  void run(const PairStep& step, std::size_t size);
+  void runInParallel(const PairStep& step, std::size_t size);
+
+  BodyRows rows_;
+  std::vector<std::optional<PairForce>> stored_;  // by contact, for several threads
+  std::vector<long> fastInBlock_;
+};
+
+class CurveLoop final : public Published<CurveLoop, ContactLoop, yade::InteractionLoop> {
+ public:
+  static constexpr const char* kName = "CurveLoop";
+  static constexpr const char* kDoc =
+      "InteractionLoop for many contacts of spheres: CurveLoop([Ig2...], [Ip2...], [Law2...]), "
+      "with "
+      "the same arguments, functors, attributes and results. Contacts of Ig2_Sphere_Sphere_ScGeom "
+      "(scenes that are not periodic) and of Law2_ScGeom_FrictPhys_CundallStrack (while no "
+      "energies "
+      "are traced) are computed by the loop itself with the same formulas and the same bits; all "
+      "others by YADE's functors. Forces are added in the order of O.interactions: if all laws are "
+      "of "
+      "this kind, every bit is the same for any number of threads. Raises RuntimeError if no "
+      "functor "
+      "accepts the materials or the contact, where InteractionLoop ends the process.";
+};
+
+}  // namespace yadefrag

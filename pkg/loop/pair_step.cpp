@@ -1,0 +1,177 @@
+#include "loop/pair_step.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <typeinfo>
+
+namespace yadefrag {
+
+namespace {
+
+// The functor of exactly this class, whose formulas are known; a derived one has others.
+template <class Known, class Functor>
+const Known* exactly(const yade::vector<yade::shared_ptr<Functor>>& functors) {
+  for (const auto& functor : functors) {
+    const Functor& one = *functor;
+    if (typeid(one) == typeid(Known)) return static_cast<const Known*>(&one);
+  }
+  return nullptr;
+}
+
+const yade::IPhysFunctor* named(const yade::vector<yade::shared_ptr<yade::IPhysFunctor>>& functors,
+                                const char* name) {
+  for (const auto& functor : functors)
+    if (functor->getClassName() == name) return functor.get();
+  return nullptr;
+}
+
+std::string bodiesOf(const yade::Interaction& contact) {
+  return "the bodies " + std::to_string(contact.id1) + " and " + std::to_string(contact.id2);
+}
+
+}  // namespace
+
+PairStep::PairStep(yade::InteractionLoop& loop, yade::Scene& scene, const BodyRows& rows)
+    : loop_(loop), scene_(scene), rows_(rows) {
+  if (!scene.isPeriodic) {
+    spheres_ = exactly<yade::Ig2_Sphere_Sphere_ScGeom>(loop.geomDispatcher->functors);
+  }
+  friction_ = named(loop.physDispatcher->functors, "Ip2_FrictMat_FrictMat_FrictPhys");
+  law_ = exactly<yade::Law2_ScGeom_FrictPhys_CundallStrack>(loop.lawDispatcher->functors);
+  if (law_ && (law_->traceEnergy || scene.trackEnergy)) law_ = nullptr;
+  for (const auto& callback : loop.callbacks) {
+    callback->scene = &scene;
+    if (const auto function = callback->stepInit()) {
+      callbacks_.emplace_back(callback.get(), function);
+    }
+  }
+  const long lastRun = scene.interactions->iterColliderLastRun;
+  removesUnseen_ = lastRun >= 0 && lastRun == scene.iter;
+}
+
+// YADE's InteractionLoop::action, for one interaction.
+std::optional<PairForce> PairStep::evaluate(const Contact& contact, long& fastGeometries) const {
+  if (removesUnseen_ && !contact->isReal() && contact->iterLastSeen < scene_.iter) return {};
+  std::size_t row1 = rows_.rowOf(contact->id1), row2 = rows_.rowOf(contact->id2);
+  if (!rows_[row1].body || !rows_[row2].body || isElsewhere(rows_[row1], rows_[row2])) {
+    contact->reset();
+    return {};
+  }
+  // A clump has no sphere of its own.
+  if (!isKnownPair(*contact)) {
+    if (rows_[row1].body->isClump() || rows_[row2].body->isClump()) return {};
+    if (!chooseGeometry(*contact, *rows_[row1].body, *rows_[row2].body)) return {};
+    row1 = rows_.rowOf(contact->id1), row2 = rows_.rowOf(contact->id2);
+  }
+  const BodyRow &one = rows_[row1], &two = rows_[row2];
+  const bool wasReal = contact->isReal();
+  if (!updateGeometryOf(contact, one, two, fastGeometries)) {
+    if (wasReal) contact->reset();
+    return {};
+  }
+  updateProperties(contact, *one.body, *two.body, wasReal);
+  const auto force = applyLaw(contact, one, two);
+  if (contact->isReal()) {
+    for (const auto& [callback, function] : callbacks_) function(callback, contact.get());
+  }
+  if (!force) return {};
+  return PairForce{row1, row2, *force};
+}
+
+bool PairStep::isElsewhere([[maybe_unused]] const BodyRow& one,
+                           [[maybe_unused]] const BodyRow& two) const {
+#ifdef YADE_MPI
+  return one.subdomain != scene_.subdomain && two.subdomain != scene_.subdomain;
+#else
+  return false;
+#endif
+}
+
+// False: no functor accepts the two shapes. The order of the bodies may be swapped.
+bool PairStep::chooseGeometry(yade::Interaction& contact, const yade::Body& body1,
+                              const yade::Body& body2) const {
+  if (!contact.functorCache.geomExists || !body1.shape || !body2.shape) return false;
+  if (contact.functorCache.geom) return true;
+  bool isSwapped = false;
+  auto shape1 = body1.shape, shape2 = body2.shape;
+  contact.functorCache.geom = loop_.geomDispatcher->getFunctor2D(shape1, shape2, isSwapped);
+  contact.functorCache.geomExists = contact.functorCache.geom != nullptr;
+  if (isSwapped) contact.swapOrder();
+  return contact.functorCache.geomExists;
+}
+
+// False: they do not touch.
+bool PairStep::updateGeometryOf(const Contact& contact, const BodyRow& one, const BodyRow& two,
+                                long& fastGeometries) const {
+  if (isKnownPair(*contact)) {
+    if (!contact->isReal()) {
+      const double reach =
+          spheres_->interactionDetectionFactor * (one.motion.radius + two.motion.radius);
+      const yade::Vector3r between = two.motion.position - one.motion.position;
+      if (reach * reach - between.squaredNorm() < 0) return false;
+    }
+    if (contact->geom) {
+      ++fastGeometries;
+      updateGeometry(static_cast<yade::ScGeom&>(*contact->geom), one.motion, two.motion, scene_.dt,
+                     spheres_->avoidGranularRatcheting);
+      return true;
+    }
+  }
+  yade::Vector3r shift = yade::Vector3r::Zero();
+  if (scene_.isPeriodic) shift = scene_.cell->hSize * contact->cellDist.cast<double>();
+  return contact->functorCache.geom->go(one.body->shape, two.body->shape, *one.body->state,
+                                        *two.body->state, shift, false, contact);
+}
+
+void PairStep::updateProperties(const Contact& contact, const yade::Body& body1,
+                                const yade::Body& body2, bool wasReal) const {
+  auto& functor = contact->functorCache.phys;
+  if (!functor) {
+    bool isSwapped = false;
+    auto material1 = body1.material, material2 = body2.material;
+    functor = loop_.physDispatcher->getFunctor2D(material1, material2, isSwapped);
+    if (!functor) {
+      throw std::runtime_error("CurveLoop has no Ip2 functor for the materials " +
+                               material1->getClassName() + " and " + material2->getClassName() +
+                               " of " + bodiesOf(*contact) + ".");
+    }
+  }
+  // YADE's functor for friction does nothing for a contact that has its properties.
+  if (functor.get() != friction_ || !contact->phys) {
+    functor->go(body1.material, body2.material, contact);
+  }
+  if (!wasReal) contact->iterMadeReal = scene_.iter;
+}
+
+void PairStep::chooseLaw(yade::Interaction& contact) const {
+  bool isSwapped = false;
+  contact.functorCache.constLaw =
+      loop_.lawDispatcher->getFunctor2D(contact.geom, contact.phys, isSwapped);
+  if (!contact.functorCache.constLaw) {
+    throw std::runtime_error("CurveLoop has no Law2 functor for the contact of " +
+                             bodiesOf(contact) + ", with " + contact.geom->getClassName() +
+                             " and " + contact.phys->getClassName() + ".");
+  }
+}
+
+// A contact that has ended is reset.
+std::optional<ContactForce> PairStep::applyLaw(const Contact& contact, const BodyRow& one,
+                                               const BodyRow& two) const {
+  if (!contact->functorCache.constLaw) chooseLaw(*contact);
+  auto& law = *contact->functorCache.constLaw;
+  if (!law_ || &law != law_) {
+    if (!law.go(contact->geom, contact->phys, contact.get())) contact->reset();
+    return {};
+  }
+  auto& geom = static_cast<yade::ScGeom&>(*contact->geom);
+  auto& phys = static_cast<yade::FrictPhys&>(*contact->phys);
+  if (!updateForces(geom, phys, law_->neverErase)) {
+    contact->reset();
+    return {};
+  }
+  yade::Vector3r place2 = two.motion.position;
+  if (scene_.isPeriodic) place2 += scene_.cell->hSize * contact->cellDist.cast<double>();
+  return contactForce(geom, phys, law_->sphericalBodies, one.motion.position, place2);
+}
+
+}  // namespace yadefrag

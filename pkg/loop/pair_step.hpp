@@ -1,0 +1,54 @@
+#pragma once
+// One contact in one step: geometry, physical properties, force.
+
+#include <optional>
+#include <utility>
+
+#include "loop/body_rows.hpp"
+
+namespace yadefrag {
+
+/// Force of a contact that the loop computed, and the rows of its bodies.
+struct PairForce {
+  std::size_t row1;
+  std::size_t row2;
+  ContactForce contact;
+};
+
+/// What is the same for all contacts of a step; used by all threads at once.
+class PairStep {
+ public:
+  PairStep(yade::InteractionLoop& loop, yade::Scene& scene, const BodyRows& rows);
+
+  using Contact = yade::shared_ptr<yade::Interaction>;
+  /// Evaluates one contact. Returns its force, or nothing if it has none or YADE's law has added it
+  /// to the scene's forces. Counts geometries that YADE's functors did not compute.
+  std::optional<PairForce> evaluate(const Contact& contact, long& fastGeometries) const;
+
+ private:
+  [[nodiscard]] bool isKnownPair(const yade::Interaction& contact) const {
+    return spheres_ && contact.functorCache.geom.get() == spheres_;
+  }
+  [[nodiscard]] bool isElsewhere(const BodyRow& one, const BodyRow& two) const;
+  bool chooseGeometry(yade::Interaction& contact, const yade::Body& body1,
+                      const yade::Body& body2) const;
+  bool updateGeometryOf(const Contact& contact, const BodyRow& one, const BodyRow& two,
+                        long& fastGeometries) const;
+  void updateProperties(const Contact& contact, const yade::Body& body1, const yade::Body& body2,
+                        bool wasReal) const;
+  void chooseLaw(yade::Interaction& contact) const;
+  std::optional<ContactForce> applyLaw(const Contact& contact, const BodyRow& one,
+                                       const BodyRow& two) const;
+
+  yade::InteractionLoop& loop_;
+  yade::Scene& scene_;
+  const BodyRows& rows_;
+  // The functors whose work is done here; null if there is none.
+  const yade::Ig2_Sphere_Sphere_ScGeom* spheres_ = nullptr;
+  const yade::IPhysFunctor* friction_ = nullptr;
+  const yade::Law2_ScGeom_FrictPhys_CundallStrack* law_ = nullptr;
+  std::vector<std::pair<yade::IntrCallback*, yade::IntrCallback::FuncPtr>> callbacks_;
+  bool removesUnseen_;
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,308 @@
+"""CurveLoop in the place of YADE's InteractionLoop: the same bits, whatever functors the scene has."""
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+import yade.wrapper as w
+from yade import utils
+from yade.minieigenHP import Matrix3, Vector3
+
+import scenes
+from project import yadeCommand
+from scenes import O
+
+kHere = os.path.dirname(os.path.abspath(__file__))
+
+kFunctors = dict(
+    friction=lambda: ([w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
+                       w.Ig2_Wall_Sphere_ScGeom()],
+                      [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
+    arms=lambda: ([w.Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False), w.Ig2_Facet_Sphere_ScGeom(),
+                   w.Ig2_Box_Sphere_ScGeom(), w.Ig2_Wall_Sphere_ScGeom()],
+                  [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                  [w.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+    distant=lambda: ([w.Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=1.2), w.Ig2_Facet_Sphere_ScGeom(),
+                      w.Ig2_Box_Sphere_ScGeom(), w.Ig2_Wall_Sphere_ScGeom()],
+                     [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                     [w.Law2_ScGeom_FrictPhys_CundallStrack(neverErase=True)]),
+    traced=lambda: ([w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
+                     w.Ig2_Wall_Sphere_ScGeom()],
+                    [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                    [w.Law2_ScGeom_FrictPhys_CundallStrack(traceEnergy=True)]),
+    rotations=lambda: ([w.Ig2_Sphere_Sphere_ScGeom6D(), w.Ig2_Facet_Sphere_ScGeom6D(), w.Ig2_Box_Sphere_ScGeom6D()],
+                       [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]))
+kCohesive = ([w.Ig2_Sphere_Sphere_ScGeom6D, w.Ig2_Facet_Sphere_ScGeom6D, w.Ig2_Box_Sphere_ScGeom6D],
+             [w.Ip2_CohFrictMat_CohFrictMat_CohFrictPhys], [w.Law2_ScGeom6D_CohFrictPhys_CohesionMoment])
+kViscous = ([w.Ig2_Sphere_Sphere_ScGeom, w.Ig2_Facet_Sphere_ScGeom, w.Ig2_Box_Sphere_ScGeom],
+            [w.Ip2_ViscElMat_ViscElMat_ViscElPhys], [w.Law2_ScGeom_ViscElPhys_Basic])
+
+
+def loopOf(name, functors):
+    return getattr(w, name)(*functors)
+
+
+def heap(material=None, periodic=False):
+    """Spheres of three sizes, a clump among them, that fall on a facet floor, a box and a wall."""
+    scenes.clear()
+    chance = np.random.default_rng(3)
+    O.materials.append(material or w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
+    if periodic:
+        O.periodic = True
+        O.cell.setBox(9, 9, 9)
+    for place in np.ndindex(6, 6, 4):
+        at = np.array(place) * 1.45 + chance.uniform(-.2, .2, 3) + (1, 1, 1.6)
+        ball = utils.sphere(Vector3(*at), chance.choice([.5, .7, .75]))
+        ball.state.vel = Vector3(*chance.normal(0, 3, 3))
+        ball.state.angVel = Vector3(*chance.normal(0, 5, 3))
+        O.bodies.append(ball)
+    O.bodies.appendClumped([utils.sphere((4, 4, 9), .6), utils.sphere((4.8, 4, 9), .6)])
+    if not periodic:
+        O.bodies.append([utils.facet([(-30, -30, 0), (30, -30, 0), (0, 40, 0)]),
+                         utils.box((0, 4, 1), (.8, 6, 1), fixed=True), utils.wall(9.5, axis=1)])
+    O.dt = 2e-4
+
+
+def state():
+    """All numbers of bodies and real contacts, as bytes."""
+    numbers = [[*b.state.pos, *b.state.vel, *b.state.angVel, *b.state.ori] for b in O.bodies if b]
+    contacts = [[i.id1, i.id2, i.iterMadeReal, *i.geom.normal, *i.geom.contactPoint, i.geom.penetrationDepth,
+                 i.geom.refR1, i.geom.refR2, *i.geom.shearInc, i.phys.kn, i.phys.ks, *i.phys.normalForce,
+                 *i.phys.shearForce] for i in O.interactions]
+    forces = [[*O.forces.f(b.id), *O.forces.t(b.id)] for b in O.bodies if b]
+    return [np.array(rows, float).tobytes() for rows in (numbers, contacts, forces)]
+
+
+def run(name, functors, steps, build=heap, collider='LebesgueCollider', newton=None, **settings):
+    build(**settings)
+    loop = loopOf(name, functors)
+    O.engines = [w.ForceResetter(), scenes.makeCollider(collider), loop,
+                 newton or w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
+    O.run(steps, True)
+    return loop, state()
+
+
+def requireSame(make, steps=700, **settings):
+    """The loop's own counts of the last step, after comparing all bits."""
+    _, expected = run('InteractionLoop', make(), steps, **settings)
+    loop, found = run('CurveLoop', make(), steps, **settings)
+    assert O.interactions.countReal() > 40
+    assert found == expected
+    return loop
+
+
+@pytest.mark.parametrize('kind', kFunctors)
+@pytest.mark.parametrize('collider', ['LebesgueCollider', 'InsertionSortCollider'])
+def test_bits(kind, collider):
+    loop = requireSame(kFunctors[kind], collider=collider)
+    real = O.interactions.countReal()
+    # Contacts with the floor, the box and the wall have geometries of YADE's functors.
+    spheres = sum(all(isinstance(O.bodies[n].shape, w.Sphere) for n in (i.id1, i.id2)) for i in O.interactions)
+    assert spheres < real
+    assert loop.fastForces == (0 if kind == 'traced' else real)
+    assert (loop.fastGeometries == 0) if kind == 'rotations' else 0 <= spheres - loop.fastGeometries < 5
+
+
+def test_otherLaws():
+    cohesive = requireSame(
+        lambda: [[make() for make in makers] for makers in kCohesive],
+        material=w.CohFrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4, isCohesive=True,
+                               normalCohesion=1e5, shearCohesion=1e5, momentRotationLaw=True))
+    assert cohesive.fastForces == 0
+    viscous = requireSame(
+        lambda: [[make() for make in makers] for makers in kViscous],
+        material=w.ViscElMat(kn=1e7, ks=5e6, cn=100, cs=50, density=2000, frictionAngle=.4))
+    assert viscous.fastForces == 0 and viscous.fastGeometries > 20
+
+
+@pytest.mark.parametrize('homoDeform', [0, 2])
+def test_periodicCell(homoDeform):
+    def sheared(**settings):
+        heap(periodic=True)
+        O.cell.homoDeform = homoDeform
+        O.cell.velGrad = Matrix3(-.3, .2, 0, 0, -.2, 0, 0, 0, -.3)
+    loop = requireSame(kFunctors['friction'], build=sheared)
+    assert loop.fastForces == O.interactions.countReal() and loop.fastGeometries == 0
+
+
+def test_energies():
+    def tracked():
+        heap()
+        O.trackEnergy = True
+    found = []
+    for name in ('InteractionLoop', 'CurveLoop'):
+        run(name, kFunctors['friction'](), 300, build=tracked)
+        found.append(dict(O.energy.items()))
+        O.trackEnergy = False
+    assert found[0] == found[1] and found[0]['plastDissip'] > 0 and found[0]['elastPotential'] > 0
+    losses = []
+    for name in ('InteractionLoop', 'CurveLoop'):
+        loop, _ = run(name, kFunctors['traced'](), 300)
+        losses.append(loop.lawDispatcher.functors[0].plasticDissipation())
+    assert losses[0] == losses[1] > 0
+
+
+def test_threads():
+    """yade -j1, -j2, -j3: the same bits, where YADE's loop depends on the number."""
+    found = []
+    for number in (1, 2, 3):
+        done = subprocess.run([*yadeCommand(), f'-j{number}', os.path.join(kHere, 'loop_threads.py')],
+                              capture_output=True, text=True, timeout=300)
+        lines = [x[4:] for x in done.stdout.splitlines() if x.startswith('@@@ ')]
+        assert done.returncode == 0 and len(lines) == 1, done.stdout[-1500:] + done.stderr[-1500:]
+        found.append(json.loads(lines[0]))
+    assert [f['threads'] for f in found] == [1, 2, 3]
+    assert min(found[0]['contacts']) > 1600
+    for one in found[1:]:
+        assert one['states'] == found[0]['states']
+
+
+def fresh(former):
+    """Another state at the same place, at rest."""
+    state = w.State(mass=1000, inertia=(200, 200, 200))
+    state.pos = former.pos
+    return state
+
+
+def test_changesFromPython():
+    """Bodies erased, inserted, moved and resized, contacts made, changed and reset between steps."""
+    def changed(step):
+        if step == 100:
+            for number in (3, 17, 60):
+                O.bodies.erase(number)
+        elif step == 150:
+            O.bodies.append(utils.sphere((3, 3, 8), .7))
+            O.bodies[20].state.vel = (0, 0, -9)
+        elif step == 200:
+            for contact in O.interactions:
+                contact.phys.kn *= 1.5
+                contact.phys.tangensOfFrictionAngle = .1
+            O.bodies[30].shape.radius *= .9
+        elif step == 250:
+            list(O.interactions)[5].geom, list(O.interactions)[7].phys = None, None
+        elif step == 300:
+            far = [b.id for b in O.bodies if isinstance(b.shape, w.Sphere)][:2]
+            if not O.interactions.has(*far) or not O.interactions[far[0], far[1]].isReal:
+                utils.createInteraction(*far)
+        elif step == 320:
+            O.interactions.clear()
+        elif step == 350:
+            O.bodies[40].shape = w.Sphere(radius=.4)
+            O.bodies[41].state = fresh(O.bodies[41].state)
+
+    found = []
+    for name in ('InteractionLoop', 'CurveLoop'):
+        run(name, kFunctors['friction'](), 50)
+        states = []
+        for step in range(50, 450, 10):
+            changed(step)
+            O.run(10, True)
+            states.append(state())
+        found.append(states)
+    assert found[0] == found[1]
+
+
+def test_savedAndLoaded(folder):
+    """Saved in the middle: goes on with the same bits, in both formats, with its functors."""
+    _, expected = run('CurveLoop', kFunctors['arms'](), 600)
+    for ending in ('xml', 'yade.gz'):
+        run('CurveLoop', kFunctors['arms'](), 300)
+        path = os.path.join(folder, 'scene.' + ending)
+        O.save(path)
+        O.reset()
+        O.load(path)
+        assert type(O.engines[2]) is w.CurveLoop
+        law, = O.engines[2].lawDispatcher.functors
+        assert not law.sphericalBodies
+        O.run(300, True)
+        if ending != 'xml':     # text has fewer digits
+            assert len(state()[0]) == len(expected[0])
+        numbers, reference = (np.frombuffer(s[0]) for s in (state(), expected))
+        # YADE saves no shear increments, and numbers in XML with 17 digits.
+        assert np.abs(numbers - reference).max() < 1e-6
+
+
+def test_callbacks():
+    """Each real contact, once in each step: YADE's sum of forces on contacts."""
+    sums = []
+    for name in ('InteractionLoop', 'CurveLoop'):
+        heap()
+        loop = loopOf(name, kFunctors['friction']())
+        counter = w.SumIntrForcesCb()
+        loop.callbacks = [counter]
+        O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), loop, w.NewtonIntegrator(damping=.1)]
+        O.run(200, True)
+        sums.append(state())
+    assert sums[0] == sums[1]
+
+
+def test_sortedList():
+    loop, found = run('CurveLoop', kFunctors['friction'](), 10)
+    loop.loopOnSortedInteractions = True
+    O.run(200, True)
+    assert loop.fastForces == 0
+    reference, _ = run('InteractionLoop', kFunctors['friction'](), 10)
+    reference.loopOnSortedInteractions = True
+    O.run(200, True)
+    assert found and O.interactions.countReal() > 10
+
+
+def test_isALoop():
+    """YADE's functions find it; wrong arguments are refused as by YADE."""
+    loop, _ = run('CurveLoop', kFunctors['friction'](), 1)
+    assert isinstance(loop, w.InteractionLoop) and utils.typedEngine('InteractionLoop') is not None
+    assert utils.typedEngine('InteractionLoop') == loop
+    with pytest.raises(Exception, match='Exactly 3 lists of functors'):
+        w.CurveLoop([])
+    with pytest.raises(AttributeError):
+        w.CurveLoop(pairs=3)
+
+
+def step(*functors):
+    """The message of a step of two spheres that touch."""
+    scenes.clear()
+    O.materials.append(w.FrictMat())
+    O.bodies.append([utils.sphere((0, 0, 0), 1), utils.sphere((1.9, 0, 0), 1)])
+    O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), w.CurveLoop(*functors)]
+    with pytest.raises(RuntimeError) as error:
+        O.step()
+    return str(error.value)
+
+
+def test_missingFunctorsAreReported():
+    """YADE's loop ends the process if there is no law."""
+    geometry, properties = [w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()]
+    assert step(geometry, [], []) == \
+        'CurveLoop has no Ip2 functor for the materials FrictMat and FrictMat of the bodies 0 and 1.'
+    assert step(geometry, properties, []) == \
+        'CurveLoop has no Law2 functor for the contact of the bodies 0 and 1, with ScGeom and FrictPhys.'
+    scenes.clear()
+    O.bodies.append([utils.sphere((0, 0, 0), 1), utils.sphere((1.9, 0, 0), 1)])
+    O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), w.CurveLoop([], properties, [])]
+    O.run(3, True)  # no geometry, no contact: as in YADE
+    assert O.interactions.countReal() == 0
+
+
+def test_forcesOfOtherEngines():
+    """Forces that an engine has added before the loop are kept."""
+    heap()
+    O.engines = [w.ForceResetter(), w.ForceEngine(ids=[0, 1, 2], force=(5, 0, 0)),
+                 scenes.makeCollider('LebesgueCollider'), loopOf('CurveLoop', kFunctors['friction']()),
+                 w.NewtonIntegrator(damping=.1)]
+    before = [O.bodies[n].state.vel[0] for n in range(3)]
+    O.run(1, True)
+    for n in range(3):
+        if not any(n in (i.id1, i.id2) for i in O.interactions):
+            body = O.bodies[n]
+            assert O.forces.f(n)[0] == 5 and body.state.vel[0] != before[n]
+    O.run(100, True)
+    touched = 0
+    for n in range(3):
+        own = [i for i in O.interactions if n in (i.id1, i.id2)]
+        rest = O.forces.f(n) - Vector3(5, 0, 0)
+        for contact in own:
+            rest -= (contact.phys.normalForce + contact.phys.shearForce) * (1 if contact.id2 == n else -1)
+        assert rest.norm() <= 1e-12 * O.forces.f(n).norm()
+        touched += len(own)
+    assert touched > 0
