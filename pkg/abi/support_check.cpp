@@ -212,6 +212,35 @@ void checkCollider() {
   collider.check("boundDispatcher", collider->boundDispatcher, bounds.pointer());
 }
 
+void checkLoop() {
+  const Scratch<yade::FrictPhys> phys("FrictPhys");
+  phys.check("tangensOfFrictionAngle", phys->tangensOfFrictionAngle, .25);
+  const yade::IPhys& base = *phys;
+  phys.refuse("classIndex", base.getClassIndex() < 0 || base.getBaseClassIndex(1) < 0);
+  const Scratch<yade::Ig2_Sphere_Sphere_ScGeom> geom("Ig2_Sphere_Sphere_ScGeom");
+  geom.check("interactionDetectionFactor", geom->interactionDetectionFactor, 1.5);
+  geom.check("avoidGranularRatcheting", geom->avoidGranularRatcheting, false);
+  const Scratch<yade::Law2_ScGeom_FrictPhys_CundallStrack> law(
+      "Law2_ScGeom_FrictPhys_CundallStrack");
+  law.check("neverErase", law->neverErase, true);
+  law.check("sphericalBodies", law->sphericalBodies, false);
+  law.check("traceEnergy", law->traceEnergy, true);
+
+  const Scratch<yade::InteractionLoop> loop("InteractionLoop");
+  loop.check("loopOnSortedInteractions", loop->loopOnSortedInteractions, true);
+  loop.refuse("callbacks", !loop->callbacks.empty());
+  py::list functors;
+  functors.append(law.object());
+  py::setattr(loop.object().attr("lawDispatcher"), "functors", functors);
+  auto& laws = *loop->lawDispatcher;
+  loop.refuse("lawDispatcher", laws.functors.size() != 1 || laws.functors[0] != law.pointer());
+  yade::shared_ptr<yade::IGeom> contact = Scratch<yade::ScGeom>("ScGeom").pointer();
+  yade::shared_ptr<yade::IPhys> friction = phys.pointer();
+  bool isSwapped = true;
+  loop.refuse("getFunctor2D",
+              laws.getFunctor2D(contact, friction, isSwapped) != law.pointer() || isSwapped);
+}
+
 void checkScene(const Scratch<yade::Scene>& scene) {
   scene.check("dt", scene->dt, .5);
   scene.check("iter", scene->iter, 7);
@@ -317,6 +346,7 @@ void checkAll() {
   checkCell();
   checkEngines();
   checkCollider();
+  checkLoop();
   const Scratch<yade::Scene> scene("Scene");
   checkScene(scene);
   checkContainers(scene);

@@ -44,14 +44,18 @@ BodyRow readBody(const yade::Body* body) {
 
 }  // namespace
 
-void BodyRows::fill(const yade::Scene& scene, int threads) {
+void BodyRows::fill(yade::Scene& scene, int threads) {
+  // YADE's functions make the arrays of the calling thread, 0, long enough.
+  const auto last = static_cast<yade::Body::id_t>(scene.bodies->body.size()) - 1;
+  scene.forces.addForce(last, yade::Vector3r::Zero());
+  scene.forces.addTorque(last, yade::Vector3r::Zero());
   if (++age_ > kLongestAge || scene.bodies->body.size() < rowOf_.size()) {
     age_ = 0;
     rowOf_.clear(), ids_.clear();
   }
   rowOf_.resize(scene.bodies->body.size(), -1);
   rows_.resize(ids_.size());
-  sums_.assign(ids_.size(), Sum());
+  starts_.resize(ids_.size());
   forEachPart(ids_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t row = begin; row < end; ++row) {
       if (row + 2 * kAhead < end) request(bodyAt(scene, ids_[row + 2 * kAhead]), 0, 128);
@@ -62,8 +66,10 @@ void BodyRows::fill(const yade::Scene& scene, int threads) {
         }
       }
       rows_[row] = readBody(bodyAt(scene, ids_[row]));
+      starts_[row] = given(scene.forces, ids_[row]);
     }
   });
+  sums_ = starts_;
 }
 
 void BodyRows::append(const yade::Scene& scene, std::size_t begin, std::size_t end) {
@@ -84,21 +90,25 @@ void BodyRows::appendOne(const yade::Scene& scene, yade::Body::id_t id) {
   rowOf_[index] = static_cast<int>(ids_.size());
   ids_.push_back(id);
   rows_.push_back(readBody(bodyAt(scene, id)));
-  sums_.emplace_back();
+  starts_.push_back(given(scene.forces, id));
+  sums_.push_back(starts_.back());
+}
+
+BodyRows::Sum BodyRows::given(const yade::ForceContainer& forces, yade::Body::id_t id) {
+  const auto index = static_cast<std::size_t>(id);
+  return {(forces.*exposed(ForceData{}))[0][index], (forces.*exposed(TorqueData{}))[0][index]};
 }
 
 void BodyRows::giveForces(yade::Scene& scene) const {
-  const auto last = static_cast<yade::Body::id_t>(scene.bodies->body.size()) - 1;
-  // YADE's functions make the arrays of the calling thread, 0, long enough.
-  scene.forces.addForce(last, yade::Vector3r::Zero());
-  scene.forces.addTorque(last, yade::Vector3r::Zero());
   auto& forces = (scene.forces.*exposed(ForceData{}))[0];
   auto& torques = (scene.forces.*exposed(TorqueData{}))[0];
   for (std::size_t row = 0; row < ids_.size(); ++row) {
-    if (rows_[row].body == nullptr) continue;
     const auto index = static_cast<std::size_t>(ids_[row]);
-    forces[index] += sums_[row].force;
-    torques[index] += sums_[row].torque;
+    // The difference is 0 unless a functor of YADE has added to this body.
+    const auto put = [](yade::Vector3r& total, const yade::Vector3r& sum,
+                        const yade::Vector3r& start) { total = sum + (total - start); };
+    put(forces[index], sums_[row].force, starts_[row].force);
+    put(torques[index], sums_[row].torque, starts_[row].torque);
   }
 }
 

@@ -1,15 +1,14 @@
 #pragma once
 // Motion and forces of the bodies in contact, in rows one behind the other.
 //
-// YADE's bodies, states and shapes are spread over memory, and each contact needs two of them: with
-// 470,000 contacts of 10^5 spheres in random order, reading them in place takes three times as long
-// as the whole loop with rows. Rows are in the order in which the contacts, which a collider
-// creates along the curve, first name their bodies. They are filled at the begin of each step; the
-// sums of forces are added to YADE's at its end. So the sum of a body has the same bits wherever
-// its row is.
+// YADE's bodies, states and shapes are spread over memory, and each contact needs two of them: for
+// packed spheres in random order most of the loop's time is spent on reading them in place. Rows
+// are in the order in which the contacts, which a collider creates along the curve, first name
+// their bodies. They are filled at the begin of each step. Sums of forces start from those that
+// other engines have added before, and are given back at its end: they have the bits of sums to
+// which each contact is added in place.
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "loop/sphere_contact_kernels.hpp"
@@ -26,7 +25,7 @@ struct BodyRow {
 class BodyRows {
  public:
   /// Reads the bodies of all rows.
-  void fill(const yade::Scene& scene, int threads);
+  void fill(yade::Scene& scene, int threads);
   /// Appends rows for bodies of contacts [begin, end) that have none.
   void append(const yade::Scene& scene, std::size_t begin, std::size_t end);
   /// Row of a body of a contact for which `append` was called.
@@ -48,22 +47,26 @@ class BodyRows {
     sums_[row].force += -contact.force;
     sums_[row].torque += contact.torque2;
   }
-  /// Adds the sums to those of YADE, in the array of the calling thread, 0.
+  /// Puts the sums into YADE's, in the array of the calling thread, 0. What YADE's functors have
+  /// added there since `fill` is kept.
   void giveForces(yade::Scene& scene) const;
 
  private:
   struct Sum {
-    yade::Vector3r force = yade::Vector3r::Zero();
-    yade::Vector3r torque = yade::Vector3r::Zero();
+    yade::Vector3r force;
+    yade::Vector3r torque;
   };
 
   void appendOne(const yade::Scene& scene, yade::Body::id_t id);
+  /// What YADE's arrays have at present.
+  [[nodiscard]] static Sum given(const yade::ForceContainer& forces, yade::Body::id_t id);
 
   std::vector<int> rowOf_;  // by body id, -1: none
   std::vector<yade::Body::id_t> ids_;
   std::vector<BodyRow> rows_;
   std::vector<Sum> sums_;
-  int age_ = 0;  // steps since all rows were made
+  std::vector<Sum> starts_;  // before the first contact
+  int age_ = 0;              // steps since all rows were made
 };
 
 }  // namespace yadefrag

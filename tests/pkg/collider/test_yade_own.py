@@ -125,6 +125,18 @@ def testCheckScript(collider, script):
         assert result['found'] > 0
 
 
+@pytest.mark.parametrize('script', kQuickChecks)
+def testCheckScriptWithCurveLoop(script):
+    """The same with CurveLoop in the place of InteractionLoop, too."""
+    if why := reasonToSkip(script):
+        pytest.skip(why)
+    names = [x for x in kQuickChecks if not reasonToSkip(x)]
+    result = outcome('LebesgueCollider+CurveLoop', 'checks', names)[script]
+    assert result['error'] is None, result['error']
+    if script not in {*kNoCollider, *kNoRun, *kFoundChecks}:
+        assert result['loops'] == result['runs'] > 0
+
+
 def recorded(maker, folder):
     """{array: values} of the contacts of the scene of YADE's checkVTKRecorder.py."""
     os.mkdir(folder)

@@ -285,24 +285,37 @@ def test_missingFunctorsAreReported():
 
 
 def test_forcesOfOtherEngines():
-    """Forces that an engine has added before the loop are kept."""
-    heap()
-    O.engines = [w.ForceResetter(), w.ForceEngine(ids=[0, 1, 2], force=(5, 0, 0)),
-                 scenes.makeCollider('LebesgueCollider'), loopOf('CurveLoop', kFunctors['friction']()),
-                 w.NewtonIntegrator(damping=.1)]
-    before = [O.bodies[n].state.vel[0] for n in range(3)]
-    O.run(1, True)
-    for n in range(3):
-        if not any(n in (i.id1, i.id2) for i in O.interactions):
-            body = O.bodies[n]
-            assert O.forces.f(n)[0] == 5 and body.state.vel[0] != before[n]
-    O.run(100, True)
-    touched = 0
-    for n in range(3):
-        own = [i for i in O.interactions if n in (i.id1, i.id2)]
-        rest = O.forces.f(n) - Vector3(5, 0, 0)
-        for contact in own:
-            rest -= (contact.phys.normalForce + contact.phys.shearForce) * (1 if contact.id2 == n else -1)
-        assert rest.norm() <= 1e-12 * O.forces.f(n).norm()
-        touched += len(own)
-    assert touched > 0
+    """Forces that engines have added before the loop, and those of a script: the same bits."""
+    found = []
+    for name in ('InteractionLoop', 'CurveLoop'):
+        heap()
+        O.engines = [w.ForceResetter(), w.ForceEngine(ids=[0, 1, 2, 60, 61, 62], force=(5, .1, 1 / 3)),
+                     w.TorqueEngine(ids=[0, 60], moment=(.1, .7, 0)), scenes.makeCollider('LebesgueCollider'),
+                     loopOf(name, kFunctors['friction']()), w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
+        O.forces.setPermF(5, (0, 0, 100))
+        O.run(500, True)
+        found.append(state())
+    assert found[0] == found[1]
+    assert any(n in (i.id1, i.id2) for i in O.interactions for n in (0, 1, 2, 60, 61, 62))
+
+
+def test_twoLaws():
+    """Contacts of one body by the loop and by YADE's law for another material: to rounding."""
+    found = []
+    for name in ('InteractionLoop', 'CurveLoop'):
+        heap()
+        O.materials.append(w.ViscElMat(kn=1e6, ks=5e5, cn=100, cs=50, density=2000, frictionAngle=.4))
+        for number in range(0, 144, 3):
+            O.bodies[number].material = O.materials[-1]
+        loop = loopOf(name, [[w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom()],
+                             [w.Ip2_FrictMat_FrictMat_FrictPhys(), w.Ip2_ViscElMat_ViscElMat_ViscElPhys()],
+                             [w.Law2_ScGeom_FrictPhys_CundallStrack(), w.Law2_ScGeom_ViscElPhys_Basic()]])
+        O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), loop,
+                     w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
+        O.run(200, True)
+        found.append(np.array([[*b.state.pos, *O.forces.f(b.id)] for b in O.bodies if b]))
+    kinds = {type(i.phys).__name__ for i in O.interactions}
+    assert {'FrictPhys', 'ViscElPhys'} <= kinds
+    assert 0 < loop.fastForces < O.interactions.countReal()
+    # m, N: some contacts amplify the rounding of 10^4 N.
+    assert np.abs(found[0] - found[1])[:, :3].max() < 1e-9 and np.abs(found[0] - found[1])[:, 3:].max() < 1e-3
