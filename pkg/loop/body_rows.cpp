@@ -10,6 +10,8 @@ namespace {
 
 // Steps after which all rows are made anew: bodies have moved along the curve, and contacts ended.
 constexpr int kLongestAge = 128;
+// Contacts per body from which rows save more than they cost.
+constexpr std::size_t kContactsPerBody = 1;
 // Bodies between the request of data from memory and their use: enough for the latency of one
 // access.
 constexpr std::size_t kAhead = 16;
@@ -26,36 +28,49 @@ const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
   return index < bodies.size() ? bodies[index].get() : nullptr;
 }
 
-BodyRow readBody(const yade::Body* body) {
+// The arrays of thread 0, which runs the engines.
+auto& forcesOf(yade::Scene& scene) { return (scene.forces.*exposed(ForceData{}))[0]; }
+auto& torquesOf(yade::Scene& scene) { return (scene.forces.*exposed(TorqueData{}))[0]; }
+
+}  // namespace
+
+BodyRow BodyRows::read(const yade::Scene& scene, yade::Body::id_t id) {
   BodyRow row;
-  row.body = body;
-  if (body == nullptr) return row;
+  row.body = bodyAt(scene, id);
+  if (row.body == nullptr) return row;
 #ifdef YADE_MPI
-  row.subdomain = body->subdomain;
+  row.subdomain = row.body->subdomain;
 #endif
-  const yade::State& state = *body->state;
+  const yade::State& state = *row.body->state;
   row.motion.position = state.se3.position;
   row.motion.velocity = state.vel;
   row.motion.spin = state.angVel;
   // Used for contacts of YADE's functor for two spheres only: of any other shape it has no meaning.
-  if (body->shape) row.motion.radius = static_cast<const yade::Sphere&>(*body->shape).radius;
+  const auto& shape = row.body->shape;
+  if (shape) row.motion.radius = static_cast<const yade::Sphere&>(*shape).radius;
   return row;
 }
 
-}  // namespace
-
-void BodyRows::fill(yade::Scene& scene, int threads) {
-  // YADE's functions make the arrays of the calling thread, 0, long enough.
+void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, int threads) {
+  // YADE's functions make the arrays long enough.
   const auto last = static_cast<yade::Body::id_t>(scene.bodies->body.size()) - 1;
   scene.forces.addForce(last, yade::Vector3r::Zero());
   scene.forces.addTorque(last, yade::Vector3r::Zero());
+  isInPlace_ = numContacts < kContactsPerBody * scene.bodies->body.size();
+  if (!isInPlace_) return fill(scene, threads);
+  forces_ = forcesOf(scene).data();
+  torques_ = torquesOf(scene).data();
+  numSums_ = scene.bodies->body.size();
+}
+
+void BodyRows::fill(yade::Scene& scene, int threads) {
   if (++age_ > kLongestAge || scene.bodies->body.size() < rowOf_.size()) {
     age_ = 0;
     rowOf_.clear(), ids_.clear();
   }
   rowOf_.resize(scene.bodies->body.size(), -1);
   rows_.resize(ids_.size());
-  starts_.resize(ids_.size());
+  startForces_.resize(ids_.size()), startTorques_.resize(ids_.size());
   forEachPart(ids_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t row = begin; row < end; ++row) {
       if (row + 2 * kAhead < end) request(bodyAt(scene, ids_[row + 2 * kAhead]), 0, 128);
@@ -65,22 +80,33 @@ void BodyRows::fill(yade::Scene& scene, int threads) {
           request(next->shape.get(), 64, 128);
         }
       }
-      rows_[row] = readBody(bodyAt(scene, ids_[row]));
-      starts_[row] = given(scene.forces, ids_[row]);
+      const auto index = static_cast<std::size_t>(ids_[row]);
+      rows_[row] = read(scene, ids_[row]);
+      startForces_[row] = forcesOf(scene)[index];
+      startTorques_[row] = torquesOf(scene)[index];
     }
   });
-  sums_ = starts_;
+  ownForces_ = startForces_, ownTorques_ = startTorques_;
+  useOwnSums();
+}
+
+void BodyRows::useOwnSums() {
+  forces_ = ownForces_.data(), torques_ = ownTorques_.data();
+  numSums_ = ids_.size();
 }
 
 void BodyRows::append(const yade::Scene& scene, std::size_t begin, std::size_t end) {
+  if (isInPlace_) return;
   for (std::size_t place = begin; place < end; ++place) {
     const yade::Interaction& contact = *(*scene.interactions)[place];
     for (const auto id : {contact.id1, contact.id2}) {
       appendOne(scene, id);
       request(&rows_[rowOf(id)], 0, sizeof(BodyRow));
-      request(&sums_[rowOf(id)], 0, sizeof(Sum));
+      request(&ownForces_[rowOf(id)], 0, sizeof(yade::Vector3r));
+      request(&ownTorques_[rowOf(id)], 0, sizeof(yade::Vector3r));
     }
   }
+  useOwnSums();
 }
 
 void BodyRows::appendOne(const yade::Scene& scene, yade::Body::id_t id) {
@@ -89,26 +115,21 @@ void BodyRows::appendOne(const yade::Scene& scene, yade::Body::id_t id) {
   if (rowOf_[index] >= 0) return;
   rowOf_[index] = static_cast<int>(ids_.size());
   ids_.push_back(id);
-  rows_.push_back(readBody(bodyAt(scene, id)));
-  starts_.push_back(given(scene.forces, id));
-  sums_.push_back(starts_.back());
-}
-
-BodyRows::Sum BodyRows::given(const yade::ForceContainer& forces, yade::Body::id_t id) {
-  const auto index = static_cast<std::size_t>(id);
-  return {(forces.*exposed(ForceData{}))[0][index], (forces.*exposed(TorqueData{}))[0][index]};
+  rows_.push_back(read(scene, id));
+  startForces_.push_back((scene.forces.*exposed(ForceData{}))[0][index]);
+  startTorques_.push_back((scene.forces.*exposed(TorqueData{}))[0][index]);
+  ownForces_.push_back(startForces_.back()), ownTorques_.push_back(startTorques_.back());
 }
 
 void BodyRows::giveForces(yade::Scene& scene) const {
-  auto& forces = (scene.forces.*exposed(ForceData{}))[0];
-  auto& torques = (scene.forces.*exposed(TorqueData{}))[0];
+  if (isInPlace_) return;
+  // The difference is 0 unless a functor of YADE has added to this body.
+  const auto put = [](yade::Vector3r& total, const yade::Vector3r& sum,
+                      const yade::Vector3r& start) { total = sum + (total - start); };
   for (std::size_t row = 0; row < ids_.size(); ++row) {
     const auto index = static_cast<std::size_t>(ids_[row]);
-    // The difference is 0 unless a functor of YADE has added to this body.
-    const auto put = [](yade::Vector3r& total, const yade::Vector3r& sum,
-                        const yade::Vector3r& start) { total = sum + (total - start); };
-    put(forces[index], sums_[row].force, starts_[row].force);
-    put(torques[index], sums_[row].torque, starts_[row].torque);
+    put(forcesOf(scene)[index], ownForces_[row], startForces_[row]);
+    put(torquesOf(scene)[index], ownTorques_[row], startTorques_[row]);
   }
 }
 

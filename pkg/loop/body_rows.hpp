@@ -6,7 +6,8 @@
 // are in the order in which the contacts, which a collider creates along the curve, first name
 // their bodies. They are filled at the begin of each step. Sums of forces start from those that
 // other engines have added before, and are given back at its end: they have the bits of sums to
-// which each contact is added in place.
+// which each contact is added in place. Where a body has few contacts, both cost more than they
+// save: bodies are read, and forces added, in place.
 
 #include <cstddef>
 #include <vector>
@@ -24,49 +25,55 @@ struct BodyRow {
 
 class BodyRows {
  public:
-  /// Reads the bodies of all rows.
-  void fill(yade::Scene& scene, int threads);
-  /// Appends rows for bodies of contacts [begin, end) that have none.
+  /// Reads the bodies of all rows, for `numContacts` contacts in the scene.
+  void begin(yade::Scene& scene, std::size_t numContacts, int threads);
+  /// Appends rows for bodies of contacts [begin, end) that have none; nothing without rows.
   void append(const yade::Scene& scene, std::size_t begin, std::size_t end);
-  /// Row of a body of a contact for which `append` was called.
+  [[nodiscard]] bool isInPlace() const { return isInPlace_; }
+  /// Row of a body of a contact for which `append` was called, or its id.
   [[nodiscard]] std::size_t rowOf(yade::Body::id_t id) const {
-    return static_cast<std::size_t>(rowOf_[static_cast<std::size_t>(id)]);
+    const auto index = static_cast<std::size_t>(id);
+    return isInPlace_ ? index : static_cast<std::size_t>(rowOf_[index]);
   }
-  [[nodiscard]] const BodyRow& operator[](std::size_t row) const { return rows_[row]; }
-  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  /// The state of such a body; `scratch` may be used for it.
+  const BodyRow& get(const yade::Scene& scene, yade::Body::id_t id, BodyRow& scratch) const {
+    if (!isInPlace_) return rows_[rowOf(id)];
+    return scratch = read(scene, id);
+  }
 
-  /// Forces of one contact on the bodies of two rows.
-  void add(std::size_t row1, std::size_t row2, const ContactForce& contact) {
-    addFirst(row1, contact), addSecond(row2, contact);
-  }
   void addFirst(std::size_t row, const ContactForce& contact) {
-    sums_[row].force += contact.force;
-    sums_[row].torque += contact.torque1;
+    forces_[row] += contact.force;
+    torques_[row] += contact.torque1;
   }
   void addSecond(std::size_t row, const ContactForce& contact) {
-    sums_[row].force += -contact.force;
-    sums_[row].torque += contact.torque2;
+    forces_[row] += -contact.force;
+    torques_[row] += contact.torque2;
   }
+  /// Number of sums: rows, or ids.
+  [[nodiscard]] std::size_t numSums() const { return numSums_; }
   /// Puts the sums into YADE's, in the array of the calling thread, 0. What YADE's functors have
-  /// added there since `fill` is kept.
+  /// added there since `begin` is kept.
   void giveForces(yade::Scene& scene) const;
 
  private:
-  struct Sum {
-    yade::Vector3r force;
-    yade::Vector3r torque;
-  };
+  using Vectors = std::vector<yade::Vector3r>;
 
+  static BodyRow read(const yade::Scene& scene, yade::Body::id_t id);
+  void fill(yade::Scene& scene, int threads);
   void appendOne(const yade::Scene& scene, yade::Body::id_t id);
-  /// What YADE's arrays have at present.
-  [[nodiscard]] static Sum given(const yade::ForceContainer& forces, yade::Body::id_t id);
+  void useOwnSums();
 
+  bool isInPlace_ = true;
   std::vector<int> rowOf_;  // by body id, -1: none
   std::vector<yade::Body::id_t> ids_;
   std::vector<BodyRow> rows_;
-  std::vector<Sum> sums_;
-  std::vector<Sum> starts_;  // before the first contact
-  int age_ = 0;              // steps since all rows were made
+  // Of each row: sums, and what YADE had before the first contact.
+  Vectors ownForces_, ownTorques_, startForces_, startTorques_;
+  // The sums that are used: own or YADE's.
+  yade::Vector3r* forces_ = nullptr;
+  yade::Vector3r* torques_ = nullptr;
+  std::size_t numSums_ = 0;
+  int age_ = 0;  // steps since all rows were made
 };
 
 }  // namespace yadefrag

@@ -32,8 +32,8 @@ void ContactLoop::action() {
   if (size == 0) return;
   const int most = omp_get_max_threads();
   threads = threadsFor(size, ompThreads > 0 ? std::min(ompThreads, most) : most);
-  rows_.fill(*scene, threads);
-  const PairStep step(*this, *scene, rows_);
+  rows_.begin(*scene, size, threads);
+  const PairStep step(*this, *scene);
   if (threads > 1) {
     runInParallel(step, size);
   } else {
@@ -42,24 +42,34 @@ void ContactLoop::action() {
   if (fastForces > 0) rows_.giveForces(*scene);
 }
 
+std::optional<ContactLoop::PairForce> ContactLoop::evaluate(const PairStep& step, std::size_t place,
+                                                            long& fast) const {
+  const auto& contact = (*scene->interactions)[place];
+  if (rows_.isInPlace() && step.isFarApart(*contact)) return {};
+  BodyRow one, two;
+  const auto force = step.evaluate(contact, rows_.get(*scene, contact->id1, one),
+                                   rows_.get(*scene, contact->id2, two), fast);
+  if (!force) return {};
+  return PairForce{rows_.rowOf(contact->id1), rows_.rowOf(contact->id2), *force};
+}
+
 void ContactLoop::run(const PairStep& step, std::size_t size) {
-  auto& contacts = *scene->interactions;
   for (std::size_t begin = 0; begin < size; begin += kContactsAtOnce) {
     const std::size_t end = std::min(begin + kContactsAtOnce, size);
     rows_.append(*scene, begin, end);
     for (std::size_t place = begin; place < end; ++place) {
-      if (const auto pair = step.evaluate(contacts[place], fastGeometries)) {
+      if (const auto pair = evaluate(step, place, fastGeometries)) {
         ++fastForces;
-        rows_.add(pair->row1, pair->row2, pair->contact);
+        rows_.addFirst(pair->row1, pair->contact);
+        rows_.addSecond(pair->row2, pair->contact);
       }
     }
   }
 }
 
 // Forces are stored by contact, and then added in the order of the contacts, as by one thread. Each
-// thread adds those of its own rows.
+// thread adds those of its own bodies.
 void ContactLoop::runInParallel(const PairStep& step, std::size_t size) {
-  auto& contacts = *scene->interactions;
   rows_.append(*scene, 0, size);
   stored_.resize(size);
   const std::size_t blocks = (size + kContactsAtOnce - 1) / kContactsAtOnce;
@@ -67,13 +77,14 @@ void ContactLoop::runInParallel(const PairStep& step, std::size_t size) {
   forEachItem(blocks, size, threads, [&](std::size_t block) {
     const std::size_t begin = block * kContactsAtOnce;
     for (std::size_t place = begin; place < std::min(begin + kContactsAtOnce, size); ++place) {
-      stored_[place] = step.evaluate(contacts[place], fastInBlock_[block]);
+      stored_[place] = evaluate(step, place, fastInBlock_[block]);
     }
   });
   for (const long fast : fastInBlock_) fastGeometries += fast;
   forEachPart(size, threads, [&](std::size_t, std::size_t, int part) {
-    const std::size_t first = rows_.size() * part / threads;
-    const std::size_t last = rows_.size() * (part + 1) / threads;
+    const auto parts = static_cast<std::size_t>(threads), own = static_cast<std::size_t>(part);
+    const std::size_t first = rows_.numSums() * own / parts;
+    const std::size_t last = rows_.numSums() * (own + 1) / parts;
     const auto isOwn = [&](std::size_t row) { return row >= first && row < last; };
     for (const auto& pair : stored_) {
       if (!pair) continue;
@@ -81,8 +92,8 @@ void ContactLoop::runInParallel(const PairStep& step, std::size_t size) {
       if (isOwn(pair->row2)) rows_.addSecond(pair->row2, pair->contact);
     }
   });
-  fastForces =
-      std::count_if(stored_.begin(), stored_.end(), [](const auto& p) { return p.has_value(); });
+  fastForces = std::count_if(stored_.begin(), stored_.end(),
+                             [](const auto& pair) { return pair.has_value(); });
 }
 
 }  // namespace yadefrag

@@ -1,6 +1,7 @@
 #pragma once
 // A drop-in for YADE's InteractionLoop.
 
+#include "loop/body_rows.hpp"
 #include "loop/pair_step.hpp"
 #include "publish/attribute.hpp"
 #include "publish/published.hpp"
@@ -38,6 +39,14 @@ class ContactLoop : public yade::InteractionLoop {
   }
 
  private:
+  /// Force of a contact that the loop computed, and the rows of its bodies.
+  struct PairForce {
+    std::size_t row1;
+    std::size_t row2;
+    ContactForce contact;
+  };
+
+  std::optional<PairForce> evaluate(const PairStep& step, std::size_t place, long& fast) const;
   void run(const PairStep& step, std::size_t size);
   void runInParallel(const PairStep& step, std::size_t size);
 

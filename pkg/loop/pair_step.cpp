@@ -31,8 +31,7 @@ std::string bodiesOf(const yade::Interaction& contact) {
 
 }  // namespace
 
-PairStep::PairStep(yade::InteractionLoop& loop, yade::Scene& scene, const BodyRows& rows)
-    : loop_(loop), scene_(scene), rows_(rows) {
+PairStep::PairStep(yade::InteractionLoop& loop, yade::Scene& scene) : loop_(loop), scene_(scene) {
   if (!scene.isPeriodic) {
     spheres_ = exactly<yade::Ig2_Sphere_Sphere_ScGeom>(loop.geomDispatcher->functors);
   }
@@ -50,32 +49,53 @@ PairStep::PairStep(yade::InteractionLoop& loop, yade::Scene& scene, const BodyRo
 }
 
 // YADE's InteractionLoop::action, for one interaction.
-std::optional<PairForce> PairStep::evaluate(const Contact& contact, long& fastGeometries) const {
+std::optional<ContactForce> PairStep::evaluate(const Contact& contact, const BodyRow& one,
+                                               const BodyRow& two, long& fastGeometries) const {
   if (removesUnseen_ && !contact->isReal() && contact->iterLastSeen < scene_.iter) return {};
-  std::size_t row1 = rows_.rowOf(contact->id1), row2 = rows_.rowOf(contact->id2);
-  if (!rows_[row1].body || !rows_[row2].body || isElsewhere(rows_[row1], rows_[row2])) {
+  if (!one.body || !two.body || isElsewhere(one, two)) {
     contact->reset();
     return {};
   }
+  const auto id1 = contact->id1;
   // A clump has no sphere of its own.
   if (!isKnownPair(*contact)) {
-    if (rows_[row1].body->isClump() || rows_[row2].body->isClump()) return {};
-    if (!chooseGeometry(*contact, *rows_[row1].body, *rows_[row2].body)) return {};
-    row1 = rows_.rowOf(contact->id1), row2 = rows_.rowOf(contact->id2);
+    if (one.body->isClump() || two.body->isClump()) return {};
+    if (!chooseGeometry(*contact, *one.body, *two.body)) return {};
   }
-  const BodyRow &one = rows_[row1], &two = rows_[row2];
+  const bool isSwapped = contact->id1 != id1;
+  const BodyRow &first = isSwapped ? two : one, &second = isSwapped ? one : two;
   const bool wasReal = contact->isReal();
-  if (!updateGeometryOf(contact, one, two, fastGeometries)) {
+  if (!updateGeometryOf(contact, first, second, fastGeometries)) {
     if (wasReal) contact->reset();
     return {};
   }
-  updateProperties(contact, *one.body, *two.body, wasReal);
-  const auto force = applyLaw(contact, one, two);
+  updateProperties(contact, *first.body, *second.body, wasReal);
+  const auto force = applyLaw(contact, first, second);
   if (contact->isReal()) {
     for (const auto& [callback, function] : callbacks_) function(callback, contact.get());
   }
-  if (!force) return {};
-  return PairForce{row1, row2, *force};
+  return force;
+}
+
+bool PairStep::isFarApart(const yade::Interaction& contact) const {
+  if (!isKnownPair(contact) || contact.isReal()) return false;
+  const auto& bodies = *scene_.bodies;
+  const auto& body1 = bodies[static_cast<unsigned>(contact.id1)];
+  const auto& body2 = bodies[static_cast<unsigned>(contact.id2)];
+  if (!body1 || !body2) return false;
+  const auto radiusOf = [](const yade::Body& body) {
+    return static_cast<const yade::Sphere&>(*body.shape).radius;
+  };
+  return areApart(body1->state->se3.position, radiusOf(*body1), body2->state->se3.position,
+                  radiusOf(*body2));
+}
+
+// YADE's test, to the last bit.
+bool PairStep::areApart(const yade::Vector3r& place1, double radius1, const yade::Vector3r& place2,
+                        double radius2) const {
+  const double reach = spheres_->interactionDetectionFactor * (radius1 + radius2);
+  const yade::Vector3r between = place2 - place1;
+  return reach * reach - between.squaredNorm() < 0;
 }
 
 bool PairStep::isElsewhere([[maybe_unused]] const BodyRow& one,
@@ -104,11 +124,9 @@ bool PairStep::chooseGeometry(yade::Interaction& contact, const yade::Body& body
 bool PairStep::updateGeometryOf(const Contact& contact, const BodyRow& one, const BodyRow& two,
                                 long& fastGeometries) const {
   if (isKnownPair(*contact)) {
-    if (!contact->isReal()) {
-      const double reach =
-          spheres_->interactionDetectionFactor * (one.motion.radius + two.motion.radius);
-      const yade::Vector3r between = two.motion.position - one.motion.position;
-      if (reach * reach - between.squaredNorm() < 0) return false;
+    if (!contact->isReal() &&
+        areApart(one.motion.position, one.motion.radius, two.motion.position, two.motion.radius)) {
+      return false;
     }
     if (contact->geom) {
       ++fastGeometries;

@@ -8,27 +8,27 @@
 
 namespace yadefrag {
 
-/// Force of a contact that the loop computed, and the rows of its bodies.
-struct PairForce {
-  std::size_t row1;
-  std::size_t row2;
-  ContactForce contact;
-};
-
 /// What is the same for all contacts of a step; used by all threads at once.
 class PairStep {
  public:
-  PairStep(yade::InteractionLoop& loop, yade::Scene& scene, const BodyRows& rows);
+  PairStep(yade::InteractionLoop& loop, yade::Scene& scene);
 
   using Contact = yade::shared_ptr<yade::Interaction>;
-  /// Evaluates one contact. Returns its force, or nothing if it has none or YADE's law has added it
-  /// to the scene's forces. Counts geometries that YADE's functors did not compute.
-  std::optional<PairForce> evaluate(const Contact& contact, long& fastGeometries) const;
+  /// Evaluates one contact of the bodies `one` and `two`, whose order in it may be swapped. Returns
+  /// its force, or nothing if it has none or YADE's law has added it to the scene's forces. Counts
+  /// geometries that YADE's functors did not compute.
+  std::optional<ContactForce> evaluate(const Contact& contact, const BodyRow& one,
+                                       const BodyRow& two, long& fastGeometries) const;
+  /// True: a contact that has not begun and does not begin in this step. Reads less than
+  /// `evaluate`; if it is false, nothing is known.
+  [[nodiscard]] bool isFarApart(const yade::Interaction& contact) const;
 
  private:
   [[nodiscard]] bool isKnownPair(const yade::Interaction& contact) const {
     return spheres_ && contact.functorCache.geom.get() == spheres_;
   }
+  [[nodiscard]] bool areApart(const yade::Vector3r& place1, double radius1,
+                              const yade::Vector3r& place2, double radius2) const;
   [[nodiscard]] bool isElsewhere(const BodyRow& one, const BodyRow& two) const;
   bool chooseGeometry(yade::Interaction& contact, const yade::Body& body1,
                       const yade::Body& body2) const;
@@ -42,7 +42,6 @@ class PairStep {
 
   yade::InteractionLoop& loop_;
   yade::Scene& scene_;
-  const BodyRows& rows_;
   // The functors whose work is done here; null if there is none.
   const yade::Ig2_Sphere_Sphere_ScGeom* spheres_ = nullptr;
   const yade::IPhysFunctor* friction_ = nullptr;
