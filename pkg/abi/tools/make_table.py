@@ -75,7 +75,7 @@ def main(version, own, folder, module, source=None, features=None, command='yade
     known = versions.known()
     if source is None and version not in known:
         print('yadefrag supports the packages of YADE %s, and not %s; a YADE that you build can have any version: '
-              'see "A YADE of your own" in docs/getting_started.md.' % (
+              'see "With a YADE that you have built" in docs/getting_started.md.' % (
                   ', '.join(known), version or 'an unknown version'))
         return 2
     folder = pathlib.Path(folder)
