@@ -1,6 +1,8 @@
 #include "loop/body_rows.hpp"
 
 #include <cassert>
+#include <cmath>
+#include <typeinfo>
 
 #include "core/parallel.hpp"
 
@@ -28,6 +30,16 @@ const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
   return index < bodies.size() ? bodies[index].get() : nullptr;
 }
 
+// NaN for other shapes, which have contacts by YADE's functors only.
+double radiusOf(const yade::Shape* shape) {
+  if (shape == nullptr) return NAN;
+  if (typeid(*shape) == typeid(yade::Sphere)) {  // faster than the cast
+    return static_cast<const yade::Sphere*>(shape)->radius;
+  }
+  const auto* const sphere = dynamic_cast<const yade::Sphere*>(shape);
+  return sphere ? sphere->radius : NAN;
+}
+
 // The arrays of thread 0, which runs the engines.
 auto& forcesOf(yade::Scene& scene) { return (scene.forces.*exposed(ForceData{}))[0]; }
 auto& torquesOf(yade::Scene& scene) { return (scene.forces.*exposed(TorqueData{}))[0]; }
@@ -45,9 +57,7 @@ BodyRow BodyRows::read(const yade::Scene& scene, yade::Body::id_t id) {
   row.motion.position = state.se3.position;
   row.motion.velocity = state.vel;
   row.motion.spin = state.angVel;
-  // Used for contacts of YADE's functor for two spheres only: of any other shape it has no meaning.
-  const auto& shape = row.body->shape;
-  if (shape) row.motion.radius = static_cast<const yade::Sphere&>(*shape).radius;
+  row.motion.radius = radiusOf(row.body->shape.get());
   return row;
 }
 
@@ -77,7 +87,7 @@ void BodyRows::fill(yade::Scene& scene, int threads) {
       if (row + kAhead < end) {
         if (const yade::Body* next = bodyAt(scene, ids_[row + kAhead])) {
           request(next->state.get(), 64, 256);
-          request(next->shape.get(), 64, 128);
+          request(next->shape.get(), 0, 128);
         }
       }
       const auto index = static_cast<std::size_t>(ids_[row]);

@@ -8,6 +8,7 @@ and one sentence: no plugin can be built against the headers of this YADE.
 
 import pathlib
 import re
+import subprocess
 import sys
 
 # Macros that YADE's CMakeLists.txt defines for a feature; other features do not change the headers.
@@ -60,6 +61,16 @@ def compilerFlags(config):
     return flags
 
 
+def headOf(source):
+    """The commit of a Git checkout; '' if there is no Git or no checkout."""
+    try:
+        done = subprocess.run(['git', '-c', 'safe.directory=*', '-C', str(source), 'rev-parse', 'HEAD'],
+                              capture_output=True, text=True, check=False)
+    except OSError:
+        return ''
+    return done.stdout.strip() if done.returncode == 0 else ''
+
+
 def problemOf(config, libraries, source):
     """'' or the reason why no plugin can be built against the headers of this YADE."""
     if config['bits'] != 64:
@@ -73,6 +84,11 @@ def problemOf(config, libraries, source):
         return 'the YADE in %s was built without OPENMP, which yadefrag needs.' % libraries
     if not (pathlib.Path(source) / 'core' / 'Scene.hpp').exists():
         return '%s is no source tree of YADE: it has no core/Scene.hpp; give it as YADE_SOURCE.' % (source or "''")
+    commit = re.search(r'git-([0-9a-f]+)', config['version'])
+    there = headOf(source) if commit else ''
+    if there and not there.startswith(commit.group(1)):
+        return ('the sources in %s are at the commit %s, and the YADE in %s was built from %s: build YADE again, or '
+                'check out that commit.' % (source, there[:len(commit.group(1))], libraries, commit.group(1)))
     release = pathlib.Path(source) / 'RELEASE'
     given = release.read_text().strip() if release.exists() else ''
     if given and re.fullmatch(r'[\w.]+', config['version']) and given != config['version']:

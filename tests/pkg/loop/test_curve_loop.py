@@ -104,6 +104,16 @@ def test_bits(kind, collider):
     assert (loop.fastGeometries == 0) if kind == 'rotations' else 0 <= spheres - loop.fastGeometries < 5
 
 
+def test_fewContactsPerBody():
+    """With many bodies that touch nothing the loop reads bodies in place: the same bits."""
+    def lonely():
+        heap()
+        for number in range(900):
+            O.bodies.append(utils.sphere((100 + 3 * (number % 30), 3 * (number // 30), 0), 1, fixed=True))
+    loop = requireSame(kFunctors['friction'], build=lonely)
+    assert len(O.interactions) < len(O.bodies) and loop.fastForces == O.interactions.countReal()
+
+
 def test_otherLaws():
     cohesive = requireSame(
         lambda: [[make() for make in makers] for makers in kCohesive],

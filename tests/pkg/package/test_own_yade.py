@@ -59,6 +59,23 @@ def test_otherBuildsAreRefusedInOneSentence(tmp_path, change, words):
     assert done.stdout.count('\n') == 1 and done.stdout.endswith('.\n')
 
 
+def test_checkoutMustBeAtTheCommitOfTheBuild(tmp_path):
+    """config.py of a YADE from a Git checkout names the commit."""
+    def git(*arguments):
+        return subprocess.run(['git', '-c', 'user.name=a', '-c', 'user.email=a@b', '-C', str(tmp_path / 'trunk'),
+                               *arguments], capture_output=True, text=True, check=True).stdout.strip()
+
+    libraries = installed(tmp_path, version='VERSION', release='')
+    git('init', '-q')
+    git('commit', '-q', '--allow-empty', '-m', 'one')
+    config = libraries / 'py' / 'yade' / 'config.py'
+    config.write_text(config.read_text().replace('VERSION', '2031-01-02.git-' + git('rev-parse', '--short', 'HEAD')))
+    assert asked(libraries).returncode == 0
+    git('commit', '-q', '--allow-empty', '-m', 'two')
+    done = asked(libraries)
+    assert done.returncode == 2 and 'was built from' in done.stdout and done.stdout.count('\n') == 1
+
+
 def test_sourcesThatHaveMovedAreAskedFor(tmp_path):
     libraries = installed(tmp_path)
     moved = (tmp_path / 'trunk').rename(tmp_path / 'elsewhere')
