@@ -70,7 +70,7 @@ std::optional<ContactForce> PairStep::evaluate(const Contact& contact, const Bod
     return {};
   }
   updateProperties(contact, *first.body, *second.body, wasReal);
-  const auto force = applyLaw(contact, first, second);
+  auto force = applyLaw(contact, first, second);
   if (contact->isReal()) {
     for (const auto& [callback, function] : callbacks_) function(callback, contact.get());
   }
