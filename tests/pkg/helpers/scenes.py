@@ -36,9 +36,9 @@ def makeCollider(name, functors=None, **attributes):
     return cls(functors, **attributes)
 
 
-def loop():
+def loop(name='InteractionLoop'):
     """An interaction loop for spheres, facets, boxes and walls; contacts go when they open."""
-    return w.InteractionLoop(
+    return getattr(w, name)(
         [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
          w.Ig2_Wall_Sphere_ScGeom()],
         [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()])

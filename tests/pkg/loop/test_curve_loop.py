@@ -6,6 +6,7 @@ import subprocess
 import numpy as np
 import pytest
 import yade.wrapper as w
+import yadefrag
 from yade import utils
 from yade.minieigenHP import Matrix3, Vector3
 
@@ -307,6 +308,35 @@ def test_forcesOfOtherEngines():
         found.append(state())
     assert found[0] == found[1]
     assert any(n in (i.id1, i.id2) for i in O.interactions for n in (0, 1, 2, 60, 61, 62))
+
+
+def test_spheresOnABeam():
+    """Contacts with the boundary of a finite-element body, whose shapes the step before has changed."""
+    found = []
+    for name in ('InteractionLoop', 'CurveLoop'):
+        scenes.clear()
+        O.materials.append(w.FEMat(young=1e8, poisson=.3, density=2000, frictionAngle=.4, label='beam'))
+        solver = w.FESolver()
+        solver.addPolygon([(0, 0), (2, 0), (2, .3), (0, .3)], size=.1, material='beam')
+        for number in range(12):
+            ball = utils.sphere((.2 + .14 * number, .4 + .01 * number, 0), .08, material='beam')
+            ball.state.vel, ball.state.angVel = (1, -8, 0), (0, 0, 20)
+            O.bodies.append(ball)
+        O.engines = yadefrag.engines(solver, spheres=True)
+        former = next(e for e in O.engines if type(e) is w.InteractionLoop)
+        parts = [former.geomDispatcher.functors, former.physDispatcher.functors, former.lawDispatcher.functors]
+        loop = loopOf(name, parts)
+        O.engines = [loop if e == former else e for e in O.engines]
+        O.dt = .3 * solver.criticalTimeStep()
+        most = 0
+        for _ in range(30):
+            O.run(10, True)
+            assert name != 'CurveLoop' or loop.fastForces == O.interactions.countReal()
+            most = max(most, O.interactions.countReal())
+        found.append([most, np.array(solver.nodes).tobytes(),
+                      np.array([[*b.state.pos, *b.state.vel, *b.state.angVel] for b in O.bodies]).tobytes()])
+    assert found[0] == found[1]
+    assert found[0][0] > 5
 
 
 def test_twoLaws():

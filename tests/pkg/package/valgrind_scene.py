@@ -85,7 +85,8 @@ def run(name, periodic):
                           rng.normal(size=(50, 3)) * .01)
     else:
         build(rng)
-    scenes.setEngines(scenes.makeCollider(name, countComparisons=True))
+    collider = scenes.makeCollider(name, countComparisons=True)
+    scenes.setEngines(collider, interactionLoop=scenes.loop('CurveLoop') if name == 'LebesgueCollider' else None)
     O.run(5, True)
     insertAndErase(rng)
     badInput()
