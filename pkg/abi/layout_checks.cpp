@@ -264,7 +264,6 @@ CHECK_MEMBER(Scene, miscParams);
 CHECK_SIZE(ClassFactory);
 CHECK_MEMBER(ClassFactory, pluginClasses);
 
-CHECK_SIZE(IGeomFunctor);
 CHECK_SIZE(IPhysFunctor);
 CHECK_SIZE(LawFunctor);
 CHECK_SIZE(Ig2_Sphere_Sphere_ScGeom);
@@ -327,6 +326,8 @@ struct LayoutProbe {
   CHECK_MEMBER(NewtonIntegrator, dSpin);
   CHECK_MEMBER(ForceContainer, _forceData);
   CHECK_MEMBER(ForceContainer, _torqueData);
+  CHECK_MEMBER(IGeomDispatcher, alreadyWarnedNoCollider);
+  CHECK_MEMBER(InteractionLoop, alreadyWarnedNoCollider);
   CHECK_MEMBER(InteractionLoop, eraseAfterLoopIds);
   CHECK_MEMBER(ScGeom, twist_axis);
   CHECK_MEMBER(ScGeom, orthonormal_axis);
