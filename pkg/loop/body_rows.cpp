@@ -105,7 +105,7 @@ void BodyRows::useOwnSums() {
   numSums_ = ids_.size();
 }
 
-void BodyRows::append(const yade::Scene& scene, std::size_t begin, std::size_t end) {
+void BodyRows::append(yade::Scene& scene, std::size_t begin, std::size_t end) {
   if (isInPlace_) return;
   for (std::size_t place = begin; place < end; ++place) {
     const yade::Interaction& contact = *(*scene.interactions)[place];
@@ -119,15 +119,15 @@ void BodyRows::append(const yade::Scene& scene, std::size_t begin, std::size_t e
   useOwnSums();
 }
 
-void BodyRows::appendOne(const yade::Scene& scene, yade::Body::id_t id) {
+void BodyRows::appendOne(yade::Scene& scene, yade::Body::id_t id) {
   const auto index = static_cast<std::size_t>(id);
   assert(index < rowOf_.size());
   if (rowOf_[index] >= 0) return;
   rowOf_[index] = static_cast<int>(ids_.size());
   ids_.push_back(id);
   rows_.push_back(read(scene, id));
-  startForces_.push_back((scene.forces.*exposed(ForceData{}))[0][index]);
-  startTorques_.push_back((scene.forces.*exposed(TorqueData{}))[0][index]);
+  startForces_.push_back(forcesOf(scene)[index]);
+  startTorques_.push_back(torquesOf(scene)[index]);
   ownForces_.push_back(startForces_.back()), ownTorques_.push_back(startTorques_.back());
 }
 

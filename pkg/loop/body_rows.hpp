@@ -28,7 +28,7 @@ class BodyRows {
   /// Reads the bodies of all rows, for `numContacts` contacts in the scene.
   void begin(yade::Scene& scene, std::size_t numContacts, int threads);
   /// Appends rows for bodies of contacts [begin, end) that have none; nothing without rows.
-  void append(const yade::Scene& scene, std::size_t begin, std::size_t end);
+  void append(yade::Scene& scene, std::size_t begin, std::size_t end);
   [[nodiscard]] bool isInPlace() const { return isInPlace_; }
   /// Row of a body of a contact for which `append` was called, or its id.
   [[nodiscard]] std::size_t rowOf(yade::Body::id_t id) const {
@@ -60,7 +60,7 @@ class BodyRows {
 
   static BodyRow read(const yade::Scene& scene, yade::Body::id_t id);
   void fill(yade::Scene& scene, int threads);
-  void appendOne(const yade::Scene& scene, yade::Body::id_t id);
+  void appendOne(yade::Scene& scene, yade::Body::id_t id);
   void useOwnSums();
 
   bool isInPlace_ = true;

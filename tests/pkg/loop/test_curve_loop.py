@@ -227,8 +227,6 @@ def test_savedAndLoaded(folder):
         law, = O.engines[2].lawDispatcher.functors
         assert not law.sphericalBodies
         O.run(300, True)
-        if ending != 'xml':     # text has fewer digits
-            assert len(state()[0]) == len(expected[0])
         numbers, reference = (np.frombuffer(s[0]) for s in (state(), expected))
         # YADE saves no shear increments, and numbers in XML with 17 digits.
         assert np.abs(numbers - reference).max() < 1e-6
@@ -249,14 +247,15 @@ def test_callbacks():
 
 
 def test_sortedList():
-    loop, found = run('CurveLoop', kFunctors['friction'](), 10)
-    loop.loopOnSortedInteractions = True
-    O.run(200, True)
+    """YADE's own loop: the same bits, none of them by CurveLoop."""
+    found = []
+    for name in ('InteractionLoop', 'CurveLoop'):
+        loop, _ = run(name, kFunctors['friction'](), 10)
+        loop.loopOnSortedInteractions = True
+        O.run(200, True)
+        found.append(state())
+    assert found[0] == found[1] and O.interactions.countReal() > 10
     assert loop.fastForces == 0
-    reference, _ = run('InteractionLoop', kFunctors['friction'](), 10)
-    reference.loopOnSortedInteractions = True
-    O.run(200, True)
-    assert found and O.interactions.countReal() > 10
 
 
 def test_isALoop():
