@@ -88,3 +88,36 @@ def test_anUnreachableServerHasACodeOfItsOwn(tmp_path):
     if 'lets no file system be mounted' in done.stderr:
         pytest.skip('this machine permits no mounts: the server is not asked')
     assert done.returncode == 75 and 'cannot be fetched' in done.stderr
+
+
+@pytest.fixture
+def turn(monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / 'scripts'))
+    import tidy_turn
+    return tidy_turn
+
+
+SOURCES = sorted(map(str, (ROOT / 'lib').rglob('*.cpp')))
+
+
+def test_theTurnsOfClangTidyAreAllSourcesOnce(turn):
+    turns = [set(turn.chosen(SOURCES, set(), number)) for number in range(turn.TURNS)]
+    assert set().union(*turns) == set(SOURCES) and sum(map(len, turns)) == len(SOURCES)
+    assert max(map(len, turns)) < len(SOURCES) / 2
+
+
+@pytest.mark.parametrize('number', range(3))
+def test_whatHasChangedIsInEachTurn(turn, number):
+    header = str(ROOT / 'lib' / 'core' / 'work_list.hpp')
+    found = turn.chosen(SOURCES, {SOURCES[0], SOURCES[-1], header}, number)
+    assert SOURCES[0] in found and SOURCES[-1] in found
+    assert any(header in turn.headersOf(path) for path in found)
+
+
+def test_allAreCheckedWhereTheHistoryIsUnknown(turn, monkeypatch, tmp_path, capsys):
+    """Outside git, in a shallow clone, and before the first commits."""
+    monkeypatch.setattr(turn, 'ROOT', str(tmp_path))
+    turn.main('60', *SOURCES)
+    assert capsys.readouterr().out.split() == SOURCES
+    monkeypatch.setattr(turn, 'git', lambda *arguments: ['true'])
+    assert turn.history('1') == (None, 0)
