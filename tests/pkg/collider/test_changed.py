@@ -36,7 +36,10 @@ def _pairsByBounds(collider):
     radii = np.array([b.shape.radius for b in bodies])
     sweeps = np.array([b.bound.sweepLength for b in bodies])
     ids = np.array([b.id for b in bodies])
-    i, j = np.triu_indices(len(bodies), 1)
+    # Of every pair first one coordinate: most of the time is in the others.
+    room = 1.001 * (radii + sweeps)
+    near = abs(centres[:, 0, None] - centres[:, 0]) <= room[:, None] + room
+    i, j = np.nonzero(np.triu(near, 1))
     apart = np.maximum(abs(centres[i] - centres[j]) - (sweeps[i] + sweeps[j])[:, None], 0)
     distance = np.sqrt((apart**2).sum(axis=1)) - radii[i] - radii[j]
     may = np.array([b.mask for b in bodies])
