@@ -1,0 +1,166 @@
+"""YADE, with and without our engines, beside LAMMPS and LIGGGHTS: scripts/bench codes [--sizes 1e4,1e5] ...
+
+The same positions, velocities, radii, stiffness, friction and time step (codes_yade.py writes them, codes_lammps.py
+and codes_liggghts.py read them), without damping. Each measurement is a process of its own; the codes take turns
+within every repeat, and ratios are formed within a repeat. Shown are medians. Threads are OpenMP's in YADE and MPI
+processes in LAMMPS and LIGGGHTS, which Debian builds without OpenMP. The first steps (--warm)
+are not measured, as colliders adapt in them.
+
+After the last step the positions are compared with those of YADE with its own engines: the root of the mean square
+of the differences, divided by that of the displacements, must be below TOLERANCE, or it is an error. Without friction
+(--friction 0) it is some 1e-12; with friction LAMMPS's torque has another arm (a radius, not the distance to the
+middle of the overlap). In the hopper, YADE gives a sphere two contacts where two facets of a wall meet; LAMMPS has no
+facets, but planes.
+
+Needs Debian's lammps and liggghts: scripts/setup does not install them. Writes codes.json (raw), codes.md (table)
+and codes.png to out/bench; with --readme the table goes into docs/measured.md.
+"""
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+import codes_lammps
+import codes_liggghts
+import codes_report
+import colliders
+import measured_tables
+import report
+
+SCENES = ['gas', 'packing', 'polydisperse', 'stirred', 'hopper']
+ENGINES = {  # collider, loop, integrator
+    'YADE': ('InsertionSortCollider', 'InteractionLoop', 'NewtonIntegrator'),
+    'collider': ('LebesgueCollider', 'InteractionLoop', 'NewtonIntegrator'),
+    'loop': ('LebesgueCollider', 'CurveLoop', 'NewtonIntegrator')}
+OTHERS = {'LIGGGHTS': codes_liggghts, 'LAMMPS': codes_lammps}
+TOLERANCE = .03
+
+
+def parse(arguments):
+    """The options."""
+    parser = argparse.ArgumentParser(prog='scripts/bench codes', description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    known = [*ENGINES, *OTHERS]
+    names = lambda of: lambda text: colliders._known(text.split(','), of)  # noqa: E731
+    numbers = lambda text: [int(float(x)) for x in text.split(',')]  # noqa: E731
+    parser.add_argument('--scenes', type=names(SCENES), default=SCENES, help='default: all')
+    parser.add_argument('--codes', type=names(known), default=known, help=f'default: {",".join(known)}')
+    parser.add_argument('--sizes', type=numbers, default=[10000, 100000], help='default: 1e4,1e5')
+    parser.add_argument('--threads', type=numbers, default=[1], help='default: 1')
+    parser.add_argument('--steps', type=int, default=150, help='default: %(default)s')
+    parser.add_argument('--warm', type=int, default=50, help='steps before these; default: %(default)s')
+    parser.add_argument('--repeat', type=int, default=3, help='default: %(default)s')
+    parser.add_argument('--friction', type=float, default=.3, help='angle of friction, radians; default: %(default)s')
+    parser.add_argument('--limit', type=float, default=600., help='s per process; default: %(default)s')
+    parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--out', default=os.path.join(colliders.ROOT, 'out', 'bench'))
+    parser.add_argument('--yade', default=os.path.join(colliders.ROOT, 'scripts', 'yade'))
+    parser.add_argument('--readme', action='store_true', help='write the table into docs/measured.md')
+    return parser.parse_args(arguments)
+
+
+def installed(codes):
+    """Those of the codes that there are; a sentence about the others."""
+    missing = [name for name in codes if name in OTHERS and not OTHERS[name].exists()]
+    if missing:
+        packages = ' '.join(name.lower() for name in missing)
+        print(f'not compared with {" and ".join(missing)}: not installed (sudo apt-get install {packages}).',
+              file=sys.stderr)
+    return [name for name in codes if name not in missing]
+
+
+def ofYade(options, name, scene, n, threads, folder):
+    """One run of YADE; its row. RuntimeError if it fails."""
+    collider, loop, integrator = ENGINES[name]
+    settings = dict(scene=scene, n=n, warm=options.warm, steps=options.steps, seed=options.seed, friction=options.friction,
+                    collider=collider, loop=loop, integrator=integrator, folder=folder)
+    command = [options.yade, '-n', '-x', f'-j{threads}', os.path.join(colliders.HERE, 'codes_yade.py'),
+               json.dumps(settings)]
+    done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=options.limit,
+                          check=False)
+    row = colliders._lastRow(done.stdout)
+    if not row:
+        raise RuntimeError(f'yade ended with status {done.returncode}: {colliders._lastLine(done.stderr)}')
+    return row, np.load(os.path.join(folder, 'end.npy'))
+
+
+def ofOther(options, name, threads, folder):
+    """One run of another code; its row, and the positions at the end."""
+    row = OTHERS[name].measure(folder, options.warm, options.steps, threads, options.limit)
+    return row, codes_lammps.ended(folder)
+
+
+def deviation(folder, end, reference):
+    """Difference of positions relative to the displacements since the start, of the spheres that obey forces."""
+    arrays, _ = codes_lammps.start(folder)
+    free = ~arrays['fixed']
+    size = lambda x: np.sqrt((x[free] ** 2).sum(axis=1).mean())  # noqa: E731
+    return float(size(end - reference) / size(reference - arrays['places']))
+
+
+def measured(options, progress):
+    """A row for each scene, size, number of threads, repeat and code."""
+    rows = []
+    for n in options.sizes:
+        for scene in options.scenes:
+            with tempfile.TemporaryDirectory(prefix='yadefrag') as folder:
+                reference = contacts = None
+                for threads in options.threads:
+                    for repeat in range(options.repeat):
+                        # The first of all is YADE, without which the others have no scene.
+                        for name in options.codes:
+                            progress(f'{scene} {n}: {name}')
+                            if name in ENGINES:
+                                row, end = ofYade(options, name, scene, n, threads, folder)
+                                reference = end if reference is None else reference
+                                contacts = contacts or row['contacts']
+                            else:
+                                row, end = ofOther(options, name, threads, folder)
+                            row.update(scene=scene, n=n, threads=threads, repeat=repeat, code=name,
+                                       deviation=deviation(folder, end, reference), contacts=contacts)
+                            if not row['deviation'] < TOLERANCE:
+                                raise RuntimeError(f'{scene}, {n} bodies: the positions of {name} differ by '
+                                                   f'{row["deviation"]:.2g} of the displacements')
+                            rows.append(row)
+    return rows
+
+
+def summary(rows):
+    """{(scene, n, threads, code): medians}, with `x`, the step's ratio to that of LAMMPS or, without it, YADE."""
+    groups, found = {}, {}
+    for row in rows:
+        groups.setdefault((row['scene'], row['n'], row['threads'], row['code']), []).append(row)
+    for key, own in groups.items():
+        entry = {name: statistics.median(row[name] for row in own)
+                 for name in ('search', 'forces', 'integration', 'step', 'searches', 'contacts', 'deviation')}
+        base = groups.get((*key[:3], 'LAMMPS')) or groups.get((*key[:3], 'YADE'))
+        entry['x'] = base and statistics.median(a['step'] / b['step'] for a, b in zip(own, base))
+        found[key] = entry
+    return found
+
+
+def main(arguments):
+    """Parse, measure, write."""
+    options = parse(arguments)
+    options.codes = installed(options.codes)
+    if not options.codes or options.codes[0] not in ENGINES:
+        sys.exit('scripts/bench codes: the first of --codes must be one of ' + ', '.join(ENGINES) + '.')
+    total = len(options.sizes) * len(options.scenes) * len(options.threads) * options.repeat * len(options.codes)
+    rows = measured(options, colliders.makeProgress(total))
+    machine = report.machineOf(rows)
+    os.makedirs(options.out, exist_ok=True)
+    with open(os.path.join(options.out, 'codes.json'), 'w') as out:
+        json.dump(dict(machine=machine, steps=options.steps, friction=options.friction, rows=rows), out, indent=1)
+    found = summary(rows)
+    about = f'{report.line(machine, "as many used as threads")}, `scripts/bench codes`'
+    measured_tables.publish(options, 'codes', codes_report.table(found, options, about), codes_report.MARKS)
+    codes_report.plot(os.path.join(options.out, 'codes.png'), found, report.line(machine, 'one used'))
+
+
+if __name__ == '__main__':
+    main(sys.argv[1:])

@@ -1,0 +1,129 @@
+"""LAMMPS, Debian's, for codes.py: the scene that codes_yade.py wrote, as LAMMPS's input; its times and positions.
+
+YADE's law in the words of LAMMPS: gran/hooke/history with the same stiffness along and across a contact, no
+damping, and the same coefficient of friction. Debian's LAMMPS has no OPENMP package: threads are MPI processes.
+"""
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+
+import numpy as np
+
+SKIN = .4  # radii of the smallest sphere
+
+
+def start(folder):
+    """(arrays, numbers) that codes_yade.py wrote."""
+    with open(os.path.join(folder, 'start.json')) as file:
+        about = json.load(file)
+    return dict(np.load(os.path.join(folder, 'start.npz'))), about
+
+
+def kinds(arrays, about):
+    """(n) numbers from 1, two octaves of radii each, for searches of each size in a grid of its own: of one, two,
+    three and four octaves and fractions of one, this is the fastest in the scene `polydisperse`."""
+    return 1 + np.floor(.5 * np.log2(arrays['radii'] / about['radius']) + 1e-9).astype(int)
+
+
+def writeData(path, arrays, about, margin=1):
+    """The file of read_data: box, spheres, velocities."""
+    n, places = len(arrays['radii']), arrays['places']
+    room = arrays['radii'].max() + margin * about['radius']
+    ids = np.arange(1, n + 1)
+    types = kinds(arrays, about)
+    with open(path, 'w') as out:
+        out.write(f'spheres of YADE\n\n{n} atoms\n{types.max()} atom types\n\n')
+        for axis, low, high in zip('xyz', places.min(0) - room, places.max(0) + room):
+            out.write(f'{low:.17g} {high:.17g} {axis}lo {axis}hi\n')
+        out.write('\nAtoms\n\n')
+        np.savetxt(out, np.column_stack([ids, types, 2 * arrays['radii'], np.full(n, about['density']), places]),
+                   fmt='%d %d %.17g %.17g %.17g %.17g %.17g')
+        out.write('\nVelocities\n\n')
+        np.savetxt(out, np.column_stack([ids, arrays['velocities'], arrays['spins']]), fmt='%d' + ' %.17g' * 6)
+
+
+def groups(arrays):
+    """Commands for the groups `held`, `bar` (if there are any) and `moved`, by forces: ids in lines of 200."""
+    lines = []
+    for name, members in (('held', arrays['fixed']), ('bar', arrays['bar'])):
+        ids = np.flatnonzero(members) + 1
+        lines += [f'group {name} id ' + ' '.join(map(str, ids[k:k + 200])) for k in range(0, len(ids), 200)]
+    return [*lines, 'group moved subtract all held' if lines else 'group moved union all']
+
+
+def motion(arrays, about):
+    """Commands for the integration, gravity and the bar."""
+    lines = ['fix integration moved nve/sphere']
+    if about['gravity']:
+        lines.append(f'fix gravity moved gravity {about["gravity"]!r} vector 0 0 -1')
+    if arrays['bar'].any():
+        lines.append(f'fix turning bar move rotate 0 0 0 0 0 1 {2 * math.pi / about["turn"]!r}')
+    return lines
+
+
+def script(arrays, about, warm, steps):
+    """LAMMPS's input."""
+    most = int(kinds(arrays, about).max())
+    law = f'{about["kn"]!r} {about["kt"]!r} 0 0 {about["friction"]!r} 0'
+    lines = ['units si', 'atom_style sphere', 'newton on', 'boundary s s s', 'read_data data', *groups(arrays),
+             f'pair_style gran/hooke/history {law}', 'pair_coeff * *',
+             f'neighbor {SKIN * about["radius"]!r} ' + ('multi' if most > 1 else 'bin'),
+             'comm_modify vel yes' + ' mode multi' * (most > 1),
+             'neigh_modify delay 0 every 1 check yes page 1000000 one 100000', f'timestep {about["dt"]!r}',
+             *motion(arrays, about)]
+    for number, (point, normal) in enumerate(zip(*about.get('walls', ((), ())))):
+        place = ' '.join(repr(x) for x in (*point, *normal))
+        lines += [f'region wall{number} plane {place}',
+                  f'fix wall{number} moved wall/gran/region hooke/history {law} region wall{number}']
+    return '\n'.join(lines + ['thermo 1000000', f'run {warm}', f'run {steps} pre no',
+                              'write_dump all custom end id x y z modify sort id format float %.17g']) + '\n'
+
+
+def command(program, processes, *arguments):
+    """The command line for so many processes."""
+    if processes == 1:
+        return [program, *arguments]
+    # Open MPI refuses root and more processes than it counts cores, unless it is told that these are meant.
+    return ['mpirun', '--allow-run-as-root', '--oversubscribe', '-np', str(processes), program, *arguments]
+
+
+def ended(folder):
+    """(n, 3): the positions that were dumped, by id."""
+    return np.loadtxt(os.path.join(folder, 'end'), skiprows=9)[:, 1:4]
+
+
+def run(program, folder, processes, limit, *arguments):
+    """What a code printed; RuntimeError if it failed."""
+    done = subprocess.run(command(program, processes, *arguments), cwd=folder, text=True, stdin=subprocess.DEVNULL,
+                          capture_output=True, timeout=limit, env=dict(os.environ, OMP_NUM_THREADS='1'), check=False)
+    found = re.findall(r'ERROR.*', done.stdout + done.stderr)
+    if done.returncode or found:
+        raise RuntimeError(f'{program}: {found[0] if found else done.stderr[-300:]}')
+    return done.stdout
+
+
+def measure(folder, warm, steps, processes, limit):
+    """{search, forces, integration, step: s per step; searches: number} of one run; positions go to `end`."""
+    arrays, about = start(folder)
+    writeData(os.path.join(folder, 'data'), arrays, about)
+    with open(os.path.join(folder, 'in.lammps'), 'w') as out:
+        out.write(script(arrays, about, warm, steps))
+    text = run('lmp', folder, processes, limit, '-in', 'in.lammps', '-log', 'none')
+    # The second run is measured; the means over the processes.
+    mean = lambda name: float(re.findall(rf'^{name} +\|[^|]*\| *(\S+)', text, re.M)[1]) / steps  # noqa: E731
+    return dict(search=mean('Neigh'), forces=mean('Pair'), integration=mean('Modify'), **common(text, steps))
+
+
+def common(text, steps):
+    """What both codes print alike."""
+    loops = re.findall(r'Loop time of (\S+)', text)
+    builds = re.findall(r'Neighbor list builds = (\d+)', text)
+    return dict(step=float(loops[1]) / steps, searches=int(builds[1]))
+
+
+def exists():
+    """True if it is installed."""
+    return bool(shutil.which('lmp'))
