@@ -12,7 +12,7 @@ of the differences, divided by that of the displacements, must be below TOLERANC
 middle of the overlap). In the hopper, YADE gives a sphere two contacts where two facets of a wall meet; LAMMPS has no
 facets, but planes.
 
-Needs Debian's lammps and liggghts: scripts/setup does not install them. Writes codes.json (raw), codes.md (table)
+Needs Debian's lammps, liggghts and libjemalloc2: scripts/setup does not install them. Writes codes.json (raw), codes.md (table)
 and codes.png to out/bench; with --readme the table goes into docs/measured.md.
 """
 import argparse
@@ -36,9 +36,11 @@ SCENES = ['gas', 'packing', 'polydisperse', 'stirred', 'hopper']
 ENGINES = {  # collider, loop, integrator
     'YADE': ('InsertionSortCollider', 'InteractionLoop', 'NewtonIntegrator'),
     'collider': ('LebesgueCollider', 'InteractionLoop', 'NewtonIntegrator'),
-    'loop': ('LebesgueCollider', 'CurveLoop', 'NewtonIntegrator')}
+    'loop': ('LebesgueCollider', 'CurveLoop', 'NewtonIntegrator'),
+    'allocator': ('LebesgueCollider', 'CurveLoop', 'NewtonIntegrator')}  # with libjemalloc2
 OTHERS = {'LIGGGHTS': codes_liggghts, 'LAMMPS': codes_lammps}
 TOLERANCE = .03
+JEMALLOC = '/usr/lib/x86_64-linux-gnu/libjemalloc.so.2'
 
 
 def parse(arguments):
@@ -66,9 +68,11 @@ def parse(arguments):
 
 def installed(codes):
     """Those of the codes that there are; a sentence about the others."""
-    missing = [name for name in codes if name in OTHERS and not OTHERS[name].exists()]
+    there = {name: module.exists() for name, module in OTHERS.items()}
+    there['allocator'] = os.path.exists(JEMALLOC)
+    missing = [name for name in codes if not there.get(name, True)]
     if missing:
-        packages = ' '.join(name.lower() for name in missing)
+        packages = ' '.join({'allocator': 'libjemalloc2'}.get(name, name.lower()) for name in missing)
         print(f'not compared with {" and ".join(missing)}: not installed (sudo apt-get install {packages}).',
               file=sys.stderr)
     return [name for name in codes if name not in missing]
@@ -81,8 +85,9 @@ def ofYade(options, name, scene, n, threads, folder):
                     collider=collider, loop=loop, integrator=integrator, folder=folder)
     command = [options.yade, '-n', '-x', f'-j{threads}', os.path.join(colliders.HERE, 'codes_yade.py'),
                json.dumps(settings)]
+    allocator = 'jemalloc' if name == 'allocator' else 'glibc'
     done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=options.limit,
-                          check=False)
+                          check=False, env={**os.environ, 'YADEFRAG_ALLOCATOR': allocator})
     row = colliders._lastRow(done.stdout)
     if not row:
         raise RuntimeError(f'yade ended with status {done.returncode}: {colliders._lastLine(done.stderr)}')

@@ -52,12 +52,12 @@ def findings(report):
 def runUnderValgrind(folder, *arguments):
     """(the finished process, findings) of valgrind_scene.py: one process, which takes long to start."""
     report = os.path.join(folder, 'memcheck.xml')
-    # Python's own allocator would hide what is freed, and reads what memcheck takes for freed.
+    # Other allocators, Python's own among them, would hide what is freed; Python's reads what memcheck takes for freed.
     done = subprocess.run(
         [*kValgrind, f'--xml-file={report}', sys.executable, *yadeCommand(), '-j2',
          os.path.join(kHere, 'valgrind_scene.py'), *arguments],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=900,
-        env=dict(os.environ, PYTHONMALLOC='malloc', PYTHONHASHSEED='0', OMP_WAIT_POLICY='passive'))
+        env=dict(os.environ, LD_PRELOAD='', PYTHONMALLOC='malloc', PYTHONHASHSEED='0', OMP_WAIT_POLICY='passive'))
     return done, findings(report)
 
 
