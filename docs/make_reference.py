@@ -13,7 +13,7 @@ from yade import wrapper
 
 GROUPS = (
     ('Solver', ('FESolver', 'engines', 'runSteps', 'FERecorder')),
-    ('Materials', ('FEMat', 'BrittleFEMat')),
+    ('Materials', ('FEMat', 'BrittleFEMat', 'PlasticFEMat', 'FrictionalFEMat')),
     ('Geometry', ('rectangle', 'circle', 'ring', 'voronoi', 'grainJoints', 'snapOutlines', 'Mesh', 'polygonMesh', 'rectangleMesh',
                   'readPolygon', 'readOutline', 'readMesh', 'outlineReport')),
     ('Results and pictures', ('plotMesh', 'animate', 'exportVTK', 'crackTable', 'fragmentTable', 'plotFragmentSizes',

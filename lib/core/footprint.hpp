@@ -11,17 +11,18 @@
 namespace yadefrag {
 
 enum class Use : std::uint8_t {
-  kMesh,       ///< nodes, triangles, bodies
-  kDynamics,   ///< the time integration without contact
-  kHeld,       ///< nodes with a prescribed motion
-  kMaterials,  ///< of bodies with several materials
-  kLoads,      ///< constant and external forces
-  kViscosity,  ///< bulk viscosity
-  kSmoothing,  ///< smoothed strains
-  kSurfaces,   ///< the two layers of the boundary
-  kSmooth,     ///< the C¹-smooth parts of the boundary
-  kSearch,     ///< the global search and its candidates
-  kContact,    ///< actives and their forces
+  kMesh,        ///< nodes, triangles, bodies
+  kDynamics,    ///< the time integration without contact
+  kHeld,        ///< nodes with a prescribed motion
+  kMaterials,   ///< of bodies with several materials
+  kLoads,       ///< constant and external forces
+  kViscosity,   ///< bulk viscosity
+  kSmoothing,   ///< smoothed strains
+  kPlasticity,  ///< materials that yield
+  kSurfaces,    ///< the two layers of the boundary
+  kSmooth,      ///< the C¹-smooth parts of the boundary
+  kSearch,      ///< the global search and its candidates
+  kContact,     ///< actives and their forces
   kFracture,
   kCohesion,
   kCount

@@ -8,6 +8,7 @@
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/fracture.hpp"
 #include "core/tolerances/mesh.hpp"
+#include "core/tolerances/plasticity.hpp"
 #include "core/tolerances/search.hpp"
 #include "core/tolerances/solver.hpp"
 #include "core/tolerances/spheres.hpp"

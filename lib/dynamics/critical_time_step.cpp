@@ -15,7 +15,7 @@ namespace {
 
 /// (1/m) Gradients ∇N of the shape functions in the stress-free shape.
 std::array<Vec2, 3> gradients(const Model& model, std::size_t element) {
-  const auto& inverse = model.triangles.inverseEdges[element];
+  const auto inverse = elasticEdges(model, ElementId(element));
   const Vec2 n1{inverse[0], inverse[1]};
   const Vec2 n2{inverse[2], inverse[3]};
   return {-(n1 + n2), n1, n2};
@@ -111,7 +111,9 @@ double squaredFrequency(const Model& model, std::size_t element, const Masses& m
   const double product = 4 * (shear / modulus) * ((lame + shear) / modulus) * shape;
   const double stretch = sum * (1 + std::sqrt(std::max(0., 1 - 4 * product))) / 2;
   const Matrix2 f = deformationGradient(model, ElementId(element));
-  const double drawn = std::hypot(f.xx + f.yy, f.yx - f.xy);  // 2 without stretch
+  const Matrix2 elastic = elasticGradient(model, ElementId(element));
+  const double drawn =
+      std::hypot(elastic.xx + elastic.yy, elastic.yx - elastic.xy);  // 2 without stretch
   const double turn = (shear + std::max(0., (lame + shear) * (1 - 2 / drawn))) * trace;
   return std::max(stretch, turn) / material.density +
          squaredBarrierFrequency(material, f, gradient, mass);

@@ -25,6 +25,9 @@ Chunk chunkOf(const Component& c) {
   }
   chunk.thickness = c.thickness;
   chunk.element = c.element;
+  chunk.yields = c.yields();
+  // In plane stress the thickness is free to change, so that nothing locks.
+  if (chunk.yields && c.material.planeStress) chunk.element = ElementKind::kLinear;
   chunk.strength = c.brittle.cracks() ? c.brittle.tensileStrength : 0;
   chunk.shearFactor = c.brittle.cracks() ? c.brittle.shearFactor : 0;
   chunk.friction = c.brittle.cracks() ? c.friction : 0;
@@ -38,6 +41,11 @@ bool sameMaterial(const Chunk& a, const Chunk& b) {
          a.strength == b.strength && a.shearFactor == b.shearFactor && a.friction == b.friction;
 }
 
+bool flowAlike(const Component& a, const Component& b) {
+  return !(a.yields() || b.yields()) ||
+         (a.plastic == b.plastic && a.material.planeStress == b.material.planeStress);
+}
+
 /// Divides the elements into chunks. Small bodies of one material share chunks: otherwise a scene
 /// of a thousand rings would start a thousand short loops.
 std::vector<Chunk> cutElements(const Model& model) {
@@ -46,7 +54,9 @@ std::vector<Chunk> cutElements(const Model& model) {
     const Component& component = model.components[c];
     const Chunk kind = chunkOf(component);
     for (std::uint32_t e = component.firstTriangle; e < component.lastTriangle; ++e) {
-      if (chunks.empty() || !sameMaterial(chunks.back(), kind) || e != chunks.back().lastElement ||
+      if (chunks.empty() || !sameMaterial(chunks.back(), kind) ||
+          !flowAlike(model.components[chunks.back().firstComponent], component) ||
+          e != chunks.back().lastElement ||
           e - chunks.back().firstElement == tolerance::kChunkElements) {
         chunks.push_back(kind);
         chunks.back().firstElement = e;

@@ -41,6 +41,7 @@ struct Chunk {
   double density, waveSpeed;  ///< kg/m³, m/s; for the bulk viscosity
   double thickness;           ///< m
   ElementKind element;
+  bool yields;              ///< dynamics/plastic_flow.hpp
   bool isMixed;             ///< elements have individual laws, which replace the first four values
   std::uint32_t firstLaws;  ///< first index of its lanes in `ElementChunks::laws`
   /// Pa, β and μ of a brittle material; the least of each for several materials; 0 otherwise.

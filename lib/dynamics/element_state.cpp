@@ -2,18 +2,23 @@
 
 #include "dynamics/collapse_barrier.hpp"
 #include "dynamics/smoothed_state.hpp"
+#include "dynamics/yielding_state.hpp"
 
 namespace yadefrag {
 namespace {
 
 /// The gradient, in the stress-free shape, of a field with the given nodal values.
-Matrix2 gradient(const Model& model, ElementId element, const std::vector<Vec2>& field) {
+Matrix2 gradient(const Model& model, ElementId element, const std::vector<Vec2>& field,
+                 const std::array<double, 4>& inverse) {
   const auto& nodes = model.triangles.nodes[element.value];
-  const auto& inverse = model.triangles.inverseEdges[element.value];
   const Vec2 d1 = field[nodes[1].value] - field[nodes[0].value];
   const Vec2 d2 = field[nodes[2].value] - field[nodes[0].value];
   return deformationGradient(d1.x, d1.y, d2.x, d2.y, inverse[0], inverse[1], inverse[2],
                              inverse[3]);
+}
+
+Matrix2 gradient(const Model& model, ElementId element, const std::vector<Vec2>& field) {
+  return gradient(model, element, field, model.triangles.inverseEdges[element.value]);
 }
 
 /// σ = P Fᵀ / det F. The barrier adds ∂B/∂J to its mean.
@@ -31,12 +36,29 @@ Matrix2 deformationGradient(const Model& model, ElementId element) {
   return gradient(model, element, model.nodes.position);
 }
 
+std::array<double, 4> elasticEdges(const Model& model, ElementId element) {
+  if (!model.bodyOf(element).yields()) return model.triangles.inverseEdges[element.value];
+  return YieldPoint(model.triangles.plastic, element.value).edges;
+}
+
+Matrix2 elasticGradient(const Model& model, ElementId element) {
+  return gradient(model, element, model.nodes.position, elasticEdges(model, element));
+}
+
 Matrix2 deformationStep(const Model& model, ElementId element, double dt) {
   const Matrix2 rate = gradient(model, element, model.nodes.velocity);
   return {dt * rate.xx, dt * rate.xy, dt * rate.yx, dt * rate.yy};
 }
 
 std::array<double, 3> stressOf(const Model& model, ElementId element) {
+  const Component& body = model.bodyOf(element);
+  if (body.yields()) {
+    const Returned state = presentState(model, element, 0);
+    const SolidModuli moduli(body.material);
+    const double volume = state.trial.volume;
+    const PlaneStress t(state.trial, meanStress(volume, moduli.bulk), state.kept, moduli.shear);
+    return {t.xx / volume, t.yy / volume, t.xy / volume};
+  }
   return cauchy(deformationGradient(model, element), Moduli(model.materialOf(element).material));
 }
 
@@ -48,10 +70,10 @@ std::array<double, 3> strainRateOf(const Model& model, ElementId element) {
           (rate.xy * f.xx - rate.xx * f.xy + rate.yx * f.yy - rate.yy * f.yx) / (2 * det)};
 }
 
-std::vector<std::array<double, 3>> stresses(const Model& model) {
+std::vector<std::array<double, 3>> stresses(const Model& model, double dt) {
   std::vector<std::array<double, 3>> result(model.triangles.size());
   for (const Component& c : model.components) {
-    if (c.element == ElementKind::kSmoothed) continue;
+    if (c.element == ElementKind::kSmoothed || c.yields()) continue;
     Moduli m(c.material);
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
       m.take(model, c, ElementId(e));
@@ -59,13 +81,14 @@ std::vector<std::array<double, 3>> stresses(const Model& model) {
     }
   }
   setSmoothedStresses(model, result);
+  setYieldingStresses(model, dt, result);
   return result;
 }
 
-std::vector<double> elementEnergies(const Model& model) {
+std::vector<double> elementEnergies(const Model& model, double dt) {
   std::vector<double> result(model.triangles.size());
   for (const Component& c : model.components) {
-    if (c.element == ElementKind::kSmoothed) continue;
+    if (c.element == ElementKind::kSmoothed || c.yields()) continue;
     Moduli m(c.material);
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
       m.take(model, c, ElementId(e));
@@ -76,6 +99,7 @@ std::vector<double> elementEnergies(const Model& model) {
     }
   }
   setSmoothedEnergies(model, result);
+  setYieldingEnergies(model, dt, result);
   return result;
 }
 

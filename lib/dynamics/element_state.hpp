@@ -24,6 +24,11 @@ class Moduli {
 /// The deformation gradient F at the present positions.
 Matrix2 deformationGradient(const Model& model, ElementId element);
 
+/// (1/m) Inverse of the edges of the stress-free shape, which flow has changed.
+std::array<double, 4> elasticEdges(const Model& model, ElementId element);
+/// The deformation gradient from that shape; F without flow.
+Matrix2 elasticGradient(const Model& model, ElementId element);
+
 /// Δt Ḟ: the change of F over a step at the present velocities.
 Matrix2 deformationStep(const Model& model, ElementId element, double dt);
 
@@ -35,9 +40,10 @@ std::array<double, 3> stressOf(const Model& model, ElementId element);
 std::array<double, 3> strainRateOf(const Model& model, ElementId element);
 
 /// (Pa) The stress of every element from which its forces are computed.
-std::vector<std::array<double, 3>> stresses(const Model& model);
+/// `dt` (s): the last step, for bodies that yield; 0: their rate has no effect.
+std::vector<std::array<double, 3>> stresses(const Model& model, double dt = 0);
 
 /// (J) Strain energy of every element at the present positions.
-std::vector<double> elementEnergies(const Model& model);
+std::vector<double> elementEnergies(const Model& model, double dt = 0);
 
 }  // namespace yadefrag

@@ -3,6 +3,7 @@
 #include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/smoothed_state.hpp"
+#include "dynamics/yielding_state.hpp"
 
 namespace yadefrag {
 namespace {
@@ -46,9 +47,9 @@ double moment(std::span<const Vec2> positions, std::span<const Vec2> forces) {
 }
 
 double strainEnergy(const Model& model, double dt) {
-  double sum = smoothedEnergy(model, dt);
+  double sum = smoothedEnergy(model, dt) + yieldingEnergy(model, dt).strain;
   for (const Component& c : model.components) {
-    if (c.element == ElementKind::kSmoothed) continue;
+    if (c.element == ElementKind::kSmoothed || c.yields()) continue;
     double twice = 0;
     Moduli moduli(c.material);
     for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e) {
@@ -61,10 +62,10 @@ double strainEnergy(const Model& model, double dt) {
 }
 
 double strainEnergy(const Model& model, double dt, std::span<const ElementId> elements) {
-  double sum = smoothedEnergy(model, elements, dt);
+  double sum = smoothedEnergy(model, elements, dt) + yieldingEnergy(model, elements, dt).strain;
   for (const ElementId element : elements) {
     const Component& c = model.bodyOf(element);
-    if (c.element == ElementKind::kLinear)
+    if (c.element == ElementKind::kLinear && !c.yields())
       sum += twiceEnergy(model, element, Moduli(model.materialOf(element).material), dt) *
              c.thickness / 2;
   }

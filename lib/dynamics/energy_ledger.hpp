@@ -27,6 +27,8 @@ struct EnergyLedger {
   double friction = 0;  ///< −ΣF·v̄Δt of friction, on cohesive cracks, too
   /// Of the cohesive law, and the loss of smoothed strain energy when nodes split.
   double fracture = 0;
+  /// Plastic work, up to the last positions at which forces were computed.
+  double plastic = 0;
   double damping = 0;   ///< mass-proportional damping and bulk viscosity
   double dropped = 0;   ///< energy of fragments that were removed
   double external = 0;  ///< gravity, loads, external forces, prescribed motion
@@ -36,7 +38,8 @@ struct EnergyLedger {
 
   /// J, constant to the order of the scheme.
   [[nodiscard]] double total(double kinetic, double strain) const {
-    return kinetic + strain + contact + friction + fracture + damping + dropped - external;
+    return kinetic + strain + contact + friction + fracture + plastic + damping + dropped -
+           external;
   }
 };
 

@@ -36,6 +36,7 @@ struct ExplicitDynamics::Update {
   double largeSpeed;  // m/s
   Vec2 fall;          // m/s
   double outerPart;   // of Δv: duration of external forces
+  double lastDt;      // s, step before this one
   std::span<const Vec2> outer, load;
   int threads;
 };
@@ -44,6 +45,7 @@ void ExplicitDynamics::rebuild(const Model& model) {
   elements_.build(model);
   watching_ = elements_.watch(leastStrength_);
   smoothing_.rebuild(elements_);
+  flow_.rebuild(model, elements_);
   stressed_.clear();
   force_.assign(model.nodes.size(), {});
   partialForce_.resize(elements_.partials());
@@ -80,6 +82,7 @@ std::size_t ExplicitDynamics::follow(const Model& model, std::span<const Element
       for (const std::uint32_t i : abandoned) (*partial)[i] = {};
     }
   smoothing_.follow(elements_, abandoned);
+  flow_.follow(elements_, abandoned);
   force_.resize(model.nodes.size());
   if (!viscousForce_.empty()) viscousForce_.resize(model.nodes.size());
   for (const NodeId original : originals) {
@@ -111,36 +114,54 @@ void ExplicitDynamics::smoothStrains(const Model& model, std::size_t part, std::
       const Chunk& chunk = elements_.chunks[c];
       if (chunk.element != ElementKind::kSmoothed) continue;
       fetchNodes(elements_, chunk, model.nodes.position, scratch.values.data());
-      if (!smoothing_.sum(set_, elements_, chunk, scratch.values.data(), scratch.stressed))
+      if (chunk.yields)
+        flow_.sum(set_, model, elements_, chunk, scratch.values.data());
+      else if (!smoothing_.sum(set_, elements_, chunk, scratch.values.data(), scratch.stressed))
         handleFlat(model, chunk, scratch);
     }
   });
 #pragma omp barrier
   const std::size_t rows = elements_.sharedNodes.size();
-  for (std::size_t row = rows * part / parts; row < rows * (part + 1) / parts; ++row)
-    smoothing_.sumShared(elements_, row);
+  for (std::size_t row = rows * part / parts; row < rows * (part + 1) / parts; ++row) {
+    if (smoothing_.isOn()) smoothing_.sumShared(elements_, row);
+    if (flow_.isSmoothing()) flow_.sumShared(elements_, row);
+  }
 #pragma omp barrier
 }
 
-void ExplicitDynamics::sumChunk(const Model& model, const Chunk& chunk,
-                                const BulkViscosity& viscosity, Scratch& scratch) {
-  const std::size_t count = chunk.lastNode - chunk.firstNode;
-  Vec2* position = scratch.values.data();
-  Vec2* force = position + elements_.mostNodes;
+void ExplicitDynamics::sumForces(Model& model, std::size_t index, std::size_t part,
+                                 const Vec2* position, Vec2* force) {
+  const Chunk& chunk = elements_.chunks[index];
+  Scratch& scratch = scratch_[part];
   const ElementLanes* lanes = elements_.lanes.data();
   const ElementLaws* laws = elements_.lawsOf(chunk);
-  const bool smoothed = chunk.element == ElementKind::kSmoothed;
-  if (!smoothed || viscosity.isOn()) fetchNodes(elements_, chunk, model.nodes.position, position);
-  std::fill_n(force, count, Vec2{});
-  if (smoothed)
+  if (chunk.yields) {
+    if (!flow_.addForces(set_, model, elements_, index, position, force, part))
+      handleFlat(model, chunk, scratch);
+  } else if (chunk.element == ElementKind::kSmoothed) {
     smoothing_.addForces(set_, elements_, chunk, model.nodes.mass, scratch.room, force);
-  else {
+  } else {
     const bool upright =
         std::isfinite(chunk.squaredStressLimit)
             ? addElasticForces(set_, chunk, lanes, laws, position, force, scratch.stressed)
             : addElasticForces(set_, chunk, lanes, laws, position, force);
     if (!upright) handleFlat(model, chunk, scratch);
   }
+}
+
+void ExplicitDynamics::sumChunk(Model& model, std::size_t index, const BulkViscosity& viscosity,
+                                std::size_t part) {
+  const Chunk& chunk = elements_.chunks[index];
+  Scratch& scratch = scratch_[part];
+  const std::size_t count = chunk.lastNode - chunk.firstNode;
+  Vec2* position = scratch.values.data();
+  Vec2* force = position + elements_.mostNodes;
+  const ElementLanes* lanes = elements_.lanes.data();
+  const ElementLaws* laws = elements_.lawsOf(chunk);
+  const bool fromNodes = chunk.element == ElementKind::kSmoothed && !chunk.yields;
+  if (!fromNodes || viscosity.isOn()) fetchNodes(elements_, chunk, model.nodes.position, position);
+  std::fill_n(force, count, Vec2{});
+  sumForces(model, index, part, position, force);
   if (std::ranges::find(scratch.flat, chunk.firstElement, &ElementRange::firstElement) !=
       scratch.flat.end())
     addBarrierForces(model, chunk, force);
@@ -227,6 +248,7 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
     scratch.values.resize((viscosity.isOn() ? 4 : 2) * elements_.mostNodes);
     if (smoothing_.isOn()) scratch.room.resize(elements_.mostNodes);
   }
+  flow_.begin(elements_, threads, update.lastDt);
   PartErrors errors;  // the list of stressed elements may exceed the memory
   // One parallel region for both loops: starting the threads twice would be visible in small
   // scenes.
@@ -234,11 +256,11 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
   {
     const std::size_t part = omp_get_thread_num();
     const std::size_t parts = omp_get_num_threads();
-    if (smoothing_.isOn()) smoothStrains(model, part, parts, errors);
+    if (smoothing_.isOn() || flow_.isSmoothing()) smoothStrains(model, part, parts, errors);
     const std::size_t chunks = elements_.chunks.size();
     errors.run(static_cast<int>(part), [&] {
       for (std::size_t c = chunks * part / parts; c < chunks * (part + 1) / parts; ++c)
-        sumChunk(model, elements_.chunks[c], viscosity, scratch_[part]);
+        sumChunk(model, c, viscosity, part);
     });
 #pragma omp barrier
     const std::size_t begin = count * part / parts;
@@ -248,6 +270,7 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
     const auto moveAll = forced ? &ExplicitDynamics::move<true> : &ExplicitDynamics::move<false>;
     if (!badElement_ && !errors.any()) (this->*moveAll)(model.nodes, update, begin, end);
   }
+  if (errors.any()) flow_.takeBack(model);
   errors.rethrow();
 }
 
@@ -263,7 +286,8 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
   partialViscous_.resize(settings.viscosity.isOn() ? elements_.partials() : 0);
   step(model,
        {dt, (1 - d) / (1 + d), rate, tolerance::kLargeMove * leastHeight_ / dt,
-        rate * settings.gravity, dt / length.velocity, outerForces, model.nodes.load, threads},
+        rate * settings.gravity, dt / length.velocity, 2 * length.velocity - length.position,
+        outerForces, model.nodes.load, threads},
        settings.viscosity);
   // Each thread has successive chunks, so that the joined list is ascending.
   stressed_.clear();
@@ -271,6 +295,7 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
     stressed_.insert(stressed_.end(), scratch.stressed.begin(), scratch.stressed.end());
   // Bodies with smoothed strains were checked before all others: sort.
   if (smoothing_.isOn()) std::sort(stressed_.begin(), stressed_.end());
+  if (badElement_ || badNode_) flow_.takeBack(model);
   if (badElement_) refuseElement(model);
   if (badNode_) refuseNode(model);
   model.nodes.position.swap(previousPosition_);
@@ -375,6 +400,7 @@ void ExplicitDynamics::measureReactions(const Model& model, const StepLength& le
 void ExplicitDynamics::addTo(Footprint& footprint) const {
   elements_.addTo(footprint);
   smoothing_.addTo(footprint);
+  flow_.addTo(footprint);
   footprint.add(Use::kDynamics, force_, partialForce_, previousPosition_, previousVelocity_,
                 scratch_);
   footprint.add(Use::kViscosity, viscousForce_, partialViscous_);

@@ -13,6 +13,7 @@
 #include "core/tolerances/threads.hpp"
 #include "dynamics/element_kernel.hpp"
 #include "dynamics/energy_ledger.hpp"
+#include "dynamics/plastic_flow.hpp"
 #include "dynamics/strain_smoothing.hpp"
 #include "mesh/model.hpp"
 
@@ -120,6 +121,9 @@ class ExplicitDynamics {
   [[nodiscard]] bool anyLargeMove() const { return anyLargeMove_; }
   /// (N) Elastic and viscous forces f(xⁿ) by node, of the last step.
   [[nodiscard]] std::span<const Vec2> internalForces() const { return force_; }
+  /// Bodies that yield; of the last step.
+  [[nodiscard]] const PlasticFlow& flow() const { return flow_; }
+  PlasticFlow& flow() { return flow_; }
   void addTo(Footprint& footprint) const;
 
  private:
@@ -133,8 +137,9 @@ class ExplicitDynamics {
   };
 
   void smoothStrains(const Model& model, std::size_t part, std::size_t parts, PartErrors& errors);
-  void sumChunk(const Model& model, const Chunk& chunk, const BulkViscosity& viscosity,
-                Scratch& scratch);
+  void sumChunk(Model& model, std::size_t chunk, const BulkViscosity& viscosity, std::size_t part);
+  void sumForces(Model& model, std::size_t chunk, std::size_t part, const Vec2* position,
+                 Vec2* force);
   void handleFlat(const Model& model, const Chunk& chunk, Scratch& scratch);
   void addBarrierForces(const Model& model, const Chunk& chunk, Vec2* force) const;
   Vec2 applyHeld(const Nodes& nodes, std::size_t node, Vec2& velocity);
@@ -149,6 +154,7 @@ class ExplicitDynamics {
   InstructionSet set_;
   ElementChunks elements_;
   StrainSmoothing smoothing_;
+  PlasticFlow flow_;
   std::vector<Vec2> force_, partialForce_;  // N, total
   std::vector<Vec2> viscousForce_,
       partialViscous_;  // of the viscosity only; empty if it is off

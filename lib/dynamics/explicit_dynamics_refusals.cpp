@@ -100,6 +100,7 @@ void ExplicitDynamics::takeBack(Model& model) {
   model.nodes.position.swap(previousPosition_);
   model.nodes.velocity.swap(previousVelocity_);
   exchangeHeld(model.nodes);
+  flow_.takeBack(model);
 }
 
 void ExplicitDynamics::refuseElement(const Model& model) {

@@ -28,7 +28,9 @@ double twiceOwnEnergy(const Model& model, ElementId element, double dt) {
          volumeOf(model, element) * twiceBarrierEnergy(f, last, material.waveModulus());
 }
 
-bool isSmoothed(const Component& body) { return body.element == ElementKind::kSmoothed; }
+bool isSmoothed(const Component& body) {
+  return body.element == ElementKind::kSmoothed && !body.yields();
+}
 
 /// Calls `use(element)` for all triangles with smoothed strains that have not been removed.
 template <class Use>

@@ -8,9 +8,9 @@
 namespace yadefrag {
 
 void StrainSmoothing::rebuild(const ElementChunks& elements) {
-  const bool on =
-      std::any_of(elements.chunks.begin(), elements.chunks.end(),
-                  [](const Chunk& chunk) { return chunk.element == ElementKind::kSmoothed; });
+  const bool on = std::any_of(
+      elements.chunks.begin(), elements.chunks.end(),
+      [](const Chunk& chunk) { return chunk.element == ElementKind::kSmoothed && !chunk.yields; });
   gradient_.resize(on ? elements.nodes.size() : 0);
   partialGradient_.assign(on ? elements.partials() : 0, {});
   wholeGradient_.resize(partialGradient_.size());

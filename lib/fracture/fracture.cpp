@@ -91,7 +91,7 @@ double Fracture::splitEnergy(const Model& model, std::span<const NodeId> origina
   for (std::size_t i = 0; i < originals.size();) {
     const NodeId node = originals[i];
     const Component& body = model.components[model.nodes.component[node.value].value];
-    if (body.element != ElementKind::kSmoothed) {
+    if (body.element != ElementKind::kSmoothed || body.yields()) {
       ++i;
       continue;
     }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dynamics/element_state.hpp"
+#include "dynamics/flowed_shape.hpp"
 #include "fracture/edge_material.hpp"
 #include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
@@ -115,10 +116,12 @@ class Conformed {
     const auto [x0, x1, x2] = placesOf(element);
     const Vec2 a = x1 - x0, b = x2 - x0;
     const double det = cross(a, b);
+    const FlowedShape flowed(t_, element);
     t_.inverseEdges[element.value] = {
         (b.y * f.xx - b.x * f.yx) / det, (b.y * f.xy - b.x * f.yy) / det,
         (a.x * f.yx - a.y * f.xx) / det, (a.x * f.yy - a.y * f.xy) / det};
     t_.area[element.value] = det / 2 / determinant(f);
+    flowed.keep(t_, element);
   }
 
   /// Of the triangle in which the place lies, or out of which it lies least.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "core/errors.hpp"
@@ -25,6 +26,20 @@ void appendTriangle(Triangles& triangles, const std::array<Vec2, 3>& x) {
   const double det = cross(d1, d2);
   triangles.inverseEdges.push_back({d2.y / det, -d2.x / det, -d1.y / det, d1.x / det});
   triangles.area.push_back(det / 2);
+}
+
+bool anyYields(const Model& model) {
+  return std::ranges::any_of(model.components, &Component::yields);
+}
+
+/// Rows of bodies that do not yield have no meaning.
+void appendPlasticState(Model& model, const Component& added) {
+  PlasticState& state = model.triangles.plastic;
+  if (!anyYields(model)) return;
+  state.resize(model.triangles.size());
+  if (added.yields())
+    for (std::size_t e = added.firstTriangle; e < added.lastTriangle; ++e)
+      state.begin(e, model.triangles.inverseEdges[e], added.plastic.startTemperature);
 }
 
 void removeTriangles(Model& model, Component& gone) {
@@ -107,6 +122,7 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
     const ElementId element(added.firstTriangle + t);
     stretch(triangles, element, stretchOf(model.materialOf(element).material, stress[t]).value());
   }
+  appendPlasticState(model, added);
   addMasses(model, added);
   return id;
 }
@@ -114,6 +130,8 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
 std::vector<NodeId> removeBody(Model& model, ComponentId component) {
   removeTriangles(model, model.components[component.value]);
   removeMaterials(model, model.components[component.value]);
+  model.components[component.value].plastic = {};
+  if (!anyYields(model)) model.triangles.plastic = {};
   model.components[component.value].name.clear();
   std::vector<std::uint8_t> gone(model.components.size());
   gone[component.value] = 1;

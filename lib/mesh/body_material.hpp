@@ -7,12 +7,14 @@
 
 #include "mesh/brittle_material.hpp"
 #include "mesh/elastic_material.hpp"
+#include "mesh/plastic_material.hpp"
 
 namespace yadefrag {
 
 struct BodyMaterial {
   ElasticMaterial material;
   BrittleMaterial brittle;
+  PlasticMaterial plastic;
   double friction = 0;  ///< tan of the friction angle
 };
 

@@ -11,6 +11,7 @@
 #include "core/vec2.hpp"
 #include "mesh/body_material.hpp"
 #include "mesh/motion.hpp"
+#include "mesh/plastic_state.hpp"
 
 namespace yadefrag {
 
@@ -66,6 +67,7 @@ struct Triangles {
   std::vector<ComponentId> component;
   /// Number of the triangle's material among its body's materials; empty if no body has several.
   std::vector<std::uint32_t> material;
+  PlasticState plastic;
 
   /// All arrays by triangle, likewise.
   template <class Self>
@@ -76,6 +78,7 @@ struct Triangles {
       visit(Column{"area", Use::kMesh}, self.area);
       visit(Column{"triangleComponent", Use::kMesh}, self.component);
       visit(Column{"triangleMaterial", Use::kMaterials, kOptional}, self.material);
+      PlasticState::columnsOf(self.plastic)(visit);
     };
   }
   auto columns() { return columnsOf(*this); }
@@ -106,6 +109,7 @@ struct Component : BodyMaterial {
   std::uint32_t lastMaterial = 0;   ///< one past the last
   std::string name = {};            ///< given by a script, or empty
 
+  [[nodiscard]] bool yields() const { return plastic.yields(); }
   [[nodiscard]] bool isMixed() const { return firstMaterial != lastMaterial; }
 };
 

@@ -80,6 +80,10 @@ void checkMaterial(const BodyMaterial& one) {
   require(one.friction >= 0 && std::isfinite(one.friction), "friction", one.friction, "",
           "0 or positive, and finite");
   if (one.brittle.tensileStrength != 0) checkBrittle(one.brittle);
+  if (one.plastic.isFrictional() && m.planeStress)
+    throw InputError("planeStress is True, but the material is frictional; it must be False.");
+  if (one.plastic.yields())
+    if (const std::string wrong = one.plastic.wrong(); !wrong.empty()) throw InputError(wrong);
 }
 
 /// One material, or several with a number for each triangle.
@@ -89,7 +93,13 @@ void checkMaterials(const TriangleMesh& mesh, const BodySpec& spec) {
     throw InputError(
         "element is 'smoothed', but the body has several materials, whose strains must not be "
         "averaged where they meet; it must be 'linear', or bodies of one material each, bonded.");
-  for (const BodyMaterial& one : spec.materials.materials) checkMaterial(one);
+  for (const BodyMaterial& one : spec.materials.materials) {
+    if (one.plastic.yields())
+      throw InputError(
+          "the body has several materials, one of which yields; it must be a body of its own, "
+          "bonded to the others.");
+    checkMaterial(one);
+  }
   requireOfTriangles("material", spec.materials.ofTriangle, mesh);
   for (const std::uint32_t number : spec.materials.ofTriangle)
     require(number < spec.materials.materials.size(), "material", number, "",

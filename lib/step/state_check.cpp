@@ -38,6 +38,7 @@ bool materialIsValid(const BodyMaterial& one) {
   const ElasticMaterial& m = one.material;
   return isPositive(m.young) && m.poisson > -1 && m.poisson < .5 && isPositive(m.density) &&
          one.friction >= 0 && std::isfinite(one.friction) && one.brittle.tensileStrength >= 0 &&
+         (!one.plastic.yields() || one.plastic.wrong().empty()) &&
          one.brittle.fractureEnergy >= 0 && one.brittle.shearFactor > 0 &&
          one.brittle.shearEnergyFactor > 0 && one.brittle.referenceVolume >= 0 &&
          one.brittle.rateEnergyPower >= 0 && std::isfinite(one.brittle.rateEnergyPower);

@@ -100,6 +100,7 @@ void World::predict(const StepLength& length) {
   const StageTimer timer(timesIfRequested(), &StageTimes::forces);
   dynamics_.predict(model, length, dynamicsSettings, loads.forces(), threads);
   undo_.hasMoved = true;
+  if (dynamics_.flow().isOn()) ledger.plastic += dynamics_.flow().dissipation();
 }
 
 void World::requireUpright(double dt) {

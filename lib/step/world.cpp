@@ -70,7 +70,7 @@ void World::removeBody(ComponentId component) {
   std::vector<std::uint8_t> gone(model.components.size());
   gone[component.value] = 1;
   takeOff(gone, renumbered);
-  watch.begin(kineticEnergy() + strainEnergy(), ledger);
+  watch.begin(kineticEnergy() + strainEnergy() + pendingPlastic(), ledger);
   stableStep = 0;
 }
 
@@ -165,7 +165,8 @@ double World::criticalTimeStep() const {
 /// checked in every step (requireUpright).
 void World::requireStableStep(double dt) {
   const BulkViscosity& viscosity = dynamicsSettings.viscosity;
-  if (dt > 0 && dt <= stableStep && viscosity == stableViscosity) return;
+  const bool flowed = dynamics_.flow().isSteeper();
+  if (dt > 0 && dt <= stableStep && viscosity == stableViscosity && !flowed) return;
   const double critical = criticalTimeStep();
   if (critical == 0)
     throw TimeStepError("No time step is stable: a velocity or a node's place is too large.");
@@ -181,6 +182,7 @@ void World::requireStableStep(double dt) {
   checkBondResolution(model, fracture.edges, dt);
   stableStep = dt;
   stableViscosity = viscosity;
+  if (dynamics_.flow().isOn()) dynamics_.flow().noteSteepest(model);
 }
 
 }  // namespace yadefrag

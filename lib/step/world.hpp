@@ -17,6 +17,7 @@
 #include "core/stage_times.hpp"
 #include "dynamics/energy_ledger.hpp"
 #include "dynamics/explicit_dynamics.hpp"
+#include "dynamics/yielding_state.hpp"
 #include "fracture/bonds.hpp"
 #include "fracture/conform.hpp"
 #include "fracture/fracture.hpp"
@@ -131,6 +132,9 @@ class World {
   /// (s) Of the present mesh; infinite without elements.
   [[nodiscard]] double criticalTimeStep() const;
 
+  /// True if flow has made triangles flatter since the critical step was last computed in a step.
+  [[nodiscard]] bool hasFlowed() const { return isBuilt_ && dynamics_.flow().isSteeper(); }
+
   /// To save.
   [[nodiscard]] SearchBounds searchBounds() const {
     return isBuilt_ ? search.bounds(dynamics_) : search.loaded;
@@ -139,6 +143,9 @@ class World {
   /// (J) At the last half step.
   [[nodiscard]] double kineticEnergy() const { return yadefrag::kineticEnergy(model.nodes); }
   [[nodiscard]] double strainEnergy() const { return yadefrag::strainEnergy(model, lastDt); }
+  /// (J) Half of the plastic work in the last motion, which the ledger does not contain yet: the
+  /// sum of all energies is that of the half step.
+  [[nodiscard]] double pendingPlastic() const { return yieldingEnergy(model, lastDt).dissipated; }
   /// (m/s) By node, at the begin of the last step; work of a force is that with the mean of these
   /// and the present ones. Valid until bodies are added or removed.
   [[nodiscard]] std::span<const Vec2> formerVelocities() const {

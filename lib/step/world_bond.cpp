@@ -61,7 +61,7 @@ void World::followDivision(const DividedSides& divided) {
   search.invalidate();
   places_.clear();
   rebuild();
-  watch.begin(kineticEnergy() + strainEnergy(), ledger);
+  watch.begin(kineticEnergy() + strainEnergy() + pendingPlastic(), ledger);
 }
 
 void World::bond(const CommonSides& sides, double strength, double energy) {

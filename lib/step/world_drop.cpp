@@ -61,7 +61,13 @@ void World::takeOut(std::span<const ElementId> triangles) {
     model.nodes.position[node.value] = model.nodes.reference[node.value];
     model.nodes.held[node.value] = kHeldXY;
   }
-  for (const ElementId element : triangles) model.triangles.area[element.value] = 0;
+  for (const ElementId element : triangles) {
+    model.triangles.area[element.value] = 0;
+    PlasticState& flowed = model.triangles.plastic;
+    if (flowed.isUsed())
+      flowed.begin(element.value, model.triangles.inverseEdges[element.value],
+                   flowed.temperature[element.value]);
+  }
   dynamics_.drop(nodes);
   fracture.cohesion.removeDropped(model.triangles, fracture.edges);
   surfaces.drop(nodes);

@@ -68,7 +68,7 @@ void World::watchEnergy() {
     if (watch.mayHaveSpun(now)) report(watch.spinMessage(now, sumOfSpins(model.nodes)));
     const double kinetic = kineticEnergy();
     if (watch.mayHaveGrown(now, kinetic)) {
-      const double energy = kinetic + strainEnergy();
+      const double energy = kinetic + strainEnergy() + pendingPlastic();
       const double grown = ledger.total(energy, 0) - watch.expected;
       // The energy of rounding takes long to compute; it is needed only if the excess is large.
       const bool isMuch = grown > tolerance::kGivenEnergy * watch.most;

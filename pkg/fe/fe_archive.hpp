@@ -50,7 +50,7 @@ class WorldArchive : ColumnArchive<Archive> {
  private:
   using Base::column, Base::curves, Base::flags, Base::lines, Base::member, Base::refuse;
   using Base::table, Base::value;
-  static constexpr std::uint64_t kFormat = 16;
+  static constexpr std::uint64_t kFormat = 17;
 
   void all(World& world, std::vector<int>& entryBodies) {
     std::uint64_t format = kFormat;
@@ -85,6 +85,7 @@ class WorldArchive : ColumnArchive<Archive> {
     value("fractureWork", ledger.fracture), value("dampingEnergy", ledger.damping);
     value("externalEnergy", ledger.external), value("droppedEnergy", ledger.dropped);
     value("createdSpin", ledger.spin);
+    value("plasticEnergy", ledger.plastic);
     Dropped& dropped = world.dropped;
     value("droppedMass", dropped.mass), value("dropped", dropped.count);
     value("droppedMomentumX", dropped.momentum.x), value("droppedMomentumY", dropped.momentum.y);
@@ -161,7 +162,44 @@ class WorldArchive : ColumnArchive<Archive> {
            [](C& c) -> SofteningCurve& { return c.brittle.softening; });
     curves("rateCounts", "ratePoints", rows, [](C& c) -> RateEffect& { return c.brittle.rate; });
     member("rateEnergyPower", rows, [](C& c) -> double& { return c.brittle.rateEnergyPower; });
+    plastic(rows);
     flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
+  }
+
+  template <class C>
+  void plastic(std::vector<C>& rows) {
+    const auto constant = [&](const char* name, double PlasticMaterial::*which) {
+      member(name, rows, [which](C& c) -> double& { return c.plastic.*which; });
+    };
+    using P = PlasticMaterial;
+    constant("yieldStress", &P::yieldStress), constant("hardening", &P::hardening);
+    constant("hardeningExponent", &P::hardeningExponent);
+    constant("offsetStrain", &P::offsetStrain);
+    constant("rateFactor", &P::rateFactor), constant("referenceRate", &P::referenceRate);
+    constant("thermalExponent", &P::thermalExponent);
+    constant("meltTemperature", &P::meltTemperature);
+    constant("startTemperature", &P::startTemperature);
+    constant("heatCapacity", &P::heatCapacity), constant("heatShare", &P::heatShare);
+    constant("cohesion", &P::cohesion), constant("internalFriction", &P::internalFriction);
+    constant("dilation", &P::dilation), constant("tensionLimit", &P::tensionLimit);
+    std::vector<std::uint32_t> counts;
+    std::vector<HardeningPoint> points;
+    for (const C& c : rows) {
+      counts.push_back(static_cast<std::uint32_t>(c.plastic.table.size()));
+      points.insert(points.end(), c.plastic.table.begin(), c.plastic.table.end());
+    }
+    value("hardeningCounts", counts);
+    this->template numbers<double>("hardeningPoints", points);
+    if constexpr (Archive::is_loading::value) {
+      if (counts.size() != rows.size()) refuse("hardeningCounts has a wrong length");
+      auto at = points.begin();
+      for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] > static_cast<std::size_t>(points.end() - at))
+          refuse("hardeningPoints has a wrong length");
+        rows[i].plastic.table.assign(at, at + counts[i]);
+        at += counts[i];
+      }
+    }
   }
 
   void surfaces(ContactSurfaces& s) {

@@ -6,13 +6,16 @@
 #include <cmath>
 #include <iostream>
 #include <mutex>
+#include <numbers>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "collider/motion_watch.hpp"
 #include "core/errors.hpp"
+#include "core/tolerances/plasticity.hpp"
 #include "core/tolerances/step.hpp"
+#include "fe/plastic_materials.hpp"
 #include "fe/running.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "fracture/coarse_mesh.hpp"
@@ -30,6 +33,7 @@ void FESolver::action() try {
   const bool enginesAreNew = order_.require(*scene, *this);
   bodies_.requireAll(*scene);
   giveSettings();
+  followFlow();
   checkScene(enginesAreNew);
   followRigid(enginesAreNew);
   if (world_.search.isDue()) checkBodies();
@@ -65,6 +69,17 @@ void FESolver::action() try {
 } catch (const std::exception& error) {
   noteStop(error.what());
   throw;
+}
+
+/// Reduces O.dt if plastic flow has made triangles so flat that it is above the critical step.
+void FESolver::followFlow() {
+  if (!world_.hasFlowed()) return;
+  const double critical = world_.criticalTimeStep();
+  if (scene->dt <= critical) return;
+  scene->dt = tolerance::kFlowStep * critical;
+  report(
+      {"O.dt is reduced to 0.8 of the critical step where plastic flow makes triangles flatter "
+       "(docs/materials.md)."});
 }
 
 /// Of the surface pieces, which a script can change.
@@ -231,6 +246,26 @@ BodyMaterial bodyMaterialOf(const FEMat& material) {
                    .rate = brittle->rateEffect.law(),
                    .rateEnergyPower = brittle->rateEnergyPower};
     checkBrittle(one.brittle);
+  }
+  if (const auto* plastic = dynamic_cast<const PlasticFEMat*>(&material)) {
+    one.plastic = plastic->constants();
+    if (const std::string wrong = one.plastic.wrong(); !wrong.empty()) throw InputError(wrong);
+  }
+  if (const auto* frictional = dynamic_cast<const FrictionalFEMat*>(&material)) {
+    if (!(frictional->cohesion > 0))
+      throw InputError(fmt::format("cohesion is {:g} Pa; it must be positive and finite.",
+                                   frictional->cohesion));
+    if (!(frictional->internalFriction >= 0 && frictional->internalFriction < std::numbers::pi / 2))
+      throw InputError(
+          fmt::format("internalFriction is {:g}; it must be at least 0 and below π/2 (rad).",
+                      frictional->internalFriction));
+    if (!(frictional->dilationAngle >= 0 &&
+          frictional->dilationAngle <= frictional->internalFriction))
+      throw InputError(
+          fmt::format("dilationAngle is {:g}; it must be at least 0 and at most internalFriction.",
+                      frictional->dilationAngle));
+    one.plastic = frictional->constants();
+    if (const std::string wrong = one.plastic.wrong(); !wrong.empty()) throw InputError(wrong);
   }
   return one;
 }

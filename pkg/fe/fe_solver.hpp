@@ -96,6 +96,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void giveSettings();
   void checkBodies();
   void collectForces();
+  void followFlow();
   void warn(std::size_t known) const;
   void checkScene(bool enginesAreNew);
   void checkTimeStep();

@@ -92,9 +92,25 @@ RateEffect RateChoice::law() const {
   return RateEffect(pointsOf<RatePoint>(table));
 }
 
+HardeningChoice::Table HardeningChoice::named(std::string_view name) {
+  if (name == "none") return {};
+  throw InputError("hardeningTable is '" + std::string(name) +
+                   "'; it must be 'none', or a list of points (plastic strain, yield stress).");
+}
+
+HardeningChoice::Table HardeningChoice::law() const {
+  if (!name.empty()) return named(name);
+  if (table.empty()) throw InputError("hardeningTable has no points; it must have at least one.");
+  PlasticMaterial material;
+  material.table = pointsOf<HardeningPoint>(table);
+  if (const std::string wrong = material.wrong(); !wrong.empty()) throw InputError(wrong);
+  return material.table;
+}
+
 void convertLaws() {
   convertLaw<SofteningChoice>();
   convertLaw<RateChoice>();
+  convertLaw<HardeningChoice>();
 }
 
 }  // namespace yadefrag

@@ -1,5 +1,6 @@
 #pragma once
-// The attributes BrittleFEMat.softening and rateEffect: a name, or a list of points.
+// The attributes BrittleFEMat.softening and rateEffect and PlasticFEMat.hardeningTable: a name, or
+// a list of points.
 
 #include <boost/serialization/nvp.hpp>
 #include <boost/serialization/string.hpp>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/plastic_material.hpp"
 #include "mesh/rate_effect.hpp"
 #include "mesh/softening_curve.hpp"
 
@@ -42,6 +44,17 @@ struct RateChoice : LawChoice {
   [[nodiscard]] static RateEffect named(std::string_view name) { return rateEffectNamed(name); }
   /// Throws InputError for an unknown name or invalid points.
   [[nodiscard]] RateEffect law() const;
+};
+
+struct HardeningChoice : LawChoice {
+  static constexpr const char* kAttribute = "hardeningTable";
+  static constexpr const char* kPoints = "plastic strain, yield stress in Pa";
+  using Table = std::vector<HardeningPoint>;
+
+  HardeningChoice() : LawChoice{"none", {}} {}
+  [[nodiscard]] static Table named(std::string_view name);
+  /// Throws InputError for an unknown name or invalid points.
+  [[nodiscard]] Table law() const;
 };
 
 /// Registers the conversions: from a str or pairs of numbers (ValueError or TypeError for others),

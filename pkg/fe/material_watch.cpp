@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "fe/plastic_materials.hpp"
+
 namespace yadefrag {
 namespace {
 
@@ -28,6 +30,10 @@ Values valuesOf(const FEMat& material) {
   add(all, material, FEMat::attributes());
   if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(&material))
     add(all, *brittle, BrittleFEMat::attributes());
+  if (const auto* plastic = dynamic_cast<const PlasticFEMat*>(&material))
+    add(all, *plastic, PlasticFEMat::attributes());
+  if (const auto* frictional = dynamic_cast<const FrictionalFEMat*>(&material))
+    add(all, *frictional, FrictionalFEMat::attributes());
   return all;
 }
 

@@ -9,6 +9,7 @@
 #include "entries/surface_segment.hpp"
 #include "fe/fe_solver.hpp"
 #include "fe/materials.hpp"
+#include "fe/plastic_materials.hpp"
 #include "fe/running.hpp"
 #include "loop/curve_loop.hpp"
 #include "publish/publish.hpp"
@@ -30,8 +31,8 @@ struct ClassList {
 
 // Every class that this project adds to YADE.
 using NewClasses = ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider, CurveLoop,
-                             FEMat, BrittleFEMat, SurfaceSegment, Bo1_SurfaceSegment_Aabb,
-                             Ig2_Sphere_SurfaceSegment_ScGeom,
+                             FEMat, BrittleFEMat, PlasticFEMat, FrictionalFEMat, SurfaceSegment,
+                             Bo1_SurfaceSegment_Aabb, Ig2_Sphere_SurfaceSegment_ScGeom,
 #ifdef YADE_OPENGL
                              Gl1_SurfaceSegment,
 #endif

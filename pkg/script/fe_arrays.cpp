@@ -63,7 +63,32 @@ py::object trianglesOf(const FESolver& solver) {
   return toArray(triangles);
 }
 
-py::object stressArrayOf(const FESolver& solver) { return toArray(stresses(solver.world().model)); }
+py::object stressArrayOf(const FESolver& solver) {
+  return toArray(stresses(solver.world().model, solver.world().lastDt));
+}
+
+bool anyYields(const FESolver& solver) { return solver.world().model.triangles.plastic.isUsed(); }
+
+/// Of the present state; 0 for triangles that do not yield.
+py::object yieldingArray(const FESolver& solver, double YieldPoint::*which) {
+  const Model& model = solver.world().model;
+  std::vector<double> values(model.triangles.size());
+  if (model.triangles.plastic.isUsed()) {
+    const std::vector<YieldPoint> points = presentPoints(model, solver.world().lastDt);
+    for (std::size_t e = 0; e < values.size(); ++e)
+      if (model.bodyOf(ElementId(e)).yields() && !model.triangles.isDropped(e))
+        values[e] = points[e].*which;
+  }
+  return toArray(values);
+}
+
+py::object plasticStrainOf(const FESolver& solver) {
+  return yieldingArray(solver, &YieldPoint::strain);
+}
+
+py::object temperatureOf(const FESolver& solver) {
+  return yieldingArray(solver, &YieldPoint::temperature);
+}
 
 py::object componentsOf(const FESolver& solver) {
   return toArray(solver.world().model.triangles.component);
@@ -171,6 +196,12 @@ void defineArrays(SolverClass& solver) {
           "strain", &Locked<strainArrayOf>::call,
           "Green and Lagrange's strain xx, yy, xy (half the shear angle) of the triangles, array "
           "(m, 3): (FᵀF - 1)/2, of each triangle alone where `element` is 'smoothed', too.")
+      .add_property("plasticStrain", &Locked<plasticStrainOf>::call,
+                    "Equivalent plastic strain of the triangles, array (m); 0 where the material "
+                    "does not yield.")
+      .add_property("temperature", &Locked<temperatureOf>::call,
+                    "Of the triangles (K), array (m), raised by plastic work, without conduction; "
+                    "0 where the material does not yield.")
       .add_property("components", &Locked<componentsOf>::call,
                     "Number of each triangle's body, array (m).")
       .add_property("materialNumbers", &Locked<materialNumbersOf>::call,
@@ -191,6 +222,7 @@ void defineArrays(SolverClass& solver) {
       .add_property("numSegments", &Locked<segmentsOf>::call,
                     "Segments of all surfaces: each crack that opens adds two; those of removed "
                     "fragments do not count.")
+      .add_property("_yields", &Locked<anyYields>::call)
       .add_property("_reference", &Locked<referenceOf>::call)
       .add_property("_loads", &Locked<loadsOf>::call)
       .add_property("_names", &Locked<namesOf>::call)

@@ -137,13 +137,15 @@ py::dict energyOf(const FESolver& solver) {
   result["contact"] = ledger.contact;
   result["friction"] = ledger.friction;
   result["fracture"] = ledger.fracture;
+  const double pending = world.pendingPlastic();
+  if (world.model.triangles.plastic.isUsed()) result["plastic"] = ledger.plastic + pending;
   result["damping"] = ledger.damping;
   if (solver.world().dropped.count > 0 || solver.world().fracture.minFragmentArea > 0)
     result["dropped"] = ledger.dropped;
   result["outside"] = -ledger.external;
-  result["total"] = ledger.total(kinetic, strain);
+  result["total"] = ledger.total(kinetic, strain) + pending;
   if (solver.balance().any())
-    result["scene"] = ledger.total(kinetic, strain) + solver.balance().created();
+    result["scene"] = ledger.total(kinetic, strain) + pending + solver.balance().created();
   return result;
 }
 
@@ -151,7 +153,8 @@ py::dict energyOf(const FESolver& solver) {
 /// and the energy of rounding errors.
 py::tuple energyBalanceOf(const FESolver& solver) {
   const World& world = solver.world();
-  const double total = world.ledger.total(world.kineticEnergy(), world.strainEnergy());
+  const double total =
+      world.ledger.total(world.kineticEnergy(), world.strainEnergy()) + world.pendingPlastic();
   const double excess = world.steps > 0 ? total - world.watch.expected : 0;
   return py::make_tuple(excess, world.watch.most, world.roundingEnergy());
 }

@@ -62,6 +62,11 @@ class Materials:
         """True if any of them can crack."""
         return any(isinstance(one, wrapper.BrittleFEMat) for one in self.of)
 
+    @property
+    def yields(self) -> bool:
+        """True if the body has one material, which yields."""
+        return len(self.of) == 1 and isinstance(self.of[0], (wrapper.PlasticFEMat, wrapper.FrictionalFEMat))
+
     def find(self, material: Any, name: str) -> int | None:
         """Its number; None if no triangle has it."""
         return self._places.get(_key(oneMaterial(material, name)))

@@ -48,7 +48,7 @@ def _centroid(nodes, triangles):
 def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
          velocity: ArrayLike | ByPlace = (0, 0), spin: float = 0, displacement: ByPlace | None = None,
          stress: ArrayLike | ByPlace | None = None, fixed: ByPlace | None = None, thickness: float = 1,
-         selfContact: bool = True, element: str = 'linear', strength: ArrayLike | ByPlace | None = None,
+         selfContact: bool = True, element: str | None = None, strength: ArrayLike | ByPlace | None = None,
          fractureEnergy: ArrayLike | ByPlace | None = None, jointStrength: ArrayLike | None = 0,
          jointEnergy: ArrayLike | None = None,
          interfaceStrength: float | ByPlace | dict[tuple, float] | None = None,
@@ -86,7 +86,10 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
                     (after Dohrmann et al. 2000, Int. J. Numer. Meth. Eng. 47, 1549, and Liu et al.
                     2008, Comput. Methods Appl. Mech. Eng. 197, 3883), for bodies that bend. A crack
                     separates averages, and the strain energy increases by the difference: 1 % of the
-                    energy in impacts with hundreds of cracks, in energy['fracture']
+                    energy in impacts with hundreds of cracks, in energy['fracture']. None: 'linear', but
+                    'smoothed' for a material that yields, of which only the volume strain is
+                    averaged (Bonet and Burton 1998, Commun. Numer. Meth. Eng. 14, 437), in plane
+                    strain: linear triangles lock in plastic flow
     strength        None: the tensileStrength of the BrittleFEMat; or a function (x, y) → Pa, or an
                     array with one value for each triangle, instead. The function is called at the
                     triangles' centroids. An edge has the smaller of its two triangles' strengths,
@@ -111,6 +114,8 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
     places = brittlePlaces(mesh, materials, between, strength, fractureEnergy, jointStrength, jointEnergy)
     requireBetweenSteps()
     name = newName(fe, name)
+    if element is None:
+        element = 'smoothed' if materials.yields else 'linear'
     if not isinstance(element, str) or element not in _ELEMENTS:
         refuse('element', element, "'linear' or 'smoothed'")
     nodes = mesh.nodes

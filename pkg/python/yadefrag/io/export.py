@@ -13,7 +13,9 @@ from yadefrag.io.files import replacing
 _OF_NODES = {'displacement': 'displacements', 'velocity': 'velocities',
              'contact force': 'contactForces', 'reaction': 'reactions'}
 _OF_TRIANGLES = {'stress': ('stress', float), 'strain': ('strain', float),
+                 'plastic strain': ('plasticStrain', float), 'temperature': ('temperature', float),
                  'component': ('components', numpy.int32), 'fragment': ('fragmentOf', numpy.int32)}
+_OF_YIELDING = ('plastic strain', 'temperature')
 FIELDS = (*_OF_NODES, *_OF_TRIANGLES)
 
 
@@ -28,7 +30,7 @@ def exportVTK(fe: FESolver, file: File, fields: Iterable[str] | None = None) -> 
 
     Points are the nodes at their present positions (m); at points: displacement from the stress-free
     shape (m), velocity (m/s), contact force and reaction (N); in triangles: stress (xx, yy, xy in Pa),
-    strain (xx, yy, xy), component and fragment (int). Removed fragments are left out. Cohesive
+    strain (xx, yy, xy), with materials that yield plastic strain and temperature (K), component and fragment (int). Removed fragments are left out. Cohesive
     cracks are lines along their first side, with the values of the adjacent triangle, and 'damage'
     (dissipated fraction of the fracture energy; 0 in triangles).
     fields  list of the names of fields to write; None: all
@@ -73,7 +75,7 @@ def _state(fe, fields):
             of.append(beside)
         cells = {}
         for name, (attribute, kind) in _OF_TRIANGLES.items():
-            if name in fields:
+            if name in fields and (fe._yields or name not in _OF_YIELDING):
                 values = numpy.asarray(getattr(fe, attribute), dtype=kind)
                 cells[name] = [values[numbers] for numbers in of]
         if len(beside):

@@ -20,6 +20,7 @@ _ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 
              'total', 'scene')
 _FIRST = ('step', 'time (s)', 'cracks', 'fragments') + tuple('%s (J)' % e for e in _ENERGIES) + \
     ('reaction x (N)', 'reaction y (N)')
+_OF_YIELDING = ('plastic (J)', 'largest plastic strain', 'highest temperature (K)')
 _NAMED = 'reaction %s of %s (N)'
 _complained = set()  # files for which a message was given
 
@@ -32,7 +33,9 @@ def FERecorder(iterPeriod: int = 0, file: File = 'run', fields: Iterable[str] | 
                 of a PyRunner, as further arguments
     file        path without an ending: file.csv has a line for each record, with the step, fe.time
                 (s), the numbers of cracks and fragments, the energies (J), and the reactions (N) of
-                all held nodes and of each body with a name, nan while there is no such body; file.pvd,
+                all held nodes and of each body with a name, nan while there is no such body; with
+                materials that yield also the plastic work, the largest plastic strain and the highest
+                temperature; file.pvd,
                 for ParaView, is the series of the pictures file_000000.vtu, …, which have the format
                 of exportVTK
     fields      fields of exportVTK in the pictures; None: all; (): no pictures
@@ -85,7 +88,8 @@ def _appendLine(fe, name, _):
     file = name + '.csv'
     lines = _lines(file)
     names = [one for one in fe._names if one]
-    columns = [*_FIRST, *(_NAMED % (axis, one.replace(',', ' ')) for one in names for axis in 'xy')]
+    columns = [*_FIRST, *(_OF_YIELDING if fe._yields else ()),
+               *(_NAMED % (axis, one.replace(',', ' ')) for one in names for axis in 'xy')]
     row, old = _row(fe, names), lines[0].split(',') if lines else []
     isOurs = old[:len(_FIRST)] == list(_FIRST)
     kept = [line for line in lines[1:] if _isEarlier(line, fe.time)] if isOurs else []
@@ -120,9 +124,11 @@ def _row(fe, names):
     numbers = [wrapper.Omega().iter, fe.time, fe.numCracks, len(fe.fragments())]
     numbers += [energy.get(one, 0.) for one in _ENERGIES[:-1]] + [energy.get('scene', energy['total'])]
     forces = fe.reactions
+    ofYielding = [energy['plastic'], fe.plasticStrain.max(), fe.temperature.max()] if fe._yields else []
     sums = [forces.sum(axis=0)] + [forces[fe.nodesOf(one)].sum(axis=0) if not fe._isGone(
         fe._names.index(one)) else (math.nan, math.nan) for one in names]
-    numbers += [float(value) for force in sums for value in force]
+    ends = [float(value) for force in sums for value in force]
+    numbers += ends[:2] + [float(one) for one in ofYielding] + ends[2:]
     return list(map(repr, numbers))
 
 

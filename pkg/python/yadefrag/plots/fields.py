@@ -10,7 +10,8 @@ from yadefrag.hints import FESolver
 UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
          'mises': 'von Mises stress (Pa)', 'sigma1': 'larger principal stress (Pa)',
          'sigma2': 'smaller principal stress (Pa)', 'speed': 'speed (m/s)',
-         'displacement': 'displacement (m)', 'component': 'component', 'fragment': 'fragment'}
+         'displacement': 'displacement (m)', 'plasticStrain': 'plastic strain', 'temperature': 'temperature (K)',
+         'component': 'component', 'fragment': 'fragment'}
 _OTHER_NAMES = {'principal1': 'sigma1', 'principal2': 'sigma2'}
 
 
@@ -29,6 +30,8 @@ def fieldValues(fe: FESolver, field: Any) -> tuple[numpy.ndarray, bool] | tuple[
             return numpy.linalg.norm(numpy.asarray(vectors, dtype=float), axis=1), True
         if field == 'component':
             return numpy.asarray(fe.components, dtype=float), False
+        if field in ('plasticStrain', 'temperature'):
+            return getattr(fe, field), False
         if field in UNITS:
             return _stress(fe, field), False
         refuse('field', field, 'one of %s, an array or None' % ', '.join(map(repr, [*UNITS, *_OTHER_NAMES])))

@@ -1,0 +1,68 @@
+#pragma once
+// Bodies that yield, in a step: the state of their triangles follows the positions xⁿ, at which the
+// forces are computed. With ElementKind::kSmoothed the volume ratio is averaged at the nodes
+// (Bonet and Burton 1998, Commun. Numer. Meth. Eng. 14, 437): a node has the pressure of its
+// triangles' whole volume, and a triangle the mean pressure of its nodes. Linear triangles, which
+// would lock in flow without change of volume, do not lock then. No cost if no body yields.
+
+#include <span>
+#include <vector>
+
+#include "core/footprint.hpp"
+#include "dynamics/plastic_kernel.hpp"
+
+namespace yadefrag {
+
+class PlasticFlow {
+ public:
+  void rebuild(const Model& model, const ElementChunks& elements);
+  /// Must be called after a split of nodes.
+  void follow(const ElementChunks& elements, std::span<const std::uint32_t> abandoned);
+  [[nodiscard]] bool isOn() const { return !yield_.empty(); }
+  [[nodiscard]] bool isSmoothing() const { return !volume_.empty(); }
+
+  /// Before each step of `threads` threads; `dt` (s): the step that led to the positions.
+  void begin(const ElementChunks& elements, int threads, double dt);
+  /// First pass, for one smoothed chunk; positions by local number.
+  void sum(InstructionSet set, const Model& model, const ElementChunks& elements,
+           const Chunk& chunk, const Vec2* position);
+  /// Then the sums of nodes in several chunks.
+  void sumShared(const ElementChunks& elements, std::size_t row);
+  /// Second pass, for one chunk: forces (N) by local number. False if an element is flat.
+  bool addForces(InstructionSet set, Model& model, const ElementChunks& elements, std::size_t chunk,
+                 const Vec2* position, Vec2* force, std::size_t thread);
+
+  /// (J) Work that the triangles have dissipated in the last step, up to the positions xⁿ.
+  [[nodiscard]] double dissipation() const;
+  /// Undoes the changes of the last step.
+  void takeBack(Model& model);
+  /// True if flow has made triangles so much flatter that the critical step must be computed anew;
+  /// then `noteSteepest`.
+  [[nodiscard]] bool isSteeper() const;
+  void noteSteepest(const Model& model);
+
+  void addTo(Footprint& footprint) const;
+
+ private:
+  class Lanes;
+  struct Former {
+    std::uint32_t element;
+    YieldPoint point;
+  };
+  struct Thread {
+    std::vector<Former> former;
+    double squaredSteepest = 0;  // 1/m²
+  };
+
+  [[nodiscard]] PlasticChunk inputOf(const Model& model, const Chunk& chunk) const;
+
+  std::vector<double> yield_;            // Pa, by triangle
+  std::vector<double> volume_;           // m³, then Pa; by chunk and local number
+  std::vector<double> partial_, whole_;  // m³, by number of the partial sum
+  std::vector<double> dissipated_;       // J, by chunk
+  std::vector<Thread> threads_;
+  double dt_ = 0;
+  double squaredSteepest_ = 0;
+};
+
+}  // namespace yadefrag

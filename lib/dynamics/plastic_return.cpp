@@ -1,0 +1,194 @@
+#include "dynamics/plastic_return.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/lane_math.hpp"
+#include "core/tolerances/plasticity.hpp"
+
+namespace yadefrag {
+namespace {
+
+/// (Pa) Y(p + Δp, Δp/Δt, T) and its derivative with respect to Δp.
+Hardening flowStress(const PlasticMaterial& m, double strain, double step, double dt,
+                     double thermal) {
+  const Hardening slow = staticStress(m, strain + step);
+  double factor = 1, slope = 0;
+  if (m.rateFactor > 0 && dt > 0 && step > m.referenceRate * dt) {
+    factor += m.rateFactor * logOf(step / (m.referenceRate * dt));
+    slope = m.rateFactor / step;
+  }
+  return {slow.stress * factor * thermal, (slow.slope * factor + slow.stress * slope) * thermal};
+}
+
+/// Fₑ exp(−Δεₚ), where Δεₚ is 1 − `kept` of the trial's deviator, and a volume strain.
+void flow(const ElasticTrial& t, double kept, double volumeStrain, YieldPoint& point,
+          double& thickness) {
+  const double gone = 1 - kept;
+  const double across = gone * t.across / 3;
+  const double size = gone * std::sqrt(t.squared) / 2;
+  // exp of a symmetric matrix: x → e^h (cosh x − sinh/|ℓ| ℓ x̄), ℓ = gone · part · u
+  const double squared = size * size;
+  const double cosh = 1 + squared / 2 * (1 + squared / 12 * (1 + squared / 30));
+  const double sinhFactor = 1 + squared / 6 * (1 + squared / 20 * (1 + squared / 42));
+  const double grown = expOf(across / 2 - volumeStrain / 3);
+  const double diagonal = grown * cosh;
+  const double by = grown * sinhFactor * gone * t.part / 2 / t.squaredZ;
+  const double real = by * (t.wx * t.zx + t.wy * t.zy),
+               imaginary = by * (t.wy * t.zx - t.wx * t.zy);
+  const double xx = diagonal - real, yy = diagonal + real, xy = -imaginary;
+  const auto e = point.edges;
+  point.edges = {e[0] * xx + e[1] * xy, e[0] * xy + e[1] * yy,  //
+                 e[2] * xx + e[3] * xy, e[2] * xy + e[3] * yy};
+  thickness *= expOf(-across - volumeStrain / 3);
+}
+
+/// e:e' of two deviators in the same frame.
+double product(const ElasticTrial& a, const ElasticTrial& b) {
+  // u = w z̄/|z|²
+  const double ax = a.wx * a.zx + a.wy * a.zy, ay = a.wy * a.zx - a.wx * a.zy;
+  const double bx = b.wx * b.zx + b.wy * b.zy, by = b.wy * b.zx - b.wx * b.zy;
+  return a.across * b.across / 6 +
+         a.part / a.squaredZ * b.part / b.squaredZ * (ax * bx + ay * by) / 2;
+}
+
+}  // namespace
+
+double yieldStress(const PlasticMaterial& m, double strain, double temperature) {
+  if (m.isFrictional()) return std::numbers::sqrt3 * Cone(m).strength;
+  return staticStress(m, strain).stress * thermalFactor(m, temperature);
+}
+
+double plasticStep(const YieldConstants& c, const YieldPoint& point, double trial, double dt) {
+  const double stiffness = 3 * c.moduli.shear;
+  const double thermal = thermalFactor(c.plastic, point.temperature);
+  double low = 0, high = trial / stiffness;
+  double step = (trial - yieldStress(c.plastic, point.strain, point.temperature)) / stiffness;
+  for (int i = 0; i < tolerance::kReturns; ++i) {
+    const Hardening y = flowStress(c.plastic, point.strain, step, dt, thermal);
+    const double left = trial - stiffness * step - y.stress;
+    if (std::abs(left) <= tolerance::kReturned * trial) break;
+    (left > 0 ? low : high) = step;
+    const double next = step + left / (stiffness + y.slope);
+    step = next > low && next < high ? next : (low + high) / 2;
+  }
+  return step;
+}
+
+double freeThickness(const Matrix2& f, double guess, double kept, const SolidModuli& moduli) {
+  double thickness = guess;
+  for (int i = 0; i < tolerance::kThicknesses; ++i) {
+    const ElasticTrial t(f, thickness);
+    const double stress =
+        meanStress(t.volume, moduli.bulk) + 2 * moduli.shear * kept * t.across / 3;
+    const double slope = moduli.bulk * t.volume * t.volume + 4. / 3 * moduli.shear * kept;
+    thickness *= expOf(-stress / slope);
+    if (std::abs(stress) <= tolerance::kNoStress * moduli.bulk) break;
+  }
+  return thickness;
+}
+
+ElasticTrial trialOf(const YieldConstants& c, const YieldPoint& point, const TriangleEdges& now,
+                     double& thickness) {
+  const Matrix2 f = now.gradient(point.edges);
+  thickness = c.planeStress ? freeThickness(f, point.thickness, 1, c.moduli) : point.thickness;
+  return {f, thickness};
+}
+
+namespace {
+
+/// Flow on the cone and to its limits of tension (de Souza Neto, Perić and Owen 2008, box 8.8).
+/// `formerMean` (Pa): mean of τ at the last step, if it is known.
+void returnToCone(const YieldConstants& c, const ElasticTrial& former,
+                  std::optional<double> formerMean, Returned& result) {
+  const auto [slope, strength, dilation, limit] = c.cone;
+  const auto [bulk, shear] = c.moduli;
+  const double distortion = shear * std::sqrt(result.trial.squaredMises() / 3);  // √J₂
+  const double over = distortion + slope * result.mean - strength;
+  if (!(over > 0 || result.mean > limit)) return;
+  const double step = std::max(0., over) / (shear + bulk * slope * dilation);
+  double mean = result.mean - bulk * dilation * step;
+  double remaining = std::max(0., distortion - shear * step);
+  if (mean > limit || distortion < shear * step) {
+    mean = std::min(limit, result.mean);
+    remaining = std::min(distortion, std::max(0., strength - slope * mean));
+  }
+  result.kept = distortion > 0 ? remaining / distortion : 1;
+  const double volume = result.trial.volume;
+  const double volumeStrain = (result.mean - mean) / (bulk * volume * volume);
+  result.dissipation =
+      shear * (1 - result.kept) *
+          (product(result.trial, former) + result.kept * product(result.trial, result.trial)) +
+      volumeStrain * (formerMean.value_or(mean) + mean) / 2;
+  result.mean = mean;
+  flow(result.trial, result.kept, volumeStrain, result.point, result.point.thickness);
+  const double sheared = (distortion - remaining) / (std::numbers::sqrt3 * shear);
+  result.point.strain += std::sqrt(sheared * sheared + 2. / 9 * volumeStrain * volumeStrain);
+}
+
+/// In plane stress the thickness depends on the flow, and the flow on the thickness.
+double settleThickness(const YieldConstants& c, const YieldPoint& point, const TriangleEdges& now,
+                       double dt, double step, double& thickness, Returned& result) {
+  const Matrix2 f = now.gradient(point.edges);
+  const double slow = yieldStress(c.plastic, point.strain, point.temperature);
+  for (int i = 0; i < tolerance::kThicknesses; ++i) {
+    const double last = thickness;
+    thickness = freeThickness(f, last, result.kept, c.moduli);
+    result.trial = ElasticTrial(f, thickness);
+    const double trial = c.moduli.shear * std::sqrt(result.trial.squaredMises());
+    step = trial > slow ? plasticStep(c, point, trial, dt) : 0;
+    result.kept = 1 - 3 * c.moduli.shear * step / trial;
+    if (std::abs(thickness - last) <= tolerance::kNoStress) break;
+  }
+  return step;
+}
+
+}  // namespace
+
+Returned returnToYield(const YieldConstants& c, const YieldPoint& point, const TriangleEdges& now,
+                       const TriangleEdges& before, double dt, const double* pressure) {
+  double thickness = 1, formerThickness = 1;
+  Returned result{point, trialOf(c, point, now, thickness)};
+  const auto meanOf = [&](double volume) {
+    return pressure != nullptr ? *pressure * volume : meanStress(volume, c.moduli.bulk);
+  };
+  result.mean = meanOf(result.trial.volume);
+  if (c.plastic.isFrictional()) {
+    const ElasticTrial former = trialOf(c, point, before, formerThickness);
+    // Without its own volume the mean of the last step is unknown here: that after the flow.
+    const bool isOwn = pressure == nullptr;
+    returnToCone(c, former, isOwn ? std::optional(meanOf(former.volume)) : std::nullopt, result);
+    return result;
+  }
+  const double slow = yieldStress(c.plastic, point.strain, point.temperature);
+  const double trial = c.moduli.shear * std::sqrt(result.trial.squaredMises());
+  if (!(trial > slow)) return result;
+  double step = plasticStep(c, point, trial, dt);
+  result.kept = 1 - 3 * c.moduli.shear * step / trial;
+  if (c.planeStress) {
+    step = settleThickness(c, point, now, dt, step, thickness, result);
+    result.mean = meanStress(result.trial.volume, c.moduli.bulk);
+  }
+  result.kept = std::max(0., result.kept);
+  const ElasticTrial former = trialOf(c, point, before, formerThickness);
+  result.dissipation =
+      c.moduli.shear * (1 - result.kept) *
+      (product(result.trial, former) + result.kept * product(result.trial, result.trial));
+  flow(result.trial, result.kept, 0, result.point, thickness);
+  result.point.thickness = thickness;
+  result.point.strain += step;
+  result.point.temperature += c.heating * std::max(0., result.dissipation);
+  return result;
+}
+
+double deviatorEnergy(const ElasticTrial& trial, double kept, double shear) {
+  return shear * kept * kept * product(trial, trial);
+}
+
+double volumeEnergy(double volume, double bulk) {
+  return bulk / 2 * ((volume * volume - 1) / 2 - logOf(volume));
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,98 @@
+#pragma once
+// The return of a trial stress of one triangle to the yield surface, and the flow that follows.
+// Radial return (Simo and Hughes 1998, box 3.1 and 9.1): the deviator of the elastic strain is
+// multiplied by 1 − 3μΔp/q, with Δp from q − 3μΔp = Y(p + Δp, Δp/Δt, T).
+
+#include <array>
+
+#include "dynamics/yield_law.hpp"
+#include "mesh/body_material.hpp"
+#include "mesh/plastic_state.hpp"
+
+namespace yadefrag {
+
+/// Constants of a body that yields.
+struct YieldConstants {
+  const PlasticMaterial& plastic;
+  SolidModuli moduli;
+  Cone cone;
+  double heating;  ///< K m³/J, of plastic work
+  bool planeStress;
+
+  explicit YieldConstants(const BodyMaterial& m)
+      : plastic(m.plastic),
+        moduli(m.material),
+        cone(m.plastic),
+        heating(m.plastic.isHeated()
+                    ? m.plastic.heatShare / (m.material.density * m.plastic.heatCapacity)
+                    : 0),
+        planeStress(m.material.planeStress) {}
+};
+
+/// State of one triangle (mesh/plastic_state.hpp).
+struct YieldPoint {
+  std::array<double, 4> edges;
+  double thickness, strain, temperature;
+
+  YieldPoint() = default;
+  YieldPoint(const PlasticState& state, std::size_t row)
+      : edges{state.edges[0][row], state.edges[1][row], state.edges[2][row], state.edges[3][row]},
+        thickness(state.thickness[row]),
+        strain(state.strain[row]),
+        temperature(state.temperature[row]) {}
+  void put(PlasticState& state, std::size_t row) const {
+    for (std::size_t i = 0; i < 4; ++i) state.edges[i][row] = edges[i];
+    state.thickness[row] = thickness;
+    state.strain[row] = strain, state.temperature[row] = temperature;
+  }
+};
+
+/// The present edges x₁ − x₀, x₂ − x₀ of a triangle (m).
+struct TriangleEdges {
+  Vec2 first, second;
+
+  [[nodiscard]] double twiceArea() const { return cross(first, second); }
+  [[nodiscard]] Matrix2 gradient(const std::array<double, 4>& inverse) const {
+    return deformationGradient(first.x, first.y, second.x, second.y, inverse[0], inverse[1],
+                               inverse[2], inverse[3]);
+  }
+};
+
+/// (Pa) Yield stress in slow flow; of a cone, √3 ξc.
+[[nodiscard]] double yieldStress(const PlasticMaterial& m, double strain, double temperature);
+
+/// Δp in a step of Δt (s; 0: slow) from a trial stress q (Pa), above the slow yield stress.
+[[nodiscard]] double plasticStep(const YieldConstants& c, const YieldPoint& point, double trial,
+                                 double dt);
+
+/// The elastic stretch across the plane for which the stress there is zero, if the part `kept` of
+/// the deviator remains; `guess`: a near one.
+[[nodiscard]] double freeThickness(const Matrix2& f, double guess, double kept,
+                                   const SolidModuli& moduli);
+
+/// The trial state; in plane stress with the thickness that is free to change.
+[[nodiscard]] ElasticTrial trialOf(const YieldConstants& c, const YieldPoint& point,
+                                   const TriangleEdges& now, double& thickness);
+
+/// A triangle after the return.
+struct Returned {
+  YieldPoint point;
+  ElasticTrial trial = {Matrix2{1, 0, 0, 1}, 1};
+  double mean = 0;         ///< Pa, of τ
+  double kept = 1;         ///< part of the trial's deviator that remains
+  double dissipation = 0;  ///< J/m³ of the undeformed body, Δεₚ:½(τⁿ⁻¹ + τⁿ)
+};
+
+/// From the state after the last step to that at the edges `now`; `before`: those of the last step.
+/// `pressure` (Pa): the mean of U'(J) at the nodes, for an element that has not its own.
+/// Without flow the point is unchanged.
+[[nodiscard]] Returned returnToYield(const YieldConstants& c, const YieldPoint& point,
+                                     const TriangleEdges& now, const TriangleEdges& before,
+                                     double dt, const double* pressure = nullptr);
+
+/// (J/m³) Elastic energy of the deviator.
+[[nodiscard]] double deviatorEnergy(const ElasticTrial& trial, double kept, double shear);
+/// (J/m³) U(J)
+[[nodiscard]] double volumeEnergy(double volume, double bulk);
+
+}  // namespace yadefrag

@@ -1,0 +1,85 @@
+#pragma once
+// Stress of a triangle that may have flowed, from its elastic deformation Fₑ and its elastic
+// stretch λ across the plane (mesh/plastic_state.hpp): hyperelastic in the logarithmic strain, as
+// Simo and Hughes 1998, eq. 9.2.6 and box 9.1,
+//   W = U(J) + μ e:e,  U = κ/2 [(J² − 1)/2 − log J],  e = dev log V,  κ = λ + 2μ/3,
+// so that the return of a trial stress is that of small strains. Per volume of the undeformed body
+// the (Kirchhoff) stress is τ = κ/2 (J² − 1) 1 + 2μ e.
+//
+// As complex numbers z = (F₁₁+F₂₂) + i(F₂₁−F₁₂) and w = (F₁₁−F₂₂) + i(F₂₁+F₁₂), F maps x to
+// (z x + w x̄)/2; the stretches are (|z| ± |w|)/2. With u = w/z, in the frame rotated back,
+//   e₁₁ − e₂₂ + 2i e₁₂ = 2 u artanh|u|/|u|,  e₃₃ = ⅓ log(λ²/det F),
+// and in the present frame u is w z/|z|². e is elastic and therefore small: series.
+
+#include "dynamics/elastic_law.hpp"
+#include "mesh/elastic_material.hpp"
+
+namespace yadefrag {
+
+/// artanh(√x)/√x for small x.
+[[gnu::always_inline]] inline double artanhFactor(double x) {
+  return 1 + x * (1. / 3 + x * (1. / 5 + x * (1. / 7)));
+}
+
+/// log(a/b) for a ratio near 1.
+[[gnu::always_inline]] inline double logRatio(double a, double b) {
+  const double y = (a - b) / (a + b);
+  return 2 * y * artanhFactor(y * y);
+}
+
+/// (Pa) Bulk and shear modulus of the material itself, in plane stress, too.
+struct SolidModuli {
+  double bulk, shear;
+  explicit SolidModuli(const ElasticMaterial& m)
+      : bulk(m.young / (3 * (1 - 2 * m.poisson))), shear(m.shearModulus()) {}
+};
+
+/// Deviator of the logarithmic elastic strain, and the volume ratio.
+struct ElasticTrial {
+  double zx, zy, wx, wy;  ///< z and w
+  double squaredZ;        ///< |z|²
+  double part;            ///< e₁₁ − e₂₂ + 2i e₁₂ = part · u, u = w z̄/|z|²
+  double squared;         ///< |part · u|²
+  double across;          ///< 3 e₃₃
+  double volume;          ///< J = λ det Fₑ
+
+  [[gnu::always_inline]] ElasticTrial(const Matrix2& f, double thickness)
+      : zx(f.xx + f.yy), zy(f.yx - f.xy), wx(f.xx - f.yy), wy(f.yx + f.xy) {
+    squaredZ = zx * zx + zy * zy;
+    const double squaredW = wx * wx + wy * wy;
+    const double x = squaredW / squaredZ;
+    part = 2 * artanhFactor(x);
+    squared = part * part * x;
+    const double area = (squaredZ - squaredW) * .25;
+    across = logRatio(thickness * thickness, area);
+    volume = thickness * area;
+  }
+  /// (Pa²) Square of von Mises' equivalent stress, √(3/2 s:s), over μ².
+  [[nodiscard, gnu::always_inline]] double squaredMises() const {
+    return across * across + 3 * squared;
+  }
+};
+
+/// κ/2 (J² − 1) = J U'(J), the mean of τ.
+[[gnu::always_inline]] inline double meanStress(double volume, double bulk) {
+  return bulk / 2 * (volume * volume - 1);
+}
+
+/// (Pa) τ in the plane.
+struct PlaneStress {
+  double xx, yy, xy;
+
+  /// `mean`: of τ; `kept`: remaining part of the trial's deviator.
+  [[gnu::always_inline]] PlaneStress(const ElasticTrial& t, double mean, double kept,
+                                     double shear) {
+    const double middle = mean - shear * kept * t.across / 3;
+    // 2μ (e₁₁ − e₂₂ + 2i e₁₂)/2 in the present frame
+    const double by = shear * kept * t.part / t.squaredZ;
+    const double half = by * (t.wx * t.zx - t.wy * t.zy);
+    xx = middle + half;
+    yy = middle - half;
+    xy = by * (t.wx * t.zy + t.wy * t.zx);
+  }
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,220 @@
+#include "dynamics/yielding_state.hpp"
+
+#include <algorithm>
+
+#include "dynamics/collapse_barrier.hpp"
+#include "dynamics/element_state.hpp"
+
+namespace yadefrag {
+namespace {
+
+/// All triangles of bodies that yield, and that have not been removed.
+std::vector<ElementId> allYielding(const Model& model) {
+  std::vector<ElementId> all;
+  if (!model.triangles.plastic.isUsed()) return all;
+  for (const Component& body : model.components)
+    if (body.yields())
+      for (std::uint32_t e = body.firstTriangle; e < body.lastTriangle; ++e)
+        if (!model.triangles.isDropped(e)) all.emplace_back(e);
+  return all;
+}
+
+using Corners = std::array<Vec2, 3>;
+
+Corners cornersOf(const Model& model, ElementId element, const std::vector<Vec2>& field) {
+  const auto& nodes = model.triangles.nodes[element.value];
+  return {field[nodes[0].value], field[nodes[1].value], field[nodes[2].value]};
+}
+
+TriangleEdges edgesOf(const Corners& x) { return {x[1] - x[0], x[2] - x[0]}; }
+
+double volumeOf(const Model& model, ElementId element) {
+  return model.triangles.area[element.value] * model.bodyOf(element).thickness;
+}
+
+bool isSmoothed(const Component& body) {
+  return body.element == ElementKind::kSmoothed && !body.material.planeStress;
+}
+
+/// An element at xⁿ and at xⁿ⁻¹.
+struct Pair {
+  ElementId element;
+  double volume;  // m³, stress-free
+  YieldConstants constants;
+  bool smoothed;
+  YieldPoint point;
+  Corners step;  // m, displacements of the corners
+  TriangleEdges now, before;
+  double trialVolume;  // J at xⁿ, without further flow
+  ElasticTrial former{Matrix2{1, 0, 0, 1}, 1};
+  double formerMean = 0;  // Pa, of τ
+  Returned present;       // after `settle`
+
+  Pair(const Model& model, ElementId id, double dt)
+      : element(id),
+        volume(volumeOf(model, id)),
+        constants(model.bodyOf(id)),
+        smoothed(isSmoothed(model.bodyOf(id))),
+        point(model.triangles.plastic, id.value),
+        step(cornersOf(model, id, model.nodes.velocity)),
+        now(edgesOf(cornersOf(model, id, model.nodes.position))),
+        before(now) {
+    for (Vec2& one : step) one *= dt;
+    const TriangleEdges change = edgesOf(step);
+    before = {now.first - change.first, now.second - change.second};
+    double thickness = 1;
+    trialVolume = trialOf(constants, point, now, thickness).volume;
+    former = trialOf(constants, point, before, thickness);
+    formerMean = meanStress(former.volume, constants.moduli.bulk);
+  }
+  void settle(double dt, const double* pressure = nullptr) {
+    present = returnToYield(constants, point, now, before, dt, pressure);
+  }
+};
+
+double pressureAt(double ratio, double bulk) { return bulk / 2 * (ratio - 1 / ratio); }
+
+/// All pairs, and volume ratios averaged at the nodes, at xⁿ and xⁿ⁻¹.
+struct Yielding {
+  std::vector<Pair> pairs;
+  std::vector<double> now, before;
+
+  Yielding(const Model& model, std::span<const ElementId> elements, double dt) {
+    for (const ElementId e : elements)
+      if (model.bodyOf(e).yields() && !model.triangles.isDropped(e.value))
+        pairs.emplace_back(model, e, dt);
+    if (pairs.empty()) return;
+    now = average(model, [](const Pair& p) { return p.trialVolume; });
+    before = average(model, [](const Pair& p) { return p.former.volume; });
+    for (Pair& p : pairs) {
+      if (!p.smoothed) {
+        p.settle(dt);
+        continue;
+      }
+      const double bulk = p.constants.moduli.bulk;
+      double pressure = 0, former = 0;
+      for (const NodeId node : model.triangles.nodes[p.element.value]) {
+        pressure += pressureAt(now[node.value], bulk) / 3;
+        former += pressureAt(before[node.value], bulk) / 3;
+      }
+      p.settle(dt, &pressure);
+      p.formerMean = former * p.former.volume;
+    }
+    // Flow of frictional materials changes the volume.
+    now = average(model, volumeAfter);
+  }
+  Yielding(const Model& model, double dt) : Yielding(model, allYielding(model), dt) {}
+
+  /// J after the flow.
+  static double volumeAfter(const Pair& p) {
+    if (!p.constants.plastic.isFrictional()) return p.present.trial.volume;  // flow keeps it
+    return determinant(p.now.gradient(p.present.point.edges)) * p.present.point.thickness;
+  }
+
+ private:
+  template <class Read>
+  [[nodiscard]] std::vector<double> average(const Model& model, Read read) const {
+    std::vector<double> sum(model.nodes.size()), volume(model.nodes.size());
+    for (const Pair& p : pairs)
+      if (p.smoothed)
+        for (const NodeId node : model.triangles.nodes[p.element.value]) {
+          volume[node.value] += p.volume;
+          sum[node.value] += p.volume * read(p);
+        }
+    for (std::size_t n = 0; n < sum.size(); ++n)
+      if (volume[n] > 0) sum[n] /= volume[n];
+    return sum;
+  }
+};
+
+/// (N) −V τ ∇N at the corners.
+Corners forcesOf(const Pair& p, const TriangleEdges& x, const PlaneStress& t) {
+  const double scale = p.volume / x.twiceArea();
+  const auto force = [&](Vec2 n) {
+    return -scale * Vec2{t.xx * n.x + t.xy * n.y, t.xy * n.x + t.yy * n.y};
+  };
+  const Vec2 first = force({x.second.y, -x.second.x}), second = force({-x.first.y, x.first.x});
+  return {-(first + second), first, second};
+}
+
+PlaneStress presentStress(const Pair& p) {
+  return {p.present.trial, p.present.mean, p.present.kept, p.constants.moduli.shear};
+}
+
+}  // namespace
+
+std::vector<YieldPoint> presentPoints(const Model& model, double dt) {
+  std::vector<YieldPoint> points(model.triangles.size());
+  for (const Pair& p : Yielding(model, dt).pairs) points[p.element.value] = p.present.point;
+  return points;
+}
+
+Returned presentState(const Model& model, ElementId element, double dt) {
+  Pair pair(model, element, dt);
+  pair.settle(dt);
+  return pair.present;
+}
+
+YieldingEnergy yieldingEnergy(const Model& model, std::span<const ElementId> elements, double dt) {
+  YieldingEnergy sum;
+  const Yielding all(model, elements, dt);
+  for (const Pair& p : all.pairs) {
+    const auto [bulk, shear] = p.constants.moduli;
+    double twice =
+        deviatorEnergy(p.present.trial, p.present.kept, shear) + deviatorEnergy(p.former, 1, shear);
+    if (p.smoothed) {
+      for (const NodeId node : model.triangles.nodes[p.element.value])
+        twice +=
+            (volumeEnergy(all.now[node.value], bulk) + volumeEnergy(all.before[node.value], bulk)) /
+            3;
+    } else {
+      twice += volumeEnergy(Yielding::volumeAfter(p), bulk) + volumeEnergy(p.former.volume, bulk);
+    }
+    const Corners now = forcesOf(p, p.now, presentStress(p));
+    const Corners before = forcesOf(p, p.before, PlaneStress(p.former, p.formerMean, 1, shear));
+    double work = 0;
+    for (std::size_t i = 0; i < 3; ++i) work += dot(now[i] - before[i], p.step[i]);
+    const double modulus = model.bodyOf(p.element).material.waveModulus();
+    const Matrix2 f = deformationGradient(model, p.element);
+    const Matrix2 last = f - deformationStep(model, p.element, dt);
+    sum.strain += p.volume * (twice + twiceBarrierEnergy(f, last, modulus)) / 2 + work / 4;
+    sum.dissipated += p.volume * p.present.dissipation / 2;
+  }
+  return sum;
+}
+
+YieldingEnergy yieldingEnergy(const Model& model, double dt) {
+  return yieldingEnergy(model, allYielding(model), dt);
+}
+
+void setYieldingStresses(const Model& model, double dt,
+                         std::vector<std::array<double, 3>>& stresses) {
+  for (const Pair& p : Yielding(model, dt).pairs) {
+    const PlaneStress t = presentStress(p);
+    const Matrix2 f = deformationGradient(model, p.element);
+    const double modulus = model.bodyOf(p.element).material.waveModulus();
+    const double mean = CollapseBarrier(determinant(f), modulus).slope;
+    const double volume = p.constants.planeStress ? p.present.trial.volume : determinant(f);
+    stresses[p.element.value] = {t.xx / volume + mean, t.yy / volume + mean, t.xy / volume};
+  }
+}
+
+void setYieldingEnergies(const Model& model, double dt, std::vector<double>& energies) {
+  const Yielding all(model, dt);
+  for (const Pair& p : all.pairs) {
+    const auto [bulk, shear] = p.constants.moduli;
+    const double modulus = model.bodyOf(p.element).material.waveModulus();
+    double energy =
+        deviatorEnergy(p.present.trial, p.present.kept, shear) +
+        CollapseBarrier(determinant(deformationGradient(model, p.element)), modulus).energy;
+    if (p.smoothed) {
+      for (const NodeId node : model.triangles.nodes[p.element.value])
+        energy += volumeEnergy(all.now[node.value], bulk) / 3;
+    } else {
+      energy += volumeEnergy(Yielding::volumeAfter(p), bulk);
+    }
+    energies[p.element.value] = p.volume * energy;
+  }
+}
+
+}  // namespace yadefrag

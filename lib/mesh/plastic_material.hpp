@@ -1,0 +1,80 @@
+#pragma once
+// Material constants of yielding, and the yield stress by plastic strain, its rate and temperature.
+//   Johnson and Cook 1983 (Proc. 7th Int. Symp. Ballistics, 541):
+//     Y = Y₀(p) (1 + C ln(ṗ/ṗ₀)) (1 − T*ᵐ),  T* = (T − T₀)/(Tₘ − T₀),  the second factor ≥ 1,
+//   with Y₀ = A + B pⁿ, or A (1 + p/p₀)ⁿ (power law), or a table.
+// Or Drucker and Prager's cone: √J₂ + η σₘ = ξ c, with η = 3 tan φ/√(9 + 12 tan²φ) and
+//   ξ = 3/√(9 + 12 tan²φ), for which the limit loads in plane strain with associated flow are those
+//   of Mohr and Coulomb (de Souza Neto, Perić and Owen 2008, eq. 6.125).
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace yadefrag {
+
+/// A point of a table of hardening.
+struct HardeningPoint {
+  double strain = 0;  ///< plastic strain
+  double stress = 0;  ///< Pa
+  bool operator==(const HardeningPoint&) const = default;
+};
+
+struct PlasticMaterial {
+  double yieldStress = 0;        ///< Pa, A; 0: the material never yields
+  double hardening = 0;          ///< Pa, B
+  double hardeningExponent = 1;  ///< n
+  /// p₀ of the power law; 0: A + B pⁿ.
+  double offsetStrain = 0;
+  std::vector<HardeningPoint> table{};  ///< replaces both, if it is not empty
+  double rateFactor = 0;                ///< C
+  double referenceRate = 1;             ///< 1/s, ṗ₀
+  double thermalExponent = 0;           ///< m; 0: the temperature has no effect
+  double meltTemperature = 0;           ///< K, Tₘ
+  double startTemperature = 293;        ///< K, T₀, that of the body at the start
+  double heatCapacity = 0;              ///< J/(kg K); 0: the temperature stays the same
+  double heatShare = .9;                ///< part of the plastic work that becomes heat
+
+  double cohesion = 0;  ///< Pa, c of a frictional material, for which all above has no effect
+  double internalFriction = 0;  ///< tan φ
+  double dilation = 0;          ///< tan of the dilation angle
+  /// Pa, largest mean stress; above that of the cone's apex it has no effect.
+  double tensionLimit = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool yields() const { return yieldStress > 0 || !table.empty() || isFrictional(); }
+  [[nodiscard]] bool isFrictional() const { return cohesion > 0; }
+  [[nodiscard]] bool isHeated() const { return heatCapacity > 0; }
+  bool operator==(const PlasticMaterial&) const = default;
+
+  /// Empty, or a sentence on the first wrong constant.
+  [[nodiscard]] std::string wrong() const;
+};
+
+/// (Pa) A stress and its derivative with respect to the plastic strain.
+struct Hardening {
+  double stress = 0, slope = 0;
+};
+
+/// Y₀ and its slope (infinite at p = 0 if n < 1).
+[[nodiscard]] Hardening staticStress(const PlasticMaterial& m, double strain);
+/// Drucker and Prager's cone: √J₂ + η σₘ ≤ ξc, σₘ ≤ limit.
+struct Cone {
+  double slope, strength;  ///< η; Pa, ξc
+  double dilation;         ///< η of the flow
+  double limit;            ///< Pa
+
+  explicit Cone(const PlasticMaterial& m)
+      : slope(slopeOf(m.internalFriction)),
+        strength(3 * m.cohesion / rootOf(m.internalFriction)),
+        dilation(slopeOf(m.dilation)),
+        limit(slope * m.tensionLimit < strength ? m.tensionLimit : strength / slope) {}
+
+ private:
+  static double rootOf(double tangent) { return std::sqrt(9 + 12 * tangent * tangent); }
+  static double slopeOf(double tangent) { return 3 * tangent / rootOf(tangent); }
+};
+/// Factor of the temperature, from 1 to 0.
+[[nodiscard]] double thermalFactor(const PlasticMaterial& m, double temperature);
+
+}  // namespace yadefrag

@@ -1,0 +1,50 @@
+#pragma once
+// State of materials that yield, by triangle.
+//
+// A triangle that flows changes its stress-free shape. As in multiplicative plasticity
+// (F = Fₑ Fₚ; Simo and Hughes 1998, Computational Inelasticity, ch. 9; de Souza Neto, Perić and
+// Owen 2008, ch. 14), its elastic deformation is Fₑ = d Dₑ⁻¹ with the present edges d and the edges
+// Dₑ of the stress-free shape, and λ across the plane. Flow multiplies Dₑ⁻¹ by exp(−Δεₚ).
+
+#include <array>
+#include <vector>
+
+#include "core/columns.hpp"
+
+namespace yadefrag {
+
+/// All arrays are empty if no body yields, and otherwise have all triangles of the scene.
+struct PlasticState {
+  std::array<std::vector<double>, 4> edges;  ///< 1/m, Dₑ⁻¹ row by row
+  std::vector<double> thickness;             ///< λ, elastic stretch across the plane
+  std::vector<double> strain;                ///< p, equivalent plastic strain
+  std::vector<double> temperature;           ///< K
+
+  template <class Self>
+  static auto columnsOf(Self& self) {
+    return [&self](auto visit) {
+      visit(Column{"elasticEdges11", Use::kPlasticity, kOptional}, self.edges[0]);
+      visit(Column{"elasticEdges12", Use::kPlasticity, kOptional}, self.edges[1]);
+      visit(Column{"elasticEdges21", Use::kPlasticity, kOptional}, self.edges[2]);
+      visit(Column{"elasticEdges22", Use::kPlasticity, kOptional}, self.edges[3]);
+      visit(Column{"elasticThickness", Use::kPlasticity, kOptional}, self.thickness);
+      visit(Column{"plasticStrain", Use::kPlasticity, kOptional}, self.strain);
+      visit(Column{"temperature", Use::kPlasticity, kOptional}, self.temperature);
+    };
+  }
+
+  [[nodiscard]] bool isUsed() const { return !thickness.empty(); }
+  /// Makes a row that has not flowed.
+  void begin(std::size_t row, const std::array<double, 4>& inverseEdges, double start) {
+    for (std::size_t i = 0; i < 4; ++i) edges[i][row] = inverseEdges[i];
+    thickness[row] = 1;
+    strain[row] = 0;
+    temperature[row] = start;
+  }
+  void resize(std::size_t count) {
+    for (auto& one : edges) one.resize(count);
+    thickness.resize(count), strain.resize(count), temperature.resize(count);
+  }
+};
+
+}  // namespace yadefrag

@@ -1,0 +1,132 @@
+#pragma once
+// Materials of finite-element bodies that yield.
+
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "fe/materials.hpp"
+
+namespace yadefrag {
+
+class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>, FEMat> {
+ public:
+  static constexpr const char* kName = "PlasticFEMat";
+  static constexpr const char* kDoc =
+      "An FEMat that yields (J2 plasticity, isotropic hardening). The yield stress is that of "
+      "Johnson and Cook (1983, Proc. 7th Int. Symp. Ballistics, 541): (A + B*p**n) * "
+      "(1 + C*ln(rate/referenceRate)) * (1 - T**m), with the equivalent plastic strain p, its rate "
+      "(the factor is at least 1) and T = (temperature - startTemperature)/(meltTemperature - "
+      "startTemperature); A is yieldStress, B hardening, n hardeningExponent, C rateFactor, m "
+      "thermalExponent. Strains may be large. See the manual, Materials.";
+
+  double yieldStress = 0;
+  double hardening = 0;
+  double hardeningExponent = 1;
+  double offsetStrain = 0;
+  HardeningChoice hardeningTable;
+  double rateFactor = 0;
+  double referenceRate = 1;
+  double thermalExponent = 0;
+  double meltTemperature = 0;
+  double startTemperature = 293;
+  double heatCapacity = 0;
+  double heatShare = .9;
+
+  [[nodiscard]] PlasticMaterial constants() const {
+    return {.yieldStress = yieldStress,
+            .hardening = hardening,
+            .hardeningExponent = hardeningExponent,
+            .offsetStrain = offsetStrain,
+            .table = hardeningTable.law(),
+            .rateFactor = rateFactor,
+            .referenceRate = referenceRate,
+            .thermalExponent = thermalExponent,
+            .meltTemperature = meltTemperature,
+            .startTemperature = startTemperature,
+            .heatCapacity = heatCapacity,
+            .heatShare = heatShare};
+  }
+
+ private:
+  using C = PlasticFEMat;
+
+  static constexpr auto ofHardening() {
+    return std::tuple(
+        attribute("yieldStress", &C::yieldStress,
+                  "A (Pa): yield stress before any plastic strain, in slow deformation at "
+                  "startTemperature."),
+        attribute("hardening", &C::hardening, "B (Pa); 0: no hardening."),
+        attribute("hardeningExponent", &C::hardeningExponent,
+                  "n, above 0 and at most 1; 1: linear hardening."),
+        attribute("offsetStrain", &C::offsetStrain,
+                  "p0: if it is not 0, the first factor is the power law A*(1 + p/p0)**n instead "
+                  "of A + B*p**n."),
+        attribute("hardeningTable", &C::hardeningTable,
+                  "'none', or a list of points (plastic strain, yield stress in Pa), which "
+                  "replaces the first factor: strains from 0 on, increasing, stresses not "
+                  "decreasing; linear between the points, constant after the last one."));
+  }
+
+  static constexpr auto ofRateAndHeat() {
+    return std::tuple(
+        attribute("rateFactor", &C::rateFactor, "C; 0: the rate has no effect."),
+        attribute("referenceRate", &C::referenceRate,
+                  "Plastic strain rate (1/s) up to which the second factor is 1."),
+        attribute("thermalExponent", &C::thermalExponent,
+                  "m; 0: the temperature has no effect on the yield stress."),
+        attribute("meltTemperature", &C::meltTemperature,
+                  "Temperature (K) at which the yield stress is 0; without thermalExponent it has "
+                  "no effect."),
+        attribute("startTemperature", &C::startTemperature,
+                  "Temperature (K) of the body when it is added."),
+        attribute("heatCapacity", &C::heatCapacity,
+                  "Specific heat (J/(kg K)); the plastic work heats each triangle, without "
+                  "conduction. 0: the temperature stays the same."),
+        attribute("heatShare", &C::heatShare,
+                  "Part of the plastic work that becomes heat (Taylor and Quinney)."));
+  }
+
+ public:
+  static constexpr auto attributes() { return std::tuple_cat(ofHardening(), ofRateAndHeat()); }
+};
+
+class FrictionalFEMat : public Published<FrictionalFEMat, Indexed<FrictionalFEMat, FEMat>, FEMat> {
+ public:
+  static constexpr const char* kName = "FrictionalFEMat";
+  static constexpr const char* kDoc =
+      "An FEMat that yields by friction, such as soil, rock and concrete under pressure: Drucker "
+      "and Prager's cone, ideally plastic, with cohesion and angle of friction matched to those of "
+      "Mohr and Coulomb in plane strain, where it can be used only. See the manual, Materials.";
+
+  double cohesion = 0;
+  double internalFriction = 0;
+  double dilationAngle = 0;
+  double tensionLimit = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] PlasticMaterial constants() const {
+    PlasticMaterial m;
+    m.cohesion = cohesion;
+    m.internalFriction = std::tan(internalFriction);
+    m.dilation = std::tan(dilationAngle);
+    m.tensionLimit = tensionLimit;
+    return m;
+  }
+
+  static constexpr auto attributes() {
+    using C = FrictionalFEMat;
+    return std::tuple(
+        attribute("cohesion", &C::cohesion, "c (Pa)."),
+        attribute("internalFriction", &C::internalFriction,
+                  "phi (rad): the shear strength in plane strain is c + tan(phi)*pressure. "
+                  "(frictionAngle is that of the surface, in contact.)"),
+        attribute("dilationAngle", &C::dilationAngle,
+                  "psi (rad), at most phi: plastic flow increases the volume as a cone of this "
+                  "angle; 0: it keeps the volume."),
+        attribute("tensionLimit", &C::tensionLimit,
+                  "Largest tensile mean stress (Pa); inf: that of the cone's apex, "
+                  "c/tan(phi)."));
+  }
+};
+
+}  // namespace yadefrag
