@@ -75,7 +75,7 @@ def _state(fe, fields):
             of.append(beside)
         cells = {}
         for name, (attribute, kind) in _OF_TRIANGLES.items():
-            if name in fields and (fe._yields or name not in _OF_YIELDING):
+            if name in fields and (name not in _OF_YIELDING or getattr(fe, '_yields', False)):
                 values = numpy.asarray(getattr(fe, attribute), dtype=kind)
                 cells[name] = [values[numbers] for numbers in of]
         if len(beside):
