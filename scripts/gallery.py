@@ -69,6 +69,7 @@ MAKERS = (
     Maker('compression_held', 'compression', ('compression_held.png',),
           'scripts/yade -n -x examples/compression/compression.py --held --pressures 0 --out {out}'),
     example('aggregates'),
+    Maker('armour', 'armour', ('armour.png',), 'scripts/yade -n -x examples/armour/armour.py {out}', table=False),
     example('cylinder', ['cylinder.png', 'cylinder_force.png', 'cylinder.gif'],
             runs=('--gif', '--passes 2', '--size 2.5e-4 --steps 1000')),
     example('squares', runs=('', '--passes 2')),

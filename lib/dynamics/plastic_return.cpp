@@ -33,7 +33,7 @@ void flow(const ElasticTrial& t, double kept, double volumeStrain, YieldPoint& p
   const double squared = size * size;
   const double cosh = 1 + squared / 2 * (1 + squared / 12 * (1 + squared / 30));
   const double sinhFactor = 1 + squared / 6 * (1 + squared / 20 * (1 + squared / 42));
-  const double grown = expOf(across / 2 - volumeStrain / 3);
+  const double grown = expOfSmall(across / 2 - volumeStrain / 3);
   const double diagonal = grown * cosh;
   const double by = grown * sinhFactor * gone * t.part / 2 / t.squaredZ;
   const double real = by * (t.wx * t.zx + t.wy * t.zy),
@@ -42,7 +42,7 @@ void flow(const ElasticTrial& t, double kept, double volumeStrain, YieldPoint& p
   const auto e = point.edges;
   point.edges = {e[0] * xx + e[1] * xy, e[0] * xy + e[1] * yy,  //
                  e[2] * xx + e[3] * xy, e[2] * xy + e[3] * yy};
-  thickness *= expOf(-across - volumeStrain / 3);
+  thickness *= expOfSmall(-across - volumeStrain / 3);
 }
 
 /// e:e' of two deviators in the same frame.
@@ -61,11 +61,12 @@ double yieldStress(const PlasticMaterial& m, double strain, double temperature) 
   return staticStress(m, strain).stress * thermalFactor(m, temperature);
 }
 
-double plasticStep(const YieldConstants& c, const YieldPoint& point, double trial, double dt) {
+double plasticStep(const YieldConstants& c, const YieldPoint& point, double slow, double trial,
+                   double dt) {
   const double stiffness = 3 * c.moduli.shear;
   const double thermal = thermalFactor(c.plastic, point.temperature);
   double low = 0, high = trial / stiffness;
-  double step = (trial - yieldStress(c.plastic, point.strain, point.temperature)) / stiffness;
+  double step = (trial - slow) / stiffness;
   for (int i = 0; i < tolerance::kReturns; ++i) {
     const Hardening y = flowStress(c.plastic, point.strain, step, dt, thermal);
     const double left = trial - stiffness * step - y.stress;
@@ -84,7 +85,7 @@ double freeThickness(const Matrix2& f, double guess, double kept, const SolidMod
     const double stress =
         meanStress(t.volume, moduli.bulk) + 2 * moduli.shear * kept * t.across / 3;
     const double slope = moduli.bulk * t.volume * t.volume + 4. / 3 * moduli.shear * kept;
-    thickness *= expOf(-stress / slope);
+    thickness *= expOfSmall(-stress / slope);
     if (std::abs(stress) <= tolerance::kNoStress * moduli.bulk) break;
   }
   return thickness;
@@ -130,15 +131,14 @@ void returnToCone(const YieldConstants& c, const ElasticTrial& former,
 
 /// In plane stress the thickness depends on the flow, and the flow on the thickness.
 double settleThickness(const YieldConstants& c, const YieldPoint& point, const TriangleEdges& now,
-                       double dt, double step, double& thickness, Returned& result) {
+                       double slow, double dt, double step, double& thickness, Returned& result) {
   const Matrix2 f = now.gradient(point.edges);
-  const double slow = yieldStress(c.plastic, point.strain, point.temperature);
   for (int i = 0; i < tolerance::kThicknesses; ++i) {
     const double last = thickness;
     thickness = freeThickness(f, last, result.kept, c.moduli);
     result.trial = ElasticTrial(f, thickness);
     const double trial = c.moduli.shear * std::sqrt(result.trial.squaredMises());
-    step = trial > slow ? plasticStep(c, point, trial, dt) : 0;
+    step = trial > slow ? plasticStep(c, point, slow, trial, dt) : 0;
     result.kept = 1 - 3 * c.moduli.shear * step / trial;
     if (std::abs(thickness - last) <= tolerance::kNoStress) break;
   }
@@ -165,10 +165,10 @@ Returned returnToYield(const YieldConstants& c, const YieldPoint& point, const T
   const double slow = yieldStress(c.plastic, point.strain, point.temperature);
   const double trial = c.moduli.shear * std::sqrt(result.trial.squaredMises());
   if (!(trial > slow)) return result;
-  double step = plasticStep(c, point, trial, dt);
+  double step = plasticStep(c, point, slow, trial, dt);
   result.kept = 1 - 3 * c.moduli.shear * step / trial;
   if (c.planeStress) {
-    step = settleThickness(c, point, now, dt, step, thickness, result);
+    step = settleThickness(c, point, now, slow, dt, step, thickness, result);
     result.mean = meanStress(result.trial.volume, c.moduli.bulk);
   }
   result.kept = std::max(0., result.kept);

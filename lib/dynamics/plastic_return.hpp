@@ -61,9 +61,9 @@ struct TriangleEdges {
 /// (Pa) Yield stress in slow flow; of a cone, √3 ξc.
 [[nodiscard]] double yieldStress(const PlasticMaterial& m, double strain, double temperature);
 
-/// Δp in a step of Δt (s; 0: slow) from a trial stress q (Pa), above the slow yield stress.
-[[nodiscard]] double plasticStep(const YieldConstants& c, const YieldPoint& point, double trial,
-                                 double dt);
+/// Δp in a step of Δt (s; 0: slow) from a trial stress q (Pa), above the slow yield stress `slow`.
+[[nodiscard]] double plasticStep(const YieldConstants& c, const YieldPoint& point, double slow,
+                                 double trial, double dt);
 
 /// The elastic stretch across the plane for which the stress there is zero, if the part `kept` of
 /// the deviator remains; `guess`: a near one.

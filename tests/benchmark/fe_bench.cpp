@@ -49,6 +49,37 @@ void gravityStep(benchmark::State& state) { stepBlock(state, {.gravity = {0, -9.
 
 void baselineStep(benchmark::State& state) { stepBlock(state, {}, InstructionSet::kBaseline); }
 
+/// All triangles of a block flow: its nodes are held, and it is sheared at a constant rate.
+void flowingStep(benchmark::State& state, const PlasticMaterial& plastic, ElementKind element) {
+  Model model = spinningBlock(50000);
+  Component& body = model.components.front();
+  body.plastic = plastic, body.element = element;
+  model.triangles.plastic.resize(model.triangles.size());
+  for (std::size_t e = 0; e < model.triangles.size(); ++e)
+    model.triangles.plastic.begin(e, model.triangles.inverseEdges[e], plastic.startTemperature);
+  for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+    model.nodes.velocity[n] = {300 * model.nodes.position[n].x, -300 * model.nodes.position[n].y};
+    model.nodes.held[n] = kHeldXY;
+  }
+  ExplicitDynamics dynamics;
+  dynamics.rebuild(model);
+  const double dt = .3 * criticalTimeStep(model);
+  for (int i = 0; i < 60; ++i) dynamics.predict(model, dt, {}, {}, 1);
+  for ([[maybe_unused]] auto once : state) dynamics.predict(model, dt, {}, {}, 1);
+  state.counters["time/element"] =
+      benchmark::Counter(static_cast<double>(model.triangles.size() * state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void idealStep(benchmark::State& state) {
+  flowingStep(state, {.yieldStress = 400e6}, ElementKind::kSmoothed);
+}
+void johnsonCookStep(benchmark::State& state) {
+  PlasticMaterial m{.yieldStress = 400e6, .hardening = 500e6, .hardeningExponent = .3};
+  m.rateFactor = .02, m.thermalExponent = 1.03, m.meltTemperature = 1800, m.heatCapacity = 480;
+  flowingStep(state, m, ElementKind::kSmoothed);
+}
+
 BENCHMARK(plainStep)
     ->Name("step")
     ->ArgsProduct({{10000, 100000, 1000000}, {1, 2}})
@@ -65,6 +96,8 @@ BENCHMARK(viscousStep)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
+BENCHMARK(idealStep)->Name("step, ideal plasticity, all flow")->Unit(benchmark::kMillisecond);
+BENCHMARK(johnsonCookStep)->Name("step, Johnson-Cook, all flow")->Unit(benchmark::kMillisecond);
 BENCHMARK(baselineStep)
     ->Name("step without AVX")
     ->Args({100000, 1})

@@ -3,9 +3,9 @@
 
 namespace yadefrag::tolerance {
 
-/// (of the trial stress) Remaining distance from the yield surface at which the return ends: some
-/// thousand roundings, so that Newton's method always reaches it.
-inline constexpr double kReturned = 1e-13;
+/// (of the trial stress) Remaining distance from the yield surface at which the return ends: far
+/// above rounding, so that Newton's method always reaches it.
+inline constexpr double kReturned = 1e-11;
 
 /// (count) Most iterations of a return. Newton's method needs three to six; each other one halves
 /// the interval that contains the solution.
