@@ -81,7 +81,7 @@ std::string PlasticMaterial::wrong() const {
     if (!(tensionLimit >= 0)) return refuse("tensionLimit", tensionLimit, " Pa", "0 or positive");
     return {};
   }
-  if (const std::string sentence = wrongTable(table); !sentence.empty()) return sentence;
+  if (std::string sentence = wrongTable(table); !sentence.empty()) return sentence;
   if (!(table.empty() ? isPositive(yieldStress) : isNotNegative(yieldStress)))
     return refuse("yieldStress", yieldStress, " Pa", "positive and finite");
   if (!isNotNegative(hardening))
