@@ -17,35 +17,27 @@ inline double logOf(double x) {
   if (mantissa > 1.41421356237309504880) mantissa /= 2, ++exponent;
   // log m = 2 artanh y, |y| < 0.172
   const double y = (mantissa - 1) / (mantissa + 1), s = y * y;
-  constexpr double kPart[] = {1. / 21, 1. / 19, 1. / 17, 1. / 15, 1. / 13, 1. / 11,
-                              1. / 9,  1. / 7,  1. / 5,  1. / 3,  1.};
-  double sum = 0;
-  for (const double part : kPart) sum = sum * s + part;
+  const double s2 = s * s, s4 = s2 * s2;  // pairs of terms do not wait for each other
+  const double low = 1 + s * (1. / 3) + (1. / 5 + s * (1. / 7)) * s2;
+  const double middle = 1. / 9 + s * (1. / 11) + (1. / 13 + s * (1. / 15)) * s2;
+  const double high = 1. / 17 + s * (1. / 19) + (1. / 21) * s2;
+  const double sum = low + (middle + high * s4) * s4;
   return exponent * kLogTwo + 2 * y * sum;
 }
 
 /// exp x for |x| < 700.
 inline double expOf(double x) {
   constexpr double kHigh = .693147180369123816490, kLow = 1.90821492927058770002e-10;
-  const double whole = std::floor(x * 1.44269504088896340736 + .5);
-  const double rest = x - whole * kHigh - whole * kLow;  // |rest| < 0.347
-  constexpr double kPart[] = {1. / 6227020800,
-                              1. / 479001600,
-                              1. / 39916800,
-                              1. / 3628800,
-                              1. / 362880,
-                              1. / 40320,
-                              1. / 5040,
-                              1. / 720,
-                              1. / 120,
-                              1. / 24,
-                              1. / 6,
-                              1. / 2,
-                              1.,
-                              1.};  // 1/13! to 1/0!
-  double sum = 0;
-  for (const double part : kPart) sum = sum * rest + part;
-  const auto exponent = static_cast<std::uint64_t>(static_cast<int>(whole) + 1023);
+  const double doublings = x * 1.44269504088896340736;
+  const int nearest = static_cast<int>(doublings < 0 ? doublings - .5 : doublings + .5);
+  const double whole = nearest;
+  const double r = x - whole * kHigh - whole * kLow, r2 = r * r, r4 = r2 * r2;  // |r| < 0.347
+  const double a = 1 + r + (1. / 2 + r * (1. / 6)) * r2;
+  const double b = 1. / 24 + r * (1. / 120) + (1. / 720 + r * (1. / 5040)) * r2;
+  const double c = 1. / 40320 + r * (1. / 362880) + (1. / 3628800 + r * (1. / 39916800)) * r2;
+  const double d = 1. / 479001600 + r * (1. / 6227020800);
+  const double sum = a + (b + (c + d * r4) * r4) * r4;
+  const auto exponent = static_cast<std::uint64_t>(nearest + 1023);
   return sum * std::bit_cast<double>(exponent << 52);
 }
 

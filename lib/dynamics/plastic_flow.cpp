@@ -52,7 +52,7 @@ void PlasticFlow::follow(const ElementChunks& elements, std::span<const std::uin
 void PlasticFlow::begin(const ElementChunks& elements, int threads, double dt) {
   if (!isOn()) return;
   if (threads_.size() < static_cast<std::size_t>(threads)) threads_.resize(threads);
-  for (Thread& one : threads_) one = {};
+  for (Thread& one : threads_) one.former.clear(), one.squaredSteepest = 0;
   dissipated_.assign(elements.chunks.size(), 0);
   dt_ = dt;
 }
@@ -188,7 +188,7 @@ void PlasticFlow::takeBack(Model& model) {
           model.components[model.triangles.component[former.element].value].plastic;
       yield_[former.element] = yieldStress(material, former.point.strain, former.point.temperature);
     }
-    one = {};
+    one.former.clear(), one.squaredSteepest = 0;
   }
   std::ranges::fill(dissipated_, 0);
 }
