@@ -50,7 +50,7 @@ class FrictPhys : public NormShearPhys {
   Real frictDissip;
 #endif
 
-  FrictPhys() = delete;
+  FrictPhys();
   ~FrictPhys() override;
 };
 

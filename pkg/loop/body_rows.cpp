@@ -18,12 +18,6 @@ constexpr std::size_t kContactsPerBody = 1;
 // access.
 constexpr std::size_t kAhead = 16;
 
-template <class Object>
-void request(const Object* object, std::size_t from, std::size_t to) {
-  const auto* const bytes = reinterpret_cast<const char*>(object);
-  for (std::size_t line = from; line < to; line += 64) __builtin_prefetch(bytes + line);
-}
-
 const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
   const auto& bodies = scene.bodies->body;
   const auto index = static_cast<std::size_t>(id);
@@ -67,31 +61,27 @@ void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, int threads) {
   scene.forces.addForce(last, yade::Vector3r::Zero());
   scene.forces.addTorque(last, yade::Vector3r::Zero());
   isInPlace_ = numContacts < kContactsPerBody * scene.bodies->body.size();
-  if (!isInPlace_) return fill(scene, threads);
+  if (!isInPlace_) return fill(scene, numContacts, threads);
   forces_ = forcesOf(scene).data();
   torques_ = torquesOf(scene).data();
   numSums_ = scene.bodies->body.size();
 }
 
-void BodyRows::fill(yade::Scene& scene, int threads) {
+void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
   if (++age_ > kLongestAge || scene.bodies->body.size() < rowOf_.size()) {
     age_ = 0;
-    rowOf_.clear(), ids_.clear();
+    rowOf_.clear(), ids_.clear(), pairs_.clear();
   }
   rowOf_.resize(scene.bodies->body.size(), -1);
+  pairs_.resize(numContacts);
   rows_.resize(ids_.size());
   startForces_.resize(ids_.size()), startTorques_.resize(ids_.size());
-  forEachPart(ids_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t row = begin; row < end; ++row) {
-      if (row + 2 * kAhead < end) request(bodyAt(scene, ids_[row + 2 * kAhead]), 0, 128);
-      if (row + kAhead < end) {
-        if (const yade::Body* next = bodyAt(scene, ids_[row + kAhead])) {
-          request(next->state.get(), 64, 256);
-          request(next->shape.get(), 0, 128);
-        }
-      }
-      const auto index = static_cast<std::size_t>(ids_[row]);
-      rows_[row] = read(scene, ids_[row]);
+  // In the order of ids, which often is that of their memory.
+  forEachPart(rowOf_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t index = begin; index < end; ++index) {
+      if (rowOf_[index] < 0) continue;
+      const auto row = static_cast<std::size_t>(rowOf_[index]);
+      rows_[row] = read(scene, static_cast<yade::Body::id_t>(index));
       startForces_[row] = forcesOf(scene)[index];
       startTorques_[row] = torquesOf(scene)[index];
     }
@@ -105,30 +95,26 @@ void BodyRows::useOwnSums() {
   numSums_ = ids_.size();
 }
 
-void BodyRows::append(yade::Scene& scene, std::size_t begin, std::size_t end) {
-  if (isInPlace_) return;
-  for (std::size_t place = begin; place < end; ++place) {
-    const yade::Interaction& contact = *(*scene.interactions)[place];
-    for (const auto id : {contact.id1, contact.id2}) {
-      appendOne(scene, id);
-      request(&rows_[rowOf(id)], 0, sizeof(BodyRow));
-      request(&ownForces_[rowOf(id)], 0, sizeof(yade::Vector3r));
-      request(&ownTorques_[rowOf(id)], 0, sizeof(yade::Vector3r));
-    }
-  }
+const PairRows& BodyRows::make(yade::Scene& scene, std::size_t place,
+                               const yade::Interaction& contact) {
+  PairRows& pair = pairs_[place];
+  pair.id1 = contact.id1, pair.id2 = contact.id2;
+  pair.row1 = rowFor(scene, pair.id1), pair.row2 = rowFor(scene, pair.id2);
   useOwnSums();
+  return pair;
 }
 
-void BodyRows::appendOne(yade::Scene& scene, yade::Body::id_t id) {
+std::uint32_t BodyRows::rowFor(yade::Scene& scene, yade::Body::id_t id) {
   const auto index = static_cast<std::size_t>(id);
   assert(index < rowOf_.size());
-  if (rowOf_[index] >= 0) return;
+  if (rowOf_[index] >= 0) return static_cast<std::uint32_t>(rowOf_[index]);
   rowOf_[index] = static_cast<int>(ids_.size());
   ids_.push_back(id);
   rows_.push_back(read(scene, id));
   startForces_.push_back(forcesOf(scene)[index]);
   startTorques_.push_back(torquesOf(scene)[index]);
   ownForces_.push_back(startForces_.back()), ownTorques_.push_back(startTorques_.back());
+  return static_cast<std::uint32_t>(rowOf_[index]);
 }
 
 void BodyRows::giveForces(yade::Scene& scene) const {

@@ -23,23 +23,31 @@ struct BodyRow {
   int subdomain = 0;  // of YADE's MPI engine
 };
 
+/// Rows of the two bodies of a contact.
+struct PairRows {
+  yade::Body::id_t id1 = yade::Body::ID_NONE;
+  yade::Body::id_t id2 = yade::Body::ID_NONE;
+  std::uint32_t row1 = 0;
+  std::uint32_t row2 = 0;
+};
+
 class BodyRows {
  public:
   /// Reads the bodies of all rows, for `numContacts` contacts in the scene.
   void begin(yade::Scene& scene, std::size_t numContacts, int threads);
-  /// Appends rows for bodies of contacts [begin, end) that have none; nothing without rows.
-  void append(yade::Scene& scene, std::size_t begin, std::size_t end);
+  /// The state of a body, for contacts that are evaluated in place.
+  static BodyRow read(const yade::Scene& scene, yade::Body::id_t id);
   [[nodiscard]] bool isInPlace() const { return isInPlace_; }
-  /// Row of a body of a contact for which `append` was called, or its id.
-  [[nodiscard]] std::size_t rowOf(yade::Body::id_t id) const {
-    const auto index = static_cast<std::size_t>(id);
-    return isInPlace_ ? index : static_cast<std::size_t>(rowOf_[index]);
+  /// Rows of the bodies of contact `place`, or null if it is not known that they have rows. For
+  /// several threads at once.
+  [[nodiscard]] const PairRows* known(std::size_t place, const yade::Interaction& contact) const {
+    const PairRows& pair = pairs_[place];
+    return pair.id1 == contact.id1 && pair.id2 == contact.id2 ? &pair : nullptr;
   }
-  /// The state of such a body; `scratch` may be used for it.
-  const BodyRow& get(const yade::Scene& scene, yade::Body::id_t id, BodyRow& scratch) const {
-    if (!isInPlace_) return rows_[rowOf(id)];
-    return scratch = read(scene, id);
-  }
+  /// The same; makes rows for bodies that have none.
+  [[gnu::noinline]] const PairRows& make(yade::Scene& scene, std::size_t place,
+                                         const yade::Interaction& contact);
+  [[nodiscard]] const BodyRow& operator[](std::size_t row) const { return rows_[row]; }
 
   void addFirst(std::size_t row, const ContactForce& contact) {
     forces_[row] += contact.force;
@@ -58,15 +66,15 @@ class BodyRows {
  private:
   using Vectors = std::vector<yade::Vector3r>;
 
-  static BodyRow read(const yade::Scene& scene, yade::Body::id_t id);
-  void fill(yade::Scene& scene, int threads);
-  void appendOne(yade::Scene& scene, yade::Body::id_t id);
+  void fill(yade::Scene& scene, std::size_t numContacts, int threads);
+  std::uint32_t rowFor(yade::Scene& scene, yade::Body::id_t id);
   void useOwnSums();
 
   bool isInPlace_ = true;
   std::vector<int> rowOf_;  // by body id, -1: none
   std::vector<yade::Body::id_t> ids_;
   std::vector<BodyRow> rows_;
+  std::vector<PairRows> pairs_;  // by place of the contact
   // Of each row: sums, and what YADE had before the first contact.
   Vectors ownForces_, ownTorques_, startForces_, startTorques_;
   // The sums that are used: own or YADE's.

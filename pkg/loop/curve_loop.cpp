@@ -3,7 +3,9 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cstddef>
 
+#include "abi/request.hpp"
 #include "core/parallel.hpp"
 
 namespace yadefrag {
@@ -11,9 +13,11 @@ namespace yadefrag {
 namespace {
 
 // Contacts that a thread takes at once: enough that taking them costs nothing, few enough that all
-// threads end at the same time, and that their data are still in the cache when rows were made for
-// their bodies. The results do not depend on it.
+// threads end at the same time. The results do not depend on it.
 constexpr std::size_t kContactsAtOnce = 128;
+// Contacts between the request of an interaction from memory and its use: enough for the latency of
+// one access.
+constexpr std::size_t kAhead = 16;
 
 }  // namespace
 
@@ -39,61 +43,122 @@ void ContactLoop::action() {
   } else {
     run(step, size);
   }
-  if (fastForces > 0) rows_.giveForces(*scene);
+  if (fastForces == 0) return;
+  rows_.giveForces(*scene);
+  memory_.endStep(*scene);
 }
 
-std::optional<ContactLoop::PairForce> ContactLoop::evaluate(const PairStep& step, std::size_t place,
-                                                            long& fast) const {
-  const auto& contact = (*scene->interactions)[place];
-  if (rows_.isInPlace() && step.isFarApart(*contact)) return {};
-  BodyRow one, two;
-  const auto force = step.evaluate(contact, rows_.get(*scene, contact->id1, one),
-                                   rows_.get(*scene, contact->id2, two), fast);
-  if (!force) return {};
-  return PairForce{rows_.rowOf(contact->id1), rows_.rowOf(contact->id2), *force};
+[[gnu::always_inline]] inline void ContactLoop::requestAhead(std::size_t place,
+                                                             std::size_t size) const {
+  if (place + kAhead >= size) return;
+  request((*scene->interactions)[place + kAhead].get(), offsetof(yade::Interaction, functorCache),
+          sizeof(yade::Interaction));
 }
 
-void ContactLoop::run(const PairStep& step, std::size_t size) {
-  for (std::size_t begin = 0; begin < size; begin += kContactsAtOnce) {
-    const std::size_t end = std::min(begin + kContactsAtOnce, size);
-    rows_.append(*scene, begin, end);
-    for (std::size_t place = begin; place < end; ++place) {
-      if (const auto pair = evaluate(step, place, fastGeometries)) {
-        ++fastForces;
-        rows_.addFirst(pair->row1, pair->contact);
-        rows_.addSecond(pair->row2, pair->contact);
-      }
+// Most of the time of a step is spent here: without the attributes a compiler that sees many
+// sources at once leaves vector products as calls.
+[[gnu::always_inline]] inline bool ContactLoop::evaluate(const PairStep& step,
+                                                         const Contact& contact,
+                                                         const PairRows& pair, long& fast,
+                                                         PairForce& force) const {
+  if (step.isKnown(*contact)) {
+    ++fast;
+    force.row1 = pair.row1, force.row2 = pair.row2;
+    return step.evaluateKnown(*contact, rows_[pair.row1], rows_[pair.row2], force.contact);
+  }
+  const auto other = step.evaluate(contact, rows_[pair.row1], rows_[pair.row2], fast);
+  if (!other) return false;
+  // The order of the bodies may have been swapped.
+  const bool isSwapped = contact->id1 != pair.id1;
+  force = {isSwapped ? pair.row2 : pair.row1, isSwapped ? pair.row1 : pair.row2, *other};
+  return true;
+}
+
+bool ContactLoop::evaluateInPlace(const PairStep& step, const Contact& contact, long& fast,
+                                  PairForce& force) const {
+  if (step.isFarApart(*contact)) return false;
+  const auto found = step.evaluate(contact, BodyRows::read(*scene, contact->id1),
+                                   BodyRows::read(*scene, contact->id2), fast);
+  if (!found) return false;
+  force = {static_cast<std::uint32_t>(contact->id1), static_cast<std::uint32_t>(contact->id2),
+           *found};
+  return true;
+}
+
+[[gnu::always_inline]] inline void ContactLoop::add(const PairForce& force) {
+  rows_.addFirst(force.row1, force.contact);
+  rows_.addSecond(force.row2, force.contact);
+}
+
+[[gnu::flatten]] void ContactLoop::run(const PairStep& step, std::size_t size) {
+  PairForce force;
+  for (std::size_t place = 0; place < size; ++place) {
+    requestAhead(place, size);
+    const Contact& contact = (*scene->interactions)[place];
+    if (rows_.isInPlace()) {
+      if (!evaluateInPlace(step, contact, fastGeometries, force)) continue;
+    } else {
+      const PairRows* const known = rows_.known(place, *contact);
+      const PairRows& pair = known ? *known : rows_.make(*scene, place, *contact);
+      if (!evaluate(step, contact, pair, fastGeometries, force)) continue;
     }
+    ++fastForces;
+    add(force);
   }
 }
 
 // Forces are stored by contact, and then added in the order of the contacts, as by one thread. Each
 // thread adds those of its own bodies.
 void ContactLoop::runInParallel(const PairStep& step, std::size_t size) {
-  rows_.append(*scene, 0, size);
   stored_.resize(size);
-  const std::size_t blocks = (size + kContactsAtOnce - 1) / kContactsAtOnce;
-  fastInBlock_.assign(blocks, 0);
-  forEachItem(blocks, size, threads, [&](std::size_t block) {
-    const std::size_t begin = block * kContactsAtOnce;
-    for (std::size_t place = begin; place < std::min(begin + kContactsAtOnce, size); ++place) {
-      stored_[place] = evaluate(step, place, fastInBlock_[block]);
-    }
+  blocks_.resize((size + kContactsAtOnce - 1) / kContactsAtOnce);
+  forEachItem(blocks_.size(), size, threads, [&](std::size_t number) {
+    const std::size_t begin = number * kContactsAtOnce;
+    evaluateBlock(step, begin, std::min(begin + kContactsAtOnce, size), blocks_[number]);
   });
-  for (const long fast : fastInBlock_) fastGeometries += fast;
+  for (const ContactBlock& block : blocks_) {
+    fastGeometries += block.fast;
+    for (const std::size_t place : block.withoutRows) {
+      const Contact& contact = (*scene->interactions)[place];
+      const PairRows& pair = rows_.make(*scene, place, *contact);
+      if (!evaluate(step, contact, pair, fastGeometries, stored_[place])) {
+        stored_[place].row1 = PairForce::kNone;
+      }
+    }
+  }
   forEachPart(size, threads, [&](std::size_t, std::size_t, int part) {
     const auto parts = static_cast<std::size_t>(threads), own = static_cast<std::size_t>(part);
     const std::size_t first = rows_.numSums() * own / parts;
     const std::size_t last = rows_.numSums() * (own + 1) / parts;
     const auto isOwn = [&](std::size_t row) { return row >= first && row < last; };
-    for (const auto& pair : stored_) {
-      if (!pair) continue;
-      if (isOwn(pair->row1)) rows_.addFirst(pair->row1, pair->contact);
-      if (isOwn(pair->row2)) rows_.addSecond(pair->row2, pair->contact);
+    for (const PairForce& force : stored_) {
+      if (force.row1 == PairForce::kNone) continue;
+      if (isOwn(force.row1)) rows_.addFirst(force.row1, force.contact);
+      if (isOwn(force.row2)) rows_.addSecond(force.row2, force.contact);
     }
   });
   fastForces = std::count_if(stored_.begin(), stored_.end(),
-                             [](const auto& pair) { return pair.has_value(); });
+                             [](const PairForce& force) { return force.row1 != PairForce::kNone; });
+}
+
+[[gnu::flatten]] void ContactLoop::evaluateBlock(const PairStep& step, std::size_t begin,
+                                                 std::size_t end, ContactBlock& block) {
+  block.fast = 0;
+  block.withoutRows.clear();
+  for (std::size_t place = begin; place < end; ++place) {
+    requestAhead(place, stored_.size());
+    const Contact& contact = (*scene->interactions)[place];
+    PairForce& force = stored_[place];
+    bool isForce = false;
+    if (rows_.isInPlace()) {
+      isForce = evaluateInPlace(step, contact, block.fast, force);
+    } else if (const PairRows* const pair = rows_.known(place, *contact)) {
+      isForce = evaluate(step, contact, *pair, block.fast, force);
+    } else {
+      block.withoutRows.push_back(place);
+    }
+    if (!isForce) force.row1 = PairForce::kNone;
+  }
 }
 
 }  // namespace yadefrag

@@ -2,6 +2,7 @@
 // A drop-in for YADE's InteractionLoop.
 
 #include "loop/body_rows.hpp"
+#include "loop/contact_memory.hpp"
 #include "loop/pair_step.hpp"
 #include "publish/attribute.hpp"
 #include "publish/published.hpp"
@@ -39,20 +40,37 @@ class ContactLoop : public yade::InteractionLoop {
   }
 
  private:
-  /// Force of a contact that the loop computed, and the rows of its bodies.
+  using Contact = PairStep::Contact;
+  /// Force of a contact that the loop computed, and the rows, or ids, of its bodies.
   struct PairForce {
-    std::size_t row1;
-    std::size_t row2;
+    static constexpr std::uint32_t kNone = ~0U;
+
+    std::uint32_t row1 = kNone;
+    std::uint32_t row2 = kNone;
     ContactForce contact;
   };
+  /// What a thread found in contacts one behind the other.
+  struct ContactBlock {
+    long fast = 0;                         // geometries that the loop computed
+    std::vector<std::size_t> withoutRows;  // contacts that are not evaluated yet
+  };
 
-  std::optional<PairForce> evaluate(const PairStep& step, std::size_t place, long& fast) const;
+  void requestAhead(std::size_t place, std::size_t size) const;
+  /// Both return false if there is no force, or YADE's law has added it.
+  bool evaluate(const PairStep& step, const Contact& contact, const PairRows& pair, long& fast,
+                PairForce& force) const;
+  [[gnu::noinline]] bool evaluateInPlace(const PairStep& step, const Contact& contact, long& fast,
+                                         PairForce& force) const;
+  void evaluateBlock(const PairStep& step, std::size_t begin, std::size_t end, ContactBlock& block);
+  void add(const PairForce& force);
   void run(const PairStep& step, std::size_t size);
   void runInParallel(const PairStep& step, std::size_t size);
 
   BodyRows rows_;
-  std::vector<std::optional<PairForce>> stored_;  // by contact, for several threads
-  std::vector<long> fastInBlock_;
+  ContactMemory memory_;
+  // With several threads, by contact and by block of contacts.
+  std::vector<PairForce> stored_;
+  std::vector<ContactBlock> blocks_;
 };
 
 class CurveLoop final : public Published<CurveLoop, ContactLoop, yade::InteractionLoop> {

@@ -45,6 +45,7 @@ PairStep::PairStep(yade::InteractionLoop& loop, yade::Scene& scene) : loop_(loop
     }
   }
   const long lastRun = scene.interactions->iterColliderLastRun;
+  isAllKnown_ = spheres_ && friction_ && law_ && callbacks_.empty();
   removesUnseen_ = lastRun >= 0 && lastRun == scene.iter;
 }
 
@@ -96,15 +97,6 @@ bool PairStep::areApart(const yade::Vector3r& place1, double radius1, const yade
   const double reach = spheres_->interactionDetectionFactor * (radius1 + radius2);
   const yade::Vector3r between = place2 - place1;
   return reach * reach - between.squaredNorm() < 0;
-}
-
-bool PairStep::isElsewhere([[maybe_unused]] const BodyRow& one,
-                           [[maybe_unused]] const BodyRow& two) const {
-#ifdef YADE_MPI
-  return one.subdomain != scene_.subdomain && two.subdomain != scene_.subdomain;
-#else
-  return false;
-#endif
 }
 
 // False: no functor accepts the two shapes. The order of the bodies may be swapped.

@@ -28,8 +28,9 @@ struct SphereMotion {
 };
 
 /// The geometry after a step of `dt` (s), from that of the step before; not periodic.
-inline void updateGeometry(yade::ScGeom& geom, const SphereMotion& one, const SphereMotion& two,
-                           double dt, bool avoidsRatcheting) {
+[[gnu::always_inline]] inline void updateGeometry(yade::ScGeom& geom, const SphereMotion& one,
+                                                  const SphereMotion& two, double dt,
+                                                  bool avoidsRatcheting) {
   using yade::Vector3r;
   Vector3r normal = two.position - one.position;
   const double distance = normal.norm();
@@ -61,7 +62,8 @@ inline void updateGeometry(yade::ScGeom& geom, const SphereMotion& one, const Sp
 
 /// Elastic normal force and shear force limited by friction. False: the bodies are apart, and
 /// nothing was changed. Energies are not counted.
-inline bool updateForces(const yade::ScGeom& geom, yade::FrictPhys& phys, bool isKeptApart) {
+[[gnu::always_inline]] inline bool updateForces(const yade::ScGeom& geom, yade::FrictPhys& phys,
+                                                bool isKeptApart) {
   using yade::Vector3r;
   if (geom.penetrationDepth < 0) {
     if (!isKeptApart) return false;
@@ -85,9 +87,11 @@ inline bool updateForces(const yade::ScGeom& geom, yade::FrictPhys& phys, bool i
 
 /// `arePointsOfSpheres`: arms from the radii; otherwise from the contact point. `place2` is the
 /// position of the image of the second body that is in contact.
-inline ContactForce contactForce(const yade::ScGeom& geom, const yade::FrictPhys& phys,
-                                 bool arePointsOfSpheres, const yade::Vector3r& place1,
-                                 const yade::Vector3r& place2) {
+[[gnu::always_inline]] inline ContactForce contactForce(const yade::ScGeom& geom,
+                                                        const yade::FrictPhys& phys,
+                                                        bool arePointsOfSpheres,
+                                                        const yade::Vector3r& place1,
+                                                        const yade::Vector3r& place2) {
   using yade::Vector3r;
   const Vector3r force = -phys.normalForce - phys.shearForce;
   if (arePointsOfSpheres) {

@@ -1,0 +1,60 @@
+#include "loop/contact_memory.hpp"
+
+#include "loop/exposed.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+void copyGeometry(const yade::ScGeom& from, yade::ScGeom& to) {
+  to.normal = from.normal;
+  to.contactPoint = from.contactPoint;
+  to.refR1 = from.refR1, to.refR2 = from.refR2;
+  to.*exposed(TwistAxis{}) = from.*exposed(TwistAxis{});
+  to.*exposed(OrthonormalAxis{}) = from.*exposed(OrthonormalAxis{});
+  to.penetrationDepth = from.penetrationDepth;
+  to.shearInc = from.shearInc;
+}
+
+void copyPhysics(const yade::FrictPhys& from, yade::FrictPhys& to) {
+  to.kn = from.kn, to.ks = from.ks;
+  to.normalForce = from.normalForce, to.shearForce = from.shearForce;
+  to.tangensOfFrictionAngle = from.tangensOfFrictionAngle;
+#if YADEFRAG_YADE >= 202601
+  to.frictDissip = from.frictDissip;
+#endif
+}
+
+// Bytes from the geometry of one contact to that of the next.
+constexpr std::size_t kContactBytes =
+    (sizeof(yade::ScGeom) + sizeof(yade::FrictPhys) + Block::kLine - 1) / Block::kLine *
+    Block::kLine;
+
+// No member is forgotten.
+static_assert(sizeof(yade::ScGeom) == 192);
+static_assert(sizeof(yade::FrictPhys) == (YADEFRAG_YADE >= 202601 ? 112 : 104));
+
+void moveTogether(yade::Scene& scene) {
+  const OthersWait others(scene);
+  BlockFiller filler;
+  for (const auto& contact : *scene.interactions) {
+    if (!isMovable<yade::ScGeom>(contact->geom) || !isMovable<yade::FrictPhys>(contact->phys)) {
+      continue;
+    }
+    filler.begin(kContactBytes);
+    moveInto<yade::ScGeom>(filler, contact->geom, copyGeometry);
+    moveInto<yade::FrictPhys>(filler, contact->phys, copyPhysics);
+  }
+}
+
+}  // namespace
+
+void ContactMemory::endStep(yade::Scene& scene) {
+  const auto visitAll = [&](const auto& visit) {
+    for (const auto& contact : *scene.interactions)
+      if (contact->isReal()) visit(contact->geom.get());
+  };
+  if (geometries_.endStep(kContactBytes, visitAll)) moveTogether(scene);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,53 @@
+#include "memory/block_memory.hpp"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace yadefrag {
+
+namespace {
+
+// Fewer objects fit into the processor's cache.
+constexpr std::size_t kFewest = 2048;
+// Share of scattered objects from which a loop is slower by more than the move costs.
+constexpr std::size_t kScatteredShare = 8;  // 1 of 8
+constexpr long kLongestWait = 1024;         // steps
+
+}  // namespace
+
+Block* Block::make() {
+  void* const bytes = std::aligned_alloc(kBytes, kBytes);
+  if (bytes == nullptr) throw std::bad_alloc();
+  madvise(bytes, kBytes, MADV_HUGEPAGE);  // a request: pages of the usual size are as good
+  return new (bytes) Block;
+}
+
+void Block::release() {
+  if (used_.fetch_sub(1) == 1) std::free(this);
+}
+
+void BlockFiller::begin(std::size_t bytes) {
+  offset_ = (offset_ + Block::kLine - 1) / Block::kLine * Block::kLine;
+  if (block_ && offset_ + bytes <= Block::kBytes) return;
+  if (block_) block_->release();
+  block_ = nullptr;
+  block_ = Block::make();
+  offset_ = Block::kLine;
+}
+
+bool ScatterWatch::isEnough(std::size_t visited, std::size_t scattered) {
+  age_ = 0;
+  const bool isEnough = visited >= kFewest && scattered * kScatteredShare > visited;
+  wait_ = isEnough ? std::min(2 * wait_, kLongestWait) : kShortestWait;
+  return isEnough;
+}
+
+OthersWait::OthersWait(yade::Scene& scene)
+    : views_(scene.bodies->drawloopmutex, scene.interactions->drawloopmutex),
+      python_(PyGILState_Ensure()) {}
+
+OthersWait::~OthersWait() { PyGILState_Release(python_); }
+
+}  // namespace yadefrag
