@@ -48,8 +48,15 @@ class NewtonIntegrator : public FieldApplier {
   int kinEnergyRotIx;
   int mask;
 
-  NewtonIntegrator() = delete;
+  NewtonIntegrator();
   ~NewtonIntegrator() override;
+  string getBaseClassName(unsigned int i = 0) const override;
+  int getBaseClassNumber() const override;
+  string getClassName() const override;
+  void pySetAttr(const string& key, const py::object& value) override;
+  py::dict pyDict() const override;
+  void callPostLoad() override;
+  void pyRegisterClass(py::object scope) override;
   void action() override;
 
  private:

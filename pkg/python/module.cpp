@@ -11,6 +11,7 @@
 #include "fe/materials.hpp"
 #include "fe/plastic_materials.hpp"
 #include "fe/running.hpp"
+#include "integrator/curve_integrator.hpp"
 #include "loop/curve_loop.hpp"
 #include "publish/publish.hpp"
 #include "python/list_items.hpp"
@@ -30,13 +31,14 @@ struct ClassList {
 };
 
 // Every class that this project adds to YADE.
-using NewClasses = ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider, CurveLoop,
-                             FEMat, BrittleFEMat, PlasticFEMat, FrictionalFEMat, SurfaceSegment,
-                             Bo1_SurfaceSegment_Aabb, Ig2_Sphere_SurfaceSegment_ScGeom,
+using NewClasses =
+    ClassList<LebesgueCollider, LinearCodeCollider, HierarchyCollider, CurveLoop, CurveIntegrator,
+              FEMat, BrittleFEMat, PlasticFEMat, FrictionalFEMat, SurfaceSegment,
+              Bo1_SurfaceSegment_Aabb, Ig2_Sphere_SurfaceSegment_ScGeom,
 #ifdef YADE_OPENGL
-                             Gl1_SurfaceSegment,
+              Gl1_SurfaceSegment,
 #endif
-                             FESolver>;
+              FESolver>;
 
 /// The instruction set that is used on this processor.
 std::string instructionSet() {

@@ -26,12 +26,13 @@ from yadefrag import _yadefrag  # noqa: E402
 
 _yadefrag.checkRunningYade()
 if TYPE_CHECKING:  # what publish() adds
-    from yade.wrapper import (Bo1_SurfaceSegment_Aabb, BrittleFEMat, CurveLoop, FEMat, FESolver, FrictionalFEMat,
-                              Gl1_SurfaceSegment, HierarchyCollider, Ig2_Sphere_SurfaceSegment_ScGeom, LebesgueCollider,
-                              LinearCodeCollider, PlasticFEMat, SurfaceSegment)
-    __all__ = ['Bo1_SurfaceSegment_Aabb', 'BrittleFEMat', 'CurveLoop', 'FEMat', 'FESolver', 'FrictionalFEMat',
-               'Gl1_SurfaceSegment', 'HierarchyCollider', 'Ig2_Sphere_SurfaceSegment_ScGeom', 'LebesgueCollider',
-               'LinearCodeCollider', 'PlasticFEMat', 'SurfaceSegment']
+    from yade.wrapper import (Bo1_SurfaceSegment_Aabb, BrittleFEMat, CurveIntegrator, CurveLoop, FEMat, FESolver,
+                              FrictionalFEMat, Gl1_SurfaceSegment, HierarchyCollider,
+                              Ig2_Sphere_SurfaceSegment_ScGeom, LebesgueCollider, LinearCodeCollider, PlasticFEMat,
+                              SurfaceSegment)
+    __all__ = ['Bo1_SurfaceSegment_Aabb', 'BrittleFEMat', 'CurveIntegrator', 'CurveLoop', 'FEMat', 'FESolver',
+               'FrictionalFEMat', 'Gl1_SurfaceSegment', 'HierarchyCollider', 'Ig2_Sphere_SurfaceSegment_ScGeom',
+               'LebesgueCollider', 'LinearCodeCollider', 'PlasticFEMat', 'SurfaceSegment']
 else:
     __all__ = list(_yadefrag.publish())
 

@@ -64,7 +64,8 @@ def install(names: Collection[str]) -> None:
     for name in names:
         getattr(wrapper, name).dumpBounds = dumpBounds
     former = utils.typedEngine
-    found = _findingOurs(former, {'InsertionSortCollider': names, 'InteractionLoop': ['CurveLoop']})
+    found = _findingOurs(former, {'InsertionSortCollider': names, 'InteractionLoop': ['CurveLoop'],
+                                'NewtonIntegrator': ['CurveIntegrator']})
     # YADE has copied its functions to the names of scripts.
     for holder in utils, builtins, sys.modules['__main__']:
         if getattr(holder, 'typedEngine', None) is former:

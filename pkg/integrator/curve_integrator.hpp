@@ -1,0 +1,56 @@
+#pragma once
+// A drop-in for YADE's NewtonIntegrator.
+
+#include <vector>
+
+#include "integrator/body_memory.hpp"
+#include "integrator/sphere_motion.hpp"
+#include "publish/attribute.hpp"
+#include "publish/published.hpp"
+
+namespace yadefrag {
+
+class MotionIntegrator : public yade::NewtonIntegrator {
+ public:
+  void action() override;
+
+  long fastBodies = 0;
+
+  static constexpr auto attributes() {
+    using yade::Attr::noSave;
+    using yade::Attr::readonly;
+    return std::tuple(attribute("fastBodies", &MotionIntegrator::fastBodies,
+                                "Number of bodies in the last step that the integrator moved "
+                                "itself; all others were moved by YADE's NewtonIntegrator.",
+                                readonly | noSave));
+  }
+
+ private:
+  /// Results of one thread.
+  struct Part {
+    std::vector<yade::Body::id_t> others;  // bodies that YADE's integrator moves
+    long moved = 0;
+    bool isAnyBeyond = false;
+  };
+
+  [[nodiscard]] MotionStep motionStep() const;
+  [[nodiscard]] bool isOurs(const yade::Body& body) const;
+  void move(const MotionStep& step, yade::Body& body, Part& part) const;
+  void moveOthers(std::vector<yade::Body::id_t>& others);
+
+  std::vector<Part> parts_;
+  BodyMemory memory_;
+};
+
+class CurveIntegrator final
+    : public Published<CurveIntegrator, MotionIntegrator, yade::NewtonIntegrator> {
+ public:
+  static constexpr const char* kName = "CurveIntegrator";
+  static constexpr const char* kDoc =
+      "NewtonIntegrator for many bodies, with the same attributes and the same results to the last "
+      "bit. Bodies whose rotation is integrated as a sphere's are moved by the same formulas, with "
+      "their memory requested ahead; clumps and aspherical bodies by NewtonIntegrator, and so are "
+      "all bodies while O.trackEnergy is set.";
+};
+
+}  // namespace yadefrag
