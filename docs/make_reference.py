@@ -20,7 +20,7 @@ GROUPS = (
                               'recordFracture', 'plotFracture')),
     ('Many runs', ('tradeoff', 'TradeoffTable', 'ensemble', 'EnsembleTable')),
     ('Colliders', ('LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider', 'inCurveOrder')),
-    ('Interaction loop', ('CurveLoop',)),
+    ('Interaction loop and integrator', ('CurveLoop', 'CurveIntegrator')),
 )
 
 

@@ -37,7 +37,8 @@ ENGINES = {  # collider, loop, integrator
     'YADE': ('InsertionSortCollider', 'InteractionLoop', 'NewtonIntegrator'),
     'collider': ('LebesgueCollider', 'InteractionLoop', 'NewtonIntegrator'),
     'loop': ('LebesgueCollider', 'CurveLoop', 'NewtonIntegrator'),
-    'allocator': ('LebesgueCollider', 'CurveLoop', 'NewtonIntegrator')}  # with libjemalloc2
+    'integrator': ('LebesgueCollider', 'CurveLoop', 'CurveIntegrator'),
+    'allocator': ('LebesgueCollider', 'CurveLoop', 'CurveIntegrator')}  # with libjemalloc2
 OTHERS = {'LIGGGHTS': codes_liggghts, 'LAMMPS': codes_lammps}
 TOLERANCE = .03
 JEMALLOC = '/usr/lib/x86_64-linux-gnu/libjemalloc.so.2'

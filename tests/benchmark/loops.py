@@ -1,7 +1,8 @@
-"""YADE's InteractionLoop against CurveLoop: scripts/bench loops [--scenes a,b] [--sizes 1000,10000] [--threads 1,2]
+"""YADE's InteractionLoop and NewtonIntegrator against CurveLoop and CurveIntegrator:
+scripts/bench loops [--scenes a,b] [--sizes 1000,10000] [--threads 1,2]
 
 Plain Python; every measurement is a process of its own (measure.py inside yade), with LebesgueCollider. The
-loops take turns within every repeat, and ratios are formed within a repeat. Shown are medians over the repeats.
+engines take turns within every repeat, and ratios are formed within a repeat. Shown are medians over the repeats.
 Writes loops.json (raw) and loops.md (the table) to out/bench.
 """
 import argparse
@@ -12,7 +13,9 @@ import statistics
 import colliders
 import report
 
-LOOPS = ['InteractionLoop', 'CurveLoop']
+ENGINES = [('InteractionLoop', 'NewtonIntegrator'), ('CurveLoop', 'CurveIntegrator')]
+# Steps before the measured ones: data are moved together after 32.
+WARM = 40
 SCENES = ['gas', 'packing', 'polydisperse', 'clusters']
 
 
@@ -35,14 +38,15 @@ def parse(arguments):
 
 
 def measured(options):
-    """A row for each scene, size, number of threads, loop and repeat; raises RuntimeError if one fails."""
+    """A row for each scene, size, number of threads, engines and repeat; raises RuntimeError if one fails."""
     runner, rows = colliders.Runner(options), []
     for scene in options.scenes:
         for n in options.sizes:
             for threads in options.threads:
                 for repeat in range(options.repeat):
-                    for loop in LOOPS:
-                        row = runner.measure('LebesgueCollider', scene, n, options.budget, threads=threads, loop=loop)
+                    for loop, integrator in ENGINES:
+                        row = runner.measure('LebesgueCollider', scene, n, options.budget, threads=threads, loop=loop,
+                                             integrator=integrator, warm=WARM)
                         if 'error' in row:
                             raise RuntimeError(f'{scene}, {n} bodies, {loop}: {row["error"]}')
                         rows.append(dict(row, threads=threads, loop=loop, repeat=repeat))
@@ -51,16 +55,16 @@ def measured(options):
 
 def table(options, rows):
     """Lines of Markdown."""
-    lines = ['| scene | bodies | contacts | threads | loop, ms: `InteractionLoop` | `CurveLoop` | times faster '
-             '| step, ms | | times faster |', '|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|']
+    lines = ['| scene | bodies | contacts | threads | loop, ms: YADE | ours | times faster | integrator, ms: YADE | ours '
+             '| times faster | step, ms: YADE | ours | times faster |', '|---|' + '--:|' * 12]
     for scene in options.scenes:
         for n in options.sizes:
             for threads in options.threads:
                 of = {loop: [r for r in rows if (r['scene'], r['n'], r['threads'], r['loop']) ==
-                             (scene, n, threads, loop)] for loop in LOOPS}
+                             (scene, n, threads, loop)] for loop, _ in ENGINES}
                 cells = [scene, f'{n:,}', f'{of["CurveLoop"][0]["real"]:,}', str(threads)]
-                for key in ('loopPerStep', 'sumPerStep'):
-                    both = [[r[key] for r in of[loop]] for loop in LOOPS]
+                for key in ('loopPerStep', 'integratorPerStep', 'sumPerStep'):
+                    both = [[r[key] for r in of[loop]] for loop, _ in ENGINES]
                     cells += [f'{1e3 * statistics.median(one):.3g}' for one in both]
                     cells.append(f'{statistics.median(a / b for a, b in zip(*both)):.2f}')
                 lines.append('| ' + ' | '.join(cells) + ' |')

@@ -27,13 +27,13 @@ class _Constructor(type):
 class Swap:
     """`target` is the class to put in; YADE's own works too (then objects are left as they are).
 
-    `everyStep` takes the strides away, whatever a script sets: the reference for contacts. `loop`: the
-    name of a class in the place of InteractionLoop, where scripts make one; `loops` counts runs with it.
+    `everyStep` takes the strides away, whatever a script sets: the reference for contacts. `ours`: CurveLoop
+    and CurveIntegrator in the place of YADE's, where scripts make them; `loops` counts runs with the loop.
     """
 
-    def __init__(self, target, everyStep=False, loop=None):
+    def __init__(self, target, everyStep=False, ours=False):
         self.target, self.everyStep = target, everyStep
-        self.loop = getattr(w, loop) if loop else None
+        self.loop = w.CurveLoop if ours else None
         self.rivals = {name: getattr(w, name) for name in kRivals}
         self.left = [c for c in self.rivals.values() if c is not target]
         self.count = collections.Counter(made=0, found=0, runs=0, rivals=0, loops=0)
@@ -44,6 +44,7 @@ class Swap:
             self._rename(rival, self._constructor(name), namespace)
         if self.loop:
             self._rename(w.InteractionLoop, self.loop, namespace)
+            self._rename(w.NewtonIntegrator, w.CurveIntegrator, namespace)
         original = yade.utils.typedEngine
         self._rename(original, lambda name: original(
             self.target.__name__ if name in kRivals else name), namespace)

@@ -126,12 +126,12 @@ def testCheckScript(collider, script):
 
 
 @pytest.mark.parametrize('script', kQuickChecks)
-def testCheckScriptWithCurveLoop(script):
-    """The same with CurveLoop in the place of InteractionLoop, too."""
+def testCheckScriptWithLoopAndIntegrator(script):
+    """The same with CurveLoop and CurveIntegrator in the place of YADE's, too."""
     if why := reasonToSkip(script):
         pytest.skip(why)
     names = [x for x in kQuickChecks if not reasonToSkip(x)]
-    result = outcome('LebesgueCollider+CurveLoop', 'checks', names)[script]
+    result = outcome('LebesgueCollider+all', 'checks', names)[script]
     assert result['error'] is None, result['error']
     if script not in {*kNoCollider, *kNoRun, *kFoundChecks}:
         assert result['loops'] == result['runs'] > 0

@@ -194,13 +194,14 @@ def runExamples(swap, names, scope):
 
 
 def main(scope):
-    """CLASS[+CurveLoop] checks|unit|examples|reference NAME...; a reference is an example searched every step.
+    """CLASS[+all] checks|unit|examples|reference NAME...; a reference is an example searched every step;
+    all: with CurveLoop and CurveIntegrator.
 
     `scope`: the globals of yade's __main__, where YADE's runners look names up, too."""
     name, kind, *names = sys.argv[1:]
     sys.argv = sys.argv[:1]
-    name, *loop = name.split('+')
-    swap = Swap(colliderClass(name), everyStep=kind == 'reference', loop=loop[0] if loop else None)
+    name, *ours = name.split('+')
+    swap = Swap(colliderClass(name), everyStep=kind == 'reference', ours=bool(ours))
     swap.install(scope)
     if kind == 'checks':
         runChecks(swap, names, scope)

@@ -11,6 +11,7 @@ from yade import utils
 from yade.minieigenHP import Matrix3, Vector3
 
 import scenes
+from heaps import heap, state
 from project import yadeCommand
 from scenes import O
 
@@ -42,37 +43,6 @@ kViscous = ([w.Ig2_Sphere_Sphere_ScGeom, w.Ig2_Facet_Sphere_ScGeom, w.Ig2_Box_Sp
 
 def loopOf(name, functors):
     return getattr(w, name)(*functors)
-
-
-def heap(material=None, periodic=False):
-    """Spheres of three sizes, a clump among them, that fall on a facet floor, a box and a wall."""
-    scenes.clear()
-    chance = np.random.default_rng(3)
-    O.materials.append(material or w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
-    if periodic:
-        O.periodic = True
-        O.cell.setBox(9, 9, 9)
-    for place in np.ndindex(6, 6, 4):
-        at = np.array(place) * 1.45 + chance.uniform(-.2, .2, 3) + (1, 1, 1.6)
-        ball = utils.sphere(Vector3(*at), chance.choice([.5, .7, .75]))
-        ball.state.vel = Vector3(*chance.normal(0, 3, 3))
-        ball.state.angVel = Vector3(*chance.normal(0, 5, 3))
-        O.bodies.append(ball)
-    O.bodies.appendClumped([utils.sphere((4, 4, 9), .6), utils.sphere((4.8, 4, 9), .6)])
-    if not periodic:
-        O.bodies.append([utils.facet([(-30, -30, 0), (30, -30, 0), (0, 40, 0)]),
-                         utils.box((0, 4, 1), (.8, 6, 1), fixed=True), utils.wall(9.5, axis=1)])
-    O.dt = 2e-4
-
-
-def state():
-    """All numbers of bodies and real contacts, as bytes."""
-    numbers = [[*b.state.pos, *b.state.vel, *b.state.angVel, *b.state.ori] for b in O.bodies if b]
-    contacts = [[i.id1, i.id2, i.iterMadeReal, *i.geom.normal, *i.geom.contactPoint, i.geom.penetrationDepth,
-                 i.geom.refR1, i.geom.refR2, *i.geom.shearInc, i.phys.kn, i.phys.ks, *i.phys.normalForce,
-                 *i.phys.shearForce] for i in O.interactions]
-    forces = [[*O.forces.f(b.id), *O.forces.t(b.id)] for b in O.bodies if b]
-    return [np.array(rows, float).tobytes() for rows in (numbers, contacts, forces)]
 
 
 def run(name, functors, steps, build=heap, collider='LebesgueCollider', newton=None, **settings):
@@ -358,3 +328,41 @@ def test_twoLaws():
     assert 0 < loop.fastForces < O.interactions.countReal()
     # m, N: some contacts amplify the rounding of 10^4 N.
     assert np.abs(found[0] - found[1])[:, :3].max() < 1e-9 and np.abs(found[0] - found[1])[:, 3:].max() < 1e-3
+
+
+def dense():
+    """Some 5,000 contacts of spheres in random order, that are stirred."""
+    scenes.clear()
+    chance = np.random.default_rng(5)
+    places = np.array(list(np.ndindex(12, 12, 12))) * .97
+    chance.shuffle(places)
+    O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
+    scenes.addSpheres(places, [.5] * len(places), chance.normal(0, 2, (len(places), 3)), dynamic=True)
+    O.dt = 1e-4
+
+
+def test_movedTogether(folder):
+    """From 2,048 contacts on, geometries and physics are moved together: the same bits, with objects that Python
+    holds, contacts and bodies that end, a reset and a saved scene in between."""
+    found = []
+    for name in ('InteractionLoop', 'CurveLoop'):
+        run(name, kFunctors['friction'](), 20, build=dense)
+        held = [(i.geom, i.phys) for i in list(O.interactions)[:50]]
+        assert O.interactions.countReal() > 2048
+        states = []
+        for step in range(4):
+            O.run(45, True)
+            states.append(state())
+            O.bodies.erase(7 + step)
+            first = next(iter(O.interactions))
+            O.interactions.erase(first.id1, first.id2)
+        # Objects of contacts that went on are the same as before.
+        assert sum(1 for i in O.interactions for g, p in held[:5] if i.geom == g and i.phys == p) > 2
+        former = [(g.penetrationDepth, p.kn) for g, p in held]
+        O.save(os.path.join(folder, name + '.yade.gz'))
+        O.reset()
+        # They end with their last owner.
+        assert [(g.penetrationDepth, p.kn) for g, p in held] == former
+        del held
+        found.append(states)
+    assert found[0] == found[1]

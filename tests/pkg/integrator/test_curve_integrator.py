@@ -1,0 +1,219 @@
+"""CurveIntegrator in the place of YADE's NewtonIntegrator: the same bits, whatever bodies the scene has."""
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+import yade.wrapper as w
+from yade import utils
+from yade.minieigenHP import Matrix3, Quaternion, Vector3
+
+import scenes
+from heaps import heap, state
+from project import yadeCommand
+from scenes import O
+
+kHere = os.path.dirname(os.path.abspath(__file__))
+
+
+def engines(name, **settings):
+    newton = getattr(w, name)(**dict(dict(damping=.1, gravity=(1, 2, -10)), **settings))
+    loop = w.InteractionLoop(
+        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
+         w.Ig2_Wall_Sphere_ScGeom()],
+        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()])
+    O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), loop, newton]
+    return newton
+
+
+def states():
+    """As `state`, with what the integrator tells the collider, and angular momenta."""
+    more = [[*b.state.angMom, O.engines[-1].maxVelocitySq] for b in O.bodies if b]
+    return state() + [np.array(more, float).tobytes()]
+
+
+def requireSame(build=heap, steps=500, every=100, change=None, **settings):
+    """The integrator, after comparing all bits several times."""
+    found = []
+    for name in ('NewtonIntegrator', 'CurveIntegrator'):
+        build()
+        newton = engines(name, **settings)
+        one = []
+        for step in range(0, steps, every):
+            if change:
+                change(step)
+            O.run(every, True)
+            one.append(states())
+        found.append(one)
+        moved = [(b.state.pos - b.state.refPos).norm() for b in O.bodies if b]
+        assert max(moved) > .5
+    assert found[0] == found[1]
+    return newton
+
+
+@pytest.mark.parametrize('settings', [
+    dict(), dict(damping=0), dict(dampGravity=False), dict(exactAsphericalRot=False), dict(mask=2),
+    dict(damping=.7, gravity=(0, 0, 0))], ids=str)
+def test_bits(settings):
+    def masked():
+        heap()
+        for body in O.bodies:
+            body.mask = 1 + body.id % 3
+    newton = requireSame(masked, **settings)
+    clumps = [b for b in O.bodies if b.isClump]
+    standalone = [b for b in O.bodies if b.isStandalone and (settings.get('mask', -1) < 0 or b.mask & 2)]
+    assert len(clumps) == 1 and newton.fastBodies == len(standalone) > 40
+
+
+def test_blockedAndNotDamped():
+    """Each set of blocked axes, bodies that move though all are blocked, bodies without damping or bound."""
+    def various():
+        heap()
+        for body in O.bodies:
+            if body.isClumpMember or body.isClump or not isinstance(body.shape, w.Sphere):
+                continue
+            body.state.blockedDOFs = ''.join(c for k, c in enumerate('xyzXYZ') if body.id >> k & 1)
+            body.state.isDamped = body.id % 5 > 0
+            body.state.densityScaling = 1 + body.id % 3
+    various()
+    assert len({b.state.blockedDOFs for b in O.bodies}) == 64
+    requireSame(various)
+    requireSame(various, dampGravity=False)
+
+
+def test_densityScaling():
+    def scaled(step):
+        if step == 0:
+            for body in O.bodies:
+                body.state.densityScaling = 1 + .1 * (body.id % 7)
+            O.engines = [w.GlobalStiffnessTimeStepper(active=False), *O.engines]
+            O.engines[-1].densityScaling = True
+            assert O.engines[-1].densityScaling
+            O.engines = O.engines[1:]
+    requireSame(change=scaled)
+
+
+def test_aspherical():
+    """Moved by YADE's integrator, unless an axis of rotation is blocked."""
+    def aspherical():
+        heap()
+        for body in O.bodies:
+            if body.isStandalone and isinstance(body.shape, w.Sphere) and body.id % 2:
+                body.aspherical = True
+                body.state.inertia = (100, 200, 150)
+                body.state.ori = Quaternion((1, body.id, 2), .1 * body.id)
+                if body.id % 3 == 0:
+                    body.state.blockedDOFs = 'X'
+    newton = requireSame(aspherical)
+    others = [b for b in O.bodies if b.isClump or b.aspherical and b.isStandalone and not b.state.blockedDOFs]
+    assert newton.fastBodies == sum(b.isStandalone for b in O.bodies) - len(others) + 1 and len(others) > 30
+
+
+@pytest.mark.parametrize('homoDeform', [0, 1, 2, 3])
+def test_periodicCell(homoDeform):
+    """Sheared and compressed, with a velocity gradient that changes."""
+    def sheared():
+        heap(periodic=True)
+        O.cell.homoDeform = homoDeform
+        O.cell.velGrad = Matrix3(-.3, .2, 0, .1, -.2, 0, 0, 0, -.3)
+
+    def change(step):
+        if step == 200:
+            O.cell.velGrad = Matrix3(.1, 0, .3, 0, -.1, 0, 0, .2, 0)
+    requireSame(sheared, change=change)
+
+
+def test_energies():
+    """YADE's integrator moves all bodies while energies are tracked."""
+    def tracked():
+        heap()
+        O.trackEnergy = True
+    found = []
+    for split in (False, True):
+        for name in ('NewtonIntegrator', 'CurveIntegrator'):
+            tracked()
+            newton = engines(name, kinSplit=split)
+            O.run(300, True)
+            found.append((states(), dict(O.energy.items())))
+            O.trackEnergy = False
+    assert found[0] == found[1] and found[2] == found[3]
+    assert 'kinetic' in found[0][1] and 'kinRot' in found[2][1]
+    assert newton.fastBodies == 0
+
+
+def test_changesFromPython():
+    """Bodies erased, inserted, clumped and pushed, permanent forces, another integrator's settings."""
+    def change(step):
+        if step == 100:
+            for number in (3, 17, 60):
+                O.bodies.erase(number)
+            O.forces.setPermF(20, (3000, 0, 9000))
+            O.forces.setPermT(21, (300, 500, 900))
+        elif step == 200:
+            O.bodies.appendClumped([utils.sphere((3, 3, 9), .6), utils.sphere((3.8, 3, 9), .6)])
+            O.bodies.append(utils.sphere((6, 3, 9), .7))
+            O.bodies[20].state.vel = (0, 0, 9)
+            O.bodies[25].state.angVel = (50, 0, 9)
+        elif step == 300:
+            O.engines[-1].gravity = (0, 0, 5)
+            O.engines[-1].damping = .3
+            O.bodies[30].aspherical = True
+            O.dt *= .5
+    requireSame(change=change)
+
+
+def test_manyBodiesThreads():
+    """yade -j1, -j2, -j3: the same bits as YADE's integrator with one thread."""
+    found = []
+    for number in (1, 2, 3):
+        done = subprocess.run([*yadeCommand(), f'-j{number}', os.path.join(kHere, 'integrator_threads.py')],
+                              capture_output=True, text=True, timeout=300)
+        lines = [x[4:] for x in done.stdout.splitlines() if x.startswith('@@@ ')]
+        assert done.returncode == 0 and len(lines) == 1, done.stdout[-1500:] + done.stderr[-1500:]
+        found.append(json.loads(lines[0]))
+    assert found[0]['NewtonIntegrator'] == found[0]['CurveIntegrator']
+    for one in found[1:]:
+        assert one == found[0]
+
+
+def test_savedAndLoaded(folder):
+    heap()
+    engines('CurveIntegrator', damping=.3, kinSplit=True)
+    O.run(100, True)
+    path = os.path.join(folder, 'scene.yade.gz')
+    O.save(path)
+    O.run(100, True)
+    expected = state()[0]
+    O.reset()
+    O.load(path)
+    newton = O.engines[-1]
+    assert type(newton) is w.CurveIntegrator and newton.damping == .3 and newton.kinSplit
+    O.run(100, True)
+    assert np.abs(np.frombuffer(state()[0]) - np.frombuffer(expected)).max() < 1e-6
+
+
+def test_isAnIntegrator(capfd):
+    """YADE's functions and other engines find it; a missing ForceResetter is reported as by YADE's."""
+    heap()
+    newton = engines('CurveIntegrator')
+    assert isinstance(newton, w.NewtonIntegrator) and utils.typedEngine('NewtonIntegrator') == newton
+    with pytest.raises(AttributeError, match='no setter'):
+        newton.fastBodies = 3
+    with pytest.raises(AttributeError):
+        w.CurveIntegrator(wrong=1)
+    O.engines = O.engines[1:]
+    O.run(2, True)
+    assert 'ForceResetter' in ''.join(capfd.readouterr())
+
+
+def test_emptyScene():
+    scenes.clear()
+    O.engines = [w.ForceResetter(), w.CurveIntegrator(damping=0, gravity=(0, 0, -1))]
+    O.dt = .1
+    O.run(3, True)
+    ball = utils.sphere((0, 0, 0), 1)
+    O.bodies.append(ball)
+    O.run(10, True)
+    # Velocities at half steps: z = -g dt² n (n + 1) / 2.
+    assert tuple(ball.state.pos) == pytest.approx((0, 0, -.01 * 55)) and O.engines[1].fastBodies == 1
