@@ -45,9 +45,14 @@ bool ScatterWatch::isEnough(std::size_t visited, std::size_t scattered) {
 }
 
 OthersWait::OthersWait(yade::Scene& scene)
-    : views_(scene.bodies->drawloopmutex, scene.interactions->drawloopmutex),
-      python_(PyGILState_Ensure()) {}
+    : python_(PyGILState_Ensure()),
+      // In the order of the 3D view.
+      bodies_(scene.bodies->drawloopmutex),
+      interactions_(scene.interactions->drawloopmutex) {}
 
-OthersWait::~OthersWait() { PyGILState_Release(python_); }
+OthersWait::~OthersWait() {
+  interactions_.unlock(), bodies_.unlock();
+  PyGILState_Release(python_);
+}
 
 }  // namespace yadefrag

@@ -15,6 +15,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <new>
 #include <typeinfo>
 
@@ -122,8 +123,9 @@ class OthersWait {
   OthersWait& operator=(const OthersWait&) = delete;
 
  private:
-  std::scoped_lock<std::mutex, std::mutex> views_;
+  // Python's lock first: its threads hold it while they wait for the others.
   PyGILState_STATE python_;
+  std::unique_lock<std::mutex> bodies_, interactions_;
 };
 
 }  // namespace yadefrag
