@@ -41,9 +41,9 @@ long peakMemory() {
 }
 
 void printBytes(const Footprint& footprint) {
-  const char* const names[] = {"mesh",      "dynamics",  "held",     "materials", "loads",
-                               "viscosity", "smoothing", "surfaces", "smooth",    "search",
-                               "contact",   "fracture",  "cohesion"};
+  const char* const names[] = {"mesh",      "dynamics",  "held",       "materials", "loads",
+                               "viscosity", "smoothing", "plasticity", "surfaces",  "smooth",
+                               "search",    "contact",   "fracture",   "cohesion"};
   static_assert(std::size(names) == static_cast<std::size_t>(Use::kCount));
   for (std::size_t i = 0; i < std::size(names); ++i)
     std::cout << (i == 0 ? "" : ", ") << '"' << names[i]
