@@ -14,8 +14,8 @@ namespace yadefrag {
 struct BodyMaterial {
   ElasticMaterial material;
   BrittleMaterial brittle;
-  PlasticMaterial plastic;
   double friction = 0;  ///< tan of the friction angle
+  PlasticMaterial plastic;
 };
 
 /// (Pa) Strength of an edge that never cracks, in a body with edges that can.

@@ -30,9 +30,9 @@ constexpr std::size_t kContactBytes =
     (sizeof(yade::ScGeom) + sizeof(yade::FrictPhys) + Block::kLine - 1) / Block::kLine *
     Block::kLine;
 
-// No member is forgotten.
-static_assert(sizeof(yade::ScGeom) == 192);
-static_assert(sizeof(yade::FrictPhys) == (YADEFRAG_YADE >= 202601 ? 112 : 104));
+// A YADE that its user built may have more members, by its options: nothing is moved there.
+constexpr bool kAreAllMembersKnown =
+    sizeof(yade::ScGeom) == 192 && sizeof(yade::FrictPhys) == (YADEFRAG_YADE >= 202601 ? 112 : 104);
 
 void moveTogether(yade::Scene& scene) {
   const OthersWait others(scene);
@@ -50,6 +50,7 @@ void moveTogether(yade::Scene& scene) {
 }  // namespace
 
 void ContactMemory::endStep(yade::Scene& scene) {
+  if (!kAreAllMembersKnown) return;
   const auto visitAll = [&](const auto& visit) {
     for (const auto& contact : *scene.interactions)
       if (contact->isReal()) visit(contact->geom.get());
