@@ -15,7 +15,7 @@ namespace {
 using test::sameBits;
 
 BodyMaterial elastic(double young, double density, double poisson = 0) {
-  return {{.young = young, .poisson = poisson, .density = density, .planeStress = true}, {}, 0};
+  return {{.young = young, .poisson = poisson, .density = density, .planeStress = true}, {}, 0, {}};
 }
 
 Vec2 middleOf(const TriangleMesh& mesh, std::size_t triangle) {
@@ -174,7 +174,7 @@ TEST(Materials, AListOfOneMaterialHasTheBitsOfABodyOfIt) {
   const TriangleMesh mesh = structuredRectangle({-.01, -.01}, {.01, .01}, 9, 7);
   const auto runOn = [&](bool mixed) {
     Model model;
-    const BodyMaterial material{kSteel, {}, 0};
+    const BodyMaterial material{kSteel, {}, 0, {}};
     const MaterialPlaces places{{material, material},
                                 std::vector<std::uint32_t>(mesh.triangles.size(), 1)};
     appendBody(model, mesh, {material}, mixed ? places : MaterialPlaces{});

@@ -108,7 +108,7 @@ TEST(CoarseMesh, ValuesByTriangleAndSeveralMaterials) {
     ASSERT_NEAR(places.fractureEnergy[t] / (16 * sizeOf(mesh, t) / kZone * kEnergy), 1, 1e-9);
   }
 
-  const std::vector<BodyMaterial> materials{glass(), glass(), {{1e9, .2, 1000, false}, {}, 0}};
+  const std::vector<BodyMaterial> materials{glass(), glass(), {{1e9, .2, 1000, false}, {}, 0, {}}};
   const std::vector<CoarseMesh> choices{CoarseMesh::kStrength, CoarseMesh::kWarn,
                                         CoarseMesh::kWarn};
   std::vector<std::uint32_t> numbers(count);

@@ -98,7 +98,7 @@ TEST(Mixed, EachLayerCracksAtItsOwnStress) {
 
 TEST(Mixed, AnEdgeBetweenTwoMaterialsIsAsTheWeakerOne) {
   BodyMaterial strong = brittle(kStiff, 9e6, 20), weak = brittle(kSoft, 3e6, 70);
-  const BodyMaterial never{{kStiff, 0, 1000, true}, {}, .4};
+  const BodyMaterial never{{kStiff, 0, 1000, true}, {}, .4, {}};
   strong.brittle.shearFactor = 2, weak.brittle.shearFactor = 5;
   const TriangleMesh mesh = barMesh();
   World world;
@@ -160,7 +160,7 @@ TEST(Mixed, AWeakInterfaceCracksAlongItself) {
 }
 
 TEST(Mixed, AnInterfaceMayCrackBetweenMaterialsThatDoNot) {
-  checkInterface({{{kStiff, 0, 1000, true}, {}, 0}, {{kSoft, 0, 1000, true}, {}, 0}});
+  checkInterface({{{kStiff, 0, 1000, true}, {}, 0, {}}, {{kSoft, 0, 1000, true}, {}, 0, {}}});
 }
 
 /// A square with a round inclusion, pulled apart: cracks pass around what is stronger.
