@@ -22,8 +22,7 @@ void copyBound(const yade::Aabb& from, yade::Aabb& to) {
 }
 
 // Bytes from the state of one body to that of the next.
-constexpr std::size_t kBodyBytes =
-    (sizeof(yade::State) + sizeof(yade::Aabb) + Block::kLine - 1) / Block::kLine * Block::kLine;
+constexpr std::size_t kBodyBytes = Block::wholeLines(sizeof(yade::State) + sizeof(yade::Aabb));
 
 // A YADE that its user built may have more members, by its options: nothing is moved there.
 constexpr bool kAreAllMembersKnown = sizeof(yade::State) == 320 && sizeof(yade::Aabb) == 144;

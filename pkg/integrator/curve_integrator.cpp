@@ -2,6 +2,8 @@
 
 #include <omp.h>
 
+#include <cstddef>
+
 #include "abi/request.hpp"
 #include "core/parallel.hpp"
 
@@ -13,13 +15,18 @@ namespace {
 // access.
 constexpr std::size_t kAhead = 8;
 
-/// A body, then what it leads to.
+/// What `move` uses of a body, then of its state and bound.
 void requestAhead(const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::size_t index) {
-  if (index + 2 * kAhead < bodies.size()) request(bodies[index + 2 * kAhead].get(), 24, 160);
+  using yade::Body, yade::Bound, yade::State;
+  if (index + 2 * kAhead < bodies.size()) {
+    request(bodies[index + 2 * kAhead].get(), offsetof(Body, id),
+            offsetof(Body, clumpId) + sizeof(Body::id_t));
+  }
   if (index + kAhead >= bodies.size()) return;
-  if (const yade::Body* const body = bodies[index + kAhead].get()) {
-    request(body->state.get(), 88, 320);
-    request(body->bound.get(), 32, 80);
+  if (const Body* const body = bodies[index + kAhead].get()) {
+    request(body->state.get(), offsetof(State, se3), sizeof(State));
+    request(body->bound.get(), offsetof(Bound, refPos),
+            offsetof(Bound, sweepLength) + sizeof(double));
   }
 }
 

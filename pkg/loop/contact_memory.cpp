@@ -27,8 +27,7 @@ void copyPhysics(const yade::FrictPhys& from, yade::FrictPhys& to) {
 
 // Bytes from the geometry of one contact to that of the next.
 constexpr std::size_t kContactBytes =
-    (sizeof(yade::ScGeom) + sizeof(yade::FrictPhys) + Block::kLine - 1) / Block::kLine *
-    Block::kLine;
+    Block::wholeLines(sizeof(yade::ScGeom) + sizeof(yade::FrictPhys));
 
 // A YADE that its user built may have more members, by its options: nothing is moved there.
 constexpr bool kAreAllMembersKnown =

@@ -29,7 +29,7 @@ void Block::release() {
 }
 
 void BlockFiller::begin(std::size_t bytes) {
-  offset_ = (offset_ + Block::kLine - 1) / Block::kLine * Block::kLine;
+  offset_ = Block::wholeLines(offset_);
   if (block_ && offset_ + bytes <= Block::kBytes) return;
   if (block_) block_->release();
   block_ = nullptr;

@@ -28,8 +28,12 @@ class Block {
   static constexpr std::size_t kBytes = std::size_t{1} << 21;  // a huge page of the processor
   static constexpr std::size_t kLine = 64;                     // a cache line
 
-  /// In use by whoever fills it; throws std::bad_alloc.
+  /// Counts its filler as an object in use. Throws std::bad_alloc.
   static Block* make();
+  /// Bytes of the cache lines that so many bytes need.
+  static constexpr std::size_t wholeLines(std::size_t bytes) {
+    return (bytes + kLine - 1) / kLine * kLine;
+  }
   static Block* of(const void* object) {
     return reinterpret_cast<Block*>(reinterpret_cast<std::uintptr_t>(object) & ~(kBytes - 1));
   }
