@@ -30,15 +30,8 @@ double punched(double size, bool rough, double degrees, ElementKind kind = Eleme
   world.dynamicsSettings.damping = 2e4;
   const double dt = .7 * world.criticalTimeStep();
   const int steps = static_cast<int>(.04 * kHalf / (speed * dt));
-  double sum = 0;
-  int count = 0;
-  for (int i = 0; i < steps; ++i) {
-    world.step(dt);
-    if (i < steps * 4 / 5) continue;
-    for (const NodeId n : under) sum -= world.reactions[n.value].y;
-    ++count;
-  }
-  return sum / count / (kHalf * (2 + std::numbers::pi) * shearStrength(spec));
+  return meanForce(world, under, dt, steps) /
+         (kHalf * (2 + std::numbers::pi) * shearStrength(spec));
 }
 
 // The end of a punch has a singular stress; with five and ten sides below its half the mean

@@ -44,15 +44,7 @@ double footing(double finest, NodeLayout layout, double friction) {
   const double t = std::tan(friction), k = std::tan(std::numbers::pi / 4 + friction / 2);
   const double factor = (std::exp(std::numbers::pi * t) * k * k - 1) / t;
   const int steps = static_cast<int>(.015 * kHalf / (speed * dt));
-  double sum = 0;
-  int count = 0;
-  for (int i = 0; i < steps; ++i) {
-    world.step(dt);
-    if (i < steps * 4 / 5) continue;
-    for (const NodeId n : under) sum -= world.reactions[n.value].y;
-    ++count;
-  }
-  return sum / count / (kHalf * factor * spec.plastic.cohesion);
+  return meanForce(world, under, dt, steps) / (kHalf * factor * spec.plastic.cohesion);
 }
 
 // With twice the triangles along each side, 4588, it is 1.08.

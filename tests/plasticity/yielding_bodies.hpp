@@ -43,4 +43,17 @@ inline std::vector<NodeId> nodesWhere(const World& world, const std::function<bo
   return found;
 }
 
+/// (N/m) Mean force with which the nodes press downwards in the last fifth of the steps.
+inline double meanForce(World& world, const std::vector<NodeId>& nodes, double dt, int steps) {
+  double sum = 0;
+  int count = 0;
+  for (int i = 0; i < steps; ++i) {
+    world.step(dt);
+    if (i < steps * 4 / 5) continue;
+    for (const NodeId n : nodes) sum -= world.reactions[n.value].y;
+    ++count;
+  }
+  return sum / count;
+}
+
 }  // namespace yadefrag::test
