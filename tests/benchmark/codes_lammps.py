@@ -86,7 +86,7 @@ def command(program, processes, *arguments):
     """The command line for so many processes."""
     if processes == 1:
         return [program, *arguments]
-    # Open MPI refuses root and more processes than it counts cores, unless it is told that these are meant.
+    # Without these options Open MPI does not run as root, nor more processes than there are cores.
     return ['mpirun', '--allow-run-as-root', '--oversubscribe', '-np', str(processes), program, *arguments]
 
 
