@@ -16,13 +16,18 @@ void copyGeometry(const yade::ScGeom& from, yade::ScGeom& to) {
   to.shearInc = from.shearInc;
 }
 
-void copyPhysics(const yade::FrictPhys& from, yade::FrictPhys& to) {
+// YADE from 2026.1 on.
+template <class Physics>
+constexpr bool kHasDissipation = requires(Physics physics) {
+  physics.frictDissip;
+};
+
+template <class Physics>
+void copyPhysics(const Physics& from, Physics& to) {
   to.kn = from.kn, to.ks = from.ks;
   to.normalForce = from.normalForce, to.shearForce = from.shearForce;
   to.tangensOfFrictionAngle = from.tangensOfFrictionAngle;
-#if YADEFRAG_YADE >= 202601
-  to.frictDissip = from.frictDissip;
-#endif
+  if constexpr (kHasDissipation<Physics>) to.frictDissip = from.frictDissip;
 }
 
 // Bytes from the geometry of one contact to that of the next.
@@ -31,7 +36,8 @@ constexpr std::size_t kContactBytes =
 
 // A YADE that its user built may have more members, by its options: nothing is moved there.
 constexpr bool kAreAllMembersKnown =
-    sizeof(yade::ScGeom) == 192 && sizeof(yade::FrictPhys) == (YADEFRAG_YADE >= 202601 ? 112 : 104);
+    sizeof(yade::ScGeom) == 192 &&
+    sizeof(yade::FrictPhys) == (kHasDissipation<yade::FrictPhys> ? 112 : 104);
 
 void moveTogether(yade::Scene& scene) {
   const OthersWait others(scene);
@@ -42,7 +48,7 @@ void moveTogether(yade::Scene& scene) {
     }
     filler.begin(kContactBytes);
     moveInto<yade::ScGeom>(filler, contact->geom, copyGeometry);
-    moveInto<yade::FrictPhys>(filler, contact->phys, copyPhysics);
+    moveInto<yade::FrictPhys>(filler, contact->phys, copyPhysics<yade::FrictPhys>);
   }
 }
 
