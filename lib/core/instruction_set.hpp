@@ -14,4 +14,25 @@ inline InstructionSet bestInstructionSet() {
   return InstructionSet::kBaseline;
 }
 
+/// Runs `work()`, compiled for the instruction set. Its operator must be always inlined.
+template <class Work>
+auto runBaseline(Work work) {
+  return work();
+}
+#ifdef __x86_64__
+template <class Work>
+[[gnu::target("avx2")]] auto runAvx2(Work work) {
+  return work();
+}
+#endif
+
+template <class Work>
+auto runFor(InstructionSet set, Work work) {
+#ifdef __x86_64__
+  if (set == InstructionSet::kAvx2) return runAvx2(work);
+#endif
+  static_cast<void>(set);
+  return runBaseline(work);
+}
+
 }  // namespace yadefrag

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/instruction_set.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/vec2.hpp"
 #include "dynamics/element_chunks.hpp"
@@ -81,27 +82,6 @@ template <bool kWatched, class Work>
     if constexpr (kWatched) stressed.note(l, found.stressed);
   }
   return flat == 0;
-}
-
-/// Runs `work()`, compiled for the instruction set. Its operator must be always inlined.
-template <class Work>
-auto runBaseline(Work work) {
-  return work();
-}
-#ifdef __x86_64__
-template <class Work>
-[[gnu::target("avx2")]] auto runAvx2(Work work) {
-  return work();
-}
-#endif
-
-template <class Work>
-auto runFor(InstructionSet set, Work work) {
-#ifdef __x86_64__
-  if (set == InstructionSet::kAvx2) return runAvx2(work);
-#endif
-  static_cast<void>(set);
-  return runBaseline(work);
 }
 
 }  // namespace yadefrag

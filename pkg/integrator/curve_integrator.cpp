@@ -2,9 +2,12 @@
 
 #include <omp.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "abi/request.hpp"
+#include "core/instruction_set.hpp"
 #include "core/parallel.hpp"
 
 namespace yadefrag {
@@ -14,6 +17,11 @@ namespace {
 // Bodies between the request of data from memory and their use: enough for the latency of one
 // access.
 constexpr std::size_t kAhead = 8;
+// Bodies that change place, then orientation: more of them are then computed at the same time than
+// if all of a body's formulas, each of which waits for the one before, came first.
+constexpr std::size_t kBlock = 16;
+
+const InstructionSet kInstructions = bestInstructionSet();
 
 /// What `move` uses of a body, then of its state and bound.
 void requestAhead(const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::size_t index) {
@@ -32,12 +40,22 @@ void requestAhead(const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::
 
 }  // namespace
 
-MotionStep MotionIntegrator::motionStep() const {
+SumsOfForces::SumsOfForces(yade::ForceContainer& forces, std::size_t numBodies)
+    : container_(forces) {
+  if (numBodies == 0) return;
+  const auto last = static_cast<yade::Body::id_t>(numBodies - 1);
+  const yade::Vector3r* const force = &forces.getForce(0);
+  const yade::Vector3r* const torque = &forces.getTorque(0);
+  // A shorter array gives the same zero for all others.
+  if (&forces.getForce(last) == force + last) forces_ = force;
+  if (&forces.getTorque(last) == torque + last) torques_ = torque;
+}
+
+void MotionIntegrator::readStep(MotionStep& step) const {
   const yade::Cell& cell = *scene->cell;
-  MotionStep step;
   step.dt = scene->dt;
   step.damping = damping;
-  step.gravity = gravity;
+  step.gravity = loadThree(gravity.data());
   step.isGravityDamped = dampGravity;
   step.scalesDensity = densityScaling;
   step.isPeriodic = scene->isPeriodic;
@@ -46,8 +64,7 @@ MotionStep MotionIntegrator::motionStep() const {
   const bool isChanged = cell.velGradChanged || cell.nextVelGrad != yade::Matrix3r::Zero();
   step.velGradChange = (isChanged ? cell.nextVelGrad : cell.velGrad) - prevVelGrad;
   const yade::Matrix3r turn = .5 * (step.velGradChange - step.velGradChange.transpose());
-  step.spinChange = yade::Vector3r(-turn(1, 2), turn(0, 2), -turn(0, 1));
-  return step;
+  step.spinChange = FourLanes{-turn(1, 2), turn(0, 2), -turn(0, 1), 0};
 }
 
 bool MotionIntegrator::isOurs(const yade::Body& body) const {
@@ -58,24 +75,38 @@ bool MotionIntegrator::isOurs(const yade::Body& body) const {
 }
 
 // YADE's NewtonIntegrator::action, for one body.
-[[gnu::flatten]] void MotionIntegrator::move(const MotionStep& step, yade::Body& body,
-                                             Part& part) const {
-  if (body.isClumpMember()) return;
-  if (mask > 0 && (body.groupMask & mask) == 0) return;
+[[gnu::always_inline]] inline bool MotionIntegrator::mayMove(const yade::Body& body,
+                                                             Part& part) const {
+  if (body.isClumpMember()) return false;
+  if (mask > 0 && (body.groupMask & mask) == 0) return false;
 #ifdef YADE_MPI
   if (scene->subdomain != body.subdomain || body.getIsSubdomain() || body.getIsFluidDomainBbox()) {
-    return;
+    return false;
   }
 #endif
-  if (!isOurs(body)) {
-    part.others.push_back(body.id);
-    return;
+  if (isOurs(body)) return true;
+  part.others.push_back(body.id);
+  return false;
+}
+
+[[gnu::always_inline]] inline void MotionIntegrator::moveBlock(const MotionStep& step,
+                                                               const SumsOfForces& sums,
+                                                               std::size_t begin, std::size_t end,
+                                                               Part& part) const {
+  const auto& bodies = scene->bodies->body;
+  std::array<yade::State*, kBlock> moved;
+  std::size_t numMoved = 0;
+  for (std::size_t index = begin; index < end; ++index) {
+    requestAhead(bodies, index);
+    if (!bodies[index] || !mayMove(*bodies[index], part)) continue;
+    const yade::Body& body = *bodies[index];
+    yade::State& state = *body.state;
+    changePlace(step, loadThree(sums.force(body.id)), loadThree(sums.torque(body.id)), state);
+    if (body.bound && isBeyondBound(*body.bound, state)) part.isAnyBeyond = true;
+    moved[numMoved++] = &state;
   }
-  yade::State& state = *body.state;
-  changeVelocity(step, scene->forces.getForce(body.id), scene->forces.getTorque(body.id), state);
-  changePosition(step, state);
-  ++part.moved;
-  if (body.bound && isBeyondBound(*body.bound, state)) part.isAnyBeyond = true;
+  for (std::size_t k = 0; k < numMoved; ++k) changeOrientation(step, *moved[k]);
+  part.moved += static_cast<long>(numMoved);
 }
 
 void MotionIntegrator::action() {
@@ -84,15 +115,19 @@ void MotionIntegrator::action() {
   scene->forces.sync();
   memory_.endStep(*scene);
   const auto& bodies = scene->bodies->body;
-  const MotionStep step = motionStep();
+  MotionStep step = {};
+  readStep(step);
+  const SumsOfForces sums(scene->forces, bodies.size());
   const int most = omp_get_max_threads();
   parts_.assign(static_cast<std::size_t>(most), {});
   forEachPart(bodies.size(), most, [&](std::size_t begin, std::size_t end, int number) {
     Part part;
-    for (std::size_t index = begin; index < end; ++index) {
-      requestAhead(bodies, index);
-      if (bodies[index]) move(step, *bodies[index], part);
-    }
+    runFor(
+        kInstructions, [&]() __attribute__((always_inline)) {
+          for (std::size_t block = begin; block < end; block += kBlock) {
+            moveBlock(step, sums, block, std::min(block + kBlock, end), part);
+          }
+        });
     parts_[static_cast<std::size_t>(number)] = part;
   });
   std::vector<yade::Body::id_t> others;

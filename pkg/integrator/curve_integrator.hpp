@@ -10,6 +10,24 @@
 
 namespace yadefrag {
 
+/// Forces and torques by body id, of all threads together.
+class SumsOfForces {
+ public:
+  SumsOfForces(yade::ForceContainer& forces, std::size_t numBodies);
+  [[nodiscard]] const double* force(yade::Body::id_t id) const {
+    return (forces_ ? forces_[id] : container_.getForce(id)).data();
+  }
+  [[nodiscard]] const double* torque(yade::Body::id_t id) const {
+    return (torques_ ? torques_[id] : container_.getTorque(id)).data();
+  }
+
+ private:
+  yade::ForceContainer& container_;
+  // Null: not of all bodies one behind the other.
+  const yade::Vector3r* forces_ = nullptr;
+  const yade::Vector3r* torques_ = nullptr;
+};
+
 class MotionIntegrator : public yade::NewtonIntegrator {
  public:
   void action() override;
@@ -33,9 +51,11 @@ class MotionIntegrator : public yade::NewtonIntegrator {
     bool isAnyBeyond = false;
   };
 
-  [[nodiscard]] MotionStep motionStep() const;
+  void readStep(MotionStep& step) const;
   [[nodiscard]] bool isOurs(const yade::Body& body) const;
-  void move(const MotionStep& step, yade::Body& body, Part& part) const;
+  bool mayMove(const yade::Body& body, Part& part) const;
+  void moveBlock(const MotionStep& step, const SumsOfForces& sums, std::size_t begin,
+                 std::size_t end, Part& part) const;
   void moveOthers(std::vector<yade::Body::id_t>& others);
 
   std::vector<Part> parts_;
@@ -49,7 +69,8 @@ class CurveIntegrator final
   static constexpr const char* kDoc =
       "NewtonIntegrator for many bodies, with the same attributes and the same results to the last "
       "bit. Bodies whose rotation is integrated as a sphere's are moved by the same formulas, with "
-      "their memory requested ahead; clumps and aspherical bodies by NewtonIntegrator, and so are "
+      "vector instructions and their memory requested ahead; clumps and aspherical bodies by "
+      "NewtonIntegrator, and so are "
       "all bodies while O.trackEnergy is set.";
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "abi/yade.hpp"
+#include "core/four_lanes.hpp"
 
 namespace yadefrag {
 
@@ -13,92 +14,119 @@ namespace yadefrag {
 struct MotionStep {
   double dt;  // s
   double damping;
-  yade::Vector3r gravity;  // m/s²
+  FourLanes gravity;  // m/s²
   bool isGravityDamped;
   bool scalesDensity;
   bool isPeriodic;
   int homoDeform;                // of the periodic cell
   yade::Matrix3r prevVelGrad;    // 1/s, of the step before
   yade::Matrix3r velGradChange;  // 1/s
-  yade::Vector3r spinChange;     // rad/s, of the cell
+  FourLanes spinChange;          // rad/s, of the cell
 };
 
+/// Product with a vector, with Eigen's order of additions.
+[[gnu::always_inline]] inline FourLanes times(const yade::Matrix3r& matrix,
+                                              const FourLanes& vector) {
+  const yade::Vector3r product = matrix * yade::Vector3r(vector[0], vector[1], vector[2]);
+  return loadThree(product.data());
+}
+
 /// Cundall's damping.
-inline void damp(const MotionStep& step, const yade::Vector3r& velocity,
-                 yade::Vector3r& acceleration) {
-  for (int i = 0; i < 3; ++i) {
-    const double power = acceleration[i] * (velocity[i] + .5 * step.dt * acceleration[i]);
-    const int sign = (0 < power) - (power < 0);
-    acceleration[i] *= 1 - step.damping * sign;
-  }
+[[gnu::always_inline]] inline void damp(const MotionStep& step, const FourLanes& velocity,
+                                        FourLanes& acceleration) {
+  const FourLanes none = {}, one = none + 1;
+  const FourLanes power = acceleration * (velocity + .5 * step.dt * acceleration);
+  const FourLanes sign = power > none ? one : (power < none ? -one : none);
+  acceleration *= 1 - step.damping * sign;
 }
 
 /// The components of `free` along which the body may move; 0 for the others. `firstAxis`: the bit
 /// of the first one.
-inline yade::Vector3r unblocked(const yade::Vector3r& free, unsigned blocked, unsigned firstAxis) {
+[[gnu::always_inline]] inline FourLanes unblocked(FourLanes free, unsigned blocked,
+                                                  unsigned firstAxis) {
   if (blocked == 0) return free;
-  yade::Vector3r kept = yade::Vector3r::Zero();
-  for (int i = 0; i < 3; ++i)
-    if (!(blocked & (firstAxis << i))) kept[i] += free[i];
-  return kept;
+  for (int i = 0; i < 3; ++i) free[i] = blocked & (firstAxis << i) ? 0 : 0 + free[i];
+  return free;
 }
 
-inline void changeVelocity(const MotionStep& step, const yade::Vector3r& force,
-                           const yade::Vector3r& torque, yade::State& state) {
-  using yade::Vector3r;
+[[gnu::always_inline]] inline FourLanes acceleration(const MotionStep& step, const FourLanes& force,
+                                                     const FourLanes& velocity,
+                                                     const yade::State& state) {
   const unsigned blocked = state.blockedDOFs;
-  if (blocked == yade::State::DOF_ALL) {
-    if (step.isPeriodic && step.homoDeform > 1) {
-      state.vel += step.dt * step.prevVelGrad * state.vel;
-    }
-    return;
+  FourLanes fluctuation = velocity;
+  if (step.isPeriodic) {
+    fluctuation = velocity - times(step.prevVelGrad, loadThree(state.se3.position.data()));
   }
-  Vector3r fluctuation = state.vel;
-  if (step.isPeriodic) fluctuation = state.vel - step.prevVelGrad * state.se3.position;
-  Vector3r change;
+  FourLanes change = force / state.mass;
   if (step.isGravityDamped) {
-    change = unblocked(force / state.mass + step.gravity, blocked, yade::State::DOF_X);
+    change = unblocked(change + step.gravity, blocked, yade::State::DOF_X);
     if (step.scalesDensity) change *= state.densityScaling;
     if (state.isDamped) damp(step, fluctuation, change);
   } else {
-    change = unblocked(force / state.mass, blocked, yade::State::DOF_X);
+    change = unblocked(change, blocked, yade::State::DOF_X);
     if (state.isDamped) damp(step, fluctuation, change);
     change += unblocked(step.gravity, blocked, yade::State::DOF_X);
     if (step.scalesDensity) change *= state.densityScaling;
   }
-  if (step.isPeriodic && step.homoDeform > 1) change += step.prevVelGrad * state.vel;
-  state.vel += step.dt * change;
-
-  Vector3r spin = unblocked(torque.cwiseQuotient(state.inertia), blocked, yade::State::DOF_RX);
-  if (step.scalesDensity) spin *= state.densityScaling;
-  if (state.isDamped) damp(step, state.angVel, spin);
-  state.angVel += step.dt * spin;
+  if (step.isPeriodic && step.homoDeform > 1) change += times(step.prevVelGrad, velocity);
+  return change;
 }
 
-inline void changePosition(const MotionStep& step, yade::State& state) {
-  using yade::Quaternionr;
-  using yade::Vector3r;
-  const bool isDeformed = step.isPeriodic && step.homoDeform;
-  if (isDeformed) {
-    const Vector3r change = step.velGradChange * state.se3.position;
-    state.vel += change;
+[[gnu::always_inline]] inline FourLanes spinAcceleration(const MotionStep& step,
+                                                         const FourLanes& torque,
+                                                         const FourLanes& spin,
+                                                         const yade::State& state) {
+  FourLanes change =
+      unblocked(torque / loadThree(state.inertia.data()), state.blockedDOFs, yade::State::DOF_RX);
+  if (step.scalesDensity) change *= state.densityScaling;
+  if (state.isDamped) damp(step, spin, change);
+  return change;
+}
+
+/// Velocity, spin and position at the end of the step.
+[[gnu::always_inline]] inline void changePlace(const MotionStep& step, const FourLanes& force,
+                                               const FourLanes& torque, yade::State& state) {
+  FourLanes velocity = loadThree(state.vel.data());
+  FourLanes spin = loadThree(state.angVel.data());
+  FourLanes position = loadThree(state.se3.position.data());
+  if (state.blockedDOFs != yade::State::DOF_ALL) {
+    velocity += step.dt * acceleration(step, force, velocity, state);
+    spin += step.dt * spinAcceleration(step, torque, spin, state);
+  } else if (step.isPeriodic && step.homoDeform > 1) {
+    const yade::Vector3r change = step.dt * step.prevVelGrad * state.vel;
+    velocity += loadThree(change.data());
   }
-  state.se3.position += state.vel * step.dt;
-  if (isDeformed) state.angVel += step.spinChange;
-  Quaternionr& orientation = state.se3.orientation;
-  if (const double square = state.angVel.squaredNorm(); square != 0) {
-    const double speed = std::sqrt(square);
-    const Quaternionr turn(
-        Eigen::AngleAxis<double>(speed * step.dt, Vector3r(state.angVel / speed)));
-    orientation = turn * orientation;
+  if (step.isPeriodic && step.homoDeform) {
+    velocity += times(step.velGradChange, position);
+    spin += step.spinChange;
   }
-  orientation.normalize();
+  position += velocity * step.dt;
+  storeThree(velocity, state.vel.data());
+  storeThree(spin, state.angVel.data());
+  storeThree(position, state.se3.position.data());
+}
+
+/// Orientation at the end of the step.
+[[gnu::always_inline]] inline void changeOrientation(const MotionStep& step, yade::State& state) {
+  double* const stored = state.se3.orientation.coeffs().data();
+  FourLanes orientation = loadFour(stored);
+  const FourLanes spin = loadThree(state.angVel.data());
+  if (const double square = squaredNorm(spin); square != 0) {
+    const double speed = std::sqrt(square), angle = .5 * (speed * step.dt);
+    FourLanes turn = std::sin(angle) * (spin / speed);
+    turn[3] = std::cos(angle);
+    orientation = quaternionProduct(turn, orientation);
+  }
+  const double square = squaredNormOfFour(orientation);
+  if (square > 0) orientation /= std::sqrt(square);
+  storeFour(orientation, stored);
 }
 
 /// True: the body has moved out of the region that the collider searched, and the collider must
 /// search.
-inline bool isBeyondBound(const yade::Bound& bound, const yade::State& state) {
-  const yade::Vector3r moved = state.se3.position - bound.refPos;
+[[gnu::always_inline]] inline bool isBeyondBound(const yade::Bound& bound,
+                                                 const yade::State& state) {
+  const FourLanes moved = loadThree(state.se3.position.data()) - loadThree(bound.refPos.data());
   const double most =
       std::max(std::abs(moved[0]), std::max(std::abs(moved[1]), std::abs(moved[2])));
   return !(most == 0 || most < bound.sweepLength);

@@ -4,24 +4,22 @@
 #include <cmath>
 #include <typeinfo>
 
+#include "abi/request.hpp"
 #include "core/parallel.hpp"
 
 namespace yadefrag {
 
 namespace {
 
-// Steps after which all rows are made anew: bodies have moved along the curve, and contacts ended.
-constexpr int kLongestAge = 128;
 // Contacts per body from which rows save more than they cost.
 constexpr std::size_t kContactsPerBody = 1;
 // Bodies between the request of data from memory and their use: enough for the latency of one
 // access.
-constexpr std::size_t kAhead = 16;
+constexpr std::size_t kAhead = 8;
 
-const yade::Body* bodyAt(const yade::Scene& scene, yade::Body::id_t id) {
+const yade::Body* bodyAt(const yade::Scene& scene, std::size_t id) {
   const auto& bodies = scene.bodies->body;
-  const auto index = static_cast<std::size_t>(id);
-  return index < bodies.size() ? bodies[index].get() : nullptr;
+  return id < bodies.size() ? bodies[id].get() : nullptr;
 }
 
 // NaN for other shapes, which have contacts by YADE's functors only.
@@ -40,19 +38,29 @@ auto& torquesOf(yade::Scene& scene) { return (scene.forces.*exposed(TorqueData{}
 
 }  // namespace
 
-BodyRow BodyRows::read(const yade::Scene& scene, yade::Body::id_t id) {
-  BodyRow row;
-  row.body = bodyAt(scene, id);
-  if (row.body == nullptr) return row;
+unsigned BodyRows::flagsOf([[maybe_unused]] const yade::Scene& scene, const yade::Body* body) {
+  if (body == nullptr) return 0;
 #ifdef YADE_MPI
-  row.subdomain = row.body->subdomain;
+  if (body->subdomain != scene.subdomain) return kExists;
 #endif
-  const yade::State& state = *row.body->state;
-  row.motion.position = state.se3.position;
-  row.motion.velocity = state.vel;
-  row.motion.spin = state.angVel;
-  row.motion.radius = radiusOf(row.body->shape.get());
-  return row;
+  return kExists | kIsHere;
+}
+
+void BodyRows::read(const yade::Body& body, BodyRow& row) {
+  const yade::State& state = *body.state;
+  storeThree(loadThree(state.se3.position.data()), row.values);
+  row.values[3] = radiusOf(body.shape.get());
+  storeThree(loadThree(state.vel.data()), row.values + 4);
+  storeThree(loadThree(state.angVel.data()), row.values + 7);
+}
+
+bool BodyRows::readPair(const yade::Scene& scene, const yade::Interaction& contact, BodyRow& one,
+                        BodyRow& two) {
+  const yade::Body* const body1 = bodyAt(scene, static_cast<std::size_t>(contact.id1));
+  const yade::Body* const body2 = bodyAt(scene, static_cast<std::size_t>(contact.id2));
+  if (!areHere(flagsOf(scene, body1), flagsOf(scene, body2))) return false;
+  read(*body1, one), read(*body2, two);
+  return true;
 }
 
 void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, int threads) {
@@ -70,37 +78,53 @@ void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, int threads) {
 void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
   if (++age_ > kLongestAge || scene.bodies->body.size() < rowOf_.size()) {
     age_ = 0;
-    rowOf_.clear(), ids_.clear(), pairs_.clear();
+    rowOf_.clear(), rows_.clear(), flags_.clear(), pairs_.clear();
   }
   rowOf_.resize(scene.bodies->body.size(), -1);
   pairs_.resize(numContacts);
-  rows_.resize(ids_.size());
-  startForces_.resize(ids_.size()), startTorques_.resize(ids_.size());
   // In the order of ids, which often is that of their memory.
   forEachPart(rowOf_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t index = begin; index < end; ++index) {
-      if (rowOf_[index] < 0) continue;
-      const auto row = static_cast<std::size_t>(rowOf_[index]);
-      rows_[row] = read(scene, static_cast<yade::Body::id_t>(index));
-      startForces_[row] = forcesOf(scene)[index];
-      startTorques_[row] = torquesOf(scene)[index];
+    for (std::size_t id = begin; id < end; ++id) {
+      requestAhead(scene, id);
+      if (rowOf_[id] >= 0) fillRow(scene, id, static_cast<std::size_t>(rowOf_[id]));
     }
   });
-  ownForces_ = startForces_, ownTorques_ = startTorques_;
-  useOwnSums();
+  numSums_ = rows_.size();
 }
 
-void BodyRows::useOwnSums() {
-  forces_ = ownForces_.data(), torques_ = ownTorques_.data();
-  numSums_ = ids_.size();
+// What a row reads, and the row.
+[[gnu::always_inline]] inline void BodyRows::requestAhead(const yade::Scene& scene,
+                                                          std::size_t id) const {
+  using yade::Body, yade::State;
+  if (const Body* const body = bodyAt(scene, id + 2 * kAhead)) {
+    yadefrag::request(body, offsetof(Body, state), offsetof(Body, shape) + sizeof(Body::shape));
+  }
+  const Body* const body = bodyAt(scene, id + kAhead);
+  if (body == nullptr || rowOf_[id + kAhead] < 0) return;
+  yadefrag::request(body->state.get(), offsetof(State, se3),
+                    offsetof(State, angVel) + sizeof(State::angVel));
+  yadefrag::request(body->shape.get(), offsetof(yade::Sphere, radius), sizeof(yade::Sphere));
+  const double* const values = rows_[static_cast<std::size_t>(rowOf_[id + kAhead])].values;
+  __builtin_prefetch(values, 1), __builtin_prefetch(values + 8, 1);
 }
 
-const PairRows& BodyRows::make(yade::Scene& scene, std::size_t place,
-                               const yade::Interaction& contact) {
+[[gnu::always_inline]] inline void BodyRows::fillRow(yade::Scene& scene, std::size_t id,
+                                                     std::size_t row) {
+  const yade::Body* const body = bodyAt(scene, id);
+  flags_[row] = static_cast<unsigned char>(flagsOf(scene, body));
+  if (body == nullptr) return;
+  read(*body, rows_[row]);
+  double *const force = forcesOf(scene)[id].data(), *const torque = torquesOf(scene)[id].data();
+  rows_[row].setSums(loadThree(force), loadThree(torque));
+  storeThree(FourLanes{}, force), storeThree(FourLanes{}, torque);
+}
+
+PairRows& BodyRows::make(yade::Scene& scene, std::size_t place, const yade::Interaction& contact) {
   PairRows& pair = pairs_[place];
   pair.id1 = contact.id1, pair.id2 = contact.id2;
   pair.row1 = rowFor(scene, pair.id1), pair.row2 = rowFor(scene, pair.id2);
-  useOwnSums();
+  pair.geom = nullptr;
+  numSums_ = rows_.size();
   return pair;
 }
 
@@ -108,25 +132,33 @@ std::uint32_t BodyRows::rowFor(yade::Scene& scene, yade::Body::id_t id) {
   const auto index = static_cast<std::size_t>(id);
   assert(index < rowOf_.size());
   if (rowOf_[index] >= 0) return static_cast<std::uint32_t>(rowOf_[index]);
-  rowOf_[index] = static_cast<int>(ids_.size());
-  ids_.push_back(id);
-  rows_.push_back(read(scene, id));
-  startForces_.push_back(forcesOf(scene)[index]);
-  startTorques_.push_back(torquesOf(scene)[index]);
-  ownForces_.push_back(startForces_.back()), ownTorques_.push_back(startTorques_.back());
-  return static_cast<std::uint32_t>(rowOf_[index]);
+  const std::size_t row = rows_.size();
+  rowOf_[index] = static_cast<int>(row);
+  rows_.emplace_back(), flags_.emplace_back();
+  fillRow(scene, index, row);
+  return static_cast<std::uint32_t>(row);
 }
 
-void BodyRows::giveForces(yade::Scene& scene) const {
+void BodyRows::giveForces(yade::Scene& scene, int threads) const {
   if (isInPlace_) return;
-  // The difference is 0 unless a functor of YADE has added to this body.
-  const auto put = [](yade::Vector3r& total, const yade::Vector3r& sum,
-                      const yade::Vector3r& start) { total = sum + (total - start); };
-  for (std::size_t row = 0; row < ids_.size(); ++row) {
-    const auto index = static_cast<std::size_t>(ids_[row]);
-    put(forcesOf(scene)[index], ownForces_[row], startForces_[row]);
-    put(torquesOf(scene)[index], ownTorques_[row], startTorques_[row]);
-  }
+  auto &forces = forcesOf(scene), &torques = torquesOf(scene);
+  // YADE's are 0 unless one of its functors has added to this body.
+  const auto give = [](yade::Vector3r& total, const FourLanes& sum) {
+    storeThree(sum + loadThree(total.data()), total.data());
+  };
+  forEachPart(rowOf_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t id = begin; id < end; ++id) {
+      if (id + kAhead < end && rowOf_[id + kAhead] >= 0) {
+        const BodyRow& next = rows_[static_cast<std::size_t>(rowOf_[id + kAhead])];
+        __builtin_prefetch(next.values + 8);
+      }
+      if (rowOf_[id] < 0) continue;
+      const auto row = static_cast<std::size_t>(rowOf_[id]);
+      if (flags_[row] == 0) continue;
+      give(forces[id], rows_[row].force());
+      give(torques[id], rows_[row].torque());
+    }
+  });
 }
 
 }  // namespace yadefrag

@@ -4,9 +4,9 @@
 // YADE's bodies, states and shapes are spread over memory, and each contact needs two of them: for
 // packed spheres in random order most of the loop's time is spent on reading them in place. Rows
 // are in the order in which the contacts, which a collider creates along the curve, first name
-// their bodies. They are filled at the begin of each step. Sums of forces start from those that
-// other engines have added before, and are given back at its end: they have the bits of sums to
-// which each contact is added in place. Where a body has few contacts, both cost more than they
+// their bodies. They are filled at the begin of each step. Sums of forces that other engines have
+// added before are moved into the rows, and back at its end: they have the bits of sums to which
+// each contact is added in place. Where a body has few contacts, both cost more than they
 // save: bodies are read, and forces added, in place.
 
 #include <cstddef>
@@ -16,68 +16,108 @@
 
 namespace yadefrag {
 
-/// State of a body at the begin of the step; `body` is null if it was erased.
-struct BodyRow {
-  SphereMotion motion;
-  const yade::Body* body = nullptr;
-  int subdomain = 0;  // of YADE's MPI engine
-};
-
-/// Rows of the two bodies of a contact.
+/// A contact and the rows of its bodies, as in the step before.
 struct PairRows {
+  // Null: not of the classes that the loop computes.
+  yade::ScGeom* geom = nullptr;
+  yade::FrictPhys* phys = nullptr;
   yade::Body::id_t id1 = yade::Body::ID_NONE;
   yade::Body::id_t id2 = yade::Body::ID_NONE;
   std::uint32_t row1 = 0;
   std::uint32_t row2 = 0;
+
+  [[nodiscard]] bool isOf(const yade::Interaction& contact) const {
+    return id1 == contact.id1 && id2 == contact.id2;
+  }
+  /// True: a contact that the loop computes, unchanged since the step before.
+  [[nodiscard]] bool isKnown(const yade::Interaction& contact) const {
+    return geom && isOf(contact) && contact.geom.get() == geom && contact.phys.get() == phys;
+  }
+  [[gnu::always_inline]] void request() const {
+    const auto* const first = reinterpret_cast<const char*>(geom);
+    const auto* const second = reinterpret_cast<const char*>(phys);
+    __builtin_prefetch(first), __builtin_prefetch(first + 64), __builtin_prefetch(first + 128);
+    __builtin_prefetch(second), __builtin_prefetch(second + 64);
+  }
+  void note(const yade::Interaction& contact, bool isComputed) {
+    geom = isComputed ? static_cast<yade::ScGeom*>(contact.geom.get()) : nullptr;
+    phys = isComputed ? static_cast<yade::FrictPhys*>(contact.phys.get()) : nullptr;
+  }
 };
 
 class BodyRows {
  public:
   /// Reads the bodies of all rows, for `numContacts` contacts in the scene.
   void begin(yade::Scene& scene, std::size_t numContacts, int threads);
-  /// The state of a body, for contacts that are evaluated in place.
-  static BodyRow read(const yade::Scene& scene, yade::Body::id_t id);
+  /// Before `begin`: all rows are made anew in this step.
+  void forget() { age_ = kLongestAge; }
+  /// Reads the motion of the bodies of a contact that is evaluated in place; not the sums. False:
+  /// one does not exist, or neither is of this process.
+  static bool readPair(const yade::Scene& scene, const yade::Interaction& contact, BodyRow& one,
+                       BodyRow& two);
+  /// True: there are no rows; sums are numbered by ids.
   [[nodiscard]] bool isInPlace() const { return isInPlace_; }
-  /// Rows of the bodies of contact `place`, or null if it is not known that they have rows. For
-  /// several threads at once.
-  [[nodiscard]] const PairRows* known(std::size_t place, const yade::Interaction& contact) const {
-    const PairRows& pair = pairs_[place];
-    return pair.id1 == contact.id1 && pair.id2 == contact.id2 ? &pair : nullptr;
-  }
-  /// The same; makes rows for bodies that have none.
-  [[gnu::noinline]] const PairRows& make(yade::Scene& scene, std::size_t place,
-                                         const yade::Interaction& contact);
+  /// What is known of contact `place`. Each for one thread at once.
+  [[nodiscard]] PairRows& operator()(std::size_t place) { return pairs_[place]; }
+  /// Rows for bodies that may have none.
+  [[gnu::noinline]] PairRows& make(yade::Scene& scene, std::size_t place,
+                                   const yade::Interaction& contact);
   [[nodiscard]] const BodyRow& operator[](std::size_t row) const { return rows_[row]; }
-
-  void addFirst(std::size_t row, const ContactForce& contact) {
-    forces_[row] += contact.force;
-    torques_[row] += contact.torque1;
+  /// True: both bodies exist, and one is of this process.
+  [[nodiscard]] bool areHere(const PairRows& pair) const {
+    return areHere(flags_[pair.row1], flags_[pair.row2]);
   }
-  void addSecond(std::size_t row, const ContactForce& contact) {
-    forces_[row] += -contact.force;
-    torques_[row] += contact.torque2;
+
+  [[gnu::always_inline]] void addFirst(std::size_t row, const ContactForce& contact) {
+    add(row, contact.force, contact.torque1);
+  }
+  [[gnu::always_inline]] void addSecond(std::size_t row, const ContactForce& contact) {
+    add(row, -contact.force, contact.torque2);
   }
   /// Number of sums: rows, or ids.
   [[nodiscard]] std::size_t numSums() const { return numSums_; }
+  /// Requests what a contact needs, before its turn.
+  [[gnu::always_inline]] void request(const PairRows& pair) const {
+    __builtin_prefetch(&rows_[pair.row1]), __builtin_prefetch(&rows_[pair.row1].values[8]);
+    __builtin_prefetch(&rows_[pair.row2]), __builtin_prefetch(&rows_[pair.row2].values[8]);
+  }
   /// Puts the sums into YADE's, in the array of the calling thread, 0. What YADE's functors have
   /// added there since `begin` is kept.
-  void giveForces(yade::Scene& scene) const;
+  void giveForces(yade::Scene& scene, int threads) const;
 
  private:
-  using Vectors = std::vector<yade::Vector3r>;
+  // Steps after which all rows are made anew: bodies have moved along the curve, and contacts
+  // ended.
+  static constexpr int kLongestAge = 128;
+  // Flags of a row.
+  static constexpr unsigned kExists = 1, kIsHere = 2;
 
+  [[gnu::always_inline]] void add(std::size_t row, const FourLanes& force,
+                                  const FourLanes& torque) {
+    if (!isInPlace_) {
+      BodyRow& sums = rows_[row];
+      return sums.setSums(sums.force() + force, sums.torque() + torque);
+    }
+    double *const forces = forces_[row].data(), *const torques = torques_[row].data();
+    storeThree(loadThree(forces) + force, forces);
+    storeThree(loadThree(torques) + torque, torques);
+  }
+  static bool areHere(unsigned flags1, unsigned flags2) {
+    return (flags1 & flags2 & kExists) != 0 && ((flags1 | flags2) & kIsHere) != 0;
+  }
+  static unsigned flagsOf(const yade::Scene& scene, const yade::Body* body);
+  static void read(const yade::Body& body, BodyRow& row);
   void fill(yade::Scene& scene, std::size_t numContacts, int threads);
+  void fillRow(yade::Scene& scene, std::size_t id, std::size_t row);
+  void requestAhead(const yade::Scene& scene, std::size_t id) const;
   std::uint32_t rowFor(yade::Scene& scene, yade::Body::id_t id);
-  void useOwnSums();
 
   bool isInPlace_ = true;
   std::vector<int> rowOf_;  // by body id, -1: none
-  std::vector<yade::Body::id_t> ids_;
   std::vector<BodyRow> rows_;
-  std::vector<PairRows> pairs_;  // by place of the contact
-  // Of each row: sums, and what YADE had before the first contact.
-  Vectors ownForces_, ownTorques_, startForces_, startTorques_;
-  // The sums that are used: own or YADE's.
+  std::vector<unsigned char> flags_;  // by row
+  std::vector<PairRows> pairs_;       // by place of the contact
+  // YADE's sums, by id, where these are used in place.
   yade::Vector3r* forces_ = nullptr;
   yade::Vector3r* torques_ = nullptr;
   std::size_t numSums_ = 0;

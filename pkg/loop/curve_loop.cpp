@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "abi/request.hpp"
+#include "core/instruction_set.hpp"
 #include "core/parallel.hpp"
 
 namespace yadefrag {
@@ -15,9 +17,11 @@ namespace {
 // Contacts that a thread takes at once: enough that taking them costs nothing, few enough that all
 // threads end at the same time. The results do not depend on it.
 constexpr std::size_t kContactsAtOnce = 128;
-// Contacts between the request of an interaction from memory and its use: enough for the latency of
-// one access.
-constexpr std::size_t kAhead = 16;
+// Contacts between the request of data from memory and their use: enough for the latency of one
+// access.
+constexpr std::size_t kAhead = 8;
+
+const InstructionSet kInstructions = bestInstructionSet();
 
 }  // namespace
 
@@ -36,75 +40,126 @@ void ContactLoop::action() {
   if (size == 0) return;
   const int most = omp_get_max_threads();
   threads = threadsFor(size, ompThreads > 0 ? std::min(ompThreads, most) : most);
-  rows_.begin(*scene, size, threads);
   const PairStep step(*this, *scene);
+  if (step.functors() != functors_) rows_.forget();
+  functors_ = step.functors();
+  rows_.begin(*scene, size, threads);
   if (threads > 1) {
     runInParallel(step, size);
   } else {
-    run(step, size);
+    runFor(
+        kInstructions, [&]() __attribute__((always_inline)) { run(step, size); });
   }
   if (fastForces == 0) return;
-  rows_.giveForces(*scene);
+  rows_.giveForces(*scene, threads);
   memory_.endStep(*scene);
 }
 
-[[gnu::always_inline]] inline void ContactLoop::requestAhead(std::size_t place,
-                                                             std::size_t size) const {
-  if (place + kAhead >= size) return;
-  request((*scene->interactions)[place + kAhead].get(), offsetof(yade::Interaction, functorCache),
-          sizeof(yade::Interaction));
+[[gnu::always_inline]] inline void ContactLoop::requestAhead(std::size_t place, std::size_t size) {
+  using yade::Interaction;
+  if (place + 2 * kAhead < size) {
+    const PairRows& pair = rows_(place + 2 * kAhead);
+    const char* const contact =
+        reinterpret_cast<const char*>((*scene->interactions)[place + 2 * kAhead].get());
+    __builtin_prefetch(contact + offsetof(Interaction, id1));
+    __builtin_prefetch(contact + offsetof(Interaction, phys));
+    pair.request();
+  }
+  if (place + kAhead < size) rows_.request(rows_(place + kAhead));
+}
+
+// For contacts that are evaluated in place: from the interaction to its bodies, then to what these
+// refer to. Each request reads what the one before has brought.
+[[gnu::always_inline]] inline void ContactLoop::requestInPlace(std::size_t place,
+                                                               std::size_t size) const {
+  using yade::Body, yade::Interaction, yade::State, yade::Sphere;
+  const auto& interactions = *scene->interactions;
+  const auto& bodies = scene->bodies->body;
+  const auto forBoth = [&](std::size_t at, const auto& visit) {
+    if (at >= size) return;
+    visit(static_cast<std::size_t>(interactions[at]->id1));
+    visit(static_cast<std::size_t>(interactions[at]->id2));
+  };
+  if (place + 4 * kAhead < size) {
+    request(interactions[place + 4 * kAhead].get(), offsetof(Interaction, functorCache),
+            sizeof(Interaction));
+  }
+  forBoth(place + 3 * kAhead, [&](std::size_t id) { request(bodies.data() + id, 0, 1); });
+  forBoth(place + 2 * kAhead, [&](std::size_t id) {
+    request(bodies[id].get(), offsetof(Body, state), offsetof(Body, shape) + sizeof(Body::shape));
+  });
+  forBoth(place + kAhead, [&](std::size_t id) {
+    if (!bodies[id]) return;
+    request(bodies[id]->state.get(), offsetof(State, se3),
+            offsetof(State, se3) + sizeof(yade::Vector3r));
+    request(bodies[id]->shape.get(), offsetof(Sphere, radius), sizeof(Sphere));
+  });
 }
 
 // Most of the time of a step is spent here: without the attributes a compiler that sees many
 // sources at once leaves vector products as calls.
-[[gnu::always_inline]] inline bool ContactLoop::evaluate(const PairStep& step,
+[[gnu::always_inline]] inline bool ContactLoop::evaluate(Evaluation& evaluation,
                                                          const Contact& contact,
-                                                         const PairRows& pair, long& fast,
-                                                         PairForce& force) const {
-  if (step.isKnown(*contact)) {
-    ++fast;
-    force.row1 = pair.row1, force.row2 = pair.row2;
-    return step.evaluateKnown(*contact, rows_[pair.row1], rows_[pair.row2], force.contact);
+                                                         PairRows& pair) const {
+  if (!rows_.areHere(pair)) {
+    contact->reset();
+    return false;
   }
-  const auto other = step.evaluate(contact, rows_[pair.row1], rows_[pair.row2], fast);
-  if (!other) return false;
-  // The order of the bodies may have been swapped.
-  const bool isSwapped = contact->id1 != pair.id1;
-  force = {isSwapped ? pair.row2 : pair.row1, isSwapped ? pair.row1 : pair.row2, *other};
-  return true;
+  if (!pair.isKnown(*contact)) return evaluateOther(evaluation, contact, pair);
+  ++evaluation.fast;
+  evaluation.row1 = pair.row1, evaluation.row2 = pair.row2;
+  return evaluation.step.evaluateKnown(*contact, *pair.geom, *pair.phys, rows_[pair.row1],
+                                       rows_[pair.row2], evaluation.force);
 }
 
-bool ContactLoop::evaluateInPlace(const PairStep& step, const Contact& contact, long& fast,
-                                  PairForce& force) const {
-  if (step.isFarApart(*contact)) return false;
-  const auto found = step.evaluate(contact, BodyRows::read(*scene, contact->id1),
-                                   BodyRows::read(*scene, contact->id2), fast);
-  if (!found) return false;
-  force = {static_cast<std::uint32_t>(contact->id1), static_cast<std::uint32_t>(contact->id2),
-           *found};
-  return true;
+bool ContactLoop::evaluateOther(Evaluation& evaluation, const Contact& contact,
+                                PairRows& pair) const {
+  const bool isForce = evaluation.step.evaluate(contact, rows_[pair.row1], rows_[pair.row2],
+                                                evaluation.fast, evaluation.force);
+  if (contact->id1 != pair.id1) {  // the order of the bodies was swapped
+    std::swap(pair.id1, pair.id2), std::swap(pair.row1, pair.row2);
+  }
+  pair.note(*contact, evaluation.step.isKnown(*contact));
+  evaluation.row1 = pair.row1, evaluation.row2 = pair.row2;
+  return isForce;
 }
 
-[[gnu::always_inline]] inline void ContactLoop::add(const PairForce& force) {
-  rows_.addFirst(force.row1, force.contact);
-  rows_.addSecond(force.row2, force.contact);
+bool ContactLoop::evaluateInPlace(Evaluation& evaluation, const Contact& contact) const {
+  if (evaluation.step.isFarApart(*contact)) return false;
+  BodyRow one, two;
+  if (!BodyRows::readPair(*scene, *contact, one, two)) {
+    contact->reset();
+    return false;
+  }
+  const bool isForce =
+      evaluation.step.evaluate(contact, one, two, evaluation.fast, evaluation.force);
+  evaluation.row1 = static_cast<std::uint32_t>(contact->id1);
+  evaluation.row2 = static_cast<std::uint32_t>(contact->id2);
+  return isForce;
 }
 
-[[gnu::flatten]] void ContactLoop::run(const PairStep& step, std::size_t size) {
-  PairForce force;
+[[gnu::always_inline]] inline void ContactLoop::add(const Evaluation& evaluation) {
+  ++fastForces;
+  rows_.addFirst(evaluation.row1, evaluation.force);
+  rows_.addSecond(evaluation.row2, evaluation.force);
+}
+
+[[gnu::always_inline]] inline void ContactLoop::run(const PairStep& step, std::size_t size) {
+  Evaluation evaluation{step};
   for (std::size_t place = 0; place < size; ++place) {
-    requestAhead(place, size);
     const Contact& contact = (*scene->interactions)[place];
     if (rows_.isInPlace()) {
-      if (!evaluateInPlace(step, contact, fastGeometries, force)) continue;
+      requestInPlace(place, size);
+      if (!evaluateInPlace(evaluation, contact)) continue;
     } else {
-      const PairRows* const known = rows_.known(place, *contact);
-      const PairRows& pair = known ? *known : rows_.make(*scene, place, *contact);
-      if (!evaluate(step, contact, pair, fastGeometries, force)) continue;
+      requestAhead(place, size);
+      PairRows& known = rows_(place);
+      PairRows& pair = known.isOf(*contact) ? known : rows_.make(*scene, place, *contact);
+      if (!evaluate(evaluation, contact, pair)) continue;
     }
-    ++fastForces;
-    add(force);
+    add(evaluation);
   }
+  fastGeometries = evaluation.fast;
 }
 
 // Forces are stored by contact, and then added in the order of the contacts, as by one thread. Each
@@ -114,51 +169,79 @@ void ContactLoop::runInParallel(const PairStep& step, std::size_t size) {
   blocks_.resize((size + kContactsAtOnce - 1) / kContactsAtOnce);
   forEachItem(blocks_.size(), size, threads, [&](std::size_t number) {
     const std::size_t begin = number * kContactsAtOnce;
-    evaluateBlock(step, begin, std::min(begin + kContactsAtOnce, size), blocks_[number]);
+    const std::size_t end = std::min(begin + kContactsAtOnce, size);
+    runFor(
+        kInstructions, [&]() __attribute__((always_inline)) {
+          evaluateBlock(step, begin, end, blocks_[number]);
+        });
   });
+  evaluateWithoutRows(step);
+  addStored();
+}
+
+[[gnu::always_inline]] inline void ContactLoop::evaluateBlock(const PairStep& step,
+                                                              std::size_t begin, std::size_t end,
+                                                              ContactBlock& block) {
+  Evaluation evaluation{step};
+  block.withoutRows.clear();
+  for (std::size_t place = begin; place < end; ++place) {
+    const Contact& contact = (*scene->interactions)[place];
+    bool isForce = false;
+    if (rows_.isInPlace()) {
+      requestInPlace(place, stored_.size());
+      isForce = evaluateInPlace(evaluation, contact);
+    } else {
+      requestAhead(place, stored_.size());
+      if (PairRows& pair = rows_(place); pair.isOf(*contact)) {
+        isForce = evaluate(evaluation, contact, pair);
+      } else {
+        block.withoutRows.push_back(place);
+      }
+    }
+    store(evaluation, isForce, stored_[place]);
+  }
+  block.fast = evaluation.fast;
+}
+
+[[gnu::always_inline]] inline void ContactLoop::store(const Evaluation& evaluation, bool isForce,
+                                                      PairForce& force) const {
+  force.row1 = isForce ? evaluation.row1 : PairForce::kNone;
+  if (!isForce) return;
+  force.row2 = evaluation.row2;
+  storeThree(evaluation.force.force, force.force);
+  storeThree(evaluation.force.torque1, force.torque1);
+  storeThree(evaluation.force.torque2, force.torque2);
+}
+
+void ContactLoop::evaluateWithoutRows(const PairStep& step) {
+  Evaluation evaluation{step};
   for (const ContactBlock& block : blocks_) {
     fastGeometries += block.fast;
     for (const std::size_t place : block.withoutRows) {
       const Contact& contact = (*scene->interactions)[place];
-      const PairRows& pair = rows_.make(*scene, place, *contact);
-      if (!evaluate(step, contact, pair, fastGeometries, stored_[place])) {
-        stored_[place].row1 = PairForce::kNone;
-      }
+      PairRows& pair = rows_.make(*scene, place, *contact);
+      store(evaluation, evaluate(evaluation, contact, pair), stored_[place]);
     }
   }
-  forEachPart(size, threads, [&](std::size_t, std::size_t, int part) {
+  fastGeometries += evaluation.fast;
+}
+
+void ContactLoop::addStored() {
+  forEachPart(stored_.size(), threads, [&](std::size_t, std::size_t, int part) {
     const auto parts = static_cast<std::size_t>(threads), own = static_cast<std::size_t>(part);
     const std::size_t first = rows_.numSums() * own / parts;
     const std::size_t last = rows_.numSums() * (own + 1) / parts;
     const auto isOwn = [&](std::size_t row) { return row >= first && row < last; };
     for (const PairForce& force : stored_) {
       if (force.row1 == PairForce::kNone) continue;
-      if (isOwn(force.row1)) rows_.addFirst(force.row1, force.contact);
-      if (isOwn(force.row2)) rows_.addSecond(force.row2, force.contact);
+      const ContactForce contact = {loadThree(force.force), loadThree(force.torque1),
+                                    loadThree(force.torque2)};
+      if (isOwn(force.row1)) rows_.addFirst(force.row1, contact);
+      if (isOwn(force.row2)) rows_.addSecond(force.row2, contact);
     }
   });
   fastForces = std::count_if(stored_.begin(), stored_.end(),
                              [](const PairForce& force) { return force.row1 != PairForce::kNone; });
-}
-
-[[gnu::flatten]] void ContactLoop::evaluateBlock(const PairStep& step, std::size_t begin,
-                                                 std::size_t end, ContactBlock& block) {
-  block.fast = 0;
-  block.withoutRows.clear();
-  for (std::size_t place = begin; place < end; ++place) {
-    requestAhead(place, stored_.size());
-    const Contact& contact = (*scene->interactions)[place];
-    PairForce& force = stored_[place];
-    bool isForce = false;
-    if (rows_.isInPlace()) {
-      isForce = evaluateInPlace(step, contact, block.fast, force);
-    } else if (const PairRows* const pair = rows_.known(place, *contact)) {
-      isForce = evaluate(step, contact, *pair, block.fast, force);
-    } else {
-      block.withoutRows.push_back(place);
-    }
-    if (!isForce) force.row1 = PairForce::kNone;
-  }
 }
 
 }  // namespace yadefrag

@@ -45,29 +45,41 @@ class ContactLoop : public yade::InteractionLoop {
   struct PairForce {
     static constexpr std::uint32_t kNone = ~0U;
 
+    double force[3], torque1[3], torque2[3];
     std::uint32_t row1 = kNone;
     std::uint32_t row2 = kNone;
-    ContactForce contact;
   };
   /// What a thread found in contacts one behind the other.
   struct ContactBlock {
     long fast = 0;                         // geometries that the loop computed
     std::vector<std::size_t> withoutRows;  // contacts that are not evaluated yet
   };
+  /// What one thread evaluates.
+  struct Evaluation {
+    const PairStep& step;
+    long fast = 0;  // geometries that the loop computed
+    ContactForce force = {};
+    std::uint32_t row1 = 0, row2 = 0;
+  };
 
-  void requestAhead(std::size_t place, std::size_t size) const;
-  /// Both return false if there is no force, or YADE's law has added it.
-  bool evaluate(const PairStep& step, const Contact& contact, const PairRows& pair, long& fast,
-                PairForce& force) const;
-  [[gnu::noinline]] bool evaluateInPlace(const PairStep& step, const Contact& contact, long& fast,
-                                         PairForce& force) const;
+  void requestAhead(std::size_t place, std::size_t size);
+  void requestInPlace(std::size_t place, std::size_t size) const;
+  /// These return false if there is no force, or YADE's law has added it.
+  bool evaluate(Evaluation& evaluation, const Contact& contact, PairRows& pair) const;
+  [[gnu::noinline]] bool evaluateOther(Evaluation& evaluation, const Contact& contact,
+                                       PairRows& pair) const;
+  [[gnu::noinline]] bool evaluateInPlace(Evaluation& evaluation, const Contact& contact) const;
   void evaluateBlock(const PairStep& step, std::size_t begin, std::size_t end, ContactBlock& block);
-  void add(const PairForce& force);
+  void store(const Evaluation& evaluation, bool isForce, PairForce& force) const;
+  void add(const Evaluation& evaluation);
   void run(const PairStep& step, std::size_t size);
   void runInParallel(const PairStep& step, std::size_t size);
+  void evaluateWithoutRows(const PairStep& step);
+  void addStored();
 
   BodyRows rows_;
   ContactMemory memory_;
+  PairStep::Functors functors_ = {};  // of the last step
   // With several threads, by contact and by block of contacts.
   std::vector<PairForce> stored_;
   std::vector<ContactBlock> blocks_;
@@ -79,7 +91,7 @@ class CurveLoop final : public Published<CurveLoop, ContactLoop, yade::Interacti
   static constexpr const char* kDoc =
       "InteractionLoop for many contacts of spheres: CurveLoop([Ig2...], [Ip2...], [Law2...]), "
       "with the same arguments, functors, attributes and results. Contacts of "
-      "Ig2_Sphere_Sphere_ScGeom (scenes that are not periodic) and of "
+      "Ig2_Sphere_Sphere_ScGeom and of "
       "Law2_ScGeom_FrictPhys_CundallStrack (while no energies are traced) are computed by the loop "
       "itself with the same formulas and the same bits; all others by YADE's functors. Forces are "
       "added in the order of O.interactions: if all laws are of this kind, every bit is the same "

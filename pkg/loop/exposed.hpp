@@ -22,6 +22,11 @@ struct OrthonormalAxis {
 };
 template struct Expose<OrthonormalAxis, &yade::ScGeom::orthonormal_axis>;
 
+struct GradientTimesCell {
+  friend constexpr auto exposed(GradientTimesCell);
+};
+template struct Expose<GradientTimesCell, &yade::Cell::_vGradTimesPrevH>;
+
 struct ForceData {
   friend constexpr auto exposed(ForceData);
 };

@@ -32,9 +32,7 @@ std::string bodiesOf(const yade::Interaction& contact) {
 }  // namespace
 
 PairStep::PairStep(yade::InteractionLoop& loop, yade::Scene& scene) : loop_(loop), scene_(scene) {
-  if (!scene.isPeriodic) {
-    spheres_ = exactly<yade::Ig2_Sphere_Sphere_ScGeom>(loop.geomDispatcher->functors);
-  }
+  spheres_ = exactly<yade::Ig2_Sphere_Sphere_ScGeom>(loop.geomDispatcher->functors);
   friction_ = named(loop.physDispatcher->functors, "Ip2_FrictMat_FrictMat_FrictPhys");
   law_ = exactly<yade::Law2_ScGeom_FrictPhys_CundallStrack>(loop.lawDispatcher->functors);
   if (law_ && (law_->traceEnergy || scene.trackEnergy)) law_ = nullptr;
@@ -50,32 +48,28 @@ PairStep::PairStep(yade::InteractionLoop& loop, yade::Scene& scene) : loop_(loop
 }
 
 // YADE's InteractionLoop::action, for one interaction.
-std::optional<ContactForce> PairStep::evaluate(const Contact& contact, const BodyRow& one,
-                                               const BodyRow& two, long& fastGeometries) const {
-  if (removesUnseen_ && !contact->isReal() && contact->iterLastSeen < scene_.iter) return {};
-  if (!one.body || !two.body || isElsewhere(one, two)) {
-    contact->reset();
-    return {};
-  }
+bool PairStep::evaluate(const Contact& contact, const BodyRow& one, const BodyRow& two,
+                        long& fastGeometries, ContactForce& force) const {
+  if (removesUnseen_ && !contact->isReal() && contact->iterLastSeen < scene_.iter) return false;
   const auto id1 = contact->id1;
   // A clump has no sphere of its own.
   if (!isKnownPair(*contact)) {
-    if (one.body->isClump() || two.body->isClump()) return {};
-    if (!chooseGeometry(*contact, *one.body, *two.body)) return {};
+    if (bodyOf(id1).isClump() || bodyOf(contact->id2).isClump()) return false;
+    if (!chooseGeometry(*contact)) return false;
   }
   const bool isSwapped = contact->id1 != id1;
   const BodyRow &first = isSwapped ? two : one, &second = isSwapped ? one : two;
   const bool wasReal = contact->isReal();
   if (!updateGeometryOf(contact, first, second, fastGeometries)) {
     if (wasReal) contact->reset();
-    return {};
+    return false;
   }
-  updateProperties(contact, *first.body, *second.body, wasReal);
-  auto force = applyLaw(contact, first, second);
+  updateProperties(contact, wasReal);
+  const bool isForce = applyLaw(contact, first, second, force);
   if (contact->isReal()) {
     for (const auto& [callback, function] : callbacks_) function(callback, contact.get());
   }
-  return force;
+  return isForce;
 }
 
 bool PairStep::isFarApart(const yade::Interaction& contact) const {
@@ -84,28 +78,35 @@ bool PairStep::isFarApart(const yade::Interaction& contact) const {
   const auto& body1 = bodies[static_cast<unsigned>(contact.id1)];
   const auto& body2 = bodies[static_cast<unsigned>(contact.id2)];
   if (!body1 || !body2) return false;
+  const auto placeOf = [](const yade::Body& body) {
+    return loadThree(body.state->se3.position.data());
+  };
   const auto radiusOf = [](const yade::Body& body) {
     return static_cast<const yade::Sphere&>(*body.shape).radius;
   };
-  return areApart(body1->state->se3.position, radiusOf(*body1), body2->state->se3.position,
+  return areApart(placeOf(*body2) + shiftOf(contact).distance - placeOf(*body1), radiusOf(*body1),
                   radiusOf(*body2));
 }
 
+ImageShift PairStep::periodicShift(const yade::Interaction& contact) const {
+  const yade::Vector3r distance = scene_.cell->intrShiftPos(contact.cellDist);
+  const yade::Vector3r velocity =
+      (*scene_.cell).*exposed(GradientTimesCell{}) * contact.cellDist.cast<double>();
+  return {loadThree(distance.data()), loadThree(velocity.data())};
+}
+
 // YADE's test, to the last bit.
-bool PairStep::areApart(const yade::Vector3r& place1, double radius1, const yade::Vector3r& place2,
-                        double radius2) const {
+bool PairStep::areApart(const FourLanes& between, double radius1, double radius2) const {
   const double reach = spheres_->interactionDetectionFactor * (radius1 + radius2);
-  const yade::Vector3r between = place2 - place1;
-  return reach * reach - between.squaredNorm() < 0;
+  return reach * reach - squaredNorm(between) < 0;
 }
 
 // False: no functor accepts the two shapes. The order of the bodies may be swapped.
-bool PairStep::chooseGeometry(yade::Interaction& contact, const yade::Body& body1,
-                              const yade::Body& body2) const {
-  if (!contact.functorCache.geomExists || !body1.shape || !body2.shape) return false;
+bool PairStep::chooseGeometry(yade::Interaction& contact) const {
+  auto shape1 = bodyOf(contact.id1).shape, shape2 = bodyOf(contact.id2).shape;
+  if (!contact.functorCache.geomExists || !shape1 || !shape2) return false;
   if (contact.functorCache.geom) return true;
   bool isSwapped = false;
-  auto shape1 = body1.shape, shape2 = body2.shape;
   contact.functorCache.geom = loop_.geomDispatcher->getFunctor2D(shape1, shape2, isSwapped);
   contact.functorCache.geomExists = contact.functorCache.geom != nullptr;
   if (isSwapped) contact.swapOrder();
@@ -116,25 +117,29 @@ bool PairStep::chooseGeometry(yade::Interaction& contact, const yade::Body& body
 bool PairStep::updateGeometryOf(const Contact& contact, const BodyRow& one, const BodyRow& two,
                                 long& fastGeometries) const {
   if (isKnownPair(*contact)) {
+    const ImageShift shift = shiftOf(*contact);
     if (!contact->isReal() &&
-        areApart(one.motion.position, one.motion.radius, two.motion.position, two.motion.radius)) {
+        areApart(two.position() + shift.distance - one.position(), one.radius(), two.radius())) {
       return false;
     }
     if (contact->geom) {
       ++fastGeometries;
-      updateGeometry(static_cast<yade::ScGeom&>(*contact->geom), one.motion, two.motion, scene_.dt,
-                     spheres_->avoidGranularRatcheting);
+      auto& geom = static_cast<yade::ScGeom&>(*contact->geom);
+      nextGeometry(loadThree(geom.normal.data()), one, two, shift, scene_.dt,
+                   spheres_->avoidGranularRatcheting)
+          .write(geom);
       return true;
     }
   }
   yade::Vector3r shift = yade::Vector3r::Zero();
-  if (scene_.isPeriodic) shift = scene_.cell->hSize * contact->cellDist.cast<double>();
-  return contact->functorCache.geom->go(one.body->shape, two.body->shape, *one.body->state,
-                                        *two.body->state, shift, false, contact);
+  if (scene_.isPeriodic) shift = scene_.cell->intrShiftPos(contact->cellDist);
+  const yade::Body &body1 = bodyOf(contact->id1), &body2 = bodyOf(contact->id2);
+  return contact->functorCache.geom->go(body1.shape, body2.shape, *body1.state, *body2.state, shift,
+                                        false, contact);
 }
 
-void PairStep::updateProperties(const Contact& contact, const yade::Body& body1,
-                                const yade::Body& body2, bool wasReal) const {
+void PairStep::updateProperties(const Contact& contact, bool wasReal) const {
+  const yade::Body &body1 = bodyOf(contact->id1), &body2 = bodyOf(contact->id2);
   auto& functor = contact->functorCache.phys;
   if (!functor) {
     bool isSwapped = false;
@@ -165,23 +170,16 @@ void PairStep::chooseLaw(yade::Interaction& contact) const {
 }
 
 // A contact that has ended is reset.
-std::optional<ContactForce> PairStep::applyLaw(const Contact& contact, const BodyRow& one,
-                                               const BodyRow& two) const {
+bool PairStep::applyLaw(const Contact& contact, const BodyRow& one, const BodyRow& two,
+                        ContactForce& force) const {
   if (!contact->functorCache.constLaw) chooseLaw(*contact);
   auto& law = *contact->functorCache.constLaw;
   if (!law_ || &law != law_) {
     if (!law.go(contact->geom, contact->phys, contact.get())) contact->reset();
-    return {};
+    return false;
   }
-  auto& geom = static_cast<yade::ScGeom&>(*contact->geom);
-  auto& phys = static_cast<yade::FrictPhys&>(*contact->phys);
-  if (!updateForces(geom, phys, law_->neverErase)) {
-    contact->reset();
-    return {};
-  }
-  yade::Vector3r place2 = two.motion.position;
-  if (scene_.isPeriodic) place2 += scene_.cell->hSize * contact->cellDist.cast<double>();
-  return contactForce(geom, phys, law_->sphericalBodies, one.motion.position, place2);
+  return addLaw(*contact, ContactGeometry::read(static_cast<yade::ScGeom&>(*contact->geom)),
+                static_cast<yade::FrictPhys&>(*contact->phys), one, two, shiftOf(*contact), force);
 }
 
 }  // namespace yadefrag

@@ -1,7 +1,7 @@
 #pragma once
 // One contact in one step: geometry, physical properties, force.
 
-#include <optional>
+#include <array>
 #include <utility>
 
 #include "loop/body_rows.hpp"
@@ -14,35 +14,31 @@ class PairStep {
   PairStep(yade::InteractionLoop& loop, yade::Scene& scene);
 
   using Contact = yade::shared_ptr<yade::Interaction>;
-  /// Evaluates one contact of the bodies `one` and `two`, whose order in it may be swapped. Returns
-  /// its force, or nothing if it has none or YADE's law has added it to the scene's forces. Counts
+  /// What determines which contacts the loop computes.
+  using Functors = std::array<const void*, 3>;
+  [[nodiscard]] Functors functors() const {
+    return isAllKnown_ ? Functors{spheres_, friction_, law_} : Functors{};
+  }
+  /// Evaluates one contact of the bodies `one` and `two`, which exist and whose order in it may be
+  /// swapped. False: it has no force, or YADE's law has added it to the scene's forces. Counts
   /// geometries that YADE's functors did not compute.
-  [[gnu::noinline]] std::optional<ContactForce> evaluate(const Contact& contact, const BodyRow& one,
-                                                         const BodyRow& two,
-                                                         long& fastGeometries) const;
+  [[gnu::noinline]] bool evaluate(const Contact& contact, const BodyRow& one, const BodyRow& two,
+                                  long& fastGeometries, ContactForce& force) const;
   /// True: a contact whose geometry, physics and law are those that the loop computes.
   [[nodiscard]] bool isKnown(const yade::Interaction& contact) const {
     const auto& cache = contact.functorCache;
     return isAllKnown_ && cache.geom.get() == spheres_ && cache.phys.get() == friction_ &&
            cache.constLaw.get() == law_ && contact.geom && contact.phys;
   }
-  /// Evaluates such a contact, as `evaluate` does.
-  [[gnu::always_inline]] bool evaluateKnown(yade::Interaction& contact, const BodyRow& one,
+  /// Evaluates such a contact of bodies that exist, as `evaluate` does.
+  [[gnu::always_inline]] bool evaluateKnown(yade::Interaction& contact, yade::ScGeom& geom,
+                                            yade::FrictPhys& phys, const BodyRow& one,
                                             const BodyRow& two, ContactForce& force) const {
-    if (!one.body || !two.body || isElsewhere(one, two)) {
-      contact.reset();
-      return false;
-    }
-    auto& geom = static_cast<yade::ScGeom&>(*contact.geom);
-    auto& phys = static_cast<yade::FrictPhys&>(*contact.phys);
-    updateGeometry(geom, one.motion, two.motion, scene_.dt, spheres_->avoidGranularRatcheting);
-    if (!updateForces(geom, phys, law_->neverErase)) {
-      contact.reset();
-      return false;
-    }
-    force =
-        contactForce(geom, phys, law_->sphericalBodies, one.motion.position, two.motion.position);
-    return true;
+    const ImageShift shift = shiftOf(contact);
+    const ContactGeometry geometry = nextGeometry(loadThree(geom.normal.data()), one, two, shift,
+                                                  scene_.dt, spheres_->avoidGranularRatcheting);
+    geometry.write(geom);
+    return addLaw(contact, geometry, phys, one, two, shift, force);
   }
   /// True: a contact that has not begun and does not begin in this step. Reads less than
   /// `evaluate`; if it is false, nothing is known.
@@ -52,25 +48,33 @@ class PairStep {
   [[nodiscard]] bool isKnownPair(const yade::Interaction& contact) const {
     return spheres_ && contact.functorCache.geom.get() == spheres_;
   }
-  [[nodiscard]] bool areApart(const yade::Vector3r& place1, double radius1,
-                              const yade::Vector3r& place2, double radius2) const;
-  [[nodiscard]] bool isElsewhere([[maybe_unused]] const BodyRow& one,
-                                 [[maybe_unused]] const BodyRow& two) const {
-#ifdef YADE_MPI
-    return one.subdomain != scene_.subdomain && two.subdomain != scene_.subdomain;
-#else
-    return false;
-#endif
+  [[nodiscard]] bool areApart(const FourLanes& between, double radius1, double radius2) const;
+  [[gnu::always_inline]] [[nodiscard]] ImageShift shiftOf(const yade::Interaction& contact) const {
+    return scene_.isPeriodic ? periodicShift(contact) : ImageShift{};
   }
-  bool chooseGeometry(yade::Interaction& contact, const yade::Body& body1,
-                      const yade::Body& body2) const;
+  [[nodiscard]] [[gnu::noinline]] ImageShift periodicShift(const yade::Interaction& contact) const;
+  /// The known law. False: the contact has ended, and is reset.
+  [[gnu::always_inline]] bool addLaw(yade::Interaction& contact, const ContactGeometry& geometry,
+                                     yade::FrictPhys& phys, const BodyRow& one, const BodyRow& two,
+                                     const ImageShift& shift, ContactForce& force) const {
+    if (geometry.depth < 0 && !law_->neverErase) {
+      contact.reset();
+      return false;
+    }
+    force = contactForce(geometry, updateForces(geometry, phys), law_->sphericalBodies,
+                         one.position(), two.position() + shift.distance);
+    return true;
+  }
+  [[nodiscard]] const yade::Body& bodyOf(yade::Body::id_t id) const {
+    return *(*scene_.bodies)[static_cast<unsigned>(id)];
+  }
+  bool chooseGeometry(yade::Interaction& contact) const;
   bool updateGeometryOf(const Contact& contact, const BodyRow& one, const BodyRow& two,
                         long& fastGeometries) const;
-  void updateProperties(const Contact& contact, const yade::Body& body1, const yade::Body& body2,
-                        bool wasReal) const;
+  void updateProperties(const Contact& contact, bool wasReal) const;
   void chooseLaw(yade::Interaction& contact) const;
-  std::optional<ContactForce> applyLaw(const Contact& contact, const BodyRow& one,
-                                       const BodyRow& two) const;
+  bool applyLaw(const Contact& contact, const BodyRow& one, const BodyRow& two,
+                ContactForce& force) const;
 
   yade::InteractionLoop& loop_;
   yade::Scene& scene_;

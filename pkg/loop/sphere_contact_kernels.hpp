@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/four_lanes.hpp"
 #include "loop/exposed.hpp"
 
 namespace yadefrag {
@@ -14,93 +15,136 @@ namespace yadefrag {
 /// Force (N) on the first body of a contact, the opposite of that on the second, and the torques (N
 /// m).
 struct ContactForce {
-  yade::Vector3r force;
-  yade::Vector3r torque1;
-  yade::Vector3r torque2;
+  FourLanes force;
+  FourLanes torque1;
+  FourLanes torque2;
 };
 
-/// What the geometry of a contact needs of a sphere: m, m/s, rad/s.
-struct SphereMotion {
-  yade::Vector3r position;
-  yade::Vector3r velocity;
-  yade::Vector3r spin;
-  double radius;
-};
+/// A body at the begin of the step, and the sums of its forces, in two cache lines:
+///
+///   | position (m) | radius (m) | velocity (m/s) | spin (rad/s) | force (N) | torque (N m) |
+///     0              3            4                7              10          13
+///
+/// A load of four lanes from a vector also reads the next value, which is not used.
+struct alignas(64) BodyRow {
+  double values[16];
 
-/// The geometry after a step of `dt` (s), from that of the step before; not periodic.
-[[gnu::always_inline]] inline void updateGeometry(yade::ScGeom& geom, const SphereMotion& one,
-                                                  const SphereMotion& two, double dt,
-                                                  bool avoidsRatcheting) {
-  using yade::Vector3r;
-  Vector3r normal = two.position - one.position;
-  const double distance = normal.norm();
-  normal /= distance;
-  const double depth = one.radius + two.radius - distance;
-  geom.contactPoint = one.position + (one.radius - .5 * depth) * normal;
-  geom.penetrationDepth = depth;
-  geom.refR1 = one.radius;
-  geom.refR2 = two.radius;
-
-  geom.*exposed(OrthonormalAxis{}) = geom.normal.cross(normal);
-  const double angle = dt * .5 * geom.normal.dot(one.spin + two.spin);
-  geom.*exposed(TwistAxis{}) = angle * geom.normal;
-  geom.normal = normal;
-
-  Vector3r velocity;
-  if (avoidsRatcheting) {
-    const double alpha = (one.radius + two.radius) / (one.radius + two.radius - depth);
-    velocity = (two.velocity - one.velocity) * alpha + two.spin.cross(-two.radius * normal) -
-               one.spin.cross(one.radius * normal);
-  } else {
-    const Vector3r arm1 = geom.contactPoint - one.position;
-    const Vector3r arm2 = geom.contactPoint - two.position;
-    velocity = (two.velocity + two.spin.cross(arm2)) - (one.velocity + one.spin.cross(arm1));
+  [[gnu::always_inline]] [[nodiscard]] FourLanes position() const { return loadFour(values); }
+  [[gnu::always_inline]] [[nodiscard]] FourLanes velocity() const { return loadFour(values + 4); }
+  [[gnu::always_inline]] [[nodiscard]] FourLanes spin() const { return loadFour(values + 7); }
+  [[gnu::always_inline]] [[nodiscard]] FourLanes force() const { return loadFour(values + 10); }
+  [[gnu::always_inline]] [[nodiscard]] FourLanes torque() const { return loadThree(values + 13); }
+  [[nodiscard]] double radius() const { return values[3]; }
+  [[gnu::always_inline]] void setSums(const FourLanes& force, const FourLanes& torque) {
+    storeThree(force, values + 10), storeThree(torque, values + 13);
   }
-  velocity = velocity - normal.dot(velocity) * normal;
-  geom.shearInc = velocity * dt;
+};
+
+/// Distance (m) from a body to its image that is in contact, and the difference of their velocities
+/// (m/s).
+struct ImageShift {
+  FourLanes distance;
+  FourLanes velocity;
+};
+
+/// The geometry of a contact, in registers: what the law uses after it was computed.
+struct ContactGeometry {
+  FourLanes normal;
+  FourLanes point;
+  FourLanes turn;      // change of the normal
+  FourLanes twist;     // rotation about the normal
+  FourLanes shearing;  // m, in this step
+  double depth;
+  double radius1, radius2;
+
+  [[gnu::always_inline]] static ContactGeometry read(const yade::ScGeom& geom) {
+    return {loadThree(geom.normal.data()),
+            loadThree(geom.contactPoint.data()),
+            loadThree((geom.*exposed(OrthonormalAxis{})).data()),
+            loadThree((geom.*exposed(TwistAxis{})).data()),
+            loadThree(geom.shearInc.data()),
+            geom.penetrationDepth,
+            geom.refR1,
+            geom.refR2};
+  }
+  [[gnu::always_inline]] void write(yade::ScGeom& geom) const {
+    storeThree(normal, geom.normal.data());
+    storeThree(point, geom.contactPoint.data());
+    storeThree(turn, (geom.*exposed(OrthonormalAxis{})).data());
+    storeThree(twist, (geom.*exposed(TwistAxis{})).data());
+    storeThree(shearing, geom.shearInc.data());
+    geom.penetrationDepth = depth;
+    geom.refR1 = radius1, geom.refR2 = radius2;
+  }
+};
+
+/// The geometry after a step of `dt` (s), from the normal of the step before.
+[[gnu::always_inline]] inline ContactGeometry nextGeometry(const FourLanes& lastNormal,
+                                                           const BodyRow& one, const BodyRow& two,
+                                                           const ImageShift& shift, double dt,
+                                                           bool avoidsRatcheting) {
+  const FourLanes position1 = one.position(), position2 = two.position() + shift.distance;
+  const FourLanes velocity1 = one.velocity(), velocity2 = two.velocity();
+  const FourLanes spin1 = one.spin(), spin2 = two.spin();
+  ContactGeometry next;
+  next.radius1 = one.radius(), next.radius2 = two.radius();
+  const double radii = next.radius1 + next.radius2;
+  const FourLanes between = position2 - position1;
+  const double distance = norm(between);
+  next.normal = between / distance;
+  next.depth = radii - distance;
+  next.point = position1 + (next.radius1 - .5 * next.depth) * next.normal;
+  next.turn = cross(lastNormal, next.normal);
+  next.twist = dt * .5 * dot(lastNormal, spin1 + spin2) * lastNormal;
+
+  FourLanes velocity;
+  if (avoidsRatcheting) {
+    const double alpha = radii / (radii - next.depth);
+    velocity = (velocity2 - velocity1) * alpha + cross(spin2, -next.radius2 * next.normal) -
+               cross(spin1, next.radius1 * next.normal) + alpha * shift.velocity;
+  } else {
+    velocity = (velocity2 + cross(spin2, next.point - position2)) -
+               (velocity1 + cross(spin1, next.point - position1)) + shift.velocity;
+  }
+  velocity = velocity - dot(next.normal, velocity) * next.normal;
+  next.shearing = velocity * dt;
+  return next;
 }
 
-/// Elastic normal force and shear force limited by friction. False: the bodies are apart, and
-/// nothing was changed. Energies are not counted.
-[[gnu::always_inline]] inline bool updateForces(const yade::ScGeom& geom, yade::FrictPhys& phys,
-                                                bool isKeptApart) {
-  using yade::Vector3r;
-  if (geom.penetrationDepth < 0) {
-    if (!isKeptApart) return false;
-    phys.shearForce = Vector3r::Zero();
-    phys.normalForce = Vector3r::Zero();
-  }
-  phys.normalForce = phys.kn * std::max(geom.penetrationDepth, 0.) * geom.normal;
-  Vector3r shear = phys.shearForce;
-  shear -= shear.cross(geom.*exposed(OrthonormalAxis{}));
-  shear -= shear.cross(geom.*exposed(TwistAxis{}));
-  shear -= phys.ks * geom.shearInc;
+/// Elastic normal force and shear force limited by friction; returns the force on the second body.
+/// Energies are not counted. The bodies touch, or the contact is kept without forces.
+[[gnu::always_inline]] inline FourLanes updateForces(const ContactGeometry& geometry,
+                                                     yade::FrictPhys& phys) {
+  const FourLanes normalForce = phys.kn * std::max(geometry.depth, 0.) * geometry.normal;
+  storeThree(normalForce, phys.normalForce.data());
+  FourLanes shear = loadThree(phys.shearForce.data());
+  if (geometry.depth < 0) shear = FourLanes{};
+  shear -= cross(shear, geometry.turn);
+  shear -= cross(shear, geometry.twist);
+  shear -= phys.ks * geometry.shearing;
   const double tangent = phys.tangensOfFrictionAngle;
-  const double limit = phys.normalForce.squaredNorm() * (tangent * tangent);
-  if (shear.squaredNorm() > limit) {
-    const double ratio = std::sqrt(limit) / shear.norm();
-    shear *= ratio;
+  const double limit = squaredNorm(normalForce) * (tangent * tangent);
+  if (const double square = squaredNorm(shear); square > limit) {
+    shear *= std::sqrt(limit) / std::sqrt(square);
   }
-  phys.shearForce = shear;
-  return true;
+  storeThree(shear, phys.shearForce.data());
+  return normalForce + shear;
 }
 
 /// `arePointsOfSpheres`: arms from the radii; otherwise from the contact point. `place2` is the
 /// position of the image of the second body that is in contact.
-[[gnu::always_inline]] inline ContactForce contactForce(const yade::ScGeom& geom,
-                                                        const yade::FrictPhys& phys,
+[[gnu::always_inline]] inline ContactForce contactForce(const ContactGeometry& geometry,
+                                                        const FourLanes& forceOnSecond,
                                                         bool arePointsOfSpheres,
-                                                        const yade::Vector3r& place1,
-                                                        const yade::Vector3r& place2) {
-  using yade::Vector3r;
-  const Vector3r force = -phys.normalForce - phys.shearForce;
+                                                        const FourLanes& place1,
+                                                        const FourLanes& place2) {
+  const FourLanes force = -forceOnSecond;
   if (arePointsOfSpheres) {
-    const Vector3r moment = geom.normal.cross(force);
-    return {force, (geom.refR1 - .5 * geom.penetrationDepth) * moment,
-            (geom.refR2 - .5 * geom.penetrationDepth) * moment};
+    const FourLanes moment = cross(geometry.normal, force);
+    return {force, (geometry.radius1 - .5 * geometry.depth) * moment,
+            (geometry.radius2 - .5 * geometry.depth) * moment};
   }
-  return {force, (geom.contactPoint - place1).cross(force),
-          -(geom.contactPoint - place2).cross(force)};
+  return {force, cross(geometry.point - place1, force), -cross(geometry.point - place2, force)};
 }
 
 }  // namespace yadefrag

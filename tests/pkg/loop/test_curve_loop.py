@@ -104,7 +104,8 @@ def test_periodicCell(homoDeform):
         O.cell.homoDeform = homoDeform
         O.cell.velGrad = Matrix3(-.3, .2, 0, 0, -.2, 0, 0, 0, -.3)
     loop = requireSame(kFunctors['friction'], build=sheared)
-    assert loop.fastForces == O.interactions.countReal() and loop.fastGeometries == 0
+    # YADE's functor computes the first geometry of a contact.
+    assert loop.fastForces == O.interactions.countReal() >= loop.fastGeometries > 40
 
 
 def test_energies():
