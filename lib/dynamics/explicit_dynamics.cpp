@@ -105,7 +105,7 @@ void ExplicitDynamics::setStressLimits(std::vector<double> leastStrengthByCompon
   watching_ = elements_.watch(leastStrength_);
 }
 
-void ExplicitDynamics::smoothStrains(const Model& model, std::size_t part, std::size_t parts,
+void ExplicitDynamics::smoothStrains(Model& model, std::size_t part, std::size_t parts,
                                      PartErrors& errors) {
   Scratch& scratch = scratch_[part];
   const std::size_t chunks = elements_.chunks.size();
@@ -122,10 +122,11 @@ void ExplicitDynamics::smoothStrains(const Model& model, std::size_t part, std::
   });
 #pragma omp barrier
   const std::size_t rows = elements_.sharedNodes.size();
-  for (std::size_t row = rows * part / parts; row < rows * (part + 1) / parts; ++row) {
-    if (smoothing_.isOn()) smoothing_.sumShared(elements_, row);
-    if (flow_.isSmoothing()) flow_.sumShared(elements_, row);
-  }
+  const std::size_t begin = rows * part / parts, end = rows * (part + 1) / parts;
+  if (smoothing_.isOn())
+    for (std::size_t row = begin; row < end; ++row) smoothing_.sumShared(elements_, row);
+  if (flow_.isSmoothing())
+    for (std::size_t row = begin; row < end; ++row) flow_.sumShared(elements_, row);
 #pragma omp barrier
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/tolerances/plasticity.hpp"
 #include "dynamics/chunk_nodes.hpp"
+#include "dynamics/plastic_return.hpp"
 
 namespace yadefrag {
 namespace {
@@ -26,11 +27,11 @@ bool isSmoothed(const Chunk& chunk) {
 void PlasticFlow::rebuild(const Model& model, const ElementChunks& elements) {
   const bool on = model.triangles.plastic.isUsed();
   yield_.resize(on ? model.triangles.size() : 0);
+  thermal_.resize(yield_.size());
   for (const Component& body : model.components)
     if (body.yields())
       for (std::size_t e = body.firstTriangle; e < body.lastTriangle; ++e)
-        yield_[e] = yieldStress(body.plastic, model.triangles.plastic.strain[e],
-                                model.triangles.plastic.temperature[e]);
+        setYield(body, model.triangles.plastic, e);
   const bool smooths = std::ranges::any_of(elements.chunks, isSmoothed);
   volume_.resize(smooths ? elements.nodes.size() : 0);
   partial_.assign(smooths ? elements.partials() : 0, 0);
@@ -39,6 +40,12 @@ void PlasticFlow::rebuild(const Model& model, const ElementChunks& elements) {
   threads_.clear();
   squaredSteepest_ = 0;
   if (on) noteSteepest(model);
+}
+
+void PlasticFlow::setYield(const Component& body, const PlasticState& state, std::size_t element) {
+  const double temperature = state.temperature[element];
+  yield_[element] = yieldStress(body.plastic, state.strain[element], temperature);
+  thermal_[element] = thermalFactor(body.plastic, temperature);
 }
 
 void PlasticFlow::follow(const ElementChunks& elements, std::span<const std::uint32_t> abandoned) {
@@ -57,27 +64,30 @@ void PlasticFlow::begin(const ElementChunks& elements, int threads, double dt) {
   dt_ = dt;
 }
 
-PlasticChunk PlasticFlow::inputOf(const Model& model, const Chunk& chunk) const {
+PlasticChunk PlasticFlow::inputOf(Model& model, const Chunk& chunk) {
   const Component& body = model.components[chunk.firstComponent];
-  const PlasticState& state = model.triangles.plastic;
+  PlasticState& state = model.triangles.plastic;
+  const YieldConstants constants(body);
   const double* pressure = volume_.data() + chunk.firstNode;
   PlasticChunk in{.edges = {state.edges[0].data(), state.edges[1].data(), state.edges[2].data(),
                             state.edges[3].data()},
                   .thickness = state.thickness.data(),
+                  .strain = state.strain.data(),
+                  .temperature = state.temperature.data(),
                   .yield = yield_.data(),
+                  .thermal = thermal_.data(),
                   .slope = 0,
                   .tensionLimit = std::numeric_limits<double>::infinity(),
-                  .moduli = SolidModuli(body.material),
+                  .moduli = constants.moduli,
                   .planeStress = body.material.planeStress,
-                  .pressure = isSmoothed(chunk) ? pressure : nullptr};
-  if (body.plastic.isFrictional()) {
-    const Cone cone(body.plastic);
-    in.slope = std::numbers::sqrt3 * cone.slope, in.tensionLimit = cone.limit;
-  }
+                  .pressure = isSmoothed(chunk) ? pressure : nullptr,
+                  .curve = {body.plastic, constants.moduli.shear, constants.heating, dt_}};
+  if (body.plastic.isFrictional())
+    in.slope = std::numbers::sqrt3 * constants.cone.slope, in.tensionLimit = constants.cone.limit;
   return in;
 }
 
-void PlasticFlow::sum(InstructionSet set, const Model& model, const ElementChunks& elements,
+void PlasticFlow::sum(InstructionSet set, Model& model, const ElementChunks& elements,
                       const Chunk& chunk, const Vec2* position) {
   double* nodes = volume_.data() + chunk.firstNode;
   std::fill_n(nodes, chunk.lastNode - chunk.firstNode, 0.);
@@ -93,62 +103,69 @@ void PlasticFlow::sumShared(const ElementChunks& elements, std::size_t row) {
   std::fill(whole_.begin() + begin, whole_.begin() + end, sum);
 }
 
-/// Returns the elements of a chunk.
+/// Returns the elements of a chunk for which there is no vector loop.
 class PlasticFlow::Lanes final : public LaneReturn {
  public:
-  Lanes(PlasticFlow& flow, Model& model, const Chunk& chunk, const NodeId* nodes,
-        const Vec2* position, Thread& thread, bool isNodal)
+  Lanes(PlasticFlow& flow, Model& model, const ElementChunks& elements, const Chunk& chunk,
+        const Vec2* position, Thread& thread)
       : flow_(flow),
         model_(model),
-        constants_(model.components[chunk.firstComponent]),
+        elements_(elements),
+        chunk_(chunk),
         body_(model.components[chunk.firstComponent]),
-        nodes_(nodes),
+        constants_(body_),
         position_(position),
-        thread_(thread),
-        isNodal_(isNodal) {}
-
-  void operator()(std::uint32_t firstElement, const std::uint16_t (&corner)[3][kLanes],
-                  const std::array<bool, kLanes>& yields, TrialLanes& lanes) override {
-    for (std::uint32_t k = 0; k < kLanes; ++k)
-      if (yields[k]) turn(firstElement + k, {corner[0][k], corner[1][k], corner[2][k]}, k, lanes);
+        thread_(thread) {
+    thread_.before.clear();
   }
 
-  double dissipated = 0;  // J
+  const Vec2* before() override {
+    std::vector<Vec2>& before = thread_.before;
+    if (before.empty()) {
+      before.resize(chunk_.lastNode - chunk_.firstNode);
+      fetchNodes(elements_, chunk_, model_.nodes.velocity, before.data());
+      for (std::size_t i = 0; i < before.size(); ++i)
+        before[i] = position_[i] - flow_.dt_ * before[i];
+    }
+    return before.data();
+  }
+
+  FormerLanes& former() override { return thread_.former.emplace_back(); }
+
+  void operator()(std::uint32_t firstElement, const std::uint16_t (&corner)[3][kLanes],
+                  const std::array<bool, kLanes>& alone, TrialLanes& lanes) override {
+    for (std::uint32_t k = 0; k < kLanes; ++k)
+      if (alone[k]) turn(firstElement + k, {corner[0][k], corner[1][k], corner[2][k]}, k, lanes);
+  }
 
  private:
   void turn(std::uint32_t element, const std::array<std::uint16_t, 3>& corner, std::uint32_t k,
             TrialLanes& lanes) {
-    std::array<Vec2, 3> x, moved;
-    for (std::size_t i = 0; i < 3; ++i) {
-      x[i] = position_[corner[i]];
-      moved[i] = flow_.dt_ * model_.nodes.velocity[nodes_[corner[i]].value];
-    }
-    const TriangleEdges now{x[1] - x[0], x[2] - x[0]};
-    const TriangleEdges before{now.first - (moved[1] - moved[0]),
-                               now.second - (moved[2] - moved[0])};
+    const Vec2* last = before();
+    const auto edges = [&](const Vec2* x) {
+      return TriangleEdges{x[corner[1]] - x[corner[0]], x[corner[2]] - x[corner[0]]};
+    };
     PlasticState& state = model_.triangles.plastic;
     const YieldPoint point(state, element);
     const double pressure = lanes.mean[k] / lanes.volume[k];
-    const Returned back =
-        returnToYield(constants_, point, now, before, flow_.dt_, isNodal_ ? &pressure : nullptr);
-    thread_.former.push_back({element, point});
+    const Returned back = returnToYield(constants_, point, edges(position_), edges(last), flow_.dt_,
+                                        isSmoothed(chunk_) ? &pressure : nullptr);
     back.point.put(state, element);
-    flow_.yield_[element] =
-        yieldStress(constants_.plastic, back.point.strain, back.point.temperature);
-    thread_.squaredSteepest = std::max(thread_.squaredSteepest, squaredGradient(back.point.edges));
-    dissipated += back.dissipation * model_.triangles.area[element] * body_.thickness;
+    flow_.setYield(body_, state, element);
+    sums.steepest[k] = std::max(sums.steepest[k], squaredGradient(back.point.edges));
+    sums.dissipated[k] += back.dissipation * model_.triangles.area[element] * body_.thickness;
     lanes.set(k, back.trial, back.kept);
     lanes.mean[k] = back.mean;
   }
 
   PlasticFlow& flow_;
   Model& model_;
-  YieldConstants constants_;
+  const ElementChunks& elements_;
+  const Chunk& chunk_;
   const Component& body_;
-  const NodeId* nodes_;
+  YieldConstants constants_;
   const Vec2* position_;
   Thread& thread_;
-  bool isNodal_;
 };
 
 bool PlasticFlow::addForces(InstructionSet set, Model& model, const ElementChunks& elements,
@@ -166,11 +183,15 @@ bool PlasticFlow::addForces(InstructionSet set, Model& model, const ElementChunk
       volume_[i] = mass > 0 ? halfBulk * (ratio - 1 / ratio) : 0;
     }
   }
-  Lanes flow(*this, model, own, elements.nodes.data() + own.firstNode, position, threads_[thread],
-             smoothed);
+  Thread& room = threads_[thread];
+  Lanes flow(*this, model, elements, own, position, room);
   const bool good =
       addPlasticForces(set, own, elements.lanes.data(), inputOf(model, own), position, flow, force);
-  dissipated_[chunk] = flow.dissipated;
+  double dissipated = 0;
+  for (const double one : flow.sums.dissipated) dissipated += one;
+  dissipated_[chunk] = dissipated;
+  for (const double one : flow.sums.steepest)
+    room.squaredSteepest = std::max(room.squaredSteepest, one);
   return good;
 }
 
@@ -181,12 +202,17 @@ double PlasticFlow::dissipation() const {
 }
 
 void PlasticFlow::takeBack(Model& model) {
+  PlasticState& state = model.triangles.plastic;
   for (Thread& one : threads_) {
-    for (const Former& former : one.former) {
-      former.point.put(model.triangles.plastic, former.element);
-      const PlasticMaterial& material =
-          model.components[model.triangles.component[former.element].value].plastic;
-      yield_[former.element] = yieldStress(material, former.point.strain, former.point.temperature);
+    for (const FormerLanes& former : one.former) {
+      const Component& body = model.components[model.triangles.component[former.first].value];
+      for (std::uint32_t k = 0; k < former.count; ++k) {
+        const std::size_t e = former.first + k;
+        for (std::size_t i = 0; i < 4; ++i) state.edges[i][e] = former.edges[i][k];
+        state.thickness[e] = former.thickness[k];
+        state.strain[e] = former.strain[k], state.temperature[e] = former.temperature[k];
+        setYield(body, state, e);
+      }
     }
     one.former.clear(), one.squaredSteepest = 0;
   }
@@ -210,8 +236,9 @@ void PlasticFlow::noteSteepest(const Model& model) {
 }
 
 void PlasticFlow::addTo(Footprint& footprint) const {
-  footprint.add(Use::kPlasticity, yield_, volume_, partial_, whole_, dissipated_, threads_);
-  for (const Thread& one : threads_) footprint.add(Use::kPlasticity, one.former);
+  footprint.add(Use::kPlasticity, yield_, thermal_, volume_, partial_, whole_, dissipated_,
+                threads_);
+  for (const Thread& one : threads_) footprint.add(Use::kPlasticity, one.former, one.before);
 }
 
 }  // namespace yadefrag

@@ -24,8 +24,8 @@ class PlasticFlow {
   /// Before each step of `threads` threads; `dt` (s): the step that led to the positions.
   void begin(const ElementChunks& elements, int threads, double dt);
   /// First pass, for one smoothed chunk; positions by local number.
-  void sum(InstructionSet set, const Model& model, const ElementChunks& elements,
-           const Chunk& chunk, const Vec2* position);
+  void sum(InstructionSet set, Model& model, const ElementChunks& elements, const Chunk& chunk,
+           const Vec2* position);
   /// Then the sums of nodes in several chunks.
   void sumShared(const ElementChunks& elements, std::size_t row);
   /// Second pass, for one chunk: forces (N) by local number. False if an element is flat.
@@ -45,18 +45,17 @@ class PlasticFlow {
 
  private:
   class Lanes;
-  struct Former {
-    std::uint32_t element;
-    YieldPoint point;
-  };
   struct Thread {
-    std::vector<Former> former;
+    std::vector<FormerLanes> former;
+    std::vector<Vec2> before;    // m, of the nodes of a chunk at the last step
     double squaredSteepest = 0;  // 1/m²
   };
 
-  [[nodiscard]] PlasticChunk inputOf(const Model& model, const Chunk& chunk) const;
+  [[nodiscard]] PlasticChunk inputOf(Model& model, const Chunk& chunk);
+  void setYield(const Component& body, const PlasticState& state, std::size_t element);
 
   std::vector<double> yield_;            // Pa, by triangle
+  std::vector<double> thermal_;          // factor of the temperature in it
   std::vector<double> volume_;           // m³, then Pa; by chunk and local number
   std::vector<double> partial_, whole_;  // m³, by number of the partial sum
   std::vector<double> dissipated_;       // J, by chunk

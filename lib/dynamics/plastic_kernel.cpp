@@ -1,33 +1,49 @@
 #include "dynamics/plastic_kernel.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <span>
 
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/plasticity.hpp"
-#include "dynamics/lane_corners.hpp"
+#include "dynamics/yield_lanes.hpp"
 
 namespace yadefrag {
 namespace {
 
-/// State of kLanes elements; lanes after the chunk's last element repeat that element.
-struct alignas(64) StateLanes {
-  double edges[4][kLanes], thickness[kLanes], yield[kLanes];
+/// std::copy_n would call memmove.
+[[gnu::always_inline]] inline void copyLanes(const double* from, double* to) {
+#pragma omp simd
+  for (std::size_t k = 0; k < kLanes; ++k) to[k] = from[k];
+}
 
-  [[gnu::always_inline]] StateLanes(const PlasticChunk& in, std::uint32_t first,
-                                    std::uint32_t end) {
-    if (first + kLanes <= end) {
-      for (std::size_t i = 0; i < 4; ++i) std::copy_n(in.edges[i] + first, kLanes, edges[i]);
-      std::copy_n(in.thickness + first, kLanes, thickness);
-      std::copy_n(in.yield + first, kLanes, yield);
-      return;
-    }
-    for (std::uint32_t k = 0; k < kLanes; ++k) {
-      const std::uint32_t e = std::min(first + k, end - 1);
-      for (std::size_t i = 0; i < 4; ++i) edges[i][k] = in.edges[i][e];
-      thickness[k] = in.thickness[e], yield[k] = in.yield[e];
-    }
+/// Copies values of elements to lanes and back; lanes after the last element repeat its value.
+class Group {
+ public:
+  [[gnu::always_inline]] Group(std::uint32_t first, std::uint32_t end)
+      : first_(first), count_(std::min<std::uint32_t>(kLanes, end - first)) {}
+
+  [[gnu::always_inline]] void load(const double* values, double (&lanes)[kLanes]) const {
+    if (count_ == kLanes)
+      copyLanes(values + first_, lanes);
+    else
+      for (std::uint32_t k = 0; k < kLanes; ++k)
+        lanes[k] = values[first_ + std::min(k, count_ - 1)];
   }
+  [[gnu::always_inline]] void store(const double (&lanes)[kLanes], double* values) const {
+    if (count_ == kLanes)
+      copyLanes(lanes, values + first_);
+    else
+      std::copy_n(lanes, count_, values + first_);
+  }
+  [[gnu::always_inline]] void load(const PlasticChunk& in, StateLanes& s) const {
+    for (std::size_t i = 0; i < 4; ++i) load(in.edges[i], s.edges[i]);
+    load(in.thickness, s.thickness);
+  }
+  [[nodiscard]] std::uint32_t count() const { return count_; }
+
+ private:
+  std::uint32_t first_, count_;
 };
 
 /// Newton's method for the stretch across the plane at which the stress there is zero.
@@ -49,8 +65,9 @@ struct Trials {
 
 template <bool kPlane, bool kNodal>
 [[gnu::always_inline]] inline Trials tryLanes(const ElementLanes& e, const PlasticChunk& in,
-                                              const StateLanes& s, const Corners& c,
-                                              double* squaredOver, TrialLanes& out) {
+                                              const StateLanes& s, const double* slow,
+                                              const Corners& c, double* squaredOver,
+                                              TrialLanes& out) {
   const SolidModuli moduli = in.moduli;
   const double squaredShear = moduli.shear * moduli.shear;
   const double slope = in.slope, limit = in.tensionLimit;
@@ -75,13 +92,14 @@ template <bool kPlane, bool kNodal>
       mean = pressure[k] * t.volume;
     else
       mean = meanStress(t.volume, moduli.bulk);
-    const double yield = std::max(0., s.yield[k] - slope * mean);
-    const double over = mean > limit ? 1 : squaredShear * t.squaredMises() - yield * yield;
+    out.squaredMises[k] = t.squaredMises();
+    const double yield = std::max(0., slow[k] - slope * mean);
+    const double over = mean > limit ? 1 : squaredShear * out.squaredMises[k] - yield * yield;
     squaredOver[k] = over;
     yielding += over > 0 ? 1 : 0;
     out.mean[k] = mean, out.volume[k] = t.volume;
     out.zx[k] = t.zx, out.zy[k] = t.zy, out.wx[k] = t.wx, out.wy[k] = t.wy;
-    out.squaredZ[k] = t.squaredZ, out.part[k] = t.part, out.across[k] = t.across;
+    out.inverseZ[k] = t.inverseZ, out.part[k] = t.part, out.across[k] = t.across;
     out.kept[k] = 1;
   }
   return {flat, yielding};
@@ -96,7 +114,7 @@ template <bool kPlane, bool kNodal>
     const double d2x = c.x[2][k] - c.x[0][k], d2y = c.y[2][k] - c.y[0][k];
     const double scale = e.volume[k] / (d1x * d2y - d1y * d2x);
     const double middle = t.mean[k] - shear * t.kept[k] * t.across[k] / 3;
-    const double by = shear * t.kept[k] * t.part[k] / t.squaredZ[k];
+    const double by = shear * t.kept[k] * t.part[k] * t.inverseZ[k];
     const double half = by * (t.wx[k] * t.zx[k] - t.wy[k] * t.zy[k]);
     const double xy = scale * by * (t.wx[k] * t.zy[k] + t.wy[k] * t.zx[k]);
     const double xx = scale * (middle + half), yy = scale * (middle - half);
@@ -111,7 +129,16 @@ template <bool kPlane, bool kNodal>
   }
 }
 
-template <bool kPlane, bool kNodal>
+/// One group of a block.
+struct GroupLanes {
+  Corners corners, before;
+  StateLanes state;
+  TrialLanes trial;
+  FlowLanes flow;
+  FlowedLanes fresh;
+};
+
+template <bool kPlane, bool kNodal, YieldCurve::Kind kKind>
 struct AddForces {
   const Chunk& chunk;
   const ElementLanes* lanes;
@@ -122,25 +149,151 @@ struct AddForces {
 
   [[gnu::always_inline]] bool operator()() const {
     int flat = 0;
-    Corners corners;
-    TrialLanes trial;
-    alignas(64) double over[kLanes];
-    std::uint32_t first = chunk.firstElement;
-    for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l, first += kLanes) {
-      gather(lanes[l], position, corners);
-      const StateLanes state(in, first, chunk.lastElement);
-      const Trials found = tryLanes<kPlane, kNodal>(lanes[l], in, state, corners, over, trial);
-      flat += found.flat;
-      if (found.yielding != 0 && found.flat == 0) {
-        std::array<bool, kLanes> yields;
-        for (std::size_t k = 0; k < kLanes; ++k)
-          yields[k] = over[k] > 0 && first + k < chunk.lastElement;
-        flow(first, lanes[l].corner, yields, trial);
+    FlowSums sums;
+    std::array<GroupLanes, tolerance::kLaneBlock> block;
+    for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; l += tolerance::kLaneBlock) {
+      const std::uint32_t count =
+          std::min<std::uint32_t>(tolerance::kLaneBlock, chunk.lastLanes - l);
+      std::array<std::uint32_t, tolerance::kLaneBlock> yielding;
+      std::uint32_t found = 0;
+      // In loops of their own: lanes are read as vectors, which must wait until the single values
+      // have been written.
+      for (std::uint32_t i = 0; i < count; ++i) gather(lanes[l + i], position, block[i].corners);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        GroupLanes& g = block[i];
+        const Group group = groupOf(l + i);
+        group.load(in, g.state);
+        group.load(in.yield, g.flow.yield);
+        const Trials trials = tryLanes<kPlane, kNodal>(lanes[l + i], in, g.state, g.flow.yield,
+                                                       g.corners, g.flow.over, g.trial);
+        flat += trials.flat;
+        yielding[found] = i;
+        found += trials.yielding != 0 && trials.flat == 0 ? 1 : 0;
       }
-      forcesOfLanes(lanes[l], in.moduli.shear, trial, corners);
-      scatter(lanes[l], corners, force);
+      if (found != 0) flowBlock(l, std::span(yielding).first(found), block, sums);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        forcesOfLanes(lanes[l + i], in.moduli.shear, block[i].trial, block[i].corners);
+        scatter(lanes[l + i], block[i].corners, force);
+      }
     }
+    addTo(flow.sums, sums);
     return flat == 0;
+  }
+
+ private:
+  [[nodiscard, gnu::always_inline]] Group groupOf(std::uint32_t l) const {
+    return {firstOf(l), chunk.lastElement};
+  }
+  [[nodiscard, gnu::always_inline]] std::uint32_t firstOf(std::uint32_t l) const {
+    return chunk.firstElement + static_cast<std::uint32_t>(kLanes) * (l - chunk.firstLanes);
+  }
+
+  [[gnu::always_inline]] static void addTo(FlowSums& sums, const FlowSums& more) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      sums.dissipated[k] += more.dissipated[k];
+      sums.steepest[k] = std::max(sums.steepest[k], more.steepest[k]);
+    }
+  }
+
+  /// In many short loops over the groups, so that the values of one need not wait for another's.
+  [[gnu::always_inline]] void flowBlock(std::uint32_t l, std::span<const std::uint32_t> yielding,
+                                        std::array<GroupLanes, tolerance::kLaneBlock>& block,
+                                        FlowSums& sums) const {
+    const auto forEach = [&](auto work) __attribute__((always_inline)) {
+      for (const std::uint32_t i : yielding) work(block[i], l + i);
+    };
+    forEach([&](GroupLanes & g, std::uint32_t i) __attribute__((always_inline)) { prepare(i, g); });
+    if constexpr (kKind != YieldCurve::Kind::kAlone) {
+      constexpr bool kCurved = kKind == YieldCurve::Kind::kCurved;
+      const YieldCurve c = in.curve;
+      forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
+        lookBack(g.before, g.state, g.trial, in.moduli.shear, g.flow);
+      });
+      if constexpr (kCurved)
+        stepOnCurve(c, forEach);
+      else
+        forEach([&](GroupLanes & g, std::uint32_t)
+                    __attribute__((always_inline)) { stepOnLine(c, g.flow); });
+      forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
+        markLanes(c, g.trial, g.flow);
+        hardenLanes<kCurved>(c, g.trial, g.flow, g.fresh);
+      });
+      forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
+        shapeLanes(g.state, g.trial, g.flow, g.fresh);
+      });
+      if constexpr (kCurved) yieldAfter(c, forEach);
+      forEach([&](GroupLanes & g, std::uint32_t i) __attribute__((always_inline)) {
+        takeFlow<kCurved>(g.fresh, lanes[i].volume, g.state, g.trial, g.flow, sums);
+        put(groupOf(i), g);
+      });
+    }
+    forEach([&](GroupLanes & g, std::uint32_t i)
+                __attribute__((always_inline)) { returnAlone(i, g); });
+  }
+
+  template <class ForEach>
+  [[gnu::always_inline]] static void stepOnCurve(const YieldCurve& c, const ForEach& forEach) {
+    forEach([&](GroupLanes & g, std::uint32_t)
+                __attribute__((always_inline)) { estimateStep(c, g.flow); });
+    forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
+      takeLogarithms(g.flow.power);
+      takeLogarithms(g.flow.logarithm);
+    });
+    forEach([&](GroupLanes & g, std::uint32_t)
+                __attribute__((always_inline)) { estimateStress(c, g.flow); });
+    forEach([&](GroupLanes & g, std::uint32_t)
+                __attribute__((always_inline)) { improveStep(c, g.flow); });
+    forEach([&](GroupLanes & g, std::uint32_t)
+                __attribute__((always_inline)) { settleStep(c, g.flow); });
+  }
+
+  template <class ForEach>
+  [[gnu::always_inline]] static void yieldAfter(const YieldCurve& c, const ForEach& forEach) {
+    forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
+      takeLogarithms(g.flow.power);
+      takeLogarithms(g.flow.heat);
+    });
+    forEach([&](GroupLanes & g, std::uint32_t)
+                __attribute__((always_inline)) { yieldOfLanes(c, g.flow, g.fresh); });
+  }
+
+  /// Keeps the state of a group, and fetches what it needs.
+  [[gnu::always_inline]] void prepare(std::uint32_t l, GroupLanes& g) const {
+    const Group group = groupOf(l);
+    group.load(in.strain, g.flow.strain);
+    group.load(in.temperature, g.flow.temperature);
+    FormerLanes& former = flow.former();
+    former.first = firstOf(l), former.count = group.count();
+    for (std::size_t i = 0; i < 4; ++i) copyLanes(g.state.edges[i], former.edges[i]);
+    copyLanes(g.state.thickness, former.thickness);
+    copyLanes(g.flow.strain, former.strain);
+    copyLanes(g.flow.temperature, former.temperature);
+    if constexpr (kKind == YieldCurve::Kind::kAlone) {
+      copyLanes(g.flow.over, g.flow.fails);
+    } else {
+      if constexpr (kKind == YieldCurve::Kind::kCurved) group.load(in.thermal, g.flow.thermal);
+      gather(lanes[l], flow.before(), g.before);
+      for (std::uint32_t k = group.count(); k < kLanes; ++k) g.flow.over[k] = 0;
+    }
+  }
+
+  [[gnu::always_inline]] void put(const Group& group, const GroupLanes& g) const {
+    for (std::size_t i = 0; i < 4; ++i) group.store(g.state.edges[i], in.edges[i]);
+    group.store(g.state.thickness, in.thickness);
+    group.store(g.flow.strain, in.strain);
+    group.store(g.flow.temperature, in.temperature);
+    group.store(g.flow.yield, in.yield);
+    if constexpr (kKind == YieldCurve::Kind::kCurved) group.store(g.flow.thermal, in.thermal);
+  }
+
+  [[gnu::always_inline]] void returnAlone(std::uint32_t l, GroupLanes& g) const {
+    double any = 0;
+    for (std::size_t k = 0; k < kLanes; ++k) any = std::max(any, g.flow.fails[k]);
+    if (any <= 0) return;
+    std::array<bool, kLanes> alone;
+    for (std::size_t k = 0; k < kLanes; ++k)
+      alone[k] = g.flow.fails[k] > 0 && firstOf(l) + k < chunk.lastElement;
+    flow(firstOf(l), lanes[l].corner, alone, g.trial);
   }
 };
 
@@ -157,7 +310,8 @@ struct SumVolumes {
     std::uint32_t first = chunk.firstElement;
     for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l, first += kLanes) {
       gather(lanes[l], position, c);
-      const StateLanes s(in, first, chunk.lastElement);
+      StateLanes s;
+      Group(first, chunk.lastElement).load(in, s);
 #pragma omp simd
       for (std::size_t k = 0; k < kLanes; ++k) {
         const double d1x = c.x[1][k] - c.x[0][k], d1y = c.y[1][k] - c.y[0][k];
@@ -172,15 +326,28 @@ struct SumVolumes {
   }
 };
 
+template <bool kPlane, bool kNodal>
+bool addForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
+               const PlasticChunk& in, const Vec2* position, LaneReturn& flow, Vec2* force) {
+  using enum YieldCurve::Kind;
+  if constexpr (!kPlane) {
+    if (in.curve.kind == kLine)
+      return runFor(set, AddForces<kPlane, kNodal, kLine>{chunk, lanes, in, position, flow, force});
+    if (in.curve.kind == kCurved)
+      return runFor(set,
+                    AddForces<kPlane, kNodal, kCurved>{chunk, lanes, in, position, flow, force});
+  }
+  return runFor(set, AddForces<kPlane, kNodal, kAlone>{chunk, lanes, in, position, flow, force});
+}
+
 }  // namespace
 
 bool addPlasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const PlasticChunk& in, const Vec2* position, LaneReturn& flow, Vec2* force) {
-  if (in.planeStress)
-    return runFor(set, AddForces<true, false>{chunk, lanes, in, position, flow, force});
+  if (in.planeStress) return addForces<true, false>(set, chunk, lanes, in, position, flow, force);
   if (in.pressure != nullptr)
-    return runFor(set, AddForces<false, true>{chunk, lanes, in, position, flow, force});
-  return runFor(set, AddForces<false, false>{chunk, lanes, in, position, flow, force});
+    return addForces<false, true>(set, chunk, lanes, in, position, flow, force);
+  return addForces<false, false>(set, chunk, lanes, in, position, flow, force);
 }
 
 void sumVolumes(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,

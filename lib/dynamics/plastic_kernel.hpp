@@ -1,49 +1,49 @@
 #pragma once
 // The loops over the elements of a chunk that yields, compiled and chosen as those of
-// element_kernel.hpp. Elements without flow are computed in vector loops; those that flow are
-// returned one by one, in between.
+// element_kernel.hpp. Metals in plane strain are returned in vector loops (yield_lanes.hpp), lanes
+// without flow in a group with flow, too; other elements that flow are returned one by one.
 
 #include <array>
 
 #include "dynamics/element_kernel.hpp"
-#include "dynamics/plastic_return.hpp"
+#include "dynamics/plastic_lanes.hpp"
 
 namespace yadefrag {
 
-/// Values of kLanes elements between the trial and the forces.
-struct alignas(64) TrialLanes {
-  double zx[kLanes], zy[kLanes], wx[kLanes], wy[kLanes];
-  double squaredZ[kLanes], part[kLanes], across[kLanes];
-  double volume[kLanes];  ///< J
-  double mean[kLanes];    ///< Pa, of τ
-  double kept[kLanes];    ///< part of the deviator that remains
-
-  void set(std::size_t k, const ElasticTrial& t, double keptPart) {
-    zx[k] = t.zx, zy[k] = t.zy, wx[k] = t.wx, wy[k] = t.wy;
-    squaredZ[k] = t.squaredZ, part[k] = t.part, across[k] = t.across, kept[k] = keptPart;
-  }
+/// What the flow of some lanes adds to the sums of a chunk.
+struct alignas(64) FlowSums {
+  double dissipated[kLanes] = {};  ///< J
+  double steepest[kLanes] = {};    ///< 1/m², largest |∇N|²
 };
 
-/// Input of a chunk; arrays by triangle of the model.
+/// State and constants of a chunk; arrays by triangle of the model.
 struct PlasticChunk {
-  std::array<const double*, 4> edges;
-  const double* thickness;
-  const double* yield;  ///< Pa, slow yield stress
+  std::array<double*, 4> edges;
+  double *thickness, *strain, *temperature;
+  double* yield;        ///< Pa, slow yield stress
+  double* thermal;      ///< part of it that the temperature leaves
   double slope;         ///< √3 η of a cone, by which the mean stress reduces the yield stress
   double tensionLimit;  ///< Pa
   SolidModuli moduli;
   bool planeStress;
   /// Pa, U'(J) by local number of the node; null: each element has its own.
   const double* pressure;
+  YieldCurve curve;
 };
 
-/// Returns the elements of some lanes that reached their yield stress.
+/// What the vector loops need once elements of a chunk reach their yield stress.
 class LaneReturn {
  public:
   virtual ~LaneReturn() = default;
-  /// The lanes from `firstElement` on for which `yields` is true.
+  /// (m) Positions at the last step, by local number.
+  virtual const Vec2* before() = 0;
+  /// Place for the state of a group before it flows.
+  virtual FormerLanes& former() = 0;
+  /// Returns the lanes from `firstElement` on for which `alone` is true.
   virtual void operator()(std::uint32_t firstElement, const std::uint16_t (&corner)[3][kLanes],
-                          const std::array<bool, kLanes>& yields, TrialLanes& lanes) = 0;
+                          const std::array<bool, kLanes>& alone, TrialLanes& lanes) = 0;
+
+  FlowSums sums;
 };
 
 /// Adds the forces (N) of a chunk; positions and forces by local node number. False if an element

@@ -35,7 +35,7 @@ void flow(const ElasticTrial& t, double kept, double volumeStrain, YieldPoint& p
   const double sinhFactor = 1 + squared / 6 * (1 + squared / 20 * (1 + squared / 42));
   const double grown = expOfSmall(across / 2 - volumeStrain / 3);
   const double diagonal = grown * cosh;
-  const double by = grown * sinhFactor * gone * t.part / 2 / t.squaredZ;
+  const double by = grown * sinhFactor * gone * t.part / 2 * t.inverseZ;
   const double real = by * (t.wx * t.zx + t.wy * t.zy),
                imaginary = by * (t.wy * t.zx - t.wx * t.zy);
   const double xx = diagonal - real, yy = diagonal + real, xy = -imaginary;
@@ -51,7 +51,7 @@ double product(const ElasticTrial& a, const ElasticTrial& b) {
   const double ax = a.wx * a.zx + a.wy * a.zy, ay = a.wy * a.zx - a.wx * a.zy;
   const double bx = b.wx * b.zx + b.wy * b.zy, by = b.wy * b.zx - b.wx * b.zy;
   return a.across * b.across / 6 +
-         a.part / a.squaredZ * b.part / b.squaredZ * (ax * bx + ay * by) / 2;
+         a.part * a.inverseZ * b.part * b.inverseZ * (ax * bx + ay * by) / 2;
 }
 
 }  // namespace

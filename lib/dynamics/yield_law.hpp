@@ -37,7 +37,7 @@ struct SolidModuli {
 /// Deviator of the logarithmic elastic strain, and the volume ratio.
 struct ElasticTrial {
   double zx, zy, wx, wy;  ///< z and w
-  double squaredZ;        ///< |z|²
+  double inverseZ;        ///< 1/|z|²
   double part;            ///< e₁₁ − e₂₂ + 2i e₁₂ = part · u, u = w z̄/|z|²
   double squared;         ///< |part · u|²
   double across;          ///< 3 e₃₃
@@ -45,9 +45,9 @@ struct ElasticTrial {
 
   [[gnu::always_inline]] ElasticTrial(const Matrix2& f, double thickness)
       : zx(f.xx + f.yy), zy(f.yx - f.xy), wx(f.xx - f.yy), wy(f.yx + f.xy) {
-    squaredZ = zx * zx + zy * zy;
-    const double squaredW = wx * wx + wy * wy;
-    const double x = squaredW / squaredZ;
+    const double squaredZ = zx * zx + zy * zy, squaredW = wx * wx + wy * wy;
+    inverseZ = 1 / squaredZ;
+    const double x = squaredW * inverseZ;
     part = 2 * artanhFactor(x);
     squared = part * part * x;
     const double area = (squaredZ - squaredW) * .25;
@@ -74,7 +74,7 @@ struct PlaneStress {
                                      double shear) {
     const double middle = mean - shear * kept * t.across / 3;
     // 2μ (e₁₁ − e₂₂ + 2i e₁₂)/2 in the present frame
-    const double by = shear * kept * t.part / t.squaredZ;
+    const double by = shear * kept * t.part * t.inverseZ;
     const double half = by * (t.wx * t.zx - t.wy * t.zy);
     xx = middle + half;
     yy = middle - half;

@@ -50,8 +50,10 @@ Hardening staticStress(const PlasticMaterial& m, double strain) {
     return {stress, stress * m.hardeningExponent / (m.offsetStrain + strain)};
   }
   if (m.hardening == 0) return {m.yieldStress, 0};
-  if (m.hardeningExponent == 1) return {m.yieldStress + m.hardening * strain, m.hardening};
-  if (strain <= 0) return {m.yieldStress, std::numeric_limits<double>::infinity()};
+  if (m.isStraight()) return {m.yieldStress + m.hardening * strain, m.hardening};
+  if (strain <= 0)
+    return {m.yieldStress,
+            m.hardeningExponent < 1 ? std::numeric_limits<double>::infinity() : m.hardening};
   const double part = m.hardening * powerOf(strain, m.hardeningExponent);
   return {m.yieldStress + part, part * m.hardeningExponent / strain};
 }

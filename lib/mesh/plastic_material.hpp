@@ -44,6 +44,11 @@ struct PlasticMaterial {
 
   [[nodiscard]] bool yields() const { return yieldStress > 0 || !table.empty() || isFrictional(); }
   [[nodiscard]] bool isFrictional() const { return cohesion > 0; }
+  /// True if the yield stress depends linearly on the plastic strain and on nothing else.
+  [[nodiscard]] bool isStraight() const {
+    return !isFrictional() && table.empty() && offsetStrain == 0 &&
+           (hardening == 0 || hardeningExponent == 1) && rateFactor == 0 && thermalExponent == 0;
+  }
   [[nodiscard]] bool isHeated() const { return heatCapacity > 0; }
   bool operator==(const PlasticMaterial&) const = default;
 

@@ -49,13 +49,28 @@ void gravityStep(benchmark::State& state) { stepBlock(state, {.gravity = {0, -9.
 
 void baselineStep(benchmark::State& state) { stepBlock(state, {}, InstructionSet::kBaseline); }
 
-/// All triangles of a block flow: its nodes are held, and it is sheared at a constant rate.
-void flowingStep(benchmark::State& state, const PlasticMaterial& plastic, ElementKind element) {
-  Model model = spinningBlock(50000);
+PlasticMaterial idealPlasticity() { return {.yieldStress = 400e6}; }
+PlasticMaterial powerLaw() {
+  return {.yieldStress = 400e6, .hardeningExponent = .2, .offsetStrain = .01};
+}
+PlasticMaterial johnsonCook() {
+  PlasticMaterial m{.yieldStress = 400e6, .hardening = 500e6, .hardeningExponent = .3};
+  m.rateFactor = .02, m.thermalExponent = 1.03, m.meltTemperature = 1800, m.heatCapacity = 480;
+  return m;
+}
+PlasticMaterial frictional() {
+  PlasticMaterial m;
+  m.cohesion = 200e6, m.internalFriction = .5, m.dilation = .3;
+  return m;
+}
+
+/// A block whose nodes are held is sheared at a constant rate: if it yields, all triangles flow.
+void heldStep(benchmark::State& state, const PlasticMaterial& plastic, ElementKind element) {
+  Model model = spinningBlock(state.range(1));
   Component& body = model.components.front();
   body.plastic = plastic, body.element = element;
-  model.triangles.plastic.resize(model.triangles.size());
-  for (std::size_t e = 0; e < model.triangles.size(); ++e)
+  if (plastic.yields()) model.triangles.plastic.resize(model.triangles.size());
+  for (std::size_t e = 0; e < model.triangles.size() && plastic.yields(); ++e)
     model.triangles.plastic.begin(e, model.triangles.inverseEdges[e], plastic.startTemperature);
   for (std::size_t n = 0; n < model.nodes.size(); ++n) {
     model.nodes.velocity[n] = {300 * model.nodes.position[n].x, -300 * model.nodes.position[n].y};
@@ -71,14 +86,12 @@ void flowingStep(benchmark::State& state, const PlasticMaterial& plastic, Elemen
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-void idealStep(benchmark::State& state) {
-  flowingStep(state, {.yieldStress = 400e6}, ElementKind::kSmoothed);
+template <PlasticMaterial (*kMaterial)()>
+void flowingStep(benchmark::State& state) {
+  heldStep(state, kMaterial(), state.range(0) == 0 ? ElementKind::kLinear : ElementKind::kSmoothed);
 }
-void johnsonCookStep(benchmark::State& state) {
-  PlasticMaterial m{.yieldStress = 400e6, .hardening = 500e6, .hardeningExponent = .3};
-  m.rateFactor = .02, m.thermalExponent = 1.03, m.meltTemperature = 1800, m.heatCapacity = 480;
-  flowingStep(state, m, ElementKind::kSmoothed);
-}
+PlasticMaterial elastic() { return {}; }
+PlasticMaterial neverYields() { return {.yieldStress = 1e15}; }
 
 BENCHMARK(plainStep)
     ->Name("step")
@@ -96,8 +109,18 @@ BENCHMARK(viscousStep)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-BENCHMARK(idealStep)->Name("step, ideal plasticity, all flow")->Unit(benchmark::kMillisecond);
-BENCHMARK(johnsonCookStep)->Name("step, Johnson-Cook, all flow")->Unit(benchmark::kMillisecond);
+// Names: held step/<material>/<0: linear, 1: smoothed>/<elements>.
+#define HELD_STEP(material)                  \
+  BENCHMARK_TEMPLATE(flowingStep, material)  \
+      ->Name("held step/" #material)         \
+      ->ArgsProduct({{0, 1}, {5000, 50000}}) \
+      ->Unit(benchmark::kMillisecond)
+HELD_STEP(elastic);
+HELD_STEP(neverYields);
+HELD_STEP(idealPlasticity);
+HELD_STEP(powerLaw);
+HELD_STEP(johnsonCook);
+HELD_STEP(frictional);
 BENCHMARK(baselineStep)
     ->Name("step without AVX")
     ->Args({100000, 1})

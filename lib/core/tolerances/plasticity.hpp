@@ -1,6 +1,8 @@
 #pragma once
 // Tolerances of materials that yield, each with its unit and its reason.
 
+#include <cstddef>
+
 namespace yadefrag::tolerance {
 
 /// (of the trial stress) Remaining distance from the yield surface at which the return ends: far
@@ -10,6 +12,24 @@ inline constexpr double kReturned = 1e-11;
 /// (count) Most iterations of a return. Newton's method needs three to six; each other one halves
 /// the interval that contains the solution.
 inline constexpr int kReturns = 60;
+
+/// (ratio) Change of Δp by a step of the vector loops' iteration with which they count as
+/// converged: the error falls with its third power, to 10⁻¹¹ of Δp.
+inline constexpr double kLaneReturned = 2e-4;
+
+/// (ratio) Largest change of Δp for which seven terms of a series give its logarithm to 10⁻¹⁴.
+inline constexpr double kLogarithmic = .2;
+
+/// (ratio) Largest change of p₀ + p for which six terms of a binomial series give Y₀ to 10⁻¹⁴.
+inline constexpr double kBinomial = .005;
+
+/// (logarithmic strain) Largest change in a step for which the short series of `expOfTiny` is exact
+/// to rounding.
+inline constexpr double kTinyFlow = .02;
+
+/// (count) Groups of lanes per block of the vector loops: a block's values stay in the first-level
+/// cache, and the steps of different groups do not wait for each other.
+inline constexpr std::size_t kLaneBlock = 4;
 
 /// (of the bulk modulus) Stress across the plane that counts as zero in plane stress.
 inline constexpr double kNoStress = 1e-14;
