@@ -74,6 +74,13 @@ struct LinearNumbering {
   }
   static std::uint64_t up(std::uint64_t code, int axis) { return stepped(code, axis, 1); }
 
+  /// The row of a code, modulo 64: different for rows less than eight apart along each axis.
+  static int rowOf(std::uint64_t code) {
+    const std::uint64_t y = code >> Code::kBits;
+    if constexpr (Dim == 2) return static_cast<int>(y & 63);
+    return static_cast<int>((y & 7) | ((y >> Code::kBits) & 7) << 3);
+  }
+
   /// Number of rows of a rectangle that does not wrap around.
   static std::uint64_t rowsOf(std::uint64_t lowCode, std::uint64_t highCode) {
     const Cell low = decode(lowCode);

@@ -34,7 +34,8 @@ class CodeSearch final : public ContactSearch {
   void clear() override;
   [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
   void addTo(Footprint& footprint) const override {
-    footprint.add(Use::kSearch, places_, changes_, occupied_, partPairs_);
+    footprint.add(Use::kSearch, places_.codes, places_.numbers, places_.levels, changes_, occupied_,
+                  partPairs_);
     for (const auto& arriving : arriving_) footprint.add(Use::kSearch, arriving);
     for (const Level& level : levels_) level.addTo(footprint);
     wide_.addTo(footprint);
@@ -48,11 +49,36 @@ class CodeSearch final : public ContactSearch {
   static constexpr int kAbsent = -1;
   static constexpr int kWide = -2;
 
-  /// Stored for each slot: its place at the last update (L_x, L_y of the paper, and the code).
+  /// Place of a slot at the last update (L_x, L_y of the paper, and the code).
   struct Place {
     std::uint64_t code = 0;
     std::array<std::int32_t, Dim> number{};
-    std::int32_t level = kAbsent;
+    int level = kAbsent;
+  };
+  /// The places of all slots. The numbers are stored on the curve only: those of a row are parts of
+  /// its code.
+  struct Places {
+    std::vector<std::uint64_t> codes;
+    std::vector<std::array<std::int32_t, Dim>> numbers;
+    std::vector<std::int8_t> levels;
+
+    [[nodiscard]] std::size_t size() const { return levels.size(); }
+    void resize(std::size_t size) {
+      codes.resize(size);
+      levels.resize(size, kAbsent);
+      if constexpr (Numbering::kIsCurve) numbers.resize(size);
+    }
+    void clear() { resize(0); }
+    [[nodiscard]] Place at(std::size_t slot) const {
+      Place place{codes[slot], {}, levels[slot]};
+      if constexpr (Numbering::kIsCurve) place.number = numbers[slot];
+      return place;
+    }
+    void set(std::size_t slot, const Place& place) {
+      codes[slot] = place.code;
+      levels[slot] = static_cast<std::int8_t>(place.level);
+      if constexpr (Numbering::kIsCurve) numbers[slot] = place.number;
+    }
   };
   enum class Change : std::uint8_t { kNone, kMoved };
   enum class Extent { kSmall, kLarge, kWraps };
@@ -63,13 +89,19 @@ class CodeSearch final : public ContactSearch {
   Change locate(const Box& box, Place& place, Extents& extents, Count& count) const;
   [[nodiscard]] int levelFor(const Box& box, double side) const;
   bool stepWithin(const Box& box, Place& place, Count& count) const;
+  bool staysInRow(const Box& box, Place& place, Count& count) const;
   void encodeAnew(const Box& box, Place& place) const;
   void sendSparseLevelsWide();
   bool joinThinLevels();
+  [[nodiscard]] bool areThin(std::span<const std::uint32_t> slots, int level) const;
   void listOccupiedLevels();
 
-  void pairsOf(int level, std::size_t i, RowBegins& begins, std::vector<BoxPair>& out,
-               Count& count) const;
+  void joinSections(std::span<const std::vector<std::size_t>> ends,
+                    std::vector<BoxPair>& pairs) const;
+  void pairsOfLevel(int level, std::size_t from, std::size_t to, RowBegins& begins,
+                    std::vector<BoxPair>& out, Count& count) const;
+  void pairsOf(int level, std::size_t i, std::span<const int> searched, RowBegins& begins,
+               std::vector<BoxPair>& out, Count& count) const;
   template <class Visit>
   void visitLaterNeighbours(const Level& level, int own, std::size_t i, Count& count,
                             Visit visit) const;
@@ -92,7 +124,7 @@ class CodeSearch final : public ContactSearch {
 
   LevelGrid<Dim> grid_;
   std::span<const Box> boxes_;
-  std::vector<Place> places_;
+  Places places_;
   std::vector<Change> changes_;
   std::array<Level, kLevels> levels_;
   Extents extents_{};                   // longest side on each level at present
@@ -109,5 +141,6 @@ class CodeSearch final : public ContactSearch {
 
 }  // namespace yadefrag
 
+#include "search/code_search_levels.hpp"
 #include "search/code_search_pairs.hpp"
 #include "search/code_search_update.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Third part of code_search.hpp: from codes to pairs (paper §4.4).
+// Fourth part of code_search.hpp: from codes to pairs (paper §4.4).
 
 #include <algorithm>
 #include <cmath>
@@ -9,54 +9,11 @@
 
 namespace yadefrag {
 
+/// Pairs of the i-th box of a level with boxes of the `searched` levels, on its own one with later
+/// boxes only, and with the wide boxes.
 template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::findPairs(std::vector<BoxPair>& pairs) {
-  std::size_t total = 0;
-  for (const int level : occupied_) total += levels_[level].size();
-  partPairs_.resize(static_cast<std::size_t>(std::max(threads_, 1)));
-  std::vector<Count> counts(partPairs_.size());
-  const int parts = forEachPart(total, threads_, [&](std::size_t begin, std::size_t end, int part) {
-    std::vector<BoxPair>& out = partPairs_[part];
-    out.clear();
-    RowBegins begins;
-    std::size_t first = 0;
-    for (const int level : occupied_) {
-      const std::size_t size = levels_[level].size();
-      const std::size_t from = std::max(begin, first), to = std::min(end, first + size);
-      if constexpr (Numbering::kIsSwept)
-        if (from < to) sweepRows(level, from - first, to - first, out, counts[part]);
-      const bool alone = Numbering::kIsSwept && occupied_.size() == 1 && wide_.size() == 0;
-      constexpr std::size_t ahead = 16;  // the boxes are in the order of their slots: prefetch
-      for (std::size_t i = from; i < to && !alone && !isFull(out); ++i) {
-        if (i + ahead < to) prefetch(boxes_[levels_[level].slot(i + ahead - first)]);
-        pairsOf(level, i - first, begins, out, counts[part]);
-      }
-      first += size;
-    }
-  });
-  join({partPairs_.data(), static_cast<std::size_t>(parts)}, pairs);
-  for (int part = 0; part < parts; ++part) count_.merge(counts[part]);
-  wide_.pairsAmong(boxes_, pairs, count_, mostPairs_);
-}
-
-/// True if the boxes of the first of two levels search the second. Normally the finer level
-/// searches the coarser one, since each fine box meets few coarse boxes. If there are many more
-/// fine boxes, it is cheaper to find for each coarse box the fine ones, on the ranges of the curve
-/// that it covers.
-template <class Numbering, int Dim, class Count>
-bool CodeSearch<Numbering, Dim, Count>::searchesLevel(int own, int other) const {
-  const int fine = std::min(own, other);
-  const int coarse = std::max(own, other);
-  const bool coarseSearches =
-      Numbering::kIsCurve &&
-      tolerance::kFinePerCoarse * levels_[coarse].size() <= levels_[fine].size();
-  return own == (coarseSearches ? coarse : fine);
-}
-
-/// Pairs of the i-th box of a level with later boxes of its level, with boxes of all levels that
-/// this level searches, and with the wide boxes.
-template <class Numbering, int Dim, class Count>
-void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, RowBegins& begins,
+void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i,
+                                                std::span<const int> searched, RowBegins& begins,
                                                 std::vector<BoxPair>& out, Count& count) const {
   const std::uint32_t slot = levels_[own].slot(i);
   const Box& box = boxes_[slot];
@@ -64,15 +21,14 @@ void CodeSearch<Numbering, Dim, Count>::pairsOf(int own, std::size_t i, RowBegin
   const auto take = [&](std::uint32_t other) {
     out.push_back(orderedPair(BoxId(slot), BoxId(other)));
   };
-  for (const int other : occupied_) {
-    if (other != own && !searchesLevel(own, other)) continue;
+  for (const int other : searched) {
     const Level& level = levels_[other];
     const auto test = [&](std::uint32_t begin, const CodeRange& range) {
       visitRange(level, filter, box, begin, range, count, take);
     };
     if (other != own)
       visitRectangle(box, other, &begins.of(other), count, test);
-    else if (!Numbering::kIsSwept)
+    else
       visitLaterNeighbours(level, own, i, count, test);
   }
   wide_.pairsWith(boxes_, box, slot, out, count);
@@ -196,12 +152,14 @@ void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at,
                                                        Visit visit) const {
   const Level& level = levels_[at];
   CodeRange corners;
-  int row = 0;
   const auto visitRange = [&](const CodeRange& range) {
-    if (Numbering::kIsSwept && begins)
-      visit(begins->lowerBound(row++, level.codes(), range.start, count), range);
-    else
-      visit(lowerBound(level, range.start, count), range);
+    if constexpr (Numbering::kIsSwept) {
+      if (begins) {
+        const int row = Numbering::rowOf(range.start);
+        return visit(begins->lowerBound(row, level.codes(), range.start, count), range);
+      }
+    }
+    visit(lowerBound(level, range.start, count), range);
   };
   switch (rectangleOf(box, at, corners)) {
     case Extent::kSmall:
@@ -211,7 +169,8 @@ void CodeSearch<Numbering, Dim, Count>::visitRectangle(const Box& box, int at,
       if constexpr (Numbering::kIsCurve) {
         Numbering::forEachRangeOfLarge(corners.start, corners.stop, visitRange);
         return;
-      } else if (Numbering::rowsOf(corners.start, corners.stop) < level.size()) {
+      } else if (tolerance::kCodesPerRow * Numbering::rowsOf(corners.start, corners.stop) <
+                 level.size()) {
         Numbering::forEachRange(corners.start, corners.stop, visitRange);
         return;
       }

@@ -61,7 +61,9 @@ void CodeSearch<Numbering, Dim, Count>::locateAll() {
   const int parts = forEachPart(count, threads_, [&](std::size_t begin, std::size_t end, int part) {
     for (std::size_t i = begin; i < end; ++i) {
       const Box& box = i < boxes_.size() ? boxes_[i] : absent;
-      changes_[i] = locate(box, places_[i], extents[part], counts[part]);
+      Place place = places_.at(i);
+      changes_[i] = locate(box, place, extents[part], counts[part]);
+      places_.set(i, place);
     }
   });
   extents_.fill(0);
@@ -84,8 +86,10 @@ auto CodeSearch<Numbering, Dim, Count>::locate(const Box& box, Place& place, Ext
   const int level = levelFor(box, side);
   if (level >= 0 && side > extents[level]) extents[level] = side;
   if (level == place.level) {
-    if (level < 0 || stepWithin(box, place, count)) return Change::kNone;
-    return Change::kMoved;
+    if (level < 0) return Change::kNone;
+    const bool stays =
+        Numbering::kIsCurve ? stepWithin(box, place, count) : staysInRow(box, place, count);
+    return stays ? Change::kNone : Change::kMoved;
   }
   place.level = level;
   if (level >= 0) encodeAnew(box, place);
@@ -117,7 +121,7 @@ bool CodeSearch<Numbering, Dim, Count>::stepWithin(const Box& box, Place& place,
     if (!(down | up)) continue;
     same = false;
     const bool byOne = down ? x >= floor - 1 : x < floor + 2;
-    if (!Numbering::kIsCurve || !byOne) {
+    if (!byOne) {
       encodeAnew(box, place);
       return false;
     }
@@ -129,6 +133,23 @@ bool CodeSearch<Numbering, Dim, Count>::stepWithin(const Box& box, Place& place,
     place.number[d] += down ? -1 : 1;
   }
   return same;
+}
+
+/// The same for codes row by row, which are encoded anew where any number has changed.
+template <class Numbering, int Dim, class Count>
+bool CodeSearch<Numbering, Dim, Count>::staysInRow(const Box& box, Place& place,
+                                                   Count& count) const {
+  if constexpr (!Numbering::kIsCurve) {
+    const Cell before = Numbering::decode(place.code);
+    for (int d = 0; d < Dim; ++d) {
+      count.move(2);
+      const std::int32_t now = grid_.number(box.min[grid_.axis(d)], place.level, d);
+      if ((static_cast<std::uint32_t>(now) & Code::kMask) == before[d]) continue;
+      encodeAnew(box, place);
+      return false;
+    }
+  }
+  return true;
 }
 
 template <class Numbering, int Dim, class Count>
@@ -145,44 +166,59 @@ void CodeSearch<Numbering, Dim, Count>::encodeAnew(const Box& box, Place& place)
 template <class Numbering, int Dim, class Count>
 void CodeSearch<Numbering, Dim, Count>::sendSparseLevelsWide() {
   std::array<std::size_t, kLevels> population{};
-  for (const Place& place : places_)
-    if (place.level >= 0) ++population[place.level];
+  for (const int level : places_.levels)
+    if (level >= 0) ++population[level];
   for (int level = 0; level < kLevels; ++level)
     isWide_[level] = population[level] > 0 && population[level] <= tolerance::kWideLevelCount;
-  for (Place& place : places_)
-    if (place.level >= 0 && isWide_[place.level]) place.level = kWide;
+  for (std::int8_t& level : places_.levels)
+    if (level >= 0 && isWide_[level]) level = kWide;
 }
 
 /// If most boxes of a level are alone even in position-code boxes of twice the edge, the level is
-/// merged into the next one: that adds no candidates there and saves all other levels one search.
+/// merged into the next one: that adds few candidates there and saves the search between the two.
+/// In rows, boxes that were merged into a level count there, too: coarse levels have long rows.
 /// Returns true if any levels were merged.
 template <class Numbering, int Dim, class Count>
 bool CodeSearch<Numbering, Dim, Count>::joinThinLevels() {
-  std::array<std::vector<CodedSlot>, kLevels> parents;
-  std::array<bool, kLevels + 1> occupied{};
-  for (const Place& place : places_)
-    if (place.level >= 0) occupied[place.level] = true;
-  for (const Place& place : places_) {
-    // Without boxes on the next level there is no level to merge into.
-    if (place.level < 0 || !occupied[place.level + 1]) continue;
-    Cell cell;
-    for (int d = 0; d < Dim; ++d)
-      cell[d] = static_cast<std::uint32_t>(place.number[d] >> 1) & Code::kMask;
-    parents[place.level].push_back({Code::encode(cell), 0});
-  }
+  std::array<std::vector<std::uint32_t>, kLevels + 1> members;
+  for (std::size_t slot = 0; slot < places_.size(); ++slot)
+    if (const int level = places_.levels[slot]; level >= 0)
+      members[level].push_back(static_cast<std::uint32_t>(slot));
+  std::array<int, kLevels> next;
+  std::iota(next.begin(), next.end(), 0);
   bool any = false;
-  for (int level = kLevels - 2; level >= 0; --level) {
-    std::vector<CodedSlot>& codes = parents[level];
-    if (codes.empty()) continue;
-    sortByCode(codes);
-    const auto same = [](const CodedSlot& a, const CodedSlot& b) { return a.code == b.code; };
-    const auto all = static_cast<double>(codes.size());
-    const auto boxes = std::unique(codes.begin(), codes.end(), same) - codes.begin();
-    if (all > tolerance::kThinLevel * static_cast<double>(boxes)) continue;
-    joined_[level] = joined_[level + 1];
+  for (int level = 0; level < kLevels - 1; ++level) {
+    // Without boxes on the next level there is no level to merge into.
+    if (members[level].empty() || members[level + 1].empty()) continue;
+    if (!areThin(members[level], level + 1)) continue;
+    next[level] = level + 1;
     any = true;
+    if (Numbering::kIsSwept)
+      members[level + 1].insert(members[level + 1].end(), members[level].begin(),
+                                members[level].end());
   }
+  for (int level = kLevels - 1; level >= 0; --level)
+    joined_[level] = next[level] == level ? level : joined_[next[level]];
   return any;
+}
+
+/// True if there are few of these boxes in each position-code box of a level that has any.
+template <class Numbering, int Dim, class Count>
+bool CodeSearch<Numbering, Dim, Count>::areThin(std::span<const std::uint32_t> slots,
+                                                int level) const {
+  std::vector<CodedSlot> codes;
+  for (const std::uint32_t slot : slots) {
+    Cell cell;
+    for (int d = 0; d < Dim; ++d) {
+      const std::int32_t number = grid_.number(boxes_[slot].min[grid_.axis(d)], level, d);
+      cell[d] = static_cast<std::uint32_t>(number) & Code::kMask;
+    }
+    codes.push_back({Code::encode(cell), 0});
+  }
+  sortByCode(codes);
+  const auto same = [](const CodedSlot& a, const CodedSlot& b) { return a.code == b.code; };
+  const auto boxes = std::unique(codes.begin(), codes.end(), same) - codes.begin();
+  return static_cast<double>(codes.size()) <= tolerance::kThinLevel * static_cast<double>(boxes);
 }
 
 template <class Numbering, int Dim, class Count>
@@ -191,12 +227,11 @@ void CodeSearch<Numbering, Dim, Count>::collectMoved() {
   wide_.clear();
   bool any = false;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const Place& place = places_[i];
-    if (place.level == kWide) wide_.add(i);
+    const int level = places_.levels[i];
+    if (level == kWide) wide_.add(i);
     if (changes_[i] == Change::kNone) continue;
     any = true;
-    if (place.level >= 0)
-      arriving_[place.level].push_back({place.code, static_cast<std::uint32_t>(i)});
+    if (level >= 0) arriving_[level].push_back({places_.codes[i], static_cast<std::uint32_t>(i)});
   }
   if (any) {
     for (int level = 0; level < kLevels; ++level) {
@@ -204,7 +239,7 @@ void CodeSearch<Numbering, Dim, Count>::collectMoved() {
         levels_[level].remove([&](std::uint32_t slot) { return changes_[slot] != Change::kNone; });
       if (!arriving_[level].empty()) levels_[level].insert(arriving_[level], count_);
       // Most boxes arrive at the start only.
-      if (2 * arriving_[level].size() > levels_[level].size()) arriving_[level] = {};
+      if (8 * arriving_[level].size() > levels_[level].size()) arriving_[level] = {};
     }
   }
   places_.resize(boxes_.size());

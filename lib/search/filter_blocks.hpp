@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/footprint.hpp"
+#include "core/growth.hpp"
 #include "core/instruction_set.hpp"
 #include "curve/numbering.hpp"
 #include "search/filter_box.hpp"
@@ -42,7 +43,7 @@ class FilterBlocks {
   static constexpr std::size_t kTogether = 8;
 
   void resize(std::size_t size) {
-    blocks_.resize((size + kTogether - 1) / kTogether);
+    growTo(blocks_, (size + kTogether - 1) / kTogether);
     if (size % kTogether != 0) blocks_.back() = Block::absent();
   }
   void set(std::size_t i, const FilterBox& box) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/footprint.hpp"
+#include "core/growth.hpp"
 #include "search/filter_box.hpp"
 
 namespace yadefrag {
@@ -15,7 +16,7 @@ class FilterList {
  public:
   static constexpr std::size_t kTogether = 1;  ///< boxes that are written by one thread
 
-  void resize(std::size_t size) { boxes_.resize(size); }
+  void resize(std::size_t size) { growTo(boxes_, size); }
   void set(std::size_t i, const FilterBox& box) { boxes_[i] = box; }
   [[nodiscard]] const FilterBox& operator[](std::size_t i) const { return boxes_[i]; }
 

@@ -64,23 +64,21 @@ void IncrementalSearch::putAside(std::span<const BoxId> changed) {
 }
 
 void IncrementalSearch::findPairsOfChanged(std::vector<BoxPair>& pairs) {
-  partPairs_.resize(static_cast<std::size_t>(std::max(threads_, 1)));
-  const auto work = [&](std::size_t begin, std::size_t end, int part) {
-    std::vector<BoxPair>& out = partPairs_[static_cast<std::size_t>(part)];
-    out.clear();
+  const std::size_t before = pairs.size();
+  const int parts = threadsFor(changed_.size(), threads_);
+  partPairs_.resize(parts > 1 ? static_cast<std::size_t>(parts) : 0);
+  forEachPart(changed_.size(), threads_, [&](std::size_t begin, std::size_t end, int part) {
+    std::vector<BoxPair>& out = parts > 1 ? partPairs_[static_cast<std::size_t>(part)] : pairs;
+    if (parts > 1) out.clear();
+    const std::size_t first = out.size();
     std::vector<BoxId> found;
-    for (std::size_t i = begin; i < end && out.size() <= mostPairs_; ++i)
+    for (std::size_t i = begin; i < end && out.size() - first <= mostPairs_; ++i)
       pairsOf(changed_[i], found, out);
-  };
-  const int parts = forEachPart(changed_.size(), threads_, work);
-  std::size_t count = 0;
-  for (int part = 0; part < parts; ++part)
-    count += partPairs_[static_cast<std::size_t>(part)].size();
-  if (count > mostPairs_) throw TooManyPairs();
-  for (int part = 0; part < parts; ++part) {
-    const auto& found = partPairs_[static_cast<std::size_t>(part)];
-    pairs.insert(pairs.end(), found.begin(), found.end());
-  }
+  });
+  for (const auto& found : partPairs_) pairs.insert(pairs.end(), found.begin(), found.end());
+  if (pairs.size() - before <= mostPairs_) return;
+  pairs.resize(before);
+  throw TooManyPairs();
 }
 
 /// If both boxes of a pair have changed, both find it: only the one with the smaller slot stores

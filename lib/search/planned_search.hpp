@@ -11,16 +11,15 @@
 
 namespace yadefrag {
 
-/// With a second numbering that one is used while nearly all boxes have a similar size. The order
+/// With a second numbering that one is used while enough boxes have a similar size. The order
 /// of the pairs then depends on the choice.
 template <class Count, template <int> class Numbering, template <int> class Even = Numbering>
 class PlannedSearch final : public ContactSearch {
  public:
   void update(std::span<const Box> boxes) override {
     checkBoxCount(boxes.size());
-    const SearchPlan now = planSearch(boxes);
-    const bool even = now.evenPart >= (isEven_ ? tolerance::kStillEven : tolerance::kEven);
-    if (!search_ || !plan_.stillServes(now) || (kChooses && even != isEven_)) start(now, even);
+    const SearchPlan now = planNow(boxes);
+    if (!search_ || !plan_.stillServes(now) || now.isEven != plan_.isEven) start(now);
     search_->setThreads(threads_);
     search_->update(boxes);
   }
@@ -49,17 +48,21 @@ class PlannedSearch final : public ContactSearch {
   }
 
  private:
+  [[nodiscard]] SearchPlan planNow(std::span<const Box> boxes) const {
+    if constexpr (!kChooses) return planSearch(boxes);
+    if (!plan_.isEven) return planSearch(boxes, tolerance::kEven);
+    return planSearch(boxes, tolerance::kStillEven * tolerance::kEven, plan_.extent);
+  }
   void retire() {
     retired_ += search_->comparisons();
     search_.reset();
   }
-  void start(const SearchPlan& plan, bool even) {
+  void start(const SearchPlan& plan) {
     if (search_) retire();
     plan_ = plan;
-    isEven_ = even;
     search_ = make<Numbering>();
     if constexpr (kChooses)
-      if (even) search_ = make<Even>();
+      if (plan.isEven) search_ = make<Even>();
   }
   template <template <int> class Chosen>
   [[nodiscard]] std::unique_ptr<ContactSearch> make() const {
@@ -69,7 +72,6 @@ class PlannedSearch final : public ContactSearch {
 
   static constexpr bool kChooses = !std::is_same_v<Numbering<2>, Even<2>>;
   SearchPlan plan_;
-  bool isEven_ = false;
   std::unique_ptr<ContactSearch> search_;
   Comparisons retired_;
 };

@@ -28,8 +28,11 @@ class RowBegins {
                              Count& count) {
       std::uint32_t& begin = begins_[static_cast<std::size_t>(row) % begins_.size()];
       count.range(1);
-      if (begin > 0 && codes[begin - 1] >= code)
-        return begin = bisectCodes(codes, 0, begin - 1, code, count);
+      for (int step = 0; begin > 0 && codes[begin - 1] >= code; ++step) {
+        if (step == tolerance::kRowSteps) return begin = bisectCodes(codes, 0, begin, code, count);
+        count.range(1);
+        --begin;
+      }
       for (int step = 0; step < tolerance::kRowSteps; ++step) {
         count.range(1);
         if (codes[begin] >= code) return begin;
@@ -52,7 +55,7 @@ class RowBegins {
       return bisectCodes(codes, begin, std::min(last, begin + stride - 1), code, count);
     }
 
-    std::array<std::uint32_t, 16> begins_{};
+    std::array<std::uint32_t, 64> begins_{};
   };
 
   OfLevel& of(int level) { return levels_[static_cast<std::size_t>(level)]; }

@@ -33,18 +33,34 @@ Sample takeSample(std::span<const Box> boxes) {
   return s;
 }
 
-/// The longest side within a factor of two above the median. Bodies of similar size are then on one
-/// level, whose edge fits the largest of them.
-double typicalSide(std::vector<double>& sides) {
-  std::sort(sides.begin(), sides.end());
+/// The longest side within a factor of two above the median of the sorted sides. Bodies of similar
+/// size are then on one level, whose edge fits the largest of them.
+double typicalSide(const std::vector<double>& sides) {
   const double median = sides[sides.size() / 2];
   return *std::prev(std::upper_bound(sides.begin(), sides.end(), 2 * median));
 }
 
-/// Part of the sorted sides in (low, high].
-double partBetween(const std::vector<double>& sides, double low, double high) {
-  const auto count = std::upper_bound(sides.begin(), sides.end(), high) -
-                     std::upper_bound(sides.begin(), sides.end(), low);
+/// The longest side on the level that would have the most boxes, and their part of the sample.
+struct Even {
+  double side = 0, part = 0;
+};
+
+Even mostEven(const std::vector<double>& sides) {
+  const auto count = static_cast<double>(sides.size());
+  Even best;
+  std::size_t begin = 0;
+  for (std::size_t end = 0; end < sides.size(); ++end) {
+    while (sides[begin] <= .5 * tolerance::kSpareSide * sides[end] && begin < end) ++begin;
+    const double part = static_cast<double>(end + 1 - begin) / count;
+    if (part >= best.part) best = {sides[end], part};
+  }
+  return best;
+}
+
+/// Part of the sorted sides on a level with this longest side.
+double partOn(const std::vector<double>& sides, double extent) {
+  const auto count = std::upper_bound(sides.begin(), sides.end(), extent) -
+                     std::upper_bound(sides.begin(), sides.end(), .5 * extent);
   return static_cast<double>(count) / static_cast<double>(sides.size());
 }
 
@@ -55,19 +71,23 @@ bool SearchPlan::stillServes(const SearchPlan& now) const {
          now.extent > extent / 1.3;
 }
 
-SearchPlan planSearch(std::span<const Box> boxes) {
+SearchPlan planSearch(std::span<const Box> boxes, double leastEven, double extentBefore) {
   SearchPlan plan;
   Sample sample = takeSample(boxes);
   if (sample.sides.empty()) return plan;
   plan.low = sample.low;
   std::array<double, 3> spread;
   for (int axis = 0; axis < 3; ++axis) spread[axis] = sample.high[axis] - sample.low[axis];
-  double side = typicalSide(sample.sides);
-  plan.evenPart = partBetween(sample.sides, .5 * tolerance::kSpareSide * side, side);
+  std::sort(sample.sides.begin(), sample.sides.end());
+  const Even even = mostEven(sample.sides);
+  plan.isEven = even.part >= leastEven;
+  double side = plan.isEven ? even.side : typicalSide(sample.sides);
   // Points have size 0: any edge far below their spread separates them.
   if (side == 0) side = std::ldexp(*std::max_element(spread.begin(), spread.end()), -20);
   if (!(side > 0) || !std::isnormal(side)) side = 1;
   plan.extent = side * tolerance::kSpareSide;
+  if (plan.isEven && partOn(sample.sides, extentBefore) >= tolerance::kStillEven * even.part)
+    plan.extent = extentBefore;
 
   const int flattest =
       static_cast<int>(std::min_element(spread.begin(), spread.end()) - spread.begin());

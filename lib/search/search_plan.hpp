@@ -3,6 +3,7 @@
 // origin.
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "core/box.hpp"
@@ -16,14 +17,18 @@ struct SearchPlan {
   std::array<double, 3> low = {0, 0, 0};  ///< m, lower corner of the sample, origin of the codes
   std::array<int, 3> axes = {0, 1, 2};    ///< the axes that enter the code
   int dim = 3;                            ///< number of these axes: 2 for a plane scene
-  double evenPart = 0;                    ///< part of the sample that is on level kBaseLevel
+  bool isEven = false;                    ///< true if enough boxes are on level kBaseLevel
 
   /// True if boxes numbered by this plan may keep their numbers although `now` would be planned
   /// today.
   [[nodiscard]] bool stillServes(const SearchPlan& now) const;
 };
 
-SearchPlan planSearch(std::span<const Box> boxes);
+/// If one level can have at least the part `leastEven` of the boxes, that one is kBaseLevel, with
+/// the extent `extentBefore` (m; 0: none) if that one serves about as many; otherwise the one of
+/// the median.
+SearchPlan planSearch(std::span<const Box> boxes, double leastEven = INFINITY,
+                      double extentBefore = 0);
 
 /// Longest side (m); infinite for a wall.
 inline double longestSide(const Box& box) {

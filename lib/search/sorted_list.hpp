@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/footprint.hpp"
+#include "core/growth.hpp"
 
 namespace yadefrag {
 
@@ -21,16 +22,17 @@ struct CodedSlot {
 };
 
 /// Index of the first code ≥ `code` of the ascending `codes`; it is known to be in [begin, end].
+/// Without a branch that depends on a code: half of them would be mispredicted.
 template <class Count>
 std::uint32_t bisectCodes(std::span<const std::uint64_t> codes, std::uint32_t begin,
                           std::uint32_t end, std::uint64_t code, Count& count) {
-  const auto isBelow = [&](std::uint64_t a, std::uint64_t b) {
+  for (std::uint32_t size = end - begin; size > 0;) {
+    const std::uint32_t half = (size + 1) / 2;
     count.range(1);
-    return a < b;
-  };
-  const auto first = codes.begin();
-  return static_cast<std::uint32_t>(std::lower_bound(first + begin, first + end, code, isBelow) -
-                                    first);
+    begin += half * static_cast<std::uint32_t>(codes[begin + half - 1] < code);
+    size -= half;
+  }
+  return begin;
 }
 
 /// Sorts a list that ascends in slot (radix sort: stable, without comparisons).
@@ -77,7 +79,7 @@ class SortedList {
   void insert(std::span<const CodedSlot> incoming, Count& count) {
     std::size_t end = size();  // of the entries that have not been shifted
     std::size_t to = end + incoming.size();
-    slots_.resize(to);
+    growTo(slots_, to);
     setEnd();
     for (auto in = incoming.rbegin(); in != incoming.rend(); ++in) {
       const std::size_t place = placeOf(*in, end, count);
@@ -94,7 +96,7 @@ class SortedList {
 
  private:
   void setEnd() {
-    codes_.resize(size() + kSpare);
+    growTo(codes_, size() + kSpare);
     std::fill(codes_.end() - kSpare, codes_.end(), kEnd);
   }
 

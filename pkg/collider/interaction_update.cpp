@@ -71,7 +71,7 @@ bool InteractionUpdate::mayErase(const Interaction& is, const Bodies& bodies) {
   return isSearched(bodyOf(bodies, is.getId1())) && isSearched(bodyOf(bodies, is.getId2()));
 }
 
-void InteractionUpdate::apply(yade::Scene& scene, std::span<const Neighbours> near,
+void InteractionUpdate::apply(yade::Scene& scene, const Neighbours& near,
                               std::span<const Box> boxes, const MayCollide& mayCollide,
                               int threads) {
   InteractionContainer& interactions = *scene.interactions;
@@ -104,12 +104,11 @@ void InteractionUpdate::eraseGone(yade::Scene& scene) {
   }
 }
 
-void InteractionUpdate::markKnown(InteractionContainer& interactions,
-                                  std::span<const Neighbours> near, const Bodies& bodies,
-                                  int threads) {
+void InteractionUpdate::markKnown(InteractionContainer& interactions, const Neighbours& near,
+                                  const Bodies& bodies, int threads) {
   partners_.build(
-      bodies.size(), near.size(), [&](std::size_t i) { return near[i].first; },
-      [&](std::size_t i) { return near[i].second; });
+      bodies.size(), near.size(), [&](std::size_t i) { return near.first(i); },
+      [&](std::size_t i) { return near.second(i); });
   parts_.resize(static_cast<std::size_t>(threads));
   forEachPart(interactions.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
     for (std::size_t place = begin; place < end; ++place) {
@@ -119,8 +118,8 @@ void InteractionUpdate::markKnown(InteractionContainer& interactions,
   });
 }
 
-void InteractionUpdate::markOne(Interaction& is, std::span<const Neighbours> near,
-                                const Bodies& bodies, Part& part) {
+void InteractionUpdate::markOne(Interaction& is, const Neighbours& near, const Bodies& bodies,
+                                Part& part) {
   const bool swapped = is.getId1() > is.getId2();
   const Body::id_t first = swapped ? is.getId2() : is.getId1();
   const Body::id_t second = swapped ? is.getId1() : is.getId2();
@@ -131,7 +130,7 @@ void InteractionUpdate::markOne(Interaction& is, std::span<const Neighbours> nea
                       known_[index] = 1;
                       // A pair without contact may have come near across another face of the cell.
                       if (is.isReal()) return;
-                      const yade::Vector3i& cells = near[index].cellDist;
+                      const yade::Vector3i cells = near.shift(index);
                       is.cellDist = swapped ? yade::Vector3i(-cells) : cells;
                     });
   if (isNear) return;
@@ -143,35 +142,33 @@ void InteractionUpdate::markOne(Interaction& is, std::span<const Neighbours> nea
 
 /// Codes on the curve, and indices, of the pairs without an interaction, in the order of the curve.
 /// A few pairs keep the order of the search: the loop's time does not depend on them.
-std::vector<CodedSlot> InteractionUpdate::unknown(std::span<const Neighbours> near,
+std::vector<CodedSlot> InteractionUpdate::unknown(const Neighbours& near,
                                                   std::span<const Box> boxes) const {
   std::vector<CodedSlot> found;
   for (std::size_t i = 0; i < near.size(); ++i)
     if (!known_[i]) found.push_back({0, static_cast<std::uint32_t>(i)});
   if (found.size() < tolerance::kFewNewPairs) return found;
   const CurveKey key(boxes);
-  for (CodedSlot& pair : found)
-    pair.code = key(boxes[static_cast<std::size_t>(near[pair.slot].first)]);
+  for (CodedSlot& pair : found) pair.code = key(boxes[near.pairs[pair.slot].first.value]);
   sortByCode(found);
   return found;
 }
 
-void InteractionUpdate::makeNew(yade::Scene& scene, std::span<const Neighbours> near,
+void InteractionUpdate::makeNew(yade::Scene& scene, const Neighbours& near,
                                 std::span<const Box> boxes, const MayCollide& mayCollide) {
   const auto& bodies = scene.bodies->body;
   const std::vector<CodedSlot> pairs = unknown(near, boxes);
   const auto idsOf = [&](std::size_t k) {
-    const Neighbours& pair = near[pairs[k].slot];
-    return std::pair(pair.first, pair.second);
+    return std::pair(near.first(pairs[k].slot), near.second(pairs[k].slot));
   };
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     prefetchBodies(bodies, k, pairs.size(), idsOf);
-    const Neighbours& pair = near[pairs[k].slot];
-    const Body* first = bodies[static_cast<std::size_t>(pair.first)].get();
-    const Body* second = bodies[static_cast<std::size_t>(pair.second)].get();
-    if (!mayCollide(first, second)) continue;
-    const auto made = boost::make_shared<Interaction>(pair.first, pair.second);
-    made->cellDist = pair.cellDist;
+    const auto [first, second] = idsOf(k);
+    if (!mayCollide(bodies[static_cast<std::size_t>(first)].get(),
+                    bodies[static_cast<std::size_t>(second)].get()))
+      continue;
+    const auto made = boost::make_shared<Interaction>(first, second);
+    made->cellDist = near.shift(pairs[k].slot);
     scene.interactions->insert(made);
   }
 }

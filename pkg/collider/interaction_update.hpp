@@ -24,15 +24,15 @@ class InteractionUpdate {
   /// Lebesgue curve: neighbours in space are then neighbours in memory, which determines the time
   /// of the interaction loop. `boxes`: by body id. One pass over the existing interactions replaces
   /// a look-up per pair.
-  void apply(yade::Scene& scene, std::span<const Neighbours> near, std::span<const Box> boxes,
+  void apply(yade::Scene& scene, const Neighbours& near, std::span<const Box> boxes,
              const MayCollide& mayCollide, int threads);
 
   /// The same if only the boxes of `changed` (ascending) are new; `near` are the pairs with at
   /// least one of these bodies. Only their interactions are checked, and those kept because of a
   /// contact: for these `isNear(id1, id2)`, id1 < id2, is called.
-  void applyChanged(yade::Scene& scene, std::span<const Neighbours> near,
-                    std::span<const Box> boxes, std::span<const BoxId> changed,
-                    const MayCollide& mayCollide, const IsNear& isNear);
+  void applyChanged(yade::Scene& scene, const Neighbours& near, std::span<const Box> boxes,
+                    std::span<const BoxId> changed, const MayCollide& mayCollide,
+                    const IsNear& isNear);
 
   /// Number of interactions created elsewhere, minus those erased, since the last call of either
   /// function.
@@ -49,17 +49,15 @@ class InteractionUpdate {
     std::vector<yade::Interaction*> gone;  // to be erased, in the order of the list
     std::vector<std::pair<yade::Body::id_t, yade::Body::id_t>> held;
   };
-  void markKnown(yade::InteractionContainer& interactions, std::span<const Neighbours> near,
+  void markKnown(yade::InteractionContainer& interactions, const Neighbours& near,
                  const Bodies& bodies, int threads);
-  void markOne(yade::Interaction& is, std::span<const Neighbours> near, const Bodies& bodies,
-               Part& part);
+  void markOne(yade::Interaction& is, const Neighbours& near, const Bodies& bodies, Part& part);
   void eraseGone(yade::Scene& scene);
-  [[nodiscard]] std::vector<CodedSlot> unknown(std::span<const Neighbours> near,
+  [[nodiscard]] std::vector<CodedSlot> unknown(const Neighbours& near,
                                                std::span<const Box> boxes) const;
-  void makeNew(yade::Scene& scene, std::span<const Neighbours> near, std::span<const Box> boxes,
+  void makeNew(yade::Scene& scene, const Neighbours& near, std::span<const Box> boxes,
                const MayCollide& mayCollide);
-  void checkBodies(yade::Scene& scene, std::span<const Neighbours> near,
-                   std::span<const BoxId> changed);
+  void checkBodies(yade::Scene& scene, const Neighbours& near, std::span<const BoxId> changed);
   void checkHeld(yade::Scene& scene, const IsNear& isNear);
 
   PartnerTable partners_;

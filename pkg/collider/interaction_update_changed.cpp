@@ -9,7 +9,7 @@ namespace yadefrag {
 using yade::Body;
 using yade::Interaction;
 
-void InteractionUpdate::applyChanged(yade::Scene& scene, std::span<const Neighbours> near,
+void InteractionUpdate::applyChanged(yade::Scene& scene, const Neighbours& near,
                                      std::span<const Box> boxes, std::span<const BoxId> changed,
                                      const MayCollide& mayCollide, const IsNear& isNear) {
   known_.assign(near.size(), 0);
@@ -35,7 +35,7 @@ void InteractionUpdate::checkHeld(yade::Scene& scene, const IsNear& isNear) {
   });
 }
 
-void InteractionUpdate::checkBodies(yade::Scene& scene, std::span<const Neighbours> near,
+void InteractionUpdate::checkBodies(yade::Scene& scene, const Neighbours& near,
                                     std::span<const BoxId> changed) {
   const auto& bodies = scene.bodies->body;
   const auto placeOf = [&](Body::id_t id) {
@@ -45,7 +45,7 @@ void InteractionUpdate::checkBodies(yade::Scene& scene, std::span<const Neighbou
   // Every pair is in the rows of both its bodies. Bodies that have not changed share the last row,
   // which is ignored.
   const auto rowOf = [&](std::size_t i) {
-    const Body::id_t id = i % 2 ? near[i / 2].second : near[i / 2].first;
+    const Body::id_t id = i % 2 ? near.second(i / 2) : near.first(i / 2);
     const auto place = static_cast<std::size_t>(placeOf(id));
     const bool found =
         place < changed.size() && changed[place].value == static_cast<std::uint32_t>(id);
@@ -59,8 +59,8 @@ void InteractionUpdate::checkBodies(yade::Scene& scene, std::span<const Neighbou
     const Body* body = bodies[changed[row].value].get();
     if (!body) continue;
     const auto partnerOf = [&](std::uint32_t pair) {
-      return static_cast<std::size_t>(near[pair].first == id ? near[pair].second
-                                                             : near[pair].first);
+      return static_cast<std::size_t>(near.first(pair) == id ? near.second(pair)
+                                                             : near.first(pair));
     };
     for (const std::uint32_t pair : nearOf_.row(row)) mark_[partnerOf(pair)] = pair + 1;
     for (const auto& [other, is] : body->intrs) {

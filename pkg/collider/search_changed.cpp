@@ -34,13 +34,16 @@ bool SearchCollider::searchChanged(int threads) {
   const Comparisons before = search_->comparisons();
   search_->setThreads(threads);
   search_->change(boxes_.boxes(), boxes_.changed());
-  findPairs([this] { search_->findPairsOfChanged(pairs_); });
+  findPairs([this] { search_->findPairsOfChanged(near_.pairs); });
   comparisons = static_cast<long>(search_->comparisons().total() - before.total());
   comparisonsTotal += comparisons;
-  const std::size_t pairsOfHalf = pairsOfHalf_;
   searched = static_cast<long>(boxes_.changed().size());
-  findNeighbours(threads);
-  pairsOfHalf_ = pairsOfHalf;  // that of the last full search
+  const auto& changed = boxes_.changed();
+  const auto isChanged = [&](BoxId id) {
+    return std::binary_search(changed.begin(), changed.end(), id) ? 1 : 0;
+  };
+  const double halves = keepNear(
+      threads, [&](const BoxPair& pair) { return isChanged(pair.first) + isChanged(pair.second); });
   boxes_.commit(*scene, threads);
   interactions_.applyChanged(
       *scene, near_, boxes_.boxes(), boxes_.changed(),
@@ -49,7 +52,7 @@ bool SearchCollider::searchChanged(int threads) {
   if (!quick) lastCheck_ = scene->iter;
   searchedSinceAll_ += boxes_.changed().size();
   countWork(quick ? 0 : static_cast<double>(boxes_.boxes().size()),
-            static_cast<double>(boxes_.changed().size()), halvesOfChanged());
+            static_cast<double>(boxes_.changed().size()), halves);
   return true;
 }
 
@@ -60,18 +63,6 @@ double SearchCollider::remainingWork() const {
          tolerance::kChangeWork * static_cast<double>(searchedSinceAll_);
 }
 
-/// Number of neighbours of searched bodies that are near only because sweeps are not half as long.
-double SearchCollider::halvesOfChanged() const {
-  const auto& changed = boxes_.changed();
-  const auto isChanged = [&](Body::id_t id) {
-    return std::binary_search(changed.begin(), changed.end(), BoxId(static_cast<std::size_t>(id)));
-  };
-  double halves = 0;
-  for (const Neighbours& pair : near_)
-    if (!pair.nearByHalf) halves += isChanged(pair.first) + isChanged(pair.second);
-  return halves;
-}
-
 bool SearchCollider::someErased() const {
   const auto& bodies = scene->bodies->body;
   const auto& changed = boxes_.changed();
@@ -80,7 +71,7 @@ bool SearchCollider::someErased() const {
 
 bool SearchCollider::isStillNear(Body::id_t id1, Body::id_t id2) const {
   const BoxPair pair{BoxId(static_cast<std::size_t>(id1)), BoxId(static_cast<std::size_t>(id2))};
-  Neighbours unused;
+  Nearness unused;
   return overlaps(boxes_.boxes()[pair.first.value], boxes_.boxes()[pair.second.value]) &&
          isNear(pair, SphereReach(boxes_.balls(), 0), unused);
 }

@@ -44,7 +44,7 @@ void SearchCollider::action() {
     std::tie(verletDist, interval, lastIter_) = before;
     boxes_.rollBack();
     search_.reset();  // its boxes are no longer those of the last search
-    pairs_ = {};      // there may be too many
+    near_ = {};       // there may be too many
     keptWith_.reset();
     strideActive_ = onlySegments_ = false;
     throw;
@@ -58,7 +58,7 @@ void SearchCollider::searchAll(int threads) {
   startSearchIfNeeded();
   updateSearch(threads);
   removeSegmentPairs();
-  findNeighbours(threads);
+  const double halves = keepNear(threads, [](const BoxPair&) { return 2; });
   boxes_.commit(*scene, threads);
   interactions_.apply(
       *scene, near_, boxes_.boxes(), [this](const Body* a, const Body* b) { return mayMeet(a, b); },
@@ -67,7 +67,7 @@ void SearchCollider::searchAll(int threads) {
   lastCheck_ = scene->iter;
   searchedSinceAll_ = 0;
   const auto bodies = static_cast<double>(scene->bodies->body.size());
-  countWork(bodies, bodies, 2 * static_cast<double>(pairsOfHalf_));
+  countWork(bodies, bodies, halves);
 }
 
 int SearchCollider::threadsToUse() const {
@@ -100,7 +100,7 @@ void SearchCollider::chooseInterval() {
   lastIter_ = scene->iter;
 }
 
-/// `pairsOfHalf` counts a pair twice if both its bodies were searched.
+/// `halves` counts a pair twice if both its bodies were searched.
 void SearchCollider::countWork(double checked, double searchedNow, double halves) {
   searched = static_cast<long>(searchedNow);
   searchedTotal += searched;
@@ -160,11 +160,11 @@ void SearchCollider::updateSearch(int threads) {
     // Twice the tolerance: the exact test below must not be stricter than this one.
     images_.build(boxes_.boxes(), {size[0], size[1], size[2]}, 2 * overlapTolerance);
     search_->update(images_.boxes());
-    findPairs([this] { search_->findPairs(pairs_); });
-    images_.toSlots(pairs_);
+    findPairs([this] { search_->findPairs(near_.pairs); });
+    images_.toSlots(near_.pairs);
   } else {
     search_->update(boxes_.boxes());
-    findPairs([this] { search_->findPairs(pairs_); });
+    findPairs([this] { search_->findPairs(near_.pairs); });
   }
   comparisons = static_cast<long>(search_->comparisons().total() - before.total());
   comparisonsTotal += comparisons;
@@ -174,7 +174,7 @@ void SearchCollider::updateSearch(int threads) {
 void SearchCollider::removeSegmentPairs() {
   const std::vector<std::uint8_t>& isSegment = boxes_.isSegment();
   if (isSegment.empty()) return;
-  std::erase_if(pairs_, [&](const BoxPair& pair) {
+  std::erase_if(near_.pairs, [&](const BoxPair& pair) {
     return isSegment[pair.first.value] != 0 && isSegment[pair.second.value] != 0;
   });
 }
@@ -198,46 +198,13 @@ std::vector<BoxPair> SearchCollider::entryPairs() {
   return pairs;
 }
 
-void SearchCollider::findNeighbours(int threads) {
-  const SphereReach reach(boxes_.balls(), 2 * slack_);
-  near_.clear();
-  nearByPart_.resize(static_cast<std::size_t>(threads));
-  std::vector<std::size_t> ofHalf(static_cast<std::size_t>(threads), 0);
-  const auto work = [&](std::size_t begin, std::size_t end, int part) {
-    std::vector<Neighbours>& out = nearByPart_[static_cast<std::size_t>(part)];
-    out.clear();
-    Neighbours found;
-    std::size_t ofHalves = 0;
-    constexpr std::size_t ahead = 12;  // the balls are in the order of the bodies' ids: prefetch
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i + ahead < end) reach.prefetch(pairs_[i + ahead]);
-      if (!isNear(pairs_[i], reach, found)) continue;
-      out.push_back(found);
-      ofHalves += !found.nearByHalf;
-    }
-    ofHalf[static_cast<std::size_t>(part)] = ofHalves;
-  };
-  // In a periodic cell one part only: the exception about a body's size must not leave a parallel
-  // region.
-  const int parts = forEachPart(pairs_.size(), scene->isPeriodic ? 1 : threads, work);
-  pairsOfHalf_ = 0;
-  for (int part = 0; part < parts; ++part) {
-    const auto& found = nearByPart_[static_cast<std::size_t>(part)];
-    near_.insert(near_.end(), found.begin(), found.end());
-    pairsOfHalf_ += ofHalf[static_cast<std::size_t>(part)];
-  }
-}
-
-bool SearchCollider::isNear(const BoxPair& pair, const SphereReach& reach, Neighbours& out) const {
-  out = {static_cast<Body::id_t>(pair.first.value), static_cast<Body::id_t>(pair.second.value),
-         yade::Vector3i::Zero(), true};
-  if (!scene->isPeriodic)
-    return !trueHalo || reach.mayTouch(pair, Vector3r::Zero(), out.nearByHalf);
+bool SearchCollider::isNear(const BoxPair& pair, const SphereReach& reach, Nearness& out) const {
+  if (!scene->isPeriodic) return !trueHalo || reach.mayTouch(pair, Vector3r::Zero(), out.byHalf);
   const yade::Cell& cell = *scene->cell;
   if (trueHalo && reach.areBalls(pair) && ballsFit(pair)) {
     const auto& balls = boxes_.balls();
     out.cellDist = nearestImage(balls[pair.first.value].centre, balls[pair.second.value].centre);
-    return reach.mayTouch(pair, cell.intrShiftPos(out.cellDist), out.nearByHalf);
+    return reach.mayTouch(pair, cell.intrShiftPos(out.cellDist), out.byHalf);
   }
   const Vector3r& size = cell.getSize();
   const PeriodicRules rules{{size[0], size[1], size[2]}, overlapTolerance, allowBiggerThanPeriod};

@@ -73,7 +73,6 @@ class SearchCollider : public yade::Collider {
   bool searchChanged(int threads);
   [[nodiscard]] bool mayKeep() const;
   [[nodiscard]] double remainingWork() const;
-  [[nodiscard]] double halvesOfChanged() const;
   [[nodiscard]] bool someErased() const;
   [[nodiscard]] bool isStillNear(yade::Body::id_t id1, yade::Body::id_t id2) const;
   void chooseVerletDist();
@@ -85,8 +84,9 @@ class SearchCollider : public yade::Collider {
   template <class Find>
   void findPairs(Find find);
   void removeSegmentPairs();
-  void findNeighbours(int threads);
-  bool isNear(const BoxPair& pair, const SphereReach& reach, Neighbours& out) const;
+  template <class Bodies>
+  double keepNear(int threads, Bodies searchedOf);
+  bool isNear(const BoxPair& pair, const SphereReach& reach, Nearness& out) const;
   [[nodiscard]] bool ballsFit(const BoxPair& pair) const;
   [[nodiscard]] yade::Vector3i nearestImage(const yade::Vector3r& a, const yade::Vector3r& b) const;
   [[nodiscard]] yade::Vector3r cellSpan() const;
@@ -131,10 +131,7 @@ class SearchCollider : public yade::Collider {
   MemoryForPairs memory_;
   MotionWatch watch_;
   InteractionUpdate interactions_;
-  std::vector<BoxPair> pairs_;
-  std::vector<Neighbours> near_;
-  std::vector<PartList<Neighbours>> nearByPart_;
-  std::size_t pairsOfHalf_ = 0;       // pairs near only because the sweeps are not half as long
+  Neighbours near_;                   // before keepNear: pairs whose boxes overlap
   Interval counts_;                   // counts since the interval was chosen
   bool quickCheck_ = false;           // this search is due only because bodies were added
   std::size_t searchedSinceAll_ = 0;  // bodies searched since the last full search
@@ -154,13 +151,52 @@ template <class Find>
 void SearchCollider::findPairs(Find find) {
   const std::size_t bodies = scene->bodies->body.size();
   const std::size_t most = memory_.most(bodies, scene->interactions->size());
-  pairs_.clear();
+  near_.pairs.clear();
   search_->setMostPairs(most);
   try {
     find();
   } catch (const TooManyPairs&) {
     throwTooManyPairs(bodies, most, memory_.free());
   }
+}
+
+/// Removes the pairs that are not near, in place. Returns the number of neighbours of searched
+/// bodies that are near only because sweeps are not half as long; `searchedOf(pair)`: how many of
+/// the two bodies were searched.
+template <class Bodies>
+double SearchCollider::keepNear(int threads, Bodies searchedOf) {
+  const SphereReach reach(boxes_.balls(), 2 * slack_);
+  std::vector<BoxPair>& pairs = near_.pairs;
+  near_.cellDist.clear();
+  struct Kept {
+    std::size_t begin = 0, end = 0, halves = 0;
+  };
+  std::vector<Kept> kept(static_cast<std::size_t>(threads));
+  const auto work = [&](std::size_t begin, std::size_t end, int part) {
+    Kept mine{begin, begin, 0};
+    constexpr std::size_t ahead = 12;  // the balls are in the order of the bodies' ids: prefetch
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i + ahead < end) reach.prefetch(pairs[i + ahead]);
+      Nearness how;
+      if (!isNear(pairs[i], reach, how)) continue;
+      if (!how.byHalf) mine.halves += static_cast<std::size_t>(searchedOf(pairs[i]));
+      pairs[mine.end++] = pairs[i];
+      if (scene->isPeriodic) near_.cellDist.push_back(how.cellDist);
+    }
+    kept[static_cast<std::size_t>(part)] = mine;
+  };
+  // In a periodic cell one part only, which fills one list of shifts.
+  forEachPart(pairs.size(), scene->isPeriodic ? 1 : threads, work);
+  auto end = pairs.begin();
+  std::size_t halves = 0;
+  for (const Kept& part : kept) {
+    const auto from = pairs.begin() + static_cast<std::ptrdiff_t>(part.begin);
+    const auto to = pairs.begin() + static_cast<std::ptrdiff_t>(part.end);
+    end = end == from ? to : std::move(from, to, end);
+    halves += part.halves;
+  }
+  pairs.erase(end, pairs.end());
+  return static_cast<double>(halves);
 }
 
 }  // namespace yadefrag

@@ -12,11 +12,27 @@
 
 namespace yadefrag {
 
-/// A pair for YADE, with the shift of the second body in cells.
+/// Pairs of bodies that may touch before the next search.
 struct Neighbours {
-  yade::Body::id_t first, second;  // first < second
-  yade::Vector3i cellDist;
-  bool nearByHalf;  // true if they are near also with sweeps half as long
+  std::vector<BoxPair> pairs;
+  /// By pair: the shift of the second body in cells; empty in a scene that is not periodic.
+  std::vector<yade::Vector3i> cellDist;
+
+  [[nodiscard]] std::size_t size() const { return pairs.size(); }
+  [[nodiscard]] yade::Body::id_t first(std::size_t i) const { return idOf(pairs[i].first); }
+  [[nodiscard]] yade::Body::id_t second(std::size_t i) const { return idOf(pairs[i].second); }
+  [[nodiscard]] yade::Vector3i shift(std::size_t i) const {
+    return cellDist.empty() ? yade::Vector3i(yade::Vector3i::Zero()) : cellDist[i];
+  }
+
+ private:
+  static yade::Body::id_t idOf(BoxId id) { return static_cast<yade::Body::id_t>(id.value); }
+};
+
+/// How two bodies are near.
+struct Nearness {
+  yade::Vector3i cellDist = yade::Vector3i::Zero();
+  bool byHalf = true;  ///< also with sweeps half as long
 };
 
 class SphereReach {

@@ -75,10 +75,10 @@ TEST(SearchProperty, SameOrderForAnyNumberOfThreads) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> place(0, 30);
   std::vector<Box> boxes(20000);
-  for (Box& box : boxes)
+  for (std::size_t i = 0; i < boxes.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
-      box.min[axis] = place(random);
-      box.max[axis] = box.min[axis] + .7;
+      boxes[i].min[axis] = place(random);
+      boxes[i].max[axis] = boxes[i].min[axis] + (i % 8 == 0 ? 1.9 : .7);  // two levels
     }
   for (const SearchMethod method : kMethods) {
     std::vector<BoxPair> first;

@@ -26,14 +26,21 @@ inline constexpr double kRowEdgeOverExtent = 1.001;
 /// moves gets another code.
 inline constexpr int kPartsOfX = 2;
 
-/// (ratio) Rows in a sweep are used if at least this part of the boxes is on one level, and then as
-/// long as the second part is. With more levels the rows of the fine ones are nearly empty: sizes
-/// of 1 : 1000 take .6 (2D) to 1.5 times (3D) as long as on the curve.
-inline constexpr double kEven = .9, kStillEven = .8;
+/// (ratio) Rows in a sweep are used if at least this part of the boxes can be on one level: sizes
+/// of 1 : 10 take .3 (2D) to .5 times (3D) as long as on the curve. Of sizes of 1 : 1000 a tenth is
+/// on one level: .6 (2D) to 1.5 times (3D).
+inline constexpr double kEven = .25;
+
+/// (ratio) Rows are used, and their level keeps its size, until the part that counts has fallen by
+/// this: in flat distributions of sizes the best level would change with every sample.
+inline constexpr double kStillEven = .8;
 
 /// (codes) The begin of a row is searched this far from the last one, code by code, before larger
 /// strides are taken.
 inline constexpr int kRowSteps = 8;
+
+/// (codes) The look-up of a row takes as long as a scan of so many codes.
+inline constexpr std::uint64_t kCodesPerRow = 16;
 
 /// (count) Size of the sample of boxes from which the levels are planned.
 inline constexpr std::size_t kSample = 1024;
