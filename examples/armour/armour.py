@@ -10,10 +10,12 @@ from yadefrag import *
 
 steel = O.materials.append(PlasticFEMat(
     young=200e9, poisson=.29, density=7830, frictionAngle=.2, yieldStress=792e6, hardening=510e6, hardeningExponent=.26,
-    rateFactor=.014, thermalExponent=1.03, meltTemperature=1793, heatCapacity=477))
+    rateFactor=.014, thermalExponent=1.03, meltTemperature=1793, heatCapacity=477,
+    failureD1=.05, failureD2=3.44, failureD3=-2.12, failureD4=.002, failureD5=.61, fractureEnergy=2e4))
 aluminium = O.materials.append(PlasticFEMat(
     young=68.9e9, poisson=.33, density=2700, frictionAngle=.2, yieldStress=324e6, hardening=114e6,
-    hardeningExponent=.42, rateFactor=.002, thermalExponent=1.34, meltTemperature=925, heatCapacity=896))
+    hardeningExponent=.42, rateFactor=.002, thermalExponent=1.34, meltTemperature=925, heatCapacity=896,
+    failureD1=-.77, failureD2=1.45, failureD3=-.47, failureD5=1.6, failureStrain=.1, fractureEnergy=1e4))
 ceramic = O.materials.append(BrittleFEMat(
     young=370e9, poisson=.22, density=3900, frictionAngle=.3, tensileStrength=300e6, strengthScatter=.1))
 

@@ -50,10 +50,10 @@ Matrix2 deformationStep(const Model& model, ElementId element, double dt) {
   return {dt * rate.xx, dt * rate.xy, dt * rate.yx, dt * rate.yy};
 }
 
-std::array<double, 3> stressOf(const Model& model, ElementId element) {
+std::array<double, 3> stressOf(const Model& model, ElementId element, double dt) {
   const Component& body = model.bodyOf(element);
   if (body.yields()) {
-    const Returned state = presentState(model, element, 0);
+    const Returned state = presentState(model, element, dt);
     const SolidModuli moduli(body.material);
     const double volume = state.trial.volume;
     const PlaneStress t(state.trial, meanStress(volume, moduli.bulk), state.kept, moduli.shear);

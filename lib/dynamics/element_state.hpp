@@ -33,8 +33,8 @@ Matrix2 elasticGradient(const Model& model, ElementId element);
 Matrix2 deformationStep(const Model& model, ElementId element, double dt);
 
 /// (Pa) Cauchy stress xx, yy, xy of the F of one element, without strain smoothing. Cracks average
-/// it over the elements at a node, which is a smoothing of its own.
-std::array<double, 3> stressOf(const Model& model, ElementId element);
+/// it over the elements at a node, which is a smoothing of its own. `dt`: as below.
+std::array<double, 3> stressOf(const Model& model, ElementId element, double dt = 0);
 
 /// (1/s) Rate of deformation xx, yy, xy of one element: the symmetric part of ḞF⁻¹.
 std::array<double, 3> strainRateOf(const Model& model, ElementId element);

@@ -275,6 +275,18 @@ void ExplicitDynamics::step(Model& model, const Update& update, const BulkViscos
   errors.rethrow();
 }
 
+void ExplicitDynamics::collectStressed() {
+  // Each thread has successive chunks, so that the joined list is ascending.
+  stressed_.clear();
+  for (const Scratch& scratch : scratch_)
+    stressed_.insert(stressed_.end(), scratch.stressed.begin(), scratch.stressed.end());
+  const std::size_t elastic = stressed_.size();
+  flow_.appendFailed(stressed_);
+  // Bodies with smoothed strains were checked before all others: sort.
+  if (smoothing_.isOn() || stressed_.size() != elastic)
+    std::sort(stressed_.begin(), stressed_.end());
+}
+
 void ExplicitDynamics::predict(Model& model, const StepLength& length, const StepSettings& settings,
                                std::span<const Vec2> outerForces, int threads) {
   assert(force_.size() == model.nodes.size());
@@ -290,12 +302,12 @@ void ExplicitDynamics::predict(Model& model, const StepLength& length, const Ste
         rate * settings.gravity, dt / length.velocity, 2 * length.velocity - length.position,
         outerForces, model.nodes.load, threads},
        settings.viscosity);
-  // Each thread has successive chunks, so that the joined list is ascending.
-  stressed_.clear();
-  for (const Scratch& scratch : scratch_)
-    stressed_.insert(stressed_.end(), scratch.stressed.begin(), scratch.stressed.end());
-  // Bodies with smoothed strains were checked before all others: sort.
-  if (smoothing_.isOn()) std::sort(stressed_.begin(), stressed_.end());
+  try {
+    collectStressed();
+  } catch (...) {  // no memory
+    flow_.takeBack(model);
+    throw;
+  }
   if (badElement_ || badNode_) flow_.takeBack(model);
   if (badElement_) refuseElement(model);
   if (badNode_) refuseNode(model);

@@ -136,6 +136,7 @@ class ExplicitDynamics {
     StrainSmoothing::Room room;
   };
 
+  void collectStressed();
   void smoothStrains(Model& model, std::size_t part, std::size_t parts, PartErrors& errors);
   void sumChunk(Model& model, std::size_t chunk, const BulkViscosity& viscosity, std::size_t part);
   void sumForces(Model& model, std::size_t chunk, std::size_t part, const Vec2* position,

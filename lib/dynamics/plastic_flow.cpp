@@ -38,7 +38,8 @@ void PlasticFlow::rebuild(const Model& model, const ElementChunks& elements) {
   whole_.resize(partial_.size());
   dissipated_.assign(on ? elements.chunks.size() : 0, 0);
   threads_.clear();
-  squaredSteepest_ = 0;
+  damage_.rebuild(model);
+  squaredSteepest_ = restored_ = 0;
   if (on) noteSteepest(model);
 }
 
@@ -60,6 +61,8 @@ void PlasticFlow::begin(const ElementChunks& elements, int threads, double dt) {
   if (!isOn()) return;
   if (threads_.size() < static_cast<std::size_t>(threads)) threads_.resize(threads);
   for (Thread& one : threads_) one.former.clear(), one.squaredSteepest = 0;
+  restored_ = 0;
+  damage_.begin(threads_.size());
   dissipated_.assign(elements.chunks.size(), 0);
   dt_ = dt;
 }
@@ -168,6 +171,44 @@ class PlasticFlow::Lanes final : public LaneReturn {
   Thread& thread_;
 };
 
+/// Of the groups of triangles that have flowed, from `first` of the thread's list on, and of those
+/// whose mean stress exceeds the spall stress.
+void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const Chunk& chunk,
+                            const Vec2* position, std::size_t thread, std::size_t first) {
+  const YieldConstants c(model.components[chunk.firstComponent]);
+  const PlasticState& state = model.triangles.plastic;
+  const auto stepOf = [&](std::uint32_t element, double strain, double temperature) {
+    const std::uint32_t place = element - chunk.firstElement;
+    const ElementLanes& lanes = elements.lanes[chunk.firstLanes + place / kLanes];
+    std::array<Vec2, 3> x;
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint16_t corner = lanes.corner[i][place % kLanes];
+      x[i] = position[corner];
+      if (isSmoothed(chunk)) sum += volume_[chunk.firstNode + corner];
+    }
+    double thickness = 1;
+    const ElasticTrial now =
+        trialOf(c, YieldPoint(state, element), {x[1] - x[0], x[2] - x[0]}, thickness);
+    const double mean =
+        isSmoothed(chunk) ? sum / 3 * now.volume : meanStress(now.volume, c.moduli.bulk);
+    return FlowStep{strain, temperature, mean, c.moduli.shear * std::sqrt(now.squaredMises()),
+                    now.volume};
+  };
+  for (std::size_t i = first; i < threads_[thread].former.size(); ++i) {
+    const FormerLanes& former = threads_[thread].former[i];
+    for (std::uint32_t k = 0; k < former.count; ++k) {
+      const std::uint32_t e = former.first + k;
+      const double flowed = state.strain[e] - former.strain[k];
+      if (flowed > 0)
+        damage_.add(model, c.plastic, e, stepOf(e, flowed, former.temperature[k]), dt_, thread);
+    }
+  }
+  if (c.plastic.failure.spallStress == FailureLaw::kNone) return;
+  for (std::uint32_t e = chunk.firstElement; e < chunk.lastElement; ++e)
+    damage_.add(model, c.plastic, e, stepOf(e, 0, 0), dt_, thread);
+}
+
 bool PlasticFlow::addForces(InstructionSet set, Model& model, const ElementChunks& elements,
                             std::size_t chunk, const Vec2* position, Vec2* force,
                             std::size_t thread) {
@@ -185,6 +226,7 @@ bool PlasticFlow::addForces(InstructionSet set, Model& model, const ElementChunk
   }
   Thread& room = threads_[thread];
   Lanes flow(*this, model, elements, own, position, room);
+  const std::size_t first = room.former.size();
   const bool good =
       addPlasticForces(set, own, elements.lanes.data(), inputOf(model, own), position, flow, force);
   double dissipated = 0;
@@ -192,6 +234,8 @@ bool PlasticFlow::addForces(InstructionSet set, Model& model, const ElementChunk
   dissipated_[chunk] = dissipated;
   for (const double one : flow.sums.steepest)
     room.squaredSteepest = std::max(room.squaredSteepest, one);
+  if (model.components[own.firstComponent].fails())
+    addDamage(model, elements, own, position, thread, first);
   return good;
 }
 
@@ -216,13 +260,23 @@ void PlasticFlow::takeBack(Model& model) {
     }
     one.former.clear(), one.squaredSteepest = 0;
   }
+  damage_.takeBack(model);
   std::ranges::fill(dissipated_, 0);
 }
 
-bool PlasticFlow::isSteeper() const {
+bool PlasticFlow::isSteeper(const Steepness& steepness) {
   constexpr double kLimit = (1 + tolerance::kSteeper) * (1 + tolerance::kSteeper);
-  return std::ranges::any_of(
-      threads_, [&](const Thread& one) { return one.squaredSteepest > kLimit * squaredSteepest_; });
+  return steepness.last > kLimit * steepness.known;
+}
+
+PlasticFlow::Steepness PlasticFlow::steepness() const {
+  double last = restored_;
+  for (const Thread& one : threads_) last = std::max(last, one.squaredSteepest);
+  return {squaredSteepest_, last};
+}
+
+void PlasticFlow::restore(const Steepness& steepness) {
+  squaredSteepest_ = steepness.known, restored_ = steepness.last;
 }
 
 void PlasticFlow::noteSteepest(const Model& model) {
@@ -239,6 +293,7 @@ void PlasticFlow::addTo(Footprint& footprint) const {
   footprint.add(Use::kPlasticity, yield_, thermal_, volume_, partial_, whole_, dissipated_,
                 threads_);
   for (const Thread& one : threads_) footprint.add(Use::kPlasticity, one.former, one.before);
+  damage_.addTo(footprint);
 }
 
 }  // namespace yadefrag

@@ -9,12 +9,19 @@
 #include <vector>
 
 #include "core/footprint.hpp"
+#include "dynamics/plastic_damage.hpp"
 #include "dynamics/plastic_kernel.hpp"
 
 namespace yadefrag {
 
 class PlasticFlow {
  public:
+  /// (1/m²) Squares of the steepest gradients: when the critical step was last computed, and of the
+  /// triangles that flowed in the last step.
+  struct Steepness {
+    double known = 0, last = 0;
+  };
+
   void rebuild(const Model& model, const ElementChunks& elements);
   /// Must be called after a split of nodes.
   void follow(const ElementChunks& elements, std::span<const std::uint32_t> abandoned);
@@ -38,8 +45,13 @@ class PlasticFlow {
   void takeBack(Model& model);
   /// True if flow has made triangles so much flatter that the critical step must be computed anew;
   /// then `noteSteepest`.
-  [[nodiscard]] bool isSteeper() const;
+  [[nodiscard]] bool isSteeper() const { return isSteeper(steepness()); }
   void noteSteepest(const Model& model);
+  [[nodiscard]] static bool isSteeper(const Steepness& steepness);
+  [[nodiscard]] Steepness steepness() const;
+  void restore(const Steepness& steepness);
+  /// Appends the triangles whose material has failed.
+  void appendFailed(std::vector<ElementRange>& ranges) const { damage_.appendFailed(ranges); }
 
   void addTo(Footprint& footprint) const;
 
@@ -51,6 +63,8 @@ class PlasticFlow {
     double squaredSteepest = 0;  // 1/m²
   };
 
+  void addDamage(Model& model, const ElementChunks& elements, const Chunk& chunk,
+                 const Vec2* position, std::size_t thread, std::size_t first);
   [[nodiscard]] PlasticChunk inputOf(Model& model, const Chunk& chunk);
   void setYield(const Component& body, const PlasticState& state, std::size_t element);
 
@@ -60,8 +74,10 @@ class PlasticFlow {
   std::vector<double> partial_, whole_;  // m³, by number of the partial sum
   std::vector<double> dissipated_;       // J, by chunk
   std::vector<Thread> threads_;
+  PlasticDamage damage_;
   double dt_ = 0;
   double squaredSteepest_ = 0;
+  double restored_ = 0;  // Steepness::last before the first step
 };
 
 }  // namespace yadefrag

@@ -1,9 +1,11 @@
 #include "dynamics/yielding_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
+#include "dynamics/plastic_damage.hpp"
 
 namespace yadefrag {
 namespace {
@@ -185,6 +187,26 @@ YieldingEnergy yieldingEnergy(const Model& model, std::span<const ElementId> ele
 
 YieldingEnergy yieldingEnergy(const Model& model, double dt) {
   return yieldingEnergy(model, allYielding(model), dt);
+}
+
+std::vector<double> presentDamage(const Model& model, double dt) {
+  std::vector<double> damage(model.triangles.size());
+  const std::vector<double>& stored = model.triangles.plastic.damage;
+  if (stored.empty()) return damage;
+  for (const Pair& p : Yielding(model, dt).pairs) {
+    const std::uint32_t e = p.element.value;
+    const PlasticMaterial& material = p.constants.plastic;
+    if (!material.fails() || stored[e] >= 1) {
+      damage[e] = stored[e];
+      continue;
+    }
+    const Returned& now = p.present;
+    const double shear = p.constants.moduli.shear;
+    const FlowStep step{now.point.strain - p.point.strain, p.point.temperature, now.mean,
+                        shear * now.kept * std::sqrt(now.trial.squaredMises()), now.trial.volume};
+    damage[e] = damageAfter(material, stored[e], step, dt);
+  }
+  return damage;
 }
 
 void setYieldingStresses(const Model& model, double dt,

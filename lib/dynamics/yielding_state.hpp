@@ -27,6 +27,8 @@ struct YieldingEnergy {
 /// The same for some elements, which must be whole fragments.
 [[nodiscard]] YieldingEnergy yieldingEnergy(const Model& model, std::span<const ElementId> elements,
                                             double dt);
+/// Damage by triangle; 0 where the material does not fail.
+[[nodiscard]] std::vector<double> presentDamage(const Model& model, double dt);
 
 /// (Pa) Cauchy stress xx, yy, xy of the elements of these bodies.
 void setYieldingStresses(const Model& model, double dt,

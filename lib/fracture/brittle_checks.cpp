@@ -149,7 +149,8 @@ double lightnessOf(const Model& model, const CrackEdges& edges, EdgeId edge) {
 }
 
 /// The edge with the least `measure` out of those from `first` on for which `counts` is true and
-/// that are cohesive after cracking; none() if there is none.
+/// that are cohesive after cracking; none() if there is none. Those without a strength yet do not
+/// count.
 template <class Counts, class Measure>
 EdgeId leastOf(const Model& model, const CrackEdges& edges, EdgeId first, Counts counts,
                Measure measure) {
@@ -157,8 +158,8 @@ EdgeId leastOf(const Model& model, const CrackEdges& edges, EdgeId first, Counts
   double lowest = INFINITY;
   for (std::size_t i = first.value; i < edges.size(); ++i) {
     const auto& [a, b] = edges.element[i];
-    if (edges.fractureEnergy[i] <= 0 || !counts(EdgeId(i)) || model.triangles.isDropped(a.value) ||
-        model.triangles.isDropped(b.value))
+    if (edges.fractureEnergy[i] <= 0 || edges.strength[i] == kUnbreakable || !counts(EdgeId(i)) ||
+        model.triangles.isDropped(a.value) || model.triangles.isDropped(b.value))
       continue;
     const double value = measure(EdgeId(i));
     if (value < lowest) lowest = value, least = EdgeId(i);
@@ -280,6 +281,14 @@ void checkCohesiveResolution(const Model& model, const CrackEdges& edges, Compon
   const double factor = hardestFactor(model, edges, worst);
   requireResolved(valuesOf(model, edges, worst).raised(factor),
                   factor * crossedBy(model, edges, worst, dt), sumsOf(model, body).meanLength, dt);
+}
+
+bool isResolved(const Model& model, const CrackEdges& edges, EdgeId edge, double dt) {
+  const auto& [a, b] = edges.element[edge.value];
+  const SofteningCurve& curve = materialBetween(model, a, b).brittle.softening;
+  const double energy = edges.fractureEnergy[edge.value];
+  return energy <= 0 ||
+         crossedBy(model, edges, edge, dt) < curve.steepOpening(edges.strength[edge.value], energy);
 }
 
 void checkBondResolution(const Model& model, const CrackEdges& edges, double dt) {

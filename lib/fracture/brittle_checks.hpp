@@ -31,6 +31,9 @@ void checkCohesiveResolution(const Model& model, ComponentId component, double d
 void checkCohesiveResolution(const Model& model, const CrackEdges& edges, ComponentId component,
                              double dt);
 
+/// That condition for one edge.
+[[nodiscard]] bool isResolved(const Model& model, const CrackEdges& edges, EdgeId edge, double dt);
+
 /// The same for bonds between bodies.
 void checkBondResolution(const Model& model, const CrackEdges& edges, double dt);
 

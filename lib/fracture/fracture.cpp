@@ -5,6 +5,7 @@
 
 #include "core/tolerances/fracture.hpp"
 #include "dynamics/smoothed_state.hpp"
+#include "fracture/yielding_split.hpp"
 
 namespace yadefrag {
 
@@ -52,11 +53,14 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
                      std::span<const ElementRange> where, const StepTime& step,
                      SplitResult& result) {
   cracks_.clear();
+  weakened_.clear();
   hasRaised_ = false;
+  yieldingGain_ = 0;
   if (where.empty() || numCracks_ >= maxCracks) {
     overloads.clear();
     return false;
   }
+  weakened_ = check_.weaken(model, edges, where, step, leastStrength);
   cracks_ = check_.overstressed(model, edges, where, leastStrength, step, overloads);
   if (cracks_.size() > maxCracks - numCracks_) cracks_.resize(maxCracks - numCracks_);
   if (cracks_.empty()) return false;
@@ -64,7 +68,9 @@ bool Fracture::crack(Model& model, const ContactSurfaces& surfaces,
   hasRaised_ = check_.raise(model, edges, cracks_);
   std::erase_if(overloads,
                 [&](const Overload& one) { return std::ranges::binary_search(cracks_, one.edge); });
+  const YieldingSplit yielding(model, edges, cracks_, step.length);
   splitNodes(model, edges, surfaces, cracks_, result);
+  yieldingGain_ = yielding.settle(model, result.originals, step.length);
   return !result.sides.empty();
 }
 
@@ -110,7 +116,7 @@ double Fracture::splitEnergy(const Model& model, std::span<const NodeId> origina
 void Fracture::addTo(Footprint& footprint) const {
   yadefrag::addTo(footprint, edges.columns());
   footprint.add(Use::kFracture, edges.ofElement, edges.ofNode, started, leastStrength, cracks_,
-                overloads);
+                weakened_, overloads);
   cohesion.addTo(footprint);
   check_.addTo(footprint);
 }

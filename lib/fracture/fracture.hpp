@@ -44,11 +44,16 @@ class Fracture {
   /// parts of a node no longer have a common mean strain. `originals` as in SplitResult.
   [[nodiscard]] double splitEnergy(const Model& model, std::span<const NodeId> originals,
                                    double dt) const;
+  /// (J) The same of bodies that yield, in the last call of `crack`.
+  [[nodiscard]] double yieldingGain() const { return yieldingGain_; }
   /// Makes the cracks of the last call of `crack` cohesive by their law.
   void cohere(const Model& model);
 
   /// True if strengths changed in the last call of `crack`.
   [[nodiscard]] bool hasRaised() const { return hasRaised_; }
+
+  /// Edges that got their strength in the last call of `crack`, since their material failed.
+  [[nodiscard]] std::span<const EdgeId> weakened() const { return weakened_; }
 
   [[nodiscard]] std::uint64_t numCracks() const { return numCracks_; }
   void restore(std::uint64_t numCracks) { numCracks_ = numCracks; }
@@ -71,9 +76,10 @@ class Fracture {
 
  private:
   StrengthCheck check_;
-  std::vector<EdgeId> cracks_;
+  std::vector<EdgeId> cracks_, weakened_;
   std::uint64_t numCracks_ = 0;
   bool hasRaised_ = false;
+  double yieldingGain_ = 0;  // J
 };
 
 }  // namespace yadefrag

@@ -110,7 +110,7 @@ const StrengthCheck::Stress& StrengthCheck::stressOf(const Model& model, Element
   Stress& stress = elementStress_[element.value];
   if (elementSeen_[element.value] == call_) return stress;
   elementSeen_[element.value] = call_;
-  return stress = yadefrag::stressOf(model, element);
+  return stress = yadefrag::stressOf(model, element, step_.length);
 }
 
 const StrengthCheck::Stress& StrengthCheck::stressAt(const Model& model, const CrackEdges& edges,
@@ -170,18 +170,25 @@ double StrengthCheck::strainRateAt(const Model& model, const CrackEdges& edges, 
   return strainRateAlong(stress, meanOf(at(firstNode(model, side)), at(lastNode(model, side))));
 }
 
-/// The traction on an edge over its strength.
-StrengthCheck::Overstressed StrengthCheck::compare(const Model& model, const CrackEdges& edges,
-                                                   EdgeId edge) {
+/// (Pa) At an edge: the mean of its ends.
+StrengthCheck::Stress StrengthCheck::stressAcross(const Model& model, const CrackEdges& edges,
+                                                  EdgeId edge) {
   const Side side = edges.side(edge, 0);
-  const NodeId a = firstNode(model, side), b = lastNode(model, side);
   const bool isMixed = model.bodyOf(side.element).isMixed();
   const auto at = [&](NodeId node) -> Stress {
     if (!isMixed) return stressAt(model, edges, node);
     return meanOfMaterials(model, edges, edge, node,
                            [&](ElementId e) { return stressOf(model, e); });
   };
-  const Stress mean = meanOf(at(a), at(b));
+  return meanOf(at(firstNode(model, side)), at(lastNode(model, side)));
+}
+
+/// The traction on an edge over its strength.
+StrengthCheck::Overstressed StrengthCheck::compare(const Model& model, const CrackEdges& edges,
+                                                   EdgeId edge) {
+  const Side side = edges.side(edge, 0);
+  const NodeId a = firstNode(model, side), b = lastNode(model, side);
+  const Stress mean = stressAcross(model, edges, edge);
   const Traction traction = tractionOn(mean, normalOf(model, edges, edge));
   const auto [first, second] = edges.element[edge.value];
   const auto [brittle, friction] = materialBetween(model, first, second);

@@ -46,11 +46,17 @@ class StrengthCheck {
   /// Multiplies strength and energy of the given edges, found by the last call of `overstressed`,
   /// by the factors of their strain rates. Returns true if any changed.
   bool raise(const Model& model, CrackEdges& edges, std::span<const EdgeId> cracks) const;
+  /// Edges of triangles whose material has failed get as their strength the largest traction that
+  /// acts on one of the triangle's edges: this one then cracks, and softens from there. Triangles
+  /// under too much pressure wait. Returns these edges, ascending; lowers `leastStrength`.
+  std::vector<EdgeId> weaken(const Model& model, CrackEdges& edges,
+                             std::span<const ElementRange> where, const StepTime& step,
+                             std::vector<double>& leastStrength);
   /// Reserves memory for all that may be checked.
   void prepare(const Model& model, const CrackEdges& edges);
   void addTo(Footprint& footprint) const {
     footprint.add(Use::kFracture, elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeTested_,
-                  elementStress_, nodeStress_, isInside_, fan_, around_, found_, over_);
+                  elementStress_, nodeStress_, isInside_, fan_, around_, found_, over_, weakened_);
   }
 
  private:
@@ -59,6 +65,11 @@ class StrengthCheck {
     double ratio;
     EdgeId edge;
     double factor;  // of the strength, by the strain rate
+  };
+
+  struct Weakened {
+    EdgeId edge;
+    double strength;  // Pa
   };
 
   void checkCorners(const Model& model, const CrackEdges& edges, ElementId element,
@@ -73,6 +84,8 @@ class StrengthCheck {
   template <class Of>
   std::array<double, 3> meanOfMaterials(const Model& model, const CrackEdges& edges, EdgeId edge,
                                         NodeId node, Of of);
+  Stress stressAcross(const Model& model, const CrackEdges& edges, EdgeId edge);
+  void weakenAround(const Model& model, const CrackEdges& edges, ElementId element);
   Overstressed compare(const Model& model, const CrackEdges& edges, EdgeId edge);
   double factorAt(const Model& model, const CrackEdges& edges, EdgeId edge, double ratio,
                   const Stress& stress);
@@ -88,6 +101,7 @@ class StrengthCheck {
   std::vector<std::uint8_t> isInside_;  // by node whose mean is known: 1 if its fan is a ring
   std::vector<ElementId> fan_, around_;
   std::vector<Overstressed> found_;
+  std::vector<Weakened> weakened_;
   // With a rate effect:
   std::vector<Overload> over_;
   StepTime step_{};

@@ -32,11 +32,16 @@ bool anyYields(const Model& model) {
   return std::ranges::any_of(model.components, &Component::yields);
 }
 
+bool anyFails(const Model& model) {
+  return std::ranges::any_of(model.components, &Component::fails);
+}
+
 /// Rows of bodies that do not yield have no meaning.
 void appendPlasticState(Model& model, const Component& added) {
   PlasticState& state = model.triangles.plastic;
   if (!anyYields(model)) return;
   state.resize(model.triangles.size());
+  if (anyFails(model)) state.damage.resize(model.triangles.size());
   if (added.yields())
     for (std::size_t e = added.firstTriangle; e < added.lastTriangle; ++e)
       state.begin(e, model.triangles.inverseEdges[e], added.plastic.startTemperature);
@@ -132,6 +137,7 @@ std::vector<NodeId> removeBody(Model& model, ComponentId component) {
   removeMaterials(model, model.components[component.value]);
   model.components[component.value].plastic = {};
   if (!anyYields(model)) model.triangles.plastic = {};
+  if (!anyFails(model)) model.triangles.plastic.damage = {};
   model.components[component.value].name.clear();
   std::vector<std::uint8_t> gone(model.components.size());
   gone[component.value] = 1;

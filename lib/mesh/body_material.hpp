@@ -21,6 +21,11 @@ struct BodyMaterial {
 /// (Pa) Strength of an edge that never cracks, in a body with edges that can.
 inline constexpr double kUnbreakable = std::numeric_limits<double>::max();
 
+/// Fracture of a material that cracks only where it has failed: an edge gets its strength then.
+[[nodiscard]] inline BrittleMaterial untilFailure(const FailureLaw& law) {
+  return {.tensileStrength = kUnbreakable, .fractureEnergy = law.energy};
+}
+
 /// The materials of a body with several; empty for a body with one.
 struct MaterialPlaces {
   std::vector<BodyMaterial> materials;

@@ -110,6 +110,7 @@ struct Component : BodyMaterial {
   std::string name = {};            ///< given by a script, or empty
 
   [[nodiscard]] bool yields() const { return plastic.yields(); }
+  [[nodiscard]] bool fails() const { return plastic.fails(); }
   [[nodiscard]] bool isMixed() const { return firstMaterial != lastMaterial; }
 };
 

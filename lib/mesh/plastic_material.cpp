@@ -58,6 +58,13 @@ Hardening staticStress(const PlasticMaterial& m, double strain) {
   return {m.yieldStress + part, part * m.hardeningExponent / strain};
 }
 
+double relativeHeat(const PlasticMaterial& m, double temperature) {
+  if (!(m.meltTemperature > m.startTemperature)) return 0;
+  const double relative =
+      (temperature - m.startTemperature) / (m.meltTemperature - m.startTemperature);
+  return std::clamp(relative, 0., 1.);
+}
+
 double thermalFactor(const PlasticMaterial& m, double temperature) {
   if (m.thermalExponent <= 0) return 1;
   const double relative =
@@ -108,7 +115,7 @@ std::string PlasticMaterial::wrong() const {
   if (!isNotNegative(heatCapacity))
     return refuse("heatCapacity", heatCapacity, " J/(kg K)", "0 or positive, and finite");
   if (!(heatShare >= 0 && heatShare <= 1)) return refuse("heatShare", heatShare, "", "from 0 to 1");
-  return {};
+  return failure.wrong(meltTemperature > startTemperature && std::isfinite(meltTemperature));
 }
 
 }  // namespace yadefrag

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/failure_law.hpp"
+
 namespace yadefrag {
 
 /// A point of a table of hardening.
@@ -42,6 +44,8 @@ struct PlasticMaterial {
   /// Pa, largest mean stress; above that of the cone's apex it has no effect.
   double tensionLimit = std::numeric_limits<double>::infinity();
 
+  FailureLaw failure{};  ///< of a material that is not frictional
+
   [[nodiscard]] bool yields() const { return yieldStress > 0 || !table.empty() || isFrictional(); }
   [[nodiscard]] bool isFrictional() const { return cohesion > 0; }
   /// True if the yield stress depends linearly on the plastic strain and on nothing else.
@@ -50,6 +54,7 @@ struct PlasticMaterial {
            (hardening == 0 || hardeningExponent == 1) && rateFactor == 0 && thermalExponent == 0;
   }
   [[nodiscard]] bool isHeated() const { return heatCapacity > 0; }
+  [[nodiscard]] bool fails() const { return failure.isOn(); }
   bool operator==(const PlasticMaterial&) const = default;
 
   /// Empty, or a sentence on the first wrong constant.
@@ -79,6 +84,8 @@ struct Cone {
   static double rootOf(double tangent) { return std::sqrt(9 + 12 * tangent * tangent); }
   static double slopeOf(double tangent) { return 3 * tangent / rootOf(tangent); }
 };
+/// T*, from 0 to 1; 0 without a melting temperature.
+[[nodiscard]] double relativeHeat(const PlasticMaterial& m, double temperature);
 /// Factor of the temperature, from 1 to 0.
 [[nodiscard]] double thermalFactor(const PlasticMaterial& m, double temperature);
 

@@ -19,6 +19,8 @@ struct PlasticState {
   std::vector<double> thickness;             ///< λ, elastic stretch across the plane
   std::vector<double> strain;                ///< p, equivalent plastic strain
   std::vector<double> temperature;           ///< K
+  /// From 0 to 1, where the material has failed; empty if no body can.
+  std::vector<double> damage;
 
   template <class Self>
   static auto columnsOf(Self& self) {
@@ -30,6 +32,7 @@ struct PlasticState {
       visit(Column{"elasticThickness", Use::kPlasticity, kOptional}, self.thickness);
       visit(Column{"plasticStrain", Use::kPlasticity, kOptional}, self.strain);
       visit(Column{"temperature", Use::kPlasticity, kOptional}, self.temperature);
+      visit(Column{"damage", Use::kPlasticity, kOptional}, self.damage);
     };
   }
 
@@ -40,10 +43,14 @@ struct PlasticState {
     thickness[row] = 1;
     strain[row] = 0;
     temperature[row] = start;
+    if (!damage.empty()) damage[row] = 0;
   }
   void resize(std::size_t count) {
     for (auto& one : edges) one.resize(count);
     thickness.resize(count), strain.resize(count), temperature.resize(count);
+  }
+  [[nodiscard]] bool hasFailed(std::size_t row) const {
+    return !damage.empty() && damage[row] >= 1;
   }
 };
 

@@ -113,7 +113,7 @@ const BodyMaterial& materialOf(const BodySpec& spec, std::size_t triangle) {
 
 void checkPlaces(const TriangleMesh& mesh, const BodySpec& spec) {
   const BrittlePlaces& places = spec.places;
-  if (!places.empty() && !wholeOf(spec).brittle.cracks())
+  if (!places.empty() && (!wholeOf(spec).brittle.cracks() || spec.plastic.yields()))
     throw InputError(
         "strength, fractureEnergy and joints are given, but the material does not crack; it must "
         "be a BrittleFEMat.");

@@ -91,10 +91,22 @@ bool triangleIsValid(const Model& model, std::size_t element) {
          std::ranges::all_of(t.inverseEdges[element], [](double v) { return std::isfinite(v); });
 }
 
+/// Bodies that yield or fail have a state.
+bool yieldingIsValid(const Model& model) {
+  const PlasticState& state = model.triangles.plastic;
+  const auto any = [&](bool (Component::*has)() const) {
+    return std::ranges::any_of(model.components, has);
+  };
+  return (state.isUsed() || !any(&Component::yields)) &&
+         (!state.damage.empty() || !any(&Component::fails)) &&
+         std::ranges::all_of(state.damage, [](double d) { return d >= 0 && d <= 1; });
+}
+
 bool trianglesAreValid(const Model& model) {
   const Triangles& t = model.triangles;
   const std::size_t count = t.size();
   if (!haveLength(t.columns(), count)) return false;
+  if (!yieldingIsValid(model)) return false;
   for (std::size_t e = 0; e < count; ++e)
     if (!triangleIsValid(model, e)) return false;
   return true;

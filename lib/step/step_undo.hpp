@@ -10,6 +10,7 @@
 
 #include "dynamics/element_kernel.hpp"
 #include "dynamics/energy_ledger.hpp"
+#include "dynamics/plastic_flow.hpp"
 #include "step/energy_watch.hpp"
 
 namespace yadefrag {
@@ -23,6 +24,7 @@ struct StepUndo {
   EnergyWatch watch;
   double stableStep = 0;  ///< s
   BulkViscosity stableViscosity;
+  PlasticFlow::Steepness steepness;
   double speedLimit = 0;     ///< m/s
   std::vector<Vec2> driven;  ///< m/s, of nodes with a motion; empty until the step sets them
 };

@@ -22,7 +22,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   requireApart(mesh, spec, "The new body");
   Component component;
   static_cast<BodyMaterial&>(component) = wholeOf(spec);
-  component.brittleByPlace = !spec.places.empty() || !spec.materials.empty();
+  component.brittleByPlace = !spec.places.empty() || !spec.materials.empty() || component.fails();
   component.name = spec.name;
   component.thickness = spec.thickness;
   // A fragment has contact with the rest of its body.
@@ -110,19 +110,26 @@ void World::setLoads(std::vector<Vec2> byNode) {
   model.nodes.load = std::move(byNode);
 }
 
+/// Derived data are made anew before the next step.
+void World::noteChange() {
+  loadedSteepness = steepness();
+  isBuilt_ = false;
+}
+
 void World::rebuild() {
   broken_.clear();
   rigidNodes_.clear();
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
     if (model.components[model.nodes.component[n].value].rigid) rigidNodes_.emplace_back(n);
   contact.resize(model.nodes.size());
-  isBuilt_ = false;
+  noteChange();
 }
 
 void World::buildIfChanged() {
   if (isBuilt_) return;
   places_.clear();
   dynamics_.rebuild(model);
+  if (stableStep > 0) dynamics_.flow().restore(loadedSteepness);
   loads.absorbing.findTriangles(model, surfaces);
   reactions.clear();
   const auto& owners = surfaces.component;

@@ -55,8 +55,10 @@ struct BodySpec : BodyMaterial {
 
 /// Its material, or the bound of several.
 [[nodiscard]] inline BodyMaterial wholeOf(const BodySpec& spec) {
-  if (spec.materials.empty()) return spec;
-  return boundOf(spec.materials, spec.places);
+  if (!spec.materials.empty()) return boundOf(spec.materials, spec.places);
+  BodyMaterial one = spec;
+  if (one.plastic.fails()) one.brittle = untilFailure(one.plastic.failure);
+  return one;
 }
 
 /// Fragments that were removed because they were too small; their energy is in the ledger.
@@ -133,11 +135,16 @@ class World {
   [[nodiscard]] double criticalTimeStep() const;
 
   /// True if flow has made triangles flatter since the critical step was last computed in a step.
-  [[nodiscard]] bool hasFlowed() const { return isBuilt_ && dynamics_.flow().isSteeper(); }
+  [[nodiscard]] bool hasFlowed() const { return PlasticFlow::isSteeper(steepness()); }
 
   /// To save.
   [[nodiscard]] SearchBounds searchBounds() const {
     return isBuilt_ ? search.bounds(dynamics_) : search.loaded;
+  }
+
+  /// To save.
+  [[nodiscard]] PlasticFlow::Steepness steepness() const {
+    return isBuilt_ ? dynamics_.flow().steepness() : loadedSteepness;
   }
 
   /// (J) At the last half step.
@@ -195,6 +202,7 @@ class World {
   /// (s) The longest step found stable since bodies were added or removed, with this viscosity.
   double stableStep = 0;
   BulkViscosity stableViscosity;
+  PlasticFlow::Steepness loadedSteepness;  ///< that of `stableStep`; taken over at the next step
 
   // --- counters
   StageTimes times;
@@ -207,6 +215,7 @@ class World {
   void removeUnusedMotions();
   void drive(double dt);
   void undoDrive();
+  void noteChange();
   void buildIfChanged();
   void requireStableStep(double dt);
   void updateStressLimits();

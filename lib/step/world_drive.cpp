@@ -47,7 +47,7 @@ void World::prescribeEach(std::span<const NodeId> nodes, std::uint8_t held,
       ledger.external += model.nodes.mass[node] / 2 * (dot(present, present) - dot(former, former));
   }
   removeUnusedMotions();
-  if (changed) isBuilt_ = false;
+  if (changed) noteChange();
 }
 
 void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Motion motion) {
@@ -65,7 +65,7 @@ void World::prescribeMotion(std::span<const NodeId> nodes, std::uint8_t held, Mo
   const Motion& added = model.motions.back();
   for (const NodeId node : nodes) {
     if (all.mass[node.value] == 0) continue;  // of a removed triangle
-    if (all.held[node.value] != held) isBuilt_ = false;
+    if (all.held[node.value] != held) noteChange();
     all.held[node.value] = held;
     all.motion[node.value] = static_cast<std::uint32_t>(model.motions.size());
     all.arm[node.value] = all.position[node.value] - added.centre;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "fracture/brittle_checks.hpp"
 #include "step/crack_candidates.hpp"
 #include "step/entry_pairs.hpp"
 #include "step/world.hpp"
@@ -29,14 +30,16 @@ bool World::crack() {
   fracture.cohesion.settle(model, fracture.edges);
   const bool opened = fracture.crack(model, surfaces, dynamics_.stressed(), {time, lastDt}, split_);
   fracture.noteStart(time);
-  if (opened) {
-    const double gained = fracture.splitEnergy(model, split_.originals, lastDt);
-    ledger.fracture -= gained;
-    watch.split += gained;
-    followSplit();
-  }
+  double gained = fracture.yieldingGain();
+  if (opened) gained += fracture.splitEnergy(model, split_.originals, lastDt);
+  ledger.fracture -= gained;
+  watch.split += gained;
+  if (opened) followSplit();
   fracture.cohere(model);
   loads.spread(model, surfaces, fracture);
+  // A step that does not resolve a new law is refused at its begin.
+  for (const EdgeId edge : fracture.weakened())
+    if (!isResolved(model, fracture.edges, edge, lastDt)) stableStep = 0;
   // A loaded state computes the limits from the present strengths.
   if (fracture.hasRaised()) updateStressLimits();
   return opened;

@@ -10,6 +10,7 @@ void World::beginUndo() {
   undo_.ledger = ledger;
   undo_.watch = watch;
   undo_.stableStep = stableStep, undo_.stableViscosity = stableViscosity;
+  undo_.steepness = dynamics_.flow().steepness();
   undo_.speedLimit = dynamics_.speedLimit();
   search.begin();
 }
@@ -23,6 +24,7 @@ void World::takeBack() {
   ledger = undo_.ledger;
   watch = undo_.watch;
   stableStep = undo_.stableStep, stableViscosity = undo_.stableViscosity;
+  dynamics_.flow().restore(undo_.steepness);
   dynamics_.setSpeedLimit(undo_.speedLimit);
 }
 

@@ -50,7 +50,7 @@ class WorldArchive : ColumnArchive<Archive> {
  private:
   using Base::column, Base::curves, Base::flags, Base::lines, Base::member, Base::refuse;
   using Base::table, Base::value;
-  static constexpr std::uint64_t kFormat = 17;
+  static constexpr std::uint64_t kFormat = 18;
 
   void all(World& world, std::vector<int>& entryBodies) {
     std::uint64_t format = kFormat;
@@ -93,6 +93,9 @@ class WorldArchive : ColumnArchive<Archive> {
     table(world.model.nodes.columns(), isLate);
     value("steps", world.steps), value("time", world.time), value("lastDt", world.lastDt);
     value("stableStep", world.stableStep);
+    PlasticFlow::Steepness steepness = world.steepness();
+    value("steepness", steepness.known), value("lastSteepness", steepness.last);
+    if constexpr (Archive::is_loading::value) world.loadedSteepness = steepness;
     value("stableLinearViscosity", world.stableViscosity.linear);
     value("stableQuadraticViscosity", world.stableViscosity.quadratic);
     value("numSearches", world.search.count);
@@ -182,6 +185,7 @@ class WorldArchive : ColumnArchive<Archive> {
     constant("heatCapacity", &P::heatCapacity), constant("heatShare", &P::heatShare);
     constant("cohesion", &P::cohesion), constant("internalFriction", &P::internalFriction);
     constant("dilation", &P::dilation), constant("tensionLimit", &P::tensionLimit);
+    failure(rows);
     std::vector<std::uint32_t> counts;
     std::vector<HardeningPoint> points;
     for (const C& c : rows) {
@@ -200,6 +204,16 @@ class WorldArchive : ColumnArchive<Archive> {
         at += counts[i];
       }
     }
+  }
+
+  template <class C>
+  void failure(std::vector<C>& rows) {
+    member("failureStrain", rows, [](C& c) -> double& { return c.plastic.failure.strain; });
+    for (std::size_t i = 0; i < 5; ++i)
+      member(("failureD" + std::to_string(i + 1)).c_str(), rows,
+             [i](C& c) -> double& { return c.plastic.failure.d[i]; });
+    member("spallStress", rows, [](C& c) -> double& { return c.plastic.failure.spallStress; });
+    member("failureEnergy", rows, [](C& c) -> double& { return c.plastic.failure.energy; });
   }
 
   void surfaces(ContactSurfaces& s) {

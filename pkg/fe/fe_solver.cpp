@@ -314,8 +314,8 @@ AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
     for (const auto& one : materials) spec.materials.materials.push_back(bodyMaterialOf(*one));
   if (!spec.selfContact && wholeOf(spec).brittle.cracks())
     throw InputError(
-        "selfContact is False, but the material is a BrittleFEMat, whose fragments must touch "
-        "each other; it must be True, or the material an FEMat.");
+        "selfContact is False, but the material is a BrittleFEMat or fails, and its fragments must "
+        "touch each other; it must be True, or the material an FEMat.");
   const std::vector<CoarseMesh> choices = choicesOf(materials);
   std::string message = fitToCoarseMesh(mesh, spec, choices);
   const ComponentId component = world_.addBody(mesh, spec);

@@ -32,6 +32,10 @@ class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>
   double startTemperature = 293;
   double heatCapacity = 0;
   double heatShare = .9;
+  double failureStrain = FailureLaw::kNone;
+  double failureD1 = 0, failureD2 = 0, failureD3 = 0, failureD4 = 0, failureD5 = 0;
+  double spallStress = FailureLaw::kNone;
+  double fractureEnergy = 0;
 
   [[nodiscard]] PlasticMaterial constants() const {
     return {.yieldStress = yieldStress,
@@ -45,7 +49,11 @@ class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>
             .meltTemperature = meltTemperature,
             .startTemperature = startTemperature,
             .heatCapacity = heatCapacity,
-            .heatShare = heatShare};
+            .heatShare = heatShare,
+            .failure = {.strain = failureStrain,
+                        .d = {failureD1, failureD2, failureD3, failureD4, failureD5},
+                        .spallStress = spallStress,
+                        .energy = fractureEnergy}};
   }
 
  private:
@@ -87,8 +95,38 @@ class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>
                   "Part of the plastic work that becomes heat (Taylor and Quinney)."));
   }
 
+  static constexpr auto ofFailure() {
+    return std::tuple(
+        attribute("failureStrain", &C::failureStrain,
+                  "Equivalent plastic strain at which a triangle fails; with failureD1 or "
+                  "failureD2 the least failure strain of their formula. inf: none."),
+        attribute("failureD1", &C::failureD1,
+                  "D1 of Johnson and Cook's failure strain (1985, Eng. Fract. Mech. 21, 31): "
+                  "(D1 + D2*exp(D3*s)) * (1 + D4*ln(rate/referenceRate)) * (1 + D5*T), with the "
+                  "mean stress over von Mises' stress s (tension positive, at most 1.5), the rate "
+                  "of the plastic strain (the factor is that of at least referenceRate) and T of "
+                  "the yield stress. The sum of plastic strain increments over it is the damage; "
+                  "at 1 the triangle fails: its edges open as those of a BrittleFEMat, with the "
+                  "traction that acts then as their strength, and with fractureEnergy. "
+                  "failureD1 = failureD2 = 0: none."),
+        attribute("failureD2", &C::failureD2, "D2, 0 or positive."),
+        attribute("failureD3", &C::failureD3,
+                  "D3, 0 or negative; papers that count pressure as positive give -D3."),
+        attribute("failureD4", &C::failureD4, "D4; 0: the rate has no effect."),
+        attribute("failureD5", &C::failureD5,
+                  "D5; 0: the temperature has no effect; otherwise with meltTemperature."),
+        attribute("spallStress", &C::spallStress,
+                  "Tensile mean stress (Pa) at which a triangle fails at once; inf: none."),
+        attribute("fractureEnergy", &C::fractureEnergy,
+                  "Energy (J/m²) that opens a crack where the material has failed, from the "
+                  "traction that acts to 0, linearly; 0: it opens at once. The plastic work until "
+                  "then is not part of it."));
+  }
+
  public:
-  static constexpr auto attributes() { return std::tuple_cat(ofHardening(), ofRateAndHeat()); }
+  static constexpr auto attributes() {
+    return std::tuple_cat(ofHardening(), ofRateAndHeat(), ofFailure());
+  }
 };
 
 class FrictionalFEMat : public Published<FrictionalFEMat, Indexed<FrictionalFEMat, FEMat>, FEMat> {

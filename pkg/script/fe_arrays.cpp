@@ -69,6 +69,10 @@ py::object stressArrayOf(const FESolver& solver) {
 
 bool anyYields(const FESolver& solver) { return solver.world().model.triangles.plastic.isUsed(); }
 
+bool anyFails(const FESolver& solver) {
+  return !solver.world().model.triangles.plastic.damage.empty();
+}
+
 /// Of the present state; 0 for triangles that do not yield.
 py::object yieldingArray(const FESolver& solver, double YieldPoint::*which) {
   const Model& model = solver.world().model;
@@ -88,6 +92,10 @@ py::object plasticStrainOf(const FESolver& solver) {
 
 py::object temperatureOf(const FESolver& solver) {
   return yieldingArray(solver, &YieldPoint::temperature);
+}
+
+py::object damageOf(const FESolver& solver) {
+  return toArray(presentDamage(solver.world().model, solver.world().lastDt));
 }
 
 py::object componentsOf(const FESolver& solver) {
@@ -202,6 +210,9 @@ void defineArrays(SolverClass& solver) {
       .add_property("temperature", &Locked<temperatureOf>::call,
                     "Of the triangles (K), array (m), raised by plastic work, without conduction; "
                     "0 where the material does not yield.")
+      .add_property("damage", &Locked<damageOf>::call,
+                    "Damage of the triangles, array (m), from 0 to 1, where the material has "
+                    "failed; 0 where it cannot.")
       .add_property("components", &Locked<componentsOf>::call,
                     "Number of each triangle's body, array (m).")
       .add_property("materialNumbers", &Locked<materialNumbersOf>::call,
@@ -222,6 +233,7 @@ void defineArrays(SolverClass& solver) {
       .add_property("numSegments", &Locked<segmentsOf>::call,
                     "Segments of all surfaces: each crack that opens adds two; those of removed "
                     "fragments do not count.")
+      .add_property("_fails", &Locked<anyFails>::call)
       .add_property("_yields", &Locked<anyYields>::call)
       .add_property("_reference", &Locked<referenceOf>::call)
       .add_property("_loads", &Locked<loadsOf>::call)

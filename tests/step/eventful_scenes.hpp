@@ -105,6 +105,14 @@ inline std::map<std::string, Scene> scenes() {
     world.fracture.minFragmentArea = .1;
     return world;
   };
+  all["torn"] = [] {
+    return row(3, .002, 14, [](int k, BodySpec& spec, const TriangleMesh&) {
+      spec.plastic.yieldStress = 1e5, spec.plastic.hardening = 1e5;
+      spec.plastic.failure.strain = .02 + .01 * k;
+      spec.plastic.failure.energy = 2000;
+      spec.element = k == 1 ? ElementKind::kLinear : ElementKind::kSmoothed;
+    });
+  };
   all["driven"] = [] {
     World world = row(2, .002, 6, [](int, BodySpec& spec, const TriangleMesh& mesh) {
       hold(spec, mesh, kHeldY, [](Vec2 x) { return x.y < .01; });

@@ -61,7 +61,7 @@ class Twins {
   void askWithBrittleCracks() {
     for (Component& component : asked_.model.components) {
       double& energy = component.brittle.fractureEnergy;
-      if (energy == 0) continue;
+      if (energy == 0 || component.brittleByPlace) continue;
       const double kept = energy;
       energy = 1e-12 * kept;
       const double stable = std::exchange(asked_.stableStep, 0.);  // looked at anew
@@ -147,7 +147,8 @@ TEST(RefusedStep, ChangesNothing) {
     twins.run(longRun() ? 2000 : 250);
     for (const auto& [reason, count] : twins.refusals) refusals[reason] += count;
     EXPECT_TRUE(name == "alone" || twins.rows() > 50);
-    const bool cracks = name == "rubble" || name == "cohesion" || name == "dropped";
+    const bool cracks =
+        name == "rubble" || name == "cohesion" || name == "dropped" || name == "torn";
     EXPECT_EQ(twins.world().fracture.numCracks() > 0, cracks);
     EXPECT_EQ(twins.world().dropped.count > 0, name == "dropped");
     if (HasFailure()) return;

@@ -49,4 +49,26 @@ inline constexpr double kSteeper = .02;
 /// advises.
 inline constexpr double kFlowStep = .8;
 
+/// (ratio) Largest mean stress over von Mises' stress in the formula of the failure strain, as in
+/// Johnson and Cook 1985, who bound it for lack of tests.
+inline constexpr double kMostTriaxiality = 1.5;
+
+/// (ratio) Plastic strain rate over the reference rate up to which the failure strain must be
+/// positive: that of shock waves.
+inline constexpr double kMostRate = 1e10;
+
+/// Least failure strain, so that damage is finite at any rate: below the strain at the elastic
+/// limit of any metal.
+inline constexpr double kLeastFailureStrain = 1e-6;
+
+/// (of von Mises' stress) Least traction on the edges of a triangle that has failed at which one
+/// opens: below it, as under pressure, they would keep nothing of the strength that acts.
+inline constexpr double kLeastOpening = .1;
+
+/// (count, ratio) Sweeps over the nodes around a split, by which their volumes are matched, and the
+/// share of each difference that a sweep removes. With these a split creates 1 to 5 % of the energy
+/// of its crack, of either sign (1 to 12 % with 10 or 40 whole ones).
+inline constexpr int kVolumeSweeps = 20;
+inline constexpr double kVolumeShare = .5;
+
 }  // namespace yadefrag::tolerance

@@ -43,6 +43,15 @@ def isField(material: object) -> bool:
         or isinstance(material, numpy.ndarray) and material.ndim > 0
 
 
+def mayCrack(material: object) -> bool:
+    """True for a material whose edges may open: a brittle one, or one that yields and fails."""
+    if isinstance(material, wrapper.BrittleFEMat):
+        return True
+    return isinstance(material, wrapper.PlasticFEMat) and (
+        min(material.failureStrain, material.spallStress) < math.inf
+        or material.failureD1 != 0 or material.failureD2 != 0)
+
+
 class Materials:
     """Materials of a body: `of`, the FEMats in the order of their first triangles, and `numbers`,
     (m) the index of each triangle's material in it; empty for a body of one material."""

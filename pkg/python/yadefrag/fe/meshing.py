@@ -12,7 +12,7 @@ import numpy
 from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag.arguments import number, pair, pointsOf, positive, refuse, requireTakes, whole
-from yadefrag.fe.materials import isField
+from yadefrag.fe.materials import isField, mayCrack
 from yadefrag.fe.mesh_values import isClockwise, smoothFlags, smoothNodes
 from yadefrag.hints import ArrayLike, ByPlace, FESolver, Mesh
 from yadefrag.messages import warn
@@ -82,7 +82,7 @@ def isIrregular(mesh: str | None, material: object) -> bool:
     """True for an irregular mesh, by the argument `mesh`; None: irregular for a body that can
     crack, or whose materials are known only after meshing."""
     if mesh is None:
-        return isField(material) or isinstance(material, wrapper.BrittleFEMat)
+        return isField(material) or mayCrack(material)
     if not isinstance(mesh, str) or mesh not in ('regular', 'irregular'):
         refuse('mesh', mesh, "'regular', 'irregular' or None")
     return mesh == 'irregular'

@@ -196,7 +196,7 @@ def addPolygon(self: FESolver, outline: ArrayLike, holes: Iterable[ArrayLike] = 
     {arguments}
     mesh            'regular': rows of nearly equilateral triangles, whose edges have few
                     directions; 'irregular': edges in all directions, for cracks that do not
-                    follow the mesh; None: 'irregular' for a BrittleFEMat or several materials,
+                    follow the mesh; None: 'irregular' for a material that cracks or fails, or several,
                     otherwise 'regular'
     snap            None: an outline that overlaps the bodies beside it by at most 0.05 of `size`, as by
                     rounded coordinates, is moved off them, by at most 0.1 of it; 0: it is refused.

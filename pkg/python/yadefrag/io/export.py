@@ -14,8 +14,9 @@ _OF_NODES = {'displacement': 'displacements', 'velocity': 'velocities',
              'contact force': 'contactForces', 'reaction': 'reactions'}
 _OF_TRIANGLES = {'stress': ('stress', float), 'strain': ('strain', float),
                  'plastic strain': ('plasticStrain', float), 'temperature': ('temperature', float),
-                 'component': ('components', numpy.int32), 'fragment': ('fragmentOf', numpy.int32)}
-_OF_YIELDING = ('plastic strain', 'temperature')
+                 'damage': ('damage', float), 'component': ('components', numpy.int32),
+                 'fragment': ('fragmentOf', numpy.int32)}
+_PRESENT = {'plastic strain': '_yields', 'temperature': '_yields', 'damage': '_fails'}
 FIELDS = (*_OF_NODES, *_OF_TRIANGLES)
 
 
@@ -30,9 +31,10 @@ def exportVTK(fe: FESolver, file: File, fields: Iterable[str] | None = None) -> 
 
     Points are the nodes at their present positions (m); at points: displacement from the stress-free
     shape (m), velocity (m/s), contact force and reaction (N); in triangles: stress (xx, yy, xy in Pa),
-    strain (xx, yy, xy), with materials that yield plastic strain and temperature (K), component and fragment (int). Removed fragments are left out. Cohesive
-    cracks are lines along their first side, with the values of the adjacent triangle, and 'damage'
-    (dissipated fraction of the fracture energy; 0 in triangles).
+    strain (xx, yy, xy), with materials that yield plastic strain and temperature (K), with materials
+    that fail damage, component and fragment (int). Removed fragments are left out. Cohesive cracks are
+    lines along their first side, with the values of the adjacent triangle, but 'damage' is the
+    dissipated fraction of their fracture energy there (and 0 in triangles that cannot fail).
     fields  list of the names of fields to write; None: all
     ValueError for another ending than .vtu, for a solver without bodies and for unknown fields.
     """
@@ -75,9 +77,10 @@ def _state(fe, fields):
             of.append(beside)
         cells = {}
         for name, (attribute, kind) in _OF_TRIANGLES.items():
-            if name in fields and (name not in _OF_YIELDING or getattr(fe, '_yields', False)):
+            if name in fields and (name not in _PRESENT or getattr(fe, _PRESENT[name], False)):
                 values = numpy.asarray(getattr(fe, attribute), dtype=kind)
                 cells[name] = [values[numbers] for numbers in of]
         if len(beside):
-            cells['damage'] = [numpy.zeros(len(triangles)), damage]
+            ofTriangles = cells['damage'][0] if 'damage' in cells else numpy.zeros(len(triangles))
+            cells['damage'] = [ofTriangles, damage]
         return fe.nodes[nodes], blocks, points, cells

@@ -21,6 +21,7 @@ _ENERGIES = ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 
 _FIRST = ('step', 'time (s)', 'cracks', 'fragments') + tuple('%s (J)' % e for e in _ENERGIES) + \
     ('reaction x (N)', 'reaction y (N)')
 _OF_YIELDING = ('plastic (J)', 'largest plastic strain', 'highest temperature (K)')
+_OF_FAILING = ('largest damage', 'failed triangles')
 _NAMED = 'reaction %s of %s (N)'
 _complained = set()  # files for which a message was given
 
@@ -35,7 +36,8 @@ def FERecorder(iterPeriod: int = 0, file: File = 'run', fields: Iterable[str] | 
                 (s), the numbers of cracks and fragments, the energies (J), and the reactions (N) of
                 all held nodes and of each body with a name, nan while there is no such body; with
                 materials that yield also the plastic work, the largest plastic strain and the highest
-                temperature; file.pvd,
+                temperature, with materials that fail the largest damage and the number of failed
+                triangles; file.pvd,
                 for ParaView, is the series of the pictures file_000000.vtu, …, which have the format
                 of exportVTK
     fields      fields of exportVTK in the pictures; None: all; (): no pictures
@@ -88,7 +90,7 @@ def _appendLine(fe, name, _):
     file = name + '.csv'
     lines = _lines(file)
     names = [one for one in fe._names if one]
-    columns = [*_FIRST, *(_OF_YIELDING if fe._yields else ()),
+    columns = [*_FIRST, *(_OF_YIELDING if fe._yields else ()), *(_OF_FAILING if fe._fails else ()),
                *(_NAMED % (axis, one.replace(',', ' ')) for one in names for axis in 'xy')]
     row, old = _row(fe, names), lines[0].split(',') if lines else []
     isOurs = old[:len(_FIRST)] == list(_FIRST)
@@ -125,10 +127,13 @@ def _row(fe, names):
     numbers += [energy.get(one, 0.) for one in _ENERGIES[:-1]] + [energy.get('scene', energy['total'])]
     forces = fe.reactions
     ofYielding = [energy['plastic'], fe.plasticStrain.max(), fe.temperature.max()] if fe._yields else []
+    if fe._fails:
+        damage = fe.damage
+        ofYielding += [damage.max(), int((damage >= 1).sum())]
     sums = [forces.sum(axis=0)] + [forces[fe.nodesOf(one)].sum(axis=0) if not fe._isGone(
         fe._names.index(one)) else (math.nan, math.nan) for one in names]
     ends = [float(value) for force in sums for value in force]
-    numbers += ends[:2] + [float(one) for one in ofYielding] + ends[2:]
+    numbers += ends[:2] + [one if isinstance(one, int) else float(one) for one in ofYielding] + ends[2:]
     return list(map(repr, numbers))
 
 

@@ -11,6 +11,7 @@ UNITS = {'xx': 'stress xx (Pa)', 'yy': 'stress yy (Pa)', 'xy': 'stress xy (Pa)',
          'mises': 'von Mises stress (Pa)', 'sigma1': 'larger principal stress (Pa)',
          'sigma2': 'smaller principal stress (Pa)', 'speed': 'speed (m/s)',
          'displacement': 'displacement (m)', 'plasticStrain': 'plastic strain', 'temperature': 'temperature (K)',
+         'damage': 'damage',
          'component': 'component', 'fragment': 'fragment'}
 _OTHER_NAMES = {'principal1': 'sigma1', 'principal2': 'sigma2'}
 
@@ -30,7 +31,7 @@ def fieldValues(fe: FESolver, field: Any) -> tuple[numpy.ndarray, bool] | tuple[
             return numpy.linalg.norm(numpy.asarray(vectors, dtype=float), axis=1), True
         if field == 'component':
             return numpy.asarray(fe.components, dtype=float), False
-        if field in ('plasticStrain', 'temperature'):
+        if field in ('plasticStrain', 'temperature', 'damage'):
             return getattr(fe, field), False
         if field in UNITS:
             return _stress(fe, field), False
