@@ -37,4 +37,5 @@ print('plastic strain up to %.2f, %.0f K; %d cracks, %d fragments' % (
 print('of %.0f J: plastic %.0f, kinetic %.0f, strain %.0f; balance %.1e' % (
     start, energy['plastic'], energy['kinetic'], energy['strain'], energy['total'] / start - 1))
 folder = sys.argv[1] if len(sys.argv) > 1 else '.'
-plotMesh(fe, 'plasticStrain', folder + '/armour.png', pyplot.figure(figsize=(12, 4.6)).add_subplot(), limits=(0, 1))
+axes = pyplot.figure(figsize=(12, 6), layout='constrained').add_subplot()
+plotMesh(fe, 'plasticStrain', folder + '/armour.png', axes, limits=(0, 1))
