@@ -54,21 +54,17 @@ void BodyRows::read(const yade::Body& body, BodyRow& row) {
   storeThree(loadThree(state.angVel.data()), row.values + 7);
 }
 
-bool BodyRows::readPair(const yade::Scene& scene, const yade::Interaction& contact, BodyRow& one,
-                        BodyRow& two) {
-  const yade::Body* const body1 = bodyAt(scene, static_cast<std::size_t>(contact.id1));
-  const yade::Body* const body2 = bodyAt(scene, static_cast<std::size_t>(contact.id2));
-  if (!areHere(flagsOf(scene, body1), flagsOf(scene, body2))) return false;
-  read(*body1, one), read(*body2, two);
-  return true;
+bool BodyRows::areHere(const yade::Scene& scene, const yade::Interaction& contact) {
+  return areHere(flagsOf(scene, bodyAt(scene, static_cast<std::size_t>(contact.id1))),
+                 flagsOf(scene, bodyAt(scene, static_cast<std::size_t>(contact.id2))));
 }
 
-void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, int threads) {
+void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, bool areUsed, int threads) {
   // YADE's functions make the arrays long enough.
   const auto last = static_cast<yade::Body::id_t>(scene.bodies->body.size()) - 1;
   scene.forces.addForce(last, yade::Vector3r::Zero());
   scene.forces.addTorque(last, yade::Vector3r::Zero());
-  isInPlace_ = numContacts < kContactsPerBody * scene.bodies->body.size();
+  isInPlace_ = !areUsed || numContacts < kContactsPerBody * scene.bodies->body.size();
   if (!isInPlace_) return fill(scene, numContacts, threads);
   forces_ = forcesOf(scene).data();
   torques_ = torquesOf(scene).data();

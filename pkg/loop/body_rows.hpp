@@ -34,6 +34,7 @@ struct PairRows {
     return geom && isOf(contact) && contact.geom.get() == geom && contact.phys.get() == phys;
   }
   [[gnu::always_inline]] void request() const {
+    if (!geom) return;
     const auto* const first = reinterpret_cast<const char*>(geom);
     const auto* const second = reinterpret_cast<const char*>(phys);
     __builtin_prefetch(first), __builtin_prefetch(first + 64), __builtin_prefetch(first + 128);
@@ -47,14 +48,15 @@ struct PairRows {
 
 class BodyRows {
  public:
-  /// Reads the bodies of all rows, for `numContacts` contacts in the scene.
-  void begin(yade::Scene& scene, std::size_t numContacts, int threads);
+  /// Reads the bodies of all rows, for `numContacts` contacts in the scene; `areUsed`: by some of
+  /// them.
+  void begin(yade::Scene& scene, std::size_t numContacts, bool areUsed, int threads);
   /// Before `begin`: all rows are made anew in this step.
   void forget() { age_ = kLongestAge; }
-  /// Reads the motion of the bodies of a contact that is evaluated in place; not the sums. False:
-  /// one does not exist, or neither is of this process.
-  static bool readPair(const yade::Scene& scene, const yade::Interaction& contact, BodyRow& one,
-                       BodyRow& two);
+  /// True: both bodies of a contact exist, and one is of this process.
+  static bool areHere(const yade::Scene& scene, const yade::Interaction& contact);
+  /// The motion of a body that exists, for a contact that is evaluated in place; not the sums.
+  static void read(const yade::Body& body, BodyRow& row);
   /// True: there are no rows; sums are numbered by ids.
   [[nodiscard]] bool isInPlace() const { return isInPlace_; }
   /// What is known of contact `place`. Each for one thread at once.
@@ -106,7 +108,6 @@ class BodyRows {
     return (flags1 & flags2 & kExists) != 0 && ((flags1 | flags2) & kIsHere) != 0;
   }
   static unsigned flagsOf(const yade::Scene& scene, const yade::Body* body);
-  static void read(const yade::Body& body, BodyRow& row);
   void fill(yade::Scene& scene, std::size_t numContacts, int threads);
   void fillRow(yade::Scene& scene, std::size_t id, std::size_t row);
   void requestAhead(const yade::Scene& scene, std::size_t id) const;

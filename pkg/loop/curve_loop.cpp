@@ -43,7 +43,7 @@ void ContactLoop::action() {
   const PairStep step(*this, *scene);
   if (step.functors() != functors_) rows_.forget();
   functors_ = step.functors();
-  rows_.begin(*scene, size, threads);
+  rows_.begin(*scene, size, step.computesGeometry(), threads);
   if (threads > 1) {
     runInParallel(step, size);
   } else {
@@ -126,10 +126,15 @@ bool ContactLoop::evaluateOther(Evaluation& evaluation, const Contact& contact,
 
 bool ContactLoop::evaluateInPlace(Evaluation& evaluation, const Contact& contact) const {
   if (evaluation.step.isFarApart(*contact)) return false;
-  BodyRow one, two;
-  if (!BodyRows::readPair(*scene, *contact, one, two)) {
+  if (!BodyRows::areHere(*scene, *contact)) {
     contact->reset();
     return false;
+  }
+  BodyRow one, two;
+  if (evaluation.step.usesMotion()) {
+    const auto& bodies = scene->bodies->body;
+    BodyRows::read(*bodies[static_cast<std::size_t>(contact->id1)], one);
+    BodyRows::read(*bodies[static_cast<std::size_t>(contact->id2)], two);
   }
   const bool isForce =
       evaluation.step.evaluate(contact, one, two, evaluation.fast, evaluation.force);

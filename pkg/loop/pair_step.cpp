@@ -103,10 +103,11 @@ bool PairStep::areApart(const FourLanes& between, double radius1, double radius2
 
 // False: no functor accepts the two shapes. The order of the bodies may be swapped.
 bool PairStep::chooseGeometry(yade::Interaction& contact) const {
-  auto shape1 = bodyOf(contact.id1).shape, shape2 = bodyOf(contact.id2).shape;
-  if (!contact.functorCache.geomExists || !shape1 || !shape2) return false;
+  const yade::Body &body1 = bodyOf(contact.id1), &body2 = bodyOf(contact.id2);
+  if (!contact.functorCache.geomExists || !body1.shape || !body2.shape) return false;
   if (contact.functorCache.geom) return true;
   bool isSwapped = false;
+  auto shape1 = body1.shape, shape2 = body2.shape;
   contact.functorCache.geom = loop_.geomDispatcher->getFunctor2D(shape1, shape2, isSwapped);
   contact.functorCache.geomExists = contact.functorCache.geom != nullptr;
   if (isSwapped) contact.swapOrder();

@@ -19,6 +19,10 @@ class PairStep {
   [[nodiscard]] Functors functors() const {
     return isAllKnown_ ? Functors{spheres_, friction_, law_} : Functors{};
   }
+  /// False: YADE's functors compute all geometries.
+  [[nodiscard]] bool computesGeometry() const { return spheres_ != nullptr; }
+  /// False: the loop uses no motion of bodies.
+  [[nodiscard]] bool usesMotion() const { return spheres_ != nullptr || law_ != nullptr; }
   /// Evaluates one contact of the bodies `one` and `two`, which exist and whose order in it may be
   /// swapped. False: it has no force, or YADE's law has added it to the scene's forces. Counts
   /// geometries that YADE's functors did not compute.
