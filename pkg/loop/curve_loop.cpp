@@ -125,7 +125,7 @@ bool ContactLoop::evaluateOther(Evaluation& evaluation, const Contact& contact,
 }
 
 bool ContactLoop::evaluateInPlace(Evaluation& evaluation, const Contact& contact) const {
-  if (evaluation.step.isFarApart(*contact)) return false;
+  if (evaluation.step.computesGeometry() && evaluation.step.isFarApart(*contact)) return false;
   if (!BodyRows::areHere(*scene, *contact)) {
     contact->reset();
     return false;
@@ -154,7 +154,7 @@ bool ContactLoop::evaluateInPlace(Evaluation& evaluation, const Contact& contact
   for (std::size_t place = 0; place < size; ++place) {
     const Contact& contact = (*scene->interactions)[place];
     if (rows_.isInPlace()) {
-      requestInPlace(place, size);
+      if (step.usesMotion()) requestInPlace(place, size);
       if (!evaluateInPlace(evaluation, contact)) continue;
     } else {
       requestAhead(place, size);
@@ -193,7 +193,7 @@ void ContactLoop::runInParallel(const PairStep& step, std::size_t size) {
     const Contact& contact = (*scene->interactions)[place];
     bool isForce = false;
     if (rows_.isInPlace()) {
-      requestInPlace(place, stored_.size());
+      if (step.usesMotion()) requestInPlace(place, stored_.size());
       isForce = evaluateInPlace(evaluation, contact);
     } else {
       requestAhead(place, stored_.size());
