@@ -38,19 +38,6 @@ use_plugin() {
   export PYTHONPATH="$package_dir${PYTHONPATH:+:$PYTHONPATH}"
 }
 
-# Debian's libjemalloc2, if it is installed: YADE allocates bodies and contacts one by one, and glibc spreads them
-# further over memory (docs/decisions.md). YADEFRAG_ALLOCATOR=glibc switches it off; other libraries that are
-# preloaded stay alone.
-use_allocator() {
-  local library=/usr/lib/x86_64-linux-gnu/libjemalloc.so.2
-  case ${YADEFRAG_ALLOCATOR:-jemalloc} in
-    glibc) return ;;
-    jemalloc) ;;
-    *) die "YADEFRAG_ALLOCATOR is '$YADEFRAG_ALLOCATOR'; it must be glibc or jemalloc." ;;
-  esac
-  if [ -z "${LD_PRELOAD:-}" ] && [ -e $library ]; then export LD_PRELOAD=$library; fi
-}
-
 # Where the plugin is installed in the YADE below YADE_PREFIX, which finds it there before any other one.
 installed_plugin() {
   [ -z "${YADE_PREFIX:-}" ] || find "$YADE_PREFIX"/lib*/ -maxdepth 4 -path '*/yade*/py/yadefrag' | head -n 1

@@ -12,7 +12,7 @@ of the differences, divided by that of the displacements, must be below TOLERANC
 middle of the overlap). In the hopper, YADE gives a sphere two contacts where two facets of a wall meet; LAMMPS has no
 facets, but planes.
 
-Needs Debian's lammps, liggghts and libjemalloc2: scripts/setup does not install them. Writes codes.json (raw), codes.md (table)
+Needs Debian's lammps and liggghts: scripts/setup does not install them. Writes codes.json (raw), codes.md (table)
 and codes.png to out/bench; with --readme the table goes into docs/measured.md.
 """
 import argparse
@@ -37,11 +37,9 @@ ENGINES = {  # collider, loop, integrator
     'YADE': ('InsertionSortCollider', 'InteractionLoop', 'NewtonIntegrator'),
     'collider': ('LebesgueCollider', 'InteractionLoop', 'NewtonIntegrator'),
     'loop': ('LebesgueCollider', 'CurveLoop', 'NewtonIntegrator'),
-    'integrator': ('LebesgueCollider', 'CurveLoop', 'CurveIntegrator'),
-    'allocator': ('LebesgueCollider', 'CurveLoop', 'CurveIntegrator')}  # with libjemalloc2
+    'integrator': ('LebesgueCollider', 'CurveLoop', 'CurveIntegrator')}
 OTHERS = {'LIGGGHTS': codes_liggghts, 'LAMMPS': codes_lammps}
 TOLERANCE = .03
-JEMALLOC = '/usr/lib/x86_64-linux-gnu/libjemalloc.so.2'
 
 
 def parse(arguments):
@@ -70,10 +68,9 @@ def parse(arguments):
 def installed(codes):
     """Those of the codes that there are; a sentence about the others."""
     there = {name: module.exists() for name, module in OTHERS.items()}
-    there['allocator'] = os.path.exists(JEMALLOC)
     missing = [name for name in codes if not there.get(name, True)]
     if missing:
-        packages = ' '.join({'allocator': 'libjemalloc2'}.get(name, name.lower()) for name in missing)
+        packages = ' '.join(name.lower() for name in missing)
         print(f'not compared with {" and ".join(missing)}: not installed (sudo apt-get install {packages}).',
               file=sys.stderr)
     return [name for name in codes if name not in missing]
@@ -86,9 +83,8 @@ def ofYade(options, name, scene, n, threads, folder):
                     collider=collider, loop=loop, integrator=integrator, folder=folder)
     command = [options.yade, '-n', '-x', f'-j{threads}', os.path.join(colliders.HERE, 'codes_yade.py'),
                json.dumps(settings)]
-    allocator = 'jemalloc' if name == 'allocator' else 'glibc'
     done = subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=options.limit,
-                          check=False, env={**os.environ, 'YADEFRAG_ALLOCATOR': allocator})
+                          check=False)
     row = colliders._lastRow(done.stdout)
     if not row:
         raise RuntimeError(f'yade ended with status {done.returncode}: {colliders._lastLine(done.stderr)}')

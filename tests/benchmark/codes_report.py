@@ -7,7 +7,7 @@ from measured_tables import digits  # noqa: E402
 
 MARKS = ('<!-- codes -->\n', '<!-- end of codes -->')
 NAMES = {'YADE': 'YADE', 'collider': '+ `LebesgueCollider`', 'loop': '+ `CurveLoop`', 'integrator': '+ `CurveIntegrator`',
-         'allocator': '+ jemalloc', 'LIGGGHTS': 'LIGGGHTS', 'LAMMPS': 'LAMMPS'}
+         'LIGGGHTS': 'LIGGGHTS', 'LAMMPS': 'LAMMPS'}
 PARTS = {'search': '#3d8fb5', 'forces': '#d1495b', 'integration': '#e0a030', 'other': '#bbbbbb'}
 
 

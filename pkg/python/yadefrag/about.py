@@ -22,7 +22,7 @@ def about(show: Callable[[str], Any] = print) -> bool:
     """Prints what is installed and whether it works; returns True if all checks succeed.
 
     Versions of yadefrag, YADE and Python; whether YADE's classes have the layout for which the
-    extension was built; instruction set and threads of the finite elements; the allocator of memory; folders
+    extension was built; instruction set and threads of the finite elements; folders
     of examples and manual. `python3 -m yadefrag`, outside YADE, prints the same; its exit code is 0 if all checks
     succeed, else 1.
 
@@ -50,7 +50,6 @@ def _rows():
     yield 'interface', problem or "YADE's classes have the expected layout", not problem
     yield 'instructions', _yadefrag.instructionSet(), True
     yield 'threads', _threads(), True
-    yield 'allocator', _allocator(), True
     examples, manual = _place('examples'), _place('docs') or _place('README.md')
     yield 'examples', str(examples or 'not found'), examples is not None
     yield 'manual', str(manual or 'not found'), manual is not None
@@ -67,12 +66,6 @@ def _problemOfInterface():
 def _threads():
     limit = os.environ.get('OMP_NUM_THREADS')
     return '%s of %d (yade -j N)' % (limit or 1, len(os.sched_getaffinity(0)))
-
-
-def _allocator():
-    """The library that allocates memory: one that was preloaded, or that of the C library."""
-    libraries = pathlib.Path('/proc/self/maps').read_text()
-    return next((name for name in ('jemalloc', 'mimalloc', 'tcmalloc') if f'/lib{name}' in libraries), 'glibc')
 
 
 def _place(name):

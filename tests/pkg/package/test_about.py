@@ -10,7 +10,6 @@ import pytest
 
 import yadefrag
 from yade import config
-from project import ROOT
 from yadefrag import _yadefrag, support
 
 PACKAGE = pathlib.Path(yadefrag.__file__).absolute().parent.parent
@@ -77,24 +76,3 @@ def test_yadeThatDoesNotWorkIsReported(tmp_path):
     done = asked(PATH='%s:%s' % (tmp_path, os.environ['PATH']))
     assert done.returncode == 1 and done.stdout == ''
     assert done.stderr.strip().endswith('a library is missing')
-
-
-@pytest.mark.parametrize('chosen', ['', 'glibc', 'jemalloc'])
-def test_allocatorIsTheChosenOne(chosen, folder):
-    """scripts/yade preloads libjemalloc2 where it is installed, unless glibc's is chosen."""
-    script = pathlib.Path(folder) / 'about.py'
-    script.write_text('import yadefrag\nyadefrag.about()\n')
-    environment = {name: text for name, text in os.environ.items() if name not in ('LD_PRELOAD', 'YADEFRAG_ALLOCATOR')}
-    if chosen:
-        environment['YADEFRAG_ALLOCATOR'] = chosen
-    done = subprocess.run([str(ROOT / 'scripts' / 'yade'), '-n', '-x', str(script)], capture_output=True, text=True,
-                          env=environment, check=True)
-    installed = os.path.exists('/usr/lib/x86_64-linux-gnu/libjemalloc.so.2')
-    expected = 'jemalloc' if installed and chosen != 'glibc' else 'glibc'
-    assert f'allocator    {expected}\n' in done.stdout
-
-
-def test_unknownAllocatorIsRefused():
-    done = subprocess.run([str(ROOT / 'scripts' / 'yade'), '-n'], capture_output=True, text=True, check=False,
-                          env={**os.environ, 'YADEFRAG_ALLOCATOR': 'mine'})
-    assert done.returncode == 1 and "YADEFRAG_ALLOCATOR is 'mine'" in done.stderr
