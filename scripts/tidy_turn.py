@@ -1,7 +1,7 @@
 """The sources of a turn of clang-tidy: python3 scripts/tidy_turn.py COMMITS FILE..., one path a line.
 
 These are the sources that have changed in the last COMMITS commits or in the work tree; for each header that
-has changed, and that none of these includes, one source that includes it; and a third of the others, which
+has changed, and that none of these includes, one source that includes it; and a sixth of the others, which
 take turns by the number of commits. All sources, where the history is too short (a shallow clone), git
 fails, or the checks themselves have changed.
 """
@@ -12,7 +12,7 @@ import zlib
 
 from units import ROOT, headersOf
 
-TURNS = 3
+TURNS = 6
 
 
 def git(*arguments):

@@ -288,7 +288,7 @@ struct AddForces {
 
   [[gnu::always_inline]] void returnAlone(std::uint32_t l, GroupLanes& g) const {
     double any = 0;
-    for (std::size_t k = 0; k < kLanes; ++k) any = std::max(any, g.flow.fails[k]);
+    for (const double fails : g.flow.fails) any = std::max(any, fails);
     if (any <= 0) return;
     std::array<bool, kLanes> alone;
     for (std::size_t k = 0; k < kLanes; ++k)

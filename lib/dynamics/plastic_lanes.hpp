@@ -35,7 +35,8 @@ struct FormerLanes {
   std::uint32_t first, count;
   double edges[4][kLanes], thickness[kLanes], strain[kLanes], temperature[kLanes];
 
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): every value is written at once
+  // Not `= default`, with which emplace_back would set all values, which are written at once, to 0.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init,modernize-use-equals-default)
   FormerLanes() {}
 };
 

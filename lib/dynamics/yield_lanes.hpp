@@ -81,7 +81,7 @@ struct alignas(64) FlowLanes {
 
 [[gnu::always_inline]] inline void takeLogarithms(double (&x)[kLanes]) {
 #pragma omp simd
-  for (std::size_t k = 0; k < kLanes; ++k) x[k] = logOf(x[k]);
+  for (std::size_t k = 0; k < kLanes; ++k) x[k] = logOf(x[k]);  // NOLINT(modernize-loop-convert)
 }
 
 [[gnu::always_inline]] inline void estimateStress(const YieldCurve c, FlowLanes& w) {

@@ -57,9 +57,8 @@ std::vector<EdgeId> StrengthCheck::weaken(const Model& model, CrackEdges& edges,
     least = std::min(least, strength);
     changed.push_back(one.edge);
   }
-  std::ranges::sort(changed);
-  const auto repeated = std::ranges::unique(changed);
-  changed.erase(repeated.begin(), repeated.end());
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   return changed;
 }
 

@@ -16,9 +16,8 @@ bool isSmoothed(const Component& body) {
 
 template <class T>
 void sortUnique(std::vector<T>& list) {
-  std::ranges::sort(list);
-  const auto repeated = std::ranges::unique(list);
-  list.erase(repeated.begin(), repeated.end());
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 /// All triangles at some nodes, ascending.

@@ -63,6 +63,7 @@ struct Bar {
     const std::vector<std::uint32_t> piece = piecesOf(world.model);
     for (std::size_t e = 0; e < piece.size(); ++e) area[piece[e]] += world.model.triangles.area[e];
     std::vector<double> areas;
+    areas.reserve(area.size());
     for (const auto& [number, one] : area) areas.push_back(one);
     std::ranges::sort(areas, std::greater());
     areas.resize(std::max<std::size_t>(areas.size(), 2));
