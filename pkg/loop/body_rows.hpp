@@ -80,8 +80,10 @@ class BodyRows {
   [[nodiscard]] std::size_t numSums() const { return numSums_; }
   /// Requests what a contact needs, before its turn.
   [[gnu::always_inline]] void request(const PairRows& pair) const {
-    __builtin_prefetch(&rows_[pair.row1]), __builtin_prefetch(&rows_[pair.row1].values[8]);
-    __builtin_prefetch(&rows_[pair.row2]), __builtin_prefetch(&rows_[pair.row2].values[8]);
+    // There may be no rows yet.
+    const BodyRow *const one = rows_.data() + pair.row1, *const two = rows_.data() + pair.row2;
+    __builtin_prefetch(one), __builtin_prefetch(one->values + 8);
+    __builtin_prefetch(two), __builtin_prefetch(two->values + 8);
   }
   /// Puts the sums into YADE's, in the array of the calling thread, 0. What YADE's functors have
   /// added there since `begin` is kept.
