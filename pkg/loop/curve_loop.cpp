@@ -189,6 +189,7 @@ void ContactLoop::runInParallel(const PairStep& step, std::size_t size) {
                                                               ContactBlock& block) {
   Evaluation evaluation{step};
   block.withoutRows.clear();
+  block.forces = 0;
   for (std::size_t place = begin; place < end; ++place) {
     const Contact& contact = (*scene->interactions)[place];
     bool isForce = false;
@@ -204,6 +205,7 @@ void ContactLoop::runInParallel(const PairStep& step, std::size_t size) {
       }
     }
     store(evaluation, isForce, stored_[place]);
+    block.forces += isForce;
   }
   block.fast = evaluation.fast;
 }
@@ -221,11 +223,13 @@ void ContactLoop::runInParallel(const PairStep& step, std::size_t size) {
 void ContactLoop::evaluateWithoutRows(const PairStep& step) {
   Evaluation evaluation{step};
   for (const ContactBlock& block : blocks_) {
-    fastGeometries += block.fast;
+    fastGeometries += block.fast, fastForces += block.forces;
     for (const std::size_t place : block.withoutRows) {
       const Contact& contact = (*scene->interactions)[place];
       PairRows& pair = rows_.make(*scene, place, *contact);
-      store(evaluation, evaluate(evaluation, contact, pair), stored_[place]);
+      const bool isForce = evaluate(evaluation, contact, pair);
+      store(evaluation, isForce, stored_[place]);
+      fastForces += isForce;
     }
   }
   fastGeometries += evaluation.fast;
@@ -245,8 +249,6 @@ void ContactLoop::addStored() {
       if (isOwn(force.row2)) rows_.addSecond(force.row2, contact);
     }
   });
-  fastForces = std::count_if(stored_.begin(), stored_.end(),
-                             [](const PairForce& force) { return force.row1 != PairForce::kNone; });
 }
 
 }  // namespace yadefrag

@@ -52,6 +52,7 @@ class ContactLoop : public yade::InteractionLoop {
   /// What a thread found in contacts one behind the other.
   struct ContactBlock {
     long fast = 0;                         // geometries that the loop computed
+    long forces = 0;                       // and forces
     std::vector<std::size_t> withoutRows;  // contacts that are not evaluated yet
   };
   /// What one thread evaluates.
