@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "abi/body_at.hpp"
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
 #include "search/curve_key.hpp"
@@ -42,12 +43,6 @@ void prefetchFirstNode(const Body* body) {
   if (!body->intrs.empty()) __builtin_prefetch(&*body->intrs.begin());
 }
 
-/// Null if the body was erased, or if there are no longer so many.
-const Body* bodyOf(const Bodies& bodies, Body::id_t id) {
-  const auto slot = static_cast<std::size_t>(id);
-  return slot < bodies.size() ? bodies[slot].get() : nullptr;
-}
-
 /// For item k of `count`, whose interaction is about to be inserted or erased; `idsOf(k)`: its two
 /// bodies.
 template <class IdsOf>
@@ -56,7 +51,7 @@ void prefetchBodies(const Bodies& bodies, std::size_t k, std::size_t count, cons
     if (at >= count) return;
     const auto [first, second] = idsOf(at);
     for (const Body::id_t id : {first, second})
-      if (const Body* body = bodyOf(bodies, id)) prefetch(body);
+      if (const Body* body = bodyAt(bodies, id)) prefetch(body);
   };
   both(k + kMiddle, prefetchBody);
   both(k + kNear, prefetchFirstNode);
@@ -68,7 +63,7 @@ void prefetchBodies(const Bodies& bodies, std::size_t k, std::size_t count, cons
 /// without a bound. Without boxes their distance is unknown, so that these interactions are always
 /// kept. (YADE uses the origin as the box of a body without one.)
 bool InteractionUpdate::mayErase(const Interaction& is, const Bodies& bodies) {
-  return isSearched(bodyOf(bodies, is.getId1())) && isSearched(bodyOf(bodies, is.getId2()));
+  return isSearched(bodyAt(bodies, is.getId1())) && isSearched(bodyAt(bodies, is.getId2()));
 }
 
 void InteractionUpdate::apply(yade::Scene& scene, const Neighbours& near,

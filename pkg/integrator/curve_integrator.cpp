@@ -40,17 +40,6 @@ void requestAhead(const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::
 
 }  // namespace
 
-SumsOfForces::SumsOfForces(yade::ForceContainer& forces, std::size_t numBodies)
-    : container_(forces) {
-  if (numBodies == 0) return;
-  const auto last = static_cast<yade::Body::id_t>(numBodies - 1);
-  const yade::Vector3r* const force = &forces.getForce(0);
-  const yade::Vector3r* const torque = &forces.getTorque(0);
-  // A shorter array gives the same zero for all others.
-  if (&forces.getForce(last) == force + last) forces_ = force;
-  if (&forces.getTorque(last) == torque + last) torques_ = torque;
-}
-
 void MotionIntegrator::readStep(MotionStep& step) const {
   const yade::Cell& cell = *scene->cell;
   step.dt = scene->dt;
@@ -90,7 +79,6 @@ bool MotionIntegrator::isOurs(const yade::Body& body) const {
 }
 
 [[gnu::always_inline]] inline void MotionIntegrator::moveBlock(const MotionStep& step,
-                                                               const SumsOfForces& sums,
                                                                std::size_t begin, std::size_t end,
                                                                Part& part) const {
   const auto& bodies = scene->bodies->body;
@@ -101,7 +89,8 @@ bool MotionIntegrator::isOurs(const yade::Body& body) const {
     if (!bodies[index] || !mayMove(*bodies[index], part)) continue;
     const yade::Body& body = *bodies[index];
     yade::State& state = *body.state;
-    changePlace(step, loadThree(sums.force(body.id)), loadThree(sums.torque(body.id)), state);
+    changePlace(step, loadThree(scene->forces.getForce(body.id).data()),
+                loadThree(scene->forces.getTorque(body.id).data()), state);
     if (body.bound && isBeyondBound(*body.bound, state)) part.isAnyBeyond = true;
     moved[numMoved++] = &state;
   }
@@ -117,7 +106,6 @@ void MotionIntegrator::action() {
   const auto& bodies = scene->bodies->body;
   MotionStep step = {};
   readStep(step);
-  const SumsOfForces sums(scene->forces, bodies.size());
   const int most = omp_get_max_threads();
   parts_.assign(static_cast<std::size_t>(most), {});
   forEachPart(bodies.size(), most, [&](std::size_t begin, std::size_t end, int number) {
@@ -125,7 +113,7 @@ void MotionIntegrator::action() {
     runFor(
         kInstructions, [&]() __attribute__((always_inline)) {
           for (std::size_t block = begin; block < end; block += kBlock) {
-            moveBlock(step, sums, block, std::min(block + kBlock, end), part);
+            moveBlock(step, block, std::min(block + kBlock, end), part);
           }
         });
     parts_[static_cast<std::size_t>(number)] = part;

@@ -10,24 +10,6 @@
 
 namespace yadefrag {
 
-/// Forces and torques by body id, of all threads together.
-class SumsOfForces {
- public:
-  SumsOfForces(yade::ForceContainer& forces, std::size_t numBodies);
-  [[nodiscard]] const double* force(yade::Body::id_t id) const {
-    return (forces_ ? forces_[id] : container_.getForce(id)).data();
-  }
-  [[nodiscard]] const double* torque(yade::Body::id_t id) const {
-    return (torques_ ? torques_[id] : container_.getTorque(id)).data();
-  }
-
- private:
-  yade::ForceContainer& container_;
-  // Null: not of all bodies one behind the other.
-  const yade::Vector3r* forces_ = nullptr;
-  const yade::Vector3r* torques_ = nullptr;
-};
-
 class MotionIntegrator : public yade::NewtonIntegrator {
  public:
   void action() override;
@@ -54,8 +36,7 @@ class MotionIntegrator : public yade::NewtonIntegrator {
   void readStep(MotionStep& step) const;
   [[nodiscard]] bool isOurs(const yade::Body& body) const;
   bool mayMove(const yade::Body& body, Part& part) const;
-  void moveBlock(const MotionStep& step, const SumsOfForces& sums, std::size_t begin,
-                 std::size_t end, Part& part) const;
+  void moveBlock(const MotionStep& step, std::size_t begin, std::size_t end, Part& part) const;
   void moveOthers(std::vector<yade::Body::id_t>& others);
 
   std::vector<Part> parts_;

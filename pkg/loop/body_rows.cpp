@@ -4,6 +4,7 @@
 #include <cmath>
 #include <typeinfo>
 
+#include "abi/body_at.hpp"
 #include "abi/request.hpp"
 #include "core/parallel.hpp"
 
@@ -16,11 +17,6 @@ constexpr std::size_t kContactsPerBody = 1;
 // Bodies between the request of data from memory and their use: enough for the latency of one
 // access.
 constexpr std::size_t kAhead = 8;
-
-const yade::Body* bodyAt(const yade::Scene& scene, std::size_t id) {
-  const auto& bodies = scene.bodies->body;
-  return id < bodies.size() ? bodies[id].get() : nullptr;
-}
 
 // NaN for other shapes, which have contacts by YADE's functors only.
 double radiusOf(const yade::Shape* shape) {
@@ -47,16 +43,12 @@ unsigned BodyRows::flagsOf([[maybe_unused]] const yade::Scene& scene, const yade
 }
 
 void BodyRows::read(const yade::Body& body, BodyRow& row) {
-  const yade::State& state = *body.state;
-  storeThree(loadThree(state.se3.position.data()), row.values);
-  row.values[3] = radiusOf(body.shape.get());
-  storeThree(loadThree(state.vel.data()), row.values + 4);
-  storeThree(loadThree(state.angVel.data()), row.values + 7);
+  row.setMotion(*body.state, radiusOf(body.shape.get()));
 }
 
 bool BodyRows::areHere(const yade::Scene& scene, const yade::Interaction& contact) {
-  return areHere(flagsOf(scene, bodyAt(scene, static_cast<std::size_t>(contact.id1))),
-                 flagsOf(scene, bodyAt(scene, static_cast<std::size_t>(contact.id2))));
+  return areHere(flagsOf(scene, bodyAt(scene.bodies->body, contact.id1)),
+                 flagsOf(scene, bodyAt(scene.bodies->body, contact.id2)));
 }
 
 void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, bool areUsed, int threads) {
@@ -92,10 +84,10 @@ void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
 [[gnu::always_inline]] inline void BodyRows::requestAhead(const yade::Scene& scene,
                                                           std::size_t id) const {
   using yade::Body, yade::State;
-  if (const Body* const body = bodyAt(scene, id + 2 * kAhead)) {
+  if (const Body* const body = bodyAt(scene.bodies->body, id + 2 * kAhead)) {
     yadefrag::request(body, offsetof(Body, state), offsetof(Body, shape) + sizeof(Body::shape));
   }
-  const Body* const body = bodyAt(scene, id + kAhead);
+  const Body* const body = bodyAt(scene.bodies->body, id + kAhead);
   if (body == nullptr || rowOf_[id + kAhead] < 0) return;
   yadefrag::request(body->state.get(), offsetof(State, se3),
                     offsetof(State, angVel) + sizeof(State::angVel));
@@ -106,7 +98,7 @@ void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
 
 [[gnu::always_inline]] inline void BodyRows::fillRow(yade::Scene& scene, std::size_t id,
                                                      std::size_t row) {
-  const yade::Body* const body = bodyAt(scene, id);
+  const yade::Body* const body = bodyAt(scene.bodies->body, id);
   flags_[row] = static_cast<unsigned char>(flagsOf(scene, body));
   if (body == nullptr) return;
   read(*body, rows_[row]);

@@ -30,11 +30,17 @@ struct alignas(64) BodyRow {
   double values[16];
 
   [[gnu::always_inline]] [[nodiscard]] FourLanes position() const { return loadFour(values); }
+  [[nodiscard]] double radius() const { return values[3]; }
   [[gnu::always_inline]] [[nodiscard]] FourLanes velocity() const { return loadFour(values + 4); }
   [[gnu::always_inline]] [[nodiscard]] FourLanes spin() const { return loadFour(values + 7); }
   [[gnu::always_inline]] [[nodiscard]] FourLanes force() const { return loadFour(values + 10); }
   [[gnu::always_inline]] [[nodiscard]] FourLanes torque() const { return loadThree(values + 13); }
-  [[nodiscard]] double radius() const { return values[3]; }
+  [[gnu::always_inline]] void setMotion(const yade::State& state, double radius) {
+    storeThree(loadThree(state.se3.position.data()), values);
+    values[3] = radius;
+    storeThree(loadThree(state.vel.data()), values + 4);
+    storeThree(loadThree(state.angVel.data()), values + 7);
+  }
   [[gnu::always_inline]] void setSums(const FourLanes& force, const FourLanes& torque) {
     storeThree(force, values + 10), storeThree(torque, values + 13);
   }
