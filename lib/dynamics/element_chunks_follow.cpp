@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/sort_unique.hpp"
+
 #include "dynamics/element_chunks.hpp"
 
 namespace yadefrag {
@@ -16,12 +18,6 @@ std::uint32_t chunkOf(const std::vector<Chunk>& chunks, ElementId element) {
       std::upper_bound(chunks.begin(), chunks.end(), element.value,
                        [](std::uint32_t e, const Chunk& chunk) { return e < chunk.firstElement; });
   return static_cast<std::uint32_t>(next - chunks.begin()) - 1;
-}
-
-template <class T>
-void sortUnique(std::vector<T>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 }  // namespace

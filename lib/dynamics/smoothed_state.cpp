@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/sort_unique.hpp"
 #include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
 
@@ -109,8 +110,7 @@ double smoothedEnergy(const Model& model, std::span<const ElementId> elements, d
     if (isSmoothed(bodyOf(model, e)))
       nodes.insert(nodes.end(), model.triangles.nodes[e.value].begin(),
                    model.triangles.nodes[e.value].end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sortUnique(nodes);
   std::vector<NodeSum> sums(nodes.size());
   double sum = 0;
   for (const ElementId e : elements) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sort_unique.hpp"
 #include "core/tolerances/plasticity.hpp"
 #include "dynamics/yielding_state.hpp"
 #include "fracture/edge_material.hpp"
@@ -57,8 +58,7 @@ std::vector<EdgeId> StrengthCheck::weaken(const Model& model, CrackEdges& edges,
     least = std::min(least, strength);
     changed.push_back(one.edge);
   }
-  std::sort(changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  sortUnique(changed);
   return changed;
 }
 

@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/sort_unique.hpp"
+
 namespace yadefrag {
 namespace {
-
-template <class T>
-void sortUnique(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 /// True if a side is a face: it has no twin, or is separated from it at one end at least.
 bool isVisible(const Model& model, const CrackEdges& edges, Side side) {

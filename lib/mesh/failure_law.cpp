@@ -7,16 +7,13 @@
 
 #include "core/lane_math.hpp"
 #include "core/tolerances/plasticity.hpp"
+#include "core/wrong_value.hpp"
 
 namespace yadefrag {
 namespace {
 
 /// Of a power that is a finite number, far above any strain.
 constexpr double kMostExponent = 500;
-
-std::string refuse(const std::string& name, double value, const char* unit, const char* right) {
-  return fmt::format("{} is {:g}{}; it must be {}.", name, value, unit, right);
-}
 
 double ofTriaxiality(const FailureLaw& law, double triaxiality) {
   const double most = std::min(triaxiality, tolerance::kMostTriaxiality);
@@ -26,9 +23,10 @@ double ofTriaxiality(const FailureLaw& law, double triaxiality) {
 /// Of the formula, whose failure strain must be positive at any state.
 std::string wrongFormula(const FailureLaw& law, bool heats) {
   const auto& [d1, d2, d3, d4, d5] = law.d;
-  if (!(d2 >= 0)) return refuse("failureD2", d2, "", "0 or positive");
+  if (!(d2 >= 0)) return wrongValue("failureD2", d2, "", "0 or positive");
   if (!(d3 <= 0))
-    return refuse("failureD3", d3, "", "0 or negative, since tension reduces the failure strain");
+    return wrongValue("failureD3", d3, "",
+                      "0 or negative, since tension reduces the failure strain");
   const double least = ofTriaxiality(law, tolerance::kMostTriaxiality);
   if (!(least > 0) && !(law.strain < FailureLaw::kNone))
     return fmt::format(
@@ -37,11 +35,12 @@ std::string wrongFormula(const FailureLaw& law, bool heats) {
         "least one.",
         least);
   if (!(1 + d4 * std::log(tolerance::kMostRate) > 0))
-    return refuse("failureD4", d4, "", "at least -0.04, for a positive failure strain at any rate");
+    return wrongValue("failureD4", d4, "",
+                      "at least -0.04, for a positive failure strain at any rate");
   if (!(d5 > -1))
-    return refuse("failureD5", d5, "", "above -1, for a positive failure strain up to melting");
+    return wrongValue("failureD5", d5, "", "above -1, for a positive failure strain up to melting");
   if (d5 != 0 && !heats)
-    return refuse("failureD5", d5, "", "0, or meltTemperature above startTemperature");
+    return wrongValue("failureD5", d5, "", "0, or meltTemperature above startTemperature");
   return {};
 }
 
@@ -49,23 +48,25 @@ std::string wrongFormula(const FailureLaw& law, bool heats) {
 
 std::string FailureLaw::wrong(bool heats) const {
   for (std::size_t i = 0; i < d.size(); ++i)
-    if (!std::isfinite(d[i])) return refuse(fmt::format("failureD{}", i + 1), d[i], "", "finite");
-  if (!(strain > 0)) return refuse("failureStrain", strain, "", "positive, or infinite for none");
+    if (!std::isfinite(d[i]))
+      return wrongValue(fmt::format("failureD{}", i + 1), d[i], "", "finite");
+  if (!(strain > 0))
+    return wrongValue("failureStrain", strain, "", "positive, or infinite for none");
   if (!(spallStress > 0))
-    return refuse("spallStress", spallStress, " Pa", "positive, or infinite for none");
+    return wrongValue("spallStress", spallStress, " Pa", "positive, or infinite for none");
   if (!(energy >= 0 && std::isfinite(energy)))
-    return refuse("fractureEnergy", energy, " J/m²", "0 or positive, and finite");
+    return wrongValue("fractureEnergy", energy, " J/m²", "0 or positive, and finite");
   if (energy > 0 && !isOn())
-    return refuse("fractureEnergy", energy, " J/m²",
-                  "0 unless failureStrain, failureD1, failureD2 or spallStress is given");
+    return wrongValue("fractureEnergy", energy, " J/m²",
+                      "0 unless failureStrain, failureD1, failureD2 or spallStress is given");
   if (energy == 0 && spallStress < kNone)
-    return refuse("fractureEnergy", energy, " J/m²",
-                  "positive if spallStress is given, as a spall must take energy");
+    return wrongValue("fractureEnergy", energy, " J/m²",
+                      "positive if spallStress is given, as a spall must take energy");
   if (hasFormula()) return wrongFormula(*this, heats);
   for (std::size_t i = 2; i < d.size(); ++i)
     if (d[i] != 0)
-      return refuse(fmt::format("failureD{}", i + 1), d[i], "",
-                    "0 unless failureD1 or failureD2 is given");
+      return wrongValue(fmt::format("failureD{}", i + 1), d[i], "",
+                        "0 unless failureD1 or failureD2 is given");
   return {};
 }
 

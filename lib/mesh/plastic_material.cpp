@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/lane_math.hpp"
+#include "core/wrong_value.hpp"
 
 namespace yadefrag {
 namespace {
@@ -67,54 +68,53 @@ double relativeHeat(const PlasticMaterial& m, double temperature) {
 
 double thermalFactor(const PlasticMaterial& m, double temperature) {
   if (m.thermalExponent <= 0) return 1;
-  const double relative =
-      (temperature - m.startTemperature) / (m.meltTemperature - m.startTemperature);
-  if (relative <= 0) return 1;
+  const double relative = relativeHeat(m, temperature);
   return relative < 1 ? 1 - powerOf(relative, m.thermalExponent) : 0;
 }
 
 std::string PlasticMaterial::wrong() const {
-  const auto refuse = [](const char* name, double value, const char* unit, const char* right) {
-    return fmt::format("{} is {:g}{}; it must be {}.", name, value, unit, right);
-  };
   const auto isPositive = [](double v) { return v > 0 && std::isfinite(v); };
   const auto isNotNegative = [](double v) { return v >= 0 && std::isfinite(v); };
   if (cohesion != 0) {
-    if (!isPositive(cohesion)) return refuse("cohesion", cohesion, " Pa", "positive and finite");
+    if (!isPositive(cohesion))
+      return wrongValue("cohesion", cohesion, " Pa", "positive and finite");
     if (!isNotNegative(internalFriction))
-      return refuse("internalFriction", std::atan(internalFriction), "",
-                    "at least 0 and below π/2 (rad)");
+      return wrongValue("internalFriction", std::atan(internalFriction), "",
+                        "at least 0 and below π/2 (rad)");
     if (!(dilation >= 0 && dilation <= internalFriction))
-      return refuse("dilationAngle", std::atan(dilation), "",
-                    "at least 0 and at most internalFriction");
-    if (!(tensionLimit >= 0)) return refuse("tensionLimit", tensionLimit, " Pa", "0 or positive");
+      return wrongValue("dilationAngle", std::atan(dilation), "",
+                        "at least 0 and at most internalFriction");
+    if (!(tensionLimit >= 0))
+      return wrongValue("tensionLimit", tensionLimit, " Pa", "0 or positive");
     return {};
   }
   if (std::string sentence = wrongTable(table); !sentence.empty()) return sentence;
   if (!(table.empty() ? isPositive(yieldStress) : isNotNegative(yieldStress)))
-    return refuse("yieldStress", yieldStress, " Pa", "positive and finite");
+    return wrongValue("yieldStress", yieldStress, " Pa", "positive and finite");
   if (!isNotNegative(hardening))
-    return refuse("hardening", hardening, " Pa", "0 or positive, and finite");
+    return wrongValue("hardening", hardening, " Pa", "0 or positive, and finite");
   if (!(hardeningExponent > 0 && hardeningExponent <= 1))
-    return refuse("hardeningExponent", hardeningExponent, "", "above 0 and at most 1");
+    return wrongValue("hardeningExponent", hardeningExponent, "", "above 0 and at most 1");
   if (!isNotNegative(offsetStrain))
-    return refuse("offsetStrain", offsetStrain, "", "0 or positive, and finite");
+    return wrongValue("offsetStrain", offsetStrain, "", "0 or positive, and finite");
   if (offsetStrain > 0 && hardening > 0)
-    return refuse("hardening", hardening, " Pa", "0 if there is an offsetStrain");
+    return wrongValue("hardening", hardening, " Pa", "0 if there is an offsetStrain");
   if (!isNotNegative(rateFactor))
-    return refuse("rateFactor", rateFactor, "", "0 or positive, and finite");
+    return wrongValue("rateFactor", rateFactor, "", "0 or positive, and finite");
   if (!isPositive(referenceRate))
-    return refuse("referenceRate", referenceRate, " 1/s", "positive and finite");
+    return wrongValue("referenceRate", referenceRate, " 1/s", "positive and finite");
   if (!isNotNegative(thermalExponent))
-    return refuse("thermalExponent", thermalExponent, "", "0 or positive, and finite");
+    return wrongValue("thermalExponent", thermalExponent, "", "0 or positive, and finite");
   if (!isNotNegative(startTemperature))
-    return refuse("startTemperature", startTemperature, " K", "0 or positive, and finite");
+    return wrongValue("startTemperature", startTemperature, " K", "0 or positive, and finite");
   if (thermalExponent > 0 &&
       !(meltTemperature > startTemperature && std::isfinite(meltTemperature)))
-    return refuse("meltTemperature", meltTemperature, " K", "above startTemperature, and finite");
+    return wrongValue("meltTemperature", meltTemperature, " K",
+                      "above startTemperature, and finite");
   if (!isNotNegative(heatCapacity))
-    return refuse("heatCapacity", heatCapacity, " J/(kg K)", "0 or positive, and finite");
-  if (!(heatShare >= 0 && heatShare <= 1)) return refuse("heatShare", heatShare, "", "from 0 to 1");
+    return wrongValue("heatCapacity", heatCapacity, " J/(kg K)", "0 or positive, and finite");
+  if (!(heatShare >= 0 && heatShare <= 1))
+    return wrongValue("heatShare", heatShare, "", "from 0 to 1");
   return failure.wrong(meltTemperature > startTemperature && std::isfinite(meltTemperature));
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/sort_unique.hpp"
 #include "core/tolerances/mesh.hpp"
 #include "search/overlapping_pairs.hpp"
 
@@ -142,8 +143,7 @@ std::vector<JointNetwork::Side> JointNetwork::chainSides() const {
   for (const Chain& chain : chains_)
     for (std::size_t i = 1; i < chain.size(); ++i)
       sides.push_back(std::minmax(chain[i - 1], chain[i]));
-  std::sort(sides.begin(), sides.end());
-  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  sortUnique(sides);
   return sides;
 }
 

@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/mesh.hpp"
+#include "core/wrong_value.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "mesh/assembly.hpp"
 #include "mesh/initial_stress.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 void require(bool holds, const char* name, double value, const char* unit, const char* right) {
   if (holds) return;
-  throw InputError(fmt::format("{} is {:g}{}; it must be {}.", name, value, unit, right));
+  throw InputError(wrongValue(name, value, unit, right));
 }
 
 template <class Values>

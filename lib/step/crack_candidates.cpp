@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/sort_unique.hpp"
 #include "search/overlapping_pairs.hpp"
 #include "step/entry_pairs.hpp"
 
 namespace yadefrag {
 namespace {
-
-void sortUnique(std::vector<EntryId>& entries) {
-  std::sort(entries.begin(), entries.end());
-  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-}
 
 /// Nodes that were one node before, including `original`.
 struct Twin {
@@ -27,8 +23,7 @@ std::vector<Twin> twinsOf(std::span<const NodeId> originals, std::size_t nodeCou
     twins.push_back({originals[i], originals[i]});
     twins.push_back({originals[i], NodeId(firstNew + i)});
   }
-  std::sort(twins.begin(), twins.end());
-  twins.erase(std::unique(twins.begin(), twins.end()), twins.end());
+  sortUnique(twins);
   return twins;
 }
 

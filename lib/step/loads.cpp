@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/sort_unique.hpp"
 
 namespace yadefrag {
 namespace {
@@ -47,8 +48,7 @@ void Loads::setAbsorbing(const Model& model, const ContactSurfaces& surfaces,
                          std::span<const NodeId> nodes) {
   std::vector<SegmentId> segments = segmentsAmong(surfaces, model.nodes.size(), nodes);
   segments.insert(segments.end(), absorbing.segments.begin(), absorbing.segments.end());
-  std::ranges::sort(segments);
-  segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+  sortUnique(segments);
   absorbing.segments = std::move(segments);
   absorbing.findTriangles(model, surfaces);
 }

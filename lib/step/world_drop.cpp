@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/sort_unique.hpp"
+
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -45,8 +47,7 @@ void World::takeOut(std::span<const ElementId> triangles) {
     const auto& corners = model.triangles.nodes[element.value];
     nodes.insert(nodes.end(), corners.begin(), corners.end());
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sortUnique(nodes);
 
   dropped.count += loose_.count;
   ledger.dropped += yadefrag::strainEnergy(model, lastDt, triangles);

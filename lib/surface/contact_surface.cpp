@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "core/sort_unique.hpp"
 #include "surface/bezier_arc.hpp"
 
 namespace yadefrag {
@@ -114,8 +115,7 @@ auto ContactSurfaces::removeComponents(const std::vector<std::uint8_t>& gone) ->
 
   // Numbers of loops are kept without gaps, too.
   std::vector<std::uint32_t> remaining(loop);
-  std::sort(remaining.begin(), remaining.end());
-  remaining.erase(std::unique(remaining.begin(), remaining.end()), remaining.end());
+  sortUnique(remaining);
   for (std::uint32_t& number : loop)
     number = static_cast<std::uint32_t>(
         std::lower_bound(remaining.begin(), remaining.end(), number) - remaining.begin());
