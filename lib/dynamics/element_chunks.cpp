@@ -26,8 +26,7 @@ Chunk chunkOf(const Component& c) {
   chunk.thickness = c.thickness;
   chunk.element = c.element;
   chunk.yields = c.yields();
-  // In plane stress the thickness is free to change, so that nothing locks.
-  if (chunk.yields && c.material.planeStress) chunk.element = ElementKind::kLinear;
+  if (chunk.yields && !c.averagesVolume()) chunk.element = ElementKind::kLinear;
   chunk.strength = c.brittle.cracks() ? c.brittle.tensileStrength : 0;
   chunk.shearFactor = c.brittle.cracks() ? c.brittle.shearFactor : 0;
   chunk.friction = c.brittle.cracks() ? c.friction : 0;

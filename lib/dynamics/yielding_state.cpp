@@ -34,10 +34,6 @@ double volumeOf(const Model& model, ElementId element) {
   return model.triangles.area[element.value] * model.bodyOf(element).thickness;
 }
 
-bool isSmoothed(const Component& body) {
-  return body.element == ElementKind::kSmoothed && !body.material.planeStress;
-}
-
 /// An element at xⁿ and at xⁿ⁻¹.
 struct Pair {
   ElementId element;
@@ -56,7 +52,7 @@ struct Pair {
       : element(id),
         volume(volumeOf(model, id)),
         constants(model.bodyOf(id)),
-        smoothed(isSmoothed(model.bodyOf(id))),
+        smoothed(model.bodyOf(id).averagesVolume()),
         point(model.triangles.plastic, id.value),
         step(cornersOf(model, id, model.nodes.velocity)),
         now(edgesOf(cornersOf(model, id, model.nodes.position))),

@@ -3,22 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sort_unique.hpp"
 #include "core/tolerances/plasticity.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/yielding_state.hpp"
 
 namespace yadefrag {
 namespace {
-
-bool isSmoothed(const Component& body) {
-  return body.yields() && body.element == ElementKind::kSmoothed;
-}
-
-template <class T>
-void sortUnique(std::vector<T>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
 
 /// All triangles at some nodes, ascending.
 std::vector<ElementId> trianglesAt(const Model& model, const CrackEdges& edges,
@@ -62,7 +53,7 @@ YieldingSplit::YieldingSplit(const Model& model, const CrackEdges& edges,
                              std::span<const EdgeId> cracks, double dt) {
   for (const EdgeId edge : cracks) {
     const Side side = edges.side(edge, 0);
-    if (!isSmoothed(model.bodyOf(side.element))) continue;
+    if (!model.bodyOf(side.element).averagesVolume()) continue;
     nodes_.push_back(firstNode(model, side));
     nodes_.push_back(lastNode(model, side));
   }

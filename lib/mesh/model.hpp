@@ -111,6 +111,11 @@ struct Component : BodyMaterial {
 
   [[nodiscard]] bool yields() const { return plastic.yields(); }
   [[nodiscard]] bool fails() const { return plastic.fails(); }
+  /// True: it yields, and its volume strain is averaged at the nodes. In plane stress the thickness
+  /// is free to change, so that nothing locks.
+  [[nodiscard]] bool averagesVolume() const {
+    return yields() && element == ElementKind::kSmoothed && !material.planeStress;
+  }
   [[nodiscard]] bool isMixed() const { return firstMaterial != lastMaterial; }
 };
 

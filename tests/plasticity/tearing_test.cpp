@@ -23,8 +23,9 @@ struct Bar {
   double dt = 0, start = 0;
 
   explicit Bar(double degrees, ElementKind kind = ElementKind::kSmoothed, double size = 1e-3,
-               double energy = kEnergy) {
+               double energy = kEnergy, bool planeStress = false) {
     spec.element = kind;
+    spec.material.planeStress = planeStress;
     PlasticMaterial& m = spec.plastic;
     m.hardening = 1e9, m.hardeningExponent = .5, m.rateFactor = .01;
     m.failure.strain = .3, m.failure.energy = energy;
@@ -135,6 +136,17 @@ TEST(Tearing, ThreadsDoNotChangeTheBits) {
   EXPECT_GT(one.world.fracture.numCracks(), 10);
   EXPECT_EQ(one.world.model.nodes.position, three.world.model.nodes.position);
   EXPECT_EQ(one.damage(), three.damage());
+}
+
+/// In plane stress no volume strains are averaged: smoothed elements are linear ones, also where
+/// nodes split.
+TEST(Tearing, PlaneStressAveragesNoVolumes) {
+  Bar smoothed(0, ElementKind::kSmoothed, 1e-3, kEnergy, true);
+  Bar linear(0, ElementKind::kLinear, 1e-3, kEnergy, true);
+  smoothed.run(100e-6), linear.run(100e-6);
+  EXPECT_GT(smoothed.world.fracture.numCracks(), 10);
+  EXPECT_EQ(smoothed.world.model.nodes.position, linear.world.model.nodes.position);
+  EXPECT_EQ(smoothed.world.ledger.fracture, linear.world.ledger.fracture);
 }
 
 /// A fragment that is removed has neither damage nor flow left; the rest keeps its own.
