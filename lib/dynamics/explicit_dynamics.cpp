@@ -115,7 +115,7 @@ void ExplicitDynamics::smoothStrains(Model& model, std::size_t part, std::size_t
       if (chunk.element != ElementKind::kSmoothed) continue;
       fetchNodes(elements_, chunk, model.nodes.position, scratch.values.data());
       if (chunk.yields)
-        flow_.sum(set_, model, elements_, chunk, scratch.values.data());
+        flow_.sum(set_, model, elements_, chunk, scratch.values.data(), part);
       else if (!smoothing_.sum(set_, elements_, chunk, scratch.values.data(), scratch.stressed))
         handleFlat(model, chunk, scratch);
     }
@@ -127,6 +127,16 @@ void ExplicitDynamics::smoothStrains(Model& model, std::size_t part, std::size_t
     for (std::size_t row = begin; row < end; ++row) smoothing_.sumShared(elements_, row);
   if (flow_.isSmoothing())
     for (std::size_t row = begin; row < end; ++row) flow_.sumShared(elements_, row);
+#pragma omp barrier
+  if (!flow_.isOpening()) return;
+  errors.run(static_cast<int>(part), [&] {
+    for (std::size_t c = chunks * part / parts; c < chunks * (part + 1) / parts; ++c) {
+      fetchNodes(elements_, elements_.chunks[c], model.nodes.position, scratch.values.data());
+      flow_.open(set_, model, elements_, c, scratch.values.data(), part);
+    }
+  });
+#pragma omp barrier
+  for (std::size_t row = begin; row < end; ++row) flow_.sumShared(elements_, row);
 #pragma omp barrier
 }
 

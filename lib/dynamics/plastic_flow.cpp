@@ -12,14 +12,13 @@
 namespace yadefrag {
 namespace {
 
-/// (1/m²) Largest |∇N|² of a stress-free shape.
-double squaredGradient(const std::array<double, 4>& e) {
-  const Vec2 second{e[0], e[1]}, third{e[2], e[3]}, first = second + third;
-  return std::max({dot(first, first), dot(second, second), dot(third, third)});
-}
-
 bool isSmoothed(const Chunk& chunk) {
   return chunk.yields && chunk.element == ElementKind::kSmoothed;
+}
+
+/// True if volumes are averaged again after the flow.
+bool opensVolume(const Model& model, const Chunk& chunk) {
+  return isSmoothed(chunk) && model.components[chunk.firstComponent].plastic.isFrictional();
 }
 
 }  // namespace
@@ -32,10 +31,12 @@ void PlasticFlow::rebuild(const Model& model, const ElementChunks& elements) {
     if (body.yields())
       for (std::size_t e = body.firstTriangle; e < body.lastTriangle; ++e)
         setYield(body, model.triangles.plastic, e);
-  const bool smooths = std::ranges::any_of(elements.chunks, isSmoothed);
-  volume_.resize(smooths ? elements.nodes.size() : 0);
-  partial_.assign(smooths ? elements.partials() : 0, 0);
-  whole_.resize(partial_.size());
+  now_.rebuild(elements, std::ranges::any_of(elements.chunks, isSmoothed));
+  const bool opens = std::ranges::any_of(
+      elements.chunks, [&](const Chunk& chunk) { return opensVolume(model, chunk); });
+  before_.rebuild(elements, opens);
+  opening_.assign(opens ? model.triangles.size() : 0, 0);
+  flowed_.resize(opens ? elements.chunks.size() : 0);
   dissipated_.assign(on ? elements.chunks.size() : 0, 0);
   threads_.clear();
   damage_.rebuild(model);
@@ -50,11 +51,8 @@ void PlasticFlow::setYield(const Component& body, const PlasticState& state, std
 }
 
 void PlasticFlow::follow(const ElementChunks& elements, std::span<const std::uint32_t> abandoned) {
-  if (volume_.empty()) return;
-  volume_.resize(elements.nodes.size());
-  partial_.resize(elements.partials());
-  whole_.resize(elements.partials());
-  for (const std::uint32_t i : abandoned) partial_[i] = 0;
+  now_.follow(elements, abandoned);
+  before_.follow(elements, abandoned);
 }
 
 void PlasticFlow::begin(const ElementChunks& elements, int threads, double dt) {
@@ -71,7 +69,6 @@ PlasticChunk PlasticFlow::inputOf(Model& model, const Chunk& chunk) {
   const Component& body = model.components[chunk.firstComponent];
   PlasticState& state = model.triangles.plastic;
   const YieldConstants constants(body);
-  const double* pressure = volume_.data() + chunk.firstNode;
   PlasticChunk in{.edges = {state.edges[0].data(), state.edges[1].data(), state.edges[2].data(),
                             state.edges[3].data()},
                   .thickness = state.thickness.data(),
@@ -83,27 +80,42 @@ PlasticChunk PlasticFlow::inputOf(Model& model, const Chunk& chunk) {
                   .tensionLimit = std::numeric_limits<double>::infinity(),
                   .moduli = constants.moduli,
                   .planeStress = body.material.planeStress,
-                  .pressure = isSmoothed(chunk) ? pressure : nullptr,
+                  .pressure = isSmoothed(chunk) ? now_.of(chunk) : nullptr,
+                  .formerPressure = nullptr,
+                  .opening = nullptr,
                   .curve = {body.plastic, constants.moduli.shear, constants.heating, dt_}};
   if (body.plastic.isFrictional())
     in.slope = std::numbers::sqrt3 * constants.cone.slope, in.tensionLimit = constants.cone.limit;
+  if (opensVolume(model, chunk))
+    in.formerPressure = before_.of(chunk), in.opening = opening_.data();
   return in;
 }
 
+/// (m) By local number.
+const Vec2* PlasticFlow::formerPositions(const Model& model, const ElementChunks& elements,
+                                         const Chunk& chunk, const Vec2* position,
+                                         Thread& thread) const {
+  std::vector<Vec2>& before = thread.before;
+  before.resize(chunk.lastNode - chunk.firstNode);
+  fetchNodes(elements, chunk, model.nodes.velocity, before.data());
+  for (std::size_t i = 0; i < before.size(); ++i) before[i] = position[i] - dt_ * before[i];
+  return before.data();
+}
+
 void PlasticFlow::sum(InstructionSet set, Model& model, const ElementChunks& elements,
-                      const Chunk& chunk, const Vec2* position) {
-  double* nodes = volume_.data() + chunk.firstNode;
-  std::fill_n(nodes, chunk.lastNode - chunk.firstNode, 0.);
-  sumVolumes(set, chunk, elements.lanes.data(), inputOf(model, chunk), position, nodes);
-  for (std::uint32_t i = chunk.firstShared; i < chunk.lastNode; ++i)
-    partial_[elements.partialOf[i]] = volume_[i];
+                      const Chunk& chunk, const Vec2* position, std::size_t thread) {
+  const PlasticChunk in = inputOf(model, chunk);
+  sumVolumes(set, chunk, elements.lanes.data(), in, position, now_.begin(chunk));
+  now_.end(elements, chunk);
+  if (!opensVolume(model, chunk)) return;
+  const Vec2* former = formerPositions(model, elements, chunk, position, threads_[thread]);
+  sumVolumes(set, chunk, elements.lanes.data(), in, former, before_.begin(chunk));
+  before_.end(elements, chunk);
 }
 
 void PlasticFlow::sumShared(const ElementChunks& elements, std::size_t row) {
-  const std::uint32_t begin = elements.firstPartial[row], end = elements.firstPartial[row + 1];
-  double sum = 0;
-  for (std::uint32_t i = begin; i < end; ++i) sum += partial_[i];
-  std::fill(whole_.begin() + begin, whole_.begin() + end, sum);
+  now_.sumShared(elements, row);
+  if (before_.isOn()) before_.sumShared(elements, row);
 }
 
 /// Returns the elements of a chunk for which there is no vector loop.
@@ -123,14 +135,9 @@ class PlasticFlow::Lanes final : public LaneReturn {
   }
 
   const Vec2* before() override {
-    std::vector<Vec2>& before = thread_.before;
-    if (before.empty()) {
-      before.resize(chunk_.lastNode - chunk_.firstNode);
-      fetchNodes(elements_, chunk_, model_.nodes.velocity, before.data());
-      for (std::size_t i = 0; i < before.size(); ++i)
-        before[i] = position_[i] - flow_.dt_ * before[i];
-    }
-    return before.data();
+    if (thread_.before.empty())
+      flow_.formerPositions(model_, elements_, chunk_, position_, thread_);
+    return thread_.before.data();
   }
 
   FormerLanes& former() override { return thread_.former.emplace_back(); }
@@ -139,6 +146,11 @@ class PlasticFlow::Lanes final : public LaneReturn {
                   const std::array<bool, kLanes>& alone, TrialLanes& lanes) override {
     for (std::uint32_t k = 0; k < kLanes; ++k)
       if (alone[k]) turn(firstElement + k, {corner[0][k], corner[1][k], corner[2][k]}, k, lanes);
+  }
+  [[nodiscard]] double dissipated() const {
+    double sum = 0;
+    for (const double one : sums.dissipated) sum += one;
+    return sum;
   }
 
  private:
@@ -150,15 +162,21 @@ class PlasticFlow::Lanes final : public LaneReturn {
     };
     PlasticState& state = model_.triangles.plastic;
     const YieldPoint point(state, element);
-    const double pressure = lanes.mean[k] / lanes.volume[k];
+    NodalPressure pressure{lanes.mean[k] / lanes.volume[k], 0};
+    if (flow_.before_.isOn())
+      for (const std::uint16_t node : corner)
+        pressure.before += flow_.before_.of(chunk_)[node] * (1. / 3);
     const Returned back = returnToYield(constants_, point, edges(position_), edges(last), flow_.dt_,
                                         isSmoothed(chunk_) ? &pressure : nullptr);
+    if (isSmoothed(chunk_) && constants_.plastic.isFrictional())
+      flow_.opening_[element] = back.opening;
     back.point.put(state, element);
     flow_.setYield(body_, state, element);
     sums.steepest[k] = std::max(sums.steepest[k], squaredGradient(back.point.edges));
     sums.dissipated[k] += back.dissipation * model_.triangles.area[element] * body_.thickness;
     lanes.set(k, back.trial, back.kept);
     lanes.mean[k] = back.mean;
+    lanes.volume[k] = back.volume();
   }
 
   PlasticFlow& flow_;
@@ -171,10 +189,10 @@ class PlasticFlow::Lanes final : public LaneReturn {
   Thread& thread_;
 };
 
-/// Of the groups of triangles that have flowed, from `first` of the thread's list on, and of those
-/// whose mean stress exceeds the spall stress.
+/// Of the groups of triangles that have flowed, and of those whose mean stress exceeds the spall
+/// stress.
 void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const Chunk& chunk,
-                            const Vec2* position, std::size_t thread, std::size_t first) {
+                            const Vec2* position, std::size_t thread, Flowed list) {
   const YieldConstants c(model.components[chunk.firstComponent]);
   const PlasticState& state = model.triangles.plastic;
   const auto stepOf = [&](std::uint32_t element, double strain, double temperature) {
@@ -185,7 +203,7 @@ void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const C
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint16_t corner = lanes.corner[i][place % kLanes];
       x[i] = position[corner];
-      if (isSmoothed(chunk)) sum += volume_[chunk.firstNode + corner];
+      if (isSmoothed(chunk)) sum += now_.of(chunk)[corner];
     }
     double thickness = 1;
     const ElasticTrial now =
@@ -195,7 +213,7 @@ void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const C
     return FlowStep{strain, temperature, mean, c.moduli.shear * std::sqrt(now.squaredMises()),
                     now.volume};
   };
-  for (std::size_t i = first; i < threads_[thread].former.size(); ++i) {
+  for (std::size_t i = list.first; i < list.end; ++i) {
     const FormerLanes& former = threads_[thread].former[i];
     for (std::uint32_t k = 0; k < former.count; ++k) {
       const std::uint32_t e = former.first + k;
@@ -209,91 +227,52 @@ void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const C
     damage_.add(model, c.plastic, e, stepOf(e, 0, 0), dt_, thread);
 }
 
+void PlasticFlow::open(InstructionSet set, Model& model, const ElementChunks& elements,
+                       std::size_t chunk, const Vec2* position, std::size_t thread) {
+  const Chunk& own = elements.chunks[chunk];
+  if (!opensVolume(model, own)) return;
+  const double bulk = SolidModuli(model.components[own.firstComponent].material).bulk;
+  now_.toPressures(elements, own, model.nodes.mass, bulk);
+  before_.toPressures(elements, own, model.nodes.mass, bulk);
+  std::fill(opening_.begin() + own.firstElement, opening_.begin() + own.lastElement, 0.);
+  Thread& room = threads_[thread];
+  Lanes flow(*this, model, elements, own, position, room);
+  flowed_[chunk].first = room.former.size();
+  const PlasticChunk in = inputOf(model, own);
+  returnPlastic(set, own, elements.lanes.data(), in, position, flow);
+  flowed_[chunk].end = room.former.size();
+  dissipated_[chunk] = flow.dissipated();
+  for (const double one : flow.sums.steepest)
+    room.squaredSteepest = std::max(room.squaredSteepest, one);
+  sumVolumes(set, own, elements.lanes.data(), in, position, now_.begin(own));
+  now_.end(elements, own);
+}
+
 bool PlasticFlow::addForces(InstructionSet set, Model& model, const ElementChunks& elements,
                             std::size_t chunk, const Vec2* position, Vec2* force,
                             std::size_t thread) {
   const Chunk& own = elements.chunks[chunk];
-  const bool smoothed = isSmoothed(own);
-  if (smoothed) {
-    for (std::uint32_t i = own.firstShared; i < own.lastNode; ++i)
-      volume_[i] = whole_[elements.partialOf[i]];
-    const double halfBulk = SolidModuli(model.components[own.firstComponent].material).bulk / 2;
-    for (std::uint32_t i = own.firstNode; i < own.lastNode; ++i) {
-      const double mass = model.nodes.mass[elements.nodes[i].value];
-      const double ratio = volume_[i] * own.density / mass;
-      volume_[i] = mass > 0 ? halfBulk * (ratio - 1 / ratio) : 0;
-    }
-  }
+  if (isSmoothed(own))
+    now_.toPressures(elements, own, model.nodes.mass,
+                     SolidModuli(model.components[own.firstComponent].material).bulk);
   Thread& room = threads_[thread];
   Lanes flow(*this, model, elements, own, position, room);
-  const std::size_t first = room.former.size();
-  const bool good =
-      addPlasticForces(set, own, elements.lanes.data(), inputOf(model, own), position, flow, force);
-  double dissipated = 0;
-  for (const double one : flow.sums.dissipated) dissipated += one;
-  dissipated_[chunk] = dissipated;
+  Flowed flowed{room.former.size(), 0};
+  const PlasticChunk in = inputOf(model, own);
+  bool good = false;
+  if (opensVolume(model, own)) {
+    good = addOpenedForces(set, own, elements.lanes.data(), in, position, flow, force);
+    flowed = flowed_[chunk];
+  } else {
+    good = addPlasticForces(set, own, elements.lanes.data(), in, position, flow, force);
+    flowed.end = room.former.size();
+  }
+  dissipated_[chunk] += flow.dissipated();
   for (const double one : flow.sums.steepest)
     room.squaredSteepest = std::max(room.squaredSteepest, one);
   if (model.components[own.firstComponent].fails())
-    addDamage(model, elements, own, position, thread, first);
+    addDamage(model, elements, own, position, thread, flowed);
   return good;
-}
-
-double PlasticFlow::dissipation() const {
-  double sum = 0;
-  for (const double one : dissipated_) sum += one;
-  return sum;
-}
-
-void PlasticFlow::takeBack(Model& model) {
-  PlasticState& state = model.triangles.plastic;
-  for (Thread& one : threads_) {
-    for (const FormerLanes& former : one.former) {
-      const Component& body = model.components[model.triangles.component[former.first].value];
-      for (std::uint32_t k = 0; k < former.count; ++k) {
-        const std::size_t e = former.first + k;
-        for (std::size_t i = 0; i < 4; ++i) state.edges[i][e] = former.edges[i][k];
-        state.thickness[e] = former.thickness[k];
-        state.strain[e] = former.strain[k], state.temperature[e] = former.temperature[k];
-        setYield(body, state, e);
-      }
-    }
-    one.former.clear(), one.squaredSteepest = 0;
-  }
-  damage_.takeBack(model);
-  std::ranges::fill(dissipated_, 0);
-}
-
-bool PlasticFlow::isSteeper(const Steepness& steepness) {
-  constexpr double kLimit = (1 + tolerance::kSteeper) * (1 + tolerance::kSteeper);
-  return steepness.last > kLimit * steepness.known;
-}
-
-PlasticFlow::Steepness PlasticFlow::steepness() const {
-  double last = restored_;
-  for (const Thread& one : threads_) last = std::max(last, one.squaredSteepest);
-  return {squaredSteepest_, last};
-}
-
-void PlasticFlow::restore(const Steepness& steepness) {
-  squaredSteepest_ = steepness.known, restored_ = steepness.last;
-}
-
-void PlasticFlow::noteSteepest(const Model& model) {
-  squaredSteepest_ = 0;
-  for (const Component& body : model.components)
-    if (body.yields())
-      for (std::size_t e = body.firstTriangle; e < body.lastTriangle; ++e)
-        if (!model.triangles.isDropped(e))
-          squaredSteepest_ = std::max(
-              squaredSteepest_, squaredGradient(YieldPoint(model.triangles.plastic, e).edges));
-}
-
-void PlasticFlow::addTo(Footprint& footprint) const {
-  footprint.add(Use::kPlasticity, yield_, thermal_, volume_, partial_, whole_, dissipated_,
-                threads_);
-  for (const Thread& one : threads_) footprint.add(Use::kPlasticity, one.former, one.before);
-  damage_.addTo(footprint);
 }
 
 }  // namespace yadefrag

@@ -4,11 +4,18 @@
 // (Bonet and Burton 1998, Commun. Numer. Meth. Eng. 14, 437): a node has the pressure of its
 // triangles' whole volume, and a triangle the mean pressure of its nodes. Linear triangles, which
 // would lock in flow without change of volume, do not lock then. No cost if no body yields.
+//
+// Where flow changes the volume (frictional materials), volumes are averaged twice: triangles are
+// returned with the pressure of their nodes before the flow, and forces are those of the volumes
+// after it. They are then the exact gradient of the energy, and the plastic work is the stress
+// times the strain of the flow. A triangle returns as if its neighbours flowed as it does; what
+// this leaves above the yield surface is returned in the next step.
 
 #include <span>
 #include <vector>
 
 #include "core/footprint.hpp"
+#include "dynamics/node_volumes.hpp"
 #include "dynamics/plastic_damage.hpp"
 #include "dynamics/plastic_kernel.hpp"
 
@@ -26,15 +33,21 @@ class PlasticFlow {
   /// Must be called after a split of nodes.
   void follow(const ElementChunks& elements, std::span<const std::uint32_t> abandoned);
   [[nodiscard]] bool isOn() const { return !yield_.empty(); }
-  [[nodiscard]] bool isSmoothing() const { return !volume_.empty(); }
+  [[nodiscard]] bool isSmoothing() const { return now_.isOn(); }
+  /// True if volumes of some bodies are averaged again after the flow.
+  [[nodiscard]] bool isOpening() const { return before_.isOn(); }
 
   /// Before each step of `threads` threads; `dt` (s): the step that led to the positions.
   void begin(const ElementChunks& elements, int threads, double dt);
   /// First pass, for one smoothed chunk; positions by local number.
   void sum(InstructionSet set, Model& model, const ElementChunks& elements, const Chunk& chunk,
-           const Vec2* position);
+           const Vec2* position, std::size_t thread);
   /// Then the sums of nodes in several chunks.
   void sumShared(const ElementChunks& elements, std::size_t row);
+  /// If the flow of the chunk changes its volume: returns its triangles, and sums their volumes
+  /// anew; `sumShared` must follow.
+  void open(InstructionSet set, Model& model, const ElementChunks& elements, std::size_t chunk,
+            const Vec2* position, std::size_t thread);
   /// Second pass, for one chunk: forces (N) by local number. False if an element is flat.
   bool addForces(InstructionSet set, Model& model, const ElementChunks& elements, std::size_t chunk,
                  const Vec2* position, Vec2* force, std::size_t thread);
@@ -63,16 +76,24 @@ class PlasticFlow {
     double squaredSteepest = 0;  // 1/m²
   };
 
+  /// A chunk's part of the list of its thread.
+  struct Flowed {
+    std::size_t first, end;
+  };
+
   void addDamage(Model& model, const ElementChunks& elements, const Chunk& chunk,
-                 const Vec2* position, std::size_t thread, std::size_t first);
+                 const Vec2* position, std::size_t thread, Flowed flowed);
   [[nodiscard]] PlasticChunk inputOf(Model& model, const Chunk& chunk);
+  const Vec2* formerPositions(const Model& model, const ElementChunks& elements, const Chunk& chunk,
+                              const Vec2* position, Thread& thread) const;
   void setYield(const Component& body, const PlasticState& state, std::size_t element);
 
-  std::vector<double> yield_;            // Pa, by triangle
-  std::vector<double> thermal_;          // factor of the temperature in it
-  std::vector<double> volume_;           // m³, then Pa; by chunk and local number
-  std::vector<double> partial_, whole_;  // m³, by number of the partial sum
-  std::vector<double> dissipated_;       // J, by chunk
+  std::vector<double> yield_;       // Pa, by triangle
+  std::vector<double> thermal_;     // factor of the temperature in it
+  NodeVolumes now_, before_;        // at xⁿ, and at xⁿ⁻¹ if flow changes volumes
+  std::vector<double> opening_;     // by triangle, volume strain of the last flow
+  std::vector<Flowed> flowed_;      // by chunk
+  std::vector<double> dissipated_;  // J, by chunk
   std::vector<Thread> threads_;
   PlasticDamage damage_;
   double dt_ = 0;

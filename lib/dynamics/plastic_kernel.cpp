@@ -138,7 +138,8 @@ struct GroupLanes {
   FlowedLanes fresh;
 };
 
-template <bool kPlane, bool kNodal, YieldCurve::Kind kKind>
+/// `kForces`: adds forces, too.
+template <bool kPlane, bool kNodal, YieldCurve::Kind kKind, bool kForces = true>
 struct AddForces {
   const Chunk& chunk;
   const ElementLanes* lanes;
@@ -171,7 +172,7 @@ struct AddForces {
         found += trials.yielding != 0 && trials.flat == 0 ? 1 : 0;
       }
       if (found != 0) flowBlock(l, std::span(yielding).first(found), block, sums);
-      for (std::uint32_t i = 0; i < count; ++i) {
+      for (std::uint32_t i = 0; kForces && i < count; ++i) {
         forcesOfLanes(lanes[l + i], in.moduli.shear, block[i].trial, block[i].corners);
         scatter(lanes[l + i], block[i].corners, force);
       }
@@ -297,6 +298,41 @@ struct AddForces {
   }
 };
 
+/// Forces after the flow.
+struct AddOpened {
+  const Chunk& chunk;
+  const ElementLanes* lanes;
+  const PlasticChunk& in;
+  const Vec2* position;
+  LaneReturn& flow;
+  Vec2* force;
+
+  [[gnu::always_inline]] bool operator()() const {
+    int flat = 0;
+    FlowSums sums;
+    GroupLanes g;
+    alignas(64) double opening[kLanes];
+    std::uint32_t first = chunk.firstElement;
+    for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l, first += kLanes) {
+      gather(lanes[l], position, g.corners);
+      const Group group(first, chunk.lastElement);
+      group.load(in, g.state);
+      group.load(in.yield, g.flow.yield);
+      group.load(in.opening, opening);
+      flat += tryLanes<false, true>(lanes[l], in, g.state, g.flow.yield, g.corners, g.flow.over,
+                                    g.trial)
+                  .flat;
+#pragma omp simd
+      for (std::size_t k = 0; k < kLanes; ++k)
+        sums.dissipated[k] += lanes[l].volume[k] * opening[k] * g.trial.mean[k] / 2;
+      forcesOfLanes(lanes[l], in.moduli.shear, g.trial, g.corners);
+      scatter(lanes[l], g.corners, force);
+    }
+    for (std::size_t k = 0; k < kLanes; ++k) flow.sums.dissipated[k] += sums.dissipated[k];
+    return flat == 0;
+  }
+};
+
 struct SumVolumes {
   const Chunk& chunk;
   const ElementLanes* lanes;
@@ -348,6 +384,17 @@ bool addPlasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes
   if (in.pressure != nullptr)
     return addForces<false, true>(set, chunk, lanes, in, position, flow, force);
   return addForces<false, false>(set, chunk, lanes, in, position, flow, force);
+}
+
+void returnPlastic(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
+                   const PlasticChunk& in, const Vec2* position, LaneReturn& flow) {
+  using enum YieldCurve::Kind;
+  runFor(set, AddForces<false, true, kAlone, false>{chunk, lanes, in, position, flow, nullptr});
+}
+
+bool addOpenedForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
+                     const PlasticChunk& in, const Vec2* position, LaneReturn& flow, Vec2* force) {
+  return runFor(set, AddOpened{chunk, lanes, in, position, flow, force});
 }
 
 void sumVolumes(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,

@@ -28,6 +28,8 @@ struct PlasticChunk {
   bool planeStress;
   /// Pa, U'(J) by local number of the node; null: each element has its own.
   const double* pressure;
+  const double* formerPressure;  ///< Pa, the same at the last step, if flow changes the volume
+  double* opening;               ///< volume strain of the flow, if it changes the volume
   YieldCurve curve;
 };
 
@@ -50,6 +52,15 @@ class LaneReturn {
 /// is flat, inverted or not finite.
 bool addPlasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const PlasticChunk& in, const Vec2* position, LaneReturn& flow, Vec2* force);
+
+/// Only returns the elements of a chunk with nodal pressures; flat ones stay as they are.
+void returnPlastic(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
+                   const PlasticChunk& in, const Vec2* position, LaneReturn& flow);
+
+/// As addPlasticForces, after `returnPlastic`, with the nodal pressures after the flow. The work is
+/// that of these pressures.
+bool addOpenedForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
+                     const PlasticChunk& in, const Vec2* position, LaneReturn& flow, Vec2* force);
 
 /// Adds a third of V·J (m³) of each element to its nodes, by local number; V is the stress-free
 /// volume.

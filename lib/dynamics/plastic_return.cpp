@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "core/lane_math.hpp"
 #include "core/tolerances/plasticity.hpp"
@@ -101,9 +100,9 @@ ElasticTrial trialOf(const YieldConstants& c, const YieldPoint& point, const Tri
 namespace {
 
 /// Flow on the cone and to its limits of tension (de Souza Neto, Perić and Owen 2008, box 8.8).
-/// `formerMean` (Pa): mean of τ at the last step, if it is known.
-void returnToCone(const YieldConstants& c, const ElasticTrial& former,
-                  std::optional<double> formerMean, Returned& result) {
+/// `formerMean` (Pa): mean of τ at the last step.
+void returnToCone(const YieldConstants& c, const ElasticTrial& former, double formerMean,
+                  bool isOwn, Returned& result) {
   const auto [slope, strength, dilation, limit] = c.cone;
   const auto [bulk, shear] = c.moduli;
   const double distortion = shear * std::sqrt(result.trial.squaredMises() / 3);  // √J₂
@@ -117,16 +116,16 @@ void returnToCone(const YieldConstants& c, const ElasticTrial& former,
     remaining = std::min(distortion, std::max(0., strength - slope * mean));
   }
   result.kept = distortion > 0 ? remaining / distortion : 1;
-  const double volume = result.trial.volume;
-  const double volumeStrain = (result.mean - mean) / (bulk * volume * volume);
+  // J² is 1 + 2 J U'/κ.
+  result.opening = logRatio(bulk + 2 * result.mean, bulk + 2 * mean) / 2;
   result.dissipation =
       shear * (1 - result.kept) *
           (product(result.trial, former) + result.kept * product(result.trial, result.trial)) +
-      volumeStrain * (formerMean.value_or(mean) + mean) / 2;
+      result.opening * (formerMean + (isOwn ? mean : 0)) / 2;
   result.mean = mean;
-  flow(result.trial, result.kept, volumeStrain, result.point, result.point.thickness);
+  flow(result.trial, result.kept, result.opening, result.point, result.point.thickness);
   const double sheared = (distortion - remaining) / (std::numbers::sqrt3 * shear);
-  result.point.strain += std::sqrt(sheared * sheared + 2. / 9 * volumeStrain * volumeStrain);
+  result.point.strain += std::sqrt(sheared * sheared + 2. / 9 * result.opening * result.opening);
 }
 
 /// In plane stress the thickness depends on the flow, and the flow on the thickness.
@@ -148,18 +147,16 @@ double settleThickness(const YieldConstants& c, const YieldPoint& point, const T
 }  // namespace
 
 Returned returnToYield(const YieldConstants& c, const YieldPoint& point, const TriangleEdges& now,
-                       const TriangleEdges& before, double dt, const double* pressure) {
+                       const TriangleEdges& before, double dt, const NodalPressure* pressure) {
   double thickness = 1, formerThickness = 1;
   Returned result{point, trialOf(c, point, now, thickness)};
-  const auto meanOf = [&](double volume) {
-    return pressure != nullptr ? *pressure * volume : meanStress(volume, c.moduli.bulk);
-  };
-  result.mean = meanOf(result.trial.volume);
+  const double volume = result.trial.volume;
+  result.mean = pressure != nullptr ? pressure->now * volume : meanStress(volume, c.moduli.bulk);
   if (c.plastic.isFrictional()) {
     const ElasticTrial former = trialOf(c, point, before, formerThickness);
-    // Without its own volume the mean of the last step is unknown here: that after the flow.
-    const bool isOwn = pressure == nullptr;
-    returnToCone(c, former, isOwn ? std::optional(meanOf(former.volume)) : std::nullopt, result);
+    const double mean = pressure != nullptr ? pressure->before * former.volume
+                                            : meanStress(former.volume, c.moduli.bulk);
+    returnToCone(c, former, mean, pressure == nullptr, result);
     return result;
   }
   const double slow = yieldStress(c.plastic, point.strain, point.temperature);
@@ -182,6 +179,13 @@ Returned returnToYield(const YieldConstants& c, const YieldPoint& point, const T
   result.point.temperature += c.heating * std::max(0., result.dissipation);
   return result;
 }
+
+double squaredGradient(const std::array<double, 4>& e) {
+  const Vec2 second{e[0], e[1]}, third{e[2], e[3]}, first = second + third;
+  return std::max({dot(first, first), dot(second, second), dot(third, third)});
+}
+
+double Returned::volume() const { return trial.volume * expOfSmall(-opening); }
 
 double deviatorEnergy(const ElasticTrial& trial, double kept, double shear) {
   return shear * kept * kept * product(trial, trial);

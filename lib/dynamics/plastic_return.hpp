@@ -74,21 +74,34 @@ struct TriangleEdges {
 [[nodiscard]] ElasticTrial trialOf(const YieldConstants& c, const YieldPoint& point,
                                    const TriangleEdges& now, double& thickness);
 
+/// (Pa) The mean of U'(J) at the nodes of an element that has not its own, now and at the last
+/// step.
+struct NodalPressure {
+  double now, before;
+};
+
 /// A triangle after the return.
 struct Returned {
   YieldPoint point;
   ElasticTrial trial = {Matrix2{1, 0, 0, 1}, 1};
   double mean = 0;         ///< Pa, of τ
   double kept = 1;         ///< part of the trial's deviator that remains
+  double opening = 0;      ///< logarithmic volume strain of the flow
   double dissipation = 0;  ///< J/m³ of the undeformed body, Δεₚ:½(τⁿ⁻¹ + τⁿ)
+
+  /// J after the flow.
+  [[nodiscard]] double volume() const;
 };
 
 /// From the state after the last step to that at the edges `now`; `before`: those of the last step.
-/// `pressure` (Pa): the mean of U'(J) at the nodes, for an element that has not its own.
-/// Without flow the point is unchanged.
+/// With `pressure`, the one that follows the flow is not known yet: the dissipation is without its
+/// half of the opening. Without flow the point is unchanged.
 [[nodiscard]] Returned returnToYield(const YieldConstants& c, const YieldPoint& point,
                                      const TriangleEdges& now, const TriangleEdges& before,
-                                     double dt, const double* pressure = nullptr);
+                                     double dt, const NodalPressure* pressure = nullptr);
+
+/// (1/m²) Largest |∇N|² of a stress-free shape.
+[[nodiscard]] double squaredGradient(const std::array<double, 4>& edges);
 
 /// (J/m³) Elastic energy of the deviator.
 [[nodiscard]] double deviatorEnergy(const ElasticTrial& trial, double kept, double shear);

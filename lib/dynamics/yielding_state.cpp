@@ -65,7 +65,7 @@ struct Pair {
     former = trialOf(constants, point, before, thickness);
     formerMean = meanStress(former.volume, constants.moduli.bulk);
   }
-  void settle(double dt, const double* pressure = nullptr) {
+  void settle(double dt, const NodalPressure* pressure = nullptr) {
     present = returnToYield(constants, point, now, before, dt, pressure);
   }
 };
@@ -89,27 +89,29 @@ struct Yielding {
         p.settle(dt);
         continue;
       }
-      const double bulk = p.constants.moduli.bulk;
-      double pressure = 0, former = 0;
-      for (const NodeId node : model.triangles.nodes[p.element.value]) {
-        pressure += pressureAt(now[node.value], bulk) / 3;
-        former += pressureAt(before[node.value], bulk) / 3;
-      }
+      const NodalPressure pressure{meanPressure(model, p, now), meanPressure(model, p, before)};
       p.settle(dt, &pressure);
-      p.formerMean = former * p.former.volume;
+      p.formerMean = pressure.before * p.former.volume;
     }
-    // Flow of frictional materials changes the volume.
-    now = average(model, volumeAfter);
+    if (std::ranges::none_of(pairs, isOpening)) return;
+    // Flow has changed the volumes: the forces are those of the volumes after it.
+    now = average(model, [](const Pair& p) { return p.present.volume(); });
+    for (Pair& p : pairs) {
+      if (!isOpening(p)) continue;
+      p.present.mean = meanPressure(model, p, now) * p.present.volume();
+      p.present.dissipation += p.present.opening * p.present.mean / 2;
+    }
   }
   Yielding(const Model& model, double dt) : Yielding(model, allYielding(model), dt) {}
 
-  /// J after the flow.
-  static double volumeAfter(const Pair& p) {
-    if (!p.constants.plastic.isFrictional()) return p.present.trial.volume;  // flow keeps it
-    return determinant(p.now.gradient(p.present.point.edges)) * p.present.point.thickness;
-  }
-
  private:
+  static bool isOpening(const Pair& p) { return p.smoothed && p.constants.plastic.isFrictional(); }
+  static double meanPressure(const Model& model, const Pair& p, const std::vector<double>& ratio) {
+    double sum = 0;
+    for (const NodeId node : model.triangles.nodes[p.element.value])
+      sum += pressureAt(ratio[node.value], p.constants.moduli.bulk) / 3;
+    return sum;
+  }
   template <class Read>
   [[nodiscard]] std::vector<double> average(const Model& model, Read read) const {
     std::vector<double> sum(model.nodes.size()), volume(model.nodes.size());
@@ -166,7 +168,7 @@ YieldingEnergy yieldingEnergy(const Model& model, std::span<const ElementId> ele
             (volumeEnergy(all.now[node.value], bulk) + volumeEnergy(all.before[node.value], bulk)) /
             3;
     } else {
-      twice += volumeEnergy(Yielding::volumeAfter(p), bulk) + volumeEnergy(p.former.volume, bulk);
+      twice += volumeEnergy(p.present.volume(), bulk) + volumeEnergy(p.former.volume, bulk);
     }
     const Corners now = forcesOf(p, p.now, presentStress(p));
     const Corners before = forcesOf(p, p.before, PlaneStress(p.former, p.formerMean, 1, shear));
@@ -199,7 +201,7 @@ std::vector<double> presentDamage(const Model& model, double dt) {
     const Returned& now = p.present;
     const double shear = p.constants.moduli.shear;
     const FlowStep step{now.point.strain - p.point.strain, p.point.temperature, now.mean,
-                        shear * now.kept * std::sqrt(now.trial.squaredMises()), now.trial.volume};
+                        shear * now.kept * std::sqrt(now.trial.squaredMises()), now.volume()};
     damage[e] = damageAfter(material, stored[e], step, dt);
   }
   return damage;
@@ -229,7 +231,7 @@ void setYieldingEnergies(const Model& model, double dt, std::vector<double>& ene
       for (const NodeId node : model.triangles.nodes[p.element.value])
         energy += volumeEnergy(all.now[node.value], bulk) / 3;
     } else {
-      energy += volumeEnergy(Yielding::volumeAfter(p), bulk);
+      energy += volumeEnergy(p.present.volume(), bulk);
     }
     energies[p.element.value] = p.volume * energy;
   }
