@@ -2,6 +2,8 @@
 // The return of the lanes of a frictional material, in vector loops; the formulas are those of
 // returnToCone in plastic_return.cpp.
 
+#include <numbers>
+
 #include "dynamics/yield_lanes.hpp"
 
 namespace yadefrag {
@@ -10,7 +12,6 @@ namespace yadefrag {
 struct alignas(64) ConeLanes {
   double formerMean[kLanes];  ///< Pa, of τ at the last step
   double mean[kLanes];        ///< Pa, of τ after the return
-  double opening[kLanes];     ///< volume strain of the flow
 };
 
 /// (Pa) The mean of the last step from the element's own volume, or from `pressure` by local number
@@ -55,11 +56,11 @@ struct alignas(64) ConeLanes {
                   opening * (cone.formerMean[k] + ownPart * mean) / 2;
     out.strain[k] = w.strain[k] + std::sqrt(slip * slip + 2. / 9 * opening * opening);
     out.kept[k] = kept;
+    const double isWanted = w.over[k] > 0 ? 1 : 0;
     w.gone[k] = gone;
-    cone.mean[k] = mean, cone.opening[k] = opening;
+    cone.mean[k] = mean, w.opening[k] = isWanted > 0 ? opening : 0;
     // Each comparison is false for NaN.
     const double squared = gone * gone * t.squaredMises[k] / 9 + opening * opening;
-    const double isWanted = w.over[k] > 0 ? 1 : 0;
     const double isGood = squared < tolerance::kTinyFlow * tolerance::kTinyFlow ? isWanted : 0;
     w.flows[k] = isGood;
     w.fails[k] = isWanted - isGood;

@@ -29,9 +29,11 @@ struct EnergyLedger {
   double fracture = 0;
   /// Plastic work, up to the last positions at which forces were computed.
   double plastic = 0;
-  double damping = 0;   ///< mass-proportional damping and bulk viscosity
-  double dropped = 0;   ///< energy of fragments that were removed
-  double external = 0;  ///< gravity, loads, external forces, prescribed motion
+  double damping = 0;  ///< mass-proportional damping and bulk viscosity
+  double dropped = 0;  ///< energy of fragments that were removed
+  /// Gravity, loads, external forces, prescribed motion; where bodies yield, also what changes of
+  /// the step's length add (ExplicitDynamics::energyOfChange).
+  double external = 0;
   /// (kg m²/s) Angular momentum that contact and cohesive tractions have created: both act between
   /// nodes and should create none. Counted while cracks are cohesive.
   double spin = 0;

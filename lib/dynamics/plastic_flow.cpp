@@ -76,6 +76,7 @@ PlasticChunk PlasticFlow::inputOf(Model& model, const Chunk& chunk) {
                   .temperature = state.temperature.data(),
                   .yield = yield_.data(),
                   .thermal = thermal_.data(),
+                  .cone = constants.cone,
                   .slope = 0,
                   .tensionLimit = std::numeric_limits<double>::infinity(),
                   .moduli = constants.moduli,
@@ -176,7 +177,6 @@ class PlasticFlow::Lanes final : public LaneReturn {
     sums.dissipated[k] += back.dissipation * model_.triangles.area[element] * body_.thickness;
     lanes.set(k, back.trial, back.kept);
     lanes.mean[k] = back.mean;
-    lanes.volume[k] = back.volume();
   }
 
   PlasticFlow& flow_;

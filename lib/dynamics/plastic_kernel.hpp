@@ -1,6 +1,7 @@
 #pragma once
 // The loops over the elements of a chunk that yields, compiled and chosen as those of
-// element_kernel.hpp. Metals in plane strain are returned in vector loops (yield_lanes.hpp), lanes
+// element_kernel.hpp. Metals and frictional materials in plane strain are returned in vector loops
+// (yield_lanes.hpp, cone_lanes.hpp), lanes
 // without flow in a group with flow, too; other elements that flow are returned one by one.
 
 #include <array>
@@ -22,6 +23,7 @@ struct PlasticChunk {
   double *thickness, *strain, *temperature;
   double* yield;        ///< Pa, slow yield stress
   double* thermal;      ///< part of it that the temperature leaves
+  Cone cone;            ///< of a frictional material
   double slope;         ///< √3 η of a cone, by which the mean stress reduces the yield stress
   double tensionLimit;  ///< Pa
   SolidModuli moduli;

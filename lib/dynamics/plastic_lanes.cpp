@@ -5,6 +5,7 @@
 namespace yadefrag {
 
 YieldCurve::YieldCurve(const PlasticMaterial& m, double shear, double heatingByWork, double dt) {
+  if (m.isFrictional()) kind = Kind::kCone;
   if (m.isFrictional() || !m.table.empty()) return;
   stiffness = 3 * shear;
   leastStep = .02 / stiffness;

@@ -40,12 +40,13 @@ struct FormerLanes {
   FormerLanes() {}
 };
 
-/// The yield stress of a metal for the vector loops.
+/// The yield stress of a metal for the vector loops; of a frictional material only the kind.
 struct YieldCurve {
   enum class Kind {
     kAlone,   ///< no vector loop: elements are returned one by one
     kLine,    ///< without effects of rate and temperature, and linear
     kCurved,  ///< Johnson and Cook's law, or the power law
+    kCone,    ///< a frictional material
   };
   Kind kind = Kind::kAlone;
   double stiffness = 0;  ///< Pa, 3μ

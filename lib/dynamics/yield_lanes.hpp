@@ -18,23 +18,26 @@ namespace yadefrag {
 /// State before the flow that only lanes that flow need, and values between the loops.
 struct alignas(64) FlowLanes {
   double strain[kLanes], temperature[kLanes], yield[kLanes], thermal[kLanes];
-  double over[kLanes];      ///< above 0 if the lane flows
-  double mises[kLanes];     ///< Pa, of the trial
-  double former[kLanes];    ///< Pa, equivalent stress of the last step
-  double paired[kLanes];    ///< e:e' of the trial and of the last step
-  double step[kLanes];      ///< Δp
-  double gone[kLanes];      ///< part of the trial's deviator that flow takes away
-  double flows[kLanes];     ///< above 0 if the vector loop returns the lane
-  double change[kLanes];    ///< its last change, relative
-  double estimate[kLanes];  ///< of Δp
+  double over[kLanes];          ///< above 0 if the lane flows
+  double mises[kLanes];         ///< Pa, of the trial
+  double former[kLanes];        ///< Pa, equivalent stress of the last step
+  double formerVolume[kLanes];  ///< J at the last step
+  double paired[kLanes];        ///< e:e' of the trial and of the last step
+  double step[kLanes];          ///< Δp
+  double gone[kLanes];          ///< part of the trial's deviator that flow takes away
+  double flows[kLanes];         ///< above 0 if the vector loop returns the lane
+  double change[kLanes];        ///< its last change, relative
+  double estimate[kLanes];      ///< of Δp
   /// Pa, part of Y₀ that grows, and 1/(p₀ + p), at the estimate.
   double growing[kLanes], inverse[kLanes];
   double power[kLanes], heat[kLanes];  ///< arguments of powers, then their logarithms
   double logarithm[kLanes];            ///< of the estimate's rate over the reference rate
+  double opening[kLanes];              ///< volume strain of the flow
   double fails[kLanes];                ///< above 0 if the lane must be returned alone
 };
 
-/// Compares the trial with the last step, at the corners `b`.
+/// Compares the trial with the last step, at the corners `b`; `kKind`: what needs which values.
+template <YieldCurve::Kind kKind>
 [[gnu::always_inline]] inline void lookBack(const Corners& b, const StateLanes& s,
                                             const TrialLanes& t, double shear, FlowLanes& w) {
 #pragma omp simd
@@ -49,8 +52,10 @@ struct alignas(64) FlowLanes {
     const double by = former.wy * former.zx - former.wx * former.zy;
     const double part = t.part[k] * t.inverseZ[k] * former.part * former.inverseZ;
     w.paired[k] = t.across[k] * former.across / 6 + part * (ax * bx + ay * by) / 2;
-    w.former[k] = shear * std::sqrt(former.squaredMises());
     w.mises[k] = shear * std::sqrt(t.squaredMises[k]);
+    if constexpr (kKind == YieldCurve::Kind::kCurved)
+      w.former[k] = shear * std::sqrt(former.squaredMises());
+    if constexpr (kKind == YieldCurve::Kind::kCone) w.formerVolume[k] = former.volume;
   }
 }
 
@@ -70,7 +75,9 @@ struct alignas(64) FlowLanes {
   for (std::size_t k = 0; k < kLanes; ++k) {
     const double thermal = w.thermal[k], trial = w.mises[k], yield = w.yield[k];
     const double start = std::max(w.former[k], yield);
-    const double slope = (yield - thermal * c.base) * c.exponent / (w.strain[k] + c.shift);
+    // The rate of the last step multiplies both.
+    const double slope =
+        (yield - thermal * c.base) * c.exponent * start / ((w.strain[k] + c.shift) * yield);
     const double likely = (trial - start) / (c.stiffness + slope);
     const double step = std::max(likely, (trial - yield) * c.leastStep);
     w.estimate[k] = step, w.step[k] = step;
@@ -93,21 +100,26 @@ struct alignas(64) FlowLanes {
 }
 
 /// One step of Chebyshev's method, which triples the correct digits; Y₀ and the logarithm of the
-/// rate by series about the estimate.
+/// rate by series about the estimate. `kFirst`: at the estimate itself.
+template <bool kFirst>
 [[gnu::always_inline]] inline void improveStep(const YieldCurve c, FlowLanes& w) {
   const auto b = c.binomial;
 #pragma omp simd
   for (std::size_t k = 0; k < kLanes; ++k) {
     const double thermal = w.thermal[k], step = w.step[k], estimate = w.estimate[k];
     const double inverse = w.inverse[k], part = w.growing[k];
-    const double x = (step - estimate) * inverse, x2 = x * x;
-    const double power = 1 + x * b[1] + (b[2] + x * b[3] + (b[4] + x * b[5]) * x2) * x2;
+    double power = 1, powerSlope = b[1], above = w.logarithm[k];
+    if constexpr (!kFirst) {
+      const double x = (step - estimate) * inverse, x2 = x * x;
+      power += x * b[1] + (b[2] + x * b[3] + (b[4] + x * b[5]) * x2) * x2;
+      powerSlope += 2 * x * b[2];
+      const double y = (step - estimate) / (step + estimate), y2 = y * y, y4 = y2 * y2;
+      const double series = 1 + y2 * (1. / 3) + (1. / 5 + y2 * (1. / 7)) * y4 +
+                            (1. / 9 + y2 * (1. / 11) + 1. / 13 * y4) * (y4 * y4);
+      above += 2 * y * series;
+    }
     const double slow = thermal * (c.base + part * power);
-    const double slope = thermal * part * inverse * (b[1] + 2 * x * b[2]);
-    const double y = (step - estimate) / (step + estimate), y2 = y * y, y4 = y2 * y2;
-    const double series = 1 + y2 * (1. / 3) + (1. / 5 + y2 * (1. / 7)) * y4 +
-                          (1. / 9 + y2 * (1. / 11) + 1. / 13 * y4) * (y4 * y4);
-    const double above = w.logarithm[k] + 2 * y * series;
+    const double slope = thermal * part * inverse * powerSlope;
     const double rate = 1 + c.rateFactor * std::max(0., above);
     const double byRate = slow * (above > 0 ? c.rateFactor : 0);
     const double left = w.mises[k] - c.stiffness * step - slow * rate;
@@ -123,7 +135,7 @@ struct alignas(64) FlowLanes {
 [[gnu::always_inline]] inline void settleStep(const YieldCurve c, FlowLanes& w) {
   double most = 0;  // without NaN, for which a further step is of no use
   for (std::size_t k = 0; k < kLanes; ++k) most = std::max(most, w.over[k] > 0 ? w.change[k] : 0);
-  if (most > tolerance::kLaneReturned) improveStep(c, w);
+  if (most > tolerance::kLaneReturned) improveStep<false>(c, w);
 #pragma omp simd
   for (std::size_t k = 0; k < kLanes; ++k) {
     // Each comparison is false for NaN.
@@ -162,7 +174,8 @@ struct alignas(64) FlowedLanes {
   double steep[kLanes];  ///< 1/m², largest |∇N|²
 };
 
-/// As `flow` in plastic_return.cpp.
+/// As `flow` in plastic_return.cpp. `kOpens`: the flow changes the volume.
+template <bool kOpens>
 [[gnu::always_inline]] inline void shapeLanes(const StateLanes& s, const TrialLanes& t,
                                               const FlowLanes& w, FlowedLanes& out) {
 #pragma omp simd
@@ -171,7 +184,9 @@ struct alignas(64) FlowedLanes {
     const double squared = gone * gone * (t.squaredMises[k] - t.across[k] * t.across[k]) / 12;
     const double cosh = 1 + squared / 2 * (1 + squared / 12 * (1 + squared / 30));
     const double sinhFactor = 1 + squared / 6 * (1 + squared / 20 * (1 + squared / 42));
-    const double grown = expOfTiny(across / 2);
+    double third = 0;
+    if constexpr (kOpens) third = w.opening[k] * (1. / 3);
+    const double grown = expOfTiny(kOpens ? across / 2 - third : across / 2);
     const double by = grown * sinhFactor * gone * t.part[k] / 2 * t.inverseZ[k];
     const double real = by * (t.wx[k] * t.zx[k] + t.wy[k] * t.zy[k]);
     const double xy = by * (t.wx[k] * t.zy[k] - t.wy[k] * t.zx[k]);
@@ -184,7 +199,7 @@ struct alignas(64) FlowedLanes {
     const double first = sx * sx + sy * sy, second = n0 * n0 + n1 * n1;
     out.steep[k] = std::max(std::max(first, second), n2 * n2 + n3 * n3);
     out.edges[0][k] = n0, out.edges[1][k] = n1, out.edges[2][k] = n2, out.edges[3][k] = n3;
-    out.thickness[k] = s.thickness[k] * expOfTiny(-across);
+    out.thickness[k] = s.thickness[k] * expOfTiny(kOpens ? -across - third : -across);
   }
 }
 
@@ -235,6 +250,16 @@ template <bool kCurved>
   }
 }
 
+[[gnu::always_inline]] inline void addFlow(const FlowedLanes& fresh, const double* volume,
+                                           const FlowLanes& w, FlowSums& sums) {
+#pragma omp simd
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const double work = fresh.work[k] * volume[k], steep = fresh.steep[k];
+    sums.dissipated[k] += w.flows[k] > 0 ? work : 0;
+    sums.steepest[k] = std::max(sums.steepest[k], w.flows[k] > 0 ? steep : 0);
+  }
+}
+
 /// Writes the state after the flow to `s`, `w` and `t`. A lane that fails stays as it was.
 template <bool kCurved>
 [[gnu::always_inline]] inline void takeFlow(const FlowedLanes& fresh, const double* volume,
@@ -247,12 +272,7 @@ template <bool kCurved>
   choose(w.flows, fresh.temperature, w.temperature);
   choose(w.flows, fresh.yield, w.yield);
   if constexpr (kCurved) choose(w.flows, fresh.thermal, w.thermal);
-#pragma omp simd
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    const double work = fresh.work[k] * volume[k], steep = fresh.steep[k];
-    sums.dissipated[k] += w.flows[k] > 0 ? work : 0;
-    sums.steepest[k] = std::max(sums.steepest[k], w.flows[k] > 0 ? steep : 0);
-  }
+  addFlow(fresh, volume, w, sums);
 }
 
 }  // namespace yadefrag

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/errors.hpp"
 #include "core/tolerances/barrier.hpp"
 #include "step/world.hpp"
@@ -66,6 +68,8 @@ void World::advance(double dt) {
   finish(length);
   countFractureWork(length);
   ofChange_ = dt != lastDt && lastDt > 0 ? dynamics_.energyOfChange(model, length) : 0;
+  // Flow makes steps shorter, with no change of the script.
+  if (dynamics_.flow().isOn()) ledger.external += std::exchange(ofChange_, 0);
   requireFiniteEnergy();
 }
 

@@ -42,7 +42,7 @@ def test_aPlateIsPlugged():
     assert damage.shape == (len(fe.triangles),) and damage.max() == 1 and damage.min() == 0
     assert (damage[~own] == 0).all()
     energy = fe.energy
-    assert energy['total'] == pytest.approx(start, rel=4e-4)  # at this step; a third of it: 1e-5
+    assert energy['total'] == pytest.approx(start, rel=1.2e-4)  # 10 % of strain in the shock; half the step: 2e-5
     # Both ends are still held; the plug, as wide as the bar, has left before it.
     held = fe._reference[:, 0]
     ends = [fe.fragmentOf[numpy.isin(fe.triangles, numpy.flatnonzero(at)).any(axis=1) & own]
