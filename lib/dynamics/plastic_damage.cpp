@@ -7,13 +7,15 @@
 namespace yadefrag {
 
 double damageAfter(const PlasticMaterial& m, double damage, const FlowStep& step, double dt) {
-  if (step.mean > m.failure.spallStress * step.volume) return 1;
+  // A cone limits the mean of τ, not of σ.
+  const double limit = step.resistance * m.failure.spallStress;
+  if (step.mean > (m.isFrictional() ? limit : limit * step.volume)) return 1;
   if (!(step.strain > 0) || !m.failure.hasDamage()) return damage;
   const double least = std::numeric_limits<double>::min();
   const FlowState at{step.mean / std::max(step.mises, least),
                      dt > 0 ? step.strain / (m.referenceRate * dt) : 0,
                      relativeHeat(m, step.temperature)};
-  return std::min(1., damage + step.strain / failureStrain(m.failure, at));
+  return std::min(1., damage + step.strain / (step.resistance * failureStrain(m.failure, at)));
 }
 
 void PlasticDamage::rebuild(const Model& model) {

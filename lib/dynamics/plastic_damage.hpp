@@ -15,8 +15,9 @@ namespace yadefrag {
 struct FlowStep {
   double strain;       ///< Δp
   double temperature;  ///< K, before
-  double mean, mises;  ///< Pa, of τ; mean and von Mises' stress
+  double mean, mises;  ///< Pa, of τ; mean and von Mises' stress; of a cone before the return
   double volume;       ///< J
+  double resistance;   ///< factor of the failure strain and of the spall stress
 };
 
 /// The damage after a step of Δt (s), from that before it; at most 1.

@@ -12,6 +12,15 @@
 namespace yadefrag {
 namespace {
 
+/// State of a triangle before it flowed.
+YieldPoint pointOf(const FormerLanes& former, std::uint32_t k) {
+  YieldPoint point;
+  for (std::size_t i = 0; i < 4; ++i) point.edges[i] = former.edges[i][k];
+  point.thickness = former.thickness[k], point.strain = former.strain[k];
+  point.temperature = former.temperature[k];
+  return point;
+}
+
 bool isSmoothed(const Chunk& chunk) {
   return chunk.yields && chunk.element == ElementKind::kSmoothed;
 }
@@ -36,7 +45,6 @@ void PlasticFlow::rebuild(const Model& model, const ElementChunks& elements) {
       elements.chunks, [&](const Chunk& chunk) { return opensVolume(model, chunk); });
   before_.rebuild(elements, opens);
   opening_.assign(opens ? model.triangles.size() : 0, 0);
-  flowed_.resize(opens ? elements.chunks.size() : 0);
   dissipated_.assign(on ? elements.chunks.size() : 0, 0);
   threads_.clear();
   damage_.rebuild(model);
@@ -189,13 +197,15 @@ class PlasticFlow::Lanes final : public LaneReturn {
   Thread& thread_;
 };
 
-/// Of the groups of triangles that have flowed, and of those whose mean stress exceeds the spall
-/// stress.
+/// Of the groups of triangles that have flowed, from `first` of the thread's list on, and of those
+/// whose mean stress exceeds the spall stress. Of averaged volumes, the pressures at the nodes must
+/// be those before the flow.
 void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const Chunk& chunk,
-                            const Vec2* position, std::size_t thread, Flowed list) {
+                            const Vec2* position, std::size_t thread, std::size_t first) {
   const YieldConstants c(model.components[chunk.firstComponent]);
   const PlasticState& state = model.triangles.plastic;
-  const auto stepOf = [&](std::uint32_t element, double strain, double temperature) {
+  const auto stepOf = [&](std::uint32_t element, const YieldPoint& point, double strain,
+                          double temperature) {
     const std::uint32_t place = element - chunk.firstElement;
     const ElementLanes& lanes = elements.lanes[chunk.firstLanes + place / kLanes];
     std::array<Vec2, 3> x;
@@ -206,25 +216,28 @@ void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const C
       if (isSmoothed(chunk)) sum += now_.of(chunk)[corner];
     }
     double thickness = 1;
-    const ElasticTrial now =
-        trialOf(c, YieldPoint(state, element), {x[1] - x[0], x[2] - x[0]}, thickness);
+    const ElasticTrial now = trialOf(c, point, {x[1] - x[0], x[2] - x[0]}, thickness);
     const double mean =
         isSmoothed(chunk) ? sum / 3 * now.volume : meanStress(now.volume, c.moduli.bulk);
-    return FlowStep{strain, temperature, mean, c.moduli.shear * std::sqrt(now.squaredMises()),
-                    now.volume};
+    return FlowStep{strain,     temperature,
+                    mean,       c.moduli.shear * std::sqrt(now.squaredMises()),
+                    now.volume, state.resistanceOf(element)};
   };
-  for (std::size_t i = list.first; i < list.end; ++i) {
+  for (std::size_t i = first; i < threads_[thread].former.size(); ++i) {
     const FormerLanes& former = threads_[thread].former[i];
     for (std::uint32_t k = 0; k < former.count; ++k) {
       const std::uint32_t e = former.first + k;
       const double flowed = state.strain[e] - former.strain[k];
-      if (flowed > 0)
-        damage_.add(model, c.plastic, e, stepOf(e, flowed, former.temperature[k]), dt_, thread);
+      if (!(flowed > 0)) continue;
+      const double temperature = former.temperature[k];
+      const YieldPoint point = c.plastic.isFrictional() ? pointOf(former, k) : YieldPoint(state, e);
+      damage_.add(model, c.plastic, e, stepOf(e, point, flowed, temperature), dt_, thread);
     }
   }
   if (c.plastic.failure.spallStress == FailureLaw::kNone) return;
+  if (c.plastic.isFrictional()) return;  // a cone flows at its limit
   for (std::uint32_t e = chunk.firstElement; e < chunk.lastElement; ++e)
-    damage_.add(model, c.plastic, e, stepOf(e, 0, 0), dt_, thread);
+    damage_.add(model, c.plastic, e, stepOf(e, YieldPoint(state, e), 0, 0), dt_, thread);
 }
 
 void PlasticFlow::open(InstructionSet set, Model& model, const ElementChunks& elements,
@@ -237,10 +250,11 @@ void PlasticFlow::open(InstructionSet set, Model& model, const ElementChunks& el
   std::fill(opening_.begin() + own.firstElement, opening_.begin() + own.lastElement, 0.);
   Thread& room = threads_[thread];
   Lanes flow(*this, model, elements, own, position, room);
-  flowed_[chunk].first = room.former.size();
+  const std::size_t first = room.former.size();
   const PlasticChunk in = inputOf(model, own);
   returnPlastic(set, own, elements.lanes.data(), in, position, flow);
-  flowed_[chunk].end = room.former.size();
+  if (model.components[own.firstComponent].fails())
+    addDamage(model, elements, own, position, thread, first);
   dissipated_[chunk] = flow.dissipated();
   for (const double one : flow.sums.steepest)
     room.squaredSteepest = std::max(room.squaredSteepest, one);
@@ -257,21 +271,17 @@ bool PlasticFlow::addForces(InstructionSet set, Model& model, const ElementChunk
                      SolidModuli(model.components[own.firstComponent].material).bulk);
   Thread& room = threads_[thread];
   Lanes flow(*this, model, elements, own, position, room);
-  Flowed flowed{room.former.size(), 0};
+  const std::size_t first = room.former.size();
   const PlasticChunk in = inputOf(model, own);
-  bool good = false;
-  if (opensVolume(model, own)) {
-    good = addOpenedForces(set, own, elements.lanes.data(), in, position, flow, force);
-    flowed = flowed_[chunk];
-  } else {
-    good = addPlasticForces(set, own, elements.lanes.data(), in, position, flow, force);
-    flowed.end = room.former.size();
-  }
+  const bool isOpened = opensVolume(model, own);
+  const bool good =
+      isOpened ? addOpenedForces(set, own, elements.lanes.data(), in, position, flow, force)
+               : addPlasticForces(set, own, elements.lanes.data(), in, position, flow, force);
   dissipated_[chunk] += flow.dissipated();
   for (const double one : flow.sums.steepest)
     room.squaredSteepest = std::max(room.squaredSteepest, one);
-  if (model.components[own.firstComponent].fails())
-    addDamage(model, elements, own, position, thread, flowed);
+  if (model.components[own.firstComponent].fails() && !isOpened)
+    addDamage(model, elements, own, position, thread, first);
   return good;
 }
 

@@ -76,13 +76,8 @@ class PlasticFlow {
     double squaredSteepest = 0;  // 1/m²
   };
 
-  /// A chunk's part of the list of its thread.
-  struct Flowed {
-    std::size_t first, end;
-  };
-
   void addDamage(Model& model, const ElementChunks& elements, const Chunk& chunk,
-                 const Vec2* position, std::size_t thread, Flowed flowed);
+                 const Vec2* position, std::size_t thread, std::size_t first);
   [[nodiscard]] PlasticChunk inputOf(Model& model, const Chunk& chunk);
   const Vec2* formerPositions(const Model& model, const ElementChunks& elements, const Chunk& chunk,
                               const Vec2* position, Thread& thread) const;
@@ -92,7 +87,6 @@ class PlasticFlow {
   std::vector<double> thermal_;     // factor of the temperature in it
   NodeVolumes now_, before_;        // at xⁿ, and at xⁿ⁻¹ if flow changes volumes
   std::vector<double> opening_;     // by triangle, volume strain of the last flow
-  std::vector<Flowed> flowed_;      // by chunk
   std::vector<double> dissipated_;  // J, by chunk
   std::vector<Thread> threads_;
   PlasticDamage damage_;

@@ -152,6 +152,7 @@ Returned returnToYield(const YieldConstants& c, const YieldPoint& point, const T
   Returned result{point, trialOf(c, point, now, thickness)};
   const double volume = result.trial.volume;
   result.mean = pressure != nullptr ? pressure->now * volume : meanStress(volume, c.moduli.bulk);
+  result.trialMean = result.mean;
   if (c.plastic.isFrictional()) {
     const ElasticTrial former = trialOf(c, point, before, formerThickness);
     const double mean = pressure != nullptr ? pressure->before * former.volume

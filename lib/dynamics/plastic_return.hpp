@@ -85,6 +85,7 @@ struct Returned {
   YieldPoint point;
   ElasticTrial trial = {Matrix2{1, 0, 0, 1}, 1};
   double mean = 0;         ///< Pa, of τ
+  double trialMean = 0;    ///< Pa, the same before the return
   double kept = 1;         ///< part of the trial's deviator that remains
   double opening = 0;      ///< logarithmic volume strain of the flow
   double dissipation = 0;  ///< J/m³ of the undeformed body, Δεₚ:½(τⁿ⁻¹ + τⁿ)

@@ -200,8 +200,12 @@ std::vector<double> presentDamage(const Model& model, double dt) {
     }
     const Returned& now = p.present;
     const double shear = p.constants.moduli.shear;
-    const FlowStep step{now.point.strain - p.point.strain, p.point.temperature, now.mean,
-                        shear * now.kept * std::sqrt(now.trial.squaredMises()), now.volume()};
+    const FlowStep step{now.point.strain - p.point.strain,
+                        p.point.temperature,
+                        material.isFrictional() ? now.trialMean : now.mean,
+                        shear * now.kept * std::sqrt(now.trial.squaredMises()),
+                        now.volume(),
+                        model.triangles.plastic.resistanceOf(e)};
     damage[e] = damageAfter(material, stored[e], step, dt);
   }
   return damage;

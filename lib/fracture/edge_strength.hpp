@@ -25,4 +25,12 @@ namespace yadefrag {
 [[nodiscard]] double likelyLargestStrength(const BrittleMaterial& material, std::size_t edges,
                                            double volume = 0);
 
+/// Factor of the failure strain and of the spall stress of one triangle, of the same scatter: as
+/// the strength of an edge whose material has the strength 1. `volume` (m³): of the triangle.
+[[nodiscard]] inline double scatterFactor(BrittleMaterial material, std::uint64_t triangle,
+                                          double volume) {
+  material.tensileStrength = 1;
+  return edgeStrength(material, triangle, volume);
+}
+
 }  // namespace yadefrag

@@ -42,6 +42,7 @@ void appendPlasticState(Model& model, const Component& added) {
   if (!anyYields(model)) return;
   state.resize(model.triangles.size());
   if (anyFails(model)) state.damage.resize(model.triangles.size());
+  if (!state.resistance.empty()) state.resistance.resize(model.triangles.size(), 1);
   if (added.yields())
     for (std::size_t e = added.firstTriangle; e < added.lastTriangle; ++e)
       state.begin(e, model.triangles.inverseEdges[e], added.plastic.startTemperature);
@@ -137,7 +138,7 @@ std::vector<NodeId> removeBody(Model& model, ComponentId component) {
   removeMaterials(model, model.components[component.value]);
   model.components[component.value].plastic = {};
   if (!anyYields(model)) model.triangles.plastic = {};
-  if (!anyFails(model)) model.triangles.plastic.damage = {};
+  if (!anyFails(model)) model.triangles.plastic.damage = model.triangles.plastic.resistance = {};
   model.components[component.value].name.clear();
   std::vector<std::uint8_t> gone(model.components.size());
   gone[component.value] = 1;

@@ -4,7 +4,8 @@
 //   21, 31), with the failure strain
 //     p_f = (D₁ + D₂ exp(D₃ σ*)) (1 + D₄ ln(ṗ/ṗ₀)) (1 + D₅ T*),
 //   where σ* is the mean stress over von Mises' stress, at most 1.5 as in their paper, and ṗ/ṗ₀ at
-//   least 1; or with a constant. A triangle has failed at a damage of 1.
+//   least 1; or with a constant. A triangle has failed at a damage of 1. A frictional material has
+//   a constant, and fails where its tension limit is exceeded before the return.
 
 #include <array>
 #include <limits>
@@ -17,7 +18,7 @@ struct FailureLaw {
   /// Constant failure strain, or the least one of Johnson and Cook's; infinite: none.
   double strain = kNone;
   std::array<double, 5> d{};   ///< D₁ to D₅; all 0: none
-  double spallStress = kNone;  ///< Pa, tensile mean stress; infinite: none
+  double spallStress = kNone;  ///< Pa, tensile mean stress; infinite: none; of a cone its limit
   double energy = 0;           ///< J/m², that opens a crack; 0: it opens at once
 
   [[nodiscard]] bool hasFormula() const { return d[0] != 0 || d[1] != 0; }

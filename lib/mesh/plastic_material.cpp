@@ -86,7 +86,12 @@ std::string PlasticMaterial::wrong() const {
                         "at least 0 and at most internalFriction");
     if (!(tensionLimit >= 0))
       return wrongValue("tensionLimit", tensionLimit, " Pa", "0 or positive");
-    return {};
+    if (failure.energy > 0 && !(failure.spallStress > 0))
+      return wrongValue("tensionLimit", tensionLimit, " Pa", "positive if fractureEnergy is given");
+    if (failure.energy > 0 && !failure.isOn())
+      return wrongValue("fractureEnergy", failure.energy, " J/m²",
+                        "0 unless failureStrain, tensionLimit or internalFriction is given");
+    return failure.wrong(false);
   }
   if (std::string sentence = wrongTable(table); !sentence.empty()) return sentence;
   if (!(table.empty() ? isPositive(yieldStress) : isNotNegative(yieldStress)))

@@ -44,7 +44,7 @@ struct PlasticMaterial {
   /// Pa, largest mean stress; above that of the cone's apex it has no effect.
   double tensionLimit = std::numeric_limits<double>::infinity();
 
-  FailureLaw failure{};  ///< of a material that is not frictional
+  FailureLaw failure{};
 
   [[nodiscard]] bool yields() const { return yieldStress > 0 || !table.empty() || isFrictional(); }
   [[nodiscard]] bool isFrictional() const { return cohesion > 0; }

@@ -21,6 +21,8 @@ struct PlasticState {
   std::vector<double> temperature;           ///< K
   /// From 0 to 1, where the material has failed; empty if no body can.
   std::vector<double> damage;
+  /// Factor of the failure strain and of the spall stress; empty if it is 1 everywhere.
+  std::vector<double> resistance;
 
   template <class Self>
   static auto columnsOf(Self& self) {
@@ -33,6 +35,7 @@ struct PlasticState {
       visit(Column{"plasticStrain", Use::kPlasticity, kOptional}, self.strain);
       visit(Column{"temperature", Use::kPlasticity, kOptional}, self.temperature);
       visit(Column{"damage", Use::kPlasticity, kOptional}, self.damage);
+      visit(Column{"resistance", Use::kPlasticity, kOptional}, self.resistance);
     };
   }
 
@@ -51,6 +54,9 @@ struct PlasticState {
   }
   [[nodiscard]] bool hasFailed(std::size_t row) const {
     return !damage.empty() && damage[row] >= 1;
+  }
+  [[nodiscard]] double resistanceOf(std::size_t row) const {
+    return resistance.empty() ? 1 : resistance[row];
   }
 };
 

@@ -72,6 +72,19 @@ void requireOfTriangles(const char* name, const std::vector<Value>& values,
 
 bool isPositive(double value) { return value > 0 && std::isfinite(value); }
 
+/// Of what fails.
+void checkScatter(const BodyMaterial& one) {
+  BrittleMaterial scatter = one.brittle;
+  scatter.tensileStrength = 1;
+  checkBrittle(scatter);
+  const bool mayScatter = one.plastic.fails() && !one.plastic.isFrictional();
+  const char* none = "0 unless failureStrain, failureD1, failureD2 or spallStress is given";
+  require(mayScatter || scatter.weibullModulus == 0, "weibullModulus", scatter.weibullModulus, "",
+          none);
+  require(mayScatter || scatter.strengthScatter == 0, "strengthScatter", scatter.strengthScatter,
+          "", none);
+}
+
 void checkMaterial(const BodyMaterial& one) {
   const ElasticMaterial& m = one.material;
   const char* positive = "positive and finite";
@@ -81,6 +94,7 @@ void checkMaterial(const BodyMaterial& one) {
   require(one.friction >= 0 && std::isfinite(one.friction), "friction", one.friction, "",
           "0 or positive, and finite");
   if (one.brittle.tensileStrength != 0) checkBrittle(one.brittle);
+  if (one.plastic.yields()) checkScatter(one);
   if (one.plastic.isFrictional() && m.planeStress)
     throw InputError("planeStress is True, but the material is frictional; it must be False.");
   if (one.plastic.yields())
@@ -114,18 +128,29 @@ const BodyMaterial& materialOf(const BodySpec& spec, std::size_t triangle) {
 
 void checkPlaces(const TriangleMesh& mesh, const BodySpec& spec) {
   const BrittlePlaces& places = spec.places;
-  if (!places.empty() && (!wholeOf(spec).brittle.cracks() || spec.plastic.yields()))
+  if (!places.empty() && !wholeOf(spec).brittle.cracks())
     throw InputError(
-        "strength, fractureEnergy and joints are given, but the material does not crack; it must "
-        "be a BrittleFEMat.");
+        "strength, fractureEnergy and joints are given, but the material neither cracks nor fails; "
+        "it must be a BrittleFEMat, or a PlasticFEMat with a failure strain or a spall stress.");
+  if (spec.plastic.yields() && !places.joints.empty())
+    throw InputError("joints are given, but the material yields; it must be a BrittleFEMat.");
+  if (spec.plastic.isFrictional() && !places.strength.empty())
+    throw InputError(
+        "strength is given, but the material is a FrictionalFEMat; it must be a BrittleFEMat, or a "
+        "PlasticFEMat that fails.");
+  const bool spalls = spec.plastic.failure.spallStress < FailureLaw::kNone;
   const auto notNegative = [](double value) { return value >= 0 && std::isfinite(value); };
   requireOfTriangles("strength", places.strength, mesh);
   requireOfTriangles("fractureEnergy", places.fractureEnergy, mesh);
   for (const double one : places.strength)
-    require(isPositive(one), "strength", one, " Pa", "positive and finite for every triangle");
-  for (const double one : places.fractureEnergy)
+    require(isPositive(one), "strength", one, spec.plastic.fails() ? "" : " Pa",
+            "positive and finite for every triangle");
+  for (const double one : places.fractureEnergy) {
     require(notNegative(one), "fractureEnergy", one, " J/m²",
             "0 or positive, and finite, for every triangle");
+    require(one > 0 || !spalls, "fractureEnergy", one, " J/m²",
+            "positive for every triangle of a material that spalls");
+  }
   for (const JointEdge& joint : places.joints) {
     assert(joint.nodes[0] < mesh.nodes.size() && joint.nodes[1] < mesh.nodes.size());
     require(std::isnan(joint.strength) || notNegative(joint.strength), "jointStrength",

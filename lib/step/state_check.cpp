@@ -99,7 +99,8 @@ bool yieldingIsValid(const Model& model) {
   };
   return (state.isUsed() || !any(&Component::yields)) &&
          (!state.damage.empty() || !any(&Component::fails)) &&
-         std::ranges::all_of(state.damage, [](double d) { return d >= 0 && d <= 1; });
+         std::ranges::all_of(state.damage, [](double d) { return d >= 0 && d <= 1; }) &&
+         std::ranges::all_of(state.resistance, [](double r) { return r > 0 && std::isfinite(r); });
 }
 
 bool trianglesAreValid(const Model& model) {

@@ -12,10 +12,41 @@
 #include "core/tolerances/dynamics.hpp"
 #include "dynamics/critical_time_step.hpp"
 #include "fracture/brittle_checks.hpp"
+#include "fracture/edge_strength.hpp"
 #include "mesh/assembly.hpp"
 #include "step/body_check.hpp"
 
 namespace yadefrag {
+
+namespace {
+
+/// A body that fails has a factor by triangle, given by place or scattered or both.
+void setResistance(Model& model, ComponentId id, const BodySpec& spec) {
+  const std::vector<double>& byPlace = spec.places.strength;
+  const bool isScattered = spec.brittle.weibullModulus > 0 || spec.brittle.strengthScatter > 0;
+  if (!spec.plastic.fails() || (byPlace.empty() && !isScattered)) return;
+  const Component& body = model.components[id.value];
+  std::vector<double>& resistance = model.triangles.plastic.resistance;
+  resistance.resize(model.triangles.size(), 1);
+  // Two bodies of the same material get different random numbers, as edges do.
+  const std::uint64_t number = std::uint64_t{id.value} << 32;
+  for (std::size_t e = body.firstTriangle; e < body.lastTriangle; ++e) {
+    const std::size_t i = e - body.firstTriangle;
+    if (!byPlace.empty()) resistance[e] = byPlace[i];
+    if (isScattered)
+      resistance[e] *=
+          scatterFactor(spec.brittle, number + i, body.thickness * model.triangles.area[e]);
+  }
+}
+
+/// Of its edges, which have no strength before a triangle fails.
+BrittlePlaces edgePlaces(const BodySpec& spec) {
+  BrittlePlaces places = spec.places;
+  if (spec.plastic.fails()) places.strength.clear();
+  return places;
+}
+
+}  // namespace
 
 ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   checkBody(mesh, spec);
@@ -30,6 +61,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   component.element = spec.element;
   const std::size_t first = model.nodes.size();
   const ComponentId id = appendBody(model, mesh, component, spec.materials, spec.stress);
+  setResistance(model, id, spec);
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (!spec.displacement.empty()) model.nodes.position[first + i] += spec.displacement[i];
     if (!spec.velocity.empty()) model.nodes.velocity[first + i] = spec.velocity[i];
@@ -44,7 +76,7 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
     }
     surfaces.addLoop(nodes, smooth, id);
   }
-  openJoints(fracture.addBody(model, id, spec.places));
+  openJoints(fracture.addBody(model, id, edgePlaces(spec)));
   watch.join(energyOf(id, NodeId(first), lastDt));
   stableStep = 0;
   search.invalidate();

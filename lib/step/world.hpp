@@ -39,6 +39,8 @@ namespace yadefrag {
 /// Properties of a body besides its mesh. Arrays are by node of the mesh; empty ones mean zeros.
 struct BodySpec : BodyMaterial {
   MaterialPlaces materials;  ///< replace the one above, if there are several
+  /// Of a material that yields and fails: `strength` are factors of the failure strain and of the
+  /// spall stress, without joints; the scatter of `brittle` is that of these, too.
   BrittlePlaces places;
   double thickness = 1;  ///< m
   bool selfContact = true;

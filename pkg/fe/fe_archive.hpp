@@ -50,7 +50,7 @@ class WorldArchive : ColumnArchive<Archive> {
  private:
   using Base::column, Base::curves, Base::flags, Base::lines, Base::member, Base::refuse;
   using Base::table, Base::value;
-  static constexpr std::uint64_t kFormat = 18;
+  static constexpr std::uint64_t kFormat = 19;
 
   void all(World& world, std::vector<int>& entryBodies) {
     std::uint64_t format = kFormat;

@@ -249,6 +249,10 @@ BodyMaterial bodyMaterialOf(const FEMat& material) {
   }
   if (const auto* plastic = dynamic_cast<const PlasticFEMat*>(&material)) {
     one.plastic = plastic->constants();
+    one.brittle.weibullModulus = plastic->weibullModulus;
+    one.brittle.strengthScatter = plastic->strengthScatter;
+    one.brittle.seed = static_cast<std::uint64_t>(plastic->seed);
+    one.brittle.referenceVolume = plastic->referenceVolume;
     if (const std::string wrong = one.plastic.wrong(); !wrong.empty()) throw InputError(wrong);
   }
   if (const auto* frictional = dynamic_cast<const FrictionalFEMat*>(&material)) {

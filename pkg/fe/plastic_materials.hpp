@@ -36,6 +36,10 @@ class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>
   double failureD1 = 0, failureD2 = 0, failureD3 = 0, failureD4 = 0, failureD5 = 0;
   double spallStress = FailureLaw::kNone;
   double fractureEnergy = 0;
+  double weibullModulus = 0;
+  double strengthScatter = 0;
+  int seed = 0;
+  double referenceVolume = 0;
 
   [[nodiscard]] PlasticMaterial constants() const {
     return {.yieldStress = yieldStress,
@@ -123,9 +127,25 @@ class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>
                   "then is not part of it."));
   }
 
+  static constexpr auto ofScatter() {
+    return std::tuple(
+        attribute("weibullModulus", &C::weibullModulus,
+                  "Modulus m of a Weibull scatter from triangle to triangle of a factor of the "
+                  "failure strain and of spallStress: a part 1 - exp(-(s/scale)**m) of the "
+                  "triangles has a smaller factor than s. The scale is 1, or depends on "
+                  "referenceVolume; 0: none."),
+        attribute("strengthScatter", &C::strengthScatter,
+                  "Relative half-width of a uniform scatter of that factor; 0: none."),
+        attribute("seed", &C::seed, "Seed of the scatter's random numbers."),
+        attribute("referenceVolume", &C::referenceVolume,
+                  "V0 (m³): a triangle with the volume V has the scale (V0/V)**(1/m), so that the "
+                  "least factor in a body does not depend on its mesh. 0: the scale is 1 for "
+                  "triangles of any size."));
+  }
+
  public:
   static constexpr auto attributes() {
-    return std::tuple_cat(ofHardening(), ofRateAndHeat(), ofFailure());
+    return std::tuple_cat(ofHardening(), ofRateAndHeat(), ofFailure(), ofScatter());
   }
 };
 
@@ -141,6 +161,8 @@ class FrictionalFEMat : public Published<FrictionalFEMat, Indexed<FrictionalFEMa
   double internalFriction = 0;
   double dilationAngle = 0;
   double tensionLimit = std::numeric_limits<double>::infinity();
+  double failureStrain = FailureLaw::kNone;
+  double fractureEnergy = 0;
 
   [[nodiscard]] PlasticMaterial constants() const {
     PlasticMaterial m;
@@ -148,6 +170,9 @@ class FrictionalFEMat : public Published<FrictionalFEMat, Indexed<FrictionalFEMa
     m.internalFriction = std::tan(internalFriction);
     m.dilation = std::tan(dilationAngle);
     m.tensionLimit = tensionLimit;
+    m.failure.strain = failureStrain;
+    m.failure.energy = fractureEnergy;
+    if (fractureEnergy > 0) m.failure.spallStress = Cone(m).limit;
     return m;
   }
 
@@ -163,7 +188,15 @@ class FrictionalFEMat : public Published<FrictionalFEMat, Indexed<FrictionalFEMa
                   "angle; 0: it keeps the volume."),
         attribute("tensionLimit", &C::tensionLimit,
                   "Largest tensile mean stress (Pa); inf: that of the cone's apex, "
-                  "c/tan(phi)."));
+                  "c/tan(phi)."),
+        attribute("failureStrain", &C::failureStrain,
+                  "Equivalent plastic strain, of any flow, at which a triangle fails; inf: none."),
+        attribute("fractureEnergy", &C::fractureEnergy,
+                  "Energy (J/m²) of a crack. If it is not 0, a triangle fails also where its mean "
+                  "stress would exceed the largest one, tensionLimit: its edges open as those of a "
+                  "BrittleFEMat, with the traction that acts then as their strength, which falls "
+                  "to 0 linearly. 0: tension flows there, and after failureStrain cracks open at "
+                  "once."));
   }
 };
 

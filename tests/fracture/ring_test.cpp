@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
-#include <numeric>
 
 #include "fracture/overlaps.hpp"
+#include "fracture/whole_pieces.hpp"
 #include "step/bodies.hpp"
 #include "step/figures.hpp"
 
@@ -165,28 +165,6 @@ TriangleMesh polygonRing(double size, int rows, std::uint64_t seed,
   return triangulate(polygon, size, {NodeLayout::kScattered, seed});
 }
 
-/// Fragments that nothing holds any more.
-std::size_t countPieces(const World& world) {
-  const CrackEdges& edges = world.fracture.edges;
-  std::vector<std::uint32_t> root(world.model.triangles.size());
-  std::iota(root.begin(), root.end(), 0U);
-  const auto rootOf = [&](std::uint32_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  std::size_t count = root.size();
-  const auto join = [&](EdgeId edge) {
-    const std::uint32_t a = rootOf(edges.element[edge.value][0].value);
-    const std::uint32_t b = rootOf(edges.element[edge.value][1].value);
-    count -= a != b ? 1 : 0;
-    root[a] = b;
-  };
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    if (edges.cracked[i] == 0) join(EdgeId(i));
-  for (const EdgeId edge : world.fracture.cohesion.edge) join(edge);
-  return count;
-}
-
 struct RingResult {
   double pieces = 0;  // fragments
   double sweeps = 0;  // of contact: mean of the steps
@@ -209,7 +187,7 @@ RingResult expand(const TriangleMesh& mesh, const BodySpec& spec, double size, d
   EXPECT_TRUE(world.warnings.empty());
   // Contact may leave 4·10⁻⁴ of a segment's length where pieces are pressed together.
   EXPECT_LT(test::Overlaps(world.model).deepest().depth, 1e-3 * size);
-  result.pieces = static_cast<double>(countPieces(world));
+  result.pieces = static_cast<double>(test::wholePieces(world).size());
   result.sweeps /= steps;
   result.energy /= test::totalEnergy(world);
   return result;

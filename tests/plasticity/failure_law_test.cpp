@@ -39,14 +39,18 @@ TEST(FailureLaw, DamageIsTheSumOverTheFlow) {
   // In pure shear, without heat.
   const double whole = 3.49 * (1 + .002 * std::log(100.));
   double damage = 0;
-  for (int i = 0; i < 100; ++i) damage = damageAfter(m, damage, {.01, 293, 0, 792e6, 1}, 1e-4);
+  for (int i = 0; i < 100; ++i) damage = damageAfter(m, damage, {.01, 293, 0, 792e6, 1, 1}, 1e-4);
   EXPECT_NEAR(damage, 1 / whole, 1e-12);
-  EXPECT_EQ(damageAfter(m, .9, {1, 293, 0, 792e6, 1}, 1e-4), 1);
-  EXPECT_EQ(damageAfter(m, .2, {0, 293, 1e9, 792e6, 1}, 1e-4), .2);  // no flow
+  EXPECT_EQ(damageAfter(m, .9, {1, 293, 0, 792e6, 1, 1}, 1e-4), 1);
+  EXPECT_EQ(damageAfter(m, .2, {0, 293, 1e9, 792e6, 1, 1}, 1e-4), .2);  // no flow
   PlasticMaterial spalls = m;
   spalls.failure.spallStress = 2e9;
-  EXPECT_EQ(damageAfter(spalls, .2, {0, 293, 1.99e9, 792e6, 1}, 1e-4), .2);
-  EXPECT_EQ(damageAfter(spalls, .2, {0, 293, 2.01e9, 792e6, 1}, 1e-4), 1);
+  EXPECT_EQ(damageAfter(spalls, .2, {0, 293, 1.99e9, 792e6, 1, 1}, 1e-4), .2);
+  EXPECT_EQ(damageAfter(spalls, .2, {0, 293, 2.01e9, 792e6, 1, 1}, 1e-4), 1);
+  // A resistance is a factor of both.
+  EXPECT_EQ(damageAfter(spalls, .2, {0, 293, 2.01e9, 792e6, 1, 1.1}, 1e-4), .2);
+  EXPECT_DOUBLE_EQ(damageAfter(m, 0, {.01, 293, 0, 792e6, 1, 2}, 1e-4),
+                   damageAfter(m, 0, {.01, 293, 0, 792e6, 1, 1}, 1e-4) / 2);
 }
 
 TEST(FailureLaw, WrongConstantsAreRefused) {

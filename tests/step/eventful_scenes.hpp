@@ -110,6 +110,16 @@ inline std::map<std::string, Scene> scenes() {
       spec.plastic.yieldStress = 1e5, spec.plastic.hardening = 1e5;
       spec.plastic.failure.strain = .02 + .01 * k;
       spec.plastic.failure.energy = 2000;
+      if (k == 0) spec.brittle.strengthScatter = .3;
+      spec.element = k == 1 ? ElementKind::kLinear : ElementKind::kSmoothed;
+    });
+  };
+  all["crushed"] = [] {
+    return row(3, .002, 14, [](int k, BodySpec& spec, const TriangleMesh&) {
+      PlasticMaterial& m = spec.plastic;
+      m.cohesion = 3e5, m.internalFriction = m.dilation = .3;
+      m.tensionLimit = m.failure.spallStress = 1e5;
+      m.failure.energy = 2000;
       spec.element = k == 1 ? ElementKind::kLinear : ElementKind::kSmoothed;
     });
   };

@@ -147,8 +147,8 @@ TEST(RefusedStep, ChangesNothing) {
     twins.run(longRun() ? 2000 : 250);
     for (const auto& [reason, count] : twins.refusals) refusals[reason] += count;
     EXPECT_TRUE(name == "alone" || twins.rows() > 50);
-    const bool cracks =
-        name == "rubble" || name == "cohesion" || name == "dropped" || name == "torn";
+    const bool cracks = name == "rubble" || name == "cohesion" || name == "dropped" ||
+                        name == "torn" || name == "crushed";
     EXPECT_EQ(twins.world().fracture.numCracks() > 0, cracks);
     EXPECT_EQ(twins.world().dropped.count > 0, name == "dropped");
     if (HasFailure()) return;

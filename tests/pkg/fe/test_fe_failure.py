@@ -6,7 +6,7 @@ import re
 import numpy
 import pytest
 import yadefrag
-from yadefrag import FEMat, FESolver, PlasticFEMat, rectangle
+from yadefrag import FEMat, FESolver, FrictionalFEMat, PlasticFEMat, rectangle
 
 O = builtins.O
 
@@ -125,10 +125,136 @@ def test_whatWouldBeIgnoredIsRefused():
         FESolver().addPolygon(outline, size=2e-3, material=0)
     with pytest.raises(ValueError, match='selfContact is False'):
         FESolver().addPolygon(outline, size=2e-3, material=1, selfContact=False)
-    joint = dict(joints=[((0, .01), (.008, .01))], jointStrength=0)
-    for settings in (dict(strength=1e9), dict(fractureEnergy=1e3), joint):
-        with pytest.raises(ValueError, match='BrittleFEMat'):
-            FESolver().addPolygon(outline, size=2e-3, material=1, **settings)
+    with pytest.raises(ValueError, match='joints is given, but .* it must be a BrittleFEMat'):
+        FESolver().addPolygon(outline, size=2e-3, material=1, joints=[((0, .01), (.008, .01))], jointStrength=0)
+    O.materials.append(PlasticFEMat(**STEEL))
+    for settings in (dict(strength=lambda x, y: 1), dict(fractureEnergy=lambda x, y: 1e3)):
+        with pytest.raises(ValueError, match='is given, but the material does not crack; it must be a BrittleFEMat, or'):
+            FESolver().addPolygon(outline, size=2e-3, material=2, **settings)
+    O.materials.append(PlasticFEMat(**STEEL, spallStress=3e9, fractureEnergy=1e4))
+    with pytest.raises(ValueError, match='fractureEnergy is 0 J/m²; it must be positive for every triangle'):
+        FESolver().addPolygon(outline, size=2e-3, material=3, fractureEnergy=lambda x, y: 0)
+
+
+def bar(**settings):
+    """A bar that is pulled until triangles fail: (solver, damage)."""
+    O.reset()
+    material = {**STEEL, 'failureStrain': .05, 'fractureEnergy': 2e4, **settings.pop('material', {})}
+    O.materials.append(PlasticFEMat(**material))
+    fe = FESolver()
+    fe.addPolygon(rectangle((0, 0), (.02, .004)), size=1e-3, material=0, velocity=lambda x, y: (4e3 * x, 0),
+                  fixed=lambda x, y: not 1e-9 < x < .02 - 1e-9, **settings)
+    O.engines = yadefrag.engines(fe)
+    O.dt = .7 * fe.criticalTimeStep()
+    O.run(200, True)
+    return fe, fe.damage
+
+
+def test_strengthIsAFactorOfTheFailureStrain():
+    fe, damage = bar(material=dict(failureStrain=1))
+    left = fe._reference[fe.triangles].mean(axis=1)[:, 0] < .01
+    strains = fe.plasticStrain
+    assert .03 < strains.max() < .1 and damage == pytest.approx(strains, rel=1e-9)
+    _, twice = bar(material=dict(failureStrain=1), strength=lambda x, y: .5 if x < .01 else 1)
+    assert twice[left] == pytest.approx(2 * damage[left], rel=1e-9)
+    assert twice[~left] == pytest.approx(damage[~left], rel=1e-9)
+    # A factor by which triangles fail only there.
+    fe, _ = bar(strength=lambda x, y: .5 if x < .01 else 10)
+    assert fe.numCracks > 0 and (fe.damage >= 1).any() and not (fe.damage[~left] >= 1).any()
+
+
+def test_theFailureStrainIsScattered():
+    fe, plain = bar(material=dict(failureStrain=1))
+
+    def factors(**scatter):
+        _, damage = bar(material=dict(failureStrain=1, **scatter))
+        return plain / damage
+
+    even = factors(strengthScatter=.2)
+    assert .8 < even.min() < .83 and 1.17 < even.max() < 1.2
+    assert numpy.array_equal(even, factors(strengthScatter=.2, seed=0))
+    assert not numpy.allclose(even, factors(strengthScatter=.2, seed=1))
+    weibull = factors(weibullModulus=8)
+    # Mean of a Weibull distribution; of some 200 values, whose deviation is 0.14.
+    assert weibull.mean() == pytest.approx(math.gamma(1 + 1 / 8), abs=.03)
+    # The scale is (V0/V)**(1/m).
+    x, y = fe._reference[fe.triangles].transpose(2, 0, 1)
+    area = abs((x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0])) / 2
+    sized = factors(weibullModulus=8, referenceVolume=1e-9) / weibull
+    assert sized == pytest.approx((1e-9 / area) ** (1 / 8), rel=1e-9)
+
+
+def test_theFractureEnergyMayVary():
+    fe, _ = bar(fractureEnergy=lambda x, y: 5e3)
+    plain, _ = bar(material=dict(fractureEnergy=5e3))
+    assert fe.numCracks > 0 and fe.nodes.tobytes() == plain.nodes.tobytes()
+    # Where it is 0, cracks open at once.
+    fe, _ = bar(fractureEnergy=lambda x, y: 0 if x < .01 else 1e6)
+    table = yadefrag.crackTable(fe)
+    weak = table['x'] < .0095
+    assert weak.any() and (table['energy'][weak] == 0).all() and not table['held'][weak].any()
+    tough = table['x'] > .0115
+    assert tough.any() and (table['energy'][tough] == 1e6).all() and table['held'][tough].all()
+
+
+def test_whatIsScatteredContinuesFromAFile(tmp_path):
+    fe, _ = bar(material=dict(weibullModulus=8, failureStrain=.08))
+    file = str(tmp_path / 'half.yade.gz')
+    O.save(file)
+
+    def end():
+        O.run(200, True)
+        solver = solverOfScene()
+        return solver.nodes.tobytes(), solver.damage.tobytes(), solver.numCracks
+
+    whole = end()
+    assert whole[2] > 0
+    O.load(file)
+    assert end() == whole
+
+
+CONCRETE = dict(young=30e9, poisson=.2, density=2400, cohesion=5e6, internalFriction=.5, dilationAngle=.5,
+                tensionLimit=1.2e6)
+
+
+def test_aFrictionalMaterialCracksAtItsTensionLimit():
+    O.materials.append(FrictionalFEMat(**CONCRETE, fractureEnergy=20))
+    fe = FESolver()
+    # Thinner in the middle, so that it cracks there.
+    fe.addPolygon([(0, 0), (.01, .0004), (.02, 0), (.02, .004), (.01, .0036), (0, .004)], size=1e-3, material=0,
+                  fixed=lambda x, y: 'x' if x < 1e-9 or x > .02 - 1e-9 else False)
+    O.engines = yadefrag.engines(fe)
+    O.dt = .8 * fe.criticalTimeStep()
+    fe.prescribe(lambda x, y: x > .02 - 1e-9, vx=.1)
+    while fe.time < 350e-6:
+        O.run(200, True)
+    assert len(fe.fragments()) == 2
+    # Of .0032 m, across an irregular mesh, and of edges that opened beside it.
+    assert 1 < fe.energy['fracture'] / (20 * .0032) < 1.6
+
+
+@pytest.mark.parametrize('constants, sentence', [
+    (dict(fractureEnergy=-1), 'fractureEnergy is -1 J/m²; it must be 0 or positive, and finite.'),
+    (dict(fractureEnergy=math.inf), 'fractureEnergy is inf J/m²; it must be 0 or positive, and finite.'),
+    (dict(failureStrain=0), 'failureStrain is 0; it must be positive, or infinite for none.'),
+    (dict(fractureEnergy=20, tensionLimit=0), 'tensionLimit is 0 Pa; it must be positive if fractureEnergy is given.'),
+    (dict(fractureEnergy=20, tensionLimit=math.inf, internalFriction=0, dilationAngle=0),
+     'fractureEnergy is 20 J/m²; it must be 0 unless failureStrain, tensionLimit or internalFriction is given.')])
+def test_wrongFrictionalConstantsAreRefused(constants, sentence):
+    O.materials.append(FrictionalFEMat(**{**CONCRETE, **constants}))
+    with pytest.raises(ValueError, match=re.escape(sentence)):
+        FESolver().addPolygon(rectangle((0, 0), (.008, .024)), size=2e-3, material=0)
+
+
+@pytest.mark.parametrize('scatter, sentence', [
+    (dict(weibullModulus=-1), 'weibullModulus is -1; it must be positive and finite, or 0'),
+    (dict(strengthScatter=1), 'strengthScatter is 1; it must be at least 0 and below 1.'),
+    (dict(failureStrain=math.inf, fractureEnergy=0, weibullModulus=5),
+     'weibullModulus is 5; it must be 0 unless failureStrain, failureD1, failureD2 or spallStress is given.')])
+def test_wrongScatterIsRefused(scatter, sentence):
+    O.materials.append(PlasticFEMat(**{**STEEL, 'failureStrain': .3, **scatter}))
+    with pytest.raises(ValueError, match=re.escape(sentence)):
+        FESolver().addPolygon(rectangle((0, 0), (.008, .024)), size=2e-3, material=0)
 
 
 def test_anUnresolvedFractureEnergyIsRefused():

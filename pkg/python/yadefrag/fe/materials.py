@@ -47,6 +47,8 @@ def mayCrack(material: object) -> bool:
     """True for a material whose edges may open: a brittle one, or one that yields and fails."""
     if isinstance(material, wrapper.BrittleFEMat):
         return True
+    if isinstance(material, wrapper.FrictionalFEMat):
+        return material.failureStrain < math.inf or material.fractureEnergy > 0
     return isinstance(material, wrapper.PlasticFEMat) and (
         min(material.failureStrain, material.spallStress) < math.inf
         or material.failureD1 != 0 or material.failureD2 != 0)
@@ -70,6 +72,11 @@ class Materials:
     def crack(self) -> bool:
         """True if any of them can crack."""
         return any(isinstance(one, wrapper.BrittleFEMat) for one in self.of)
+
+    @property
+    def fails(self) -> bool:
+        """True if the body has one material, which yields and fails."""
+        return self.yields and mayCrack(self.of[0])
 
     @property
     def yields(self) -> bool:

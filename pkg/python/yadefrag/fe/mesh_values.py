@@ -13,6 +13,7 @@ _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
 # name: (unit, function that checks a value, description of valid values)
 _BRITTLE = {
     'strength': ('Pa', lambda v: math.isfinite(v) and v > 0, 'a positive number (Pa)'),
+    'factor': ('a factor', lambda v: math.isfinite(v) and v > 0, 'a positive factor of the failure strain'),
     'fractureEnergy': ('J/m²', lambda v: math.isfinite(v) and v >= 0,
                        '0 or a positive number (J/m²)'),
     'jointStrength': ('Pa', lambda v: math.isfinite(v) and v >= 0, '0 or a positive number (Pa)'),
@@ -26,11 +27,14 @@ def centroids(mesh: Mesh) -> numpy.ndarray:
     return mesh.nodes[mesh.triangles].mean(axis=1)
 
 
-def _ofTriangles(name, value, mesh):
-    """(m) floats of the mesh's triangles; a function is evaluated at their centroids; empty for None."""
+def _ofTriangles(name, value, mesh, kind):
+    """(m) floats of the mesh's triangles; a function is evaluated at their centroids; empty for None.
+
+    kind  key of _BRITTLE
+    """
     if value is None:
         return numpy.empty(0)
-    unit, isRight, right = _BRITTLE[name]
+    unit, isRight, right = _BRITTLE[kind]
     if callable(value):
         return numpy.array(atPlaces(name, value, centroids(mesh), lambda at, one: number(at, one, isRight, right)))
     values = array(value)
@@ -77,10 +81,11 @@ def brittlePlaces(mesh: Mesh, materials: Any, interfaces: tuple[numpy.ndarray, n
     areOwn = mesh._numJoints > 0 and (jointStrength is not None or jointEnergy is not None)
     given = dict(strength=strength, fractureEnergy=fractureEnergy, joints=areOwn or None)
     for name, value in given.items():
-        if value is not None and not materials.crack:
+        if value is not None and not (materials.crack or materials.fails and name != 'joints'):
             raise ValueError('%s is given, but the material does not crack; it must be a '
-                             'BrittleFEMat.' % name)
-    ofTriangles = [_ofTriangles(name, given[name], mesh) for name in ('strength', 'fractureEnergy')]
+                             'BrittleFEMat%s.' % (name, '' if name == 'joints' else ', or a material that yields and fails'))
+    ofTriangles = [_ofTriangles('strength', strength, mesh, 'factor' if materials.fails else 'strength'),
+                   _ofTriangles('fractureEnergy', fractureEnergy, mesh, 'fractureEnergy')]
     edges, *values = interfaces
     if areOwn:
         joints = mesh.joints

@@ -93,8 +93,9 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
     strength        None: the tensileStrength of the BrittleFEMat; or a function (x, y) → Pa, or an
                     array with one value for each triangle, instead. The function is called at the
                     triangles' centroids. An edge has the smaller of its two triangles' strengths,
-                    and the material's scatter is about that value
-    fractureEnergy  None: that of the BrittleFEMat; or a function (x, y) → J/m², or an array,
+                    and the material's scatter is about that value. Of a PlasticFEMat that fails:
+                    a factor of its failure strain and spallStress
+    fractureEnergy  None: that of the material; or a function (x, y) → J/m², or an array,
                     likewise; where it is 0, cracks open at once
     jointStrength   Pa, for all joints or one for each, of a BrittleFEMat, without scatter; 0: open
                     from the start, an existing crack, not counted by numCracks; None: that of the
