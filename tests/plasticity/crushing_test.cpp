@@ -102,8 +102,7 @@ void crush(ElementKind kind, int rows) {
   EXPECT_EQ(wholePieces(bar.world).size(), 2);
   EXPECT_GT(bar.world.ledger.fracture, .98 * wanted);
   EXPECT_LT(bar.world.ledger.fracture, 1.7 * wanted);  // more edges open after this flow
-  // The balance of 'smoothed' does not close exactly where flow changes the volume.
-  EXPECT_LT(std::abs(bar.energyError()), kind == ElementKind::kSmoothed ? 1e-3 : 1e-5);
+  EXPECT_LT(std::abs(bar.energyError()), 3e-5);
 }
 
 TEST(Crushing, ABarIsCrushedBeforeItCracks) {
