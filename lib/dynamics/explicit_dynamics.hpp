@@ -29,7 +29,7 @@ struct StepSettings {
 
 class ExplicitDynamics {
  public:
-  explicit ExplicitDynamics(InstructionSet set = bestInstructionSet()) : set_(set) {}
+  explicit ExplicitDynamics(InstructionSet set = widestInstructionSet()) : set_(set) {}
 
   /// Follows added, removed or renumbered nodes and triangles; `predict` asserts it.
   void rebuild(const Model& model);

@@ -281,16 +281,18 @@ bool addForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes
   using enum YieldCurve::Kind;
   if constexpr (!kPlane) {
     if (in.curve.kind == kLine)
-      return runFor(set, AddForces<kPlane, kNodal, kLine>{chunk, lanes, in, position, flow, force});
+      return runForWide(set,
+                        AddForces<kPlane, kNodal, kLine>{chunk, lanes, in, position, flow, force});
     if (in.curve.kind == kCurved)
-      return runFor(set,
-                    AddForces<kPlane, kNodal, kCurved>{chunk, lanes, in, position, flow, force});
+      return runForWide(
+          set, AddForces<kPlane, kNodal, kCurved>{chunk, lanes, in, position, flow, force});
     if constexpr (!kNodal)
       if (in.curve.kind == kCone)
-        return runFor(set,
-                      AddForces<kPlane, kNodal, kCone>{chunk, lanes, in, position, flow, force});
+        return runForWide(
+            set, AddForces<kPlane, kNodal, kCone>{chunk, lanes, in, position, flow, force});
   }
-  return runFor(set, AddForces<kPlane, kNodal, kAlone>{chunk, lanes, in, position, flow, force});
+  return runForWide(set,
+                    AddForces<kPlane, kNodal, kAlone>{chunk, lanes, in, position, flow, force});
 }
 
 }  // namespace
@@ -306,17 +308,17 @@ bool addPlasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes
 void returnPlastic(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                    const PlasticChunk& in, const Vec2* position, LaneReturn& flow) {
   using enum YieldCurve::Kind;
-  runFor(set, AddForces<false, true, kCone, false>{chunk, lanes, in, position, flow, nullptr});
+  runForWide(set, AddForces<false, true, kCone, false>{chunk, lanes, in, position, flow, nullptr});
 }
 
 bool addOpenedForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                      const PlasticChunk& in, const Vec2* position, LaneReturn& flow, Vec2* force) {
-  return runFor(set, AddOpened{chunk, lanes, in, position, flow, force});
+  return runForWide(set, AddOpened{chunk, lanes, in, position, flow, force});
 }
 
 void sumVolumes(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                 const PlasticChunk& in, const Vec2* position, double* nodes) {
-  runFor(set, SumVolumes{chunk, lanes, in, position, nodes});
+  runForWide(set, SumVolumes{chunk, lanes, in, position, nodes});
 }
 
 }  // namespace yadefrag

@@ -1,8 +1,9 @@
 #pragma once
 // The loops over the elements of a chunk that yields, compiled and chosen as those of
-// element_kernel.hpp. Metals and frictional materials in plane strain are returned in vector loops
-// (yield_lanes.hpp, cone_lanes.hpp), lanes
-// without flow in a group with flow, too; other elements that flow are returned one by one.
+// element_kernel.hpp, and for AVX-512, with which flow takes .65 to .8 of the time.
+// Metals and frictional materials in plane strain are returned in vector loops (yield_lanes.hpp,
+// cone_lanes.hpp), lanes without flow in a group with flow, too; other elements that flow are
+// returned one by one.
 
 #include <array>
 

@@ -66,7 +66,7 @@ struct Stepper {
   double dt;
   StepSettings settings = {};
   int threads = 1;
-  InstructionSet set = bestInstructionSet();
+  InstructionSet set = widestInstructionSet();
   double last = 0;  // s, the step before
   EnergyLedger ledger = {};
   ExplicitDynamics dynamics = ExplicitDynamics(set);
