@@ -79,16 +79,18 @@ int forEachPart(std::size_t count, int threads, Work work) {
 }
 
 /// Calls `work(item)` for each of `count` items that do not depend on each other and are of
-/// different size, with `pieces` pieces of work in all. An exception as above.
+/// different size, with `pieces` pieces of work in all; a thread takes `atOnce` items. An exception
+/// as above.
 template <class Work>
-void forEachItem(std::size_t count, std::size_t pieces, int threads, Work work) {
+void forEachItem(std::size_t count, std::size_t pieces, int threads, Work work,
+                 int atOnce = tolerance::kItemsAtOnce) {
   const int parts = threadsFor(pieces, threads);
   if (parts == 1) {
     for (std::size_t item = 0; item < count; ++item) work(item);
     return;
   }
   PartErrors errors;
-#pragma omp parallel for schedule(dynamic, tolerance::kItemsAtOnce) num_threads(parts)
+#pragma omp parallel for schedule(dynamic, atOnce) num_threads(parts)
   for (std::size_t item = 0; item < count; ++item)
     errors.run(static_cast<int>(item), [&] { work(item); });
   errors.rethrow();

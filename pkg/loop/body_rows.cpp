@@ -1,12 +1,12 @@
 #include "loop/body_rows.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <typeinfo>
 
 #include "abi/body_at.hpp"
 #include "abi/request.hpp"
-#include "core/parallel.hpp"
 
 namespace yadefrag {
 
@@ -53,22 +53,22 @@ bool BodyRows::areHere(const yade::Scene& scene, const yade::Interaction& contac
 
 void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, bool areUsed, int threads) {
   // YADE's functions make the arrays long enough.
-  const auto last = static_cast<yade::Body::id_t>(scene.bodies->body.size()) - 1;
+  numBodies_ = scene.bodies->body.size();
+  const auto last = static_cast<yade::Body::id_t>(numBodies_) - 1;
   scene.forces.addForce(last, yade::Vector3r::Zero());
   scene.forces.addTorque(last, yade::Vector3r::Zero());
-  isInPlace_ = !areUsed || numContacts < kContactsPerBody * scene.bodies->body.size();
+  isInPlace_ = !areUsed || numContacts < kContactsPerBody * numBodies_;
   if (!isInPlace_) return fill(scene, numContacts, threads);
   forces_ = forcesOf(scene).data();
   torques_ = torquesOf(scene).data();
-  numSums_ = scene.bodies->body.size();
 }
 
 void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
-  if (++age_ > kLongestAge || scene.bodies->body.size() < rowOf_.size()) {
+  if (++age_ > kLongestAge || numBodies_ < rowOf_.size()) {
     age_ = 0;
-    rowOf_.clear(), rows_.clear(), flags_.clear(), pairs_.clear();
+    rowOf_.clear(), rows_.clear(), flags_.clear(), firstPlaces_.clear(), pairs_.clear();
   }
-  rowOf_.resize(scene.bodies->body.size(), -1);
+  rowOf_.resize(numBodies_, -1);
   pairs_.resize(numContacts);
   // In the order of ids, which often is that of their memory.
   forEachPart(rowOf_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
@@ -77,7 +77,6 @@ void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
       if (rowOf_[id] >= 0) fillRow(scene, id, static_cast<std::size_t>(rowOf_[id]));
     }
   });
-  numSums_ = rows_.size();
 }
 
 // What a row reads, and the row.
@@ -107,24 +106,40 @@ void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
   storeThree(FourLanes{}, force), storeThree(FourLanes{}, torque);
 }
 
-PairRows& BodyRows::make(yade::Scene& scene, std::size_t place, const yade::Interaction& contact) {
-  PairRows& pair = pairs_[place];
-  pair.id1 = contact.id1, pair.id2 = contact.id2;
-  pair.row1 = rowFor(scene, pair.id1), pair.row2 = rowFor(scene, pair.id2);
-  pair.geom = nullptr;
-  numSums_ = rows_.size();
-  return pair;
+void BodyRows::findPairs(yade::Scene& scene, int threads) {
+  changedByPart_.resize(static_cast<std::size_t>(threads));
+  for (auto& changed : changedByPart_) changed.clear();
+  forEachPart(pairs_.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
+    auto& changed = changedByPart_[static_cast<std::size_t>(part)];
+    for (std::size_t place = begin; place < end; ++place) {
+      if (place + 2 * kAhead < end) requestPair(scene, place + 2 * kAhead);
+      if (isChanged(scene, place)) changed.push_back(place);
+    }
+  });
+  for (const auto& changed : changedByPart_)
+    for (const std::size_t place : changed) makePair(scene, place);
 }
 
-std::uint32_t BodyRows::rowFor(yade::Scene& scene, yade::Body::id_t id) {
+void BodyRows::makePair(yade::Scene& scene, std::size_t place) {
+  const yade::Interaction& contact = *(*scene.interactions)[place];
+  PairRows& pair = pairs_[place];
+  pair.id1 = contact.id1, pair.id2 = contact.id2;
+  pair.row1 = rowFor(scene, pair.id1, place), pair.row2 = rowFor(scene, pair.id2, place);
+  pair.geom = nullptr;
+}
+
+std::uint32_t BodyRows::rowFor(yade::Scene& scene, yade::Body::id_t id, std::size_t place) {
   const auto index = static_cast<std::size_t>(id);
   assert(index < rowOf_.size());
-  if (rowOf_[index] >= 0) return static_cast<std::uint32_t>(rowOf_[index]);
-  const std::size_t row = rows_.size();
-  rowOf_[index] = static_cast<int>(row);
-  rows_.emplace_back(), flags_.emplace_back();
-  fillRow(scene, index, row);
-  return static_cast<std::uint32_t>(row);
+  if (rowOf_[index] < 0) {
+    rowOf_[index] = static_cast<int>(rows_.size());
+    rows_.emplace_back(), flags_.emplace_back();
+    firstPlaces_.push_back(static_cast<std::uint32_t>(place));
+    fillRow(scene, index, rows_.size() - 1);
+  }
+  const auto row = static_cast<std::uint32_t>(rowOf_[index]);
+  firstPlaces_[row] = std::min(firstPlaces_[row], static_cast<std::uint32_t>(place));
+  return row;
 }
 
 void BodyRows::giveForces(yade::Scene& scene, int threads) const {

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "loop/sphere_contact_kernels.hpp"
 
 namespace yadefrag {
@@ -29,9 +30,9 @@ struct PairRows {
   [[nodiscard]] bool isOf(const yade::Interaction& contact) const {
     return id1 == contact.id1 && id2 == contact.id2;
   }
-  /// True: a contact that the loop computes, unchanged since the step before.
+  /// True: a contact that the loop computes, with the objects of the step before.
   [[nodiscard]] bool isKnown(const yade::Interaction& contact) const {
-    return geom && isOf(contact) && contact.geom.get() == geom && contact.phys.get() == phys;
+    return contact.geom.get() == geom && contact.phys.get() == phys;
   }
   [[gnu::always_inline]] void request() const {
     if (!geom) return;
@@ -59,25 +60,48 @@ class BodyRows {
   static void read(const yade::Body& body, BodyRow& row);
   /// True: there are no rows; sums are numbered by ids.
   [[nodiscard]] bool isInPlace() const { return isInPlace_; }
+  /// Finds all contacts that have changed since the step before, and makes their rows.
+  void findPairs(yade::Scene& scene, int threads);
+  /// The same for one contact. True: it is another one, `makePair` is needed.
+  [[gnu::always_inline]] bool isChanged(const yade::Scene& scene, std::size_t place) {
+    const yade::Interaction& contact = *(*scene.interactions)[place];
+    PairRows& pair = pairs_[place];
+    if (!pair.isOf(contact)) return true;
+    if (!pair.isKnown(contact)) pair.geom = nullptr;
+    return false;
+  }
+  [[gnu::always_inline]] void requestPair(const yade::Scene& scene, std::size_t place) const {
+    const auto* const contact = reinterpret_cast<const char*>((*scene.interactions)[place].get());
+    __builtin_prefetch(contact + offsetof(yade::Interaction, id1));
+    __builtin_prefetch(contact + offsetof(yade::Interaction, phys));
+  }
+  /// Rows for bodies that may have none.
+  [[gnu::noinline]] void makePair(yade::Scene& scene, std::size_t place);
+  /// Number of sums: rows, or ids.
+  [[nodiscard]] std::size_t numSums() const { return isInPlace_ ? numBodies_ : rows_.size(); }
   /// What is known of contact `place`. Each for one thread at once.
   [[nodiscard]] PairRows& operator()(std::size_t place) { return pairs_[place]; }
-  /// Rows for bodies that may have none.
-  [[gnu::noinline]] PairRows& make(yade::Scene& scene, std::size_t place,
-                                   const yade::Interaction& contact);
+  /// True: no contact before `place` is of this body.
+  [[nodiscard]] bool isFirstIn(std::uint32_t row, std::size_t place) const {
+    return !isInPlace_ && firstPlaces_[row] >= place;
+  }
   [[nodiscard]] const BodyRow& operator[](std::size_t row) const { return rows_[row]; }
   /// True: both bodies exist, and one is of this process.
   [[nodiscard]] bool areHere(const PairRows& pair) const {
     return areHere(flags_[pair.row1], flags_[pair.row2]);
   }
 
-  [[gnu::always_inline]] void addFirst(std::size_t row, const ContactForce& contact) {
-    add(row, contact.force, contact.torque1);
+  /// Adds to the sums of a row, or of an id.
+  [[gnu::always_inline]] void add(std::size_t row, const FourLanes& force,
+                                  const FourLanes& torque) {
+    if (!isInPlace_) {
+      BodyRow& sums = rows_[row];
+      return sums.setSums(sums.force() + force, sums.torque() + torque);
+    }
+    double *const forces = forces_[row].data(), *const torques = torques_[row].data();
+    storeThree(loadThree(forces) + force, forces);
+    storeThree(loadThree(torques) + torque, torques);
   }
-  [[gnu::always_inline]] void addSecond(std::size_t row, const ContactForce& contact) {
-    add(row, -contact.force, contact.torque2);
-  }
-  /// Number of sums: rows, or ids.
-  [[nodiscard]] std::size_t numSums() const { return numSums_; }
   /// Requests what a contact needs, before its turn.
   [[gnu::always_inline]] void request(const PairRows& pair) const {
     // There may be no rows yet.
@@ -96,16 +120,6 @@ class BodyRows {
   // Flags of a row.
   static constexpr unsigned kExists = 1, kIsHere = 2;
 
-  [[gnu::always_inline]] void add(std::size_t row, const FourLanes& force,
-                                  const FourLanes& torque) {
-    if (!isInPlace_) {
-      BodyRow& sums = rows_[row];
-      return sums.setSums(sums.force() + force, sums.torque() + torque);
-    }
-    double *const forces = forces_[row].data(), *const torques = torques_[row].data();
-    storeThree(loadThree(forces) + force, forces);
-    storeThree(loadThree(torques) + torque, torques);
-  }
   static bool areHere(unsigned flags1, unsigned flags2) {
     return (flags1 & flags2 & kExists) != 0 && ((flags1 | flags2) & kIsHere) != 0;
   }
@@ -113,17 +127,19 @@ class BodyRows {
   void fill(yade::Scene& scene, std::size_t numContacts, int threads);
   void fillRow(yade::Scene& scene, std::size_t id, std::size_t row);
   void requestAhead(const yade::Scene& scene, std::size_t id) const;
-  std::uint32_t rowFor(yade::Scene& scene, yade::Body::id_t id);
+  std::uint32_t rowFor(yade::Scene& scene, yade::Body::id_t id, std::size_t place);
 
   bool isInPlace_ = true;
+  std::size_t numBodies_ = 0;
   std::vector<int> rowOf_;  // by body id, -1: none
   std::vector<BodyRow> rows_;
-  std::vector<unsigned char> flags_;  // by row
-  std::vector<PairRows> pairs_;       // by place of the contact
+  std::vector<unsigned char> flags_;                  // by row
+  std::vector<std::uint32_t> firstPlaces_;            // by row: no contact of it is before
+  std::vector<PairRows> pairs_;                       // by place of the contact
+  std::vector<PartList<std::size_t>> changedByPart_;  // places
   // YADE's sums, by id, where these are used in place.
   yade::Vector3r* forces_ = nullptr;
   yade::Vector3r* torques_ = nullptr;
-  std::size_t numSums_ = 0;
   int age_ = 0;  // steps since all rows were made
 };
 

@@ -14,9 +14,9 @@ namespace yadefrag {
 
 namespace {
 
-// Contacts that a thread takes at once: enough that taking them costs nothing, few enough that all
-// threads end at the same time. The results do not depend on it.
-constexpr std::size_t kContactsAtOnce = 128;
+// Parts of the contacts for each of several threads: enough that all threads end at the same time,
+// few enough that few bodies have contacts in two of them. The results do not depend on it.
+constexpr std::size_t kPartsPerThread = 4;
 // Contacts between the request of data from memory and their use: enough for the latency of one
 // access.
 constexpr std::size_t kAhead = 8;
@@ -44,26 +44,18 @@ void ContactLoop::action() {
   if (step.functors() != functors_) rows_.forget();
   functors_ = step.functors();
   rows_.begin(*scene, size, step.computesGeometry(), threads);
-  if (threads > 1) {
-    runInParallel(step, size);
-  } else {
-    runFor(
-        kInstructions, [&]() __attribute__((always_inline)) { run(step, size); });
-  }
-  if (fastForces == 0) return;
+  // One thread does this contact by contact.
+  if (threads > 1 && !rows_.isInPlace()) rows_.findPairs(*scene, threads);
+  evaluate(step, size);
+  addLater();
   rows_.giveForces(*scene, threads);
-  memory_.endStep(*scene);
+  if (fastForces > 0) memory_.endStep(*scene);
 }
 
 [[gnu::always_inline]] inline void ContactLoop::requestAhead(std::size_t place, std::size_t size) {
-  using yade::Interaction;
   if (place + 2 * kAhead < size) {
-    const PairRows& pair = rows_(place + 2 * kAhead);
-    const char* const contact =
-        reinterpret_cast<const char*>((*scene->interactions)[place + 2 * kAhead].get());
-    __builtin_prefetch(contact + offsetof(Interaction, id1));
-    __builtin_prefetch(contact + offsetof(Interaction, phys));
-    pair.request();
+    if (threads == 1) rows_.requestPair(*scene, place + 2 * kAhead);
+    rows_(place + 2 * kAhead).request();
   }
   if (place + kAhead < size) rows_.request(rows_(place + kAhead));
 }
@@ -96,16 +88,52 @@ void ContactLoop::action() {
   });
 }
 
+void ContactLoop::evaluate(const PairStep& step, std::size_t size) {
+  const std::size_t count = threads == 1 ? 1 : kPartsPerThread * static_cast<std::size_t>(threads);
+  parts_.resize(count);
+  const auto evaluateOne = [&](std::size_t number) {
+    Part& part = parts_[number];
+    part.begin = size * number / count, part.end = size * (number + 1) / count;
+    runFor(
+        kInstructions, [&]() __attribute__((always_inline)) { evaluatePart(step, size, part); });
+  };
+  forEachItem(count, size, threads, evaluateOne, 1);
+  for (const Part& part : parts_) fastGeometries += part.geometries, fastForces += part.forces;
+}
+
 // Most of the time of a step is spent here: without the attributes a compiler that sees many
 // sources at once leaves vector products as calls.
-[[gnu::always_inline]] inline bool ContactLoop::evaluate(Evaluation& evaluation,
-                                                         const Contact& contact,
-                                                         PairRows& pair) const {
+[[gnu::always_inline]] inline void ContactLoop::evaluatePart(const PairStep& step, std::size_t size,
+                                                             Part& part) {
+  Evaluation evaluation{step};
+  part.forces = 0;
+  part.later.clear();
+  for (std::size_t place = part.begin; place < part.end; ++place) {
+    if (!evaluateContact(evaluation, place, size)) continue;
+    ++part.forces;
+    const ContactForce& contact = evaluation.force;
+    add(evaluation.row1, contact.force, contact.torque1, part);
+    add(evaluation.row2, -contact.force, contact.torque2, part);
+  }
+  part.geometries = evaluation.fast;
+}
+
+[[gnu::always_inline]] inline bool ContactLoop::evaluateContact(Evaluation& evaluation,
+                                                                std::size_t place,
+                                                                std::size_t size) {
+  const Contact& contact = (*scene->interactions)[place];
+  if (rows_.isInPlace()) {
+    if (evaluation.step.usesMotion()) requestInPlace(place, size);
+    return evaluateInPlace(evaluation, contact);
+  }
+  requestAhead(place, size);
+  if (threads == 1 && rows_.isChanged(*scene, place)) rows_.makePair(*scene, place);
+  PairRows& pair = rows_(place);
   if (!rows_.areHere(pair)) {
     contact->reset();
     return false;
   }
-  if (!pair.isKnown(*contact)) return evaluateOther(evaluation, contact, pair);
+  if (!pair.geom) return evaluateOther(evaluation, contact, pair);
   ++evaluation.fast;
   evaluation.row1 = pair.row1, evaluation.row2 = pair.row2;
   return evaluation.step.evaluateKnown(*contact, *pair.geom, *pair.phys, rows_[pair.row1],
@@ -143,110 +171,24 @@ bool ContactLoop::evaluateInPlace(Evaluation& evaluation, const Contact& contact
   return isForce;
 }
 
-[[gnu::always_inline]] inline void ContactLoop::add(const Evaluation& evaluation) {
-  ++fastForces;
-  rows_.addFirst(evaluation.row1, evaluation.force);
-  rows_.addSecond(evaluation.row2, evaluation.force);
+// The sums of a body are the same for any number of threads: the first part with contacts of the
+// body adds to them at once, the others after it, each in the order of the contacts.
+[[gnu::always_inline]] inline void ContactLoop::add(std::uint32_t row, const FourLanes& force,
+                                                    const FourLanes& torque, Part& part) {
+  if (part.begin == 0 || rows_.isFirstIn(row, part.begin)) return rows_.add(row, force, torque);
+  BodyForce& later = part.later.emplace_back();
+  storeThree(force, later.force), storeThree(torque, later.torque);
+  later.row = row;
 }
 
-[[gnu::always_inline]] inline void ContactLoop::run(const PairStep& step, std::size_t size) {
-  Evaluation evaluation{step};
-  for (std::size_t place = 0; place < size; ++place) {
-    const Contact& contact = (*scene->interactions)[place];
-    if (rows_.isInPlace()) {
-      if (step.usesMotion()) requestInPlace(place, size);
-      if (!evaluateInPlace(evaluation, contact)) continue;
-    } else {
-      requestAhead(place, size);
-      PairRows& known = rows_(place);
-      PairRows& pair = known.isOf(*contact) ? known : rows_.make(*scene, place, *contact);
-      if (!evaluate(evaluation, contact, pair)) continue;
-    }
-    add(evaluation);
-  }
-  fastGeometries = evaluation.fast;
-}
-
-// Forces are stored by contact, and then added in the order of the contacts, as by one thread. Each
-// thread adds those of its own bodies.
-void ContactLoop::runInParallel(const PairStep& step, std::size_t size) {
-  stored_.resize(size);
-  blocks_.resize((size + kContactsAtOnce - 1) / kContactsAtOnce);
-  forEachItem(blocks_.size(), size, threads, [&](std::size_t number) {
-    const std::size_t begin = number * kContactsAtOnce;
-    const std::size_t end = std::min(begin + kContactsAtOnce, size);
-    runFor(
-        kInstructions, [&]() __attribute__((always_inline)) {
-          evaluateBlock(step, begin, end, blocks_[number]);
-        });
-  });
-  evaluateWithoutRows(step);
-  addStored();
-}
-
-[[gnu::always_inline]] inline void ContactLoop::evaluateBlock(const PairStep& step,
-                                                              std::size_t begin, std::size_t end,
-                                                              ContactBlock& block) {
-  Evaluation evaluation{step};
-  block.withoutRows.clear();
-  block.forces = 0;
-  for (std::size_t place = begin; place < end; ++place) {
-    const Contact& contact = (*scene->interactions)[place];
-    bool isForce = false;
-    if (rows_.isInPlace()) {
-      if (step.usesMotion()) requestInPlace(place, stored_.size());
-      isForce = evaluateInPlace(evaluation, contact);
-    } else {
-      requestAhead(place, stored_.size());
-      if (PairRows& pair = rows_(place); pair.isOf(*contact)) {
-        isForce = evaluate(evaluation, contact, pair);
-      } else {
-        block.withoutRows.push_back(place);
+void ContactLoop::addLater() {
+  if (parts_.size() == 1) return;
+  forEachPart(rows_.numSums(), threads, [&](std::size_t begin, std::size_t end, int) {
+    for (const Part& part : parts_) {
+      for (const BodyForce& later : part.later) {
+        if (later.row < begin || later.row >= end) continue;
+        rows_.add(later.row, loadThree(later.force), loadThree(later.torque));
       }
-    }
-    store(evaluation, isForce, stored_[place]);
-    block.forces += isForce;
-  }
-  block.fast = evaluation.fast;
-}
-
-[[gnu::always_inline]] inline void ContactLoop::store(const Evaluation& evaluation, bool isForce,
-                                                      PairForce& force) const {
-  force.row1 = isForce ? evaluation.row1 : PairForce::kNone;
-  if (!isForce) return;
-  force.row2 = evaluation.row2;
-  storeThree(evaluation.force.force, force.force);
-  storeThree(evaluation.force.torque1, force.torque1);
-  storeThree(evaluation.force.torque2, force.torque2);
-}
-
-void ContactLoop::evaluateWithoutRows(const PairStep& step) {
-  Evaluation evaluation{step};
-  for (const ContactBlock& block : blocks_) {
-    fastGeometries += block.fast, fastForces += block.forces;
-    for (const std::size_t place : block.withoutRows) {
-      const Contact& contact = (*scene->interactions)[place];
-      PairRows& pair = rows_.make(*scene, place, *contact);
-      const bool isForce = evaluate(evaluation, contact, pair);
-      store(evaluation, isForce, stored_[place]);
-      fastForces += isForce;
-    }
-  }
-  fastGeometries += evaluation.fast;
-}
-
-void ContactLoop::addStored() {
-  forEachPart(stored_.size(), threads, [&](std::size_t, std::size_t, int part) {
-    const auto parts = static_cast<std::size_t>(threads), own = static_cast<std::size_t>(part);
-    const std::size_t first = rows_.numSums() * own / parts;
-    const std::size_t last = rows_.numSums() * (own + 1) / parts;
-    const auto isOwn = [&](std::size_t row) { return row >= first && row < last; };
-    for (const PairForce& force : stored_) {
-      if (force.row1 == PairForce::kNone) continue;
-      const ContactForce contact = {loadThree(force.force), loadThree(force.torque1),
-                                    loadThree(force.torque2)};
-      if (isOwn(force.row1)) rows_.addFirst(force.row1, contact);
-      if (isOwn(force.row2)) rows_.addSecond(force.row2, contact);
     }
   });
 }

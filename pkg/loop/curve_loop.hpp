@@ -41,19 +41,17 @@ class ContactLoop : public yade::InteractionLoop {
 
  private:
   using Contact = PairStep::Contact;
-  /// Force of a contact that the loop computed, and the rows, or ids, of its bodies.
-  struct PairForce {
-    static constexpr std::uint32_t kNone = ~0U;
-
-    double force[3], torque1[3], torque2[3];
-    std::uint32_t row1 = kNone;
-    std::uint32_t row2 = kNone;
+  /// A force that is added to the sums of a body after the parallel loop.
+  struct BodyForce {
+    double force[3], torque[3];
+    std::uint32_t row;  // or id
   };
-  /// What a thread found in contacts one behind the other.
-  struct ContactBlock {
-    long fast = 0;                         // geometries that the loop computed
-    long forces = 0;                       // and forces
-    std::vector<std::size_t> withoutRows;  // contacts that are not evaluated yet
+  /// Contacts one behind the other, which one thread evaluates.
+  struct Part {
+    std::size_t begin = 0, end = 0;
+    long geometries = 0;  // that the loop computed
+    long forces = 0;
+    std::vector<BodyForce> later;
   };
   /// What one thread evaluates.
   struct Evaluation {
@@ -65,25 +63,20 @@ class ContactLoop : public yade::InteractionLoop {
 
   void requestAhead(std::size_t place, std::size_t size);
   void requestInPlace(std::size_t place, std::size_t size) const;
+  void evaluate(const PairStep& step, std::size_t size);
+  void evaluatePart(const PairStep& step, std::size_t size, Part& part);
   /// These return false if there is no force, or YADE's law has added it.
-  bool evaluate(Evaluation& evaluation, const Contact& contact, PairRows& pair) const;
+  bool evaluateContact(Evaluation& evaluation, std::size_t place, std::size_t size);
   [[gnu::noinline]] bool evaluateOther(Evaluation& evaluation, const Contact& contact,
                                        PairRows& pair) const;
   [[gnu::noinline]] bool evaluateInPlace(Evaluation& evaluation, const Contact& contact) const;
-  void evaluateBlock(const PairStep& step, std::size_t begin, std::size_t end, ContactBlock& block);
-  void store(const Evaluation& evaluation, bool isForce, PairForce& force) const;
-  void add(const Evaluation& evaluation);
-  void run(const PairStep& step, std::size_t size);
-  void runInParallel(const PairStep& step, std::size_t size);
-  void evaluateWithoutRows(const PairStep& step);
-  void addStored();
+  void add(std::uint32_t row, const FourLanes& force, const FourLanes& torque, Part& part);
+  void addLater();
 
   BodyRows rows_;
   ContactMemory memory_;
   PairStep::Functors functors_ = {};  // of the last step
-  // With several threads, by contact and by block of contacts.
-  std::vector<PairForce> stored_;
-  std::vector<ContactBlock> blocks_;
+  std::vector<Part> parts_;
 };
 
 class CurveLoop final : public Published<CurveLoop, ContactLoop, yade::InteractionLoop> {

@@ -8,7 +8,7 @@ import scenes
 from scenes import O
 
 
-def heap(material=None, periodic=False):
+def heap(material=None, periodic=False, spacing=1.45):
     """Spheres of three sizes, a clump among them, that fall on a facet floor, a box and a wall."""
     scenes.clear()
     chance = np.random.default_rng(3)
@@ -17,7 +17,7 @@ def heap(material=None, periodic=False):
         O.periodic = True
         O.cell.setBox(9, 9, 9)
     for place in np.ndindex(6, 6, 4):
-        at = np.array(place) * 1.45 + chance.uniform(-.2, .2, 3) + (1, 1, 1.6)
+        at = np.array(place) * spacing + chance.uniform(-.2, .2, 3) + (1, 1, 1.6)
         ball = utils.sphere(Vector3(*at), chance.choice([.5, .7, .75]))
         ball.state.vel = Vector3(*chance.normal(0, 3, 3))
         ball.state.angVel = Vector3(*chance.normal(0, 5, 3))

@@ -63,12 +63,19 @@ def requireSame(make, steps=700, **settings):
     return loop
 
 
+def denseHeap(**settings):
+    """With more contacts than bodies, which the loop then reads in rows."""
+    heap(spacing=1.15, **settings)
+
+
 @pytest.mark.parametrize('kind', kFunctors)
 @pytest.mark.parametrize('collider', ['LebesgueCollider', 'InsertionSortCollider'])
-def test_bits(kind, collider):
-    loop = requireSame(kFunctors[kind], collider=collider)
+@pytest.mark.parametrize('build', [heap, denseHeap])
+def test_bits(kind, collider, build):
+    loop = requireSame(kFunctors[kind], collider=collider, build=build, steps=80 if build is denseHeap else 700)
     real = O.interactions.countReal()
-    # Contacts with the floor, the box and the wall have geometries of YADE's functors.
+    assert build is heap or len(O.interactions) > len(O.bodies)
+#Contacts with the floor, the box and the wall have geometries of YADE's functors.
     spheres = sum(all(isinstance(O.bodies[n].shape, w.Sphere) for n in (i.id1, i.id2)) for i in O.interactions)
     assert spheres < real
     assert loop.fastForces == (0 if kind == 'traced' else real)
@@ -104,8 +111,25 @@ def test_periodicCell(homoDeform):
         O.cell.homoDeform = homoDeform
         O.cell.velGrad = Matrix3(-.3, .2, 0, 0, -.2, 0, 0, 0, -.3)
     loop = requireSame(kFunctors['friction'], build=sheared)
-    # YADE's functor computes the first geometry of a contact.
+#YADE's functor computes the first geometry of a contact.
     assert loop.fastForces == O.interactions.countReal() >= loop.fastGeometries > 40
+
+
+def test_forcesOfOtherEngines():
+    """Forces that an engine has added before are kept, whoever computes the contacts."""
+    for functors in kFunctors['friction'](), [[make() for make in makers] for makers in kViscous]:
+        found = []
+        for name in 'InteractionLoop', 'CurveLoop':
+            material = w.ViscElMat(kn=1e7, ks=5e6, cn=100, cs=50, density=2000, frictionAngle=.4)
+            denseHeap(material=material if isinstance(functors[2][0], w.Law2_ScGeom_ViscElPhys_Basic) else None)
+            ids = [b.id for b in O.bodies if b.dynamic]
+            O.engines = [w.ForceResetter(), w.ForceEngine(ids=ids, force=(3, -2, 5)),
+                         scenes.makeCollider('LebesgueCollider'), loopOf(name, functors),
+                         w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
+            O.run(50, True)
+            found.append(state())
+        assert len(O.interactions) > len(O.bodies)
+        assert found[0] == found[1]
 
 
 def test_energies():
@@ -199,7 +223,7 @@ def test_savedAndLoaded(folder):
         assert not law.sphericalBodies
         O.run(300, True)
         numbers, reference = (np.frombuffer(s[0]) for s in (state(), expected))
-        # YADE saves no shear increments, and numbers in XML with 17 digits.
+#YADE saves no shear increments, and numbers in XML with 17 digits.
         assert np.abs(numbers - reference).max() < 1e-6
 
 
@@ -327,7 +351,7 @@ def test_twoLaws():
     kinds = {type(i.phys).__name__ for i in O.interactions}
     assert {'FrictPhys', 'ViscElPhys'} <= kinds
     assert 0 < loop.fastForces < O.interactions.countReal()
-    # m, N: some contacts amplify the rounding of 10^4 N.
+#m, N : some contacts amplify the rounding of 10 ^ 4 N.
     assert np.abs(found[0] - found[1])[:, :3].max() < 1e-9 and np.abs(found[0] - found[1])[:, 3:].max() < 1e-3
 
 
@@ -357,12 +381,12 @@ def test_movedTogether(folder):
             O.bodies.erase(7 + step)
             first = next(iter(O.interactions))
             O.interactions.erase(first.id1, first.id2)
-        # Objects of contacts that went on are the same as before.
+#Objects of contacts that went on are the same as before.
         assert sum(1 for i in O.interactions for g, p in held[:5] if i.geom == g and i.phys == p) > 2
         former = [(g.penetrationDepth, p.kn) for g, p in held]
         O.save(os.path.join(folder, name + '.yade.gz'))
         O.reset()
-        # They end with their last owner.
+#They end with their last owner.
         assert [(g.penetrationDepth, p.kn) for g, p in held] == former
         del held
         found.append(states)
