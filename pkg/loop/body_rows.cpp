@@ -64,12 +64,13 @@ void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, bool areUsed, 
 }
 
 void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
-  if (++age_ > kLongestAge || numBodies_ < rowOf_.size()) {
-    age_ = 0;
-    rowOf_.clear(), rows_.clear(), flags_.clear(), firstPlaces_.clear(), pairs_.clear();
+  areValid_ = areValid_ && numBodies_ >= rowOf_.size() && numNew_ * kNewShare <= numContacts;
+  if (!areValid_) {
+    rowOf_.clear(), rows_.clear(), flags_.clear(), firstPlaces_.clear(), pairs_.clear(),
+        contacts_.clear();
   }
   rowOf_.resize(numBodies_, -1);
-  pairs_.resize(numContacts);
+  pairs_.resize(numContacts), contacts_.resize(numContacts);
   // In the order of ids, which often is that of their memory.
   forEachPart(rowOf_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t id = begin; id < end; ++id) {
@@ -112,16 +113,19 @@ void BodyRows::findPairs(yade::Scene& scene, int threads) {
   forEachPart(pairs_.size(), threads, [&](std::size_t begin, std::size_t end, int part) {
     auto& changed = changedByPart_[static_cast<std::size_t>(part)];
     for (std::size_t place = begin; place < end; ++place) {
-      if (place + 2 * kAhead < end) requestPair(scene, place + 2 * kAhead);
-      if (isChanged(scene, place)) changed.push_back(place);
+      if (contacts_[place] != (*scene.interactions)[place]) changed.push_back(place);
     }
   });
-  for (const auto& changed : changedByPart_)
+  for (const auto& changed : changedByPart_) {
     for (const std::size_t place : changed) makePair(scene, place);
+    numNew_ += changed.size();
+  }
+  if (!areValid_) areValid_ = true, numNew_ = 0;
 }
 
 void BodyRows::makePair(yade::Scene& scene, std::size_t place) {
-  const yade::Interaction& contact = *(*scene.interactions)[place];
+  contacts_[place] = (*scene.interactions)[place];
+  const yade::Interaction& contact = *contacts_[place];
   PairRows& pair = pairs_[place];
   pair.id1 = contact.id1, pair.id2 = contact.id2;
   pair.row1 = rowFor(scene, pair.id1, place), pair.row2 = rowFor(scene, pair.id2, place);

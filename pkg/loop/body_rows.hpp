@@ -10,6 +10,7 @@
 // save: bodies are read, and forces added, in place.
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -27,12 +28,14 @@ struct PairRows {
   std::uint32_t row1 = 0;
   std::uint32_t row2 = 0;
 
-  [[nodiscard]] bool isOf(const yade::Interaction& contact) const {
-    return id1 == contact.id1 && id2 == contact.id2;
+  /// YADE's dispatchers may swap the bodies of a contact.
+  void matchOrder(const yade::Interaction& contact) {
+    if (id1 == contact.id1) return;
+    std::swap(id1, id2), std::swap(row1, row2);
   }
   /// True: a contact that the loop computes, with the objects of the step before.
   [[nodiscard]] bool isKnown(const yade::Interaction& contact) const {
-    return contact.geom.get() == geom && contact.phys.get() == phys;
+    return geom && contact.geom.get() == geom && contact.phys.get() == phys;
   }
   [[gnu::always_inline]] void request() const {
     if (!geom) return;
@@ -53,30 +56,15 @@ class BodyRows {
   /// them.
   void begin(yade::Scene& scene, std::size_t numContacts, bool areUsed, int threads);
   /// Before `begin`: all rows are made anew in this step.
-  void forget() { age_ = kLongestAge; }
+  void forget() { areValid_ = false; }
   /// True: both bodies of a contact exist, and one is of this process.
   static bool areHere(const yade::Scene& scene, const yade::Interaction& contact);
   /// The motion of a body that exists, for a contact that is evaluated in place; not the sums.
   static void read(const yade::Body& body, BodyRow& row);
   /// True: there are no rows; sums are numbered by ids.
   [[nodiscard]] bool isInPlace() const { return isInPlace_; }
-  /// Finds all contacts that have changed since the step before, and makes their rows.
+  /// Makes rows for all contacts that are new since the step before.
   void findPairs(yade::Scene& scene, int threads);
-  /// The same for one contact. True: it is another one, `makePair` is needed.
-  [[gnu::always_inline]] bool isChanged(const yade::Scene& scene, std::size_t place) {
-    const yade::Interaction& contact = *(*scene.interactions)[place];
-    PairRows& pair = pairs_[place];
-    if (!pair.isOf(contact)) return true;
-    if (!pair.isKnown(contact)) pair.geom = nullptr;
-    return false;
-  }
-  [[gnu::always_inline]] void requestPair(const yade::Scene& scene, std::size_t place) const {
-    const auto* const contact = reinterpret_cast<const char*>((*scene.interactions)[place].get());
-    __builtin_prefetch(contact + offsetof(yade::Interaction, id1));
-    __builtin_prefetch(contact + offsetof(yade::Interaction, phys));
-  }
-  /// Rows for bodies that may have none.
-  [[gnu::noinline]] void makePair(yade::Scene& scene, std::size_t place);
   /// Number of sums: rows, or ids.
   [[nodiscard]] std::size_t numSums() const { return isInPlace_ ? numBodies_ : rows_.size(); }
   /// What is known of contact `place`. Each for one thread at once.
@@ -114,9 +102,8 @@ class BodyRows {
   void giveForces(yade::Scene& scene, int threads) const;
 
  private:
-  // Steps after which all rows are made anew: bodies have moved along the curve, and contacts
-  // ended.
-  static constexpr int kLongestAge = 128;
+  // Share of new contacts from which all rows are made anew, in the order of the contacts.
+  static constexpr std::size_t kNewShare = 8;  // 1 of 8
   // Flags of a row.
   static constexpr unsigned kExists = 1, kIsHere = 2;
 
@@ -127,20 +114,24 @@ class BodyRows {
   void fill(yade::Scene& scene, std::size_t numContacts, int threads);
   void fillRow(yade::Scene& scene, std::size_t id, std::size_t row);
   void requestAhead(const yade::Scene& scene, std::size_t id) const;
+  void makePair(yade::Scene& scene, std::size_t place);
   std::uint32_t rowFor(yade::Scene& scene, yade::Body::id_t id, std::size_t place);
 
   bool isInPlace_ = true;
+  bool areValid_ = false;
+  std::size_t numNew_ = 0;  // contacts since all rows were made
   std::size_t numBodies_ = 0;
   std::vector<int> rowOf_;  // by body id, -1: none
   std::vector<BodyRow> rows_;
-  std::vector<unsigned char> flags_;                  // by row
-  std::vector<std::uint32_t> firstPlaces_;            // by row: no contact of it is before
-  std::vector<PairRows> pairs_;                       // by place of the contact
+  std::vector<unsigned char> flags_;        // by row
+  std::vector<std::uint32_t> firstPlaces_;  // by row: no contact of it is before
+  std::vector<PairRows> pairs_;             // by place of the contact
+  // By place of the contact, shared: the address of a contact that has ended is not used again.
+  std::vector<yade::shared_ptr<yade::Interaction>> contacts_;
   std::vector<PartList<std::size_t>> changedByPart_;  // places
   // YADE's sums, by id, where these are used in place.
   yade::Vector3r* forces_ = nullptr;
   yade::Vector3r* torques_ = nullptr;
-  int age_ = 0;  // steps since all rows were made
 };
 
 }  // namespace yadefrag

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 #include "abi/request.hpp"
 #include "core/instruction_set.hpp"
@@ -16,7 +15,7 @@ namespace {
 
 // Parts of the contacts for each of several threads: enough that all threads end at the same time,
 // few enough that few bodies have contacts in two of them. The results do not depend on it.
-constexpr std::size_t kPartsPerThread = 4;
+constexpr std::size_t kPartsPerThread = 2;
 // Contacts between the request of data from memory and their use: enough for the latency of one
 // access.
 constexpr std::size_t kAhead = 8;
@@ -44,8 +43,7 @@ void ContactLoop::action() {
   if (step.functors() != functors_) rows_.forget();
   functors_ = step.functors();
   rows_.begin(*scene, size, step.computesGeometry(), threads);
-  // One thread does this contact by contact.
-  if (threads > 1 && !rows_.isInPlace()) rows_.findPairs(*scene, threads);
+  if (!rows_.isInPlace()) rows_.findPairs(*scene, threads);
   evaluate(step, size);
   addLater();
   rows_.giveForces(*scene, threads);
@@ -53,8 +51,12 @@ void ContactLoop::action() {
 }
 
 [[gnu::always_inline]] inline void ContactLoop::requestAhead(std::size_t place, std::size_t size) {
+  using yade::Interaction;
   if (place + 2 * kAhead < size) {
-    if (threads == 1) rows_.requestPair(*scene, place + 2 * kAhead);
+    const auto* const contact =
+        reinterpret_cast<const char*>((*scene->interactions)[place + 2 * kAhead].get());
+    __builtin_prefetch(contact + offsetof(Interaction, id1));
+    __builtin_prefetch(contact + offsetof(Interaction, phys));
     rows_(place + 2 * kAhead).request();
   }
   if (place + kAhead < size) rows_.request(rows_(place + kAhead));
@@ -106,16 +108,15 @@ void ContactLoop::evaluate(const PairStep& step, std::size_t size) {
 [[gnu::always_inline]] inline void ContactLoop::evaluatePart(const PairStep& step, std::size_t size,
                                                              Part& part) {
   Evaluation evaluation{step};
-  part.forces = 0;
   part.later.clear();
   for (std::size_t place = part.begin; place < part.end; ++place) {
     if (!evaluateContact(evaluation, place, size)) continue;
-    ++part.forces;
+    ++evaluation.forces;
     const ContactForce& contact = evaluation.force;
     add(evaluation.row1, contact.force, contact.torque1, part);
     add(evaluation.row2, -contact.force, contact.torque2, part);
   }
-  part.geometries = evaluation.fast;
+  part.geometries = evaluation.fast, part.forces = evaluation.forces;
 }
 
 [[gnu::always_inline]] inline bool ContactLoop::evaluateContact(Evaluation& evaluation,
@@ -127,13 +128,12 @@ void ContactLoop::evaluate(const PairStep& step, std::size_t size) {
     return evaluateInPlace(evaluation, contact);
   }
   requestAhead(place, size);
-  if (threads == 1 && rows_.isChanged(*scene, place)) rows_.makePair(*scene, place);
   PairRows& pair = rows_(place);
   if (!rows_.areHere(pair)) {
     contact->reset();
     return false;
   }
-  if (!pair.geom) return evaluateOther(evaluation, contact, pair);
+  if (!pair.isKnown(*contact)) return evaluateOther(evaluation, contact, pair);
   ++evaluation.fast;
   evaluation.row1 = pair.row1, evaluation.row2 = pair.row2;
   return evaluation.step.evaluateKnown(*contact, *pair.geom, *pair.phys, rows_[pair.row1],
@@ -142,11 +142,10 @@ void ContactLoop::evaluate(const PairStep& step, std::size_t size) {
 
 bool ContactLoop::evaluateOther(Evaluation& evaluation, const Contact& contact,
                                 PairRows& pair) const {
+  pair.matchOrder(*contact);
   const bool isForce = evaluation.step.evaluate(contact, rows_[pair.row1], rows_[pair.row2],
                                                 evaluation.fast, evaluation.force);
-  if (contact->id1 != pair.id1) {  // the order of the bodies was swapped
-    std::swap(pair.id1, pair.id2), std::swap(pair.row1, pair.row2);
-  }
+  pair.matchOrder(*contact);
   pair.note(*contact, evaluation.step.isKnown(*contact));
   evaluation.row1 = pair.row1, evaluation.row2 = pair.row2;
   return isForce;

@@ -46,8 +46,8 @@ class ContactLoop : public yade::InteractionLoop {
     double force[3], torque[3];
     std::uint32_t row;  // or id
   };
-  /// Contacts one behind the other, which one thread evaluates.
-  struct Part {
+  /// Contacts one behind the other, which one thread evaluates. Apart in memory, as a `PartList`.
+  struct alignas(tolerance::kThreadsApart) Part {
     std::size_t begin = 0, end = 0;
     long geometries = 0;  // that the loop computed
     long forces = 0;
@@ -56,7 +56,8 @@ class ContactLoop : public yade::InteractionLoop {
   /// What one thread evaluates.
   struct Evaluation {
     const PairStep& step;
-    long fast = 0;  // geometries that the loop computed
+    long fast = 0;    // geometries that the loop computed
+    long forces = 0;  // and forces
     ContactForce force = {};
     std::uint32_t row1 = 0, row2 = 0;
   };
