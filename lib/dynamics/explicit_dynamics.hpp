@@ -136,6 +136,10 @@ class ExplicitDynamics {
     StrainSmoothing::Room room;
   };
 
+  /// From which a second thread saves time.
+  static std::size_t elementsPerThread() {
+    return tolerance::kElementsPerItem * leastItemsPerThread();
+  }
   void collectStressed();
   void smoothStrains(Model& model, std::size_t part, std::size_t parts, PartErrors& errors);
   void sumChunk(Model& model, std::size_t chunk, const BulkViscosity& viscosity, std::size_t part);
