@@ -127,8 +127,8 @@ void BodyRows::makePair(yade::Scene& scene, std::size_t place) {
   contacts_[place] = (*scene.interactions)[place];
   const yade::Interaction& contact = *contacts_[place];
   PairRows& pair = pairs_[place];
-  pair.id1 = contact.id1, pair.id2 = contact.id2;
-  pair.row1 = rowFor(scene, pair.id1, place), pair.row2 = rowFor(scene, pair.id2, place);
+  pair.id1 = contact.id1;
+  pair.row1 = rowFor(scene, contact.id1, place), pair.row2 = rowFor(scene, contact.id2, place);
   pair.geom = nullptr;
 }
 

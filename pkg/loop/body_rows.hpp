@@ -23,15 +23,15 @@ struct PairRows {
   // Null: not of the classes that the loop computes.
   yade::ScGeom* geom = nullptr;
   yade::FrictPhys* phys = nullptr;
-  yade::Body::id_t id1 = yade::Body::ID_NONE;
-  yade::Body::id_t id2 = yade::Body::ID_NONE;
+  yade::Body::id_t id1 = yade::Body::ID_NONE;  // of the body of row1
   std::uint32_t row1 = 0;
   std::uint32_t row2 = 0;
 
   /// YADE's dispatchers may swap the bodies of a contact.
   void matchOrder(const yade::Interaction& contact) {
     if (id1 == contact.id1) return;
-    std::swap(id1, id2), std::swap(row1, row2);
+    id1 = contact.id1;
+    std::swap(row1, row2);
   }
   /// True: a contact that the loop computes, with the objects of the step before.
   [[nodiscard]] bool isKnown(const yade::Interaction& contact) const {

@@ -116,7 +116,7 @@ def test_periodicCell(homoDeform):
 
 
 def test_forcesOfOtherEngines():
-    """Forces that an engine has added before are kept, whoever computes the contacts."""
+    """Forces that an engine has added before are kept, with contacts of the loop and of YADE's functors."""
     for functors in kFunctors['friction'](), [[make() for make in makers] for makers in kViscous]:
         found = []
         for name in 'InteractionLoop', 'CurveLoop':
