@@ -12,7 +12,12 @@ constexpr const char* kOrder =
 
 using Engines = std::vector<const yade::Engine*>;
 
-bool isA(const yade::Engine* engine, const char* name) { return engine->getClassName() == name; }
+/// Also true for engines that are derived from one: CurveLoop is an InteractionLoop.
+template <class Kind>
+bool isA(const yade::Engine* engine) {
+  return dynamic_cast<const Kind*>(engine) != nullptr;
+}
+bool resetsForces(const yade::Engine* engine) { return engine->getClassName() == "ForceResetter"; }
 
 /// Engines run in a cycle: after the engine at `from`, which adds forces to bodies, `user` must run
 /// before a reset of forces.
@@ -20,7 +25,7 @@ void requireForces(const Engines& engines, std::size_t from, const yade::Engine*
   for (std::size_t i = 1; i < engines.size(); ++i) {
     const yade::Engine* const next = engines[(from + i) % engines.size()];
     if (next == user) return;
-    if (isA(next, "ForceResetter"))
+    if (resetsForces(next))
       throw std::invalid_argument("O.engines: ForceResetter deletes the forces of " +
                                   engines[from]->getClassName() + " before " +
                                   user->getClassName() + " has used them" + kOrder);
@@ -32,7 +37,7 @@ bool movesBefore(const Engines& engines, std::size_t from, const yade::Engine& s
   for (std::size_t i = 1; i < engines.size(); ++i) {
     const yade::Engine* const next = engines[(from + i) % engines.size()];
     if (next == &solver) return false;
-    if (isA(next, "NewtonIntegrator")) return true;
+    if (isA<yade::NewtonIntegrator>(next)) return true;
   }
   return false;
 }
@@ -47,16 +52,15 @@ void EngineOrder::requireReturn(const yade::Scene& scene, const yade::Engine& so
   const auto own = std::ranges::find(alive, &solver);
   if (own == alive.end()) return;
   for (auto behind = own; behind != alive.end(); ++behind)
-    if (isA(*behind, "ForceResetter"))
+    if (resetsForces(*behind))
       throw std::invalid_argument(
           std::string("O.engines: ForceResetter behind FESolver deletes the forces of contact on "
                       "walls, boxes and facets within the step, so that O.forces would show none") +
           kOrder);
   if (!anyMovable) return;
-  const auto isResetter = [](const yade::Engine* one) { return isA(one, "ForceResetter"); };
   for (const yade::Engine* user : alive) {
-    if (!isA(user, "NewtonIntegrator")) continue;
-    if (std::ranges::none_of(alive, isResetter))
+    if (!isA<yade::NewtonIntegrator>(user)) continue;
+    if (std::ranges::none_of(alive, resetsForces))
       throw std::invalid_argument(
           std::string("O.engines has a NewtonIntegrator and no ForceResetter: the forces on clumps "
                       "of all steps would add up") +
@@ -87,19 +91,16 @@ bool EngineOrder::require(const yade::Scene& scene, const yade::Engine& solver) 
   if (count > 1)
     throw std::invalid_argument(
         "O.engines has the same FESolver more than once; it must be there once.");
-  const auto has = [&](const char* name) {
-    return std::any_of(alive.begin(), alive.end(), [&](auto* one) { return isA(one, name); });
-  };
   bool moveFirst = false;
   for (std::size_t i = 0; i < alive.size() && count == 1; ++i) {
-    if (!isA(alive[i], "InteractionLoop")) continue;
-    if (!has("ForceResetter"))
+    if (!isA<yade::InteractionLoop>(alive[i])) continue;
+    if (std::ranges::none_of(alive, resetsForces))
       throw std::invalid_argument(
           std::string("O.engines has an InteractionLoop and no ForceResetter: the forces of all "
                       "steps would add up") +
           kOrder);
     for (const yade::Engine* user : alive)
-      if (user == &solver || isA(user, "NewtonIntegrator")) requireForces(alive, i, user);
+      if (user == &solver || isA<yade::NewtonIntegrator>(user)) requireForces(alive, i, user);
     moveFirst = moveFirst || movesBefore(alive, i, solver);
   }
   spheresMoveFirst_ = moveFirst;

@@ -175,6 +175,17 @@ def resetterLate(solver):
     return [*made[1:3], made[0], *made[3:]]
 
 
+def withCurveLoop(make):
+    """The engines that a function makes, with our loop and integrator."""
+    def swapped(solver):
+        made = make(solver)
+        place = next(k for k, engine in enumerate(made) if isinstance(engine, w.InteractionLoop))
+        parts = made[place].geomDispatcher, made[place].physDispatcher, made[place].lawDispatcher
+        made[place] = w.CurveLoop(*[part.functors for part in parts])
+        return [*made[:-1], w.CurveIntegrator()]
+    return swapped
+
+
 def moving(flag):
     solver = steelBlock()
     wall = O.bodies[O.bodies.append(utils.wall(.3, axis=1, material='steel'))]
@@ -274,6 +285,12 @@ TABLE = {
         'has no Bo1_SurfaceSegment_Aabb', lambda: withSpheres(withoutBound), lambda: withSpheres(usual)),
     'no ForceResetter': (
         'and no ForceResetter.*the order is', lambda: withSpheres(withoutResetter), lambda: withSpheres(usual)),
+    'no ForceResetter with CurveLoop': (
+        'has an InteractionLoop and no ForceResetter', lambda: withSpheres(withCurveLoop(withoutResetter)),
+        lambda: withSpheres(withCurveLoop(usual))),
+    'ForceResetter too late for CurveIntegrator': (
+        'ForceResetter deletes the forces of CurveLoop', lambda: withSpheres(withCurveLoop(resetterLate)),
+        lambda: withSpheres(withCurveLoop(usual))),
     'ForceResetter too late': (
         'ForceResetter deletes the forces of InteractionLoop', lambda: withSpheres(resetterLate),
         lambda: withSpheres(usual)),
