@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/request.hpp"
+
 namespace yadefrag {
 
 /// A closed axis-aligned box (m). A point is a box of size 0; a wall has infinite sides.
@@ -29,8 +31,8 @@ inline bool overlaps(const Box& a, const Box& b) {
 
 /// A box may lie in two cache lines.
 inline void prefetch(const Box& box) {
-  __builtin_prefetch(&box);
-  __builtin_prefetch(&box.max[2]);
+  requestLine(&box);
+  requestLine(&box.max[2]);
 }
 
 }  // namespace yadefrag

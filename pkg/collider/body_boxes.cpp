@@ -5,6 +5,7 @@
 
 #include "collider/error_messages.hpp"
 #include "core/parallel.hpp"
+#include "core/request.hpp"
 #include "entries/surface_segment.hpp"
 
 namespace yadefrag {
@@ -280,7 +281,7 @@ void BodyBoxes::commit(yade::Scene& scene, int threads) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i + farAhead < end) {
         const yade::Body* body = scene.bodies->body[bodyAt(i + farAhead)].get();
-        __builtin_prefetch(reinterpret_cast<const char*>(body) + offsetof(yade::Body, bound));
+        requestLine(reinterpret_cast<const char*>(body) + offsetof(yade::Body, bound));
       }
       if (i + ahead < end) prefetchBound(scene.bodies->body[bodyAt(i + ahead)].get());
       commitOne(scene, bodyAt(i));
@@ -291,9 +292,9 @@ void BodyBoxes::commit(yade::Scene& scene, int threads) {
 void BodyBoxes::prefetchBound(const yade::Body* body) {
   if (!body || !body->bound) return;
   const char* bound = reinterpret_cast<const char*>(body->bound.get());
-  __builtin_prefetch(bound + offsetof(Bound, lastUpdateIter), 1);
-  __builtin_prefetch(bound + offsetof(Bound, min), 1);
-  __builtin_prefetch(bound + offsetof(Bound, max) + sizeof(Vector3r) - 1, 1);
+  requestLine(bound + offsetof(Bound, lastUpdateIter));
+  requestLine(bound + offsetof(Bound, min));
+  requestLine(bound + offsetof(Bound, max) + sizeof(Vector3r) - 1);
 }
 
 void BodyBoxes::commitOne(yade::Scene& scene, std::size_t id) {

@@ -5,6 +5,7 @@
 #include "collider/body_boxes.hpp"
 #include "collider/error_messages.hpp"
 #include "core/parallel.hpp"
+#include "core/request.hpp"
 
 namespace yadefrag {
 
@@ -32,18 +33,18 @@ void BodyBoxes::prefetch(const std::vector<yade::shared_ptr<Body>>& bodies, std:
   constexpr std::size_t farAhead = 16, ahead = 8;
   if (id + farAhead < bodies.size() && bodies[id + farAhead]) {
     const char* body = reinterpret_cast<const char*>(bodies[id + farAhead].get());
-    __builtin_prefetch(body + offsetof(Body, groupMask));
-    __builtin_prefetch(body + offsetof(Body, shape));
-    __builtin_prefetch(body + offsetof(Body, clumpId));
+    requestLine(body + offsetof(Body, groupMask));
+    requestLine(body + offsetof(Body, shape));
+    requestLine(body + offsetof(Body, clumpId));
   }
   if (id + ahead < bodies.size() && bodies[id + ahead]) {
     const char* state = reinterpret_cast<const char*>(bodies[id + ahead]->state.get());
     const char* shape = reinterpret_cast<const char*>(bodies[id + ahead]->shape.get());
-    __builtin_prefetch(state + offsetof(yade::State, se3));
-    __builtin_prefetch(state + offsetof(yade::State, vel));
-    __builtin_prefetch(shape);  // its type
-    __builtin_prefetch(shape + offsetof(yade::Shape, boundFunctor));
-    __builtin_prefetch(shape + offsetof(yade::Sphere, radius));
+    requestLine(state + offsetof(yade::State, se3));
+    requestLine(state + offsetof(yade::State, vel));
+    requestLine(shape);  // its type
+    requestLine(shape + offsetof(yade::Shape, boundFunctor));
+    requestLine(shape + offsetof(yade::Sphere, radius));
   }
 }
 

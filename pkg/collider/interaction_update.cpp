@@ -7,6 +7,7 @@
 
 #include "abi/body_at.hpp"
 #include "core/parallel.hpp"
+#include "core/request.hpp"
 #include "core/tolerances/collider.hpp"
 #include "search/curve_key.hpp"
 
@@ -29,18 +30,18 @@ constexpr std::size_t kFar = 24, kMiddle = 16, kNear = 8;  // items ahead
 
 void prefetchInteraction(const Interaction* is) {
   const char* at = reinterpret_cast<const char*>(is);
-  __builtin_prefetch(at + offsetof(Interaction, id1));
-  __builtin_prefetch(at + offsetof(Interaction, phys));
+  requestLine(at + offsetof(Interaction, id1));
+  requestLine(at + offsetof(Interaction, phys));
 }
 
 void prefetchBody(const Body* body) {
   const char* at = reinterpret_cast<const char*>(body);
-  __builtin_prefetch(at + offsetof(Body, groupMask));
-  __builtin_prefetch(at + offsetof(Body, intrs) + sizeof(Body::MapId2IntrT) - 1);
+  requestLine(at + offsetof(Body, groupMask));
+  requestLine(at + offsetof(Body, intrs) + sizeof(Body::MapId2IntrT) - 1);
 }
 
 void prefetchFirstNode(const Body* body) {
-  if (!body->intrs.empty()) __builtin_prefetch(&*body->intrs.begin());
+  if (!body->intrs.empty()) requestLine(&*body->intrs.begin());
 }
 
 /// For item k of `count`, whose interaction is about to be inserted or erased; `idsOf(k)`: its two

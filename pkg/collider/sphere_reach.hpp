@@ -8,6 +8,7 @@
 #include "abi/yade.hpp"
 #include "collider/body_boxes.hpp"
 #include "core/ids.hpp"
+#include "core/request.hpp"
 #include "core/tolerances/collider.hpp"
 
 namespace yadefrag {
@@ -67,8 +68,8 @@ class SphereReach {
 
   void prefetch(const BoxPair& pair) const {
     for (const BoxId id : {pair.first, pair.second}) {
-      __builtin_prefetch(&balls_[id.value]);
-      __builtin_prefetch(&balls_[id.value].sweep);
+      requestLine(&balls_[id.value]);
+      requestLine(&balls_[id.value].sweep);
     }
   }
 

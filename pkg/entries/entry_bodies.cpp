@@ -8,21 +8,28 @@
 
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
+#include "core/request.hpp"
 #include "entries/entry_frame.hpp"
 #include "entries/node_forces.hpp"
 #include "entries/plane.hpp"
+#include "integrator/sphere_motion.hpp"
 
 namespace yadefrag {
 namespace {
 
 using yade::Vector3r;
 
-void setState(yade::State& state, const EntryFrame& frame, const Nodes& nodes, double dt) {
+void setState(yade::State& state, const EntryFrame& frame, const Nodes& nodes,
+              const RestOfStep& rest) {
   const Vec2 along = nodes.position[frame.last.value] - nodes.position[frame.first.value];
   const Vec2 apart = nodes.velocity[frame.last.value] - nodes.velocity[frame.first.value];
   state.vel = inSpace(combine(frame.middle, nodes.velocity));
   state.angVel = Vector3r(0, 0, cross(along, apart) / dot(along, along));
-  state.se3.position = inSpace(combine(frame.middle, nodes.position)) - dt * state.vel;
+  state.se3.position = inSpace(combine(frame.middle, nodes.position)) - rest.dt * state.vel;
+  if (!rest.isOurs) return;
+  state.se3.position += rest.dt * state.vel;  // the bits of an integrator's sum
+  yade::State* const moved = &state;
+  changeOrientations(rest.dt, &moved, 1);
 }
 
 /// By node of the last body, if it has several materials: that of the triangle with the boundary
@@ -125,7 +132,7 @@ void EntryBodies::add(yade::Scene& scene, const World& world,
     append(scene, world, EntryId(e), materials[numbers.empty() ? 0 : numbers[begin.value]]);
   }
   mapEntries(first);
-  update(world, 0, 1, first);
+  update(world, {}, 1, first);
 }
 
 void EntryBodies::addNone(const World& world) {
@@ -193,6 +200,7 @@ void EntryBodies::drop(yade::Scene& scene, const World& world) {
   for (std::size_t e = 0; e < ids_.size(); ++e) {
     if (!world.surfaces.isGone(EntryId(e)) || !hasBody(EntryId(e))) continue;
     entries_[static_cast<std::size_t>(ids_[e])] = EntryId::none();
+    idRanges_.clear();
     scene.bodies->erase(ids_[e], false);
     ids_[e] = yade::Body::ID_NONE;
     bodies_[e].reset();
@@ -276,7 +284,8 @@ void EntryBodies::findBodies(const yade::Scene& scene) {
 
 /// In two passes: the tangent of an adjacent piece must be exactly the number that is computed for
 /// that piece.
-void EntryBodies::update(const World& world, double dt, int threads, std::size_t first) {
+void EntryBodies::update(const World& world, const RestOfStep& rest, int threads,
+                         std::size_t first) {
   const ContactSurfaces& surfaces = world.surfaces;
   const Nodes& nodes = world.model.nodes;
   const BoundaryPieces pieces(surfaces, nodes.position);
@@ -295,7 +304,7 @@ void EntryBodies::update(const World& world, double dt, int threads, std::size_t
     if (e + ahead < shapes_.size()) {
       const auto prefetch = [](const void* object) {
         const char* at = static_cast<const char*>(object);
-        for (int line = 1; line < 5; ++line) __builtin_prefetch(at + 64 * line, 1);
+        for (int line = 1; line < 5; ++line) requestLine(at + 64 * line);
       };
       prefetch(shapes_[e + ahead].get());
       prefetch(states_[e + ahead].get());
@@ -309,7 +318,7 @@ void EntryBodies::update(const World& world, double dt, int threads, std::size_t
     shape.middle = inSpace(piece.middle);
     shape.before = inSpace(pieces_[surfaces.prev[e].value].tangentAtEnd());
     shape.after = inSpace(pieces_[surfaces.next[e].value].tangentAtStart());
-    setState(*states_[e], EntryFrame(surfaces, EntryId(e)), nodes, dt);
+    setState(*states_[e], EntryFrame(surfaces, EntryId(e)), nodes, rest);
   });
 }
 
@@ -343,8 +352,17 @@ void EntryBodies::restore(std::vector<yade::Body::id_t> ids) {
   mapEntries(0);
 }
 
+const IdRanges& EntryBodies::idRanges() {
+  if (idRanges_.empty()) {
+    idRanges_ = rangesWhere(entries_.size(),
+                            [this](std::size_t id) { return entries_[id] != EntryId::none(); });
+  }
+  return idRanges_;
+}
+
 /// `first`: earlier entries have not changed.
 void EntryBodies::mapEntries(std::size_t first) {
+  idRanges_.clear();
   if (first == 0) {
     entries_.clear();
     firstOf_.clear();

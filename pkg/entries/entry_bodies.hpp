@@ -7,6 +7,7 @@
 #include "abi/yade.hpp"
 #include "entries/surface_segment.hpp"
 #include "fe/materials.hpp"
+#include "integrator/id_ranges.hpp"
 #include "step/world.hpp"
 #include "surface/piece_geometry.hpp"
 
@@ -26,6 +27,12 @@ class BoundaryPieces {
   const ContactSurfaces& surfaces_;
   std::span<const Vec2> positions_;
   const PieceGeometry geometry_;
+};
+
+/// Of the present step, after FESolver.
+struct RestOfStep {
+  double dt = 0;        // s, for which bodies are still moved; 0: not at all
+  bool isOurs = false;  // by FESolver itself, as an integrator would
 };
 
 /// One body per entry, in the order of the entries; none for removed entries. Its state has the
@@ -56,9 +63,9 @@ class EntryBodies {
   void requireWhole() const;
   /// True if the masks of two bodies exclude interactions between them.
   [[nodiscard]] bool haveExcludingMasks() const;
-  /// Updates shapes, with the margin of their bounds, and states. `dt`: time (s) for which an
-  /// integrator will still move the bodies; 0: none. `first`: only entries from this one on.
-  void update(const World& world, double dt, int threads, std::size_t first = 0);
+  /// Updates shapes, with the margin of their bounds, and states. An integrator also moves bodies
+  /// that obey no forces, by velocity times step. `first`: only entries from this one on.
+  void update(const World& world, const RestOfStep& rest, int threads, std::size_t first = 0);
   /// True if the scene has bodies besides these: only they need bounds.
   [[nodiscard]] bool meetOthers(const yade::Scene& scene) const;
   /// Converts forces and torques on the bodies to forces on the nodes, with the same resultant,
@@ -71,6 +78,8 @@ class EntryBodies {
     return place < entries_.size() ? entries_[place] : EntryId::none();
   }
   [[nodiscard]] const std::vector<yade::Body::id_t>& ids() const { return ids_; }
+  /// Ids of all bodies.
+  [[nodiscard]] const IdRanges& idRanges();
   [[nodiscard]] bool hasBody(EntryId entry) const {
     return ids_[entry.value] != yade::Body::ID_NONE;
   }
@@ -98,6 +107,7 @@ class EntryBodies {
   std::vector<yade::shared_ptr<yade::State>> states_;
   std::vector<BoundaryPiece> pieces_;
   std::vector<EntryId> entries_;  // by body id
+  IdRanges idRanges_;             // computed on demand; empty: not yet
   std::vector<EntryId> firstOf_;  // by component, computed on demand; empty: none yet
 };
 

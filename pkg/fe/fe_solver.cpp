@@ -19,6 +19,7 @@
 #include "fe/running.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "fracture/coarse_mesh.hpp"
+#include "integrator/curve_integrator.hpp"
 
 namespace yadefrag {
 
@@ -62,7 +63,7 @@ void FESolver::action() try {
   report({balance_.message(world_)});
   followCracks(dropped);
   given_.end(*scene);
-  bodies_.update(world_, timeToIntegrate(), world_.threads);
+  updateBodies();
   // A search renews the halo, and with it the margin of the bounds.
   if (world_.numSearches() != searches && bodies_.meetOthers(*scene)) scene->doSort = true;
   if (scene->trackEnergy) trackEnergy();
@@ -179,18 +180,25 @@ void FESolver::followCracks(std::uint64_t dropped) {
   if (!bodies_.meetOthers(*scene)) scene->doSort = wasDue;
 }
 
-/// Time for which an integrator after this engine moves the bodies: it also moves bodies that obey
-/// no forces, by velocity times step.
-double FESolver::timeToIntegrate() const { return integrator(true) ? scene->dt : 0; }
+/// CurveIntegrator leaves the bodies out: they move here, where their states are written anyway.
+void FESolver::updateBodies() {
+  yade::NewtonIntegrator* const behind = integrator(true);
+  RestOfStep rest;
+  if (behind) rest.dt = scene->dt;
+  auto* const ours = dynamic_cast<MotionIntegrator*>(behind);
+  rest.isOurs = ours && MotionIntegrator::isFast(*scene);
+  bodies_.update(world_, rest, world_.threads);
+  if (rest.isOurs) ours->leaveOut(*scene, bodies_.idRanges());
+}
 
 /// The first integrator that moves the bodies, null for none; `behind`: only one after this engine.
-const yade::NewtonIntegrator* FESolver::integrator(bool behind) const {
+yade::NewtonIntegrator* FESolver::integrator(bool behind) const {
   const yade::Body* any = bodies_.anyBody();
   if (!any) return nullptr;
   bool passed = !behind;
   for (const auto& engine : scene->engines) {
     if (engine.get() == this) passed = true;
-    const auto* newton = dynamic_cast<const yade::NewtonIntegrator*>(engine.get());
+    auto* const newton = dynamic_cast<yade::NewtonIntegrator*>(engine.get());
     if (!newton || newton->dead || !passed) continue;
     if (newton->mask <= 0 || (newton->mask & any->groupMask) != 0) return newton;
   }
@@ -335,7 +343,7 @@ AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
 void FESolver::followBonds() {
   yade::Scene& here = *yade::Omega::instance().getScene();
   bodies_.follow(here, world_);
-  bodies_.update(world_, 0, 1);
+  bodies_.update(world_, {}, 1);
   here.doSort = true;
 }
 

@@ -102,11 +102,11 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void checkTimeStep();
   void followRigid(bool enginesAreNew);
   void report(std::vector<std::string> sentences);
-  [[nodiscard]] const yade::NewtonIntegrator* integrator(bool behind) const;
+  [[nodiscard]] yade::NewtonIntegrator* integrator(bool behind) const;
   [[nodiscard]] bool takesOver() const { return takesGravity && gravity.isZero(0); }
   void followCracks(std::uint64_t dropped);
   void followBonds();
-  [[nodiscard]] double timeToIntegrate() const;
+  void updateBodies();
   void trackEnergy() const;
   [[nodiscard]] int threadsToUse() const;
 

@@ -1,5 +1,7 @@
 #include "integrator/body_memory.hpp"
 
+#include <cstddef>
+
 namespace yadefrag {
 
 namespace {
@@ -21,21 +23,54 @@ void copyBound(const yade::Aabb& from, yade::Aabb& to) {
   to.min = from.min, to.max = from.max;
 }
 
-// Bytes from the state of one body to that of the next.
-constexpr std::size_t kBodyBytes = Block::wholeLines(sizeof(yade::State) + sizeof(yade::Aabb));
+void copyBody(yade::Body& from, yade::Body& to) {
+  to.id = from.id, to.groupMask = from.groupMask, to.flags = from.flags;
+#ifdef YADE_MPI
+  to.subdomain = from.subdomain;
+#endif
+  to.material = from.material;
+  to.state = from.state, to.shape = from.shape, to.bound = from.bound;
+  to.intrs.swap(from.intrs);
+  to.clumpId = from.clumpId;
+  to.iterBorn = from.iterBorn, to.timeBorn = from.timeBorn;
+}
+
+// What is moved of a body, with the bytes that the integrator reads in few cache lines:
+//
+//   | body: flags to bound |     | clumpId |  | state: se3 to densityScaling |  | bound: refPos,
+//   sweep | ^ a line                                  ^ a line, without its head        ^ a line
+//
+/// Bytes to skip, from a place within a line, so that a member begins a line.
+constexpr std::size_t gapBefore(std::size_t place, std::size_t member) {
+  return Block::wholeLines(place + member) - (place + member);
+}
+constexpr std::size_t kBodyAt = gapBefore(0, offsetof(yade::Body, flags));
+constexpr std::size_t kStateAt = Block::wholeLines(kBodyAt + sizeof(yade::Body));
+constexpr std::size_t kStateEnd = kStateAt + sizeof(yade::State);
+constexpr std::size_t kBoundAt = kStateEnd + gapBefore(kStateEnd, offsetof(yade::Bound, refPos));
+// Bytes from one body to the next: an odd number of lines, so that the same members of several
+// bodies are spread over all parts of the caches.
+constexpr std::size_t kBodyBytes = Block::wholeLines(kBoundAt + sizeof(yade::Aabb)) | Block::kLine;
 
 // A YADE that its user built may have more members, by its options: nothing is moved there.
-constexpr bool kAreAllMembersKnown = sizeof(yade::State) == 320 && sizeof(yade::Aabb) == 144;
+constexpr bool kAreAllMembersKnown =
+    sizeof(yade::State) == 320 && sizeof(yade::Aabb) == 144 && sizeof(yade::Body) == 176;
 
 void moveTogether(yade::Scene& scene) {
   const OthersWait others(scene);
   BlockFiller filler;
-  for (const auto& body : scene.bodies->body) {
+  for (auto& body : scene.bodies->body) {
     if (!body || !isMovable<yade::State>(body->state)) continue;
     filler.begin(kBodyBytes);
+    filler.goTo(kStateAt);
     moveInto<yade::State>(filler, body->state, copyState);
     if (isMovable<yade::Aabb>(body->bound)) {
+      filler.goTo(kBoundAt);
       moveInto<yade::Aabb>(filler, body->bound, copyBound);
+    }
+    if (isMovable<yade::Body>(body)) {
+      filler.goTo(kBodyAt);
+      moveInto<yade::Body>(filler, body, copyBody);
     }
   }
 }

@@ -6,9 +6,9 @@
 #include <array>
 #include <cstddef>
 
-#include "abi/request.hpp"
 #include "core/instruction_set.hpp"
 #include "core/parallel.hpp"
+#include "core/request.hpp"
 
 namespace yadefrag {
 
@@ -16,15 +16,12 @@ namespace {
 
 // Bodies between the request of data from memory and their use: enough for the latency of one
 // access.
-constexpr std::size_t kAhead = 8;
-// Bodies that change place, then orientation: more of them are then computed at the same time than
-// if all of a body's formulas, each of which waits for the one before, came first.
-constexpr std::size_t kBlock = 16;
-
+constexpr std::size_t kAhead = 16;
 const InstructionSet kInstructions = bestInstructionSet();
 
 /// What `move` uses of a body, then of its state and bound.
-void requestAhead(const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::size_t index) {
+[[gnu::always_inline]] inline void requestAhead(
+    const std::vector<yade::shared_ptr<yade::Body>>& bodies, std::size_t index) {
   using yade::Body, yade::Bound, yade::State;
   if (index + 2 * kAhead < bodies.size()) {
     request(bodies[index + 2 * kAhead].get(), offsetof(Body, id),
@@ -56,7 +53,7 @@ void MotionIntegrator::readStep(MotionStep& step) const {
   step.spinChange = FourLanes{-turn(1, 2), turn(0, 2), -turn(0, 1), 0};
 }
 
-bool MotionIntegrator::isOurs(const yade::Body& body) const {
+[[gnu::always_inline]] inline bool MotionIntegrator::isOurs(const yade::Body& body) const {
   constexpr unsigned kRotations = yade::State::DOF_RX | yade::State::DOF_RY | yade::State::DOF_RZ;
   if (!body.isStandalone()) return false;
   const bool isAspherical = (body.flags & yade::Body::FLAG_ASPHERICAL) != 0;
@@ -82,39 +79,46 @@ bool MotionIntegrator::isOurs(const yade::Body& body) const {
                                                                std::size_t begin, std::size_t end,
                                                                Part& part) const {
   const auto& bodies = scene->bodies->body;
-  std::array<yade::State*, kBlock> moved;
+  std::array<yade::State*, kTurnedAtOnce> moved;
   std::size_t numMoved = 0;
   for (std::size_t index = begin; index < end; ++index) {
     requestAhead(bodies, index);
     if (!bodies[index] || !mayMove(*bodies[index], part)) continue;
     const yade::Body& body = *bodies[index];
     yade::State& state = *body.state;
-    changePlace(step, loadThree(scene->forces.getForce(body.id).data()),
-                loadThree(scene->forces.getTorque(body.id).data()), state);
+    const auto id = static_cast<std::size_t>(body.id);
+    changePlace(step, forces_.forceOn(id), forces_.torqueOn(id), state);
     if (body.bound && isBeyondBound(*body.bound, state)) part.isAnyBeyond = true;
     moved[numMoved++] = &state;
   }
-  for (std::size_t k = 0; k < numMoved; ++k) changeOrientation(step, *moved[k]);
+  changeOrientations(step.dt, moved.data(), numMoved);
   part.moved += static_cast<long>(numMoved);
 }
 
 void MotionIntegrator::action() {
   fastBodies = 0;
-  if (scene->trackEnergy) return yade::NewtonIntegrator::action();
+  if (leftOutIn_ != scene->iter) leftOut_.clear();
+  leftOutIn_ = -1;
+  if (!isFast(*scene)) return yade::NewtonIntegrator::action();
   scene->forces.sync();
   memory_.endStep(*scene);
   const auto& bodies = scene->bodies->body;
   MotionStep step = {};
   readStep(step);
+  forces_ = SummedForces(scene->forces, bodies.size());
   const int most = omp_get_max_threads();
   parts_.assign(static_cast<std::size_t>(most), {});
   forEachPart(bodies.size(), most, [&](std::size_t begin, std::size_t end, int number) {
     Part part;
     runFor(
         kInstructions, [&]() __attribute__((always_inline)) {
-          for (std::size_t block = begin; block < end; block += kBlock) {
-            moveBlock(step, block, std::min(block + kBlock, end), part);
-          }
+          forOutside(
+              leftOut_, begin,
+              end, [&](std::size_t first, std::size_t last) __attribute__((always_inline)) {
+                for (std::size_t block = first; block < last; block += kTurnedAtOnce) {
+                  moveBlock(step, block, std::min(block + kTurnedAtOnce, last), part);
+                }
+              });
         });
     parts_[static_cast<std::size_t>(number)] = part;
   });
@@ -126,11 +130,16 @@ void MotionIntegrator::action() {
     isAnyBeyond = isAnyBeyond || part.isAnyBeyond;
   }
   moveOthers(others);
-  if (fastBodies == 0) return;
+  if (fastBodies == 0 && leftOut_.empty()) return;
   // What NewtonIntegrator tells the collider: LebesgueCollider reads it by threads.
   const double told = isAnyBeyond ? 2 : .5;
   maxVelocitySq = std::max(maxVelocitySq, told);
   threadMaxVelocitySq.at(0) = std::max(threadMaxVelocitySq.at(0), told);
+}
+
+void MotionIntegrator::leaveOut(const yade::Scene& now, const IdRanges& moved) {
+  leftOut_ = moved;
+  leftOutIn_ = now.iter;
 }
 
 // Also what is done once in a step: changes of the cell's velocity gradient, warnings.

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "integrator/body_memory.hpp"
+#include "integrator/id_ranges.hpp"
 #include "integrator/sphere_motion.hpp"
+#include "integrator/summed_forces.hpp"
 #include "publish/attribute.hpp"
 #include "publish/published.hpp"
 
@@ -13,6 +15,11 @@ namespace yadefrag {
 class MotionIntegrator : public yade::NewtonIntegrator {
  public:
   void action() override;
+  /// False: NewtonIntegrator moves all bodies in this step.
+  [[nodiscard]] static bool isFast(const yade::Scene& now) { return !now.trackEnergy; }
+  /// While it is fast: leaves out bodies in this step that an engine has moved over it, as the
+  /// integrator would.
+  void leaveOut(const yade::Scene& now, const IdRanges& moved);
 
   long fastBodies = 0;
 
@@ -21,7 +28,8 @@ class MotionIntegrator : public yade::NewtonIntegrator {
     using yade::Attr::readonly;
     return std::tuple(attribute("fastBodies", &MotionIntegrator::fastBodies,
                                 "Number of bodies in the last step that the integrator moved "
-                                "itself; all others were moved by YADE's NewtonIntegrator.",
+                                "itself; all others were moved by YADE's NewtonIntegrator or, "
+                                "pieces of boundaries, by their FESolver.",
                                 readonly | noSave));
   }
 
@@ -41,6 +49,9 @@ class MotionIntegrator : public yade::NewtonIntegrator {
 
   std::vector<Part> parts_;
   BodyMemory memory_;
+  SummedForces forces_;
+  IdRanges leftOut_;
+  long leftOutIn_ = -1;  // step
 };
 
 class CurveIntegrator final

@@ -2,8 +2,9 @@
 // Motion of one body over a step: the formulas of YADE's NewtonIntegrator for bodies whose rotation
 // is integrated as a sphere's, in the order of their operations, so that every bit is the same.
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "abi/yade.hpp"
 #include "core/four_lanes.hpp"
@@ -106,30 +107,54 @@ struct MotionStep {
   storeThree(position, state.se3.position.data());
 }
 
-/// Orientation at the end of the step.
-[[gnu::always_inline]] inline void changeOrientation(const MotionStep& step, yade::State& state) {
-  double* const stored = state.se3.orientation.coeffs().data();
-  FourLanes orientation = loadFour(stored);
-  const FourLanes spin = loadThree(state.angVel.data());
-  if (const double square = squaredNorm(spin); square != 0) {
-    const double speed = std::sqrt(square), angle = .5 * (speed * step.dt);
-    FourLanes turn = std::sin(angle) * (spin / speed);
-    turn[3] = std::cos(angle);
-    orientation = quaternionProduct(turn, orientation);
+// Bodies that change orientation at the same time: each of a body's formulas waits for the one
+// before, so that the same formula follows for all of them.
+constexpr std::size_t kTurnedAtOnce = 16;
+
+/// Square roots of the first `count` numbers.
+[[gnu::always_inline]] inline void takeRoots(std::array<double, kTurnedAtOnce>& values,
+                                             std::size_t count) {
+  for (; count % 4 != 0; ++count) values[count] = 0;  // four at once
+  for (std::size_t k = 0; k < count; k += 4)
+    for (std::size_t i = k; i < k + 4; ++i) values[i] = std::sqrt(values[i]);
+}
+
+/// Orientations of up to kTurnedAtOnce bodies at the end of the step.
+[[gnu::always_inline]] inline void changeOrientations(double dt, yade::State* const* states,
+                                                      std::size_t count) {
+  std::array<double, kTurnedAtOnce> speeds, lengths;
+  std::array<FourLanes, kTurnedAtOnce> orientations;
+  for (std::size_t k = 0; k < count; ++k) {
+    speeds[k] = squaredNorm(loadThree(states[k]->angVel.data()));
   }
-  const double square = squaredNormOfFour(orientation);
-  if (square > 0) orientation /= std::sqrt(square);
-  storeFour(orientation, stored);
+  takeRoots(speeds, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    orientations[k] = loadFour(states[k]->se3.orientation.coeffs().data());
+    if (speeds[k] != 0) {
+      const double angle = .5 * (speeds[k] * dt);
+      FourLanes turn = std::sin(angle) * (loadThree(states[k]->angVel.data()) / speeds[k]);
+      turn[3] = std::cos(angle);
+      orientations[k] = quaternionProduct(turn, orientations[k]);
+    }
+    lengths[k] = squaredNormOfFour(orientations[k]);
+  }
+  takeRoots(lengths, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (lengths[k] > 0) orientations[k] /= lengths[k];
+    storeFour(orientations[k], states[k]->se3.orientation.coeffs().data());
+  }
 }
 
 /// True: the body has moved out of the region that the collider searched, and the collider must
 /// search.
 [[gnu::always_inline]] inline bool isBeyondBound(const yade::Bound& bound,
                                                  const yade::State& state) {
-  const FourLanes moved = loadThree(state.se3.position.data()) - loadThree(bound.refPos.data());
-  const double most =
-      std::max(std::abs(moved[0]), std::max(std::abs(moved[1]), std::abs(moved[2])));
-  return !(most == 0 || most < bound.sweepLength);
+  static_assert(offsetof(yade::Bound, sweepLength) == offsetof(yade::Bound, refPos) + 24);
+  const FourLanes room = loadFour(bound.refPos.data());  // with the sweep as its last component
+  const FourLanes change = loadThree(state.se3.position.data()) - room, none = {};
+  const FourLanes moved = change < none ? -change : change;
+  const auto beyond = (moved != none) & ~(moved < permuted<3, 3, 3, 3>(room));
+  return (beyond[0] | beyond[1] | beyond[2]) != 0;
 }
 
 }  // namespace yadefrag

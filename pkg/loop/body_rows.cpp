@@ -6,7 +6,7 @@
 #include <typeinfo>
 
 #include "abi/body_at.hpp"
-#include "abi/request.hpp"
+#include "core/request.hpp"
 
 namespace yadefrag {
 
@@ -93,7 +93,7 @@ void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
                     offsetof(State, angVel) + sizeof(State::angVel));
   yadefrag::request(body->shape.get(), offsetof(yade::Sphere, radius), sizeof(yade::Sphere));
   const double* const values = rows_[static_cast<std::size_t>(rowOf_[id + kAhead])].values;
-  __builtin_prefetch(values, 1), __builtin_prefetch(values + 8, 1);
+  requestLine(values), requestLine(values + 8);
 }
 
 [[gnu::always_inline]] inline void BodyRows::fillRow(yade::Scene& scene, std::size_t id,
@@ -157,7 +157,7 @@ void BodyRows::giveForces(yade::Scene& scene, int threads) const {
     for (std::size_t id = begin; id < end; ++id) {
       if (id + kAhead < end && rowOf_[id + kAhead] >= 0) {
         const BodyRow& next = rows_[static_cast<std::size_t>(rowOf_[id + kAhead])];
-        __builtin_prefetch(next.values + 8);
+        requestLine(next.values + 8);
       }
       if (rowOf_[id] < 0) continue;
       const auto row = static_cast<std::size_t>(rowOf_[id]);

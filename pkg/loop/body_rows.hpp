@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "core/request.hpp"
 #include "loop/sphere_contact_kernels.hpp"
 
 namespace yadefrag {
@@ -41,8 +42,8 @@ struct PairRows {
     if (!geom) return;
     const auto* const first = reinterpret_cast<const char*>(geom);
     const auto* const second = reinterpret_cast<const char*>(phys);
-    __builtin_prefetch(first), __builtin_prefetch(first + 64), __builtin_prefetch(first + 128);
-    __builtin_prefetch(second), __builtin_prefetch(second + 64);
+    requestLine(first), requestLine(first + 64), requestLine(first + 128);
+    requestLine(second), requestLine(second + 64);
   }
   void note(const yade::Interaction& contact, bool isComputed) {
     geom = isComputed ? static_cast<yade::ScGeom*>(contact.geom.get()) : nullptr;
@@ -94,8 +95,13 @@ class BodyRows {
   [[gnu::always_inline]] void request(const PairRows& pair) const {
     // There may be no rows yet.
     const BodyRow *const one = rows_.data() + pair.row1, *const two = rows_.data() + pair.row2;
-    __builtin_prefetch(one), __builtin_prefetch(one->values + 8);
-    __builtin_prefetch(two), __builtin_prefetch(two->values + 8);
+    requestLine(one), requestLine(one->values + 8);
+    requestLine(two), requestLine(two->values + 8);
+  }
+  /// Requests the sums of an id.
+  [[gnu::always_inline]] void requestSums(std::size_t id) const {
+    yadefrag::request(forces_ + id, 0, sizeof(yade::Vector3r));
+    yadefrag::request(torques_ + id, 0, sizeof(yade::Vector3r));
   }
   /// Puts the sums into YADE's, in the array of the calling thread, 0. What YADE's functors have
   /// added there since `begin` is kept.

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "abi/request.hpp"
 #include "core/instruction_set.hpp"
 #include "core/parallel.hpp"
+#include "core/request.hpp"
 
 namespace yadefrag {
 
@@ -55,8 +55,8 @@ void ContactLoop::action() {
   if (place + 2 * kAhead < size) {
     const auto* const contact =
         reinterpret_cast<const char*>((*scene->interactions)[place + 2 * kAhead].get());
-    __builtin_prefetch(contact + offsetof(Interaction, id1));
-    __builtin_prefetch(contact + offsetof(Interaction, phys));
+    requestLine(contact + offsetof(Interaction, id1));
+    requestLine(contact + offsetof(Interaction, phys));
     rows_(place + 2 * kAhead).request();
   }
   if (place + kAhead < size) rows_.request(rows_(place + kAhead));
@@ -69,7 +69,7 @@ void ContactLoop::action() {
   using yade::Body, yade::Interaction, yade::State, yade::Sphere;
   const auto& interactions = *scene->interactions;
   const auto& bodies = scene->bodies->body;
-  const auto forBoth = [&](std::size_t at, const auto& visit) {
+  const auto forBoth = [&](std::size_t at, const auto& visit) __attribute__((always_inline)) {
     if (at >= size) return;
     visit(static_cast<std::size_t>(interactions[at]->id1));
     visit(static_cast<std::size_t>(interactions[at]->id2));
@@ -78,16 +78,31 @@ void ContactLoop::action() {
     request(interactions[place + 4 * kAhead].get(), offsetof(Interaction, functorCache),
             sizeof(Interaction));
   }
-  forBoth(place + 3 * kAhead, [&](std::size_t id) { request(bodies.data() + id, 0, 1); });
-  forBoth(place + 2 * kAhead, [&](std::size_t id) {
-    request(bodies[id].get(), offsetof(Body, state), offsetof(Body, shape) + sizeof(Body::shape));
-  });
-  forBoth(place + kAhead, [&](std::size_t id) {
-    if (!bodies[id]) return;
-    request(bodies[id]->state.get(), offsetof(State, se3),
-            offsetof(State, se3) + sizeof(yade::Vector3r));
-    request(bodies[id]->shape.get(), offsetof(Sphere, radius), sizeof(Sphere));
-  });
+  forBoth(
+      place + 3 * kAhead, [&](std::size_t id)
+                              __attribute__((always_inline)) { requestLine(bodies.data() + id); });
+  forBoth(
+      place + 2 * kAhead, [&](std::size_t id) __attribute__((always_inline)) {
+        request(bodies[id].get(), offsetof(Body, state),
+                offsetof(Body, shape) + sizeof(Body::shape));
+      });
+  if (place + 2 * kAhead < size) {
+    const Interaction& contact = *interactions[place + 2 * kAhead];
+    request(contact.geom.get(), 0, sizeof(yade::ScGeom));
+    request(contact.phys.get(), 0, sizeof(yade::FrictPhys));
+  }
+  if (place + kAhead >= size) return;
+  // Of bodies that do not touch only the places are used.
+  const bool areTouching = interactions[place + kAhead]->geom != nullptr;
+  forBoth(
+      place + kAhead, [&](std::size_t id) __attribute__((always_inline)) {
+        if (!bodies[id]) return;
+        request(bodies[id]->state.get(), offsetof(State, se3),
+                areTouching ? offsetof(State, angVel) + sizeof(State::angVel)
+                            : offsetof(State, se3) + sizeof(yade::Vector3r));
+        request(bodies[id]->shape.get(), offsetof(Sphere, radius), sizeof(Sphere));
+        if (areTouching) rows_.requestSums(id);
+      });
 }
 
 void ContactLoop::evaluate(const PairStep& step, std::size_t size) {

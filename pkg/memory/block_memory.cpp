@@ -29,12 +29,15 @@ void Block::release() {
 }
 
 void BlockFiller::begin(std::size_t bytes) {
-  offset_ = Block::wholeLines(offset_);
-  if (block_ && offset_ + bytes <= Block::kBytes) return;
-  if (block_) block_->release();
-  block_ = nullptr;
-  block_ = Block::make();
-  offset_ = Block::kLine;
+  begin_ = Block::wholeLines(end_);
+  if (!block_ || begin_ + bytes > Block::kBytes) {
+    if (block_) block_->release();
+    block_ = nullptr;
+    block_ = Block::make();
+    begin_ = Block::kLine;
+  }
+  offset_ = begin_;
+  end_ = begin_ + bytes;
 }
 
 bool ScatterWatch::isEnough(std::size_t visited, std::size_t scattered) {
@@ -42,6 +45,13 @@ bool ScatterWatch::isEnough(std::size_t visited, std::size_t scattered) {
   const bool isEnough = visited >= kFewest && scattered * kScatteredShare > visited;
   wait_ = isEnough ? std::min(2 * wait_, kLongestWait) : kShortestWait;
   return isEnough;
+}
+
+bool isUsedByScript(PyObject* owner) {
+  if (Py_REFCNT(owner) != 1) return true;
+  PyObject* const* const attributes = _PyObject_GetDictPtr(owner);
+  if (attributes && *attributes && PyDict_Size(*attributes) > 0) return true;
+  return PyType_SUPPORTS_WEAKREFS(Py_TYPE(owner)) && *PyObject_GET_WEAKREFS_LISTPTR(owner);
 }
 
 OthersWait::OthersWait(yade::Scene& scene)

@@ -56,6 +56,8 @@ class BlockFiller {
 
   /// The next objects, of `bytes` together, are in one block, from a cache line on.
   void begin(std::size_t bytes);
+  /// The next object is so many bytes behind the begin.
+  void goTo(std::size_t bytes) { offset_ = begin_ + bytes; }
   template <class Object>
   yade::shared_ptr<Object> make() {
     auto* const object = new (reinterpret_cast<char*>(block_) + offset_) Object;
@@ -70,22 +72,33 @@ class BlockFiller {
 
  private:
   Block* block_ = nullptr;
-  std::size_t offset_ = 0;
+  std::size_t begin_ = 0;   // of the objects together
+  std::size_t end_ = 0;     // of them
+  std::size_t offset_ = 0;  // of the next one
 };
 
-/// True: the object is of this very class, and nothing but `pointer` refers to it.
+/// True: a script uses Python's object of `owner`, which has made a C++ object: it refers to it, or
+/// has given it attributes of its own. Needs Python's lock.
+bool isUsedByScript(PyObject* owner);
+
+/// True: the object is of this very class, and nothing but `pointer` refers to it. Needs Python's
+/// lock.
 template <class Object, class Base>
 bool isMovable(const yade::shared_ptr<Base>& pointer) {
   if (!pointer || pointer.use_count() != 1) return false;
   const Base& object = *pointer;
-  return typeid(object) == typeid(Object);
+  if (typeid(object) != typeid(Object)) return false;
+  // A pointer from Python has a count of its own.
+  using FromPython = yade::py::converter::shared_ptr_deleter;
+  const auto* const python = boost::get_deleter<FromPython>(pointer);
+  return python == nullptr || !isUsedByScript(python->owner.get());
 }
 
-/// Replaces a movable object by a copy in a block; `copy(from, to)`.
+/// Replaces a movable object by another one in a block; `copy(from, to)`.
 template <class Object, class Base, class Copy>
 void moveInto(BlockFiller& filler, yade::shared_ptr<Base>& pointer, const Copy& copy) {
   const auto moved = filler.make<Object>();
-  copy(static_cast<const Object&>(*pointer), *moved);
+  copy(static_cast<Object&>(*pointer), *moved);
   pointer = moved;
 }
 

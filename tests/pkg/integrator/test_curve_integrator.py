@@ -193,6 +193,54 @@ def test_savedAndLoaded(folder):
     assert np.abs(np.frombuffer(state()[0]) - np.frombuffer(expected)).max() < 1e-6
 
 
+def test_objectsOfScriptsStay():
+    """Bodies, states, geometries and physics are moved in memory: those that a script has made and refers to, or has
+    given attributes of its own, stay those of the scene."""
+    scenes.clear()
+    O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
+    places = np.array(list(np.ndindex(14, 14, 14))) * .97
+    states, kept = {}, {}
+    for number, place in enumerate(places):
+        ball = utils.sphere(Vector3(*place), .5)
+        if number % 500 == 7:
+            state = w.State()
+            state.mass, state.inertia, state.pos = ball.state.mass, ball.state.inertia, ball.state.pos
+            ball.state = states[number] = state
+        if number % 500 == 8:
+            kept[number] = ball
+        if number % 500 == 9:
+            ball.state.remark = number
+            ball.remark = number
+        O.bodies.append(ball)
+    del ball, state
+    engines('CurveIntegrator')
+    O.engines = [w.CurveLoop(*[part.functors for part in (e.geomDispatcher, e.physDispatcher, e.lawDispatcher)])
+                 if isinstance(e, w.InteractionLoop) else e for e in O.engines]
+    O.dt = 1e-4
+    O.step()
+    contacts = [i for i in O.interactions if i.isReal][::400]
+    physics = {}
+    for contact in contacts:
+        made = w.FrictPhys(kn=contact.phys.kn, ks=contact.phys.ks, tangensOfFrictionAngle=.3)
+        contact.phys = physics[contact.id1, contact.id2] = made
+    del contact, contacts, made
+    O.run(300, True)
+    assert O.engines[-1].fastBodies == len(places) and len(states) == len(kept) == 6 and len(physics) > 10
+    for number, state in states.items():
+        assert state.pos == O.bodies[number].state.pos != state.refPos
+        assert O.bodies[number + 2].remark == number + 2
+    for number, ball in kept.items():
+        assert ball.state.vel == O.bodies[number].state.vel
+        ball.state.vel = (1, 2, 3)
+        assert tuple(O.bodies[number].state.vel) == (1, 2, 3)
+    lasting = [ids for ids in physics if O.interactions.has(*ids) and O.interactions[ids].isReal]
+    assert len(lasting) > 5
+    for ids in lasting:
+        physics[ids].kn = 0
+        assert O.interactions[ids].phys.kn == 0
+        assert O.interactions[ids].phys.normalForce == physics[ids].normalForce
+
+
 def test_isAnIntegrator(capfd):
     """YADE's functions and other engines find it; a missing ForceResetter is reported as by YADE's."""
     heap()
