@@ -29,8 +29,11 @@ struct PairRows {
   std::uint32_t row2 = 0;
 
   /// YADE's dispatchers may swap the bodies of a contact.
+  [[nodiscard]] bool isInOrder(const yade::Interaction& contact) const {
+    return id1 == contact.id1;
+  }
   void matchOrder(const yade::Interaction& contact) {
-    if (id1 == contact.id1) return;
+    if (isInOrder(contact)) return;
     id1 = contact.id1;
     std::swap(row1, row2);
   }

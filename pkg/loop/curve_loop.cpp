@@ -57,7 +57,10 @@ void ContactLoop::action() {
         reinterpret_cast<const char*>((*scene->interactions)[place + 2 * kAhead].get());
     requestLine(contact + offsetof(Interaction, id1));
     requestLine(contact + offsetof(Interaction, phys));
-    rows_(place + 2 * kAhead).request();
+    const PairRows& pair = rows_(place + 2 * kAhead);
+    pair.request();
+    // A contact that has not begun: its functor.
+    if (!pair.geom) requestLine(contact + offsetof(Interaction, functorCache.geom));
   }
   if (place + kAhead < size) rows_.request(rows_(place + kAhead));
 }
@@ -148,7 +151,13 @@ void ContactLoop::evaluate(const PairStep& step, std::size_t size) {
     contact->reset();
     return false;
   }
-  if (!pair.isKnown(*contact)) return evaluateOther(evaluation, contact, pair);
+  if (!pair.isKnown(*contact)) {
+    if (pair.isInOrder(*contact) &&
+        evaluation.step.isFarApart(*contact, rows_[pair.row1], rows_[pair.row2])) {
+      return false;
+    }
+    return evaluateOther(evaluation, contact, pair);
+  }
   ++evaluation.fast;
   evaluation.row1 = pair.row1, evaluation.row2 = pair.row2;
   return evaluation.step.evaluateKnown(*contact, *pair.geom, *pair.phys, rows_[pair.row1],

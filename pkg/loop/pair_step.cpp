@@ -95,12 +95,6 @@ ImageShift PairStep::periodicShift(const yade::Interaction& contact) const {
   return {loadThree(distance.data()), loadThree(velocity.data())};
 }
 
-// YADE's test, to the last bit.
-bool PairStep::areApart(const FourLanes& between, double radius1, double radius2) const {
-  const double reach = spheres_->interactionDetectionFactor * (radius1 + radius2);
-  return reach * reach - squaredNorm(between) < 0;
-}
-
 // False: no functor accepts the two shapes. The order of the bodies may be swapped.
 bool PairStep::chooseGeometry(yade::Interaction& contact) const {
   const yade::Body &body1 = bodyOf(contact.id1), &body2 = bodyOf(contact.id2);
@@ -118,15 +112,11 @@ bool PairStep::chooseGeometry(yade::Interaction& contact) const {
 bool PairStep::updateGeometryOf(const Contact& contact, const BodyRow& one, const BodyRow& two,
                                 long& fastGeometries) const {
   if (isKnownPair(*contact)) {
-    const ImageShift shift = shiftOf(*contact);
-    if (!contact->isReal() &&
-        areApart(two.position() + shift.distance - one.position(), one.radius(), two.radius())) {
-      return false;
-    }
+    if (!contact->isReal() && areApart(*contact, one, two)) return false;
     if (contact->geom) {
       ++fastGeometries;
       auto& geom = static_cast<yade::ScGeom&>(*contact->geom);
-      nextGeometry(loadThree(geom.normal.data()), one, two, shift, scene_.dt,
+      nextGeometry(loadThree(geom.normal.data()), one, two, shiftOf(*contact), scene_.dt,
                    spheres_->avoidGranularRatcheting)
           .write(geom);
       return true;

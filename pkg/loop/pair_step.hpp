@@ -47,12 +47,28 @@ class PairStep {
   /// True: a contact that has not begun and does not begin in this step. Reads less than
   /// `evaluate`; if it is false, nothing is known.
   [[nodiscard]] [[gnu::noinline]] bool isFarApart(const yade::Interaction& contact) const;
+  /// The same for bodies in rows, in the order of the contact.
+  [[nodiscard]] [[gnu::always_inline]] bool isFarApart(const yade::Interaction& contact,
+                                                       const BodyRow& one,
+                                                       const BodyRow& two) const {
+    return isKnownPair(contact) && !contact.isReal() && areApart(contact, one, two);
+  }
 
  private:
   [[nodiscard]] bool isKnownPair(const yade::Interaction& contact) const {
     return spheres_ && contact.functorCache.geom.get() == spheres_;
   }
-  [[nodiscard]] bool areApart(const FourLanes& between, double radius1, double radius2) const;
+  // YADE's test, to the last bit.
+  [[nodiscard]] [[gnu::always_inline]] bool areApart(const FourLanes& between, double radius1,
+                                                     double radius2) const {
+    const double reach = spheres_->interactionDetectionFactor * (radius1 + radius2);
+    return reach * reach - squaredNorm(between) < 0;
+  }
+  [[nodiscard]] [[gnu::always_inline]] bool areApart(const yade::Interaction& contact,
+                                                     const BodyRow& one, const BodyRow& two) const {
+    return areApart(two.position() + shiftOf(contact).distance - one.position(), one.radius(),
+                    two.radius());
+  }
   [[gnu::always_inline]] [[nodiscard]] ImageShift shiftOf(const yade::Interaction& contact) const {
     return scene_.isPeriodic ? periodicShift(contact) : ImageShift{};
   }
