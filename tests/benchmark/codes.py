@@ -59,6 +59,8 @@ def parse(arguments):
     parser.add_argument('--friction', type=float, default=.3, help='angle of friction, radians; default: %(default)s')
     parser.add_argument('--limit', type=float, default=600., help='s per process; default: %(default)s')
     parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--add', nargs='*', default=[], metavar='FILE',
+                        help='codes.json of runs before, of other sizes or scenes, for the same table')
     parser.add_argument('--out', default=os.path.join(colliders.ROOT, 'out', 'bench'))
     parser.add_argument('--yade', default=os.path.join(colliders.ROOT, 'scripts', 'yade'))
     parser.add_argument('--readme', action='store_true', help='write the table into docs/measured.md')
@@ -132,6 +134,17 @@ def measured(options, progress):
     return rows
 
 
+def earlier(file, steps):
+    """The rows of a run before."""
+    with open(file) as source:
+        found = json.load(source)
+    if found['steps'] != steps:
+        sys.exit(f'scripts/bench codes: {file} has the means of {found["steps"]} steps, not of --steps {steps}.')
+    if found['machine']['commit'] != report.origin.commit():
+        sys.exit(f'scripts/bench codes: {file} is of commit {found["machine"]["commit"]}.')
+    return found['rows']
+
+
 def summary(rows):
     """{(scene, n, threads, code): medians}, with `x`, the step's ratio to that of LAMMPS or, without it, YADE."""
     groups, found = {}, {}
@@ -150,10 +163,11 @@ def main(arguments):
     """Parse, measure, write."""
     options = parse(arguments)
     options.codes = installed(options.codes)
+    former = [row for file in options.add for row in earlier(file, options.steps)]
     if not options.codes or options.codes[0] not in ENGINES:
         sys.exit('scripts/bench codes: the first of --codes must be one of ' + ', '.join(ENGINES) + '.')
     total = len(options.sizes) * len(options.scenes) * len(options.threads) * options.repeat * len(options.codes)
-    rows = measured(options, colliders.makeProgress(total))
+    rows = former + measured(options, colliders.makeProgress(total))
     machine = report.machineOf(rows)
     os.makedirs(options.out, exist_ok=True)
     with open(os.path.join(options.out, 'codes.json'), 'w') as out:

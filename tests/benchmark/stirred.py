@@ -2,9 +2,10 @@
 
 A block of n spheres, as the scene `packing`: its outermost spheres are fixed, and a bar of spheres through
 its middle turns, so that its ends move by .005 radii per step. One run with spheres created in the order
-of the curve, one in random order, each in a yade of its own, with LebesgueCollider and one thread. Shown
-is the interaction loop per step, in parts of the run. Writes stirred.md to out/bench; with --readme the
-table goes into docs/measured.md.
+of the curve, one in random order, each in a yade of its own, with LebesgueCollider and one thread; with CurveLoop and
+CurveIntegrator, or (--loop InteractionLoop) YADE's loop and integrator. Shown is the loop per step: in the first
+hundredth of the run, then in parts of it. Writes stirred.md to out/bench; with --readme the table goes into
+docs/measured.md.
 """
 import json
 import os
@@ -23,7 +24,7 @@ MARKS = ('<!-- stirred -->\n', '<!-- end of stirred -->')
 def measure(options, order):
     """Rows of one run: the end of each part (steps), ms per step of the loop, contacts."""
     command = [options.yade, '-n', '-x', '-j1', os.path.join(ROOT, 'tests', 'benchmark', 'stirred_run.py'),
-               str(options.n), str(options.steps), order, str(PARTS)]
+               str(options.n), str(options.steps), order, str(PARTS), options.loop]
     run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     rows = [line for line in run.stdout.splitlines() if line.startswith('[')]
     if run.returncode or len(rows) != 1:
@@ -31,13 +32,14 @@ def measure(options, order):
     return json.loads(rows[0])
 
 
-def table(runs, n, about):
+def table(runs, options, about):
     """Markdown: a row per part of the run."""
     lines = ['| steps | contacts | order of the curve | random order | × |', '|--:|--:|--:|--:|--:|']
     for curve, random in zip(runs['curve'], runs['random']):
         lines.append(f'| {curve["end"]:,} | {curve["real"]:,} | {curve["loop"]:.3g} | {random["loop"]:.3g} '
                      f'| {random["loop"] / curve["loop"]:.2f} |')
-    return '\n'.join(lines) + f'\n\n{n:,} spheres, ms of the interaction loop per step, {about}, `scripts/bench stirred`.\n'
+    return '\n'.join(lines) + (f'\n\n{options.n:,} spheres, ms of `{options.loop}` per step, {about}, '
+                               '`scripts/bench stirred`.\n')
 
 
 def main(arguments):
@@ -45,11 +47,12 @@ def main(arguments):
     parser = measured_tables.parser('stirred', __doc__)
     parser.add_argument('--n', type=int, default=20000)
     parser.add_argument('--steps', type=int, default=10000)
+    parser.add_argument('--loop', choices=['CurveLoop', 'InteractionLoop'], default='CurveLoop')
     options = parser.parse_args(arguments)
     if options.steps < 100:
         parser.error(f'--steps is {options.steps}; it must be at least 100.')
     runs = {order: measure(options, order) for order in ORDERS}
-    measured_tables.publish(options, 'stirred', table(runs, options.n, report.origin.line()), MARKS)
+    measured_tables.publish(options, 'stirred', table(runs, options, report.origin.line()), MARKS)
 
 
 if __name__ == '__main__':
