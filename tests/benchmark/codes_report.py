@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from measured_tables import digits  # noqa: E402
 
 MARKS = ('<!-- codes -->\n', '<!-- end of codes -->')
-NAMES = {'YADE': 'YADE', 'collider': '+ `LebesgueCollider`', 'loop': '+ `CurveLoop`', 'integrator': '+ `CurveIntegrator`',
+NAMES = {'YADE': 'YADE', 'collider': '+ `LebesgueCollider`', 'loop': '+ `CurveLoop`', 'integrator': '+ `CurveLoop`, `CurveIntegrator`',
          'LIGGGHTS': 'LIGGGHTS', 'LAMMPS': 'LAMMPS'}
 PARTS = {'search': '#3d8fb5', 'forces': '#d1495b', 'integration': '#e0a030', 'other': '#bbbbbb'}
 
@@ -27,8 +27,9 @@ def table(found, options, about):
         cells = [scene, f'{n:,}', f'{contacts:,}', str(threads), *map(cell, entries)]
         lines.append('| ' + ' | '.join(cells) + ' |')
     worst = max(entry['deviation'] for entry in found.values())
+    runs = 'one run of each' if options.repeat == 1 else f'medians of {options.repeat} runs'
     return '\n'.join(lines) + (f'\n\nMilliseconds per step (search, forces, integration), means of {options.steps} '
-                               f'steps, medians of {options.repeat} runs;\nlargest difference of positions {worst:.1g} of '
+                               f'steps, {runs}; largest difference of positions {worst:.1g} of\n'
                                f'the displacements. {about}.\n')
 
 
