@@ -55,6 +55,11 @@ class BodyBoxes {
   bool prepareChanged(yade::Scene& scene, yade::BoundDispatcher& dispatcher, const SweepRule& rule,
                       std::size_t most, bool quick, int threads);
   void commit(yade::Scene& scene, int threads);
+  /// The body is another object now, with the same properties.
+  void replace(yade::Body::id_t id, const yade::Body* before, const yade::Body* now) {
+    const auto place = static_cast<std::size_t>(id);
+    if (place < known_.size() && known_[place].body == before) known_[place].body = now;
+  }
   /// Instead of `commit`: restores all bounds to their state before `prepare`.
   void rollBack();
 

@@ -30,6 +30,10 @@ class SearchCollider : public yade::Collider {
   void action() override;
   bool isActivated() override;
   void invalidatePersistentData() override;
+  /// A body was moved in memory.
+  void bodyMoved(yade::Body::id_t id, const yade::Body* before, const yade::Body* now) {
+    boxes_.replace(id, before, now);
+  }
   yade::vector<yade::Body::id_t> probeBoundingVolume(const yade::Bound& bound) override;
   void pySetAttr(const yade::string& key, const yade::py::object& value) override;
   yade::py::dict pyDict() const override;

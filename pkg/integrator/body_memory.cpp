@@ -1,6 +1,9 @@
 #include "integrator/body_memory.hpp"
 
 #include <cstddef>
+#include <vector>
+
+#include "collider/search_collider.hpp"
 
 namespace yadefrag {
 
@@ -58,6 +61,12 @@ constexpr bool kAreAllMembersKnown =
 
 void moveTogether(yade::Scene& scene) {
   const OthersWait others(scene);
+  // They find out by the address whether a body was replaced.
+  std::vector<SearchCollider*> colliders;
+  for (const auto& engine : scene.engines) {
+    if (auto* const collider = dynamic_cast<SearchCollider*>(engine.get()))
+      colliders.push_back(collider);
+  }
   BlockFiller filler;
   for (auto& body : scene.bodies->body) {
     if (!body || !isMovable<yade::State>(body->state)) continue;
@@ -68,10 +77,12 @@ void moveTogether(yade::Scene& scene) {
       filler.goTo(kBoundAt);
       moveInto<yade::Aabb>(filler, body->bound, copyBound);
     }
-    if (isMovable<yade::Body>(body)) {
-      filler.goTo(kBodyAt);
-      moveInto<yade::Body>(filler, body, copyBody);
-    }
+    if (!isMovable<yade::Body>(body)) continue;
+    const yade::Body* const before = body.get();
+    filler.goTo(kBodyAt);
+    moveInto<yade::Body>(filler, body, copyBody);
+    for (SearchCollider* const collider : colliders)
+      collider->bodyMoved(body->id, before, body.get());
   }
 }
 

@@ -193,6 +193,42 @@ def test_savedAndLoaded(folder):
     assert np.abs(np.frombuffer(state()[0]) - np.frombuffer(expected)).max() < 1e-6
 
 
+def test_changesAfterBodiesAreMovedTogether(folder):
+    """Bodies erased, added, clumped, with other states and masks, and a saved scene, when more than 2,048 bodies lie in
+    blocks of memory: the same bits."""
+    chance = np.random.default_rng(9)
+    places = np.array(list(np.ndindex(14, 14, 14))) * 1.05 + chance.uniform(-.02, .02, (14 ** 3, 3))
+
+    def change(step):
+        if step == 60:
+            for number in range(100, 2700, 130):
+                O.bodies.erase(number)
+            for number in range(12):
+                O.bodies.append(utils.sphere(Vector3(number, 3, 20), .5))
+        if step == 120:
+            O.bodies.clump([5, 6])
+            other = w.State(mass=1, inertia=(1, 1, 1), vel=(0, 0, 5))
+            other.pos = other.refPos = O.bodies[7].state.pos
+            O.bodies[7].state = other
+            O.bodies[8].mask = 3
+            O.bodies[9].dynamic = False
+        if step == 180:
+            O.save(os.path.join(folder, 'moved.yade.gz'))
+            O.reset()
+            O.load(os.path.join(folder, 'moved.yade.gz'))
+            for number in range(231, 331):
+                O.bodies[number].state.vel += Vector3(0, 0, 1)
+
+    def build():
+        scenes.clear()
+        O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
+        velocities = np.random.default_rng(4).normal(0, 5, (len(places), 3))
+        scenes.addSpheres(places, [.5] * len(places), velocities, dynamic=True)
+        O.dt = 2e-4
+    requireSame(build, steps=240, every=60, change=change)
+    assert O.engines[-1].fastBodies == len(places) - 20 + 12 - 2
+
+
 def test_objectsOfScriptsStay():
     """Bodies, states, geometries and physics are moved in memory: those that a script has made and refers to, or has
     given attributes of its own, stay those of the scene."""
