@@ -281,7 +281,7 @@ void BodyBoxes::commit(yade::Scene& scene, int threads) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i + farAhead < end) {
         const yade::Body* body = scene.bodies->body[bodyAt(i + farAhead)].get();
-        requestLine(reinterpret_cast<const char*>(body) + offsetof(yade::Body, bound));
+        request(body, offsetof(yade::Body, bound), offsetof(yade::Body, intrs));
       }
       if (i + ahead < end) prefetchBound(scene.bodies->body[bodyAt(i + ahead)].get());
       commitOne(scene, bodyAt(i));
@@ -291,10 +291,8 @@ void BodyBoxes::commit(yade::Scene& scene, int threads) {
 
 void BodyBoxes::prefetchBound(const yade::Body* body) {
   if (!body || !body->bound) return;
-  const char* bound = reinterpret_cast<const char*>(body->bound.get());
-  requestLine(bound + offsetof(Bound, lastUpdateIter));
-  requestLine(bound + offsetof(Bound, min));
-  requestLine(bound + offsetof(Bound, max) + sizeof(Vector3r) - 1);
+  request(body->bound.get(), offsetof(Bound, lastUpdateIter),
+          offsetof(Bound, max) + sizeof(Vector3r));
 }
 
 void BodyBoxes::commitOne(yade::Scene& scene, std::size_t id) {

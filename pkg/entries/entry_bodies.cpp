@@ -28,8 +28,7 @@ void setState(yade::State& state, const EntryFrame& frame, const Nodes& nodes,
   state.se3.position = inSpace(combine(frame.middle, nodes.position)) - rest.dt * state.vel;
   if (!rest.isOurs) return;
   state.se3.position += rest.dt * state.vel;  // the bits of an integrator's sum
-  yade::State* const moved = &state;
-  changeOrientations(rest.dt, &moved, 1);
+  changeOrientation(rest.dt, state);
 }
 
 /// By node of the last body, if it has several materials: that of the triangle with the boundary
@@ -302,12 +301,8 @@ void EntryBodies::update(const World& world, const RestOfStep& rest, int threads
     // Bodies are scattered in memory: prefetch.
     constexpr std::size_t ahead = 6;
     if (e + ahead < shapes_.size()) {
-      const auto prefetch = [](const void* object) {
-        const char* at = static_cast<const char*>(object);
-        for (int line = 1; line < 5; ++line) requestLine(at + 64 * line);
-      };
-      prefetch(shapes_[e + ahead].get());
-      prefetch(states_[e + ahead].get());
+      request(shapes_[e + ahead].get(), 64, sizeof(SurfaceSegment));
+      request(states_[e + ahead].get(), offsetof(yade::State, se3), sizeof(yade::State));
     }
     const BoundaryPiece& piece = pieces_[e];
     SurfaceSegment& shape = *shapes_[e];

@@ -38,11 +38,16 @@ void copyBody(yade::Body& from, yade::Body& to) {
   to.iterBorn = from.iterBorn, to.timeBorn = from.timeBorn;
 }
 
-// What is moved of a body, with the bytes that the integrator reads in few cache lines:
+// What is moved of a body, one behind the other. What the integrator reads of it begins cache
+// lines:
 //
-//   | body: flags to bound |     | clumpId |  | state: se3 to densityScaling |  | bound: refPos,
-//   sweep | ^ a line                                  ^ a line, without its head        ^ a line
-//
+//   body:   | head, id, mask | flags to bound | intrs, clumpId ... |
+//                            ^ a line
+//   state:  | head, se3 to densityScaling |
+//           ^ a line
+//   bound:  | head | refPos, sweepLength | color ... |
+//                  ^ a line
+
 /// Bytes to skip, from a place within a line, so that a member begins a line.
 constexpr std::size_t gapBefore(std::size_t place, std::size_t member) {
   return Block::wholeLines(place + member) - (place + member);

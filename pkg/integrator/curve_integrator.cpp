@@ -17,6 +17,9 @@ namespace {
 // Bodies between the request of data from memory and their use: enough for the latency of one
 // access.
 constexpr std::size_t kAhead = 16;
+// Bodies that change place, then orientation: more of them are then computed at the same time than
+// if all of a body's formulas, each of which waits for the one before, came first.
+constexpr std::size_t kBlock = 16;
 const InstructionSet kInstructions = bestInstructionSet();
 
 /// What `move` uses of a body, then of its state and bound.
@@ -79,7 +82,7 @@ void MotionIntegrator::readStep(MotionStep& step) const {
                                                                std::size_t begin, std::size_t end,
                                                                Part& part) const {
   const auto& bodies = scene->bodies->body;
-  std::array<yade::State*, kTurnedAtOnce> moved;
+  std::array<yade::State*, kBlock> moved;
   std::size_t numMoved = 0;
   for (std::size_t index = begin; index < end; ++index) {
     requestAhead(bodies, index);
@@ -91,7 +94,7 @@ void MotionIntegrator::readStep(MotionStep& step) const {
     if (body.bound && isBeyondBound(*body.bound, state)) part.isAnyBeyond = true;
     moved[numMoved++] = &state;
   }
-  changeOrientations(step.dt, moved.data(), numMoved);
+  for (std::size_t k = 0; k < numMoved; ++k) changeOrientation(step.dt, *moved[k]);
   part.moved += static_cast<long>(numMoved);
 }
 
@@ -115,8 +118,8 @@ void MotionIntegrator::action() {
           forOutside(
               leftOut_, begin,
               end, [&](std::size_t first, std::size_t last) __attribute__((always_inline)) {
-                for (std::size_t block = first; block < last; block += kTurnedAtOnce) {
-                  moveBlock(step, block, std::min(block + kTurnedAtOnce, last), part);
+                for (std::size_t block = first; block < last; block += kBlock) {
+                  moveBlock(step, block, std::min(block + kBlock, last), part);
                 }
               });
         });

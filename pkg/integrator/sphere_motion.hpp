@@ -2,7 +2,6 @@
 // Motion of one body over a step: the formulas of YADE's NewtonIntegrator for bodies whose rotation
 // is integrated as a sphere's, in the order of their operations, so that every bit is the same.
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -107,42 +106,20 @@ struct MotionStep {
   storeThree(position, state.se3.position.data());
 }
 
-// Bodies that change orientation at the same time: each of a body's formulas waits for the one
-// before, so that the same formula follows for all of them.
-constexpr std::size_t kTurnedAtOnce = 16;
-
-/// Square roots of the first `count` numbers.
-[[gnu::always_inline]] inline void takeRoots(std::array<double, kTurnedAtOnce>& values,
-                                             std::size_t count) {
-  for (; count % 4 != 0; ++count) values[count] = 0;  // four at once
-  for (std::size_t k = 0; k < count; k += 4)
-    for (std::size_t i = k; i < k + 4; ++i) values[i] = std::sqrt(values[i]);
-}
-
-/// Orientations of up to kTurnedAtOnce bodies at the end of the step.
-[[gnu::always_inline]] inline void changeOrientations(double dt, yade::State* const* states,
-                                                      std::size_t count) {
-  std::array<double, kTurnedAtOnce> speeds, lengths;
-  std::array<FourLanes, kTurnedAtOnce> orientations;
-  for (std::size_t k = 0; k < count; ++k) {
-    speeds[k] = squaredNorm(loadThree(states[k]->angVel.data()));
+/// Orientation at the end of the step.
+[[gnu::always_inline]] inline void changeOrientation(double dt, yade::State& state) {
+  double* const stored = state.se3.orientation.coeffs().data();
+  FourLanes orientation = loadFour(stored);
+  const FourLanes spin = loadThree(state.angVel.data());
+  if (const double square = squaredNorm(spin); square != 0) {
+    const double speed = std::sqrt(square), angle = .5 * (speed * dt);
+    FourLanes turn = std::sin(angle) * (spin / speed);
+    turn[3] = std::cos(angle);
+    orientation = quaternionProduct(turn, orientation);
   }
-  takeRoots(speeds, count);
-  for (std::size_t k = 0; k < count; ++k) {
-    orientations[k] = loadFour(states[k]->se3.orientation.coeffs().data());
-    if (speeds[k] != 0) {
-      const double angle = .5 * (speeds[k] * dt);
-      FourLanes turn = std::sin(angle) * (loadThree(states[k]->angVel.data()) / speeds[k]);
-      turn[3] = std::cos(angle);
-      orientations[k] = quaternionProduct(turn, orientations[k]);
-    }
-    lengths[k] = squaredNormOfFour(orientations[k]);
-  }
-  takeRoots(lengths, count);
-  for (std::size_t k = 0; k < count; ++k) {
-    if (lengths[k] > 0) orientations[k] /= lengths[k];
-    storeFour(orientations[k], states[k]->se3.orientation.coeffs().data());
-  }
+  const double square = squaredNormOfFour(orientation);
+  if (square > 0) orientation /= std::sqrt(square);
+  storeFour(orientation, stored);
 }
 
 /// True: the body has moved out of the region that the collider searched, and the collider must
