@@ -8,9 +8,7 @@
 #include "dynamics/mesh_step.hpp"
 #include "meshing/mesh_quality.hpp"
 #include "meshing/structured.hpp"
-#include "outline/narrowest.hpp"
 #include "outline/polygon.hpp"
-#include "outline/simplify.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
 #include "script/definitions.hpp"
@@ -91,23 +89,6 @@ SharedMesh meshOfPolygon(const py::object& outline, const py::list& holes, const
         lines.size(),
         {}});
   });
-}
-
-/// Numbers of the vertices to keep, of the outline and of each hole: a list of arrays
-/// (outline/simplify.hpp). `pinned` has a flag for each point of the outline, or is empty.
-py::list keptVertices(const py::object& outline, const py::list& holes, double tolerance,
-                      const py::object& pinned) {
-  return asValueError([&] {
-    return toArrays(
-        verticesToKeep(polygonOf(outline, holes), tolerance, fromArray<std::uint8_t>(pinned)));
-  });
-}
-
-/// (m, corner counted over all loops) of outline/narrowest.hpp; each loop is an array of
-/// its points.
-py::tuple narrowestOf(const py::list& loops) {
-  const NarrowPlace place = narrowestPlace(fromArrays<Vec2>(loops));
-  return py::make_tuple(place.distance, place.corner);
 }
 
 /// A regular mesh of a rectangle.
@@ -203,10 +184,8 @@ void defineMeshes() {
           "_loopVertices", +[](const ScriptMesh& mesh) { return toArrays(mesh.loopVertices); })
       .def_readonly("_numJoints", &ScriptMesh::numJoints);
   py::def("meshOfPolygon", &meshOfPolygon);
-  py::def("keptVertices", &keptVertices);
   py::def("latticeTimeStep", &latticeTimeStepOf);
   py::def("meshOfRectangle", &meshOfRectangle);
-  py::def("narrowestOf", &narrowestOf);
 }
 
 void defineQuality(SolverClass& solver) {

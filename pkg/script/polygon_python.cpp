@@ -1,9 +1,10 @@
+#include "outline/polygon.hpp"
 #include "outline/polygon_text.hpp"
-#include "outline/voronoi.hpp"
 #include "rigid/rigid_section.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
 #include "script/definitions.hpp"
+#include "script/mesh_python.hpp"
 
 namespace yadefrag {
 
@@ -27,16 +28,12 @@ py::tuple polygonOfText(const std::string& text) {
   });
 }
 
-/// The grains of outline/voronoi.hpp, as lists of pairs; `outline` is an array of its points.
-py::list voronoiOf(const py::object& outline, std::uint32_t count, std::uint64_t seed, int rounds,
-                   double shortest) {
+/// The outline and the holes of outline/polygon.hpp's checkPolygon, as arrays.
+py::list checkedPolygon(const py::object& outline, const py::list& holes) {
   return asValueError([&] {
-    py::list grains;
-    const std::vector<Vec2> points = fromArray<Vec2>(outline);
-    auto loops = voronoiGrains(points, count, seed, rounds);
-    if (shortest > 0) loops = withoutShortSides(std::move(loops), points, shortest);
-    for (const auto& grain : loops) grains.append(pairsOf(grain));
-    return grains;
+    Polygon polygon = checkPolygon(polygonOf(outline, holes));
+    polygon.holes.insert(polygon.holes.begin(), std::move(polygon.outline));
+    return toArrays(polygon.holes);
   });
 }
 
@@ -63,7 +60,7 @@ py::list sectionsOfScene() {
 void defineOutlines() {
   py::def("sectionsOfScene", &sectionsOfScene);
   py::def("polygonOfText", &polygonOfText);
-  py::def("voronoiOf", &voronoiOf);
+  py::def("checkedPolygon", &checkedPolygon);
 }
 
 }  // namespace yadefrag

@@ -62,17 +62,9 @@ inline constexpr double kStepsPerPart = 8;
 /// of the boundary. A regular lattice has 1 and 0.87.
 inline constexpr double kNodeClearance = .75, kBoundaryClearance = .6;
 
-/// (count) Random points in the bounding box of an outline that are tried as the centre of a grain.
-/// If the outline fills a thousandth of its box, ten of them are inside on average.
-inline constexpr int kPlaceTries = 10000;
-
 /// (count) Points that are tried for a new node around another one. With 20, one triangle in 10⁴
 /// has a corner below 35°.
 inline constexpr int kNodeTries = 30;
-
-/// (of the squared tolerance) Redundant vertices of an outline with equal costs get costs that
-/// differ by this, so that the order of their removal is the same in every run.
-inline constexpr double kEqualCosts = 1e-6;
 
 /// (of the size there) Ends and intersections of joints that are nearer than this are joined in any
 /// case: intersections are known only up to rounding.

@@ -41,7 +41,8 @@ from yadefrag import io, plots, studies  # noqa: E402
 from yadefrag.about import about  # noqa: E402
 from yadefrag.calls import inWords  # noqa: E402
 from yadefrag.fe import solver  # noqa: E402
-from yadefrag.fe.geometry import circle, grainJoints, rectangle, ring, voronoi  # noqa: E402
+from yadefrag.fe.geometry import circle, rectangle, ring  # noqa: E402
+from yadefrag.fe.grains import grainJoints, voronoi  # noqa: E402
 from yadefrag.fe.mesh import Mesh, rectangleMesh  # noqa: E402
 from yadefrag.fe.meshing import polygonMesh  # noqa: E402
 from yadefrag.fe.results import crackTable  # noqa: E402

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 
-from yadefrag import _yadefrag, arguments
+from yadefrag import arguments
 from yadefrag.hints import ArrayLike, Loop
 
 CIRCLE_POINTS = 64
-MOST_GRAINS = 10**5
 MOST_POINTS = 10**7  # a longer list needs gigabytes
 
 
@@ -72,46 +70,3 @@ def ring(centre: ArrayLike, inner: float, outer: float, n: int | None = None) ->
     if not inner < outer:
         raise ValueError('inner is %g m, it must be less than outer, which is %g m.' % (inner, outer))
     return circle(centre, outer, n), [circle(centre, inner, n)]
-
-
-def voronoi(outline: ArrayLike, n: int, seed: int = 0, rounds: int = 0, shortest: float = 0) -> list[Loop]:
-    """`n` grains that fill an outline, as a list of outlines: Voronoi cells of random points.
-
-    outline  list of points (x, y) in m
-    n        number of grains, at most 10⁵; if the outline is not convex a cell may consist of several
-             parts, which gives more grains
-    seed     the same seed gives the same grains
-    rounds   of Lloyd's iteration (1982, IEEE Trans. Inf. Theory 28, 129), at most 100: each moves the
-             points to the centroids of their cells, and makes the grains more even
-    shortest (m) shorter sides that are not on the outline are shrunk to points. Otherwise the shortest
-             side of a few hundred grains would make the time step a hundred times shorter; 0: none.
-             A third of addPolygon's `size` is a good choice
-    Corners of neighbours are equal to the last bit. Each grain may become a body, or all of them
-    one body with `joints=grainJoints(grains)`. ValueError for an outline that addPolygon would
-    refuse, or without room for so many points; and if `shortest` is too long for such grains.
-    """
-    points = arguments.pointsOf('outline', outline, 3)
-    n = arguments.whole('n', n, most=MOST_GRAINS)
-    seed = arguments.whole('seed', seed, least=0, right='a whole number, 0 or more', most=2**63 - 1)
-    rounds = arguments.whole('rounds', rounds, least=0, right='a whole number, 0 or more', most=100)
-    shortest = arguments.number('shortest', shortest, lambda v: math.isfinite(v) and v >= 0,
-                             '0 or a positive number (m)')
-    return _yadefrag.voronoiOf(points, n, seed, rounds, shortest)
-
-
-def grainJoints(grains: Iterable[ArrayLike]) -> list[tuple[tuple, tuple]]:
-    """The common sides of two grains, each once, for addPolygon's `joints`.
-
-    grains  list of outlines, as `voronoi` returns them. A side is common if both its ends are the same
-    points in both grains. ValueError for anything else than outlines.
-    """
-    if isinstance(grains, (str, bytes, dict, set, type)) or not hasattr(grains, '__iter__'):
-        arguments.refuse('grains', grains, 'a list of outlines')
-    known, joints = set(), []
-    for i, grain in enumerate(grains):
-        corners = [tuple(p) for p in arguments.pointsOf('grains[%d]' % i, grain, 3).tolist()]
-        for side in zip(corners, corners[1:] + corners[:1]):
-            if side[::-1] in known:
-                joints.append(side)
-            known.add(side)
-    return joints

@@ -14,6 +14,7 @@ from yadefrag import _yadefrag
 from yadefrag.arguments import number, pair, pointsOf, positive, refuse, requireTakes, whole
 from yadefrag.fe.materials import isField, mayCrack
 from yadefrag.fe.mesh_values import isClockwise, smoothFlags, smoothNodes
+from yadefrag.fe.simplify import simplified
 from yadefrag.hints import ArrayLike, ByPlace, FESolver, Mesh
 from yadefrag.messages import warn
 
@@ -35,8 +36,8 @@ ARGUMENTS = inspect.cleandoc("""outline, holes  list of points (x, y) in m, and 
                     e.g. those of a contour of pixels. No edges cross by it; corners between edges much
                     longer than the distance are kept, and so are straight corners that are next to
                     smooth ones in `smooth`. It must be less than the area over the length of the
-                    outline and of each hole. By squared distances (Dyken, Dæhlen and Sevaldrud 2009,
-                    J. Geogr. Syst. 11, 273)
+                    outline and of each hole. By the rule of Douglas and Peucker (1973, Cartographica
+                    10, 112)
     joints          list of pairs of points ((x, y), (x, y)) in m: sides of triangles lie on these
                     lines. Lines may cross each other and the outline; parts outside are ignored.
                     Ends and crossings nearer than a tolerance to each other, to another line or to the
@@ -63,19 +64,6 @@ def _sampledSize(function, points):
         if values.min() >= cell or samples >= _MOST_SAMPLES:
             return float(low[0]), float(low[1]), cell, columns, values
         samples *= 2
-
-
-def simplified(points: numpy.ndarray, holes: list[numpy.ndarray], tolerance: float,
-               flags: numpy.ndarray | None) -> tuple[numpy.ndarray, list[numpy.ndarray], numpy.ndarray | None]:
-    """Outline, holes and the outline's flags (None or an array) without the points that a
-    simplification within `tolerance` (m) removes: addPolygon's `simplify`."""
-    tolerance = positive('simplify', tolerance, 'm')
-    pinned = numpy.zeros(0, dtype=bool)
-    if flags is not None:  # a straight corner in a smooth part is intentional
-        pinned = ~flags & (numpy.roll(flags, 1) | numpy.roll(flags, -1))
-    kept = _yadefrag.keptVertices(points, list(holes), tolerance, pinned)
-    return (points[kept[0]], [hole[stay] for hole, stay in zip(holes, kept[1:])],
-            None if flags is None else flags[kept[0]])
 
 
 def isIrregular(mesh: str | None, material: object) -> bool:

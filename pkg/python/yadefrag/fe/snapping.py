@@ -145,7 +145,7 @@ def _costAdvice(fe, body, mesh, meshing, outline, joining):
                 other = meshing.mesh(outline, wider)
             else:
                 continue
-        except ValueError:  # an outline that such a tolerance would destroy
+        except (ImportError, ValueError):  # without shapely; an outline that such a tolerance would destroy
             continue
         after = fe._costOfMesh(body, meshing.size, other)
         if after <= _HELPS * present:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable
 from typing import Any
@@ -11,10 +12,14 @@ import numpy
 from yadefrag import _yadefrag
 from yadefrag.arguments import pointsOf, positive, refuse
 from yadefrag.fe.materials import oneMaterial
-from yadefrag.fe.meshing import simplified
+from yadefrag.fe.simplify import simplified
 from yadefrag.hints import ArrayLike, FEMat, File
 from yadefrag.io.outlines import outlinesOf
 from yadefrag.io.readers import leftOutWords
+from yadefrag.libraries import shapely, treeOf
+
+_MOST_PIECES = 1000  # of one side
+_WORKS = 'outlineReport works'
 
 
 def outlineReport(outline: ArrayLike | File, holes: Iterable[ArrayLike] = (), *, size: float,
@@ -89,9 +94,38 @@ def _report(shapes, size, material):
 
 
 def _narrowest(loops):
-    """(least distance of a corner to a side that does not end there, the corner's place)."""
-    distance, corner = _yadefrag.narrowestOf(loops)
-    return distance, tuple(numpy.concatenate(loops)[corner].tolist())
+    """(least distance of a corner to a side that does not end there, the corner's place); infinite without such a
+    pair. Of several the first corner."""
+    starts = numpy.concatenate(loops)
+    ends = numpy.concatenate([numpy.roll(loop, -1, axis=0) for loop in loops])
+
+    def distances(corners, sides):
+        arms, along = starts[corners] - starts[sides], ends[sides] - starts[sides]
+        squares = numpy.maximum((along**2).sum(axis=1), numpy.finfo(float).tiny)
+        parts = numpy.clip((arms * along).sum(axis=1) / squares, 0, 1)
+        found = numpy.hypot(*(arms - parts[:, None] * along).T)
+        found[(arms == 0).all(axis=1) | (starts[corners] == ends[sides]).all(axis=1)] = math.inf
+        return found
+
+    # The next sides but one are near: an upper bound, at most the shortest side.
+    numbers = numpy.split(numpy.arange(len(starts)), numpy.cumsum([len(loop) for loop in loops])[:-1])
+    most = min(distances(own, numpy.roll(own, -shift)).min() for own in numbers for shift in (1, 2, 3))
+    if most == math.inf:
+        return most, tuple(starts[0].tolist())
+    # Pieces, because the box of a long oblique side would contain many corners.
+    lengths = numpy.hypot(*(ends - starts).T)
+    counts = numpy.clip(lengths / lengths.mean(), 1, _MOST_PIECES).astype(int)
+    owners = numpy.repeat(numpy.arange(len(starts)), counts)
+    place = (numpy.arange(len(owners)) - numpy.repeat(numpy.cumsum(counts) - counts, counts))[:, None]
+    step = ((ends - starts) / counts[:, None])[owners]
+    shapes = shapely('geometry', _WORKS)
+    near = treeOf([shapes.LineString(piece) for piece in
+                   numpy.stack([starts[owners] + place * step, starts[owners] + (place + 1) * step], axis=1)],
+                  'query', _WORKS)
+    found = [near(shapes.box(x - most, y - most, x + most, y + most)) for x, y in starts.tolist()]
+    corners = numpy.repeat(numpy.arange(len(starts)), [len(those) for those in found])
+    every = distances(corners, owners[numpy.concatenate(found).astype(int)])
+    return float(every.min()), tuple(starts[corners[every.argmin()]].tolist())
 
 
 def _words(report, size):

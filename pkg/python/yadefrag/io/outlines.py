@@ -11,7 +11,7 @@ import numpy
 
 from yadefrag import _yadefrag
 from yadefrag.arguments import flag, number, path, positive, refuse, shown, shownPath
-from yadefrag.fe.meshing import simplified
+from yadefrag.fe.simplify import simplified
 from yadefrag.hints import File, Shape
 from yadefrag.io.readers import Found, dxf, leftOutWords, loops, nesting, picture, plain, svg
 from yadefrag.messages import warn

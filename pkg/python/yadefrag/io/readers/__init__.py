@@ -7,11 +7,11 @@ these units, None if none was given. What is read is what the usual viewer shows
 from __future__ import annotations
 
 import collections
-import importlib
 from collections.abc import Iterable, Mapping
 from types import ModuleType
 from typing import NoReturn
 
+from yadefrag import libraries
 from yadefrag.arguments import shownPath
 
 
@@ -40,13 +40,8 @@ def leftOutWords(leftOut: Mapping[str, int]) -> str:
 
 
 def needed(module: str, package: str, file: str) -> ModuleType:
-    """The module of an optional library; ImportError with the name of Debian's package if it is missing."""
-    try:
-        return importlib.import_module(module)
-    except ImportError as error:
-        raise ImportError('%s can be read only with the Python library %s, which is missing '
-                          "(%s): install Debian's package %s." %
-                          (shownPath(file), module, error, package), name=module) from None
+    """The module of an optional library that reads `file`."""
+    return libraries.needed(module, package, shownPath(file) + ' can be read')
 
 
 def refuseFile(file: str, kind: str, error: BaseException) -> NoReturn:
