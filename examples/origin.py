@@ -23,7 +23,7 @@ def commit():
     """Abbreviated hash of the commit, with '-dirty' if sources differ from it; 'unknown' without git."""
     try:
         # Pages and pictures are what scripts write: new ones do not make others dirty.
-        written = [f':(top,exclude)*.{ending}' for ending in ('md', 'png', 'gif')]
+        written = [f':(top,exclude)*.{ending}' for ending in ('md', 'png', 'gif', 'csv')]
         changed = _git('diff', '--name-only', 'HEAD', '--', ':/', *written)
         return _git('rev-parse', '--short', 'HEAD') + '-dirty' * bool(changed)
     except (OSError, subprocess.CalledProcessError):

@@ -11,6 +11,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / 'tests' / 'benchmark'))
 import measured_tables  # noqa: E402
+import validation_table  # noqa: E402
 
 PAGES = sorted((ROOT / 'docs').glob('*.md')) + [ROOT / 'README.md']
 
@@ -58,29 +59,35 @@ class Manual(unittest.TestCase):
             if page.stem != 'index':
                 self.assertIn('\n' + page.stem + '\n', index)
 
-
     def test_noFiguresOfUncommittedSources(self):
-        for page in PAGES + sorted((ROOT / 'examples').rglob('*.md')) + [measured_tables.FILE]:
+        for page in PAGES + sorted((ROOT / 'examples').rglob('*.md')) + sorted(measured_tables.DATA.glob('*.csv')):
             with self.subTest(page=page.name):
                 self.assertNotIn('-dirty', page.read_text())
 
 
-class MeasuredTables(unittest.TestCase):
-    """The README's tables are those that the benchmarks wrote."""
+class Figures(unittest.TestCase):
+    """Each figure has one source, docs/data, from which the pages are filled."""
 
-    def test_theyAreThoseOfTheFile(self):
-        data = measured_tables.load()
-        text = measured_tables.README.read_text().split(measured_tables.MARKS[0])[1]
-        self.assertEqual(text.split(measured_tables.MARKS[1])[0], measured_tables.tables(data))
+    def test_pagesAreThoseOfTheData(self):
+        """Otherwise: python3 tests/benchmark/measured_tables.py"""
+        count = 0
+        for page in measured_tables.pages():
+            text = page.read_text()
+            count += len(measured_tables.TABLE.findall(text)) + len(measured_tables.FIGURE.findall(text))
+            with self.subTest(page=page.name):
+                self.assertEqual(text, measured_tables.filled(text))
+                self.assertEqual(text.count('<!-- table: '), text.count('<!-- end of table -->'))
+                self.assertEqual(text.count('<!-- figure: '), text.count('<!-- end -->'))
+        self.assertGreater(count, 20)
 
-    def test_percentsAreRatiosToTheReference(self):
-        self.assertEqual(measured_tables.percents([1.0217, 1.02, 1.0213]), '+2.0 to +2.2 %')
-        self.assertEqual(measured_tables.percents([.9, .9]), '-10.0 %')
+    def test_whatMissesIsBold(self):
+        rows = {row['against theory']: row['measured'] for row in validation_table.rows()}
+        deepest = next(text for what, text in rows.items() if 'deepest overlap' in what)
+        self.assertTrue(deepest.startswith('**'), deepest)
+
+    def test_numbers(self):
         self.assertEqual(measured_tables.power(6.42e-5), '6.4·10⁻⁵')
-
-    def test_aMissingFigureIsNamed(self):
-        with self.assertRaisesRegex(ValueError, 'p0 over hertz'):
-            measured_tables.used([('HertzContact.Smooth', 'p0_in_MPa', '1')])
+        self.assertEqual(measured_tables.span([1.04, 2.96]), '1.0 to 3.0')
 
 
 if __name__ == '__main__':

@@ -1,14 +1,14 @@
-"""Impact of a steel ball on 20,000 spheres, with YADE's collider and with LebesgueCollider.
+"""Impact of a steel ball on 20,000 spheres, with YADE's engines and with those of yadefrag.
 
     scripts/spheres           sets up, builds and runs this
-    scripts/yade -n -x examples/spheres/spheres.py [--steps 1000] [--seed 1] [--colliders A,B]
+    scripts/yade -n -x examples/spheres/spheres.py [--steps 1000] [--seed 1] [--engines YADE,collider,yadefrag]
 
-The same scene is run once with each collider. Prints a table and checks the contacts; writes
+The same scene is run with each set of engines: collider, interaction loop and integrator. Prints a table and checks the contacts; writes
 out/spheres.png and out/spheres_times.png. Exit status 1 if a contact is missing anywhere.
 
 Expected agreement. In each run, at each check, the contacts must be exactly the pairs of spheres that
 overlap, which NumPy finds without any collider. The two runs have the same contacts as long as their
-trajectories agree. At first these agree to the last digit or nearly so: colliders list the contacts in
+trajectories agree. At first these agree to the last digit or nearly so: the engines visit the contacts in
 different orders, so that the forces on a sphere are summed in different orders, and the rounding
 differs by 1e-16. An impact is chaotic: such differences grow with each collision. A pair may then
 touch in one run and just not in the other; its overlap cannot exceed the difference of the two
@@ -26,12 +26,17 @@ matplotlib.use('Agg')
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 import drawing  # noqa: E402
 import overlaps  # noqa: E402
-import yade.wrapper  # noqa: E402
 from yade import O, utils  # noqa: E402
 from yade.wrapper import (  # noqa: E402
     Bo1_Sphere_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_Sphere_Sphere_ScGeom,
-    Ig2_Wall_Sphere_ScGeom, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
+    Ig2_Wall_Sphere_ScGeom, InsertionSortCollider, InteractionLoop, Ip2_FrictMat_FrictMat_FrictPhys,
     Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator)
+from yadefrag import CurveIntegrator, CurveLoop, LebesgueCollider, inCurveOrder  # noqa: E402
+
+ENGINES = {  # collider, interaction loop, integrator
+    'YADE': (InsertionSortCollider, InteractionLoop, NewtonIntegrator),
+    'collider': (LebesgueCollider, InteractionLoop, NewtonIntegrator),
+    'yadefrag': (LebesgueCollider, CurveLoop, CurveIntegrator)}
 
 RADIUS = 5e-3  # m
 SHAPE = (40, 25, 20)  # spheres along x, y, z: 20,000
@@ -48,9 +53,8 @@ def build(seed):
     O.materials.append(sand)
     O.materials.append(steel)
     centres = bed(seed)
-    # Neighbours in space are neighbours in memory, if yadefrag is there to sort them.
-    order = getattr(sys.modules.get('yadefrag'), 'inCurveOrder', list)
-    for centre in order(centres.tolist()):
+    # Neighbours in space are neighbours in memory.
+    for centre in inCurveOrder(centres.tolist()):
         O.bodies.append(utils.sphere(centre, RADIUS, material='sand', color=(.8, .7, .5)))
     radius = 6 * RADIUS
     top = centres[:, 2].max() + RADIUS
@@ -74,27 +78,27 @@ def bed(seed):
     return centres
 
 
-def run(collider, seed, steps, checks, progress):
-    """Run the scene with this collider class; returns a dict of times, counts and snapshots."""
+def run(name, seed, steps, checks, progress):
+    """Run the scene with these engines; returns a dict of times, counts and snapshots."""
     build(seed)
+    collider, loop, integrator = ENGINES[name]
     O.engines = [
         ForceResetter(),
         collider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], label='collider'),
-        InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
-                        [Ip2_FrictMat_FrictMat_FrictPhys()],
-                        [Law2_ScGeom_FrictPhys_CundallStrack()], label='loop'),
-        NewtonIntegrator(damping=.1, gravity=(0, 0, -9.81)),
+        loop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
+             [Law2_ScGeom_FrictPhys_CundallStrack()], label='loop'),
+        integrator(damping=.1, gravity=(0, 0, -9.81)),
     ]
     O.timingEnabled = True
-    result = dict(name=collider.__name__, seconds=0., snapshots=[])
+    result = dict(name=name, seconds=0., snapshots=[])
     for stop in checks:
         while O.iter < stop - 1:
             result['seconds'] += _timed(min(25, stop - 1 - O.iter))
-            progress(collider.__name__, O.iter)
+            progress(name, O.iter)
         before = overlaps.positions()  # the contacts of the next step belong to these positions
         result['seconds'] += _timed(1)
         result['snapshots'].append(overlaps.snapshot(before))
-    progress(collider.__name__, steps)
+    progress(name, steps)
     result.update(collider=O.engines[1].execTime * 1e-9, loop=O.engines[2].execTime * 1e-9,
                   integrator=O.engines[3].execTime * 1e-9, activations=O.engines[1].execCount,
                   interactions=len(O.interactions), real=O.interactions.countReal())
@@ -108,7 +112,7 @@ def _timed(steps):
 
 
 def table(results):
-    """The comparison as text: a column per collider, and the ratio of the first to the last."""
+    """The comparison as text: a column for each set of engines, and the ratio of the first to the last."""
     rows = [('whole run, s', 'seconds'), ('collider, s', 'collider'),
             ('interaction loop, s', 'loop'), ('integrator, s', 'integrator'),
             ('collider activations', 'activations'), ('potential interactions', 'potential'),
@@ -145,41 +149,23 @@ def progressBar(total):
     return show
 
 
-def findColliders(names):
-    """The classes with these names; unknown names are left out with a message."""
-    try:
-        import yadefrag
-    except ImportError as error:
-        yadefrag = None
-        print(f'yadefrag cannot be imported ({error}): only YADE\'s own colliders are run.')
-    found = []
-    for name in names:
-        collider = getattr(yadefrag, name, None) or getattr(yade.wrapper, name, None)
-        if collider:
-            found.append(collider)
-        elif yadefrag:
-            print(f'There is no collider {name}: left out.')
-    return found
-
-
 def main(arguments):
     """Run, compare, print, draw; returns the exit status."""
     parser = argparse.ArgumentParser(prog='spheres.py', description=__doc__.split('\n')[0])
     parser.add_argument('--steps', type=int, default=1000, help='default: 1000')
     parser.add_argument('--seed', type=int, default=1, help='default: 1')
-    parser.add_argument('--colliders', default='InsertionSortCollider,LebesgueCollider',
-                        help='default: InsertionSortCollider,LebesgueCollider')
+    parser.add_argument('--engines', type=lambda text: text.split(','), default=['YADE', 'yadefrag'],
+                        help=f'some of {",".join(ENGINES)}; default: YADE,yadefrag')
     parser.add_argument('--out', default=OUT, help='folder for the pictures; default: out')
     options = parser.parse_args(arguments)
     if options.steps < 20:
         parser.error(f'--steps is {options.steps}; it must be at least 20')
     checks = [max(2, round(options.steps * share)) for share in CHECKS]
-    colliders = findColliders(options.colliders.split(','))
-    if not colliders:
-        print('There is no collider to run.')
-        return 2
+    unknown = [name for name in options.engines if name not in ENGINES]
+    if unknown:
+        parser.error(f'no engines {unknown[0]!r}; there are {", ".join(ENGINES)}')
     progress = progressBar(options.steps)
-    results = [run(c, options.seed, options.steps, checks, progress) for c in colliders]
+    results = [run(name, options.seed, options.steps, checks, progress) for name in options.engines]
     print(f'\nProjectile into 20,000 spheres, {options.steps} steps of {O.dt:.2g} s\n')
     print(table(results), '\n')
     missing = overlaps.compare(results, checks)

@@ -21,9 +21,8 @@
 
 namespace yadefrag {
 
-/// α. With 0.4 a cantilever of 2, 4, 8 triangles in height bends by 1.02, 1.02, 1.00 of the exact
-/// deflection at ν = 0.3 and by 0.90, 1.00, 1.00 at ν = 0.49 (meshes of `addPolygon`); on regular
-/// grids 4 triangles give 0.93 to 1.01. A larger α is softer on all of them.
+/// α. With 0.4 a cantilever four triangles high bends as by theory, on all meshes and up to ν = 0.49
+/// (dynamics/bending_test.cpp, lib/README.md). A larger α is softer on all of them.
 inline constexpr double kSmoothedShare = .4;
 
 /// F (1), or the stress ∂W/∂(a, b, c, d) (Pa), as a similarity a, b and a distortion c, d.

@@ -2,7 +2,7 @@
 // Traction that an edge transmits at the tip of a notch or a crack. The stress averaged around such
 // a node includes the unloaded material behind the tip, so that by this average an edge would crack
 // far too late: a notched beam with four elements in the cohesive zone would carry 37 to 53 % too
-// much load; with the traction computed here, 2 to 9 %.
+// much load.
 
 #include <span>
 

@@ -3,7 +3,7 @@
 A packing with LebesgueCollider and CurveLoop, one thread: how O.run and O.step, engines in Python, the taking of
 times and energies, and the order of the bodies change the time of a step. Each order of the bodies is a yade of its
 own; everything else takes turns within it, and ratios are formed within a turn. Writes advice.md to out/bench; with
---readme the table goes into docs/measured.md. docs/fast_scripts.md draws the conclusions.
+--readme the table goes into docs/data and the pages. docs/fast_scripts.md draws the conclusions.
 """
 import os
 import statistics
@@ -14,7 +14,6 @@ import colliders
 import measured_tables
 import report
 
-MARKS = ('<!-- advice -->\n', '<!-- end of advice -->')
 BASE = 'O.run'
 
 
@@ -34,18 +33,14 @@ def ratio(above, below):
     return statistics.median(a / b for a, b in zip(above, below))
 
 
-def table(options, runs, about):
-    """Markdown; `runs` are pairs of what the two orders gave."""
+def table(runs):
+    """Rows; `runs` are pairs of what the two orders gave."""
     names = list(runs[0][0])
     together = [{name: [x for run in runs for x in run[order][name]] for name in names} for order in (0, 1)]
     random, curve = together
-    lines = ['| a step | ms | × |', '|---|--:|--:|']
-    for name in names:
-        lines.append(f'| {name} | {measured_tables.digits(statistics.median(random[name]))} | '
-                     f'{ratio(random[name], random[BASE]):.2f} |')
-    lines.append(f'| {BASE}, bodies in the order of the curve | {measured_tables.digits(statistics.median(curve[BASE]))} '
-                 f'| {ratio(curve[BASE], random[BASE]):.2f} |')
-    return '\n'.join(lines) + f'\n\n{options.n:,} spheres, {about}, `scripts/bench advice`.\n'
+    times = {name: random[name] for name in names} | {f'{BASE}, bodies in the order of the curve': curve[BASE]}
+    return [{'a step': name, 'ms': measured_tables.digits(statistics.median(ms)), '×': f'{ratio(ms, random[BASE]):.2f}'}
+            for name, ms in times.items()]
 
 
 def main(arguments):
@@ -56,7 +51,8 @@ def main(arguments):
     parser.add_argument('--repeat', type=int, default=2, help='yades for each order; default: %(default)s')
     options = parser.parse_args(arguments)
     runs = [[measure(options, order) for order in ('random', 'curve')] for _ in range(options.repeat)]
-    measured_tables.publish(options, 'advice', table(options, runs, report.origin.line()), MARKS)
+    measured_tables.publish(options, 'advice', table(runs),
+                            f'{options.n:,} spheres, {report.origin.line()}, `scripts/bench advice`')
 
 
 if __name__ == '__main__':

@@ -13,7 +13,7 @@ middle of the overlap). In the hopper, YADE gives a sphere two contacts where tw
 facets, but planes.
 
 Needs Debian's lammps and liggghts: scripts/setup does not install them. Writes codes.json (raw), codes.md (table)
-and codes.png to out/bench; with --readme the table goes into docs/measured.md.
+and codes.png to out/bench; with --readme the table goes into docs/data and the pages.
 """
 import argparse
 import json
@@ -63,7 +63,7 @@ def parse(arguments):
                         help='codes.json of runs before, of other sizes or scenes, for the same table')
     parser.add_argument('--out', default=os.path.join(colliders.ROOT, 'out', 'bench'))
     parser.add_argument('--yade', default=os.path.join(colliders.ROOT, 'scripts', 'yade'))
-    parser.add_argument('--readme', action='store_true', help='write the table into docs/measured.md')
+    parser.add_argument('--readme', action='store_true', help='write the table into docs/data and the pages')
     return parser.parse_args(arguments)
 
 
@@ -173,8 +173,10 @@ def main(arguments):
     with open(os.path.join(options.out, 'codes.json'), 'w') as out:
         json.dump(dict(machine=machine, steps=options.steps, friction=options.friction, rows=rows), out, indent=1)
     found = summary(rows)
-    about = f'{report.line(machine, "as many used as threads")}, `scripts/bench codes`'
-    measured_tables.publish(options, 'codes', codes_report.table(found, options, about), codes_report.MARKS)
+    runs = 'one run of each' if options.repeat == 1 else f'medians of {options.repeat} runs'
+    about = (f'{report.line(machine, "as many used as threads")}, `scripts/bench codes`; ms, means of {options.steps} steps, {runs}, '
+             f'positions differ by {max(entry["deviation"] for entry in found.values()):.1g} of the displacements at most')
+    measured_tables.publish(options, 'codes', codes_report.rows(found), about)
     codes_report.plot(os.path.join(options.out, 'codes.png'), found, report.line(machine, 'one used'))
 
 

@@ -5,7 +5,6 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 from measured_tables import digits  # noqa: E402
 
-MARKS = ('<!-- codes -->\n', '<!-- end of codes -->')
 NAMES = {'YADE': 'YADE', 'collider': '+ `LebesgueCollider`', 'loop': '+ `CurveLoop`', 'integrator': '+ `CurveLoop`, `CurveIntegrator`',
          'LIGGGHTS': 'LIGGGHTS', 'LAMMPS': 'LAMMPS'}
 PARTS = {'search': '#3d8fb5', 'forces': '#d1495b', 'integration': '#e0a030', 'other': '#bbbbbb'}
@@ -16,29 +15,11 @@ def columns(found):
     return [name for name in NAMES if any(key[3] == name for key in found)]
 
 
-def table(found, options, about):
-    """Markdown: a row for each scene, size and number of threads, a column for each code."""
-    codes = columns(found)
-    lines = ['| scene | spheres | contacts | threads | ' + ' | '.join(NAMES[name] for name in codes) + ' |',
-             '|---|--:|--:|--:|' + '--:|' * len(codes)]
-    for scene, n, threads in dict.fromkeys(key[:3] for key in found):
-        entries = [found.get((scene, n, threads, name)) for name in codes]
-        contacts = int(next(entry['contacts'] for entry in entries if entry))
-        cells = [scene, f'{n:,}', f'{contacts:,}', str(threads), *map(cell, entries)]
-        lines.append('| ' + ' | '.join(cells) + ' |')
-    worst = max(entry['deviation'] for entry in found.values())
-    runs = 'one run of each' if options.repeat == 1 else f'medians of {options.repeat} runs'
-    return '\n'.join(lines) + (f'\n\nMilliseconds per step (search, forces, integration), means of {options.steps} '
-                               f'steps, {runs}; largest difference of positions {worst:.1g} of\n'
-                               f'the displacements. {about}.\n')
-
-
-def cell(entry):
-    """'12 (3, 4, 5)'."""
-    if not entry:
-        return '–'
-    step, *parts = (digits(1e3 * entry[name]) for name in ('step', 'search', 'forces', 'integration'))
-    return f'{step} ({", ".join(parts)})'
+def rows(found):
+    """A row for each scene, size, number of threads and code, ms."""
+    return [{'scene': scene, 'spheres': str(n), 'contacts': str(int(entry['contacts'])), 'threads': str(threads), 'code': name,
+             **{part: digits(1e3 * entry[part]) for part in ('step', 'search', 'forces', 'integration')}}
+            for (scene, n, threads, name), entry in found.items()]
 
 
 def plot(file, found, about):

@@ -175,7 +175,7 @@ def _parse(arguments):
     parser.add_argument('--quick', action='store_true',
                         help='sizes 1000 and 10000, one repeat, 2 s of measured steps')
     parser.add_argument('--readme', action='store_true',
-                        help='write the table of the largest size into README.md')
+                        help='write the table of the largest size into docs/data and the pages')
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('--out', default=os.path.join(ROOT, 'out', 'bench'))
     parser.add_argument('--yade', default=os.path.join(ROOT, 'scripts', 'yade'),

@@ -1,7 +1,6 @@
-"""figures.py TESTS: runs the tests that record figures, and writes these to out/bench/figures.md.
+"""figures.py TESTS: runs the tests that record figures, and writes these to docs/data/figures.csv.
 
-Only suites whose sources record a figure are run. Those in the tables of README.md go there. If a test
-fails, all is left as it is.
+Only suites whose sources record a figure are run. If a test fails, all is left as it is.
 """
 import os
 import pathlib
@@ -16,13 +15,7 @@ sys.path.insert(0, str(ROOT / 'examples'))
 import origin  # noqa: E402
 
 import measured_tables  # noqa: E402
-
-PAGE = ROOT / 'out' / 'bench' / 'figures.md'
-HEAD = '''# Figures
-
-Values that the tests of `lib/` record; the tests, below `tests/`, explain each of them and its tolerance.
-
-'''
+import validation_table  # noqa: E402
 
 
 def suites():
@@ -33,19 +26,11 @@ def suites():
 
 
 def recorded(file):
-    """(test, figure, value) of each figure in GoogleTest's XML."""
+    """A row for each figure in GoogleTest's XML."""
     for case in xml.etree.ElementTree.parse(file).iter('testcase'):
         for figure in case.iter('property'):
-            yield f'{case.get("classname")}.{case.get("name")}', figure.get('name'), figure.get('value')
-
-
-def page(rows, where):
-    """The page, with the name of each test once."""
-    lines, last = ['| test | figure | value |', '|---|---|--:|'], None
-    for test, figure, value in rows:
-        lines.append(f'| {test if test != last else ""} | {figure.replace("_", " ")} | {value} |')
-        last = test
-    return HEAD + '\n'.join(lines) + f'\n\n`scripts/bench figures`: {where}.\n'
+            yield {'test': f'{case.get("classname")}.{case.get("name")}', 'figure': figure.get('name'),
+                   'value': figure.get('value')}
 
 
 def main(tests):
@@ -56,10 +41,9 @@ def main(tests):
         command = [tests, f'--gtest_filter={patterns}', f'--gtest_output=xml:{file}', '--gtest_brief=1']
         subprocess.run(command, check=True)
         rows = list(recorded(file))
-    PAGE.parent.mkdir(parents=True, exist_ok=True)
-    PAGE.write_text(page(rows, where))
-    measured_tables.keep('figures', dict(about=where, values=measured_tables.used(rows)))
-    print(f'{PAGE.relative_to(ROOT)} has {len(rows)} figures.')
+    validation_table.require(rows)
+    measured_tables.write('figures', f'{where}, `scripts/bench figures`', rows)
+    print(f'docs/data/figures.csv has {len(rows)} figures.')
 
 
 if __name__ == '__main__':

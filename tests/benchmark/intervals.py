@@ -5,7 +5,7 @@ of STEPS as `targetInterv`) take turns in each repeat. Shown are collider + inte
 integrator per step, medians over the repeats, and the ratio of the chosen to the best fixed interval.
 The integrator does the same work in all runs of a scene: its time shows how fast the machine is during
 a run, and all times are relative to it. Writes intervals.json and intervals.md to out/bench; with
---readme the table goes into docs/measured.md.
+--readme the table goes into docs/data and the pages.
 """
 import json
 import os
@@ -19,7 +19,6 @@ import report
 STEPS = (3, 5, 10, 20, 40, 80)
 SCENES = ['gas025', 'gas', 'gas4', 'polydisperse025', 'polydisperse', 'polydisperse4', 'packing',
           'clusters', 'insertion']
-MARKS = ('<!-- intervals -->\n', '<!-- end of intervals -->')
 
 
 def measure(options):
@@ -47,16 +46,10 @@ def measure(options):
     return found
 
 
-def table(found, n, about):
-    """Markdown: a row per scene."""
-    lines = ['| scene | ' + ' | '.join(f'{t}' for t in STEPS) + ' | chosen | chosen over the best |',
-             '|---|' + '--:|' * (len(STEPS) + 2)]
-    for scene, times in found.items():
-        best = min(times[t] for t in STEPS)
-        cells = [f'**{1e3 * times[t]:.3g}**' if times[t] == best else f'{1e3 * times[t]:.3g}' for t in STEPS]
-        lines.append(f'| {scene} | ' + ' | '.join(cells)
-                     + f' | {1e3 * times["chosen"]:.3g} | {times["chosen"] / best:.2f} |')
-    return '\n'.join(lines) + f'\n\n{n:,} bodies, ms per step relative to the integrator of the same run, {about}, `scripts/bench intervals`.\n'
+def table(found):
+    """A row per scene."""
+    return [{'scene': scene, **{str(name): f'{1e3 * times[name]:.3g}' for name in (*STEPS, 'chosen')},
+             'chosen over the best': f'{times["chosen"] / min(times[t] for t in STEPS):.2f}'} for scene, times in found.items()]
 
 
 def main(arguments):
@@ -71,7 +64,8 @@ def main(arguments):
     parser.add_argument('--seed', type=int, default=1)
     options = parser.parse_args(arguments)
     found = measure(options)
-    measured_tables.publish(options, 'intervals', table(found, options.n, report.origin.line()), MARKS)
+    about = f'{options.n:,} bodies, ms per step relative to the integrator of the same run, {report.origin.line()}, `scripts/bench intervals`'
+    measured_tables.publish(options, 'intervals', table(found), about)
     with open(os.path.join(options.out, 'intervals.json'), 'w') as file:
         json.dump(found, file, indent=1)
 

@@ -1,190 +1,212 @@
-"""The tables of README.md, from docs/data/measured.json, which the benchmarks write.
+"""Figures of the pages, each from one source: a file in docs/data, which a command writes.
 
-    measured_tables.keep('calculix', value)    stores the figures of one benchmark, and makes the tables anew
+    python3 tests/benchmark/measured_tables.py      fills all pages anew; the benchmarks do so with --readme
 
-`figures` come from `scripts/bench figures`, `colliders` from `scripts/bench colliders --readme`,
-`calculix` from `scripts/bench fe --readme`. Each has `about`: machine, date, commit.
+docs/data/NAME.csv begins with a line '# machine, date, commit, command'. On a page a table stands between
+`<!-- table: NAME -->` and `<!-- end of table -->`, a figure between `<!-- figure: NAME -->` and `<!-- end -->`. TABLES and
+FIGURES below make their text. tests/docs_test.py compares the pages with it.
 """
 import argparse
-import json
+import csv
+import functools
 import pathlib
 import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FILE = ROOT / 'docs' / 'data' / 'measured.json'
-README = ROOT / 'README.md'
-MANUAL = ROOT / 'docs' / 'measured.md'
-SOURCES = ('colliders', 'figures')
-MARKS = ('<!-- measured -->\n', '<!-- end of measured -->')
-RIVAL, OURS = 'InsertionSortCollider', 'LebesgueCollider'
+DATA = ROOT / 'docs' / 'data'
+TABLE = re.compile(r'(<!-- table: (.*?) -->\n).*?(<!-- end of table -->)', re.S)
+FIGURE = re.compile(r'(<!-- figure: (.*?) -->)[^<]*(<!-- end -->)')
 
 
-def keep(key, value):
-    """Store the figures of one benchmark, and make the tables of the README anew if all others are there.
+# --- files ----------------------------------------------------------------------------------------
+def read(name):
+    """(line about it, rows as dicts) of docs/data/NAME.csv."""
+    about, *lines = (DATA / f'{name}.csv').read_text().splitlines()
+    return about.lstrip('# '), list(csv.DictReader(lines))
+
+
+def write(name, about, rows):
+    """Stores rows, dicts with the same keys, and fills the pages anew.
 
     ValueError if the sources differed from the commit: such figures cannot be measured again.
     """
-    if value['about'].endswith('-dirty'):
-        raise ValueError(f'the figures are of sources that are not committed: {value["about"]}')
-    data = load()
-    data[key] = value
-    FILE.write_text(json.dumps(data, indent=1, ensure_ascii=False) + '\n')
-    if all(source in data for source in SOURCES):
-        fill(README, MARKS, tables(data))
+    if '-dirty' in about:
+        raise ValueError(f'the figures are of sources that are not committed: {about}')
+    with open(DATA / f'{name}.csv', 'w', newline='') as file:
+        file.write(f'# {about}\n')
+        out = csv.DictWriter(file, list(rows[0]), lineterminator='\n')
+        out.writeheader()
+        out.writerows(rows)
+    fillPages()
 
 
-def load():
-    """All stored figures."""
-    return json.loads(FILE.read_text()) if FILE.exists() else {}
+def pages():
+    """All pages that may show figures."""
+    return [ROOT / 'README.md', ROOT / 'CONTRIBUTING.md', *sorted((ROOT / 'docs').glob('*.md')),
+            *sorted((ROOT / 'examples').glob('*/README.md')), ROOT / 'lib' / 'README.md', ROOT / 'pkg' / 'README.md']
 
 
-def fill(page, marks, text):
-    """Replace the text between two marks of a page."""
-    whole = page.read_text()
-    if whole.count(marks[0]) != 1 or whole.count(marks[1]) != 1:
-        raise ValueError(f'{page} has no {marks[0].strip()} with {marks[1]}')
-    before, rest = whole.split(marks[0])
-    page.write_text(f'{before}{marks[0]}{text}{marks[1]}{rest.split(marks[1])[1]}')
+def filled(text):
+    """A page with its tables and figures."""
+    text = TABLE.sub(lambda match: match[1] + TABLES[match[2]]() + '\n' + match[3], text)
+    return FIGURE.sub(lambda match: match[1] + FIGURES[match[2]]() + match[3], text)
+
+
+def fillPages():
+    """Write those that change."""
+    for page in pages():
+        text = page.read_text()
+        if filled(text) != text:
+            page.write_text(filled(text))
 
 
 def parser(name, doc):
     """The options of a benchmark `scripts/bench NAME` whose table goes into the manual."""
     found = argparse.ArgumentParser(prog=f'scripts/bench {name}', description=doc,
                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    found.add_argument('--readme', action='store_true', help='write the table into docs/measured.md')
+    found.add_argument('--readme', action='store_true', help='write the table into docs/data and the pages')
     found.add_argument('--out', default=str(ROOT / 'out' / 'bench'))
     found.add_argument('--yade', default=str(ROOT / 'scripts' / 'yade'))
     return found
 
 
-def publish(options, name, text, marks):
-    """Write NAME.md to the folder of the options, print it, and fill it into the manual if requested."""
+def publish(options, name, rows, about):
+    """Write NAME.md to the folder of the options, print it, and store the rows if requested."""
+    text = markdown(rows, about)
     folder = pathlib.Path(options.out)
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / f'{name}.md').write_text(text)
+    (folder / f'{name}.md').write_text(text + '\n')
     print(text)
     if options.readme:
-        fill(MANUAL, marks, text)
+        write(name, about, rows)
 
 
-def tables(data):
-    """The two tables, as Markdown, and the sentence on CalculiX if there are figures of it."""
-    figures = data['figures']
-    parts = [colliderTable(data['colliders']),
-             accuracyTable(figures['values']) + f'\n\n{figures["about"]}; `scripts/bench figures`.']
-    if 'calculix' in data:
-        parts.append(calculixSentence(data['calculix']))
-    return '\n\n'.join(parts) + '\n'
+# --- tables ---------------------------------------------------------------------------------------
+def markdown(rows, about):
+    """A table; columns of numbers are right-aligned."""
+    head = list(rows[0])
+    isNumber = [all(re.match(r'[\d.+−–-]', row[name] or '–') for row in rows) for name in head]
+    lines = ['| ' + ' | '.join(head) + ' |', '|' + '|'.join('--:' if one else '---' for one in isNumber) + '|']
+    lines += ['| ' + ' | '.join(row[name] or '–' for name in head) + ' |' for row in rows]
+    return '\n'.join(lines) + f'\n\n{about[0].upper()}{about[1:]}.'
 
 
-# --- colliders ------------------------------------------------------------------------------------
-SCENES = {  # what the README calls the scenes of scenes.py
-    'gas': 'gas of equal spheres', 'packing': 'dense packing, nearly at rest',
-    'polydisperse': 'gas of spheres, radii 1 : 20', 'polydisperse50': 'gas of spheres, radii 1 : 50'}
+def whole(name):
+    """The table of a file as it is."""
+    about, rows = read(name)
+    return markdown(rows, about)
 
 
-def colliderTable(colliders):
-    """Milliseconds per step with YADE's collider, default and tuned, and with ours."""
-    lines = [f'Milliseconds for a step (collider, interaction loop and integrator) of {colliders["n"]:,} spheres. "Tuned" is YADE\'s',
-             'collider with the best of 15 choices of `verletDist` and `targetInterv` for that scene.', '',
-             '| scene | `InsertionSortCollider` | tuned | `LebesgueCollider` | times faster | than the tuned one |',
-             '|---|--:|--:|--:|--:|--:|']
-    for scene, entry in colliders['scenes'].items():
-        lines.append(f'| {SCENES[scene]} | {digits(entry["default"])} | {digits(entry["tuned"])} | '
-                     f'{digits(entry["ours"])} | {ratio(entry["x"])} | {ratio(entry["t"])} |')
-    return '\n'.join(lines) + f'\n\n{colliders["about"]}; `scripts/bench colliders`.'
+CODES = {'YADE': 'YADE', 'collider': '+ `LebesgueCollider`', 'integrator': '+ `CurveLoop`, `CurveIntegrator`',
+         'LIGGGHTS': 'LIGGGHTS', 'LAMMPS': 'LAMMPS'}
+SCENES = {'gas': 'gas of equal spheres', 'packing': 'dense packing', 'polydisperse': 'gas, radii 1 : 20',
+          'stirred': 'packing that a bar stirs', 'hopper': 'hopper of facets'}
+SIZE = '100000'
 
 
-def colliders(summary, n, about):
-    """What is kept of a summary of report.summarise."""
-    scenes = {}
-    for scene in dict.fromkeys(key[0] for key in summary if key[1] == n):
-        rows = {label: summary.get((scene, n, label), {}) for label in (RIVAL, 'tuned', OURS)}
-        if not all('sumPerStep' in row for row in rows.values()):
-            continue
-        ours = rows[OURS]
-        scenes[scene] = dict(default=1e3 * rows[RIVAL]['sumPerStep'], tuned=1e3 * rows['tuned']['sumPerStep'],
-                             ours=1e3 * ours['sumPerStep'], x=ours['xsumPerStep'], t=ours['tsumPerStep'])
-    return dict(about=about, n=n, scenes=scenes)
+def steps(scene, size=SIZE, threads='1'):
+    """{code: ms per step}."""
+    return {row['code']: float(row['step']) for row in read('codes')[1]
+            if (row['scene'], row['spheres'], row['threads']) == (scene, size, threads)}
 
 
-def manualTable(summary, n, about):
-    """All scenes of a size, for the manual: searches and steps in ms, with ratios."""
-    lines = ['| scene | first search: default → ours | × | later search: default → ours | × | '
-             'step: default, tuned → ours | × default | × tuned |', '|---|--:|--:|--:|--:|--:|--:|--:|']
-    for scene in dict.fromkeys(key[0] for key in summary if key[1] == n):
-        theirs, tuned, ours = (summary.get((scene, n, label), {}) for label in (RIVAL, 'tuned', OURS))
-        if not all('sumPerStep' in row for row in (theirs, ours)):
-            continue
-        ms = [[digits(1e3 * row[key]) for row in (theirs, ours)] for key in ('first', 'perActivation')]
-        step = [digits(1e3 * row['sumPerStep']) if row else '–' for row in (theirs, tuned, ours)]
-        overTuned = f'{ratio(ours["tsumPerStep"])}' if tuned else '–'
-        lines.append(f'| {scene} | {ms[0][0]} → {ms[0][1]} | {ratio(ours["xfirst"])} | '
-                     f'{ms[1][0]} → {ms[1][1]} | {ratio(ours["xperActivation"])} | {step[0]}, {step[1]} → {step[2]} | '
-                     f'{ratio(ours["xsumPerStep"])} | {overTuned} |')
-    return '\n'.join(lines) + f'\n\n{n:,} bodies, {about}, `scripts/bench colliders`.\n'
+def codesInShort():
+    """One line for each scene: ms per step."""
+    about = read('codes')[0]
+    rows = []
+    for scene, name in SCENES.items():
+        ms = steps(scene)
+        rows.append({f'ms per step of {int(SIZE):,} spheres': name, 'YADE': digits(ms['YADE']),
+                     'YADE with our engines': digits(ms['integrator']), 'times faster': f'{ms["YADE"] / ms["integrator"]:.1f}',
+                     'LIGGGHTS': digits(ms['LIGGGHTS']), 'LAMMPS': digits(ms['LAMMPS'])})
+    return markdown(rows, 'one thread, ' + re.sub(r' \(as .*?\)|; .*', '', about))
 
 
-# --- finite elements, fracture --------------------------------------------------------------------
-FIGURES = {  # what the tables need: test and name of figures, as regular expressions
-    'hertz': (r'HertzContact\.(Smooth|Straight)', 'p0 over hertz'),
-    'angular': (r'Collisions/Momentum.*', 'angular over impulse length'),
-    'release': (r'Strip\.CrackRunsAtTheFractureEnergy', 'release .*'),
-    'peak': (r'.*Uniaxial(Mesh)?\..*', 'peak'),
-    'ring': (r'Ring\.PiecesAreAsLargeAsTheory', 'size over theory'),
-    'deepest': (r'Impact\..*', 'deepest triangles in segments'),
+def codes():
+    """All of 100,000 spheres: a step and its parts."""
+    about, stored = read('codes')
+    rows = {}
+    for row in stored:
+        if row['spheres'] == SIZE:
+            line = rows.setdefault((row['scene'], row['threads']), {
+                'scene': row['scene'], 'contacts': f'{int(row["contacts"]):,}', 'threads': row['threads']})
+            line[CODES[row['code']]] = '{step} ({search}, {forces}, {integration})'.format(**row)
+    return markdown(list(rows.values()), f'milliseconds per step of {int(SIZE):,} spheres (search, forces, integration). {about}')
+
+
+def searchesOfColliders():
+    """First and later searches of both colliders."""
+    about, stored = read('colliders')
+    rows = [{'scene': row['scene'],
+             'first search, ms': f'{row["first YADE"]} → {row["first"]}', '×': ratio(float(row['first YADE']) / float(row['first'])),
+             'later search, ms': f'{row["later YADE"]} → {row["later"]}', '× ': ratio(float(row['later YADE']) / float(row['later']))}
+            for row in stored]
+    return markdown(rows, about)
+
+
+def validation():
+    """Tests against theory: what was required and what they recorded."""
+    about, _ = read('figures')
+    import validation_table  # which imports this module
+    return markdown(validation_table.rows(), f'bold: misses what is required. {about}')
+
+
+TIMES = {'plugin': "the plugin's build", 'all': 'build of all', 'impact': '`scripts/impact`', 'spheres': '`scripts/spheres`',
+         'test': '`scripts/test`', 'edit': 'an edit of one source of `lib`, with its test'}
+
+
+def times():
+    """Commands from an empty folder."""
+    about, stored = read('times')
+    rows = [{'from an empty folder': TIMES[row['command']], 'wall, s': row['wall'], 'processor, s': row['processor'], 'R': row['R']}
+            for row in stored]
+    return markdown(rows, about)
+
+
+TABLES = {'codes in short': codesInShort, 'codes': codes, 'searches of colliders': searchesOfColliders, 'times': times,
+          'validation': validation,
+          **{name: functools.partial(whole, name) for name in ('intervals', 'stirred', 'advice', 'mpi', 'sizes', 'cracks', 'bodies')}}
+
+
+# --- figures --------------------------------------------------------------------------------------
+def minutes(command):
+    """'4 minutes' that a command takes."""
+    seconds = float(next(row['wall'] for row in read('times')[1] if row['command'] == command))
+    return f'{max(1, round(seconds / 60))} minutes' if seconds >= 90 else f'{seconds:.0f} s'
+
+
+def gain(*scenes, to='integrator', of='YADE'):
+    """'1.9 to 6.2' times faster, of one thread and 100,000 spheres."""
+    found = sorted(ms[of] / ms[to] for ms in map(steps, scenes))
+    return span(found)
+
+
+def span(found):
+    """'1.9 to 6.2', or one number."""
+    low, high = (f'{value:.1f}' if value < 100 else f'{value:.0f}' for value in (found[0], found[-1]))
+    return low if low == high else f'{low} to {high}'
+
+
+FIGURES = {
+    **{f'minutes of {command}': functools.partial(minutes, command) for command in TIMES},
+    **{f'gain in {scene}': functools.partial(gain, scene) for scene in SCENES},
+    'gain': functools.partial(gain, *SCENES),
+    'gain of the collider': functools.partial(gain, *SCENES, to='collider'),
+    'gain of loop and integrator': functools.partial(gain, *SCENES, of='collider'),
+    'gain of two threads': lambda: span(sorted(steps(scene)['integrator'] / steps(scene, threads='2')['integrator']
+                                               for scene in SCENES)),
+    'over LAMMPS': lambda: span(sorted(steps(scene)['integrator'] / steps(scene)['LAMMPS'] for scene in SCENES)),
+    'gain of searches': lambda: span(sorted(float(row['later YADE']) / float(row['later']) for row in read('colliders')[1])),
+    'gain of tuning': lambda: span(sorted(float(row['step YADE']) / float(row['step tuned'])
+                                          for row in read('colliders')[1] if row['step tuned'])),
+    'chosen intervals': lambda: span(sorted(float(row['chosen over the best']) for row in read('intervals')[1])),
+    'gain of order': lambda: span(sorted(float(row['×']) for row in read('stirred')[1])),
+    **{name: functools.partial(lambda name: next(row['×'] for row in read('advice')[1] if row['a step'] == name), name)
+       for name in ('O.trackEnergy', 'PyRunner, every step, through all bodies', 'PyRunner, every step, utils.kineticEnergy')},
 }
 
 
-def used(rows):
-    """{name: values} of (test, figure, value); ValueError if a figure is missing."""
-    values = {}
-    for name, (test, figure) in FIGURES.items():
-        values[name] = [float(row[2]) for row in rows if re.fullmatch(test, row[0])
-                        and re.fullmatch(figure, row[1].replace('_', ' '))]
-        if not values[name]:
-            raise ValueError(f'no figure {figure!r} of {test!r}')
-    return values
-
-
-def accuracyTable(figures):
-    """Finite elements, contact and fracture against theory."""
-    angular, release, peak, deepest = (figures[name] for name in ('angular', 'release', 'peak', 'deepest'))
-    return '\n'.join([
-        '| finite elements: what is compared | with | deviation |', '|---|---|--:|',
-        '| largest pressure where a cylinder presses on a block, smooth and straight boundaries | formula of Hertz | '
-        f'{percents(figures["hertz"])} |',
-        f'| angular momentum after a collision, relative to its impulse times length; {len(angular)} collisions | '
-        f'conservation | at most {power(max(angular))} |',
-        f'| energy released per area when a crack begins to grow, {number(release)} meshes | fracture energy of the '
-        f'material | {percents(release)} |',
-        f'| load at which a block under compression breaks, {number(peak)} meshes | law of Mohr and Coulomb | '
-        f'{percents(peak)} |',
-        '| mean size of the fragments of a ring that expands at 10⁴ per second | formula of Zhou, Molinari and Ramesh '
-        f'(2006) | {percents(figures["ring"])} |',
-        f'| deepest overlap of two triangles, relative to the shortest side; {number(deepest)} impacts with fragments | '
-        f'none | at most {power(max(deepest))} |'])
-
-
-def calculixSentence(calculix):
-    """One step of an elastic impact beside CalculiX."""
-    return (f'A step of an elastic impact with {calculix["triangles"]:,} triangles takes {calculix["ours"]:.2g} ms, '
-            f'with CalculiX\' explicit solver\n{calculix["theirs"]:.2g} ms, and {calculix["dtRatio"]:.2g} times as many '
-            f'steps. ({calculix["about"]}; `scripts/bench fe`.)')
-
-
-def percents(ratios):
-    """'+1.2 to +3.4 %' of ratios to a reference."""
-    low, high = (f'{100 * (ratio - 1):+.1f}' for ratio in (min(ratios), max(ratios)))
-    return f'{low} %' if low == high else f'{low} to {high} %'
-
-
-def number(values):
-    """A small count in words."""
-    words = 'no one two three four five six seven eight nine ten eleven twelve'.split()
-    return words[len(values)] if len(values) < len(words) else str(len(values))
-
-
+# --- numbers --------------------------------------------------------------------------------------
 def power(value):
     """'6.4·10⁻⁵'."""
     first, exponent = f'{value:.1e}'.split('e')
@@ -200,3 +222,7 @@ def ratio(value):
 def digits(value):
     """Three digits."""
     return f'{value:.0f}' if abs(value) >= 100 else f'{value:.3g}'
+
+
+if __name__ == '__main__':
+    fillPages()

@@ -38,9 +38,7 @@ def write(folder, rows, grids, options):
     plots(folder, summary, machine)
     if options.readme:
         n = max(key[1] for key in summary)
-        measured_tables.keep('colliders', measured_tables.colliders(summary, n, line(machine)))
-        measured_tables.fill(measured_tables.MANUAL, ('<!-- colliders -->\n', '<!-- end of colliders -->'),
-                             measured_tables.manualTable(summary, n, line(machine)))
+        measured_tables.write('colliders', f'{n:,} bodies, {line(machine)}, `scripts/bench colliders`; ms', inShort(summary, n))
     print(text)
     print('written to', folder)
 
@@ -66,6 +64,20 @@ def summarise(rows):
                 entry[prefix + key] = statistics.median(pairs) if pairs else None
         summary[scene, n, label] = entry
     return summary
+
+
+def inShort(summary, n):
+    """Searches and steps of a size, ms: YADE's collider, tuned, and ours."""
+    rows = []
+    for scene in dict.fromkeys(key[0] for key in summary if key[1] == n):
+        theirs, tuned, ours = (summary.get((scene, n, label), {}) for label in (RIVAL, 'tuned', 'LebesgueCollider'))
+        if 'sumPerStep' in theirs and 'sumPerStep' in ours:
+            ms = lambda row, key: _digits(1e3 * row[key]) if key in row else ''  # noqa: E731
+            rows.append({'scene': scene, 'first YADE': ms(theirs, 'first'), 'first': ms(ours, 'first'),
+                         'later YADE': ms(theirs, 'perActivation'), 'later': ms(ours, 'perActivation'),
+                         'step YADE': ms(theirs, 'sumPerStep'), 'step tuned': ms(tuned, 'sumPerStep'),
+                         'step': ms(ours, 'sumPerStep')})
+    return rows
 
 
 def machineOf(rows):

@@ -4,8 +4,8 @@ A block of n spheres, as the scene `packing`: its outermost spheres are fixed, a
 its middle turns, so that its ends move by .005 radii per step. One run with spheres created in the order
 of the curve, one in random order, each in a yade of its own, with LebesgueCollider and one thread; with CurveLoop and
 CurveIntegrator, or (--loop InteractionLoop) YADE's loop and integrator. Shown is the loop per step: in the first
-hundredth of the run, then in parts of it. Writes stirred.md to out/bench; with --readme the table goes into
-docs/measured.md.
+hundredth of the run, then in parts of it. Writes stirred.md to out/bench; with --readme the table goes into docs/data and the
+pages.
 """
 import json
 import os
@@ -18,7 +18,6 @@ import report
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 ORDERS = ('curve', 'random')
 PARTS = 5
-MARKS = ('<!-- stirred -->\n', '<!-- end of stirred -->')
 
 
 def measure(options, order):
@@ -32,14 +31,11 @@ def measure(options, order):
     return json.loads(rows[0])
 
 
-def table(runs, options, about):
-    """Markdown: a row per part of the run."""
-    lines = ['| steps | contacts | order of the curve | random order | × |', '|--:|--:|--:|--:|--:|']
-    for curve, random in zip(runs['curve'], runs['random']):
-        lines.append(f'| {curve["end"]:,} | {curve["real"]:,} | {curve["loop"]:.3g} | {random["loop"]:.3g} '
-                     f'| {random["loop"] / curve["loop"]:.2f} |')
-    return '\n'.join(lines) + (f'\n\n{options.n:,} spheres, ms of `{options.loop}` per step, {about}, '
-                               '`scripts/bench stirred`.\n')
+def table(runs):
+    """A row per part of the run."""
+    return [{'steps': f'{curve["end"]:,}', 'contacts': f'{curve["real"]:,}', 'order of the curve': f'{curve["loop"]:.3g}',
+             'random order': f'{random["loop"]:.3g}', '×': f'{random["loop"] / curve["loop"]:.2f}'}
+            for curve, random in zip(runs['curve'], runs['random'])]
 
 
 def main(arguments):
@@ -52,7 +48,8 @@ def main(arguments):
     if options.steps < 100:
         parser.error(f'--steps is {options.steps}; it must be at least 100.')
     runs = {order: measure(options, order) for order in ORDERS}
-    measured_tables.publish(options, 'stirred', table(runs, options, report.origin.line()), MARKS)
+    about = f'{options.n:,} spheres, ms of `{options.loop}` per step, {report.origin.line()}, `scripts/bench stirred`'
+    measured_tables.publish(options, 'stirred', table(runs), about)
 
 
 if __name__ == '__main__':
