@@ -79,8 +79,6 @@ MAKERS = (
             rows=('ripple, straight', 'ripple, smooth', 'straight / smooth')),
     example('spheres', table=False),
     *map(small, ('column', 'bending', 'drum', 'blast', 'glass', 'spheres_on_beam', 'crusher', 'monte_carlo')),
-    Maker('search', 'figure14', ('search.png',),
-          'scripts/bench search --sizes 1000,10000,100000 --threads 1 --most 6 --out {out}', table=False, timed=True),
     Maker('codes', 'spheres', ('codes.png',), 'scripts/bench codes --out {out}', table=False, timed=True),
     Maker('figure14', 'figure14', ('figure14.png',), 'scripts/bench figure14 --out {out}', table=False, timed=True),
     Maker('tradeoff', 'tradeoff',

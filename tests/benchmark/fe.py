@@ -16,7 +16,6 @@ import subprocess
 import sys
 
 import fe_ccx
-import measured_tables
 import report
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -32,7 +31,7 @@ def main(arguments):
     steps = _bench(options, '^step')
     contact = _bench(options, '^contact/')
     machine = report._machine([])
-    calculix, figures = fe_ccx.compare(options.program, 10, options.repeat)
+    calculix, _ = fe_ccx.compare(options.program, 10, options.repeat)
     text = '\n'.join(
         ['# Finite elements', '', _line(machine) + f'; medians of {options.repeat} runs.', '']
         + stepTable(steps) + [''] + contactTable(contact) + [''] + blockTable(contact)
@@ -42,8 +41,6 @@ def main(arguments):
         json.dump(dict(machine=machine, repeat=options.repeat, rows=steps + contact), f, indent=1)
     with open(os.path.join(options.out, 'fe.md'), 'w') as f:
         f.write(text + '\n')
-    if options.readme and figures:
-        measured_tables.keep('calculix', dict(figures, about=_line(machine)))
     print(text)
     print('written to', options.out)
 
@@ -56,7 +53,6 @@ def _parse(arguments):
     parser = argparse.ArgumentParser(description='Times of finite-element bodies.')
     parser.add_argument('--repeat', type=int, default=5, help='runs of each')
     parser.add_argument('--out', default=os.path.join(ROOT, 'out', 'bench'))
-    parser.add_argument('--readme', action='store_true', help='write the row of CalculiX into README.md')
     parser.add_argument('--program',
                         default=os.path.join(ROOT, 'build', 'release', 'tests', 'yadefrag_bench'))
     return parser.parse_args(arguments)

@@ -14,8 +14,7 @@ see the same boxes and have to find the same pairs:
                                       libbullet-dev and libbox2d-dev are installed
 
 Times are processor time in ms, elapsed time with several threads: the first search of all, and the
-least of a few later ones. Writes search.json, search.md and search.png to out/bench; with --readme
-the table also goes into docs/measured.md.
+least of a few later ones. Writes search.json, search.md and search.png to out/bench.
 """
 import argparse
 import json
@@ -29,10 +28,8 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(ROOT, 'examples'))
 import origin  # noqa: E402
 
-import measured_tables  # noqa: E402
 
 SCENES = ['uniform', 'few move', 'clusters', 'sizes', 'slivers']
-MARKS = ('<!-- searches -->\n', '<!-- end of searches -->')
 
 
 def measure(options):
@@ -110,7 +107,7 @@ def plot(rows, file):
 
 
 def report(rows, options):
-    """Write search.json, search.md, search.png and, if requested, the manual's table."""
+    """Write search.json, search.md, search.png."""
     os.makedirs(options.out, exist_ok=True)
     with open(os.path.join(options.out, 'search.json'), 'w') as file:
         json.dump(rows, file, indent=1)
@@ -120,12 +117,6 @@ def report(rows, options):
     with open(os.path.join(options.out, 'search.md'), 'w') as file:
         file.write('\n\n'.join(parts) + '\n')
     plot([r for r in rows if r['threads'] == 1], os.path.join(options.out, 'search.png'))
-    if options.readme:
-        n = 100000 if 100000 in options.sizes else options.sizes[-1]
-        measured_tables.fill(measured_tables.MANUAL, MARKS,
-                    f'Milliseconds for {n:,} boxes, one thread: the first search of all; a later '
-                    f'one, after boxes have moved by up to a tenth of their sides ({about}).\n\n'
-                    + table(rows, n, 1) + '\n')
 
 
 def main(arguments):
@@ -138,7 +129,6 @@ def main(arguments):
     parser.add_argument('--sizes', type=whole, default=[1000, 10000, 100000, 1000000])
     parser.add_argument('--threads', type=whole, default=[1, 2])
     parser.add_argument('--most', type=float, default=20., help='s per method; default: 20')
-    parser.add_argument('--readme', action='store_true', help='write the table into docs/measured.md')
     parser.add_argument('--out', default=os.path.join(ROOT, 'out', 'bench'))
     parser.add_argument('--program', help='default: build/release/tests/yadefrag_rivals',
                         default=os.path.join(ROOT, 'build', 'release', 'tests', 'yadefrag_rivals'))
