@@ -1,7 +1,7 @@
 // Errors in a step: finds the element or node that causes them, and restores the state before the
 // step.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

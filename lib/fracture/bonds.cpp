@@ -1,6 +1,6 @@
 #include "fracture/bonds.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <string>

@@ -1,6 +1,6 @@
 #include "mesh/failure_law.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

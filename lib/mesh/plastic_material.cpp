@@ -1,6 +1,6 @@
 #include "mesh/plastic_material.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

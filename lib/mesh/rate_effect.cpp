@@ -1,6 +1,5 @@
 #include "mesh/rate_effect.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>

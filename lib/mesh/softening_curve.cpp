@@ -1,6 +1,5 @@
 #include "mesh/softening_curve.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>

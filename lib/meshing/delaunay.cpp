@@ -1,6 +1,6 @@
 #include "meshing/delaunay.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,6 +1,6 @@
 #include "meshing/divided_boundary.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "meshing/structured.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string>
 

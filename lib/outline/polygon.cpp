@@ -1,6 +1,6 @@
 #include "outline/polygon.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>

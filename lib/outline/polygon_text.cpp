@@ -1,6 +1,6 @@
 #include "outline/polygon_text.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "outline/snap.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

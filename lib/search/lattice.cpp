@@ -1,6 +1,6 @@
 #include "search/lattice.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "step/energy_watch.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

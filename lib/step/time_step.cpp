@@ -1,6 +1,6 @@
 // One step of all bodies, in the order of the paper (§2, §4, §5).
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 // World: prescribed motion.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Refuses bodies and steps for which contact could be missed or wrong: bodies that overlap
 // initially, or displacements that are too large.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "collider/error_messages.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include "entries/entry_bodies.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

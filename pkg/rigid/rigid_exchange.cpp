@@ -1,6 +1,6 @@
 // Rigid boundaries: a step takes velocities and inertia from YADE's bodies, and gives them forces.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <map>
