@@ -68,9 +68,8 @@ class SearchCollider : public yade::Collider {
   [[nodiscard]] bool strideActive() const { return strideActive_; }
   [[nodiscard]] bool periodic() const { return periodic_; }
 
-  static constexpr auto attributes();
-  template <class PyClass>
-  static void pyExtra(PyClass& pyClass);
+  static Attributes attributes();
+  static void pyExtra(const yade::py::object& pyClass);
 
  private:
   void searchAll(int threads);
@@ -204,5 +203,3 @@ double SearchCollider::keepNear(int threads, Bodies searchedOf) {
 }
 
 }  // namespace yadefrag
-
-#include "collider/attributes.hpp"

@@ -11,10 +11,8 @@
 
 #include <vector>
 
-#include <boost/serialization/nvp.hpp>
-#include <boost/serialization/vector.hpp>
-
 #include "entries/entry_bodies.hpp"
+#include "publish/any_archive.hpp"
 
 namespace yadefrag {
 
@@ -31,10 +29,9 @@ class CrackContacts {
   void follow(const yade::Scene& scene, const World& world, const EntryBodies& bodies);
   void clear() { spheres_.clear(), pieces_.clear(); }
 
-  template <class Archive>
-  void archive(Archive& archive) {
-    archive& boost::serialization::make_nvp("crackSpheres", spheres_);
-    archive& boost::serialization::make_nvp("crackPieces", pieces_);
+  void archive(AnyArchive& archive) {
+    archive.item("crackSpheres", spheres_);
+    archive.item("crackPieces", pieces_);
   }
 
  private:

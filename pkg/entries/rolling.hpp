@@ -6,12 +6,9 @@
 
 #include <vector>
 
-#include <boost/serialization/nvp.hpp>
-#include <boost/serialization/vector.hpp>
-
 #include "abi/yade.hpp"
-#include "core/errors.hpp"
 #include "entries/entry_bodies.hpp"
+#include "publish/any_archive.hpp"
 
 namespace yadefrag {
 
@@ -24,8 +21,7 @@ class RollingSpheres {
              bool fromNextStep);
   void clear() { held_.clear(); }
 
-  template <class Archive>
-  void archive(Archive& archive);
+  void archive(AnyArchive& archive);
 
  private:
   /// A contact at the end of the last step.
@@ -45,28 +41,5 @@ class RollingSpheres {
 
   std::vector<Held> held_;  // by sphere, then piece
 };
-
-template <class Archive>
-void RollingSpheres::archive(Archive& archive) {
-  std::vector<int> ids;
-  std::vector<double> values;
-  for (const Held& held : held_) {
-    ids.insert(ids.end(), {held.sphere, held.piece});
-    values.insert(values.end(), {held.shear, held.normal, held.direction.x, held.direction.y});
-  }
-  archive& boost::serialization::make_nvp("rollingIds", ids);
-  archive& boost::serialization::make_nvp("rollingForces", values);
-  if constexpr (Archive::is_loading::value) {
-    if (values.size() != 2 * ids.size() || ids.size() % 2 != 0)
-      throw InputError(
-          "The saved state of FESolver is damaged (its contacts with spheres are invalid); load "
-          "another save.");
-    held_.clear();
-    for (std::size_t i = 0; 2 * i < ids.size(); ++i) {
-      const double* value = values.data() + 4 * i;
-      held_.push_back({ids[2 * i], ids[2 * i + 1], value[0], value[1], {value[2], value[3]}});
-    }
-  }
-}
 
 }  // namespace yadefrag

@@ -16,7 +16,7 @@ class Bo1_SurfaceSegment_Aabb final
       "Computes the bound of a SurfaceSegment: the box of the segment, or of the arc's control "
       "points, "
       "enlarged by `halo` on every side (also along z).";
-  static constexpr auto attributes() { return std::tuple(); }
+  static Attributes attributes() { return {}; }
 
   void go(const yade::shared_ptr<yade::Shape>& shape, yade::shared_ptr<yade::Bound>& bound,
           const yade::Se3r& se3, const yade::Body* body) override;
@@ -33,7 +33,7 @@ class Ig2_Sphere_SurfaceSegment_ScGeom final
       "sphere's radius, so that a flat one is as stiff as a Wall. Along a chain of segments "
       "every point belongs to one of them: no double force at "
       "a flat or convex junction, two forces in a concave corner.";
-  static constexpr auto attributes() { return std::tuple(); }
+  static Attributes attributes() { return {}; }
 
   bool go(const yade::shared_ptr<yade::Shape>& sphere, const yade::shared_ptr<yade::Shape>& segment,
           const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2,

@@ -4,11 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include <boost/serialization/nvp.hpp>
-#include <boost/serialization/vector.hpp>
-
 #include "abi/yade.hpp"
-#include "core/errors.hpp"
 #include "publish/indexed.hpp"
 #include "publish/published.hpp"
 #include "surface/contact_surface.hpp"
@@ -57,57 +53,8 @@ class SurfaceSegment final
   /// tolerated decreases with the overlap.
   double depthForLaw(yade::Body::id_t sphere, double depth);
 
-  static constexpr auto attributes();
-  template <class Archive>
-  void archiveMore(Archive& archive);
+  static Attributes attributes();
+  void archiveMore(AnyArchive& archive);
 };
-
-template <class Archive>
-void SurfaceSegment::archiveMore(Archive& archive) {
-  std::vector<int> spheres;
-  std::vector<double> values;
-  for (const Changed& one : changed) {
-    spheres.push_back(one.sphere);
-    values.insert(values.end(), {one.share, one.tolerated});
-  }
-  archive& boost::serialization::make_nvp("changedIds", spheres);
-  archive& boost::serialization::make_nvp("changedContacts", values);
-  if constexpr (Archive::is_loading::value) {
-    if (values.size() != 2 * spheres.size())
-      throw InputError(
-          "The saved state of a SurfaceSegment is damaged (its contacts with spheres are invalid); "
-          "load another save.");
-    changed.clear();
-    for (std::size_t i = 0; i < spheres.size(); ++i)
-      changed.push_back({spheres[i], values[2 * i], values[2 * i + 1]});
-  }
-}
-
-constexpr auto SurfaceSegment::attributes() {
-  using C = SurfaceSegment;
-  return std::tuple(
-      attribute("start", &C::start, "Begin of the piece (m)."),
-      attribute("end", &C::end, "End of the piece (m)."),
-      attribute("middle", &C::middle,
-                "Of an arc: its central node (m), at which the tangents of its two ends "
-                "meet."),
-      attribute("before", &C::before,
-                "Direction (unit vector) of the previous piece at `start`; zero: "
-                "there is none, `start` is a free end."),
-      attribute("after", &C::after,
-                "Direction (unit vector) of the next piece at `end`; zero: "
-                "there is none."),
-      attribute("kind", &C::kind,
-                "0: a segment between two nodes, 1 and 2: its first and second half, 3: an arc "
-                "around a node."),
-      attribute(
-          "halo", &C::halo,
-          "Length (m) by which the bound is larger than the piece, on every side: the distance "
-          "that the piece may move before the next search."),
-      attribute("entry", &C::entry, "Number of the surface entry in its FESolver; -1: none."),
-      attribute("component", &C::component, "Number of the finite-element body; -1: none."),
-      attribute("selfContact", &C::selfContact,
-                "True if this piece may touch other pieces of its own body."));
-}
 
 }  // namespace yadefrag

@@ -2,9 +2,6 @@
 // Columns of plain numbers in YADE's archives, with a checksum of all values. Damaged lengths are
 // refused before memory is needed for them.
 
-#include <boost/serialization/array_wrapper.hpp>
-#include <boost/serialization/nvp.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -16,6 +13,7 @@
 
 #include "core/checksum.hpp"
 #include "core/errors.hpp"
+#include "publish/any_archive.hpp"
 #include "step/world.hpp"
 
 namespace yadefrag {
@@ -40,12 +38,13 @@ struct ScalarOf<Id<Tag>> {
 template <class T, std::size_t kCount>
 struct ScalarOf<std::array<T, kCount>> : ScalarOf<T> {};
 
-template <class Archive>
 class ColumnArchive {
  public:
-  explicit ColumnArchive(Archive& archive) : archive_(archive) {}
+  explicit ColumnArchive(AnyArchive& archive) : archive_(archive) {}
 
  protected:
+  [[nodiscard]] bool isLoading() const { return archive_.isLoading(); }
+
   /// (count) A damaged length must not exhaust the memory: values are read in parts of this size,
   /// and the archive ends before the memory is full.
   static constexpr std::uint64_t kPart = 1 << 16;
@@ -58,7 +57,7 @@ class ColumnArchive {
   /// Of all values so far: false if the stored one is another.
   bool checksum() {
     std::uint64_t stored = sum_.value();
-    archive_& boost::serialization::make_nvp("checksum", stored);
+    archive_.item("checksum", stored);
     return stored == sum_.value();
   }
 
@@ -69,7 +68,7 @@ class ColumnArchive {
       text.push_back('\n');
     }
     value(name, text);
-    if constexpr (Archive::is_loading::value) {
+    if (isLoading()) {
       all.clear();
       std::istringstream lines(std::string(text.begin(), text.end()));
       for (std::string line; std::getline(lines, line);) all.push_back(line);
@@ -79,7 +78,7 @@ class ColumnArchive {
   template <class Value>
   void value(const char* name, Value& value) {
     static_assert(std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>);
-    archive_& boost::serialization::make_nvp(name, value);
+    archive_.item(name, value);
     sum_.add(&value, sizeof value);
   }
   /// In a damaged file a bool could have any value.
@@ -92,12 +91,11 @@ class ColumnArchive {
   void value(const char* name, std::vector<Scalar>& values) {
     std::uint64_t count = values.size();
     value("count", count);
-    if constexpr (Archive::is_loading::value) values.clear();
+    if (isLoading()) values.clear();
     for (std::uint64_t begin = 0; begin < count; begin += kPart) {
       const std::uint64_t size = std::min(kPart, count - begin);
-      if constexpr (Archive::is_loading::value) values.resize(begin + size);
-      const auto part = boost::serialization::make_array(values.data() + begin, size);
-      archive_& boost::serialization::make_nvp(name, part);
+      if (isLoading()) values.resize(begin + size);
+      archive_.numbers(name, values.data() + begin, size);
     }
     if (count > 0) sum_.add(values.data(), count * sizeof(Scalar));
   }
@@ -160,7 +158,7 @@ class ColumnArchive {
       points.insert(points.end(), own.begin(), own.end());
     }
     value(countsName, counts), numbers<double>(pointsName, points);
-    if constexpr (Archive::is_loading::value) {
+    if (isLoading()) {
       std::size_t at = 0;
       if (counts.size() != rows.size()) refuse(std::string(countsName) + " has a wrong length");
       for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -187,7 +185,7 @@ class ColumnArchive {
   void table(const char* name, TimeTable& table) {
     std::vector<double> times = table.times(), values = table.values();
     value(name, times), value(name, values);
-    if constexpr (Archive::is_loading::value) {
+    if (isLoading()) {
       if (!times.empty() || !values.empty())
         if (!TimeTable::isValid(times, values)) refuse(std::string(name) + " is invalid");
       table = TimeTable(std::move(times), std::move(values));
@@ -195,7 +193,7 @@ class ColumnArchive {
   }
 
  private:
-  Archive& archive_;
+  AnyArchive& archive_;
   Checksum sum_;
 };
 

@@ -1,6 +1,6 @@
 // The settings of FESolver: their limits, and their way into the world.
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <omp.h>
 
@@ -108,6 +108,85 @@ void FESolver::giveSettings() {
 int FESolver::threadsToUse() const {
   const int most = omp_get_max_threads();
   return ompThreads > 0 ? std::min(ompThreads, most) : most;
+}
+
+Attributes FESolver::contactAttributes() {
+  using C = FESolver;
+  using yade::Attr::triggerPostLoad;
+  return attributeList(
+      attribute("correction", &C::correction,
+                "'lagrange': contact by forces that just prevent interpenetration. 'penalty' is "
+                "accepted for scripts of earlier versions, and has no effect.",
+                triggerPostLoad),
+      attribute("entry", &C::entry,
+                "'path': a point becomes active on a surface that its path in the step crosses. "
+                "'flags' is accepted for scripts of earlier versions, and has no effect.",
+                triggerPostLoad),
+      attribute("passes", &C::passes,
+                "1: of two surfaces the points of the finer one and the sharp corners of the other "
+                "must not "
+                "penetrate; 2: the points of both. Where a body can crack, it is 2 in any case.",
+                triggerPostLoad),
+      attribute("penaltyFactor", &C::penaltyFactor,
+                "Accepted for scripts of earlier versions, above 0 and at most 1; no effect.",
+                triggerPostLoad),
+      attribute(
+          "halo", &C::halo,
+          "Width of the strip around a boundary in which contact is expected, relative to the "
+          "shortest segment, at most 0.5; 0: as wide as the bodies' speed requires. Results "
+          "do not depend on it, but the number of searches does.",
+          triggerPostLoad));
+}
+
+Attributes FESolver::attributes() {
+  using C = FESolver;
+  using yade::Attr::triggerPostLoad;
+  const Attributes others = attributeList(
+      attribute("damping", &C::damping, "Mass-proportional damping (1/s).", triggerPostLoad),
+      attribute("gravity", &C::gravity,
+                "Acceleration of all bodies of this engine (m/s²), a pair, or three numbers with "
+                "z = 0. Until it is set, that of a NewtonIntegrator in O.engines is used.",
+                triggerPostLoad),
+      attribute("takesGravity", &C::takesGravity,
+                "As long as `gravity` is zero, use x and y of NewtonIntegrator's gravity. "
+                "Setting `gravity` sets this to False; setting this to True undoes that."),
+      attribute("linearViscosity", &C::linearViscosity,
+                "Coefficient of the linear bulk viscosity; 0: none, .06 is usual.",
+                triggerPostLoad),
+      attribute("quadraticViscosity", &C::quadraticViscosity,
+                "Coefficient of the quadratic bulk viscosity, in compression; 0: none, 1.2 is "
+                "usual.",
+                triggerPostLoad),
+      attribute("maxCracks", &C::maxCracks,
+                "Maximum total number of edges that crack; -1: no limit.", triggerPostLoad),
+      attribute("minFragmentArea", &C::minFragmentArea,
+                "Detached fragments with a smaller area (m², stress-free) are removed from "
+                "the scene, and counted in `dropped`, except held ones. 0: none is removed.",
+                triggerPostLoad),
+      attribute("energyFromSpheres", &C::energyFromSpheres,
+                "0, for scripts of earlier versions: contacts with faces of cracks begin without a "
+                "force, in any "
+                "order of O.engines.",
+                yade::Attr::readonly),
+      attribute("rigidBodies", &C::rigidBodies,
+                "Contact with YADE's Wall, Box and Facet, also in clumps: their sections "
+                "with the plane z = 0, rigid, with the friction of their FrictMat. They move as "
+                "YADE moves them, and get the forces of contact (O.forces.f, O.forces.t)."),
+      attribute("view", &C::view,
+                "Meaning of the bodies' colours in YADE's 3D view: 'component', 'fragment', or "
+                "'mises', from blue at 0 to red at the largest.",
+                triggerPostLoad));
+  return joined({contactAttributes(), others});
+}
+
+void FESolver::archiveMore(AnyArchive& archive) {
+  std::vector<yade::Body::id_t> ids = bodies_.ids();
+  archiveWorld(archive, world_, ids);
+  rigid_.archive(archive, world_);
+  rolling_.archive(archive);
+  crackContacts_.archive(archive);
+  balance_.archive(archive);
+  if (archive.isLoading()) bodies_.restore(std::move(ids));
 }
 
 }  // namespace yadefrag

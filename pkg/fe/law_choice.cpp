@@ -4,6 +4,7 @@
 
 #include "abi/yade.hpp"
 #include "core/errors.hpp"
+#include "publish/value_kind.hpp"
 
 namespace yadefrag {
 namespace {
@@ -106,6 +107,10 @@ HardeningChoice::Table HardeningChoice::law() const {
   if (const std::string wrong = material.wrong(); !wrong.empty()) throw InputError(wrong);
   return material.table;
 }
+
+template const ValueKind& kindOf<SofteningChoice>();
+template const ValueKind& kindOf<RateChoice>();
+template const ValueKind& kindOf<HardeningChoice>();
 
 void convertLaws() {
   convertLaw<SofteningChoice>();

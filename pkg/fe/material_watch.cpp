@@ -1,9 +1,7 @@
 #include "fe/material_watch.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
-#include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include "fe/plastic_materials.hpp"
@@ -13,13 +11,10 @@ namespace {
 
 using Values = std::vector<std::pair<const char*, double>>;
 
-template <class Material, class Attributes>
-void add(Values& all, const Material& material, const Attributes& attributes) {
-  const auto addOne = [&](const auto& one) {
-    if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(material.*one.member)>>)
-      all.emplace_back(one.name, static_cast<double>(material.*one.member));
-  };
-  std::apply([&](const auto&... each) { (addOne(each), ...); }, attributes);
+void add(Values& all, const FEMat& material, const Attributes& attributes) {
+  for (const Attribute& one : attributes)
+    if (one.kind->number != nullptr)
+      all.emplace_back(one.name, one.kind->number(one.slot(material)));
 }
 
 Values valuesOf(const FEMat& material) {
@@ -28,12 +23,12 @@ Values valuesOf(const FEMat& material) {
                 {"density", material.density},
                 {"frictionAngle", material.frictionAngle}};
   add(all, material, FEMat::attributes());
-  if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(&material))
-    add(all, *brittle, BrittleFEMat::attributes());
-  if (const auto* plastic = dynamic_cast<const PlasticFEMat*>(&material))
-    add(all, *plastic, PlasticFEMat::attributes());
-  if (const auto* frictional = dynamic_cast<const FrictionalFEMat*>(&material))
-    add(all, *frictional, FrictionalFEMat::attributes());
+  const auto addIf = [&]<class Kind>(const Kind* /*kind*/) {
+    if (dynamic_cast<const Kind*>(&material) != nullptr) add(all, material, Kind::attributes());
+  };
+  addIf(static_cast<const BrittleFEMat*>(nullptr));
+  addIf(static_cast<const PlasticFEMat*>(nullptr));
+  addIf(static_cast<const FrictionalFEMat*>(nullptr));
   return all;
 }
 

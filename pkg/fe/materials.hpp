@@ -22,8 +22,8 @@ class FEMat : public Published<FEMat, Indexed<FEMat, yade::FrictMat>, yade::Fric
 
   bool planeStress = false;
 
-  static constexpr auto attributes() {
-    return std::tuple(
+  static Attributes attributes() {
+    return attributeList(
         attribute("planeStress", &FEMat::planeStress,
                   "Plane stress (thin plate, free to change its thickness) instead of "
                   "plane strain (held at both faces)."));
@@ -48,16 +48,13 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
   RateChoice rateEffect;
   double rateEnergyPower = 1;
 
-  template <class PyClass>
-  static void pyExtra(PyClass& /*pyClass*/) {
-    convertLaws();
-  }
+  static void pyExtra(const yade::py::object& /*pyClass*/) { convertLaws(); }
 
  private:
   using C = BrittleFEMat;
 
-  static constexpr auto ofStrength() {
-    return std::tuple(
+  static Attributes ofStrength() {
+    return attributeList(
         attribute("tensileStrength", &C::tensileStrength,
                   "Tensile strength ft (Pa). An edge between two triangles cracks where its normal "
                   "stress sigma (positive: tension) and its shear stress tau reach "
@@ -79,8 +76,8 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
             "fractureEnergy it has no effect."));
   }
 
-  static constexpr auto ofScatter() {
-    return std::tuple(
+  static Attributes ofScatter() {
+    return attributeList(
         attribute(
             "weibullModulus", &C::weibullModulus,
             "Modulus m of a Weibull scatter of the strength (Weibull 1951, J. Appl. Mech. 18, "
@@ -98,8 +95,8 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
                   "the weakest. Without weibullModulus it has no effect."));
   }
 
-  static constexpr auto ofLaw() {
-    return std::tuple(
+  static Attributes ofLaw() {
+    return attributeList(
         attribute("softening", &C::softening,
                   "How the traction of a crack decreases with its opening w; fractureEnergy Gc is "
                   "the area below it, ft the strength, wc the opening without traction. "
@@ -148,7 +145,7 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
   }
 
  public:
-  static constexpr auto attributes() { return std::tuple_cat(ofStrength(), ofScatter(), ofLaw()); }
+  static Attributes attributes() { return joined({ofStrength(), ofScatter(), ofLaw()}); }
 };
 
 }  // namespace yadefrag

@@ -63,8 +63,8 @@ class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>
  private:
   using C = PlasticFEMat;
 
-  static constexpr auto ofHardening() {
-    return std::tuple(
+  static Attributes ofHardening() {
+    return attributeList(
         attribute("yieldStress", &C::yieldStress,
                   "A (Pa): yield stress before any plastic strain, in slow deformation at "
                   "startTemperature."),
@@ -80,8 +80,8 @@ class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>
                   "decreasing; linear between the points, constant after the last one."));
   }
 
-  static constexpr auto ofRateAndHeat() {
-    return std::tuple(
+  static Attributes ofRateAndHeat() {
+    return attributeList(
         attribute("rateFactor", &C::rateFactor, "C; 0: the rate has no effect."),
         attribute("referenceRate", &C::referenceRate,
                   "Plastic strain rate (1/s) up to which the second factor is 1."),
@@ -99,8 +99,8 @@ class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>
                   "Part of the plastic work that becomes heat (Taylor and Quinney)."));
   }
 
-  static constexpr auto ofFailure() {
-    return std::tuple(
+  static Attributes ofFailure() {
+    return attributeList(
         attribute("failureStrain", &C::failureStrain,
                   "Equivalent plastic strain at which a triangle fails; with failureD1 or "
                   "failureD2 the least failure strain of their formula. inf: none."),
@@ -127,8 +127,8 @@ class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>
                   "then is not part of it."));
   }
 
-  static constexpr auto ofScatter() {
-    return std::tuple(
+  static Attributes ofScatter() {
+    return attributeList(
         attribute("weibullModulus", &C::weibullModulus,
                   "Modulus m of a Weibull scatter from triangle to triangle of a factor of the "
                   "failure strain and of spallStress: a part 1 - exp(-(s/scale)**m) of the "
@@ -144,8 +144,8 @@ class PlasticFEMat : public Published<PlasticFEMat, Indexed<PlasticFEMat, FEMat>
   }
 
  public:
-  static constexpr auto attributes() {
-    return std::tuple_cat(ofHardening(), ofRateAndHeat(), ofFailure(), ofScatter());
+  static Attributes attributes() {
+    return joined({ofHardening(), ofRateAndHeat(), ofFailure(), ofScatter()});
   }
 };
 
@@ -176,9 +176,9 @@ class FrictionalFEMat : public Published<FrictionalFEMat, Indexed<FrictionalFEMa
     return m;
   }
 
-  static constexpr auto attributes() {
+  static Attributes attributes() {
     using C = FrictionalFEMat;
-    return std::tuple(
+    return attributeList(
         attribute("cohesion", &C::cohesion, "c (Pa)."),
         attribute("internalFriction", &C::internalFriction,
                   "phi (rad): the shear strength in plane strain is c + tan(phi)*pressure. "

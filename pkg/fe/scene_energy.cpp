@@ -1,6 +1,6 @@
 #include "fe/scene_energy.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/errors.hpp"
 #include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
 #include "entries/plane.hpp"
@@ -321,6 +322,54 @@ std::string SceneEnergy::message(const World& world) {
       : byCorners ? "the step is short enough, but the overlap of a sphere with a polygon changes "
                     "where a corner bends: take smooth=True for the bodies that bend."
                   : "take a shorter step, or a smaller stiffness (young) of the spheres.");
+}
+
+void SceneEnergy::archive(AnyArchive& archive) {
+  std::vector<double> sums = {sums_.work,  sums_.elastic, sums_.friction, sums_.least,
+                              sums_.rigid, sums_.most,    sums_.reported, sums_.stiffest};
+  std::vector<int> ids;
+  std::vector<double> numbers;
+  const auto flatten = [&](Touching& one, auto&& each) {
+    for (Vec2* v : {&one.place, &one.velocity}) each(v->x), each(v->y);
+    each(one.spin);
+    for (int i = 0; i < 4; ++i) each(one.orientation.coeffs()[i]);
+    for (Part* part : {&one.normal, &one.tangent}) {
+      each(part->force.x), each(part->force.y), each(part->moment), each(part->elastic);
+      each(part->held), each(part->work), each(part->ownWork);
+    }
+  };
+  constexpr std::size_t kFlags = 6, kEach = 23;
+  for (Touching& one : touching_) {
+    ids.insert(ids.end(),
+               {one.id, one.isRigid, one.slips, one.isSettled, one.isSpring, one.isRemoved});
+    flatten(one, [&](double& value) { numbers.push_back(value); });
+  }
+  archive.item("sceneEnergies", sums);
+  archive.item("sceneContacts", ids);
+  archive.item("sceneContactValues", numbers);
+  archive.item("sceneStep", step_);
+  int open = isOpen_ ? 1 : 0;
+  archive.item("sceneIsOpen", open);
+  if (archive.isLoading()) {
+    if (sums.size() != 8 || ids.size() % kFlags != 0 ||
+        numbers.size() != ids.size() / kFlags * kEach)
+      throw InputError(
+          "The saved state of FESolver is damaged (its energy balance is invalid); load another "
+          "save.");
+    const long step = step_;
+    *this = {};
+    step_ = step, isOpen_ = open != 0;
+    sums_ = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7]};
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < ids.size(); i += kFlags) {
+      Touching one;
+      one.id = ids[i];
+      one.isRigid = ids[i + 1] != 0, one.slips = ids[i + 2] != 0, one.isSettled = ids[i + 3] != 0;
+      one.isSpring = ids[i + 4] != 0, one.isRemoved = ids[i + 5] != 0;
+      flatten(one, [&](double& value) { value = numbers[next++]; });
+      touching_.push_back(one);
+    }
+  }
 }
 
 }  // namespace yadefrag

@@ -10,14 +10,11 @@
 #include <string>
 #include <vector>
 
-#include <boost/serialization/nvp.hpp>
-#include <boost/serialization/vector.hpp>
-
 #include "abi/yade.hpp"
-#include "core/errors.hpp"
 #include "entries/entry_bodies.hpp"
 #include "entries/entry_frame.hpp"
 #include "fe/given_forces.hpp"
+#include "publish/any_archive.hpp"
 
 namespace yadefrag {
 
@@ -42,8 +39,7 @@ class SceneEnergy {
   /// True if there has been any contact.
   [[nodiscard]] bool any() const { return sums_.most > 0; }
 
-  template <class Archive>
-  void archive(Archive& archive);
+  void archive(AnyArchive& archive);
 
  private:
   /// The normal or tangential forces of one body's contacts.
@@ -102,54 +98,5 @@ class SceneEnergy {
   long step_ = -1;       // of the scene, at the last `end`
   bool isOpen_ = false;  // `begin` has been called without `end`: the step was refused
 };
-
-template <class Archive>
-void SceneEnergy::archive(Archive& archive) {
-  std::vector<double> sums = {sums_.work,  sums_.elastic, sums_.friction, sums_.least,
-                              sums_.rigid, sums_.most,    sums_.reported, sums_.stiffest};
-  std::vector<int> ids;
-  std::vector<double> numbers;
-  const auto flatten = [&](Touching& one, auto&& each) {
-    for (Vec2* v : {&one.place, &one.velocity}) each(v->x), each(v->y);
-    each(one.spin);
-    for (int i = 0; i < 4; ++i) each(one.orientation.coeffs()[i]);
-    for (Part* part : {&one.normal, &one.tangent}) {
-      each(part->force.x), each(part->force.y), each(part->moment), each(part->elastic);
-      each(part->held), each(part->work), each(part->ownWork);
-    }
-  };
-  constexpr std::size_t kFlags = 6, kEach = 23;
-  for (Touching& one : touching_) {
-    ids.insert(ids.end(),
-               {one.id, one.isRigid, one.slips, one.isSettled, one.isSpring, one.isRemoved});
-    flatten(one, [&](double& value) { numbers.push_back(value); });
-  }
-  archive& boost::serialization::make_nvp("sceneEnergies", sums);
-  archive& boost::serialization::make_nvp("sceneContacts", ids);
-  archive& boost::serialization::make_nvp("sceneContactValues", numbers);
-  archive& boost::serialization::make_nvp("sceneStep", step_);
-  int open = isOpen_ ? 1 : 0;
-  archive& boost::serialization::make_nvp("sceneIsOpen", open);
-  if constexpr (Archive::is_loading::value) {
-    if (sums.size() != 8 || ids.size() % kFlags != 0 ||
-        numbers.size() != ids.size() / kFlags * kEach)
-      throw InputError(
-          "The saved state of FESolver is damaged (its energy balance is invalid); load another "
-          "save.");
-    const long step = step_;
-    *this = {};
-    step_ = step, isOpen_ = open != 0;
-    sums_ = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7]};
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < ids.size(); i += kFlags) {
-      Touching one;
-      one.id = ids[i];
-      one.isRigid = ids[i + 1] != 0, one.slips = ids[i + 2] != 0, one.isSettled = ids[i + 3] != 0;
-      one.isSpring = ids[i + 4] != 0, one.isRemoved = ids[i + 5] != 0;
-      flatten(one, [&](double& value) { value = numbers[next++]; });
-      touching_.push_back(one);
-    }
-  }
-}
 
 }  // namespace yadefrag

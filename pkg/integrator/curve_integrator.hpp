@@ -23,14 +23,14 @@ class MotionIntegrator : public yade::NewtonIntegrator {
 
   long fastBodies = 0;
 
-  static constexpr auto attributes() {
+  static Attributes attributes() {
     using yade::Attr::noSave;
     using yade::Attr::readonly;
-    return std::tuple(attribute("fastBodies", &MotionIntegrator::fastBodies,
-                                "Number of bodies in the last step that the integrator moved "
-                                "itself; all others were moved by YADE's NewtonIntegrator or, "
-                                "pieces of boundaries, by their FESolver.",
-                                readonly | noSave));
+    return attributeList(attribute("fastBodies", &MotionIntegrator::fastBodies,
+                                   "Number of bodies in the last step that the integrator moved "
+                                   "itself; all others were moved by YADE's NewtonIntegrator or, "
+                                   "pieces of boundaries, by their FESolver.",
+                                   readonly | noSave));
   }
 
  private:

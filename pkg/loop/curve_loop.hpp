@@ -17,11 +17,11 @@ class ContactLoop : public yade::InteractionLoop {
   long fastForces = 0;
   int threads = 0;
 
-  static constexpr auto attributes() {
+  static Attributes attributes() {
     using C = ContactLoop;
     using yade::Attr::noSave;
     using yade::Attr::readonly;
-    return std::tuple(
+    return attributeList(
         attribute(
             "fastGeometries", &C::fastGeometries,
             "Number of contacts in the last step whose geometry the loop computed itself, as "

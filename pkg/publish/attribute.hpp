@@ -1,91 +1,89 @@
 #pragma once
-// One attribute of a published class: its name in Python and archives, and its storage.
+// Attributes of the published classes: name in Python and archives, type and place in the object.
+// What depends on the type only is compiled once for each of some ten types (ValueKind): with
+// functions for each class, attribute and archive the compiler took a minute.
 
-#include <boost/mpl/vector.hpp>
-#include <mutex>
-#include <type_traits>
-#include <variant>
+#include <bit>
+#include <cassert>
+#include <cstddef>
+#include <initializer_list>
+#include <vector>
 
 #include "abi/yade.hpp"
+#include "publish/any_archive.hpp"
 
 namespace yadefrag {
 
-template <class Class, class Value>
-struct Attribute {
-  const char* name;
-  Value Class::*member;
-  const char* doc;
-  int flags;  // flags of yade::Attr
+class StepLock;
 
-  constexpr bool has(int flag) const { return (flags & flag) != 0; }
+/// What a type of attributes can do; `slot` is a value of this type.
+struct ValueKind {
+  yade::py::object (*copy)(const void* slot);
+  /// To the value itself, so that `o.v[0] = 1` changes the object; null: Python gets a copy.
+  yade::py::object (*reference)(void* slot, const yade::py::object& owner);
+  /// Throws Python's TypeError if the object has no such value.
+  void (*set)(void* slot, const yade::py::object& value);
+  void (*archive)(AnyArchive& archive, const char* name, void* slot);
+  /// Null unless it is a number.
+  double (*number)(const void* slot);
 };
 
-template <class Class, class Value>
-constexpr Attribute<Class, Value> attribute(const char* name, Value Class::*member, const char* doc,
-                                            int flags = 0) {
-  return {name, member, doc, flags};
-}
-
-// Vectors and matrices are passed to Python as references, so that `o.v[0] = 1` changes the object.
+/// Defined for the types in use, by publish/value_kind.hpp.
 template <class Value>
-inline constexpr bool kByReference = std::is_base_of_v<Eigen::MatrixBase<Value>, Value>;
+const ValueKind& kindOf();
 
-/// Prevents a step of another thread while attributes are read or set. A class that steps in its
-/// own thread has a `betweenSteps()` that can be locked; for all others nothing happens.
-template <class Self>
-auto guardOf(const Self& self) {
-  if constexpr (requires { self.betweenSteps(); })
-    return std::unique_lock(self.betweenSteps());
-  else
-    return std::monostate();
-}
+struct Attribute {
+  const char* name;
+  const char* doc;
+  int flags;  // flags of yade::Attr
+  const ValueKind* kind;
+  std::ptrdiff_t offset;  // bytes from the begin of the object
 
-// Both take Self, which is registered in Python, since the member may belong to an unregistered
-// base.
-template <class Self, class Class, class Value>
-yade::py::object attributeGetter(Value Class::*member) {
-  namespace py = yade::py;
-  if constexpr (kByReference<Value>) {
-    return py::make_function([member](Self& self) -> Value& { return self.*member; },
-                             py::return_internal_reference<>(),
-                             boost::mpl::vector<Value&, Self&>());
-  } else {
-    return py::make_function(
-        [member](Self& self) -> Value {
-          [[maybe_unused]] const auto guard = guardOf(self);
-          return self.*member;
-        },
-        py::default_call_policies(), boost::mpl::vector<Value, Self&>());
+  [[nodiscard]] bool has(int flag) const { return (flags & flag) != 0; }
+  [[nodiscard]] void* slot(yade::Serializable& object) const {
+    return reinterpret_cast<char*>(&object) + offset;
   }
-}
-
-template <class Self, class Value, class Class>
-yade::py::object attributeSetter(const Attribute<Class, Value>& attr) {
-  namespace py = yade::py;
-  const auto member = attr.member;
-  const bool notify = attr.has(yade::Attr::triggerPostLoad);
-  return py::make_function(
-      [member, notify](Self& self, const Value& value) {
-        [[maybe_unused]] const auto guard = guardOf(self);
-        self.*member = value;
-        if (notify) self.callPostLoad();
-      },
-      py::default_call_policies(), boost::mpl::vector<void, Self&, const Value&>());
-}
-
-// Adds the attribute to a Python class; hidden attributes are left out, as in YADE.
-template <class Self, class PyClass, class Class, class Value>
-void defineAttribute(PyClass& pyClass, const Attribute<Class, Value>& attr) {
-  if (attr.has(yade::Attr::hidden)) return;
-  // YADE's documentation and inspector read the flags from the docstring.
-  const std::string doc =
-      std::string(attr.doc) + " :yattrflags:`" + std::to_string(attr.flags) + "` ";
-  const auto getter = attributeGetter<Self>(attr.member);
-  if (attr.has(yade::Attr::readonly)) {
-    pyClass.add_property(attr.name, getter, doc.c_str());
-  } else {
-    pyClass.add_property(attr.name, getter, attributeSetter<Self>(attr), doc.c_str());
+  [[nodiscard]] const void* slot(const yade::Serializable& object) const {
+    return reinterpret_cast<const char*>(&object) + offset;
   }
+};
+
+using Attributes = std::vector<Attribute>;
+
+// In the ABI of pkg/abi a pointer to a member is the member's offset, and Serializable is at the
+// begin of each class of YADE.
+template <class Class, class Value>
+Attribute attribute(const char* name, Value Class::*member, const char* doc, int flags = 0) {
+  static_assert(sizeof member == sizeof(std::ptrdiff_t));
+  assert(static_cast<yade::Serializable*>(reinterpret_cast<Class*>(64)) ==
+         reinterpret_cast<yade::Serializable*>(64));
+  return {name, doc, flags, &kindOf<Value>(), std::bit_cast<std::ptrdiff_t>(member)};
 }
+
+template <class... Each>
+Attributes attributeList(const Each&... each) {
+  return {each...};
+}
+
+inline Attributes joined(std::initializer_list<Attributes> lists) {
+  Attributes all;
+  for (const Attributes& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+/// What a class has: its attributes, and the lock that is held while they are read, set or saved
+/// (null: none).
+struct AttributeTable {
+  Attributes attributes;
+  StepLock* (*lockOf)(const yade::Serializable& object);
+
+  /// Adds the attributes to a Python class; hidden ones are left out, as in YADE.
+  void define(const yade::py::object& pyClass) const;
+  /// Sets an attribute by name; false: there is none of this name.
+  bool set(yade::Serializable& object, const std::string& name,
+           const yade::py::object& value) const;
+  [[nodiscard]] yade::py::dict values(const yade::Serializable& object) const;
+  void archive(AnyArchive& archive, yade::Serializable& object) const;
+};
 
 }  // namespace yadefrag

@@ -5,11 +5,12 @@
 #include <boost/serialization/nvp.hpp>
 #include <boost/serialization/shared_ptr.hpp>
 
+#include <mutex>
 #include <stdexcept>
-#include <tuple>
-#include <utility>
 
+#include "publish/archive_of.hpp"
 #include "publish/attribute.hpp"
+#include "publish/step_lock.hpp"
 
 namespace yadefrag {
 
@@ -31,10 +32,10 @@ boost::shared_ptr<Self> makeFromPython(py::tuple args, py::dict kw) {
 
 // class Self final : public Published<Self, Base, YadeBase>
 //   kName, kDoc          name of the class in Python, and its docstring
-//   attributes()         static constexpr: a tuple of attribute(...); a Base may define it
+//   attributes()         static: attributeList(attribute(...), ...); a Base may define it
 //   postLoad(Self&)      optional, public: called after attributes were changed or loaded
-//   archiveMore(archive) optional, public, template: saves and loads state that is no attribute
-//   pyExtra(pyClass)     optional, public, static template: more definitions for Python
+//   archiveMore(archive) optional, public: saves and loads state that is no attribute
+//   pyExtra(pyClass)     optional, public, static: more definitions for Python
 //   betweenSteps()       optional, public: a lock held while attributes are read, set or saved
 // Base may be a class that YADE does not register; YadeBase is its nearest registered base.
 template <class Self, class Base, class YadeBase = Base>
@@ -49,24 +50,12 @@ class Published : public Base {
   }
 
   void pySetAttr(const std::string& key, const py::object& value) override {
-    [[maybe_unused]] const auto guard = guardOf(self());
-    const auto setIfNamed = [&](const auto& attr) {
-      if (key != attr.name) return false;
-      auto& slot = self().*attr.member;
-      slot = py::extract<std::remove_cvref_t<decltype(slot)>>(value)();
-      return true;
-    };
-    const bool found = std::apply([&](const auto&... attr) { return (setIfNamed(attr) || ...); },
-                                  Self::attributes());
-    if (!found) Base::pySetAttr(key, value);  // the last base throws YADE's AttributeError
+    // The last base throws YADE's AttributeError.
+    if (!table().set(*this, key, value)) Base::pySetAttr(key, value);
   }
 
   py::dict pyDict() const override {
-    [[maybe_unused]] const auto guard = guardOf(self());
-    py::dict result;
-    forEach([&](const auto& attr) {
-      if (!attr.has(yade::Attr::hidden)) result[attr.name] = self().*attr.member;
-    });
+    py::dict result = table().values(*this);
     result.update(this->pyDictCustom());
     result.update(Base::pyDict());
     return result;
@@ -88,7 +77,7 @@ class Published : public Base {
                                   return init(instance, py::tuple(args.slice(1, py::_)), kw);
                                 },
                                 1));
-    forEach([&](const auto& attr) { defineAttribute<Self>(pyClass, attr); });
+    table().define(pyClass);
     if constexpr (requires { Self::pyExtra(pyClass); }) Self::pyExtra(pyClass);
   }
 
@@ -98,9 +87,17 @@ class Published : public Base {
   Self& self() { return static_cast<Self&>(*this); }
   const Self& self() const { return static_cast<const Self&>(*this); }
 
-  template <class Function>
-  static void forEach(Function&& function) {
-    std::apply([&](const auto&... attr) { (function(attr), ...); }, Self::attributes());
+  static const AttributeTable& table() {
+    // Never freed: Python's functions refer to it.
+    static const auto* const all = new AttributeTable{Self::attributes(), &lockOf};
+    return *all;
+  }
+
+  static StepLock* lockOf([[maybe_unused]] const yade::Serializable& object) {
+    if constexpr (requires(const Self& s) { s.betweenSteps(); })
+      return &static_cast<const Self&>(object).betweenSteps();
+    else
+      return nullptr;
   }
 
   void ownPostLoad() {
@@ -109,14 +106,14 @@ class Published : public Base {
 
   template <class Archive>
   void serialize(Archive& archive, unsigned /*version*/) {
-    [[maybe_unused]] const auto guard = guardOf(self());
-    using boost::serialization::make_nvp;
+    StepLock* const lock = lockOf(*this);
+    const auto guard = lock == nullptr ? std::unique_lock<StepLock>() : std::unique_lock(*lock);
     static const std::string baseName = YadeBase::getClassName();
-    archive& make_nvp(baseName.c_str(), boost::serialization::base_object<YadeBase>(self()));
-    forEach([&](const auto& attr) {
-      if (!attr.has(yade::Attr::noSave)) archive& make_nvp(attr.name, self().*attr.member);
-    });
-    if constexpr (requires { self().archiveMore(archive); }) self().archiveMore(archive);
+    archive& boost::serialization::make_nvp(baseName.c_str(),
+                                            boost::serialization::base_object<YadeBase>(self()));
+    ArchiveOf<Archive> any(archive);
+    table().archive(any, *this);
+    if constexpr (requires { self().archiveMore(any); }) self().archiveMore(any);
     if constexpr (Archive::is_loading::value) ownPostLoad();
   }
 };

@@ -16,10 +16,10 @@
 #include <boost/serialization/vector.hpp>
 
 #include "abi/yade.hpp"
-#include "core/errors.hpp"
 #include "core/step_length.hpp"
 #include "entries/entry_bodies.hpp"
 #include "fe/given_forces.hpp"
+#include "publish/any_archive.hpp"
 #include "rigid/rigid_corners.hpp"
 #include "rigid/rigid_movers.hpp"
 #include "rigid/rigid_outlines.hpp"
@@ -51,8 +51,7 @@ class RigidBodies {
   /// Messages about them since the last call; each is given once.
   [[nodiscard]] std::vector<std::string> takeSentences();
 
-  template <class Archive>
-  void archive(Archive& archive, const World& world);
+  void archive(AnyArchive& archive, const World& world);
 
  private:
   using Vector3r = yade::Vector3r;
@@ -98,40 +97,5 @@ class RigidBodies {
   std::vector<std::string> sentences_;
   bool reportedFlat_ = false, reportedMoment_ = false, reportedArc_ = false;
 };
-
-template <class Archive>
-void RigidBodies::archive(Archive& archive, const World& world) {
-  std::vector<int> ids;
-  std::vector<std::uint32_t> numbers;
-  std::vector<double> places;
-  for (const Member& member : members_) ids.push_back(member.id);
-  for (const RigidCorner& corner : corners_) {
-    numbers.push_back(corner.member), numbers.push_back(corner.following);
-    for (const Vector3r* v : {&corner.place, &corner.end})
-      for (int i = 0; i < 3; ++i) places.push_back((*v)[i]);
-  }
-  archive& boost::serialization::make_nvp("rigidBodies", ids);
-  archive& boost::serialization::make_nvp("rigidCorners", numbers);
-  archive& boost::serialization::make_nvp("rigidPlaces", places);
-  if constexpr (Archive::is_loading::value) {
-    *this = {};
-    const std::size_t count = world.rigidNodes().size();
-    bool isValid = numbers.size() == 2 * count && places.size() == 6 * count;
-    for (std::size_t i = 0; isValid && i < count; ++i) {
-      const double* at = places.data() + 6 * i;
-      corners_.push_back(
-          {numbers[2 * i], numbers[2 * i + 1], {at[0], at[1], at[2]}, {at[3], at[4], at[5]}});
-      isValid = numbers[2 * i] < ids.size() && numbers[2 * i + 1] < count;
-    }
-    if (!isValid)
-      throw InputError(
-          "The saved state of FESolver is damaged (its rigid boundaries are invalid); "
-          "load another save.");
-    for (const int id : ids) {
-      members_.push_back({id});
-      members_.back().isNew = false;
-    }
-  }
-}
 
 }  // namespace yadefrag

@@ -17,7 +17,7 @@ class Gl1_SurfaceSegment final : public Published<Gl1_SurfaceSegment, yade::GlSh
       "FESolver.view, "
       "or, where the SurfaceSegment or the view is drawn in wire, their edges; in black their "
       "boundaries and open cracks, in red cohesive cracks.";
-  static constexpr auto attributes() { return std::tuple(); }
+  static Attributes attributes() { return {}; }
 
   void go(const yade::shared_ptr<yade::Shape>& shape, const yade::shared_ptr<yade::State>& state,
           bool wire, const yade::GLViewInfo& view) override;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fe/fe_archive.hpp"
+#include "publish/archive_of.hpp"
 #include "step/bodies.hpp"
 
 namespace yadefrag::test {
@@ -51,7 +52,8 @@ inline std::string saved(World& world, unsigned flags = 0) {
   std::ostringstream text;
   boost::archive::binary_oarchive archive(text, flags | boost::archive::no_codecvt);
   std::vector<int> bodies(world.surfaces.entries());
-  WorldArchive(archive).run(world, bodies);
+  ArchiveOf any(archive);
+  archiveWorld(any, world, bodies);
   return text.str();
 }
 
@@ -59,7 +61,8 @@ inline void load(const std::string& bytes, World& world, unsigned flags = 0) {
   std::istringstream text(bytes);
   boost::archive::binary_iarchive archive(text, flags | boost::archive::no_codecvt);
   std::vector<int> bodies;
-  WorldArchive(archive).run(world, bodies);
+  ArchiveOf any(archive);
+  archiveWorld(any, world, bodies);
 }
 
 }  // namespace yadefrag::test

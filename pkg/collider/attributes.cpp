@@ -1,4 +1,3 @@
-#pragma once
 // Python attributes of the colliders.
 
 #include <boost/mpl/vector.hpp>
@@ -7,11 +6,11 @@
 
 namespace yadefrag {
 
-constexpr auto SearchCollider::attributes() {
+Attributes SearchCollider::attributes() {
   using C = SearchCollider;
   using yade::Attr::noSave;
   using yade::Attr::readonly;
-  return std::tuple(
+  return attributeList(
       attribute("verletDist", &C::verletDist,
                 "Longest enlargement (m) of a bound, so that not every step needs a "
                 "search; 0: search at every step; negative: that multiple of the smallest sphere's "
@@ -60,37 +59,45 @@ constexpr auto SearchCollider::attributes() {
                 "Accepted for InsertionSortCollider; no effect."));
 }
 
-template <class PyClass>
-void SearchCollider::pyExtra(PyClass& pyClass) {
-  using Self = typename PyClass::wrapped_type;
+void SearchCollider::pyExtra(const yade::py::object& pyClass) {
   namespace py = yade::py;
-  const auto getter = [](auto read) {
-    using Value = decltype(read(std::declval<Self&>()));
-    return py::make_function(read, py::default_call_policies(), boost::mpl::vector<Value, Self&>());
+  // Python knows the three classes, not their common base.
+  const auto method = [](auto call) {
+    using Value = decltype(call(std::declval<SearchCollider&>()));
+    return py::make_function(
+        [call](yade::Collider& self) { return call(dynamic_cast<SearchCollider&>(self)); },
+        py::default_call_policies(), boost::mpl::vector<Value, yade::Collider&>());
   };
-  pyClass.def("isActivated", getter([](Self& self) { return self.isActivated(); }),
-              "True if a search is due at the next step.");
-  pyClass.add_property("strideActive", getter([](Self& self) { return self.strideActive(); }),
-                       "True if steps without a search are possible.");
-  pyClass.add_property("periodic", getter([](Self& self) { return self.periodic(); }),
-                       "True if the last search was in a periodic cell.");
-  pyClass.def(
-      "entryPairs", getter([](Self& self) {
-        yade::py::list pairs;
-        for (const BoxPair& pair : self.entryPairs())
-          pairs.append(yade::py::make_tuple(pair.first.value, pair.second.value));
-        return pairs;
-      }),
-      "Pairs (id1, id2) of SurfaceSegment bodies whose bounds overlapped at the last search. They "
-      "never become interactions, and FESolver does not use them: it searches itself.");
-  pyClass.add_property(
-      "newton", getter([](Self& self) { return self.newton; }),
+  const auto define = [&](const char* name, const py::object& attribute, const char* doc) {
+    py::objects::add_to_namespace(pyClass, name, attribute, doc);
+  };
+  const py::object builtin = py::import("builtins").attr("property");
+  const auto property = [&](const char* name, const py::object& get, const py::object& set,
+                            const char* doc) {
+    py::setattr(pyClass, name, builtin(get, set, py::object(), doc));
+  };
+  define("isActivated", method([](SearchCollider& self) { return self.isActivated(); }),
+         "True if a search is due at the next step.");
+  property("strideActive", method([](SearchCollider& self) { return self.strideActive(); }), {},
+           "True if steps without a search are possible.");
+  property("periodic", method([](SearchCollider& self) { return self.periodic(); }), {},
+           "True if the last search was in a periodic cell.");
+  define("entryPairs", method([](SearchCollider& self) {
+           py::list pairs;
+           for (const BoxPair& pair : self.entryPairs())
+             pairs.append(py::make_tuple(pair.first.value, pair.second.value));
+           return pairs;
+         }),
+         "Pairs (id1, id2) of SurfaceSegment bodies whose bounds overlapped at the last search. "
+         "They never become interactions, and FESolver does not use them: it searches itself.");
+  using Newton = yade::shared_ptr<yade::NewtonIntegrator>;
+  property(
+      "newton", method([](SearchCollider& self) { return self.newton; }),
       py::make_function(
-          [](Self& self, const yade::shared_ptr<yade::NewtonIntegrator>& newton) {
-            self.newton = newton;
+          [](yade::Collider& self, const Newton& newton) {
+            dynamic_cast<SearchCollider&>(self).newton = newton;
           },
-          py::default_call_policies(),
-          boost::mpl::vector<void, Self&, const yade::shared_ptr<yade::NewtonIntegrator>&>()),
+          py::default_call_policies(), boost::mpl::vector<void, yade::Collider&, const Newton&>()),
       "The integrator that requests searches; found in O.engines at every step.");
 }
 

@@ -1,4 +1,4 @@
-#include "fe/step_lock.hpp"
+#include "publish/step_lock.hpp"
 
 #include "script/without_gil.hpp"
 

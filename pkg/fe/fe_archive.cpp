@@ -1,0 +1,284 @@
+#include "fe/fe_archive.hpp"
+
+#include <boost/archive/archive_exception.hpp>
+
+#include <functional>
+#include <string_view>
+
+#include "core/errors.hpp"
+#include "fe/column_archive.hpp"
+#include "step/state_check.hpp"
+
+namespace yadefrag {
+namespace {
+
+/// With the checksum a fuzzer would never reach the code behind it.
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+inline constexpr bool kIgnoreChecksum = true;
+#else
+inline constexpr bool kIgnoreChecksum = false;
+#endif
+
+class WorldArchive : ColumnArchive {
+ public:
+  using ColumnArchive::ColumnArchive;
+
+  void run(World& world, std::vector<int>& entryBodies) {
+    try {
+      all(world, entryBodies);
+    } catch (const boost::archive::archive_exception& error) {
+      if (!isLoading())
+        throw RunError(
+            "FESolver could not be saved (" + std::string(error.what()) +
+            "): its file cannot be opened or the disk is full, and the file is incomplete.");
+      refuse(error.what());
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t kFormat = 19;
+
+  void all(World& world, std::vector<int>& entryBodies) {
+    std::uint64_t format = kFormat;
+    value("format", format);
+    if (format != kFormat) refuse("its format is " + std::to_string(format));
+    state(world);
+    value("entryBodies", entryBodies);
+    const bool isRight = checksum();
+    if (isLoading()) {
+      if (!isRight && !kIgnoreChecksum) refuse("its checksum is wrong");
+      const std::string wrong = findInvalidPart(world);
+      if (!wrong.empty()) refuse(wrong + " are invalid");
+      if (entryBodies.size() != world.surfaces.entries()) refuse("its bodies are invalid");
+      world.rebuild();
+    }
+  }
+
+  void state(World& world) {
+    const auto isLate = [](std::string_view name) { return name == "reference"; };
+    table(world.model.nodes.columns(), std::not_fn(isLate));
+    motions(world.model.motions);
+    table(world.model.triangles.columns());
+    components(world.model.components);
+    materials(world.model.materials);
+    surfaces(world.surfaces);
+    loads(world);
+    contact(world.contact);
+    search(world);
+    fracture(world.fracture);
+    EnergyLedger& ledger = world.ledger;
+    value("contactEnergy", ledger.contact), value("frictionEnergy", ledger.friction);
+    value("fractureWork", ledger.fracture), value("dampingEnergy", ledger.damping);
+    value("externalEnergy", ledger.external), value("droppedEnergy", ledger.dropped);
+    value("createdSpin", ledger.spin);
+    value("plasticEnergy", ledger.plastic);
+    Dropped& dropped = world.dropped;
+    value("droppedMass", dropped.mass), value("dropped", dropped.count);
+    value("droppedMomentumX", dropped.momentum.x), value("droppedMomentumY", dropped.momentum.y);
+    watch(world);
+    table(world.model.nodes.columns(), isLate);
+    value("steps", world.steps), value("time", world.time), value("lastDt", world.lastDt);
+    value("stableStep", world.stableStep);
+    PlasticFlow::Steepness steepness = world.steepness();
+    value("steepness", steepness.known), value("lastSteepness", steepness.last);
+    if (isLoading()) world.loadedSteepness = steepness;
+    value("stableLinearViscosity", world.stableViscosity.linear);
+    value("stableQuadraticViscosity", world.stableViscosity.quadratic);
+    value("numSearches", world.search.count);
+  }
+
+  void watch(World& world) {
+    EnergyWatch& watch = world.watch;
+    value("expectedEnergy", watch.expected), value("goneEnergy", watch.gone);
+    value("mostEnergy", watch.most);
+    value("watchedContact", watch.dissipated);
+    value("watchedSplit", watch.split);
+    value("lookedCreated", watch.evaluatedCreated), value("lookedGrown", watch.evaluatedGrown);
+    value("toldCreated", watch.reportedCreated), value("toldGrown", watch.reportedGrown);
+    value("toldDepth", watch.reportedDepth), value("lastStep", watch.lastStep);
+    value("leastStep", watch.leastStep), value("mostStep", watch.mostStep);
+    value("stepChanges", watch.changes);
+    value("mostSpin", watch.mostSpin), value("toldSpin", watch.reportedSpin);
+    value("knownGrowth", watch.knownGrowth), value("ofChanges", watch.ofChanges);
+    lines("complaints", world.warnings);
+  }
+
+  void motions(std::vector<Motion>& motions) {
+    FlatMotions flat = flatten(motions);
+    value("motionCounts", flat.counts), value("motionNumbers", flat.numbers);
+    if (isLoading())
+      if (!unflatten(flat, motions)) refuse("its motions are invalid");
+  }
+
+  void components(std::vector<Component>& rows) {
+    using C = Component;
+    materials(rows);
+    member("thickness", rows, [](C& c) -> double& { return c.thickness; });
+    member("firstTriangle", rows, [](C& c) -> std::uint32_t& { return c.firstTriangle; });
+    member("lastTriangle", rows, [](C& c) -> std::uint32_t& { return c.lastTriangle; });
+    member("firstMaterial", rows, [](C& c) -> std::uint32_t& { return c.firstMaterial; });
+    member("lastMaterial", rows, [](C& c) -> std::uint32_t& { return c.lastMaterial; });
+    flags("brittleByPlace", rows, [](C& c) -> bool& { return c.brittleByPlace; });
+    flags("selfContact", rows, [](C& c) -> bool& { return c.selfContact; });
+    flags("rigid", rows, [](C& c) -> bool& { return c.rigid; });
+    member("element", rows, [](C& c) -> std::uint8_t& {
+      return reinterpret_cast<std::uint8_t&>(c.element);  // NOLINT: an unsigned char may name it
+    });
+    std::vector<std::string> names;
+    names.reserve(rows.size());
+    for (const C& c : rows) names.push_back(c.name);
+    lines("names", names);
+    if (names.size() != rows.size()) refuse("names has a wrong length");
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].name = names[i];
+  }
+
+  /// Of bodies, or of a list.
+  template <class C>
+  void materials(std::vector<C>& rows) {
+    member("young", rows, [](C& c) -> double& { return c.material.young; });
+    member("poisson", rows, [](C& c) -> double& { return c.material.poisson; });
+    member("density", rows, [](C& c) -> double& { return c.material.density; });
+    member("friction", rows, [](C& c) -> double& { return c.friction; });
+    member("tensileStrength", rows, [](C& c) -> double& { return c.brittle.tensileStrength; });
+    member("fractureEnergy", rows, [](C& c) -> double& { return c.brittle.fractureEnergy; });
+    member("shearFactor", rows, [](C& c) -> double& { return c.brittle.shearFactor; });
+    member("shearEnergyFactor", rows, [](C& c) -> double& { return c.brittle.shearEnergyFactor; });
+    member("weibullModulus", rows, [](C& c) -> double& { return c.brittle.weibullModulus; });
+    member("strengthScatter", rows, [](C& c) -> double& { return c.brittle.strengthScatter; });
+    member("seed", rows, [](C& c) -> std::uint64_t& { return c.brittle.seed; });
+    member("referenceVolume", rows, [](C& c) -> double& { return c.brittle.referenceVolume; });
+    curves("softeningCounts", "softeningPoints", rows,
+           [](C& c) -> SofteningCurve& { return c.brittle.softening; });
+    curves("rateCounts", "ratePoints", rows, [](C& c) -> RateEffect& { return c.brittle.rate; });
+    member("rateEnergyPower", rows, [](C& c) -> double& { return c.brittle.rateEnergyPower; });
+    plastic(rows);
+    flags("planeStress", rows, [](C& c) -> bool& { return c.material.planeStress; });
+  }
+
+  template <class C>
+  void plastic(std::vector<C>& rows) {
+    const auto constant = [&](const char* name, double PlasticMaterial::*which) {
+      member(name, rows, [which](C& c) -> double& { return c.plastic.*which; });
+    };
+    using P = PlasticMaterial;
+    constant("yieldStress", &P::yieldStress), constant("hardening", &P::hardening);
+    constant("hardeningExponent", &P::hardeningExponent);
+    constant("offsetStrain", &P::offsetStrain);
+    constant("rateFactor", &P::rateFactor), constant("referenceRate", &P::referenceRate);
+    constant("thermalExponent", &P::thermalExponent);
+    constant("meltTemperature", &P::meltTemperature);
+    constant("startTemperature", &P::startTemperature);
+    constant("heatCapacity", &P::heatCapacity), constant("heatShare", &P::heatShare);
+    constant("cohesion", &P::cohesion), constant("internalFriction", &P::internalFriction);
+    constant("dilation", &P::dilation), constant("tensionLimit", &P::tensionLimit);
+    failure(rows);
+    std::vector<std::uint32_t> counts;
+    std::vector<HardeningPoint> points;
+    for (const C& c : rows) {
+      counts.push_back(static_cast<std::uint32_t>(c.plastic.table.size()));
+      points.insert(points.end(), c.plastic.table.begin(), c.plastic.table.end());
+    }
+    value("hardeningCounts", counts);
+    numbers<double>("hardeningPoints", points);
+    if (isLoading()) {
+      if (counts.size() != rows.size()) refuse("hardeningCounts has a wrong length");
+      auto at = points.begin();
+      for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] > static_cast<std::size_t>(points.end() - at))
+          refuse("hardeningPoints has a wrong length");
+        rows[i].plastic.table.assign(at, at + counts[i]);
+        at += counts[i];
+      }
+    }
+  }
+
+  template <class C>
+  void failure(std::vector<C>& rows) {
+    member("failureStrain", rows, [](C& c) -> double& { return c.plastic.failure.strain; });
+    for (std::size_t i = 0; i < 5; ++i)
+      member(("failureD" + std::to_string(i + 1)).c_str(), rows,
+             [i](C& c) -> double& { return c.plastic.failure.d[i]; });
+    member("spallStress", rows, [](C& c) -> double& { return c.plastic.failure.spallStress; });
+    member("failureEnergy", rows, [](C& c) -> double& { return c.plastic.failure.energy; });
+  }
+
+  void surfaces(ContactSurfaces& s) {
+    table(s.segmentColumns());
+    column("nodeSegment", s.nodeSegment);
+    table(s.entryColumns());
+  }
+
+  void loads(World& world) {
+    std::uint64_t count = world.loads.pressures.size();
+    value("pressures", count);
+    if (count > world.surfaces.segments()) refuse("its pressures are invalid");
+    world.loads.pressures.resize(count);
+    for (Pressure& one : world.loads.pressures) {
+      column("pressureSegments", one.segments);
+      value("pressureFunction", one.function);
+      value("pressureFirstNew", one.firstNew);
+      table("pressure", one.value);
+    }
+    column("absorbing", world.loads.absorbing.segments);
+  }
+
+  void contact(Contact& contact) {
+    using Index = std::uint32_t;
+    Candidates& candidates = contact.candidates;
+    column("slaves", candidates.slaves), column("offsets", candidates.offsets);
+    column("masters", candidates.masters);
+    std::vector<std::uint8_t> unused;  // flags of another rule of entry, in former states
+    value("outside", unused);
+    auto& rows = contact.touches;
+    member("touchSlave", rows, [](Touch& t) -> Index& { return t.pair.slave.value; });
+    member("touchMaster", rows, [](Touch& t) -> Index& { return t.pair.master.value; });
+    member("touchNormal", rows, [](Touch& t) -> double& { return t.normalForce; });
+    member("touchTangent", rows, [](Touch& t) -> double& { return t.tangentForce; });
+    member("touchAllowed", rows, [](Touch& t) -> double& { return t.toleratedGap; });
+    value("lastCorrection", contact.lastCorrection);
+  }
+
+  void search(World& world) {
+    SearchState& search = world.search;
+    value("halo", search.halo), value("shortest", search.shortest);
+    bool isDue = search.isDue(), isVoid = search.isVoid();
+    value("isDue", isDue), value("isVoid", isVoid);
+    if (isLoading()) {
+      using enum SearchState::Validity;
+      search.validity = isVoid ? kVoid : isDue ? kDue : kValid;
+    }
+    column("searchNodes", search.nodes);
+    column("searchPositions", search.positions);
+    SearchBounds bounds = world.searchBounds();
+    value("searchFarthest", bounds.farthest), value("searchSpare", bounds.spare);
+    value("searchSpeed", bounds.speed);
+    if (isLoading()) search.loaded = bounds;
+  }
+
+  void fracture(Fracture& fracture) {
+    using Index = std::uint32_t;
+    CrackEdges& edges = fracture.edges;
+    const auto isLate = [](std::string_view name) {
+      return name == "crackEnergy" || name == "cracked";
+    };
+    table(edges.columns(), std::not_fn(isLate));
+    value("crackStart", fracture.started);
+    auto& overloads = fracture.overloads;
+    member("overloadEdge", overloads, [](Overload& o) -> Index& { return o.edge.value; });
+    member("overloadSince", overloads, [](Overload& o) -> double& { return o.since; });
+    table(edges.columns(), isLate);
+    column("elementEdges", edges.ofElement), column("nodeElement", edges.ofNode);
+    table(fracture.cohesion.columns());
+    std::uint64_t numCracks = fracture.numCracks();
+    value("numCracks", numCracks);
+    fracture.restore(numCracks);
+  }
+};
+
+}  // namespace
+
+void archiveWorld(AnyArchive& archive, World& world, std::vector<int>& entryBodies) {
+  WorldArchive(archive).run(world, entryBodies);
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,48 @@
+#pragma once
+// One of YADE's four archives (XML and binary, to and from a file) behind two virtual functions. As
+// templates over the archive, all that is saved would be compiled four times.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace yadefrag {
+
+class AnyArchive {
+ public:
+  AnyArchive(const AnyArchive&) = delete;
+  AnyArchive& operator=(const AnyArchive&) = delete;
+  virtual ~AnyArchive() = default;
+
+  [[nodiscard]] bool isLoading() const { return isLoading_; }
+
+  /// Saves the value under this name, or loads it.
+  template <class Value>
+  void item(const char* name, Value& value) {
+    exchange(name, Slot(&value));
+  }
+  /// The same for numbers whose count is known.
+  template <class Number>
+  void numbers(const char* name, Number* first, std::size_t count) {
+    exchange(name, Numbers(std::span(first, count)));
+  }
+
+ protected:
+  using Slot = std::variant<bool*, int*, long*, std::uint8_t*, std::uint32_t*, std::uint64_t*,
+                            double*, std::string*, std::vector<int>*, std::vector<std::uint32_t>*,
+                            std::vector<double>*>;
+  using Numbers =
+      std::variant<std::span<char>, std::span<std::uint8_t>, std::span<int>,
+                   std::span<std::uint32_t>, std::span<std::uint64_t>, std::span<double>>;
+
+  explicit AnyArchive(bool isLoading) : isLoading_(isLoading) {}
+  virtual void exchange(const char* name, Slot slot) = 0;
+  virtual void exchange(const char* name, Numbers numbers) = 0;
+
+ private:
+  bool isLoading_;
+};
+
+}  // namespace yadefrag
