@@ -152,6 +152,24 @@ def test_typesOfPlaneElements(folder, type, size, area):
     assert areas(mesh).sum() == pytest.approx(area) and mesh.leftOut == []
 
 
+@pytest.mark.parametrize('type, size, words', [
+    ('COH2D4', 4, ', which connect parts that are separate here'), ('COH2D4P', 6, ', which connect'),
+    ('GKPE4', 4, ', which connect'), ('CINPE4', 4, ''), ('SPRING2', 2, ''), ('DC1D2', 2, ''), ('CONN2D2', 2, '')])
+def test_elementsWithoutAreaAreLeftOut(folder, type, size, words):
+    """Two parts with a joint without thickness between them, as cracks are made there."""
+    nodes = [(0, 0), (1, 0), (1, 1), (0, 1), (1, 1), (0, 1), (1, 2), (0, 2)]
+    text = '*Part, name=Plate\n*Node\n%s*Element, type=CPE3, elset=below\n1, 1, 2, 3\n2, 1, 3, 4\n' \
+        '*Element, type=CPE3, elset=above\n3, 6, 5, 7\n4, 6, 7, 8\n*Element, type=%s, elset=joint\n5, %s\n' \
+        '*End Part\n*Assembly, name=A\n*Instance, name=P-1, part=Plate\n*End Instance\n*End Assembly\n' % (
+            ''.join('%d, %g, %g\n' % (i + 1, *place) for i, place in enumerate(nodes)), type,
+            ', '.join('4 3 5 6 4 3'.split()[:size]))
+    with pytest.warns(UserWarning, match='left out are 1 element of the type %s' % type):
+        mesh = readMesh(written(folder, 'a.inp', text))
+    assert areas(mesh).tolist() == [.5] * 4 and len(mesh.nodes) == 8 and list(mesh.groups) == ['below', 'above']
+    assert mesh.leftOut[0].endswith(type + words) or words and words in mesh.leftOut[0]
+    assert points(mesh, 'joint') == ([(0, 1)] * 2 + [(1, 1)] * 2 if size > 2 else [(0, 1), (1, 1)])
+
+
 def test_elementsOfRevolutionAreTold(folder):
     with pytest.warns(UserWarning, match='the axis of revolution of 1 element of the type CAX3'):
         readMesh(written(folder, 'a.inp', kSquare.replace('type=CPS3', 'type=CAX3')))

@@ -14,7 +14,9 @@ from yadefrag.io.readers.elements import Elements, counted
 _PLANE = re.compile(r'(?:CPS|CPEG?|CG?AX|AC2D|ACAX|DCC?2D|DCC?AX|D?S|STRI|M3D|SFM3D|R3D)([34689])')
 _KINDS = {3: 'triangle3', 4: 'quad4', 6: 'triangle6', 8: 'quad8', 9: 'quad9'}
 _LINES = re.compile(r'[TB]\d|R2D2|[RMS]AX|PIPE|ELBOW|FRAME|CONN|SPRING|DASHPOT|GAP|IT|JOINT|DCOUP|MASS|'
-                    r'ROTARY|HEATCAP|D$')
+                    r'ROTARY|HEATCAP|DC{0,2}1D|AC1D|F(2D|AX)2|D$')
+_JOINTS = re.compile(r'COH(2D|AX)|GK(2D|P[SE]|AX)')  # cohesive elements and gaskets in the plane: no area of their own
+_ENDLESS = re.compile(r'CIN(P[SE]|AX)|ACIN(2D|AX)')  # they go on from the boundary to infinity
 
 
 class Part:
@@ -94,8 +96,10 @@ def _moved(points, moves):
 def _blocks(types, corners, leftOut):
     blocks = []
     for type, numbers in types.items():
-        if not nodesOf(type) and _LINES.match(type):
-            leftOut.append('%s of the type %s' % (counted(len(numbers), 'element'), type))
+        isJoint = _JOINTS.match(type)
+        if isJoint or not nodesOf(type) and (_LINES.match(type) or _ENDLESS.match(type)):
+            leftOut.append('%s of the type %s%s' % (counted(len(numbers), 'element'), type, isJoint and
+                                                    ', which connect parts that are separate here' or ''))
             continue
         if 'AX' in type[:5]:
             leftOut.append('the axis of revolution of %s of the type %s' % (counted(len(numbers), 'element'), type))
