@@ -7,7 +7,11 @@ import numpy
 import pytest
 
 import scenes
+import yadefrag
 from project import yadeCommand
+from yade import wrapper
+from yadefrag import FERecorder
+from yadefrag.fe.fields import FIELDS
 from yadefrag.io import export
 from yadefrag.plots import pictures
 
@@ -30,6 +34,7 @@ def makeSolver():
         velocities=numpy.array([[3., 4], [0, 0], [1, 0], [0, 2]]),
         contactForces=numpy.array([[0., 0], [0, 5], [0, 0], [-1, 0]]),
         reactions=numpy.array([[0., 1], [0, 0], [2, 0], [0, 0]]),
+        _reference=numpy.array([[0, 0], [1, 0], [1, 1], [0, 1.]]),
         triangles=numpy.array([[0, 1, 2], [0, 2, 3]]), strain=numpy.array([[1e-3, 0, 2e-3], [0, 0, 0]]),
         stress=numpy.array([[1e6, 2e6, 3e6], [-1e6, 0, 0]]),
         components=numpy.array([0, 1]), fragmentOf=numpy.array([0, 1]),
@@ -85,6 +90,97 @@ def test_fieldIsShown(field, values):
     assert numpy.allclose(shown(ax), values)
 
 
+@pytest.mark.parametrize('name', FIELDS)
+def test_allFieldsAreAcceptedEverywhere(folder, name):
+    """By their name, and by the words on the axis: 'plasticStrain' is 'plastic strain'."""
+    meshio = pytest.importorskip('meshio')
+    zero = numpy.zeros(2)
+    fe = makeSolver()
+    fe.plasticStrain, fe.temperature, fe.damage, fe._yields, fe._fails = zero, zero + 300, zero, True, True
+    fe.principalStress = numpy.array([[2., 1], [3, 1]])
+    both = [name, FIELDS[name].label.partition(' (')[0]]
+    drawn = [shown(pictures.plotMesh(fe, one)) for one in both]
+    assert numpy.array_equal(*drawn) and pictures.plotMesh(fe, fields=both)
+    export.exportVTK(fe, folder + '/out.vtu', both)
+    mesh = meshio.read(folder + '/out.vtu')
+    assert set(both) == {*mesh.point_data, *mesh.cell_data}
+    assert FERecorder(10, folder + '/run', fields=both).command.endswith('%r)' % (tuple(both),))
+
+
+def boxes(figure):
+    """{text or axes: its box in pixels}, of all that is shown."""
+    figure.canvas.draw()
+    return {one: one.get_tightbbox() for ax in figure.axes for one in (ax.xaxis.label, ax.yaxis.label, ax.title, ax)
+            if one.get_tightbbox() is not None and one.get_tightbbox().width > 0}
+
+
+def panel(low, high, **settings):
+    O.materials.append(wrapper.FEMat(young=1e7, poisson=.3, density=1000, label='m'))
+    fe = wrapper.FESolver()
+    fe.addPolygon(yadefrag.rectangle(low, high), size=.01, material='m', velocity=(0, 1))
+    return pictures.plotMesh(fe, **settings)
+
+
+@pytest.mark.parametrize('high', [(.5, .02), (.02, .5), (.3, .1), (.1, .1), (.1, .06)])
+def test_colourBarIsLongAndThePageFull(folder, high):
+    image = pytest.importorskip('PIL.Image')
+    ax = panel((0, 0), high, field='sigma1', file=folder + '/a.png')
+    figure = ax.figure
+    every = boxes(figure)
+    bar, = [one for one in figure.axes if one is not ax]
+    frame, its = ax.get_window_extent(), bar.get_window_extent()
+    long, short, beside = (its.width, its.height, frame.width) if its.width > its.height else \
+        (its.height, its.width, frame.height)
+    assert long > 300 and 5 < short < 40 and long > .8 * beside
+    assert all(box.x0 >= 0 and box.y0 >= 0 and box.x1 <= figure.bbox.width and box.y1 <= figure.bbox.height
+               for box in every.values())
+    with image.open(folder + '/a.png') as picture:
+        dark = (numpy.asarray(picture.convert('L')) < 250)
+    rows, columns = dark.any(axis=1), dark.any(axis=0)
+    assert min(rows.argmax(), rows[::-1].argmax(), columns.argmax(), columns[::-1].argmax()) > 0
+    # No white page beside the axes: what is outside of them is labels and the bar.
+    assert dark.shape[0] < 1.5 * (ax.get_window_extent().height + 160) and \
+        dark.shape[1] < 1.5 * (ax.get_window_extent().width + 200)
+
+
+def test_labelsOfStackedFieldsAreWhole():
+    axes = panel((0, 0), (.5, .03), fields=['sigma1', 'plasticStrain', 'displacement', 'fragment'])
+    figure = axes[0].figure
+    every = boxes(figure)
+    texts = [box for one, box in every.items() if one not in figure.axes]
+    frames = [ax.get_window_extent() for ax in figure.axes]
+    assert not any(text.overlaps(frame) for text in texts for frame in frames)
+    assert all(0 <= box.x0 and box.x1 <= figure.bbox.width and 0 <= box.y0 and box.y1 <= figure.bbox.height
+               for box in every.values())
+    assert axes[3].get_title() == 'fragment' and len(figure.axes) == 7
+
+
+def test_linesOfCracksFollowTheScale():
+    """On the paper they are an eighth of a triangle's side wide, and at most 1.4 points."""
+    cracks = dict(held=numpy.array([False]), nodes=numpy.array([[0, 1, 2, 3]]), triangle=numpy.array([0]),
+                  damage=numpy.array([1.]))
+    fe = makeSolver()
+    fe._cracks = lambda: cracks
+
+    def width(xlim):
+        ax = pictures.plotMesh(fe, xlim=xlim, ylim=xlim)
+        ax.figure.canvas.draw()
+        lines, = [one for one in ax.collections if one.get_label() == 'open']
+        return lines.get_linewidth()[0], 72 / ax.figure.dpi * ax.get_window_extent().width / (xlim[1] - xlim[0])
+    assert width((0, 1))[0] == 1.4
+    points, side = width((0, 100))
+    assert points == pytest.approx(.12 * side)
+
+
+def test_elasticBodiesHaveNoTemperature():
+    fe = makeSolver()
+    fe.temperature = numpy.array([0, 300.])
+    values = shown(pictures.plotMesh(fe, 'temperature'))
+    assert values.mask.tolist() == [True, False] and values[1] == 300
+    fe.temperature = numpy.zeros(2)
+    assert len(pictures.plotMesh(fe, 'temperature').figure.axes) == 1  # no colour bar
+
+
 def test_pictureIsWritten(folder):
     image = pytest.importorskip('PIL.Image')
     for field in (None, 'mises', 'speed'):
@@ -95,8 +191,8 @@ def test_pictureIsWritten(folder):
 
 
 def test_badFieldIsRefused():
-    with pytest.raises(ValueError, match="field is 'stress', it must be one of 'xx'"):
-        pictures.plotMesh(makeSolver(), 'stress')
+    with pytest.raises(ValueError, match="field is 'heat', it must be one of 'displacement'"):
+        pictures.plotMesh(makeSolver(), 'heat')
     with pytest.raises(ValueError, match=r'shape \(3,\).*2 triangles or of the 4 nodes\.'):
         pictures.plotMesh(makeSolver(), [1, 2, 3])
     with pytest.raises(ValueError, match='no bodies'):

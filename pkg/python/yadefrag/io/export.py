@@ -7,23 +7,19 @@ import numpy
 from yadefrag.arguments import path, refuse
 from yadefrag.fe.between_steps import betweenSteps
 from yadefrag.fe.contents import heldCracks, requireSolver, shownMesh
+from yadefrag.fe.fields import FIELDS, nameOf
 from yadefrag.hints import FESolver, File
 from yadefrag.io.files import replacing
 
-_OF_NODES = {'displacement': 'displacements', 'velocity': 'velocities',
-             'contact force': 'contactForces', 'reaction': 'reactions'}
-_OF_TRIANGLES = {'stress': ('stress', float), 'strain': ('strain', float),
-                 'plastic strain': ('plasticStrain', float), 'temperature': ('temperature', float),
-                 'damage': ('damage', float), 'component': ('components', numpy.int32),
-                 'fragment': ('fragmentOf', numpy.int32)}
-_PRESENT = {'plastic strain': '_yields', 'temperature': '_yields', 'damage': '_fails'}
-FIELDS = (*_OF_NODES, *_OF_TRIANGLES)
+# Written unless others are chosen.
+_USUAL = ('displacement', 'velocity', 'contact force', 'reaction', 'stress', 'strain', 'plastic strain', 'temperature',
+          'damage', 'component', 'fragment')
 
 
 def _spatial(values):
-    """(n, 2) as (n, 3) with z = 0: ParaView then recognises vectors."""
-    values = numpy.asarray(values, dtype=float).reshape(-1, 2)
-    return numpy.column_stack([values, numpy.zeros(len(values))])
+    """(n, 2) as (n, 3) with z = 0: ParaView then recognises vectors. Others unchanged."""
+    return numpy.column_stack([values, numpy.zeros(len(values))]) if values.ndim == 2 and values.shape[1] == 2 else \
+        values
 
 
 def exportVTK(fe: FESolver, file: File, fields: Iterable[str] | None = None) -> None:
@@ -35,7 +31,8 @@ def exportVTK(fe: FESolver, file: File, fields: Iterable[str] | None = None) -> 
     that fail damage, component and fragment (int). Removed fragments are left out. Cohesive cracks are
     lines along their first side, with the values of the adjacent triangle, but 'damage' is the
     dissipated fraction of their fracture energy there (and 0 in triangles that cannot fail).
-    fields  list of the names of fields to write; None: all
+    fields  list of the names of fields to write, as above or as in plotMesh ('plasticStrain' is 'plastic
+            strain', 'mises', 'speed' ...); None: those above
     ValueError for another ending than .vtu, for a solver without bodies and for unknown fields.
     """
     import meshio
@@ -52,14 +49,14 @@ def exportVTK(fe: FESolver, file: File, fields: Iterable[str] | None = None) -> 
 
 
 def fieldNames(fields: Iterable[str] | None) -> tuple[str, ...]:
-    """A tuple of names from a list of some of FIELDS, or None for all; ValueError for other names."""
+    """A tuple of names from a list of names of fields, or None for those of exportVTK; ValueError for other names."""
     if fields is None:
-        return FIELDS
+        return _USUAL
     try:
         chosen = (fields,) if isinstance(fields, str) else tuple(fields)
     except TypeError:
         chosen = ('',)
-    if not all(isinstance(one, str) and one in FIELDS for one in chosen):
+    if not all(isinstance(one, str) and nameOf(one) in FIELDS for one in chosen):
         refuse('fields', fields, 'some of %s' % ', '.join(FIELDS))
     return chosen
 
@@ -70,15 +67,18 @@ def _state(fe, fields):
         nodes, triangles, corners = shownMesh(fe)
         sides, beside, damage = heldCracks(fe)
         blocks, of = [('triangle', corners.astype(numpy.int64))], [triangles]
-        points = {name: _spatial(getattr(fe, attribute)[nodes])
-                  for name, attribute in _OF_NODES.items() if name in fields}
         if len(beside):
             blocks.append(('line', numpy.searchsorted(nodes, sides[:, :2]).astype(numpy.int64)))
             of.append(beside)
-        cells = {}
-        for name, (attribute, kind) in _OF_TRIANGLES.items():
-            if name in fields and (name not in _PRESENT or getattr(fe, _PRESENT[name], False)):
-                values = numpy.asarray(getattr(fe, attribute), dtype=kind)
+        points, cells = {}, {}
+        for name in fields:
+            field = FIELDS[nameOf(name)]
+            if field.needs and not getattr(fe, field.needs, False):
+                continue
+            values = numpy.asarray(field.values(fe))
+            if field.ofNodes:
+                points[name] = _spatial(values[nodes])
+            else:
                 cells[name] = [values[numbers] for numbers in of]
         if len(beside):
             ofTriangles = cells['damage'][0] if 'damage' in cells else numpy.zeros(len(triangles))

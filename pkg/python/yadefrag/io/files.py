@@ -88,13 +88,13 @@ def appendText(name: str, text: str) -> None:
             raise OSError(error.errno, error.strerror, name) from None
 
 
-def savePicture(figure: Any, file: Any, dpi: float) -> None:
+def savePicture(figure: Any, file: Any, dpi: float, **settings: Any) -> None:
     """Saves Matplotlib's `figure` in `file`: a path, whose ending determines the format, or an open file."""
     if hasattr(file, 'write'):
-        figure.savefig(file, dpi=dpi)
+        figure.savefig(file, dpi=dpi, **settings)
         return
     with replacing(pictureName(figure, file)) as part:
-        figure.savefig(part, dpi=dpi)
+        figure.savefig(part, dpi=dpi, **settings)
 
 
 def pictureName(figure: Any, file: Any) -> str:

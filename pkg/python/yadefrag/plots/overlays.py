@@ -106,6 +106,21 @@ class YadeBodies:
 
 _SCALE = ('#ffd21f', '#ff6a00', '#d4001a', '#7a0019')  # no damage to all of it
 _OPEN = 'black'
+_WIDTH = .12, 1.4  # of a crack's line: of the mean side of a crack on the paper, but at most these points
+
+
+def _crackLines(sides, **settings):
+    """A LineCollection whose width follows the scale of the picture: cracks do not hide what they divide."""
+    from matplotlib.collections import LineCollection
+
+    class Lines(LineCollection):
+        def draw(self, renderer):
+            (left, _), (right, _) = self.axes.transData.transform([(0, 0), (side, 0)])
+            self.set_linewidth(min(_WIDTH[0] * 72 * abs(right - left) / self.figure.dpi, _WIDTH[1]))
+            super().draw(renderer)
+
+    side = numpy.linalg.norm(sides[:, 1] - sides[:, 0], axis=1).mean()
+    return Lines(sides, **settings)
 
 
 class CrackLines:
@@ -121,18 +136,15 @@ class CrackLines:
 
     def draw(self, ax: Axes) -> Any:
         """Draws all; returns the lines with a colour scale, None without any."""
-        from matplotlib.collections import LineCollection
         from matplotlib.colors import LinearSegmentedColormap, Normalize
         scaled = None
         if len(self.held):
             colours = LinearSegmentedColormap.from_list('damage', _SCALE)
-            scaled = LineCollection(self.held, cmap=colours, norm=Normalize(0, 1), linewidths=1.4, zorder=3,
-                                    label='held')
+            scaled = _crackLines(self.held, cmap=colours, norm=Normalize(0, 1), zorder=3, label='held')
             scaled.set_array(self.damage)
             ax.add_collection(scaled, autolim=False)
         if len(self.open):
-            ax.add_collection(LineCollection(self.open, colors=_OPEN, linewidths=1.2, zorder=4, label='open'),
-                              autolim=False)
+            ax.add_collection(_crackLines(self.open, colors=_OPEN, zorder=4, label='open'), autolim=False)
         return scaled
 
 

@@ -11,15 +11,19 @@ import numpy
 from yadefrag.arguments import flag, number, numbersOf, path, refuse, whole
 from yadefrag.fe.between_steps import betweenSteps, requireNoStep
 from yadefrag.fe.contents import requireSolver, shownMesh
+from yadefrag.fe.fields import FIELDS, nameOf
 from yadefrag.hints import ArrayLike, FESolver, File
 from yadefrag.io.files import replacing, requireWritable, savePicture
-from yadefrag.plots.axes import MOST_PANELS, newAxes, newPanels, requireAxes
+from yadefrag.plots.axes import MOST_PANELS, barSettings, newPanels, panelSize, requireAxes
 from yadefrag.plots.colours import fragmentColours, palette
-from yadefrag.plots.fields import UNITS, fieldValues, nameOf
+from yadefrag.plots.fields import fieldValues
 from yadefrag.plots.overlays import CrackLines, YadeBodies, damageBar
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+_NO_VALUE = '.8'  # grey of triangles without a value
+
 
 def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | None = None,
              ax: Axes | None = None, limits: Sequence | None = None, *,
@@ -31,10 +35,12 @@ def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | No
     walls, boxes and facets. Returns Matplotlib's axes.
 
     field   None (no colours), 'xx', 'yy', 'xy' (Pa), 'mises' (Pa, from these three, without the stress
-            zz), 'sigma1', 'sigma2' (Pa, larger and smaller principal stress in the plane; 'principal1',
-            'principal2' are the same), 'speed' (m/s), 'displacement' (m, its length), 'component',
-            'fragment' (arbitrary colours, different for adjacent fragments), or an array with one number
-            for each triangle or each node
+            zz; 'stress' is the same), 'sigma1', 'sigma2' (Pa, larger and smaller principal stress in the
+            plane; 'principal1', 'principal2' are the same), 'strain' (√(xx² + yy² + 2xy²)), 'plasticStrain',
+            'temperature' (K; grey without one), 'damage', 'speed' or 'velocity' (m/s), 'displacement' (m),
+            'contactForce', 'reaction' (N; lengths of the vectors), 'component', 'fragment' (arbitrary
+            colours, different for adjacent fragments), the names of exportVTK ('plastic strain'), or an
+            array with one number for each triangle or each node
     file    path of the picture; its ending determines the format (.png, .pdf, .svg ...)
     ax      axes to draw in; default: new ones
     limits  (lowest, highest) value of the colour scale; default: those of the field
@@ -62,19 +68,18 @@ def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | No
         others = YadeBodies(*asked)
     if ax is not None:
         panels = [requireAxes(ax)]
-    elif fields is None:
-        panels = [newAxes()]
     else:
         panels = newPanels(len(chosen), *_extent(pictures[0], others, window))
     lines = []
     for one, picture, ends in zip(panels, pictures, limits):
-        lines.append(_draw(one, picture, ends, others))
-        if len(panels) > 1 and isinstance(picture.field, str):
-            one.set_title(UNITS[picture.field])
+        lines.append(_draw(one, picture, ends, others, _extent(picture, others, window)))
+        if len(panels) > 1 and picture.isOfFragments:  # it has no colour bar
+            one.set_title('fragment')
         one.set(**{name: ends for name, ends in zip(('xlim', 'ylim'), window) if ends})
     damageBar(panels, lines)
     if file is not None:
-        savePicture(panels[0].figure, file, dpi=150)
+        # Nothing is cut off, and no margin remains beside axes of a fixed ratio.
+        savePicture(panels[0].figure, file, 150, **({} if ax is not None else dict(bbox_inches='tight')))
     return panels[0] if fields is None else panels
 
 
@@ -129,7 +134,8 @@ class _Picture:
         values: Any
         perNode: bool | None
         with betweenSteps(fe):
-            if isinstance(field, str) and field == 'fragment':
+            self.isOfFragments = isinstance(field, str) and field == 'fragment'
+            if self.isOfFragments:
                 self.colours = fragmentColours(fe, former)
                 values, perNode = self.colours % 20, False
             else:
@@ -183,37 +189,41 @@ def _corners(window):
     return numbersOf(low, 2), numbersOf(high, 2)
 
 
-def _draw(ax, picture, limits, others):
-    """Returns the lines of cracks that have a colour scale, or None."""
-    _drawTriangles(ax, picture, limits)
+def _draw(ax, picture, limits, others, sides):
+    """Returns the lines of cracks that have a colour scale, or None. sides: (width, height) of the contents."""
+    _drawTriangles(ax, picture, limits, sides)
     lines = picture.cracks.draw(ax)
     others.draw(ax, *picture.box())
     return lines
 
 
-def _drawTriangles(ax, picture, limits):
+def _drawTriangles(ax, picture, limits, sides):
     x, y, triangles = picture.x, picture.y, picture.triangles
     field, values = picture.field, picture.values
     lines = .5 if len(triangles) < 2000 else .1
     ax.set_aspect('equal')
     ax.set_xlabel('x (m)')
     ax.set_ylabel('y (m)')
-    if values is None:
+    if sides[1] > 4 * sides[0]:
+        ax.tick_params('x', rotation=90)
+    if values is None or not numpy.isfinite(values).any():
         ax.triplot(x, y, triangles, color='.3', linewidth=lines)
         return
-    if isinstance(field, str) and field == 'fragment':
+    if picture.isOfFragments:
         from matplotlib.colors import ListedColormap, NoNorm
         ax.tripcolor(x, y, triangles=triangles, facecolors=values, norm=NoNorm(),
                      cmap=ListedColormap(palette()), edgecolors='k', linewidth=lines / 3)
         return
-    low, high = limits
+    from matplotlib import colormaps
+    colours = colormaps['viridis'].with_extremes(bad=_NO_VALUE)
+    scale = dict(zip(('vmin', 'vmax'), limits), cmap=colours)
     if picture.perNode:
-        drawn = ax.tripcolor(x, y, values, triangles=triangles, shading='gouraud', vmin=low, vmax=high)
+        drawn = ax.tripcolor(x, y, values, triangles=triangles, shading='gouraud', **scale)
     else:
-        drawn = ax.tripcolor(x, y, triangles=triangles, facecolors=values, vmin=low, vmax=high,
-                             edgecolors='k', linewidth=lines / 3)
-    label = UNITS.get(field, '') if isinstance(field, str) else ''
-    ax.figure.colorbar(drawn, ax=ax, label=label)
+        drawn = ax.tripcolor(x, y, triangles=triangles, facecolors=numpy.ma.masked_invalid(values),
+                             edgecolors='k', linewidth=lines / 3, **scale)
+    label = FIELDS[field].label if isinstance(field, str) else ''
+    ax.figure.colorbar(drawn, ax=ax, label=label, **barSettings(*sides))
 
 
 def animate(fe: FESolver, file: File, steps: int, every: int, field: str | None = None,
@@ -245,7 +255,8 @@ def animate(fe: FESolver, file: File, steps: int, every: int, field: str | None 
     name = path('file', file, '.gif')
     requireNoStep('animate')
     requireWritable(name)
-    figure = Figure(figsize=(8, 6), layout='constrained')
+    sides = high[0] - low[0], high[1] - low[1]
+    figure = Figure(figsize=panelSize(*sides), layout='constrained')
     FigureCanvasAgg(figure)
     writer = PillowWriter(fps=rate)
     writer.setup(figure, name, dpi=80)
@@ -259,7 +270,7 @@ def animate(fe: FESolver, file: File, steps: int, every: int, field: str | None 
                 others = YadeBodies(*asked)
             if field == 'fragment':  # a fragment keeps its colour from frame to frame
                 colours = picture.colours
-            damageBar([ax], [_draw(ax, picture, limits, others)])
+            damageBar([ax], [_draw(ax, picture, limits, others, sides)])
             ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), title='step %d' % done)
             writer.grab_frame()
             frames += 1

@@ -1,0 +1,73 @@
+"""Fields of the bodies by name: one table for pictures, ParaView and records."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy
+
+from yadefrag.hints import FESolver
+
+
+class Field(NamedTuple):
+    """label    for an axis, with the unit; without it a second name of the field
+    ofNodes  True: values of nodes; False: of triangles
+    values   function of the solver → (n) numbers, (n, 2) vectors, or (n, 3) tensors xx, yy, xy
+    needs    attribute of FESolver that is False if no material has the field
+    drawn    function of the values → (n) numbers for a picture; None: the values, or lengths of vectors"""
+
+    label: str
+    ofNodes: bool
+    values: Callable[[FESolver], Any]
+    needs: str = ''
+    drawn: Callable[[numpy.ndarray], numpy.ndarray] | None = None
+
+
+def _mises(stress):
+    xx, yy, xy = stress.T
+    return numpy.sqrt(xx**2 - xx * yy + yy**2 + 3 * xy**2)
+
+
+def _component(number):
+    return lambda fe: numpy.asarray(fe.stress, dtype=float)[:, number]
+
+
+FIELDS = {
+    'displacement': Field('displacement (m)', True, lambda fe: fe.displacements),
+    'velocity': Field('velocity (m/s)', True, lambda fe: fe.velocities),
+    'speed': Field('speed (m/s)', True, lambda fe: numpy.linalg.norm(fe.velocities, axis=1)),
+    'contactForce': Field('contact force (N)', True, lambda fe: fe.contactForces),
+    'reaction': Field('reaction (N)', True, lambda fe: fe.reactions),
+    'stress': Field('stress (Pa)', False, lambda fe: fe.stress, drawn=_mises),
+    'xx': Field('stress xx (Pa)', False, _component(0)),
+    'yy': Field('stress yy (Pa)', False, _component(1)),
+    'xy': Field('stress xy (Pa)', False, _component(2)),
+    'mises': Field('von Mises stress (Pa)', False, lambda fe: _mises(fe.stress)),
+    'sigma1': Field('larger principal stress (Pa)', False, lambda fe: fe.principalStress[:, 0]),
+    'sigma2': Field('smaller principal stress (Pa)', False, lambda fe: fe.principalStress[:, 1]),
+    'strain': Field('strain', False, lambda fe: fe.strain,
+                    drawn=lambda values: numpy.sqrt(values**2 @ (1, 1, 2))),
+    'plasticStrain': Field('plastic strain', False, lambda fe: fe.plasticStrain, '_yields'),
+    # Elastic bodies have no temperature, the array 0.
+    'temperature': Field('temperature (K)', False, lambda fe: fe.temperature, '_yields',
+                         lambda values: numpy.where(values > 0, values, numpy.nan)),
+    'damage': Field('damage', False, lambda fe: fe.damage, '_fails'),
+    'component': Field('component', False, lambda fe: numpy.asarray(fe.components, numpy.int32)),
+    'fragment': Field('fragment', False, lambda fe: numpy.asarray(fe.fragmentOf, numpy.int32))}
+_NAMES = {**{field.label.partition(' (')[0]: name for name, field in FIELDS.items()},
+          **{name: name for name in FIELDS}, 'principal1': 'sigma1', 'principal2': 'sigma2'}
+
+
+def nameOf(field: Any) -> Any:
+    """The name in FIELDS of a field with several names; other values unchanged."""
+    return _NAMES.get(field, field) if isinstance(field, str) else field
+
+
+def drawnValues(fe: FESolver, name: str) -> numpy.ndarray:
+    """One number for each node or triangle, of a field of FIELDS."""
+    field = FIELDS[name]
+    values = numpy.asarray(field.values(fe), dtype=float)
+    if field.drawn:
+        return field.drawn(values)
+    return numpy.linalg.norm(values, axis=1) if values.ndim == 2 else values
