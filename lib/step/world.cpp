@@ -77,7 +77,12 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
     surfaces.addLoop(nodes, smooth, id);
   }
   openJoints(fracture.addBody(model, id, edgePlaces(spec)));
-  watch.join(energyOf(id, NodeId(first), lastDt));
+  // From the first step on a body brings its energy from outside, and takes it there.
+  const double energy = energyOf(id, NodeId(first), lastDt);
+  if (steps > 0)
+    ledger.external += energy;
+  else
+    watch.join(energy);
   stableStep = 0;
   search.invalidate();
   rebuild();
@@ -95,6 +100,8 @@ void World::requireBody(ComponentId component, const char* purpose) const {
 
 void World::removeBody(ComponentId component) {
   requireBody(component, "remove");
+  const auto energy = [&] { return kineticEnergy() + strainEnergy() + pendingPlastic(); };
+  const double before = energy();
   const ElementId first(model.components[component.value].firstTriangle);
   const ElementId last(model.components[component.value].lastTriangle);
   const std::vector<NodeId> renumbered = yadefrag::removeBody(model, component);
@@ -102,7 +109,9 @@ void World::removeBody(ComponentId component) {
   std::vector<std::uint8_t> gone(model.components.size());
   gone[component.value] = 1;
   takeOff(gone, renumbered);
-  watch.begin(kineticEnergy() + strainEnergy() + pendingPlastic(), ledger);
+  const double after = energy();
+  if (steps > 0) ledger.external -= before - after;
+  watch.begin(after, ledger);
   stableStep = 0;
 }
 

@@ -96,8 +96,7 @@ void FESolver::giveSettings() {
   formerGravity_ = gravity;
   formerView_ = view;
   formerCorrection_ = correction, formerEntry_ = entry, formerPenaltyFactor_ = penaltyFactor;
-  // Gravity that was taken over is kept until the next step takes it over again.
-  if (!takesOver()) world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
+  world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
   world_.dynamicsSettings.viscosity = {linearViscosity, quadraticViscosity};
   world_.fracture.maxCracks =
       maxCracks < 0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(maxCracks);
@@ -145,11 +144,12 @@ Attributes FESolver::attributes() {
       attribute("damping", &C::damping, "Mass-proportional damping (1/s).", triggerPostLoad),
       attribute("gravity", &C::gravity,
                 "Acceleration of all bodies of this engine (m/s²), a pair, or three numbers with "
-                "z = 0. Until it is set, that of a NewtonIntegrator in O.engines is used.",
+                "z = 0. Until it is set, it follows that of a NewtonIntegrator in O.engines.",
                 triggerPostLoad),
-      attribute("takesGravity", &C::takesGravity,
-                "As long as `gravity` is zero, use x and y of NewtonIntegrator's gravity. "
-                "Setting `gravity` sets this to False; setting this to True undoes that."),
+      attribute(
+          "takesGravity", &C::takesGravity,
+          "`gravity` has x and y of NewtonIntegrator's gravity in each step. Setting `gravity` "
+          "sets this to False, unless `engines` does; setting this to True undoes that."),
       attribute("linearViscosity", &C::linearViscosity,
                 "Coefficient of the linear bulk viscosity; 0: none, .06 is usual.",
                 triggerPostLoad),

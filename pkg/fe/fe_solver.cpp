@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <mutex>
@@ -14,7 +15,9 @@
 #include "collider/motion_watch.hpp"
 #include "core/errors.hpp"
 #include "core/tolerances/plasticity.hpp"
+#include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
+#include "entries/sphere_overlap.hpp"
 #include "fe/plastic_materials.hpp"
 #include "fe/running.hpp"
 #include "fracture/brittle_checks.hpp"
@@ -22,6 +25,21 @@
 #include "integrator/curve_integrator.hpp"
 
 namespace yadefrag {
+
+namespace {
+
+/// A sentence if an engine sets O.dt; YADE's know nothing of FE bodies.
+std::string byTimeStepper(const yade::Scene& scene) {
+  for (const auto& engine : scene.engines)
+    if (!engine->dead && engine->getBaseClassName() == "TimeStepper")
+      return fmt::format(
+          " {} sets O.dt without FE bodies; give it maxDt = .8 * fe.criticalTimeStep(), or remove "
+          "it and set O.dt.",
+          engine->getClassName());
+  return {};
+}
+
+}  // namespace
 
 /// One step: from the forces of spheres and other engines on the boundary in this step to the new
 /// position of the boundary.
@@ -49,7 +67,7 @@ void FESolver::action() try {
   try {
     world_.step(scene->dt);
   } catch (const TimeStepError& error) {
-    throw std::invalid_argument("O.dt: " + std::string(error.what()));
+    throw std::invalid_argument("O.dt: " + std::string(error.what()) + byTimeStepper(*scene));
   } catch (const InputError& error) {
     throw std::invalid_argument(error.what());
   }
@@ -60,7 +78,7 @@ void FESolver::action() try {
     report(rigid_.takeSentences());
   }
   balance_.end(*scene, world_, given_);
-  report({balance_.message(world_)});
+  report({balance_.takeDeep(), balance_.message(world_)});
   followCracks(dropped);
   given_.end(*scene);
   updateBodies();
@@ -108,13 +126,34 @@ void FESolver::warn(std::size_t known) const {
     std::cerr << "WARN  FESolver: " << world_.warnings[i] << std::endl;
 }
 
+/// Takes over the gravity of the scene, or reports that spheres have another one.
+void FESolver::takeGravity(const yade::NewtonIntegrator* newton) {
+  const yade::Vector3r theirs = newton ? newton->gravity : yade::Vector3r::Zero();
+  if (takesGravity) {
+    // One that is not finite is no setting; the step refuses it.
+    world_.dynamicsSettings.gravity = {theirs[0], theirs[1]};
+    const yade::Vector3r taken(theirs[0], theirs[1], 0);
+    if (taken.allFinite() && taken != gravity) gravity = formerGravity_ = taken;
+    return;
+  }
+  if (!newton || (gravity == comparedGravity_ && theirs == comparedNewton_)) return;
+  if (around_.free() < 0) return;
+  comparedGravity_ = gravity, comparedNewton_ = theirs;
+  if (theirs[0] == gravity[0] && theirs[1] == gravity[1]) return;
+  report({fmt::format(
+      "The gravity of FE bodies is ({:g}, {:g}) m/s², that of YADE's bodies, such as #{}, ({:g}, "
+      "{:g}) m/s²; with fe.takesGravity = True all have that of NewtonIntegrator.",
+      gravity[0], gravity[1], around_.free(), theirs[0], theirs[1])});
+}
+
 /// Takes over the gravity of the scene, and reports contacts and forces that the bodies will not
 /// have, and settings without an effect.
 void FESolver::checkScene(bool enginesAreNew) {
   const yade::NewtonIntegrator* newton = integrator(false);
-  const yade::Vector3r theirs = newton ? newton->gravity : yade::Vector3r::Zero();
-  if (takesOver()) world_.dynamicsSettings.gravity = {theirs[0], theirs[1]};
+  const std::size_t first = around_.checked();
   const bool bodiesAreNew = around_.check(*scene);
+  takeGravity(newton);
+  if (around_.hasNewSpheres()) report({overlapWithSphere(first)});
   const bool rigidChanged = std::exchange(checkedRigid_, rigidBodies) != rigidBodies;
   report(materials_.sentences());
   report(unusedSettings());
@@ -123,7 +162,8 @@ void FESolver::checkScene(bool enginesAreNew) {
   double thickest = 0;
   for (const Component& body : world_.model.components)
     if (!body.rigid) thickest = std::max(thickest, body.thickness);
-  report(around_.sentences(theirs, rigidBodies, thickest));
+  const yade::Vector3r pull = newton ? newton->gravity : yade::Vector3r::Zero();
+  report(around_.sentences(pull, rigidBodies, thickest));
 }
 
 /// YADE's default is much shorter than the step of most bodies; the run would only seem to stand.
@@ -135,6 +175,28 @@ void FESolver::checkTimeStep() {
       "O.dt has YADE's default, {:g} s, {:.3g} times shorter than the critical step, {:.3g} s; "
       "O.dt = .8 * fe.criticalTimeStep() is usual.",
       scene->dt, critical / scene->dt, critical)});
+}
+
+/// The sentence on the spheres that were added since the scene was last checked, from number
+/// `first` on. Contacts of a loaded scene may be deeper.
+std::string FESolver::overlapWithSphere(std::size_t first) const {
+  std::vector<std::array<Vec2, 3>> triangles;
+  const auto& model = world_.model;
+  for (std::size_t e = 0; e < model.triangles.size(); ++e) {
+    if (model.triangles.isDropped(e)) continue;
+    const auto& [a, b, c] = model.triangles.nodes[e];
+    const auto& at = model.nodes.position;
+    triangles.push_back({at[a.value], at[b.value], at[c.value]});
+  }
+  const bool isLoaded = first == 0 && world_.steps > 0;
+  const auto found = deepestOverlap(*scene, first, bodies_.anyBody()->groupMask, triangles,
+                                    isLoaded ? tolerance::kDeepSphere : tolerance::kPlacedOverlap);
+  if (!found) return {};
+  return fmt::format(
+      "Sphere #{} overlaps an FE body by {:.3g} m, {:.3g} of its radius, and is pushed out with "
+      "the "
+      "energy of that overlap; put it outside.",
+      found->sphere, found->depth, found->depth / found->radius);
 }
 
 /// Reports those messages that have not been reported yet.
@@ -312,6 +374,25 @@ std::string fitToCoarseMesh(const TriangleMesh& mesh, BodySpec& spec,
       fitted.triangles, mesh.triangles.size(), changed);
 }
 
+/// Throws InputError if the new body is where a sphere is.
+void requireApartFromSpheres(const yade::Scene& scene, const TriangleMesh& mesh,
+                             const BodySpec& spec) {
+  std::vector<std::array<Vec2, 3>> triangles;
+  const auto at = [&](std::uint32_t node) {
+    return spec.displacement.empty() ? mesh.nodes[node]
+                                     : mesh.nodes[node] + spec.displacement[node];
+  };
+  if (!spec.displacement.empty() && spec.displacement.size() != mesh.nodes.size()) return;
+  for (const auto& [a, b, c] : mesh.triangles) triangles.push_back({at(a), at(b), at(c)});
+  const auto found = deepestOverlap(scene, 0, 1, triangles, tolerance::kPlacedOverlap);
+  if (found)
+    throw InputError(
+        fmt::format("The new body overlaps sphere #{} by {:.3g} m, {:.3g} of its radius; it may "
+                    "touch others at "
+                    "the start, but not overlap them.",
+                    found->sphere, found->depth, found->depth / found->radius));
+}
+
 }  // namespace
 
 AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
@@ -329,6 +410,7 @@ AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
         "selfContact is False, but the material is a BrittleFEMat or fails, and its fragments must "
         "touch each other; it must be True, or the material an FEMat.");
   const std::vector<CoarseMesh> choices = choicesOf(materials);
+  requireApartFromSpheres(here, mesh, spec);
   std::string message = fitToCoarseMesh(mesh, spec, choices);
   const ComponentId component = world_.addBody(mesh, spec);
   if (message.empty() && std::ranges::find(choices, CoarseMesh::kWarn) != choices.end())
@@ -355,6 +437,7 @@ void FESolver::removeBody(int component) {
   if (component < 0 || index >= components.size() ||
       components[index].firstTriangle == components[index].lastTriangle)
     throw InputError(fmt::format("component is {}, which is no body of this FESolver.", component));
+  balance_.forget(world_, ComponentId(index));
   bodies_.remove(here, world_, ComponentId(index));
   world_.removeBody(ComponentId(index));
 }

@@ -98,11 +98,12 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   void followFlow();
   void warn(std::size_t known) const;
   void checkScene(bool enginesAreNew);
+  [[nodiscard]] std::string overlapWithSphere(std::size_t first) const;
   void checkTimeStep();
   void followRigid(bool enginesAreNew);
   void report(std::vector<std::string> sentences);
   [[nodiscard]] yade::NewtonIntegrator* integrator(bool behind) const;
-  [[nodiscard]] bool takesOver() const { return takesGravity && gravity.isZero(0); }
+  void takeGravity(const yade::NewtonIntegrator* newton);
   void followCracks(std::uint64_t dropped);
   void followBonds();
   void updateBodies();
@@ -120,6 +121,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   RollingSpheres rolling_;
   CrackContacts crackContacts_;
   bool checkedRigid_ = true;  // `rigidBodies` when the scene was last checked
+  // Both gravities when they were last compared.
+  yade::Vector3r comparedGravity_ = yade::Vector3r::Zero(), comparedNewton_ = comparedGravity_;
   ScriptFunctions functions_;
   yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // value of `gravity` before it was set
   // Of settings that only this class has, likewise.

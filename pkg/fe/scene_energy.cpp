@@ -116,6 +116,8 @@ void SceneEnergy::addContact(const yade::Scene& scene, const PieceGeometry& geom
   const double rate = phys->kn * scene.dt * scene.dt * mobilityOf(scene, world, *body, foot);
   sums_.stiffest = std::max(sums_.stiffest, rate);
   const double normal = phys->normalForce.norm(), shear = phys->shearForce.norm();
+  const Vec2 approach = own.velocity - combine(foot, world.model.nodes.velocity);
+  noteOverlap(world, *body, own, geom->penetrationDepth, scene.dt * norm(approach));
   const Spring spring(*geom, static_cast<SurfaceSegment&>(*piece.shape), *body);
   pieces_.push_back(
       {found.size() - 1, foot, entry, frame.first, frame.last, normal * spring.depth / 2,
@@ -133,6 +135,28 @@ void SceneEnergy::addContact(const yade::Scene& scene, const PieceGeometry& geom
   own.isSpring = own.isSpring && std::abs(normal - expected) <= tolerance::kSpring * normal;
   const double most = smallerFriction(scene, contact.getId1(), contact.getId2()) * normal;
   own.slips = own.slips || (shear > 0 && shear >= tolerance::kSlips * most);
+}
+
+/// `depth`, `approach`: m, of the contact and of the relative motion in a step.
+void SceneEnergy::noteOverlap(const World& world, const yade::Body& body, Touching& own,
+                              double depth, double approach) {
+  const auto* sphere = dynamic_cast<const yade::Sphere*>(body.shape.get());
+  if (!sphere) return;
+  const double radius = sphere->radius;
+  if (find(former_, own.id, false) == former_.end())
+    own.isPlaced = own.isPlaced || depth > 2 * approach + tolerance::kPlacedOverlap * radius;
+  if (own.isPlaced || depth <= std::max(tolerance::kDeepSphere, 2 * sums_.deepest) * radius) return;
+  sums_.deepest = depth / radius;
+  const bool isFast = approach > tolerance::kFastSphere * radius;
+  deep_ = fmt::format(
+      "Step {}, time {:.3g} s: sphere #{} overlaps an FE body by {:.3g} m, {:.3g} of its radius, "
+      "and "
+      "may pass through; {}",
+      world.steps, world.time, body.id, depth, depth / radius,
+      isFast ? fmt::format("it moves by {:.3g} of its radius in a step: take a shorter step.",
+                           approach / radius)
+             : "the contact is too soft: take a larger stiffness (young) of the spheres, or, if "
+               "that of the body is smaller, kn of Ip2_FrictMat_FrictMat_FrictPhys.");
 }
 
 std::vector<SceneEnergy::Touching> SceneEnergy::contactsOf(const yade::Scene& scene,
@@ -159,6 +183,7 @@ void SceneEnergy::measureMotion(const yade::Scene& scene, const World& world) {
   const double dt = world.lastDt;
   for (Touching& one : touching_) {
     const yade::Body* body = bodyAt(scene, one.id);
+    if (!body) one.isRemoved = true;
     if (!body || one.isSettled) continue;
     const Vec2 way = inPlane(body->state->se3.position) - one.place;
     const Vec2 velocity = inPlane(body->state->vel);
@@ -211,9 +236,10 @@ void SceneEnergy::begin(const yade::Scene& scene, const World& world, const Entr
     one.isSettled = true;
   }
   settle(touching_);
-  // Overlaps that were there before the first step are no energy of contact.
-  if (world.steps == 0 || wasAway)
-    for (const Touching& one : touching_) sums_.work -= one.normal.elastic + one.tangent.elastic;
+  // Overlaps that were there before the first step, or with a new body, are no energy of contact.
+  for (const Touching& one : touching_)
+    if (world.steps == 0 || wasAway || one.isPlaced)
+      sums_.work -= one.normal.elastic + one.tangent.elastic;
 }
 
 /// Adds the works of the last step, and the elastic energies between that step and this one.
@@ -262,10 +288,7 @@ void SceneEnergy::end(const yade::Scene& scene, const World& world, const GivenF
     Touching& own = touching_[piece.touching];
     own.normal.work += world.lastDt * dot(piece.normal, velocity);
     own.tangent.work += world.lastDt * dot(piece.tangent, velocity);
-    if (!world.surfaces.isGone(piece.entry)) continue;
-    own.isRemoved = true;
-    own.normal.elastic = std::max(0., own.normal.elastic - piece.normalElastic);
-    own.tangent.elastic = std::max(0., own.tangent.elastic - piece.tangentElastic);
+    if (world.surfaces.isGone(piece.entry)) leave(piece);
   }
   std::map<yade::Body::id_t, std::size_t> rigid;
   for (const GivenForces::Given& one : given.all()) {
@@ -285,6 +308,20 @@ void SceneEnergy::end(const yade::Scene& scene, const World& world, const GivenF
   sums_.most = std::max(sums_.most, supplied + kineticEnergy(scene));
 }
 
+/// The elastic energy leaves with the piece.
+void SceneEnergy::leave(const Piece& piece) {
+  Touching& own = touching_[piece.touching];
+  own.isRemoved = true;
+  own.normal.elastic = std::max(0., own.normal.elastic - piece.normalElastic);
+  own.tangent.elastic = std::max(0., own.tangent.elastic - piece.tangentElastic);
+}
+
+void SceneEnergy::forget(const World& world, ComponentId component) {
+  for (const Piece& piece : pieces_)
+    if (world.surfaces.component[piece.entry.value] == component) leave(piece);
+  pieces_.clear();  // entries get other numbers
+}
+
 /// (J) Of the bodies that touch, without those that obey no forces.
 double SceneEnergy::kineticEnergy(const yade::Scene& scene) const {
   double twice = 0;
@@ -300,6 +337,27 @@ double SceneEnergy::kineticEnergy(const yade::Scene& scene) const {
   return twice / 2;
 }
 
+/// True if a corner of a straight side in contact has another angle than without stress.
+bool SceneEnergy::isBent(const World& world) const {
+  const ContactSurfaces& surfaces = world.surfaces;
+  const auto turn = [&](SegmentId segment, const std::vector<Vec2>& at) {
+    const auto start = [&](SegmentId one) { return at[surfaces.segmentNode[one.value].value]; };
+    const SegmentId next = surfaces.segmentNext[segment.value];
+    const Vec2 arrive = start(next) - start(segment);
+    const Vec2 leave = start(surfaces.segmentNext[next.value]) - start(next);
+    return std::atan2(cross(arrive, leave), dot(arrive, leave));
+  };
+  const Nodes& nodes = world.model.nodes;
+  return std::ranges::any_of(pieces_, [&](const Piece& piece) {
+    const SegmentId segment = surfaces.entrySegment[piece.entry.value];
+    if (surfaces.isSmooth(segment)) return false;
+    const auto bends = [&](SegmentId one) {
+      return std::abs(turn(one, nodes.position) - turn(one, nodes.reference)) > tolerance::kBent;
+    };
+    return bends(segment) || bends(surfaces.segmentPrev[segment.value]);
+  });
+}
+
 std::string SceneEnergy::message(const World& world) {
   const double spheres = bySpheres() - sums_.least, rigid = sums_.rigid;
   const double amount = std::max(spheres, std::abs(rigid));
@@ -307,26 +365,26 @@ std::string SceneEnergy::message(const World& world) {
   if (!(amount > least) || !(amount > world.roundingEnergy())) return {};
   sums_.reported = amount;
   const bool byRigid = std::abs(rigid) >= spheres;
-  const auto isStraight = [&](const Piece& piece) {
-    return !world.surfaces.isSmooth(world.surfaces.entrySegment[piece.entry.value]);
-  };
-  const bool byCorners =
-      sums_.stiffest < tolerance::kStiffContact && std::ranges::any_of(pieces_, isStraight);
+  const char* const advice =
+      byRigid ? "NewtonIntegrator must come after FESolver, with damping = 0, or make these bodies "
+                "heavier."
+      : sums_.stiffest >= tolerance::kStiffContact
+          ? "take a shorter step, or a smaller stiffness (young) of the spheres."
+      : sums_.deepest > 0 ? "a sphere overlaps a body by more than half its radius: take a larger "
+                            "stiffness (young)."
+      : isBent(world)     ? "the step is short enough, but the overlap of a sphere with a polygon "
+                            "changes where a corner bends: take smooth=True for the bodies that bend."
+                          : "the step is short enough, and the cause is not known.";
   return fmt::format(
       "Step {}, time {:.3g} s: contact with YADE's {} has {} {:.3g} J, {:.3g} % of the energy of "
       "the bodies that touch; {}",
       world.steps, world.time, byRigid ? "walls, boxes or facets" : "spheres",
-      byRigid && rigid < 0 ? "lost" : "created", amount, 100 * amount / sums_.most,
-      byRigid ? "NewtonIntegrator must come after FESolver, with damping = 0, or make these bodies "
-                "heavier."
-      : byCorners ? "the step is short enough, but the overlap of a sphere with a polygon changes "
-                    "where a corner bends: take smooth=True for the bodies that bend."
-                  : "take a shorter step, or a smaller stiffness (young) of the spheres.");
+      byRigid && rigid < 0 ? "lost" : "created", amount, 100 * amount / sums_.most, advice);
 }
 
 void SceneEnergy::archive(AnyArchive& archive) {
-  std::vector<double> sums = {sums_.work,  sums_.elastic, sums_.friction, sums_.least,
-                              sums_.rigid, sums_.most,    sums_.reported, sums_.stiffest};
+  std::vector<double> sums = {sums_.work, sums_.elastic,  sums_.friction, sums_.least,  sums_.rigid,
+                              sums_.most, sums_.reported, sums_.stiffest, sums_.deepest};
   std::vector<int> ids;
   std::vector<double> numbers;
   const auto flatten = [&](Touching& one, auto&& each) {
@@ -351,7 +409,7 @@ void SceneEnergy::archive(AnyArchive& archive) {
   int open = isOpen_ ? 1 : 0;
   archive.item("sceneIsOpen", open);
   if (archive.isLoading()) {
-    if (sums.size() != 8 || ids.size() % kFlags != 0 ||
+    if (sums.size() != 9 || ids.size() % kFlags != 0 ||
         numbers.size() != ids.size() / kFlags * kEach)
       throw InputError(
           "The saved state of FESolver is damaged (its energy balance is invalid); load another "
@@ -359,7 +417,7 @@ void SceneEnergy::archive(AnyArchive& archive) {
     const long step = step_;
     *this = {};
     step_ = step, isOpen_ = open != 0;
-    sums_ = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7]};
+    sums_ = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7], sums[8]};
     std::size_t next = 0;
     for (std::size_t i = 0; i < ids.size(); i += kFlags) {
       Touching one;

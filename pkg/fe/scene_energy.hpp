@@ -8,6 +8,7 @@
 // both sides must be opposite.
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "abi/yade.hpp"
@@ -33,6 +34,10 @@ class SceneEnergy {
   void end(const yade::Scene& scene, const World& world, const GivenForces& given);
   /// The message about created energy; empty if there is none.
   [[nodiscard]] std::string message(const World& world);
+  /// That about a sphere that may pass through a body.
+  [[nodiscard]] std::string takeDeep() { return std::exchange(deep_, {}); }
+  /// Must be called before a body is removed.
+  void forget(const World& world, ComponentId component);
 
   /// (J) Energy that the contacts have created so far; negative: lost, but not by friction.
   [[nodiscard]] double created() const { return bySpheres() + sums_.rigid; }
@@ -59,6 +64,7 @@ class SceneEnergy {
     bool isRemoved = false;  // some of its contacts were with fragments that this step removed
     Vec2 place, velocity;    // m, m/s, before its motion
     double spin = 0;         // rad/s
+    bool isPlaced = false;   // it overlaps by more than its motion in a step explains
     yade::Quaternionr orientation = yade::Quaternionr::Identity();
     Part normal, tangent;
   };
@@ -78,6 +84,7 @@ class SceneEnergy {
     double most = 0;                             // J, the largest energy that was there
     double reported = 0;                         // J, in the last message
     double stiffest = 0;  // (ω Δt)² of the stiffest contact of a sphere so far
+    double deepest = 0;   // of a sphere's radius, the deepest overlap that a message was about
   };
 
   [[nodiscard]] double bySpheres() const { return sums_.work + sums_.elastic + sums_.friction; }
@@ -89,9 +96,14 @@ class SceneEnergy {
                   std::vector<Touching>& found);
   void measureMotion(const yade::Scene& scene, const World& world);
   void settle(std::vector<Touching>& now);
+  void noteOverlap(const World& world, const yade::Body& body, Touching& own, double depth,
+                   double approach);
+  [[nodiscard]] bool isBent(const World& world) const;
+  void leave(const Piece& piece);
   [[nodiscard]] double kineticEnergy(const yade::Scene& scene) const;
 
   Sums sums_;
+  std::string deep_;
   std::vector<Touching> touching_, former_;
   std::vector<Piece> pieces_;
   Integrator integrator_ = {true, false};

@@ -9,17 +9,29 @@
 
 namespace yadefrag {
 
+namespace {
+
+/// YADE derives cylinders and connections from Sphere, too.
+bool isSphere(const yade::Shape& shape) {
+  const std::string name = shape.getClassName();
+  return name == "Sphere" || name == "GridNode";
+}
+
+}  // namespace
+
 bool SceneWatch::check(const yade::Scene& scene) {
   const auto& bodies = scene.bodies->body;
-  bool isNew = false;
+  bool isNew = hasNewSpheres_ = false;
   checked_ = std::min(checked_, bodies.size());
   for (; checked_ < bodies.size(); ++checked_) {
     const yade::Body* body = bodies[checked_].get();
-    if (!body || !body->shape || body->isClump()) continue;
+    if (!body || !body->shape) continue;
     if (dynamic_cast<const SurfaceSegment*>(body->shape.get())) continue;
+    if (free_ < 0 && !body->isClumpMember() && body->isDynamic()) free_ = body->id;
+    if (body->isClump() || !body->isBounded()) continue;
     isNew = noteShape(*body) || isNew;
-    if (const auto* sphere = dynamic_cast<const yade::Sphere*>(body->shape.get()))
-      isNew = noteSphere(*body, sphere->radius) || isNew;
+    if (isSphere(*body->shape))
+      isNew = noteSphere(*body, static_cast<const yade::Sphere&>(*body->shape).radius) || isNew;
   }
   return isNew;
 }
@@ -28,8 +40,7 @@ bool SceneWatch::noteShape(const yade::Body& body) {
   const yade::Shape& shape = *body.shape;
   const auto isKnown = [&](const Kind& kind) { return *kind.type == typeid(shape); };
   if (std::any_of(kinds_.begin(), kinds_.end(), isKnown)) return false;
-  const bool isSphere = dynamic_cast<const yade::Sphere*>(&shape) != nullptr;
-  kinds_.push_back({&typeid(shape), isSphere ? "Sphere" : shape.getClassName(), body.id});
+  kinds_.push_back({&typeid(shape), isSphere(shape) ? "Sphere" : shape.getClassName(), body.id});
   return true;
 }
 
@@ -40,6 +51,9 @@ bool SceneWatch::noteSphere(const yade::Body& body, double radius) {
     first = body.id;
     isNew = true;
   };
+  if (++spheres_ == 2) isNew = true;
+  spheres_ = std::min(spheres_, 2);
+  hasNewSpheres_ = true;
   largest_ = std::max(largest_, radius);
   const double height = std::abs(body.state->se3.position[2]);
   note(height >= radius, beside_);
@@ -59,8 +73,8 @@ std::vector<std::string> SceneWatch::sentences(const yade::Vector3r& gravity, bo
     for (const Kind& kind : kinds_)
       if (!kinds.has_key(kind.name)) kinds[kind.name] = kind.first;
     const py::object found = py::import("yadefrag.scene.scene_check")
-                                 .attr("sentences")(kinds, beside_, leaving_, loose_, gravity[2],
-                                                    rigidBodies, largest_, thickness);
+                                 .attr("sentences")(kinds, spheres_, beside_, leaving_, loose_,
+                                                    gravity[2], rigidBodies, largest_, thickness);
     for (py::ssize_t i = 0; i < py::len(found); ++i)
       result.push_back(py::extract<std::string>(found[i]));
   } catch (const py::error_already_set&) {

@@ -15,6 +15,12 @@ class SceneWatch {
  public:
   /// Checks the bodies that were added since the last call. Returns true if there is a message.
   bool check(const yade::Scene& scene);
+  /// Number of the scene's bodies at the last call.
+  [[nodiscard]] std::size_t checked() const { return checked_; }
+  /// The last call has found spheres.
+  [[nodiscard]] bool hasNewSpheres() const { return hasNewSpheres_; }
+  /// A body that obeys forces; -1 if there was none.
+  [[nodiscard]] yade::Body::id_t free() const { return free_; }
   /// Messages about these bodies, from yadefrag/scene/scene_check.py; none if that fails.
   /// `gravity`: m/s², of NewtonIntegrator; `rigidBodies`: contact with YADE's walls, boxes and
   /// facets is on; `thickness`: m, largest of the bodies of FESolver. Acquires Python's lock.
@@ -30,11 +36,14 @@ class SceneWatch {
   bool noteShape(const yade::Body& body);
   bool noteSphere(const yade::Body& body, double radius);
 
-  std::size_t checked_ = 0;  // number of the scene's bodies at the last call
+  std::size_t checked_ = 0;
+  int spheres_ = 0;  // number of spheres, up to 2
+  bool hasNewSpheres_ = false;
   std::vector<Kind> kinds_;
   // Spheres: one beside the plane of the bodies, one that leaves it, one that may leave it.
   yade::Body::id_t beside_ = -1, leaving_ = -1, loose_ = -1;
-  double largest_ = 0;  // m, radius
+  yade::Body::id_t free_ = -1;  // obeys forces
+  double largest_ = 0;          // m, radius
 };
 
 }  // namespace yadefrag

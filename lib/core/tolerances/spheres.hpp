@@ -17,6 +17,22 @@ inline constexpr int kJunctionsToContact = 8;
 /// tests 0.4 creates 28 % of a sphere's energy, 0.004 none.
 inline constexpr double kStiffContact = .05;
 
+/// (of a sphere's radius) Largest overlap with a body that is added, or of a sphere that is added:
+/// a hundredth holds 10⁻⁴ of the energy of half an overlap, and places are computed with few
+/// digits.
+inline constexpr double kPlacedOverlap = .01;
+
+/// (of a sphere's radius) A message is given if a sphere overlaps a body by more than this: at 1
+/// its centre is inside, and beyond it may leave on the other side.
+inline constexpr double kDeepSphere = .5;
+
+/// (of a sphere's radius) A sphere that approaches by more than this in a step may pass through,
+/// however stiff it is.
+inline constexpr double kFastSphere = .1;
+
+/// (rad) Change of a corner of a boundary up to which a polygon counts as not bent.
+inline constexpr double kBent = .01;
+
 /// (of a side) A message is given if the arc of a smooth boundary enters a wall deeper than this
 /// between two points of contact. A disc of 48 sides then stands on a slope of 0.04.
 inline constexpr double kArcDepth = .01;

@@ -196,6 +196,40 @@ def test_wholeBodyIsRemoved(colliderName):
     assert len(solver.nodes) == 0 and solver.criticalTimeStep() == math.inf
 
 
+@pytest.mark.parametrize('kind', ['elastic', 'smoothed', 'brittle', 'plastic'])
+def test_totalEnergyStaysWhereBodiesComeAndGo(kind):
+    solver = fe()
+    constants = dict(young=1e7, poisson=.3, density=1000, frictionAngle=.3, label='own')
+    O.materials.append(dict(brittle=w.BrittleFEMat(tensileStrength=3e4, fractureEnergy=20, **constants),
+                            plastic=w.PlasticFEMat(yieldStress=2e4, **constants)).get(kind) or w.FEMat(**constants))
+    def add(y, speed):
+        return solver.addPolygon(yadefrag.rectangle((0, y), (.1, y + .05)), size=.0125, material='own',
+                                 velocity=(0, speed), element='smoothed' if kind == 'smoothed' else 'linear')
+    add(0, 5)
+    second = add(.0501, -5)
+    O.bodies.append(chain.ball((.05, .1107), .01, O.materials['m']))
+    O.bodies[-1].state.vel = (0, -8, 0)
+    O.engines = yadefrag.engines(solver, spheres=True)
+    O.dt = .3 * solver.criticalTimeStep()
+    while not any(i.isReal for i in O.interactions):
+        O.step()
+    steps(10)
+    def check(change):
+        before = solver.energy
+        change()
+        after = solver.energy
+        for name in ('total', 'scene'):
+            assert after[name] == pytest.approx(before[name], abs=1e-9 * before['kinetic'])
+        assert after['outside'] - before['outside'] == pytest.approx(
+            builtins.sum(before[name] - after[name] for name in ('kinetic', 'strain')), abs=.05 * before['strain'])
+    check(lambda: add(.3, 2))
+    check(lambda: solver.removeBody(second))
+    total = solver.energy['total']
+    steps(60)
+    assert solver.energy['total'] == pytest.approx(total, abs=1e-3 * solver.energy['kinetic'])
+    assert not [one for one in solver.warnings if 'created' in one]
+
+
 def test_bodiesJoinARun():
     solver = impact('LebesgueCollider')
     steps(100)

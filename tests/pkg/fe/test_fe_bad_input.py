@@ -312,11 +312,29 @@ def test_namesThatDoNotExistAreReported():
         solver.damping, solver.label, solver.dead = 3, 'fe', False
 
 
-def test_prescribeForNoNodeIsReported():
+@pytest.mark.parametrize('call', [
+    lambda solver, nodes: solver.prescribe(nodes, vx=0), lambda solver, nodes: solver.rotate(nodes, 1, (0, 0)),
+    lambda solver, nodes: solver.reaction(nodes)])
+@pytest.mark.parametrize('kind', ['function', 'flags', 'numbers'])
+def test_placesWithoutNodesAreReported(call, kind):
+    """After a motion: a function gets the present positions."""
     solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-    with pytest.warns(UserWarning, match='^prescribe: nodes selects none of the %d nodes.$' % len(solver.nodes)):
-        solver.prescribe(lambda x, y: x > 2, vx=0)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', velocity=(1, 0))
+    run(solver)
+    left = lambda x, y: x < 1e-9
+    numbers = np.flatnonzero([left(x, y) for x, y in solver.nodes])
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')
+        call(solver, left)
+    solver.prescribe(numbers)
+    steps(3)
+    nodes = dict(function=left, flags=np.array([left(x, y) for x, y in solver.nodes]), numbers=[])[kind]
+    with pytest.warns(UserWarning, match='^nodes selects none of the %d nodes' % len(solver.nodes)) as caught:
+        call(solver, nodes)
+    assert ('present positions' in str(caught[0].message)) == (kind == 'function')
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')
+        call(solver, numbers)
 
 
 def test_runStepsShowsFESolversMessages():

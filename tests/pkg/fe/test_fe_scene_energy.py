@@ -112,6 +112,27 @@ def test_aSphereThatIsTooLightForTheStepIsReported():
     assert not found[.01]
 
 
+@pytest.mark.parametrize('smooth', [False, True])
+def test_shorterStepIsAdvisedOnlyWhereItHelps(smooth):
+    """A steel sphere dents a plate that yields; the contact's (ω Δt)² is below .05 at both steps."""
+    created, messages = [], []
+    for factor in (.3, .1):
+        O.reset()
+        O.materials.append(w.PlasticFEMat(young=1e8, poisson=.3, density=2700, yieldStress=3e5, hardening=0,
+                                          frictionAngle=.4, label='p'))
+        solver = w.FESolver(linearViscosity=.06)
+        solver.addPolygon(yadefrag.rectangle((0, 0), (.5, .04)), size=.0125, material='p', thickness=.04, smooth=smooth,
+                          fixed=lambda x, y: x < 1e-9 or x > .5 - 1e-9)
+        O.bodies.append(ball((.45, .0561), .016, (1, -15), 1e8, 7800, .4))
+        O.engines = yadefrag.engines(solver, spheres=True)
+        O.dt = factor * solver.criticalTimeStep()
+        O.run(int(.02 / O.dt), True)
+        created.append(max(0., solver.energy['scene'] - solver.energy['total']))
+        messages += [one for one in solver.warnings if 'has created' in one]
+    assert not any('shorter step' in one for one in messages)
+    assert all('step is short enough' in one or 'radius' in one for one in messages)
+
+
 def test_createdEnergyIsThatOfTheBodies():
     """The number in `scene` is the kinetic energy that the sphere and the bodies have got from nothing."""
     solver = fe()

@@ -139,6 +139,42 @@ def bent(smooth=False, factor=.5):
     return solver.warnings
 
 
+def thrownAt(young=1e7, radius=.01, speed=50, factor=.4, body=1e9, smooth=False):
+    """A sphere hits a block."""
+    O.materials.append(w.FEMat(young=body, poisson=.2, density=2000, frictionAngle=.3, label='m'))
+    solver = w.FESolver()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .1)), size=.02, material='m', thickness=.02, smooth=smooth,
+                      fixed=lambda x, y: y < 1e-9)
+    ball = utils.sphere((.2, .1001 + radius, 0), radius, material=w.FrictMat(young=young, density=7800, frictionAngle=.3))
+    ball.state.vel, ball.state.blockedDOFs = (0, -speed, 0), 'zXY'
+    O.bodies.append(ball)
+    O.engines = yadefrag.engines(solver, spheres=True)
+    O.dt = factor * solver.criticalTimeStep()
+    O.run(int(1200 / factor), True)
+    assert ball.state.pos[1] > .1 or any('may pass through' in one for one in solver.warnings)
+    return solver.warnings
+
+
+def putAt(height, isLate=True):
+    """A sphere is put onto a block, or a block below a sphere."""
+    solver = soft()
+    def block():
+        solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.25, material='m', thickness=.2)
+    def sphere():
+        ball = utils.sphere((.5, height, 0), .1, material='m')
+        ball.state.blockedDOFs = 'zXY'
+        O.bodies.append(ball)
+    if not isLate:
+        sphere()
+    block()
+    O.engines = yadefrag.engines(solver, spheres=True)
+    O.dt = .2 * solver.criticalTimeStep()
+    ran(solver, 3)
+    if isLate:
+        sphere()
+    return ran(solver, 200)
+
+
 def clump(moment=None, blocked='zXY'):
     """A clump whose third principal axis is not z, beside a block."""
     solver = soft()
@@ -310,6 +346,21 @@ TABLE = {
         "contact with YADE's spheres has created .*a smaller stiffness", small, lambda: small(young=1e4)),
     'spheres on corners that bend': (
         "contact with YADE's spheres has created .*take smooth=True", bent, lambda: bent(True)),
+    'a sphere that is too soft': (
+        'overlaps an FE body by .* of its radius, and may pass through; the contact is too soft: take a larger stiffness',
+        thrownAt, lambda: thrownAt(1e10)),
+    'a sphere that is too soft, smooth': (
+        'may pass through; the contact is too soft', lambda: thrownAt(smooth=True), lambda: thrownAt(1e10, smooth=True)),
+    'a sphere that is too fast for the step': (
+        'may pass through; it moves by .* of its radius in a step: take a shorter step',
+        lambda: thrownAt(1e10, .002, 100, .8), lambda: thrownAt(1e10, .002, 100, .05)),
+    'a sphere put into a body': (
+        'Sphere #.* overlaps an FE body by .*; put it outside', lambda: putAt(.55), lambda: putAt(.6)),
+    'a sphere put inside a body': ('Sphere #.* overlaps an FE body', lambda: putAt(.25), lambda: putAt(.6)),
+    'a body over a sphere': (
+        'The new body overlaps sphere #0 by 0.05 m, 0.5 of its radius', lambda: putAt(.55, False), lambda: putAt(.6, False)),
+    'a body around a sphere': (
+        'The new body overlaps sphere #0', lambda: putAt(.25, False), lambda: putAt(.6, False)),
     'a clump that rotates by another axis: inertia': (
         'by the moment of inertia of another axis', clump,
         lambda: follow(clump, 'of another axis', lambda said: number(said, 'instead of'))),

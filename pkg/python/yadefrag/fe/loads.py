@@ -18,6 +18,8 @@ from yadefrag.scene import interrupts, lifecycle
 from yadefrag.scene.progress import runPart
 
 _LOOK = 25  # steps from one evaluation of the motion to the next
+_DAMPING = .4  # of NewtonIntegrator, while spheres come to rest
+_FALLS = .1  # of gravity: a body of YADE with a larger mean acceleration is not at rest
 
 
 def getLoads(self: FESolver) -> numpy.ndarray:
@@ -89,21 +91,28 @@ def absorb(self: FESolver, nodes: Nodes) -> None:
 
 
 def relax(self: FESolver, tolerance: float = 1e-6, most: int = 10**6) -> int:
-    """Runs the scene until its bodies are at rest; returns the number of steps (int).
+    """Runs the scene until its bodies are at rest, and YADE's that obey forces; returns the number of
+    steps (int).
 
-    tolerance  criterion of rest: the kinetic energy is below this fraction of the strain energy, at
-               two successive evaluations, 25 steps apart
+    tolerance  criterion of rest: the kinetic energy of all bodies is below this fraction of the elastic
+               energy, of strain and of contacts, at two successive evaluations, 25 steps apart, and no
+               body of YADE falls
     most       maximum number of steps; after these a warning reports the ratio of energies
     Damping is set anew at each evaluation, so that the slowest vibration in the motion is critically
     damped, by its Rayleigh quotient (Underwood 1983, Computational Methods for Transient Analysis,
-    p. 245). Afterwards `damping` has its previous value. Call it between runs, with O.dt set.
+    p. 245); if YADE's bodies are spheres and clumps of spheres, NewtonIntegrator has a damping of at
+    least 0.4. Afterwards both have their previous values. Call it between runs, with O.dt set.
     RuntimeError and KeyboardInterrupt as from runSteps.
     """
     tolerance = positive('tolerance', tolerance, 'a ratio of energies')
     most = whole('most', most)
     requireNoStep('relax')
     before, begin = self.damping, lifecycle.stepsDone()
+    movers = [(one, one.damping) for one in wrapper.Omega().engines if isinstance(one, wrapper.NewtonIntegrator)]
     try:
+        if _areSpheres(_freeBodies()):
+            for mover, damping in movers:
+                mover.damping = max(damping, _DAMPING)
         with interrupts.held():
             calm, ratio = _damped(self, tolerance, most)
     except KeyboardInterrupt:
@@ -111,28 +120,74 @@ def relax(self: FESolver, tolerance: float = 1e-6, most: int = 10**6) -> int:
         raise
     finally:
         self.damping = before
+        for mover, damping in movers:
+            mover.damping = damping
     done = lifecycle.stepsDone() - begin
     if calm < 2:
-        warn('relax: after %d steps the kinetic energy is still %.3g of the strain energy.' % (done, ratio))
+        warn('relax: after %d steps the kinetic energy is still %.3g of the elastic energy%s.' %
+             (done, ratio, ', with that of %d bodies of YADE' % len(_freeBodies()) if _freeBodies() else ''))
     return done
+
+
+def _freeBodies():
+    """YADE's bodies that obey forces."""
+    return [body for body in wrapper.Omega().bodies if not body.isClumpMember and body.dynamic
+            and not isinstance(body.shape, wrapper.SurfaceSegment)]
+
+
+def _areSpheres(bodies):
+    shapes = wrapper.Omega().bodies
+    members = [shapes[number].shape for body in bodies if body.isClump for number in body.shape.members]
+    return bool(bodies) and all(isinstance(one, wrapper.Sphere) for one in members + [
+        body.shape for body in bodies if not body.isClump])
+
+
+def _velocitiesAndEnergy(bodies):
+    """((n, 3) m/s, kinetic energy (J)) of bodies of YADE."""
+    states = [body.state for body in bodies]
+    moving = numpy.array([state.vel for state in states]).reshape(-1, 3)
+    turning = numpy.array([state.angVel for state in states]).reshape(-1, 3)
+    masses, inertia = [state.mass for state in states], [state.inertia for state in states]
+    twice = (numpy.array(masses)[:, None] * moving**2).sum() + (
+        numpy.array(inertia).reshape(-1, 3) * turning**2).sum()
+    return moving, twice / 2
+
+
+def _contactEnergy():
+    """(J) Elastic energy of the contacts of YADE's laws that have it."""
+    laws = [law for loop in wrapper.Omega().engines if isinstance(loop, wrapper.InteractionLoop)
+            for law in loop.lawDispatcher.functors]
+    return sum(law.elasticEnergy() for law in laws if hasattr(law, 'elasticEnergy'))
 
 
 def _damped(fe, tolerance, most):
     """Runs to rest; returns the number of successive evaluations at rest, and the last ratio of energies."""
     done, calm, ratio = 0, 0, math.inf
+    speeds, _ = _velocitiesAndEnergy(_freeBodies())
     while done < most and calm < 2:
         wanted = min(_LOOK, most - done)
         part, _ = runPart(wanted)
         done += part
         if part < wanted:
             break  # O.pause()
-        energy = fe.energy
-        ratio = energy['kinetic'] / energy['strain'] if energy['strain'] > 0 else math.inf
-        isRounding = energy['kinetic'] <= fe._energyBalance[2]  # nothing else without loads
-        calm = calm + 1 if ratio <= tolerance or isRounding else 0
+        energy, former = fe.energy, speeds
+        speeds, ofBodies = _velocitiesAndEnergy(_freeBodies())
+        kinetic, elastic = energy['kinetic'] + ofBodies, energy['strain'] + _contactEnergy()
+        ratio = kinetic / elastic if elastic > 0 else math.inf
+        isRounding = kinetic <= fe._energyBalance[2]  # nothing else without loads
+        calm = calm + 1 if (ratio <= tolerance or isRounding) and not _anyFalls(former, speeds, part) else 0
         fe.damping, part = _critical(fe)
         done += part
     return calm, ratio
+
+
+def _anyFalls(before, after, steps):
+    """True if gravity has accelerated one of YADE's bodies, which then has no support."""
+    omega = wrapper.Omega()
+    pulls = [numpy.linalg.norm(one.gravity) for one in omega.engines if isinstance(one, wrapper.NewtonIntegrator)]
+    most = _FALLS * max(pulls, default=0) * steps * omega.dt
+    return len(before) == len(after) and len(after) > 0 and most > 0 and bool(
+        (numpy.linalg.norm(after - before, axis=1) > most).any())
 
 
 def _critical(fe):

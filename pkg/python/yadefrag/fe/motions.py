@@ -21,7 +21,8 @@ _ROUNDING = 1e-9  # rounding of velocities that a script computes
 
 
 def chosenNodes(fe: FESolver, nodes: Nodes) -> numpy.ndarray:
-    """(k) node numbers from the argument `nodes` of FESolver.prescribe; ValueError if it is invalid."""
+    """(k) node numbers from the argument `nodes` of FESolver.prescribe; ValueError if it is invalid, a
+    warning if there are none."""
     places = fe.nodes
     chosen: Any
     if callable(nodes):
@@ -42,6 +43,9 @@ def chosenNodes(fe: FESolver, nodes: Nodes) -> numpy.ndarray:
     if chosen.size and (chosen.min() < 0 or chosen.max() >= len(places)):
         raise ValueError('nodes has numbers from %d to %d, but there are %d nodes.' %
                          (chosen.min(), chosen.max(), len(places)))
+    if not len(chosen):
+        warn('nodes selects none of the %d nodes%s.' % (len(places), ': a function gets the present positions; numbers '
+             'from the start, numpy.flatnonzero(fe.nodes[:, 1] < 1e-9), stay with the nodes' * callable(nodes)))
     return chosen.astype(numpy.uint32)
 
 
@@ -115,8 +119,6 @@ def prescribe(self: FESolver, nodes: Nodes,
     """
     requireBetweenSteps()
     chosen = chosenNodes(self, nodes)
-    if not len(chosen):
-        warn('prescribe: nodes selects none of the %d nodes.' % len(self.nodes))
     kinds, values = zip(*[_kind(name, value, len(chosen)) for name, value in (('vx', vx), ('vy', vy))])
     held = sum(axis for axis, kind in ((1, kinds[0]), (2, kinds[1])) if kind != 'none')
     if not {'table', 'function'} & set(kinds):

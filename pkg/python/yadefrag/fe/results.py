@@ -110,8 +110,9 @@ class Energies(dict):
 
 
 def energy(self: FESolver) -> Energies:
-    """Dict of J: kinetic, strain, contact, friction, fracture, damping, outside (energy that left:
-    negative where work was done on the bodies); with minFragmentArea, dropped (energy of removed
+    """Dict of J: kinetic, strain, contact, friction, fracture, damping, outside (energy that left, also
+    with bodies that were removed: negative where work was done on the bodies, or bodies were added
+    after the first step); with minFragmentArea, dropped (energy of removed
     fragments); total, their sum, is constant, except for impacts of soft bodies that rotate, which
     reduce it by second order in O.dt: 5e-4 of the work in a drum of rubber, 1.3e-4 with half the step.
     O.energy has the same values, with the same signs, as feKinetic, feStrain ... feOutside, if

@@ -9,45 +9,65 @@ from yade import wrapper
 from yadefrag.arguments import flag, number, numbersOf, refuse
 from yadefrag.hints import ArrayLike, FESolver
 
+# Shapes of YADE, besides spheres, that engines(spheres=True) has functors for.
+_WITH_FUNCTORS = ('Box', 'Facet', 'Wall')
+
 
 def engines(fe: FESolver, gravity: ArrayLike | None = None, spheres: bool = False, damping: float = 0.,
-            collider: type | None = None, moving: bool = False) -> list[Any]:
+            collider: Any = None, moving: bool = False, loop: Any = None, integrator: Any = None) -> list[Any]:
     """List of engines for O.engines, in the correct order.
 
     fe        an FESolver
     gravity   m/s², for the FE bodies and spheres: a pair, or three numbers with z = 0; None: that of
-              fe.gravity
+              fe.gravity. Where there is an integrator, its `gravity` is that of all bodies from then on,
+              also when it is changed
     spheres   False: no YADE spheres; the engines are [ForceResetter, fe], since FESolver searches
-              by itself. True: also a collider, an InteractionLoop with Cundall and Strack's law among
-              spheres and between spheres and bodies, and NewtonIntegrator
-    moving    without spheres: True if YADE's walls, boxes or facets move; adds NewtonIntegrator after
+              by itself. True: also a collider, a loop over the contacts and an integrator, with the
+              functors for spheres, clumps of spheres, walls, boxes and facets beside FE bodies, and
+              Cundall and Strack's law
+    moving    without spheres: True if YADE's walls, boxes or facets move; adds the integrator after
               fe, which moves them
-    damping   of NewtonIntegrator; acts on YADE's bodies only
-    collider  a collider class for spheres=True; None: LebesgueCollider
+    damping   of the integrator; acts on YADE's bodies only
+    collider  None: LebesgueCollider; or another class of colliders
+    loop      None: CurveLoop; or another class, such as InteractionLoop. Or a loop with functors of
+              your own, which is used as it is: engines for other laws, for example
+    integrator  None: CurveIntegrator; or another class, such as NewtonIntegrator
     Add other engines at the end: O.engines = engines(fe) + [PyRunner(...)]. ValueError before any
     change.
     """
     if not isinstance(fe, wrapper.FESolver):
         refuse('fe', fe, 'an FESolver')
     spheres, moving = flag('spheres', spheres), flag('moving', moving)
-    finder = wrapper.LebesgueCollider if collider is None else collider
-    if not isinstance(finder, type) or not issubclass(finder, wrapper.Collider):
-        refuse('collider', collider, 'a class of colliders, or None')
+    finder = _classOf('collider', collider, wrapper.LebesgueCollider, wrapper.Collider)
+    mover = _classOf('integrator', integrator, wrapper.CurveIntegrator, wrapper.NewtonIntegrator)
+    if not isinstance(loop, wrapper.InteractionLoop):
+        loop = _classOf('loop', loop, wrapper.CurveLoop, wrapper.InteractionLoop)
     damping = number('damping', damping, lambda v: math.isfinite(v) and v >= 0, '0 or positive')
-    integrator = wrapper.NewtonIntegrator(damping=damping)
-    if gravity is not None:
-        fe.gravity = _inPlane(gravity)
-    integrator.gravity = fe.gravity
+    pull = tuple(fe.gravity) if gravity is None else _inPlane(gravity)
+    if not (spheres or moving):
+        if any(pull) or gravity is not None:
+            fe.gravity = pull
+        return [wrapper.ForceResetter(), fe]
+    behind = mover(damping=damping)
+    behind.gravity = (*pull, 0.)[:3]
+    fe.gravity, fe.takesGravity = pull, True
     if not spheres:
-        return [wrapper.ForceResetter(), fe] + [integrator] * moving
-    return [
-        wrapper.ForceResetter(),
-        finder([wrapper.Bo1_Sphere_Aabb(), wrapper.Bo1_SurfaceSegment_Aabb()]),
-        wrapper.InteractionLoop(
-            [wrapper.Ig2_Sphere_Sphere_ScGeom(), wrapper.Ig2_Sphere_SurfaceSegment_ScGeom()],
-            [wrapper.Ip2_FrictMat_FrictMat_FrictPhys()],
-            [wrapper.Law2_ScGeom_FrictPhys_CundallStrack()]),
-        fe, integrator]
+        return [wrapper.ForceResetter(), fe, behind]
+    if isinstance(loop, type):
+        loop = loop([wrapper.Ig2_Sphere_Sphere_ScGeom(), wrapper.Ig2_Sphere_SurfaceSegment_ScGeom()] +
+                    [getattr(wrapper, 'Ig2_%s_Sphere_ScGeom' % shape)() for shape in _WITH_FUNCTORS],
+                    [wrapper.Ip2_FrictMat_FrictMat_FrictPhys()], [wrapper.Law2_ScGeom_FrictPhys_CundallStrack()])
+    bounds = [getattr(wrapper, 'Bo1_%s_Aabb' % shape)() for shape in ('Sphere', 'SurfaceSegment', *_WITH_FUNCTORS)]
+    return [wrapper.ForceResetter(), finder(bounds), loop, fe, behind]
+
+
+def _classOf(name, given, usual, base):
+    """The class `given`, or the usual one for None."""
+    if given is None:
+        return usual
+    if not isinstance(given, type) or not issubclass(given, base):
+        refuse(name, given, 'None, or a class derived from %s' % base.__name__)
+    return given
 
 
 def _inPlane(gravity):

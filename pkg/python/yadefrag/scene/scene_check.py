@@ -19,42 +19,48 @@ solvers: Any = weakref.WeakSet()  # with bodies
 _looked = None  # scene and number of its bodies when they were last searched
 
 
-def _functors(engines, kind, holder):
-    """All functors of the engines of one kind that are not dead."""
-    return [functor for engine in engines if isinstance(engine, kind)
-            for functor in getattr(engine, holder).functors]
+def _dispatchers(engines, holder, attribute, alone):
+    """Those of the engines of one kind, and those that are engines themselves."""
+    return [getattr(one, attribute) for one in engines if isinstance(one, holder)] + \
+        [one for one in engines if isinstance(one, alone)]
 
 
-def _takes(functor, *shapes):
-    return all(shape in functor.bases for shape in shapes)
+def _found(dispatchers, *shapes):
+    """The first functor for a body's shape, or for those of two bodies; None if there is none."""
+    return next(filter(None, (one.dispFunctor(*shapes) for one in dispatchers)), None)
 
 
-def sentences(kinds: Mapping[str, int], beside: int, leaving: int, loose: int, gravityZ: float,
+def sentences(kinds: Mapping[str, int], spheres: int, beside: int, leaving: int, loose: int, gravityZ: float,
               rigidBodies: bool, largest: float = 0., thickness: float = 0.) -> list[str]:
     """List of sentences about the scene; FESolver calls it when bodies or engines are new.
 
-    kinds                   {name of a shape: a body with it}, without surface segments; spheres of all
-                            kinds are 'Sphere'
+    kinds                   {name of a shape: a body with it}, without surface segments
+    spheres                 number of spheres, up to 2
     beside, leaving, loose  a sphere that is beside the plane z = 0, leaves it, may leave it; -1: none
     gravityZ                m/s², of NewtonIntegrator
     rigidBodies             True: FESolver's bodies have contact with those of _RIGID
     largest                 m, radius of the largest sphere
     thickness               m, largest thickness of FESolver's bodies
     """
-    engines = [engine for engine in wrapper.Omega().engines if not engine.dead]
-    geometry = _functors(engines, wrapper.InteractionLoop, 'geomDispatcher')
+    omega = wrapper.Omega()
+    engines = [engine for engine in omega.engines if not engine.dead]
+    loops = _dispatchers(engines, wrapper.InteractionLoop, 'geomDispatcher', wrapper.IGeomDispatcher)
+    finders = _dispatchers(engines, wrapper.Collider, 'boundDispatcher', wrapper.BoundDispatcher)
     found = []
-    rigid = [shape for shape in kinds if rigidBodies and shape in _RIGID]
     for shape, body in kinds.items():
-        if shape in rigid:
+        if shape in _RIGID and rigidBodies:
             continue
-        if not any(_takes(one, shape, 'SurfaceSegment') for one in geometry):
+        functor = _found(loops, omega.bodies[body].shape, wrapper.SurfaceSegment())
+        if functor is None:
             found.append(_untouched(shape, body))
+        elif shape not in (*functor.bases, 'GridNode'):
+            found.append('FE bodies touch bodies of the shape %s, such as #%d, as a sphere at their position, and '
+                         'go through the rest of them.' % (shape, body))
     if 'Sphere' in kinds:
-        bounds = _functors(engines, wrapper.Collider, 'boundDispatcher')
-        if not any(_takes(one, 'SurfaceSegment') for one in bounds):
+        if _found(finders, wrapper.SurfaceSegment()) is None:
             found.append('Spheres go through FE bodies: the collider has no Bo1_SurfaceSegment_Aabb; '
                          'engines(fe, spheres=True) has it.')
+        found += _throughOthers(kinds, spheres, loops, finders)
         found += _outOfPlane(beside, leaving, loose, gravityZ)
         if thickness > _THICK * 2 * largest:
             found.append('FE bodies are %g m thick, and the largest sphere has a diameter of %g m: masses and '
@@ -63,12 +69,32 @@ def sentences(kinds: Mapping[str, int], beside: int, leaving: int, loose: int, g
     if gravityZ and loose < 0:
         found.append('The gravity of NewtonIntegrator along z does not act on FE bodies: they move in '
                      'the plane z = 0 only.')
+    found += ['%s does not act on FE bodies; the gravity of NewtonIntegrator does.' % type(one).__name__
+              for one in engines if isinstance(one, wrapper.FieldApplier) and not isinstance(one, wrapper.NewtonIntegrator)]
     if not any(isinstance(one, wrapper.ForceResetter) for one in engines):
         other = [one for one in engines if not isinstance(one, _WITHOUT_FORCES)]
         if other:
             found.append('O.engines has no ForceResetter: the forces of %s on bodies add up from step '
                          'to step.' % type(other[0]).__name__)
     return found
+
+
+def _throughOthers(kinds, spheres, loops, finders):
+    """Spheres and other bodies without a functor, if there is a loop at all."""
+    bodies = wrapper.Omega().bodies
+    sphere = bodies[kinds['Sphere']].shape
+    if not loops or not finders:
+        return
+    for shape, body in kinds.items():
+        if shape == 'Sphere' and spheres < 2:
+            continue
+        other = bodies[body].shape
+        name = 'Ig2_Sphere_Sphere_ScGeom' if shape == 'Sphere' else 'Ig2_%s_Sphere_ScGeom' % shape
+        lacking = ('no InteractionLoop has an ' + name if _found(loops, other, sphere) is None else
+                   'the collider has no Bo1_%s_Aabb' % shape if _found(finders, other) is None else '')
+        if lacking:
+            yield ('Spheres go through bodies of the shape %s, such as #%d: %s%s.' %
+                   (shape, body, lacking, '; engines(fe, spheres=True) has it' * (shape in (*_RIGID, 'Sphere'))))
 
 
 def _untouched(shape, body):
