@@ -1,4 +1,5 @@
-"""Sources that can be compiled as one unit: python3 scripts/units.py FILE..., one unit a line, by `;`.
+"""Sources that can be compiled as one unit: python3 scripts/units.py MOST FILE..., one unit of at most MOST sources a
+line, by `;`.
 
 Most of the time of a file is spent on the headers that it includes. Several sources in one unit read
 them once. They must not have private names in common.
@@ -10,7 +11,6 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FOLDERS = ('lib', 'pkg', 'tests')
-MOST = 8  # sources in a unit: more save little, and both cores should have work to the end
 PRIVATE = re.compile(r'^namespace \{\n(.*?)^\}  // namespace\n', re.M | re.S)
 # What a line at the left margin defines: a type, a function, constants. Several sources may name the same
 # `using yade::Vector3r;` or alias of a namespace.
@@ -77,7 +77,7 @@ class Unit:
         self.aliases.update(other.aliases)
 
 
-def unitsOf(paths, most=MOST):
+def unitsOf(paths, most):
     """Lists of `most` sources or fewer."""
     units = []
     for path in sorted(paths):
@@ -92,4 +92,4 @@ def unitsOf(paths, most=MOST):
 
 
 if __name__ == '__main__':
-    print('\n'.join(';'.join(sources) for sources in unitsOf(map(os.path.abspath, sys.argv[1:]))))
+    print('\n'.join(';'.join(sources) for sources in unitsOf(map(os.path.abspath, sys.argv[2:]), int(sys.argv[1]))))
