@@ -1,9 +1,9 @@
 """Finite-element bodies: scripts/bench fe [--repeat 5] [--out FOLDER]
 
-Four tables. The step without contact, ns per triangle, at 10⁴ to 10⁶ triangles on one thread and
+Three tables. The step without contact, ns per triangle, at 10⁴ to 10⁶ triangles on one thread and
 two; where the time of a step with contact goes, in rings, squares, an impact and walls of blocks;
-blocks that touch exactly beside the same blocks apart; the impact beside CalculiX (fe_ccx.py). The
-scenes and our measurements are in fe_bench.cpp, fe_contact_bench.cpp and fe_impact_bench.cpp.
+blocks that touch exactly beside the same blocks apart. The scenes and our measurements are in fe_bench.cpp and
+fe_contact_bench.cpp.
 Medians over the repeats. Writes fe.json (raw) and fe.md (tables) to the folder, by default
 out/bench.
 """
@@ -15,7 +15,6 @@ import statistics
 import subprocess
 import sys
 
-import fe_ccx
 import report
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -31,12 +30,9 @@ def main(arguments):
     steps = _bench(options, '^step')
     contact = _bench(options, '^contact/')
     machine = report._machine([])
-    calculix, _ = fe_ccx.compare(options.program, 10, options.repeat)
     text = '\n'.join(
         ['# Finite elements', '', _line(machine) + f'; medians of {options.repeat} runs.', '']
-        + stepTable(steps) + [''] + contactTable(contact) + [''] + blockTable(contact)
-        + ['', '## Beside CalculiX', '']
-        + calculix)
+        + stepTable(steps) + [''] + contactTable(contact) + [''] + blockTable(contact))
     with open(os.path.join(options.out, 'fe.json'), 'w') as f:
         json.dump(dict(machine=machine, repeat=options.repeat, rows=steps + contact), f, indent=1)
     with open(os.path.join(options.out, 'fe.md'), 'w') as f:

@@ -2,7 +2,7 @@
 // moved a little since the last one. The counters come from a run of their own, so that the time is
 // that of a search that counts nothing.
 //
-// Names: comparisons/<dimensions>D/1:<longest over shortest side>/<method>/<boxes>.
+// Names: search/<dimensions>D/1:<longest over shortest side>/<method>/<boxes>.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -112,8 +112,8 @@ void registerAll() {
   for (const int dimensions : {2, 3})
     for (const int ratio : {1, 50})
       for (const Method& m : kMethods) {
-        const std::string name = "comparisons/" + std::to_string(dimensions) +
-                                 "D/1:" + std::to_string(ratio) + "/" + m.name;
+        const std::string name =
+            "search/" + std::to_string(dimensions) + "D/1:" + std::to_string(ratio) + "/" + m.name;
         benchmark::RegisterBenchmark(
             name.c_str(),
             [=](benchmark::State& state) { runSearch(state, m.method, dimensions, ratio); })

@@ -1,7 +1,8 @@
 """Runs pytest inside the running yade: `scripts/yade -n -x tests/pkg/inside.py [pytest args]`.
 
-Exits with pytest's code. Arguments that name tests are relative to tests/pkg; the folder of a file may be
-left out. With `--shared FOLDER`, processes that are started with the same empty folder run each file once.
+Exits with pytest's code. Arguments that name tests are relative to tests/pkg; the folder of a file, also
+../validation/yade, may be left out. With `--shared FOLDER`, processes that are started with the same empty folder run
+each file once.
 """
 import glob
 import os
@@ -58,7 +59,9 @@ class Shared:
 def located(argument):
     """The argument, with the folder of the file of tests that it names."""
     file, *test = argument.split('::')
-    found = glob.glob('*/' + file) if file.endswith('.py') and not os.path.exists(file) else []
+    found = []
+    if file.endswith('.py') and not os.path.exists(file):
+        found = glob.glob('*/' + file) + glob.glob('../validation/yade/' + file)
     return '::'.join(found + test) if found else argument
 
 
@@ -76,7 +79,8 @@ def main():
     arguments = [located(argument) for argument in arguments]
     if not any(os.path.exists(a.split('::')[0]) for a in arguments if not a.startswith('-')):
         arguments.append(here)
-    options = ['-q', '-p', 'no:cacheprovider', '--rootdir', here, '--durations=20', '--durations-min=10',
+    options = ['-q', '-p', 'no:cacheprovider', '--rootdir', os.path.dirname(here), '--durations=20',
+               '--durations-min=10',
                # A test that hangs ends the process with the stacks of its threads.
                '--timeout=1200', '--timeout-method=thread']
     code = int(pytest.main([*options, *arguments], plugins=plugins))

@@ -43,6 +43,7 @@ def test_setUpRefusesOtherSystems(name, version, tmp_path):
     (('build', 'fast'), "no preset 'fast'"),
     (('test', 'yode'), "no tests called 'yode'"),
     (('test', 'lib', 'one'), 'after yade only'),
+    (('test', 'long', 'chalk'), "no part 'chalk'"),
     (('test', '--release'), 'takes the name'),
     (('in-release', 'potato', 'true'), "no release 'potato'"),
     (('package', 'now'), 'takes no arguments'),

@@ -10,7 +10,7 @@ import tempfile
 import pytest
 
 # What tests of several folders share.
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), 'helpers'))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), 'pkg', 'helpers'))
 
 kShipped = 'LebesgueCollider,LinearCodeCollider,HierarchyCollider'
 kColliders = os.environ.get('YADEFRAG_COLLIDERS', kShipped).split(',')
