@@ -59,6 +59,17 @@ class Manual(unittest.TestCase):
             if page.stem != 'index':
                 self.assertIn('\n' + page.stem + '\n', index)
 
+    def test_galleryHasAllExamples(self):
+        gallery = (ROOT / 'examples' / 'README.md').read_text()
+        for page in (ROOT / 'examples').glob('*/README.md'):
+            with self.subTest(page=page.parent.name):
+                self.assertIn(f']({page.parent.name}/README.md', gallery)
+
+    def test_ciRunsTheReadmesCommands(self):
+        """.ci/run finds them in this way, and would run no tests without one."""
+        readme = (ROOT / 'README.md').read_text()
+        self.assertEqual(re.findall(r'^    (scripts/[a-z]*) ', readme, re.M), ['scripts/impact', 'scripts/test'])
+
     def test_noFiguresOfUncommittedSources(self):
         for page in PAGES + sorted((ROOT / 'examples').rglob('*.md')) + sorted(measured_tables.DATA.glob('*.csv')):
             with self.subTest(page=page.name):

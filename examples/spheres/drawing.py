@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.collections import EllipseCollection
 from matplotlib.colors import LogNorm
 
+NAMES = {'YADE': "YADE's engines", 'collider': 'LebesgueCollider', 'yadefrag': "yadefrag's engines"}
 COLOURS = {'collider': '#d1495b', 'loop': '#3d8fb5', 'integrator': '#8fb996', 'rest': '#cccccc'}
 
 
@@ -28,8 +29,7 @@ def frames(result, times, file):
         axis.set_ylabel('z, cm')
     figure.colorbar(spheres, ax=axes, label='speed, m/s', shrink=.8, pad=.01, extend='both',
                     ticks=[.1, 1, 10], format='%g')
-    figure.suptitle(f'Steel ball into {len(shots[0]["x"]) - 1:,} spheres, cut at y = 0 '
-                    f'({result["name"]})', fontsize=13)
+    figure.suptitle(f'Steel ball into {len(shots[0]["x"]) - 1:,} spheres, cut at y = 0', fontsize=13)
     figure.savefig(file, dpi=100)
     plt.close(figure)
 
@@ -64,7 +64,7 @@ def times(results, file):
         axis.barh(y, values, left=left, height=.6, color=COLOURS[part], label=names.get(part, part))
         left += values
     axis.bar_label(axis.containers[-1], [f'{r["seconds"]:.1f} s' for r in results], padding=4)
-    axis.set_yticks(y, [r['name'] for r in results])
+    axis.set_yticks(y, [NAMES[r['name']] for r in results])
     axis.set_xlim(0, 1.12 * left.max())
     axis.set_xlabel('time, s')
     axis.spines[['top', 'right']].set_visible(False)

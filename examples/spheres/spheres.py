@@ -112,7 +112,7 @@ def _timed(steps):
 
 
 def table(results):
-    """The comparison as text: a column for each set of engines, and the ratio of the first to the last."""
+    """The comparison as Markdown: a column for each set of engines, and the ratio of the first to the last."""
     rows = [('whole run, s', 'seconds'), ('collider, s', 'collider'),
             ('interaction loop, s', 'loop'), ('integrator, s', 'integrator'),
             ('collider activations', 'activations'), ('potential interactions', 'potential'),
@@ -120,16 +120,14 @@ def table(results):
     for r in results:
         r['potential'] = r['interactions'] - r['real']
     head = ['', *[r['name'] for r in results], *(['ratio'] if len(results) > 1 else [])]
-    lines = [head]
+    lines = [head, ['---', *['--:'] * (len(head) - 1)]]
     for title, key in rows:
         values = [r[key] for r in results]
         cells = [f'{v:.2f}' if isinstance(v, float) else f'{v:,}' for v in values]
         if len(values) > 1:
             cells.append(f'{values[0] / values[-1]:.2f}' if values[-1] else '')
         lines.append([title, *cells])
-    widths = [max(len(line[i]) for line in lines) for i in range(len(head))]
-    return '\n'.join('  '.join(c.ljust(w) if i == 0 else c.rjust(w)
-                               for i, (c, w) in enumerate(zip(line, widths))) for line in lines)
+    return '\n'.join('| ' + ' | '.join(line) + ' |' for line in lines)
 
 
 def progressBar(total):

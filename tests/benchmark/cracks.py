@@ -67,7 +67,7 @@ def speedOf(moments, span=4e-6):
     return max((places[j] - places[i]) / (times[j] - times[i]) for i, j in enumerate(ends) if j < len(times))
 
 
-def block(zone, seed, size=1.1e-3):
+def block(zone, seed, size=1.25e-3):
     """Largest load over that of Mohr and Coulomb; the zone is given over the width, and so long of sliding cracks, too."""
     O.reset()
     width, young, strength, friction, factor = .02, 30e9, 5e6, .6, 3
@@ -86,7 +86,7 @@ def block(zone, seed, size=1.1e-3):
 def pane(zone, seed, height=.01):
     """Largest stress of beam theory over the strength."""
     O.reset()
-    young, strength, rows = 70e9, 60e6, 12 if zone >= .5 else 20
+    young, strength, rows = 70e9, 60e6, 12
     O.materials.append(BrittleFEMat(young=young, poisson=.2, density=2500, planeStress=True, tensileStrength=strength,
                                     fractureEnergy=zone * height * strength**2 / young, label='glass'))
     fe = FESolver()
@@ -121,8 +121,8 @@ def main(arguments):
              'measured': f'{len(branched)} of {len(runs)}'},
             {'scene': 'the same: largest speed of the crack, m/s', 'zone over body': '–', 'wanted': '1580',
              'measured': f'{min(v for _, v in runs):.0f} to {max(v for _, v in runs):.0f}'}]
-    for name, of, zones in (('rock between rough platens: load over Mohr and Coulomb', block, (.25, .5, 1, 2)),
-                            ('bent pane without a notch: stress over strength', pane, (.25, .5, 1, 2))):
+    for name, of, zones in (('rock between rough platens: load over Mohr and Coulomb', block, (.25, 1)),
+                            ('bent pane without a notch: stress over strength', pane, (.5,))):
         for zone in zones:
             found = [of(zone, seed) for seed in SEEDS]
             rows.append({'scene': name, 'zone over body': f'{zone:g}', 'wanted': '1', 'measured': f'{min(found):.2f} to {max(found):.2f}'})

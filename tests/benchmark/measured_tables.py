@@ -123,15 +123,15 @@ def codesInShort():
 
 
 def codes():
-    """All of 100,000 spheres: a step and its parts."""
+    """All of 100,000 spheres: a step with one and with two threads."""
     about, stored = read('codes')
     rows = {}
     for row in stored:
         if row['spheres'] == SIZE:
-            line = rows.setdefault((row['scene'], row['threads']), {
-                'scene': row['scene'], 'contacts': f'{int(row["contacts"]):,}', 'threads': row['threads']})
-            line[CODES[row['code']]] = '{step} ({search}, {forces}, {integration})'.format(**row)
-    return markdown(list(rows.values()), f'milliseconds per step of {int(SIZE):,} spheres (search, forces, integration). {about}')
+            line = rows.setdefault(row['scene'], {'scene': row['scene'], 'contacts': f'{int(row["contacts"]):,}'})
+            name = CODES[row['code']]
+            line[name] = f'{line[name]}, {row["step"]}' if name in line else row['step']
+    return markdown(list(rows.values()), f'milliseconds per step of {int(SIZE):,} spheres with one thread, with two. {about}')
 
 
 def searchesOfColliders():

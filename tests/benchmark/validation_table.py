@@ -36,6 +36,7 @@ ROWS = (
     ('expanding ring, rows, 10⁴ /s: size of fragments over Zhou, Molinari and Ramesh', r'Ring\.PiecesAreAsLargeAsTheory\.size_over_theory',
      .75, 1.25),
     ('the same on meshes of `addPolygon`, 10⁴ and 10⁵ /s: fragments over the formula', r'Ring\.OnTheMeshOfAPolygon\.pieces_.*', .92, 1.08),
+    ('the same, three materials, rates and widths', r'Ring\.ThreeMaterials.*', .8, 1.2),
     ('expanding ring of metal: fragments over Mott', r'ExpandingRing\..*\.(fragments_over_mott|finer|turned|seed_.*)', .7, 1.3),
     ('impact with fragments: change of the mass', r'Impact\..*\.mass_error', None, 1e-12),
     ('the same: change of the total energy, of the impact', r'Impact\..*\.energy_drift', None, .01),
