@@ -77,7 +77,7 @@ MAKERS = (
     example('bars', runs=('', '--passes 2')),
     example('rolling', runs=('', '--passes 1', '--block .5', '--block .5 --passes 1', '--block 1.25 --passes 1'),
             rows=('ripple, straight', 'ripple, smooth', 'straight / smooth')),
-    example('spheres', table=False),
+    example('spheres', timed=True),
     *map(small, ('column', 'bending', 'drum', 'blast', 'glass', 'spheres_on_beam', 'crusher', 'monte_carlo')),
     Maker('codes', 'spheres', ('codes.png',), 'scripts/bench codes --out {out}', table=False, timed=True),
     Maker('figure14', 'figure14', ('figure14.png',), 'scripts/bench figure14 --out {out}', table=False, timed=True),
