@@ -10,6 +10,7 @@
 #include "core/parallel.hpp"
 #include "core/tolerances/collider.hpp"
 #include "entries/surface_segment.hpp"
+#include "fe/running.hpp"
 #include "search/overlapping_pairs.hpp"
 #include "search/periodic_overlap.hpp"
 
@@ -30,7 +31,7 @@ std::array<Lattice::Vector, 3> periodsOf(const yade::Cell& cell) {
 }  // namespace
 
 /// One search. The scene is not changed before every body has been checked.
-void SearchCollider::action() {
+void SearchCollider::action() try {
   const int threads = threadsToUse();
   const auto before = std::tuple(verletDist, interval, lastIter_);
   try {
@@ -50,6 +51,9 @@ void SearchCollider::action() {
     throw;
   }
   sceneIsSearched();
+} catch (const std::exception& error) {
+  noteStop(error.what());
+  throw;
 }
 
 void SearchCollider::searchAll(int threads) {

@@ -1,7 +1,6 @@
 #include "loop/body_rows.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <typeinfo>
 
@@ -28,6 +27,11 @@ double radiusOf(const yade::Shape* shape) {
   return sphere ? sphere->radius : NAN;
 }
 
+// YADE's sum is 0 unless one of its functors has added to this body.
+void addTo(yade::Vector3r& total, const FourLanes& sum) {
+  storeThree(sum + loadThree(total.data()), total.data());
+}
+
 // The arrays of thread 0, which runs the engines.
 auto& forcesOf(yade::Scene& scene) { return (scene.forces.*exposed(ForceData{}))[0]; }
 auto& torquesOf(yade::Scene& scene) { return (scene.forces.*exposed(TorqueData{}))[0]; }
@@ -35,7 +39,7 @@ auto& torquesOf(yade::Scene& scene) { return (scene.forces.*exposed(TorqueData{}
 }  // namespace
 
 unsigned BodyRows::flagsOf([[maybe_unused]] const yade::Scene& scene, const yade::Body* body) {
-  if (body == nullptr) return 0;
+  if (!hasMotion(body)) return 0;
 #ifdef YADE_MPI
   if (body->subdomain != scene.subdomain) return kExists;
 #endif
@@ -51,13 +55,16 @@ bool BodyRows::areHere(const yade::Scene& scene, const yade::Interaction& contac
                  flagsOf(scene, bodyAt(scene.bodies->body, contact.id2)));
 }
 
-void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, bool areUsed, int threads) {
+void BodyRows::begin(yade::Scene& scene, std::size_t numContacts, Use use, int threads) {
   // YADE's functions make the arrays long enough.
   numBodies_ = scene.bodies->body.size();
-  const auto last = static_cast<yade::Body::id_t>(numBodies_) - 1;
-  scene.forces.addForce(last, yade::Vector3r::Zero());
-  scene.forces.addTorque(last, yade::Vector3r::Zero());
-  isInPlace_ = !areUsed || numContacts < kContactsPerBody * numBodies_;
+  if (numBodies_ > 0) {
+    const auto last = static_cast<yade::Body::id_t>(numBodies_) - 1;
+    scene.forces.addForce(last, yade::Vector3r::Zero());
+    scene.forces.addTorque(last, yade::Vector3r::Zero());
+  }
+  isInPlace_ = use == Use::kNone || numContacts < kContactsPerBody * numBodies_;
+  areSumsUsed_ = !isInPlace_ && use == Use::kMotionAndSums;
   if (!isInPlace_) return fill(scene, numContacts, threads);
   forces_ = forcesOf(scene).data();
   torques_ = torquesOf(scene).data();
@@ -78,6 +85,9 @@ void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
       if (rowOf_[id] >= 0) fillRow(scene, id, static_cast<std::size_t>(rowOf_[id]));
     }
   });
+  if (areOthers_.exchange(false)) {
+    for (PairRows& pair : pairs_) pair.geom = nullptr;
+  }
 }
 
 // What a row reads, and the row.
@@ -100,8 +110,11 @@ void BodyRows::fill(yade::Scene& scene, std::size_t numContacts, int threads) {
                                                      std::size_t row) {
   const yade::Body* const body = bodyAt(scene.bodies->body, id);
   flags_[row] = static_cast<unsigned char>(flagsOf(scene, body));
-  if (body == nullptr) return;
+  if (flags_[row] == 0) return;
+  const bool wasSphere = !std::isnan(rows_[row].radius());
   read(*body, rows_[row]);
+  if (wasSphere && std::isnan(rows_[row].radius())) areOthers_ = true;
+  if (!areSumsUsed_) return;
   double *const force = forcesOf(scene)[id].data(), *const torque = torquesOf(scene)[id].data();
   rows_[row].setSums(loadThree(force), loadThree(torque));
   storeThree(FourLanes{}, force), storeThree(FourLanes{}, torque);
@@ -134,7 +147,8 @@ void BodyRows::makePair(yade::Scene& scene, std::size_t place) {
 
 std::uint32_t BodyRows::rowFor(yade::Scene& scene, yade::Body::id_t id, std::size_t place) {
   const auto index = static_cast<std::size_t>(id);
-  assert(index < rowOf_.size());
+  // A script may have removed all bodies, and left the interactions.
+  if (index >= rowOf_.size()) rowOf_.resize(index + 1, -1);
   if (rowOf_[index] < 0) {
     rowOf_[index] = static_cast<int>(rows_.size());
     rows_.emplace_back(), flags_.emplace_back();
@@ -146,13 +160,23 @@ std::uint32_t BodyRows::rowFor(yade::Scene& scene, yade::Body::id_t id, std::siz
   return row;
 }
 
+void BodyRows::giveForce(yade::Scene& scene, yade::Body::id_t id) {
+  const auto index = static_cast<std::size_t>(id);
+  const BodyRow& row = rows_[static_cast<std::size_t>(rowOf_[index])];
+  addTo(forcesOf(scene)[index], row.force()), addTo(torquesOf(scene)[index], row.torque());
+}
+
+void BodyRows::takeForce(yade::Scene& scene, yade::Body::id_t id) {
+  const auto index = static_cast<std::size_t>(id);
+  double* const force = forcesOf(scene)[index].data();
+  double* const torque = torquesOf(scene)[index].data();
+  rows_[static_cast<std::size_t>(rowOf_[index])].setSums(loadThree(force), loadThree(torque));
+  storeThree(FourLanes{}, force), storeThree(FourLanes{}, torque);
+}
+
 void BodyRows::giveForces(yade::Scene& scene, int threads) const {
-  if (isInPlace_) return;
+  if (!areSumsUsed_) return;
   auto &forces = forcesOf(scene), &torques = torquesOf(scene);
-  // YADE's are 0 unless one of its functors has added to this body.
-  const auto give = [](yade::Vector3r& total, const FourLanes& sum) {
-    storeThree(sum + loadThree(total.data()), total.data());
-  };
   forEachPart(rowOf_.size(), threads, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t id = begin; id < end; ++id) {
       if (id + kAhead < end && rowOf_[id + kAhead] >= 0) {
@@ -162,8 +186,8 @@ void BodyRows::giveForces(yade::Scene& scene, int threads) const {
       if (rowOf_[id] < 0) continue;
       const auto row = static_cast<std::size_t>(rowOf_[id]);
       if (flags_[row] == 0) continue;
-      give(forces[id], rows_[row].force());
-      give(torques[id], rows_[row].torque());
+      addTo(forces[id], rows_[row].force());
+      addTo(torques[id], rows_[row].torque());
     }
   });
 }

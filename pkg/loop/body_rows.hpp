@@ -9,6 +9,7 @@
 // each contact is added in place. Where a body has few contacts, both cost more than they
 // save: bodies are read, and forces added, in place.
 
+#include <atomic>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -56,13 +57,16 @@ struct PairRows {
 
 class BodyRows {
  public:
-  /// Reads the bodies of all rows, for `numContacts` contacts in the scene; `areUsed`: by some of
-  /// them.
-  void begin(yade::Scene& scene, std::size_t numContacts, bool areUsed, int threads);
+  /// What a step needs of the rows.
+  enum class Use : std::uint8_t { kNone, kMotion, kMotionAndSums };
+  /// Reads the bodies of all rows, for `numContacts` contacts in the scene.
+  void begin(yade::Scene& scene, std::size_t numContacts, Use use, int threads);
   /// Before `begin`: all rows are made anew in this step.
   void forget() { areValid_ = false; }
   /// True: both bodies of a contact exist, and one is of this process.
   static bool areHere(const yade::Scene& scene, const yade::Interaction& contact);
+  /// False: there is no body, or a script has taken its state or its shape.
+  static bool hasMotion(const yade::Body* body) { return body && body->state && body->shape; }
   /// The motion of a body that exists, for a contact that is evaluated in place; not the sums.
   static void read(const yade::Body& body, BodyRow& row);
   /// True: there are no rows; sums are numbered by ids.
@@ -106,6 +110,14 @@ class BodyRows {
     yadefrag::request(forces_ + id, 0, sizeof(yade::Vector3r));
     yadefrag::request(torques_ + id, 0, sizeof(yade::Vector3r));
   }
+  /// Calls `law`, one of YADE's, which adds to the sums of the contact's bodies.
+  template <class Law>
+  bool withSums(yade::Scene& scene, const yade::Interaction& contact, const Law& law) {
+    giveForce(scene, contact.id1), giveForce(scene, contact.id2);
+    const bool isForce = law();
+    takeForce(scene, contact.id1), takeForce(scene, contact.id2);
+    return isForce;
+  }
   /// Puts the sums into YADE's, in the array of the calling thread, 0. What YADE's functors have
   /// added there since `begin` is kept.
   void giveForces(yade::Scene& scene, int threads) const;
@@ -123,12 +135,16 @@ class BodyRows {
   void fill(yade::Scene& scene, std::size_t numContacts, int threads);
   void fillRow(yade::Scene& scene, std::size_t id, std::size_t row);
   void requestAhead(const yade::Scene& scene, std::size_t id) const;
+  void giveForce(yade::Scene& scene, yade::Body::id_t id);
+  void takeForce(yade::Scene& scene, yade::Body::id_t id);
   void makePair(yade::Scene& scene, std::size_t place);
   std::uint32_t rowFor(yade::Scene& scene, yade::Body::id_t id, std::size_t place);
 
   bool isInPlace_ = true;
+  bool areSumsUsed_ = false;
   bool areValid_ = false;
-  std::size_t numNew_ = 0;  // contacts since all rows were made
+  std::size_t numNew_ = 0;               // contacts since all rows were made
+  std::atomic<bool> areOthers_ = false;  // a body whose shape was a sphere has another one
   std::size_t numBodies_ = 0;
   std::vector<int> rowOf_;  // by body id, -1: none
   std::vector<BodyRow> rows_;

@@ -8,6 +8,7 @@
 #include "core/instruction_set.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
+#include "fe/running.hpp"
 
 namespace yadefrag {
 
@@ -24,7 +25,7 @@ const InstructionSet kInstructions = bestInstructionSet();
 
 }  // namespace
 
-void ContactLoop::action() {
+void ContactLoop::action() try {
   fastGeometries = fastForces = 0;
   threads = 0;
   // A list sorted for debugging: YADE's own loop.
@@ -42,12 +43,20 @@ void ContactLoop::action() {
   const PairStep step(*this, *scene);
   if (step.functors() != functors_) rows_.forget();
   functors_ = step.functors();
-  rows_.begin(*scene, size, step.computesGeometry(), threads);
+  using enum BodyRows::Use;
+  rows_.begin(*scene, size,
+              !step.computesGeometry() ? kNone
+              : step.computesForces()  ? kMotionAndSums
+                                       : kMotion,
+              threads);
   if (!rows_.isInPlace()) rows_.findPairs(*scene, threads);
   evaluate(step, size);
   addLater();
   rows_.giveForces(*scene, threads);
   if (fastForces > 0) memory_.endStep(*scene);
+} catch (const std::exception& error) {
+  noteStop(error.what());
+  throw;
 }
 
 [[gnu::always_inline]] inline void ContactLoop::requestAhead(std::size_t place, std::size_t size) {
@@ -74,8 +83,9 @@ void ContactLoop::action() {
   const auto& bodies = scene->bodies->body;
   const auto forBoth = [&](std::size_t at, const auto& visit) __attribute__((always_inline)) {
     if (at >= size) return;
-    visit(static_cast<std::size_t>(interactions[at]->id1));
-    visit(static_cast<std::size_t>(interactions[at]->id2));
+    // A script may have removed all bodies, and left the interactions.
+    for (const auto id : {interactions[at]->id1, interactions[at]->id2})
+      if (static_cast<std::size_t>(id) < bodies.size()) visit(static_cast<std::size_t>(id));
   };
   if (place + 4 * kAhead < size) {
     request(interactions[place + 4 * kAhead].get(), offsetof(Interaction, functorCache),
@@ -164,11 +174,16 @@ void ContactLoop::evaluate(const PairStep& step, std::size_t size) {
                                        rows_[pair.row2], evaluation.force);
 }
 
-bool ContactLoop::evaluateOther(Evaluation& evaluation, const Contact& contact,
-                                PairRows& pair) const {
+bool ContactLoop::evaluateOther(Evaluation& evaluation, const Contact& contact, PairRows& pair) {
   pair.matchOrder(*contact);
-  const bool isForce = evaluation.step.evaluate(contact, rows_[pair.row1], rows_[pair.row2],
-                                                evaluation.fast, evaluation.force);
+  const auto call = [&] {
+    return evaluation.step.evaluate(contact, rows_[pair.row1], rows_[pair.row2], evaluation.fast,
+                                    evaluation.force);
+  };
+  // With several threads YADE's law adds to the sums of its thread.
+  const bool isGiven =
+      threads == 1 && evaluation.step.computesForces() && evaluation.step.isForYade(*contact);
+  const bool isForce = isGiven ? rows_.withSums(*scene, *contact, call) : call();
   pair.matchOrder(*contact);
   pair.note(*contact, evaluation.step.isKnown(*contact));
   evaluation.row1 = pair.row1, evaluation.row2 = pair.row2;

@@ -69,7 +69,7 @@ class ContactLoop : public yade::InteractionLoop {
   /// These return false if there is no force, or YADE's law has added it.
   bool evaluateContact(Evaluation& evaluation, std::size_t place, std::size_t size);
   [[gnu::noinline]] bool evaluateOther(Evaluation& evaluation, const Contact& contact,
-                                       PairRows& pair) const;
+                                       PairRows& pair);
   [[gnu::noinline]] bool evaluateInPlace(Evaluation& evaluation, const Contact& contact) const;
   void add(std::uint32_t row, const FourLanes& force, const FourLanes& torque, Part& part);
   void addLater();

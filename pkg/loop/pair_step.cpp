@@ -1,8 +1,12 @@
 #include "loop/pair_step.hpp"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <typeinfo>
+
+#include "abi/body_at.hpp"
 
 namespace yadefrag {
 
@@ -18,10 +22,14 @@ const Known* exactly(const yade::vector<yade::shared_ptr<Functor>>& functors) {
   return nullptr;
 }
 
-const yade::IPhysFunctor* named(const yade::vector<yade::shared_ptr<yade::IPhysFunctor>>& functors,
-                                const char* name) {
-  for (const auto& functor : functors)
-    if (functor->getClassName() == name) return functor.get();
+// By the name of its type: getClassName() would allocate memory in each step.
+const yade::IPhysFunctor* frictionOf(
+    const yade::vector<yade::shared_ptr<yade::IPhysFunctor>>& functors) {
+  for (const auto& functor : functors) {
+    const yade::IPhysFunctor& one = *functor;
+    if (typeid(one).name() == std::string_view("N4yade31Ip2_FrictMat_FrictMat_FrictPhysE"))
+      return &one;
+  }
   return nullptr;
 }
 
@@ -33,7 +41,7 @@ std::string bodiesOf(const yade::Interaction& contact) {
 
 PairStep::PairStep(yade::InteractionLoop& loop, yade::Scene& scene) : loop_(loop), scene_(scene) {
   spheres_ = exactly<yade::Ig2_Sphere_Sphere_ScGeom>(loop.geomDispatcher->functors);
-  friction_ = named(loop.physDispatcher->functors, "Ip2_FrictMat_FrictMat_FrictPhys");
+  friction_ = frictionOf(loop.physDispatcher->functors);
   law_ = exactly<yade::Law2_ScGeom_FrictPhys_CundallStrack>(loop.lawDispatcher->functors);
   if (law_ && (law_->traceEnergy || scene.trackEnergy)) law_ = nullptr;
   for (const auto& callback : loop.callbacks) {
@@ -56,6 +64,9 @@ bool PairStep::evaluate(const Contact& contact, const BodyRow& one, const BodyRo
   if (!isKnownPair(*contact)) {
     if (bodyOf(id1).isClump() || bodyOf(contact->id2).isClump()) return false;
     if (!chooseGeometry(*contact)) return false;
+  } else if (std::isnan(one.radius() + two.radius())) {
+    contact->reset();  // a sphere got another shape: the next step chooses a functor for it
+    return false;
   }
   const bool isSwapped = contact->id1 != id1;
   const BodyRow &first = isSwapped ? two : one, &second = isSwapped ? one : two;
@@ -74,10 +85,10 @@ bool PairStep::evaluate(const Contact& contact, const BodyRow& one, const BodyRo
 
 bool PairStep::isFarApart(const yade::Interaction& contact) const {
   if (!isKnownPair(contact) || contact.isReal()) return false;
-  const auto& bodies = *scene_.bodies;
-  const auto& body1 = bodies[static_cast<unsigned>(contact.id1)];
-  const auto& body2 = bodies[static_cast<unsigned>(contact.id2)];
-  if (!body1 || !body2) return false;
+  const auto& bodies = scene_.bodies->body;
+  const yade::Body *const body1 = bodyAt(bodies, contact.id1), *const body2 =
+                                                                   bodyAt(bodies, contact.id2);
+  if (!BodyRows::hasMotion(body1) || !BodyRows::hasMotion(body2)) return false;
   const auto placeOf = [](const yade::Body& body) {
     return loadThree(body.state->se3.position.data());
   };
@@ -98,7 +109,7 @@ ImageShift PairStep::periodicShift(const yade::Interaction& contact) const {
 // False: no functor accepts the two shapes. The order of the bodies may be swapped.
 bool PairStep::chooseGeometry(yade::Interaction& contact) const {
   const yade::Body &body1 = bodyOf(contact.id1), &body2 = bodyOf(contact.id2);
-  if (!contact.functorCache.geomExists || !body1.shape || !body2.shape) return false;
+  if (!contact.functorCache.geomExists) return false;
   if (contact.functorCache.geom) return true;
   bool isSwapped = false;
   auto shape1 = body1.shape, shape2 = body2.shape;
@@ -135,6 +146,11 @@ void PairStep::updateProperties(const Contact& contact, bool wasReal) const {
   if (!functor) {
     bool isSwapped = false;
     auto material1 = body1.material, material2 = body2.material;
+    if (!material1 || !material2) {
+      throw std::runtime_error("CurveLoop: of " + bodiesOf(*contact) + ", which touch, #" +
+                               std::to_string(material1 ? contact->id2 : contact->id1) +
+                               " has no material.");
+    }
     functor = loop_.physDispatcher->getFunctor2D(material1, material2, isSwapped);
     if (!functor) {
       throw std::runtime_error("CurveLoop has no Ip2 functor for the materials " +

@@ -21,6 +21,12 @@ class PairStep {
   }
   /// False: YADE's functors compute all geometries.
   [[nodiscard]] bool computesGeometry() const { return spheres_ != nullptr; }
+  /// False: YADE's laws compute all forces.
+  [[nodiscard]] bool computesForces() const { return law_ != nullptr; }
+  /// True: YADE's law may compute the force of this contact.
+  [[nodiscard]] bool isForYade(const yade::Interaction& contact) const {
+    return contact.functorCache.constLaw.get() != law_;
+  }
   /// False: the loop uses no motion of bodies.
   [[nodiscard]] bool usesMotion() const { return spheres_ != nullptr || law_ != nullptr; }
   /// Evaluates one contact of the bodies `one` and `two`, which exist and whose order in it may be

@@ -47,8 +47,10 @@ bool ScatterWatch::isEnough(std::size_t visited, std::size_t scattered) {
   return isEnough;
 }
 
-bool isUsedByScript(PyObject* owner) {
+bool isUsedByScript(PyObject* owner, yade::py::type_info type) {
   if (Py_REFCNT(owner) != 1) return true;
+  const auto* const yades = yade::py::converter::registry::query(type);
+  if (yades == nullptr || Py_TYPE(owner) != yades->m_class_object) return true;
   PyObject* const* const attributes = _PyObject_GetDictPtr(owner);
   if (attributes && *attributes && PyDict_Size(*attributes) > 0) return true;
   return PyType_SUPPORTS_WEAKREFS(Py_TYPE(owner)) && *PyObject_GET_WEAKREFS_LISTPTR(owner);

@@ -77,9 +77,9 @@ class BlockFiller {
   std::size_t offset_ = 0;  // of the next one
 };
 
-/// True: a script uses Python's object of `owner`, which has made a C++ object: it refers to it, or
-/// has given it attributes of its own. Needs Python's lock.
-bool isUsedByScript(PyObject* owner);
+/// True: a script uses Python's object of `owner`, which has made a C++ object of `type`: it refers
+/// to it, has given it attributes, or a class of its own. Needs Python's lock.
+bool isUsedByScript(PyObject* owner, yade::py::type_info type);
 
 /// True: the object is of this very class, and nothing but `pointer` refers to it. Needs Python's
 /// lock.
@@ -91,7 +91,7 @@ bool isMovable(const yade::shared_ptr<Base>& pointer) {
   // A pointer from Python has a count of its own.
   using FromPython = yade::py::converter::shared_ptr_deleter;
   const auto* const python = boost::get_deleter<FromPython>(pointer);
-  return python == nullptr || !isUsedByScript(python->owner.get());
+  return python == nullptr || !isUsedByScript(python->owner.get(), yade::py::type_id<Object>());
 }
 
 /// Replaces a movable object by another one in a block; `copy(from, to)`.

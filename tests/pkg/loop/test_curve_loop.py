@@ -75,7 +75,7 @@ def test_bits(kind, collider, build):
     loop = requireSame(kFunctors[kind], collider=collider, build=build, steps=80 if build is denseHeap else 700)
     real = O.interactions.countReal()
     assert build is heap or len(O.interactions) > len(O.bodies)
-#Contacts with the floor, the box and the wall have geometries of YADE's functors.
+    # Contacts with the floor, the box and the wall have geometries of YADE's functors.
     spheres = sum(all(isinstance(O.bodies[n].shape, w.Sphere) for n in (i.id1, i.id2)) for i in O.interactions)
     assert spheres < real
     assert loop.fastForces == (0 if kind == 'traced' else real)
@@ -111,25 +111,40 @@ def test_periodicCell(homoDeform):
         O.cell.homoDeform = homoDeform
         O.cell.velGrad = Matrix3(-.3, .2, 0, 0, -.2, 0, 0, 0, -.3)
     loop = requireSame(kFunctors['friction'], build=sheared)
-#YADE's functor computes the first geometry of a contact.
+    # YADE's functor computes the first geometry of a contact.
     assert loop.fastForces == O.interactions.countReal() >= loop.fastGeometries > 40
 
 
-def test_forcesOfOtherEngines():
-    """Forces that an engine has added before are kept, with contacts of the loop and of YADE's functors."""
-    for functors in kFunctors['friction'](), [[make() for make in makers] for makers in kViscous]:
-        found = []
-        for name in 'InteractionLoop', 'CurveLoop':
-            material = w.ViscElMat(kn=1e7, ks=5e6, cn=100, cs=50, density=2000, frictionAngle=.4)
-            denseHeap(material=material if isinstance(functors[2][0], w.Law2_ScGeom_ViscElPhys_Basic) else None)
-            ids = [b.id for b in O.bodies if b.dynamic]
-            O.engines = [w.ForceResetter(), w.ForceEngine(ids=ids, force=(3, -2, 5)),
-                         scenes.makeCollider('LebesgueCollider'), loopOf(name, functors),
-                         w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
-            O.run(50, True)
-            found.append(state())
-        assert len(O.interactions) > len(O.bodies)
-        assert found[0] == found[1]
+def mixed():
+    return [[make() for make in makers] for makers in
+            (kViscous[0], [w.Ip2_FrictMat_FrictMat_FrictPhys, w.Ip2_ViscElMat_ViscElMat_ViscElPhys],
+             [w.Law2_ScGeom_FrictPhys_CundallStrack, w.Law2_ScGeom_ViscElPhys_Basic])]
+
+
+@pytest.mark.parametrize('build', [heap, denseHeap])
+@pytest.mark.parametrize('laws', ['friction', 'traced', 'viscous', 'mixed'])
+def test_forcesOfOthers(laws, build):
+    """Forces that engines have added before the loop, those of a script, and those of YADE's laws: for all contacts, or
+    for some of a body's contacts."""
+    found = []
+    for name in 'InteractionLoop', 'CurveLoop':
+        build()
+        viscous = w.ViscElMat(kn=1e6, ks=5e5, cn=100, cs=50, density=2000, frictionAngle=.4)
+        for body in list(O.bodies)[:144 if laws == 'viscous' else 50 if laws == 'mixed' else 0]:
+            body.material = viscous
+        loop = loopOf(name, kFunctors[laws]() if laws in kFunctors else mixed())
+        ids = [b.id for b in O.bodies if b.dynamic][::3]
+        O.engines = [w.ForceResetter(), w.ForceEngine(ids=ids, force=(5, .1, 1 / 3)),
+                     w.TorqueEngine(ids=[0, 60], moment=(.1, .7, 0)), scenes.makeCollider('LebesgueCollider'),
+                     loop, w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
+        O.forces.setPermF(5, (0, 0, 100))
+        O.run(60 if build is denseHeap else 500, True)
+        found.append(state())
+    assert found[0] == found[1]
+    kinds = {type(i.phys).__name__ for i in O.interactions}
+    assert kinds == {'friction': {'FrictPhys'}, 'traced': {'FrictPhys'}}.get(laws, {'FrictPhys', 'ViscElPhys'})
+    computed = loop.fastForces / O.interactions.countReal()
+    assert 0 < computed < 1 if laws in ('mixed', 'viscous') else computed == (laws == 'friction')
 
 
 def test_energies():
@@ -223,7 +238,7 @@ def test_savedAndLoaded(folder):
         assert not law.sphericalBodies
         O.run(300, True)
         numbers, reference = (np.frombuffer(s[0]) for s in (state(), expected))
-#YADE saves no shear increments, and numbers in XML with 17 digits.
+        # YADE saves no shear increments, and numbers in XML with 17 digits.
         assert np.abs(numbers - reference).max() < 1e-6
 
 
@@ -289,21 +304,6 @@ def test_missingFunctorsAreReported():
     assert O.interactions.countReal() == 0
 
 
-def test_forcesOfOtherEngines():
-    """Forces that engines have added before the loop, and those of a script: the same bits."""
-    found = []
-    for name in ('InteractionLoop', 'CurveLoop'):
-        heap()
-        O.engines = [w.ForceResetter(), w.ForceEngine(ids=[0, 1, 2, 60, 61, 62], force=(5, .1, 1 / 3)),
-                     w.TorqueEngine(ids=[0, 60], moment=(.1, .7, 0)), scenes.makeCollider('LebesgueCollider'),
-                     loopOf(name, kFunctors['friction']()), w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
-        O.forces.setPermF(5, (0, 0, 100))
-        O.run(500, True)
-        found.append(state())
-    assert found[0] == found[1]
-    assert any(n in (i.id1, i.id2) for i in O.interactions for n in (0, 1, 2, 60, 61, 62))
-
-
 def test_spheresOnABeam():
     """Contacts with the boundary of a finite-element body, whose shapes the step before has changed."""
     found = []
@@ -333,28 +333,6 @@ def test_spheresOnABeam():
     assert found[0][0] > 5
 
 
-def test_twoLaws():
-    """Contacts of one body by the loop and by YADE's law for another material: to rounding."""
-    found = []
-    for name in ('InteractionLoop', 'CurveLoop'):
-        heap()
-        O.materials.append(w.ViscElMat(kn=1e6, ks=5e5, cn=100, cs=50, density=2000, frictionAngle=.4))
-        for number in range(0, 144, 3):
-            O.bodies[number].material = O.materials[-1]
-        loop = loopOf(name, [[w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom()],
-                             [w.Ip2_FrictMat_FrictMat_FrictPhys(), w.Ip2_ViscElMat_ViscElMat_ViscElPhys()],
-                             [w.Law2_ScGeom_FrictPhys_CundallStrack(), w.Law2_ScGeom_ViscElPhys_Basic()]])
-        O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), loop,
-                     w.NewtonIntegrator(damping=.1, gravity=(0, 0, -10))]
-        O.run(200, True)
-        found.append(np.array([[*b.state.pos, *O.forces.f(b.id)] for b in O.bodies if b]))
-    kinds = {type(i.phys).__name__ for i in O.interactions}
-    assert {'FrictPhys', 'ViscElPhys'} <= kinds
-    assert 0 < loop.fastForces < O.interactions.countReal()
-#m, N : some contacts amplify the rounding of 10 ^ 4 N.
-    assert np.abs(found[0] - found[1])[:, :3].max() < 1e-9 and np.abs(found[0] - found[1])[:, 3:].max() < 1e-3
-
-
 def dense():
     """Some 5,000 contacts of spheres in random order, that are stirred."""
     scenes.clear()
@@ -381,12 +359,12 @@ def test_movedTogether(folder):
             O.bodies.erase(7 + step)
             first = next(iter(O.interactions))
             O.interactions.erase(first.id1, first.id2)
-#Objects of contacts that went on are the same as before.
+            # Objects of contacts that went on are the same as before.
         assert sum(1 for i in O.interactions for g, p in held[:5] if i.geom == g and i.phys == p) > 2
         former = [(g.penetrationDepth, p.kn) for g, p in held]
         O.save(os.path.join(folder, name + '.yade.gz'))
         O.reset()
-#They end with their last owner.
+        # They end with their last owner.
         assert [(g.penetrationDepth, p.kn) for g, p in held] == former
         del held
         found.append(states)
