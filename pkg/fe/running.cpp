@@ -22,8 +22,8 @@ using Clock = std::chrono::steady_clock;
 
 /// A check takes a few microseconds; it delays the end by a sixteenth of the run at most.
 constexpr int kRestsPerRun = 16;
-/// A check for Ctrl-C takes Python's lock.
-constexpr std::chrono::milliseconds kSignalsEvery(20);
+/// A script looks for Ctrl-C so often.
+constexpr std::chrono::milliseconds kLook(50);
 
 /// The address of a non-virtual member function.
 template <class Member>
@@ -96,28 +96,16 @@ void beginRun(const yade::py::object& run, const yade::py::object& wait,
   if (isWaiting) wait(scene);
 }
 
-namespace {
-
-/// Waits for the end of a run that began at `start`, but not beyond `latest`, without Python's
-/// lock.
-void restUntil(Clock::time_point start, Clock::time_point latest) {
+bool waitForEnd() {
+  if (isInStep()) return true;
   const WithoutGil free;
-  while (yade::Omega::instance().isRunning() && Clock::now() < latest) {
-    const auto rest = (Clock::now() - start) / kRestsPerRun;
-    std::this_thread::sleep_for(std::clamp<Clock::duration>(rest, std::chrono::microseconds(20),
-                                                            std::chrono::milliseconds(2)));
+  for (const Clock::time_point start = Clock::now(); yade::Omega::instance().isRunning();) {
+    const auto passed = Clock::now() - start;
+    if (passed > kLook) return false;
+    std::this_thread::sleep_for(
+        std::max<Clock::duration>(passed / kRestsPerRun, std::chrono::microseconds(50)));
   }
-}
-
-}  // namespace
-
-void waitForEnd() {
-  if (isInStep()) return;
-  const Clock::time_point start = Clock::now();
-  while (yade::Omega::instance().isRunning()) {
-    restUntil(start, Clock::now() + kSignalsEvery);
-    if (PyErr_CheckSignals() != 0) yade::py::throw_error_already_set();
-  }
+  return true;
 }
 
 void stopRun() {

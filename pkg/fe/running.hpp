@@ -30,8 +30,8 @@ void noteStop(const char* why);
 /// The reason stored since the last call; empty: none.
 [[nodiscard]] std::string whyStopped();
 
-/// Waits for the end of a run, if there is one, with Python's lock released; does nothing within a
-/// step. Python's handlers of signals are called meanwhile, and their exceptions raised.
-void waitForEnd();
+/// Waits for the end of a run, if there is one, with Python's lock released, for some hundredths of
+/// a second; does nothing within a step. False: the run goes on.
+bool waitForEnd();
 
 }  // namespace yadefrag

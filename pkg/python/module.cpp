@@ -73,10 +73,10 @@ BOOST_PYTHON_MODULE(_yadefrag) {
   py::def("requirePaused", &yadefrag::requirePaused,
           "Raises RuntimeError if another thread runs the scene.");
   py::def("beginRun", &yadefrag::beginRun);
-  py::def(
-      "waitForEnd", &yadefrag::waitForEnd,
-      "Waits for the end of a run, with checks at intervals in proportion to its length: O.wait() "
-      "checks every 40 ms.");
+  py::def("waitForEnd", &yadefrag::waitForEnd,
+          "Waits for the end of a run, for some hundredths of a second; False: it goes on. It "
+          "checks at "
+          "intervals in proportion to the time: O.wait() checks every 40 ms.");
   py::def("stopRun", &yadefrag::stopRun);
   py::def("whyStopped", &yadefrag::whyStopped,
           "Reason why FESolver has refused a step since the last call; '' for none.");

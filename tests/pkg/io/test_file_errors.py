@@ -315,3 +315,41 @@ def test_aSaveOnAFullDiskIsReported(small):
     O.bodies.append([utils.sphere((i, 0, 0), 1) for i in range(20)])  # of 5 KB, for which YADE raises nothing
     with pytest.raises(RuntimeError, match='could not be saved: its file cannot be opened or the disk is full'):
         O.save(small + '/x.yade')
+
+
+@pytest.mark.parametrize('ending', ['.yade', '.xml.gz'])
+def test_aSaveThatIsKilledLeavesTheOldFile(ending, folder):
+    O.reset()
+    O.bodies.append([utils.sphere((i, 0, 0), 1) for i in range(1500)])
+    name = folder + '/x' + ending
+    O.save(name)
+    for moment in range(8):
+        child = os.fork()
+        if child == 0:
+            while True:
+                O.save(name, quiet=True)
+        time.sleep(.03 + .017 * moment)
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        O.load(name, quiet=True)
+        assert len(O.bodies) == 1500
+
+
+def test_aSaveIsTheFileOfItsName(folder):
+    """With its mode and its link; O.filename and O.reload know it."""
+    O.reset()
+    O.bodies.append(utils.sphere((0, 0, 0), 1))
+    name, link = folder + '/x.yade.gz', folder + '/link.yade.gz'
+    O.save(name)
+    os.chmod(name, 0o640)
+    os.symlink(name, link)
+    O.bodies.append(utils.sphere((0, 0, 0), 1))
+    O.save(link)
+    assert O.filename == link and os.path.islink(link) and os.stat(name).st_mode & 0o777 == 0o640
+    O.bodies.append(utils.sphere((0, 0, 0), 1))
+    O.reload()
+    assert len(O.bodies) == 2 and O.filename == link
+    O.saveTmp('here')
+    O.bodies.append(utils.sphere((0, 0, 0), 1))
+    O.reload()
+    assert len(O.bodies) == 2 and sorted(os.listdir(folder)) == ['link.yade.gz', 'x.yade.gz']

@@ -256,10 +256,10 @@ def test_savedInTheBackground():
 
 # --- ends
 
-@pytest.mark.parametrize('kind', ['alone', 'PyRunner', 'reset'])
+@pytest.mark.parametrize('kind', ['alone', 'PyRunner', 'reset', 'exit', 'moved'])
 def test_scriptEndsWhileItRuns(kind):
     script = os.path.join(kHere, 'background_scene.py')
     done = subprocess.run([*yadeCommand(), script, kind], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, timeout=300)
+                          stderr=subprocess.STDOUT, text=True, timeout=60)
     assert done.returncode == 0, done.stdout[-2000:]
     assert '@@@ end' in done.stdout

@@ -14,7 +14,7 @@ from yadefrag.fe.between_steps import betweenSteps, calledInStep, requireBetween
 from yadefrag.fe.motions import chosenNodes, tableOrNumber
 from yadefrag.hints import ArrayLike, FESolver, Nodes
 from yadefrag.messages import warn
-from yadefrag.scene import interrupts, lifecycle
+from yadefrag.scene import lifecycle
 from yadefrag.scene.progress import runPart
 
 _LOOK = 25  # steps from one evaluation of the motion to the next
@@ -113,7 +113,7 @@ def relax(self: FESolver, tolerance: float = 1e-6, most: int = 10**6) -> int:
         if _areSpheres(_freeBodies()):
             for mover, damping in movers:
                 mover.damping = max(damping, _DAMPING)
-        with interrupts.held():
+        with lifecycle.wholeSteps():
             calm, ratio = _damped(self, tolerance, most)
     except KeyboardInterrupt:
         print('relax: stopped after %d steps.' % (lifecycle.stepsDone() - begin), file=sys.stderr)

@@ -112,9 +112,8 @@ def _newBeside(target):
     """The name of a new, empty file in the same folder. Nobody can guess it, and no file or link of that
     name existed; its mode is that of any new file of the process."""
     folder, base = os.path.split(target)
-    stem, ending = os.path.splitext(base)
     while True:
-        part = os.path.join(folder, '.%s.%s.part%s' % (stem[:20], secrets.token_hex(8), ending[:20]))
+        part = os.path.join(folder, '.%s.part.%s' % (secrets.token_hex(8), base[-40:]))
         with contextlib.suppress(FileExistsError):
             os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
             return part

@@ -1,218 +1,265 @@
-"""Replaces functions of YADE's O for runs in the background: stop, save and reset act between steps."""
+"""Functions of YADE's O by which runs begin, rest and end: all between two steps, also by Ctrl-C.
+
+Python raises KeyboardInterrupt between any two instructions of the main thread, where code that has to finish may
+lose it, and in no other thread. Within `wholeSteps` it is counted only: the run ends after its step, and then each
+thread that waits for it raises KeyboardInterrupt."""
 
 import atexit
 import contextlib
 import functools
+import os
+import signal
 import threading
+from collections.abc import Iterator
+from types import SimpleNamespace
 
 from yade import wrapper
 from yadefrag import _yadefrag, messages
 from yadefrag.arguments import shownPath
-from yadefrag.io.files import requireWritable
-from yadefrag.scene import interrupts, refusals, scene_check
+from yadefrag.io.files import replacing, requireWritable
+from yadefrag.scene import refusals, scene_check
 
-_Omega = wrapper.Omega
-_saving = threading.RLock()  # held while a run is interrupted for a save
-_pauses = 0
-_stepsBefore = 0  # sum over all calls of O.resetTime()
+_LOOK = .05  # s, from one check for Ctrl-C to the next
+_saving = threading.RLock()  # held while a run rests for a save
+_count = SimpleNamespace(pauses=0, stepsBefore=0, interrupts=0)
+_saved = SimpleNamespace(part='', name='')  # of the last save: the file that YADE has written, its name afterwards
 
 
 def pauses() -> int:
     """Number of calls of O.pause()."""
-    return _pauses
+    return _count.pauses
 
 
 def stepsDone() -> int:
     """Steps so far: O.iter, corrected for O.resetTime()."""
-    return _Omega().iter + _stepsBefore
+    return wrapper.Omega().iter + _count.stepsBefore
+
+
+class _Thread(threading.local):
+    """The interrupts that a thread knows, and the depth of its `wholeSteps`."""
+
+    def __init__(self):
+        self.known, self.depth = _count.interrupts, 0
+        if threading.current_thread() is not threading.main_thread():
+            # Else Linux may deliver the signal here, and the main thread goes on waiting.
+            signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+
+
+_mine = _Thread()
+
+
+@contextlib.contextmanager
+def wholeSteps() -> Iterator[None]:
+    """Ctrl-C raises KeyboardInterrupt at the begin of the block and at its end, nowhere within it."""
+    _raiseInterrupt()
+    _mine.depth += 1
+    try:
+        yield
+    finally:
+        _mine.depth -= 1
+    _raiseInterrupt()
+
+
+def _raiseInterrupt():
+    if _mine.known != _count.interrupts:
+        _mine.known = _count.interrupts
+        _yadefrag.stopRun()
+        raise KeyboardInterrupt
+
+
+def _interrupt(number, frame):
+    """Python calls it in the main thread."""
+    _count.interrupts += 1
+    if not _mine.depth:
+        _mine.known = _count.interrupts
+        signal.default_int_handler(number, frame)
+
+
+def _stay(hasEnded):
+    while not hasEnded():
+        if _mine.known != _count.interrupts:
+            _yade.pause(wrapper.Omega())
+
+
+def _aside(call):
+    """call() in another thread: Python handles no signals in this one while YADE waits in it."""
+    errors, ended = [], threading.Event()
+
+    def work():
+        try:
+            call()
+        except BaseException as error:
+            errors.append(error)
+        finally:
+            ended.set()
+
+    thread = threading.Thread(target=work, daemon=True)
+    try:
+        thread.start()
+        _stay(lambda: ended.wait(_LOOK))
+    except BaseException:  # of a script's own handler
+        if thread.ident is not None:
+            _yadefrag.stopRun()
+            ended.wait()  # else it would wait for the next run, and take its error
+        raise
+    if errors:
+        raise errors[0]
+
+
+def _rests():
+    with _saving:
+        return not wrapper.Omega().running
+
+
+def waitForEnd() -> None:
+    """O.wait() without its delay of up to 40 ms; an exception of a step is not raised again."""
+    with wholeSteps():
+        _stay(lambda: _yadefrag.waitForEnd() and _rests())
+
+
+def _waitWith(omega, begin):
+    """begin(), then YADE's O.wait(), which has the errors of engines, but not of a run that has ended before."""
+    with refusals.raisedHere():
+        _aside(begin)
+        while not _rests():
+            _aside(lambda: _yade.wait(omega))
+        why = _yadefrag.whyStopped()
+        if not why and omega.subStep != -1:
+            _yadefrag.stopRun()  # if paused, the last step may not be complete
+            if omega.subStep != -1:
+                why = 'An engine has failed in step %d; YADE has written the reason to stderr.' % omega.iter
+        if why:
+            raise RuntimeError(why)
 
 
 @contextlib.contextmanager
 def _resting():
     """Interrupts a run of another thread between two steps, and continues it afterwards."""
-    omega = _Omega()
+    omega = wrapper.Omega()
     if _yadefrag.isInStep() or not omega.running or \
             not any(isinstance(e, wrapper.FESolver) for e in omega.engines):
         yield
         return
     with _saving:
-        before = omega.stopAtIter, omega.stopAtTime, _pauses
+        before = omega.stopAtIter, omega.stopAtTime, _count.pauses
         _yadefrag.stopRun()
         # A failed step, the end of the run and O.pause() are final.
-        isToGoOn = omega.subStep == -1 and before == (omega.stopAtIter, omega.stopAtTime, _pauses)
+        isToGoOn = omega.subStep == -1 and before == (omega.stopAtIter, omega.stopAtTime, _count.pauses)
         try:
             yield
         finally:
             if isToGoOn:
-                omega.run()
+                _yadefrag.beginRun(_yade.run, None, omega, -1)
 
 
-def _savedWhole(save):
-    @functools.wraps(save)
-    def saved(self, *arguments, **settings):
+class _Functions:
+    """In the place of YADE's own, which are in _yade."""
+
+    def run(self, nSteps=-1, wait=False):
+        """Returns after the run has begun: YADE may crash if it is stopped before."""
+        messages.tellNumbers()
+        scene_check.tellUnmoved()
+        _yadefrag.whyStopped()
+        with wholeSteps():
+            if wait:
+                _waitWith(self, lambda: _yadefrag.beginRun(_yade.run, _yade.wait, self, nSteps))
+            else:
+                _yadefrag.beginRun(_yade.run, None, self, nSteps)
+
+    def wait(self):
+        with wholeSteps():
+            if self.running or not _rests():
+                _waitWith(self, lambda: _yade.wait(self))
+
+    def step(self):
+        """Ctrl-C ends it after its last engine, not in a PyRunner, which would fail."""
+        if messages.untold:
+            messages.tellNumbers()
+        if scene_check.solvers.data:
+            scene_check.tellUnmoved()
+        with wholeSteps():
+            _yade.step(self)
+
+    def pause(self):
+        _count.pauses += 1
+        _yade.pause(self)
+
+    def resetTime(self):
+        """A run in progress still ends after its number of steps."""
+        ahead = self.stopAtIter - self.iter
+        _count.stepsBefore += self.iter
+        _yade.resetTime(self)
+        if ahead > 0:
+            self.stopAtIter = ahead
+
+    def reset(self):
+        """YADE waits for the end of a run with Python's lock held, which its last step may need; and objects in
+        lists that were passed to it are never freed."""
+        if _yadefrag.isInStep():
+            return _yade.reset(self)
+        _yadefrag.stopRun()
+        messages.forget()
+        _yade.reset(self)
+        _yadefrag.freeListItems()
+
+    def exitNoBacktrace(self, status=0):
+        """YADE waits for the run as in `reset`."""
+        if not _yadefrag.isInStep():
+            _yadefrag.stopRun()
+        _yade.exitNoBacktrace(self, status)
+
+    def saveTmp(self, mark='', quiet=False):
         with _resting():
-            return save(self, *arguments, **settings)
-    return saved
+            _yade.saveTmp(self, mark, quiet)
 
+    def sceneToString(self):
+        with _resting():
+            return _yade.sceneToString(self)
 
-def _savedOrRefused(save):
-    """O.save that names a file which cannot be written. YADE alone would not report it for a small scene,
-    and would never end for a compressed file."""
-    @functools.wraps(save)
-    def saved(self, *arguments, **settings):
-        name = (*arguments, settings.get('file'))[0]
-        isFile = isinstance(name, str) and not name.startswith(':memory:')
+    def save(self, file, quiet=False):
+        """Writes beside the old file, and replaces it at the end: a process that is killed leaves one of them whole.
+        Names a file that cannot be written: YADE would not report it, or not end if it is compressed."""
+        if not isinstance(file, str) or file.startswith(':memory:'):
+            with _resting():
+                return _yade.save(self, file, quiet)
         try:
-            if isFile:
-                requireWritable(name)
-            save(self, *arguments, **settings)
-            if isFile:
-                requireWritable(name)  # YADE does not report that the last part of the file was lost
+            requireWritable(file)
+            with _resting(), replacing(file) as part:
+                _yade.save(self, part, quiet)
+                _saved.part, _saved.name = part, file
+                requireWritable(file)  # YADE does not report that the last part of the file was lost
+                if os.path.isfile(part):
+                    with open(part, 'rb') as written:
+                        os.fsync(written.fileno())
         except (OSError, RuntimeError) as error:
             cause = getattr(error, 'strerror', '')
             if not cause and str(error) != 'output stream error':
                 raise
             raise RuntimeError('%s could not be saved: its file cannot be opened or the disk is full%s.' %
-                               (shownPath(name), ' (%s)' % cause if cause else '')) from None
-    return saved
+                               (shownPath(file), ' (%s)' % cause if cause else '')) from None
+
+    def reload(self, quiet=False):
+        if _yade.filename.fget(self) == _saved.part:
+            self.load(_saved.name, quiet)
+        else:
+            _yade.reload(self, quiet)
 
 
-def _countPauses(pause):
-    @functools.wraps(pause)
-    def counted(self):
-        global _pauses
-        _pauses += 1
-        pause(self)
-    return counted
+def _filename(self):
+    name = _yade.filename.fget(self)
+    return _saved.name if name == _saved.part else name
 
 
-def _countSteps(resetTime):
-    """O.resetTime() after which a run in progress still ends after its number of steps."""
-    @functools.wraps(resetTime)
-    def counted(self):
-        global _stepsBefore
-        ahead = self.stopAtIter - self.iter
-        _stepsBefore += self.iter
-        resetTime(self)
-        if ahead > 0:
-            self.stopAtIter = ahead
-    return counted
-
-
-def _waitForAll(wait):
-    """O.wait() that Ctrl-C ends, and that does not end during the interruption for a save."""
-    @functools.wraps(wait)
-    def waited(self):
-        with interrupts.waiting():
-            interrupts.aside(lambda: wait(self))
-            _waitOn(self, wait)
-    return waited
-
-
-def _waitOn(omega, wait):
-    """After a first wait: until no save interrupts the run any more."""
-    while True:
-        with _saving:
-            if not omega.running:
-                return
-        interrupts.aside(lambda: wait(omega))
-
-
-def waitForEnd() -> None:
-    """O.wait() without its delay of up to 40 ms; an exception of a step is not raised again."""
-    with interrupts.waiting():
-        while True:
-            _yadefrag.waitForEnd()
-            with _saving:
-                if not _Omega().running:
-                    return
-
-
-def _runBegun(run, wait):
-    """O.run() that returns after the run has begun: YADE may crash if a run is stopped before. If the script
-    waits, each error of a step is raised, not only those for which YADE's O.wait() is in time."""
-    def begin(omega, nSteps):
-        try:
-            with interrupts.held():
-                _yadefrag.beginRun(run, None, omega, nSteps)
-        except KeyboardInterrupt:
-            _yadefrag.stopRun()
-            raise
-
-    def beginAndWait(omega, nSteps):
-        with interrupts.waiting(), refusals.raisedHere():
-            interrupts.aside(lambda: _yadefrag.beginRun(run, wait, omega, nSteps))
-            _waitOn(omega, wait)
-            _raiseError(omega)
-
-    @functools.wraps(run)
-    def runs(self, nSteps=-1, wait=False):
-        messages.tellNumbers()
-        scene_check.tellUnmoved()
-        _yadefrag.whyStopped()
-        (beginAndWait if wait else begin)(self, nSteps)
-    return runs
-
-
-def _raiseError(omega):
-    """YADE's O.wait() raises no error of a run that has ended before it was called."""
-    why = _yadefrag.whyStopped()
-    if not why and omega.subStep != -1:
-        _yadefrag.stopRun()  # if paused, the last step may not be complete
-    if not why and omega.subStep != -1:
-        why = 'An engine has failed in step %d; YADE has written the reason to stderr.' % omega.iter
-    if why:
-        raise RuntimeError(why)
-
-
-def _wholeStep(step):
-    """O.step() with the messages that come before a run; Ctrl-C ends it after its last engine, not in a PyRunner,
-    which would fail."""
-    @functools.wraps(step)
-    def stepped(self):
-        if untold:
-            messages.tellNumbers()
-        if solvers.data:
-            scene_check.tellUnmoved()
-        during(step, self)
-    untold, solvers, during = messages.untold, scene_check.solvers, interrupts.during
-    return stepped
-
-
-def _resetStopped(reset):
-    """YADE's O.reset() waits for the last step with Python's lock held, which a PyRunner would
-    need; and objects in lists that were passed to it are never freed."""
-    @functools.wraps(reset)
-    def stopped(self):
-        if _yadefrag.isInStep():
-            return reset(self)
-        _yadefrag.stopRun()
-        messages.forget()
-        reset(self)
-        _yadefrag.freeListItems()
-    return stopped
-
-
-def _underOldName(get):
-    """O.energy['feExternal'], whose present name is 'feOutside'."""
-    @functools.wraps(get)
-    def item(self, name):
-        return get(self, 'feOutside' if name == 'feExternal' else name)
-    return item
+_own = {name: call for name, call in vars(_Functions).items() if not name.startswith('_')}
+_yade = SimpleNamespace(**{name: getattr(wrapper.Omega, name) for name in [*_own, 'filename']})
 
 
 def install() -> None:
-    wrapper.EnergyTracker.__getitem__ = _underOldName(wrapper.EnergyTracker.__getitem__)
-    for name in ('save', 'saveTmp', 'sceneToString'):
-        setattr(_Omega, name, _savedWhole(getattr(_Omega, name)))
-    _Omega.save = _savedOrRefused(_Omega.save)
-    _Omega.pause = _countPauses(_Omega.pause)
-    _Omega.resetTime = _countSteps(_Omega.resetTime)
-    _Omega.run = _runBegun(_Omega.run, _Omega.wait)
-    _Omega.wait = _waitForAll(_Omega.wait)
-    _Omega.step = _wholeStep(_Omega.step)
-    _Omega.reset = _resetStopped(_Omega.reset)
-    interrupts.install()
+    for name, call in _own.items():
+        setattr(wrapper.Omega, name, functools.wraps(getattr(_yade, name))(call))
+    wrapper.Omega.filename = property(_filename, doc=_yade.filename.__doc__)
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # a handler of the script is kept
+        signal.signal(signal.SIGINT, _interrupt)
     _yadefrag.watchListItems()
     # The process must not end in the middle of a step.
     atexit.register(_yadefrag.stopRun)

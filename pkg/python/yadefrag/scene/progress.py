@@ -8,7 +8,7 @@ from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag.arguments import shown, whole
 from yadefrag.fe.between_steps import requireNoStep
-from yadefrag.scene import interrupts, lifecycle, refusals
+from yadefrag.scene import lifecycle, refusals
 
 MOST_STEPS = 2**62  # the largest number that YADE can count
 
@@ -35,7 +35,7 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
     try:
         portion = 1
         while done < steps:
-            with interrupts.held():
+            with lifecycle.wholeSteps():
                 now = min(portion, steps - done, every - done % every if every else steps)
                 start = time.perf_counter()
                 part, isPaused = runPart(now)
