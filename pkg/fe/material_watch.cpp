@@ -50,17 +50,16 @@ void MaterialWatch::add(const yade::shared_ptr<FEMat>& material) {
 std::vector<std::string> MaterialWatch::sentences() const {
   std::vector<std::string> found;
   for (const Used& used : used_) {
-    if (numbersOf(*used.material) == used.values) continue;
     const Values now = valuesOf(*used.material);
-    std::size_t i = 0;
-    while (now[i].second == used.values[i]) ++i;
     const std::string label = used.material->label.empty()
                                   ? fmt::format("number {}", used.material->id)
                                   : fmt::format("'{}'", used.material->label);
-    found.push_back(fmt::format(
-        "{} of material {} was changed from {:g} to {:g} after bodies had been made of it: they "
-        "keep {:g}; set it before addPolygon, or remove these bodies and add them again.",
-        now[i].first, label, used.values[i], now[i].second, used.values[i]));
+    for (std::size_t i = 0; i < now.size(); ++i)
+      if (now[i].second != used.values[i])
+        found.push_back(fmt::format(
+            "{} of material {} was changed from {:g} to {:g} after bodies had been made of it: "
+            "they keep {:g}; set it before addPolygon, or remove these bodies and add them again.",
+            now[i].first, label, used.values[i], now[i].second, used.values[i]));
   }
   return found;
 }

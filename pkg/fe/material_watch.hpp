@@ -12,7 +12,7 @@ namespace yadefrag {
 class MaterialWatch {
  public:
   void add(const yade::shared_ptr<FEMat>& material);
-  /// One sentence for each changed material.
+  /// One sentence for each changed attribute of a material.
   [[nodiscard]] std::vector<std::string> sentences() const;
 
  private:

@@ -326,6 +326,16 @@ TABLE = {
 }
 
 
+def test_eachChangeOfAMaterialIsReported():
+    solver = steelBlock()
+    for name, value in (('young', 1e9), ('density', 1e3), ('young', 2e9)):
+        setattr(O.materials['steel'], name, value)
+        O.run(1, True)
+    said = [one for one in solver.warnings if "material 'steel' was changed" in one]
+    assert [one.split(' of ')[0] + one.split(' to ')[1].split(' after')[0] for one in said] == [
+        'young1e+09', 'density1000', 'young2e+09']
+
+
 @pytest.mark.parametrize('name', TABLE)
 def test_messageComesAndItsAdviceHelps(name):
     pattern, cause, remedy = TABLE[name]
