@@ -15,7 +15,7 @@ import yadefrag
 from project import ROOT, yadeCommand
 from yadefrag import EnsembleTable
 from yadefrag.studies import ensemble_runs as tool
-from yadefrag.studies import runs, student
+from yadefrag.studies import run_in_yade, runs, student
 from yadefrag.studies.ensemble_table import EnsembleRow
 
 
@@ -296,14 +296,38 @@ def test_meansAreOfRunsThatDifferInSeedsOnly():
     assert len(EnsembleTable(kinds).statistics()) == 2
 
 
+def test_severalQuantitiesHaveAMeanEach(tmp_path):
+    """Forces and numbers of cracks are not averaged together."""
+    table = EnsembleTable([EnsembleRow(dict(seed=i), 'ok', dict(force=100. + i, cracks=i, sizes=[1., 2])) for i in range(3)])
+    assert table.quantities() == ['force', 'cracks', 'sizes']
+    assert table.of('force').statistics()['mean'] == [101] and table.of('cracks').statistics()['mean'] == [1]
+    lines = str(table).split('\n')
+    assert lines[0].endswith('force 100, cracks 0, sizes 1.5 on average of 2')
+    assert lines[3].startswith('force: Mean of 3 runs: 101,') and lines[4].startswith('cracks: Mean of 3 runs: 1,')
+    for call in table.statistics, table.shares, table.plot:
+        with pytest.raises(ValueError, match=r"several quantities, force, cracks, sizes: table.of\('force'\) is"):
+            call()
+    with pytest.raises(ValueError, match="quantity is 'mass', it must be one of 'force', 'cracks', 'sizes'"):
+        table.of('mass')
+    table.write(str(tmp_path / 'a'))
+    assert (tmp_path / 'a.png').exists() and '"force": 100.0' in (tmp_path / 'a.csv').read_text().replace('""', '"')
+
+
+@pytest.mark.parametrize('measure, value', [
+    (lambda built: (2, 3.), {'value 0': 2., 'value 1': 3.}), (lambda built: [2, 3.], [2., 3.]),
+    (lambda built: dict(force=2, sizes=[1, 2]), dict(force=2., sizes=[1., 2.])), (lambda built: 4, 4.)])
+def test_tuplesAndDictsAreSeveralQuantities(measure, value):
+    assert run_in_yade.measured(measure, None, None, [], True) == value
+
+
 def test_warningsOfRunsArePassedOn(capsys):
     with pytest.warns(UserWarning) as caught:
         found = together(scenes.warned, 3, scenes.oddValue).rows
     assert [row.warnings for row in found] == [['no such size, 0', 'bodies lie'], ['no such size, 1', 'bodies lie'],
                                                ['bodies lie']]
     said = [str(one.message) for one in caught]
-    assert said == ['ensemble: 2 of 3 runs gave this message: "no such size, 0" The others are in `warnings` of the '
-                    'rows.', 'ensemble: 3 of 3 runs gave this message: "bodies lie" The others are in `warnings` of '
+    assert said == ['ensemble: 2 of 3 runs gave this message, some with other numbers: "no such size, 0" The others '
+                    'are in `warnings` of the rows.', 'ensemble: 3 of 3 runs gave this message: "bodies lie" The others are in `warnings` of '
                     'the rows.']
     assert all(one.filename == tool.__file__ or one.filename == __file__ for one in caught)
 

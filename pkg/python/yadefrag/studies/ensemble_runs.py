@@ -31,8 +31,10 @@ def ensemble(scene: Callable[[Choices], Any], runs: Any, measure: Callable[..., 
     runs      number of runs, with the seeds 0, 1, ...; a list of seeds; or a table, as a list of dicts
               {name: value} or a dict {name: list of values}, all of one length. Names that tradeoff
               knows are checked as there; others are passed on
-    measure   function (built) → a number or numbers (n), called after the run with the scene's return
-              value; n may differ from run to run, e.g. for sizes of fragments
+    measure   function (built) → a number or numbers (n) of one kind, called after the run with the
+              scene's return value; n may differ from run to run, e.g. for sizes of fragments; or a dict
+              {name: number or numbers} of several quantities, which get a mean each. A tuple of numbers
+              is several quantities, too, with the names 'value 0', 'value 1' ...
     duration, watch, every, limit  as in tradeoff
     executor  None: processes on this machine, `workers` at a time (None: as many as processors); or an
               executor as in concurrent.futures. With mpi4py: MPIPoolExecutor(main=False); with Dask:
@@ -56,7 +58,7 @@ def ensemble(scene: Callable[[Choices], Any], runs: Any, measure: Callable[..., 
     requireOutside('ensemble')
     settings = _settings(runs)
     job = jobOf(scene, measure, watch)
-    job.update(duration=positive('duration', duration, 's'),
+    job.update(isSeveral=True, duration=positive('duration', duration, 's'),
                every=number('every', every, lambda v: 0 <= v < math.inf,
                             'a positive number (s), or 0'),
                limit=min(positive('limit', limit, 's'), MOST_SECONDS))

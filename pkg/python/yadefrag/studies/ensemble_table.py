@@ -32,7 +32,7 @@ class EnsembleRow:
     settings  dict of the scene's choices
     result    'ok'; 'refused', 'blew up', 'too long', 'failed' with the reason in `message`; or 'not
               run'
-    value     the measured value, a number or a list; None without
+    value     the measured value, a number or a list, or a dict of these by quantity; None without
     steps     number of steps
     wall      wall-clock time of the steps over simulated time (s/s), large for short scenes
     seconds   wall-clock time of the steps (s)
@@ -77,14 +77,37 @@ class EnsembleTable:
         lines = [self.title] * bool(self.title) + [
             '%s: %s' % (describe(row.settings), _found(row)) for row in self.rows]
         among = samples(self.rows)
-        for (settings, _), line in zip(grouped(self.rows, varying(self.rows)), self.statistics()):
-            if line['runs']:
-                lines.append(describe(settings) * bool(settings) + ': ' * bool(settings) + _meanText(line, among))
+        for name in self.quantities() or ['']:
+            table = self.of(name).statistics() if name else self.statistics()
+            for (settings, _), line in zip(grouped(self.rows, varying(self.rows)), table):
+                if line['runs']:
+                    before = [name] * bool(name) + [describe(settings)] * bool(settings)
+                    lines.append(': '.join([*before, _meanText(line, among)]))
         return '\n'.join(lines)
 
     def good(self) -> list[EnsembleRow]:
         """Rows with a value."""
         return [row for row in self.rows if row.result == 'ok']
+
+    def quantities(self) -> list[str]:
+        """Names of the quantities, if measure returned several."""
+        return list(dict.fromkeys(name for row in self.good() if isinstance(row.value, dict) for name in row.value))
+
+    def of(self, quantity: str) -> EnsembleTable:
+        """The table of one of several quantities. ValueError for another name."""
+        if quantity not in self.quantities():
+            refuse('quantity', quantity, 'one of %s' % (', '.join(map(repr, self.quantities())) or 'none'))
+        rows = [dataclasses.replace(row, value=row.value[quantity])
+                if isinstance(row.value, dict) and quantity in row.value else
+                dataclasses.replace(row, value=None, result='failed' if row.result == 'ok' else row.result)
+                for row in self.rows]
+        return EnsembleTable(rows, self.title)
+
+    def _requireOne(self):
+        names = self.quantities()
+        if names:
+            raise ValueError('the runs have several quantities, %s: table.of(%r) is the table of one.' %
+                             (', '.join(names), names[0]))
 
     def statistics(self, by: str | None = None, reduce: Callable[[numpy.ndarray], Any] = numpy.mean,
                    confidence: float = .95) -> numpy.ndarray:
@@ -98,8 +121,9 @@ class EnsembleTable:
         Columns: by (value of that setting, or of the only one that varies; otherwise nan), runs, failed
         (their number), mean, deviation (of single runs), low, high (band of the mean; nan for less than
         two runs), settings (text: what the runs of the row have in common). ValueError for an unknown
-        name.
+        name, and for several quantities, of which table.of('name') has one.
         """
+        self._requireOne()
         confidence = _share(confidence)
         if not callable(reduce):
             refuse('reduce', reduce, 'a function')
@@ -136,6 +160,7 @@ class EnsembleTable:
         averaged over the runs), low, high (band of that mean, within 0 and 1). ValueError without a
         run that has numbers.
         """
+        self._requireOne()
         confidence = _share(confidence)
         runs = [numpy.sort(numpy.atleast_1d(row.value)) for row in self.good()]
         if not runs:
@@ -201,11 +226,12 @@ class EnsembleTable:
         ax.set(xlabel=by, ylabel=label)
 
     def write(self, files: File) -> None:
-        """Writes files.csv and, if a run has a value, files.png."""
+        """Writes files.csv and, if a run has a value, files.png: of several quantities the first."""
         table, picture = self.namesOfFiles(files)
         self.csv(table)
+        names = self.quantities()
         if self.good():
-            self.plot(picture)
+            (self.of(names[0]) if names else self).plot(picture, label=names[0] if names else 'measured value')
 
     @staticmethod
     def namesOfFiles(files: File) -> list[str]:
@@ -238,7 +264,13 @@ def _found(row):
 def _measured(row):
     if row.result != 'ok':
         return '%s, %s' % (row.result, row.message) if row.message else row.result
-    values = numpy.atleast_1d(row.value)
+    if isinstance(row.value, dict):
+        return ', '.join('%s %s' % (name, _numbersText(one)) for name, one in row.value.items())
+    return _numbersText(row.value)
+
+
+def _numbersText(value):
+    values = numpy.atleast_1d(value)
     if len(values) == 1:
         return '%.6g' % values[0]
     return '%.6g on average of %d' % (values.mean(), len(values)) if len(values) else 'no numbers'

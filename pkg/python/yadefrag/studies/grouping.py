@@ -44,8 +44,9 @@ def passOn(what: str, rows: Sequence[Any]) -> None:
             kinds.setdefault(sentence[0], []).append(sentence[1])
     for sentences in kinds.values():
         first = sentences[0] if len(sentences[0]) <= _SHOWN else sentences[0][:_SHOWN] + '…'
-        warn('%s: %d of %d runs gave this message: "%s" The others are in `warnings` of the rows.' %
-             (what, len(sentences), len(rows), first) if len(sentences) > 1 else
+        others = ', some with other numbers' if len(set(sentences)) > 1 else ''
+        warn('%s: %d of %d runs gave this message%s: "%s" The others are in `warnings` of the rows.' %
+             (what, len(sentences), len(rows), others, first) if len(sentences) > 1 else
              '%s: one of %d runs gave the message: "%s"' % (what, len(rows), first))
 
 

@@ -122,9 +122,17 @@ def advance(omega: Omega, until: float) -> None:
         omega.step()
 
 
-def measured(measure: Callable, watch: Callable | None, built: Any, seen: list) -> float | list[float]:
-    """A finite float, or a list of them; BlewUp if they are not finite."""
+def measured(measure: Callable, watch: Callable | None, built: Any, seen: list, isSeveral: bool) -> Any:
+    """A finite float, or a list of them, or, of several quantities, a dict of these; BlewUp if they are not finite."""
     value = measure(built, seen) if watch else measure(built)
+    if isSeveral and isinstance(value, tuple) and len(value) > 1:
+        value = {'value %d' % i: one for i, one in enumerate(value)}
+    if isSeveral and isinstance(value, dict) and value:
+        return {str(name): _numbers(one) for name, one in value.items()}
+    return _numbers(value)
+
+
+def _numbers(value):
     array = numpy.asarray(value, dtype=float)
     if array.ndim > 1 or array.size == 0:
         raise TypeError('measure returned the shape %s, it must be a number or an array (n).' %
@@ -162,7 +170,7 @@ def attempt(job: dict[str, Any], choices: Choices) -> dict[str, Any]:
         stage = 'blew up'
         clock, steps, simulated, seen = run(Omega(), job['duration'], watch, job['every'], built)
         stage = 'failed'
-        value = measured(measure, watch, built, seen)
+        value = measured(measure, watch, built, seen, job.get('isSeveral', False))
     except BlewUp as error:
         return dict(result='blew up', message=str(error))
     except ValueError as error:
