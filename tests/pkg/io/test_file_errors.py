@@ -129,12 +129,12 @@ def test_noLinkOfATemporaryNameIsFollowed(folder, monkeypatch):
         file.write('kept')
     drawn = ['a' * 16, 'b' * 16]
     monkeypatch.setattr(files.secrets, 'token_hex', lambda count: drawn.pop(0))
-    os.symlink(victim, folder + '/.t.%s.part.csv' % drawn[0])
+    os.symlink(victim, folder + '/.%s.part.t.csv' % drawn[0])
     table().csv(name)
     assert drawn == [] and len(yadefrag.TradeoffTable.read(name).rows) == 3
     with open(victim) as file:
         assert file.read() == 'kept'
-    assert sorted(os.listdir(folder)) == ['.t.%s.part.csv' % ('a' * 16), 't.csv', 'victim']
+    assert sorted(os.listdir(folder)) == ['.%s.part.t.csv' % ('a' * 16), 't.csv', 'victim']
 
 
 def test_temporaryNamesCannotBeGuessed(folder):
@@ -142,8 +142,8 @@ def test_temporaryNamesCannotBeGuessed(folder):
     for _ in range(100):
         with files.replacing(folder + '/run.vtu') as part:
             names.add(os.path.basename(part))
-            assert stat.S_ISREG(os.lstat(part).st_mode) and part.endswith('.part.vtu')
-    assert len(names) == 100 and not any(str(os.getpid()) in name.split('.')[2] for name in names)
+            assert stat.S_ISREG(os.lstat(part).st_mode) and part.endswith('.part.run.vtu')
+    assert len(names) == 100 and not any(str(os.getpid()) in name.split('.')[1] for name in names)
 
 
 @pytest.mark.parametrize('mask', [0o022, 0o077, 0o002])
