@@ -195,7 +195,6 @@ def test_energiesOfTheSceneHaveTheSolversSigns():
     assert own['outside'] == -own['external'] < 0
     for name in ('kinetic', 'strain', 'contact', 'friction', 'fracture', 'damping', 'outside'):
         assert scenes['fe' + name.capitalize()] == own[name]
-    assert scenes['feExternal'] == own['outside']  # its name before
     parts = sum(value for name, value in own.items() if name != 'total')
     assert parts == pytest.approx(own['total'], abs=1e-12 * own['external'])
     assert sum(value for name, value in scenes.items()) == pytest.approx(own['total'], abs=1e-12 * own['external'])

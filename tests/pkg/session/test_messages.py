@@ -292,7 +292,7 @@ TABLE = {
         'ForceResetter deletes the forces of CurveLoop', lambda: withSpheres(withCurveLoop(resetterLate)),
         lambda: withSpheres(withCurveLoop(usual))),
     'ForceResetter too late': (
-        'ForceResetter deletes the forces of InteractionLoop', lambda: withSpheres(resetterLate),
+        'ForceResetter deletes the forces of CurveLoop', lambda: withSpheres(resetterLate),
         lambda: withSpheres(usual)),
     'a force engine without a resetter': (
         'O.engines has no ForceResetter: the forces of ForceEngine',
@@ -328,6 +328,7 @@ TABLE = {
 
 def test_eachChangeOfAMaterialIsReported():
     solver = steelBlock()
+    O.engines, O.dt = yadefrag.engines(solver), .1 * solver.criticalTimeStep()
     for name, value in (('young', 1e9), ('density', 1e3), ('young', 2e9)):
         setattr(O.materials['steel'], name, value)
         O.run(1, True)

@@ -12,6 +12,7 @@ import signal
 import threading
 from collections.abc import Iterator
 from types import SimpleNamespace
+from typing import Any
 
 from yade import wrapper
 from yadefrag import _yadefrag, messages
@@ -166,7 +167,7 @@ class _Functions:
             else:
                 _yadefrag.beginRun(_yade.run, None, self, nSteps)
 
-    def wait(self):
+    def wait(self: Any) -> None:
         with wholeSteps():
             if self.running or not _rests():
                 _waitWith(self, lambda: _yade.wait(self))
@@ -184,7 +185,7 @@ class _Functions:
         _count.pauses += 1
         _yade.pause(self)
 
-    def resetTime(self):
+    def resetTime(self: Any) -> None:
         """A run in progress still ends after its number of steps."""
         ahead = self.stopAtIter - self.iter
         _count.stepsBefore += self.iter
@@ -238,7 +239,7 @@ class _Functions:
             raise RuntimeError('%s could not be saved: its file cannot be opened or the disk is full%s.' %
                                (shownPath(file), ' (%s)' % cause if cause else '')) from None
 
-    def reload(self, quiet=False):
+    def reload(self: Any, quiet: bool = False) -> None:
         if _yade.filename.fget(self) == _saved.part:
             self.load(_saved.name, quiet)
         else:
