@@ -29,7 +29,7 @@ struct ValueFunctions {
 
   static yade::py::object copy(const void* slot) { return yade::py::object(at(slot)); }
   static yade::py::object reference(void* slot, const yade::py::object& owner) requires kIsVector {
-    const yade::py::object result(yade::py::ptr(&at(slot)));
+    yade::py::object result(yade::py::ptr(&at(slot)));
     yade::py::objects::make_nurse_and_patient(result.ptr(), owner.ptr());
     return result;
   }
