@@ -1,9 +1,9 @@
 #pragma once
-// The return of the lanes of a frictional material, in vector loops; the formulas are those of
-// returnToCone in plastic_return.cpp.
+// The return of the lanes of a frictional material, in vector loops.
 
 #include <numbers>
 
+#include "dynamics/cone_return.hpp"
 #include "dynamics/yield_lanes.hpp"
 
 namespace yadefrag {
@@ -30,38 +30,41 @@ struct alignas(64) ConeLanes {
         (1. / 3) * w.formerVolume[k];
 }
 
-/// The flow; `ownPart`: 1 if the work contains all of the opening, 0 if its second half follows.
-[[gnu::always_inline]] inline void returnToCone(const Cone c, const SolidModuli m, double ownPart,
+/// `kNodal`: with the opening that is known, and the mean of `t` before it.
+template <bool kNodal>
+[[gnu::always_inline]] inline void returnToCone(const Cone c, const SolidModuli m,
                                                 const TrialLanes& t, FlowLanes& w, ConeLanes& cone,
                                                 FlowedLanes& out) {
-  const double by = 1 / (m.shear + m.bulk * c.slope * c.dilation);
+  const double perShear = 1 / (2 * m.shear);
 #pragma omp simd
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const double trial = t.mean[k], distortion = w.mises[k] * (1 / std::numbers::sqrt3);
-    const double step = std::max(0., distortion + c.slope * trial - c.strength) * by;
-    const double lower = trial - m.bulk * c.dilation * step;
-    const double sheared = m.shear * step;
-    const double least = std::min(c.limit, trial);
-    const double most = std::min(distortion, std::max(0., c.strength - c.slope * least));
-    const double isOpen = lower > c.limit ? 1 : 0;
-    const double isApex = distortion < sheared ? 1 : isOpen;
-    const double mean = isApex > 0 ? least : lower;
-    const double remaining = isApex > 0 ? most : std::max(0., distortion - sheared);
-    const double ratio = remaining / distortion;
-    const double kept = distortion > 0 ? ratio : 1;
-    const double opening = logRatio(m.bulk + 2 * trial, m.bulk + 2 * mean) / 2;
-    const double gone = 1 - kept;
-    const double slip = (distortion - remaining) / (std::numbers::sqrt3 * m.shear);
-    out.work[k] = m.shear * gone * (w.paired[k] + kept * t.squaredMises[k] * (1. / 6)) +
-                  opening * (cone.formerMean[k] + ownPart * mean) / 2;
+    const double distortion = w.mises[k] * (1 / std::numbers::sqrt3);
+    ConeFlow flowed{};
+    double mean = 0;
+    const double stiffness = m.bulk * t.volume[k] * t.volume[k];
+    const ConeTrial at{distortion, t.mean[k], stiffness, w.size[k]};
+    if constexpr (kNodal) {
+      mean = t.mean[k] * expOfTiny(-w.opening[k]);
+      flowed = {w.opening[k], goneBy(fallAt(c, at, mean), distortion)};
+    } else {
+      flowed = coneFlow<true>(c, m.shear, at);
+      mean = meanAfter<true>(at, flowed.opening);
+    }
+    const double opening = flowed.opening, squaredStrain = t.squaredMises[k] * (1. / 6);
+    const double pull = opening * (cone.formerMean[k] + mean) * perShear;
+    const double gone = goneWithoutGain(flowed.gone, squaredStrain, w.paired[k], pull);
+    const double slip = distortion * gone * (2 / std::numbers::sqrt3 * perShear);
+    const double work = m.shear * coneWork(gone, squaredStrain, w.paired[k], pull);
+    out.work[k] = kNodal ? work : std::max(0., work);
     out.strain[k] = w.strain[k] + std::sqrt(slip * slip + 2. / 9 * opening * opening);
-    out.kept[k] = kept;
+    out.kept[k] = 1 - gone;
     const double isWanted = w.over[k] > 0 ? 1 : 0;
     w.gone[k] = gone;
     cone.mean[k] = mean, w.opening[k] = isWanted > 0 ? opening : 0;
     // Each comparison is false for NaN.
     const double squared = gone * gone * t.squaredMises[k] / 9 + opening * opening;
-    const double isGood = squared < tolerance::kTinyFlow * tolerance::kTinyFlow ? isWanted : 0;
+    const double isTiny = squared < tolerance::kTinyFlow * tolerance::kTinyFlow ? isWanted : 0;
+    const double isGood = t.squaredMises[k] < tolerance::kSeries ? isTiny : 0;
     w.flows[k] = isGood;
     w.fails[k] = isWanted - isGood;
   }

@@ -54,9 +54,10 @@ std::array<double, 3> stressOf(const Model& model, ElementId element, double dt)
   const Component& body = model.bodyOf(element);
   if (body.yields()) {
     const Returned state = presentState(model, element, dt);
-    const SolidModuli moduli(body.material);
-    const double volume = state.trial.volume;
-    const PlaneStress t(state.trial, meanStress(volume, moduli.bulk), state.kept, moduli.shear);
+    const double volume = body.material.planeStress
+                              ? state.trial.volume
+                              : determinant(deformationGradient(model, element));
+    const PlaneStress t(state.trial, state.mean, state.kept, SolidModuli(body.material).shear);
     return {t.xx / volume, t.yy / volume, t.xy / volume};
   }
   return cauchy(deformationGradient(model, element), Moduli(model.materialOf(element).material));
@@ -82,6 +83,21 @@ std::vector<std::array<double, 3>> stresses(const Model& model, double dt) {
   }
   setSmoothedStresses(model, result);
   setYieldingStresses(model, dt, result);
+  return result;
+}
+
+std::vector<double> stressesAcross(const Model& model, double dt) {
+  const std::vector<std::array<double, 3>> plane = stresses(model, dt);
+  std::vector<double> result(plane.size());
+  const std::vector<double>& initial = model.triangles.stressAcross;
+  for (const Component& c : model.components) {
+    if (c.yields() || c.material.planeStress) continue;
+    for (std::size_t e = c.firstTriangle; e < c.lastTriangle; ++e)
+      if (!model.triangles.isDropped(e))
+        result[e] = model.materialOf(ElementId(e)).material.poisson * (plane[e][0] + plane[e][1]) +
+                    (initial.empty() ? 0 : initial[e]);
+  }
+  setYieldingAcross(model, dt, result);
   return result;
 }
 

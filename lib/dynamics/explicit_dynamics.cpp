@@ -51,7 +51,7 @@ void ExplicitDynamics::smoothStrains(Model& model, std::size_t part, std::size_t
   errors.run(static_cast<int>(part), [&] {
     for (std::size_t c = chunks * part / parts; c < chunks * (part + 1) / parts; ++c) {
       fetchNodes(elements_, elements_.chunks[c], model.nodes.position, scratch.values.data());
-      flow_.open(set_, model, elements_, c, scratch.values.data(), part);
+      flow_.open(set_, model, elements_, c, scratch.values.data());
     }
   });
 #pragma omp barrier

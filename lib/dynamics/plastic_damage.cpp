@@ -7,9 +7,7 @@
 namespace yadefrag {
 
 double damageAfter(const PlasticMaterial& m, double damage, const FlowStep& step, double dt) {
-  // A cone limits the mean of τ, not of σ.
-  const double limit = step.resistance * m.failure.spallStress;
-  if (step.mean > (m.isFrictional() ? limit : limit * step.volume)) return 1;
+  if (step.mean > step.resistance * m.failure.spallStress * step.volume) return 1;
   if (!(step.strain > 0) || !m.failure.hasDamage()) return damage;
   const double least = std::numeric_limits<double>::min();
   const FlowState at{step.mean / std::max(step.mises, least),

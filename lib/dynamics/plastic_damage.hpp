@@ -16,7 +16,7 @@ struct FlowStep {
   double strain;       ///< Δp
   double temperature;  ///< K, before
   double mean, mises;  ///< Pa, of τ; mean and von Mises' stress; of a cone before the return
-  double volume;       ///< J
+  double volume;       ///< τ/σ: J, or det F of a cone
   double resistance;   ///< factor of the failure strain and of the spall stress
 };
 

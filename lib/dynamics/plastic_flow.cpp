@@ -44,6 +44,7 @@ void PlasticFlow::rebuild(const Model& model, const ElementChunks& elements) {
   const bool opens = std::ranges::any_of(
       elements.chunks, [&](const Chunk& chunk) { return opensVolume(model, chunk); });
   before_.rebuild(elements, opens);
+  opened_.rebuild(elements, opens);
   opening_.assign(opens ? model.triangles.size() : 0, 0);
   dissipated_.assign(on ? elements.chunks.size() : 0, 0);
   threads_.clear();
@@ -61,6 +62,7 @@ void PlasticFlow::setYield(const Component& body, const PlasticState& state, std
 void PlasticFlow::follow(const ElementChunks& elements, std::span<const std::uint32_t> abandoned) {
   now_.follow(elements, abandoned);
   before_.follow(elements, abandoned);
+  opened_.follow(elements, abandoned);
 }
 
 void PlasticFlow::begin(const ElementChunks& elements, int threads, double dt) {
@@ -85,16 +87,12 @@ PlasticChunk PlasticFlow::inputOf(Model& model, const Chunk& chunk) {
                   .yield = yield_.data(),
                   .thermal = thermal_.data(),
                   .cone = constants.cone,
-                  .slope = 0,
-                  .tensionLimit = std::numeric_limits<double>::infinity(),
                   .moduli = constants.moduli,
                   .planeStress = body.material.planeStress,
                   .pressure = isSmoothed(chunk) ? now_.of(chunk) : nullptr,
                   .formerPressure = nullptr,
                   .opening = nullptr,
                   .curve = {body.plastic, constants.moduli.shear, constants.heating, dt_}};
-  if (body.plastic.isFrictional())
-    in.slope = std::numbers::sqrt3 * constants.cone.slope, in.tensionLimit = constants.cone.limit;
   if (opensVolume(model, chunk))
     in.formerPressure = before_.of(chunk), in.opening = opening_.data();
   return in;
@@ -124,7 +122,9 @@ void PlasticFlow::sum(InstructionSet set, Model& model, const ElementChunks& ele
 
 void PlasticFlow::sumShared(const ElementChunks& elements, std::size_t row) {
   now_.sumShared(elements, row);
-  if (before_.isOn()) before_.sumShared(elements, row);
+  if (!isOpening()) return;
+  before_.sumShared(elements, row);
+  opened_.sumShared(elements, row);
 }
 
 /// Returns the elements of a chunk for which there is no vector loop.
@@ -172,13 +172,16 @@ class PlasticFlow::Lanes final : public LaneReturn {
     PlasticState& state = model_.triangles.plastic;
     const YieldPoint point(state, element);
     NodalPressure pressure{lanes.mean[k] / lanes.volume[k], 0};
-    if (flow_.before_.isOn())
+    if (opensVolume(model_, chunk_)) {
+      pressure.opening = flow_.opening_[element];
       for (const std::uint16_t node : corner)
         pressure.before += flow_.before_.of(chunk_)[node] * (1. / 3);
-    const Returned back = returnToYield(constants_, point, edges(position_), edges(last), flow_.dt_,
+    }
+    const TriangleMotion motion{
+        edges(position_), edges(last),
+        edges(position_).twiceArea() / (2 * model_.triangles.area[element])};
+    const Returned back = returnToYield(constants_, point, motion, flow_.dt_,
                                         isSmoothed(chunk_) ? &pressure : nullptr);
-    if (isSmoothed(chunk_) && constants_.plastic.isFrictional())
-      flow_.opening_[element] = back.opening;
     back.point.put(state, element);
     flow_.setYield(body_, state, element);
     sums.steepest[k] = std::max(sums.steepest[k], squaredGradient(back.point.edges));
@@ -198,8 +201,7 @@ class PlasticFlow::Lanes final : public LaneReturn {
 };
 
 /// Of the groups of triangles that have flowed, from `first` of the thread's list on, and of those
-/// whose mean stress exceeds the spall stress. Of averaged volumes, the pressures at the nodes must
-/// be those before the flow.
+/// whose mean stress exceeds the spall stress.
 void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const Chunk& chunk,
                             const Vec2* position, std::size_t thread, std::size_t first) {
   const YieldConstants c(model.components[chunk.firstComponent]);
@@ -219,9 +221,14 @@ void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const C
     const ElasticTrial now = trialOf(c, point, {x[1] - x[0], x[2] - x[0]}, thickness);
     const double mean =
         isSmoothed(chunk) ? sum / 3 * now.volume : meanStress(now.volume, c.moduli.bulk);
-    return FlowStep{strain,     temperature,
-                    mean,       c.moduli.shear * std::sqrt(now.squaredMises()),
-                    now.volume, state.resistanceOf(element)};
+    const double twice = TriangleEdges{x[1] - x[0], x[2] - x[0]}.twiceArea();
+    return FlowStep{
+        strain,
+        temperature,
+        mean,
+        c.moduli.shear * std::sqrt(now.squaredMises()),
+        c.plastic.isFrictional() ? twice / (2 * model.triangles.area[element]) : now.volume,
+        state.resistanceOf(element)};
   };
   for (std::size_t i = first; i < threads_[thread].former.size(); ++i) {
     const FormerLanes& former = threads_[thread].former[i];
@@ -241,46 +248,36 @@ void PlasticFlow::addDamage(Model& model, const ElementChunks& elements, const C
 }
 
 void PlasticFlow::open(InstructionSet set, Model& model, const ElementChunks& elements,
-                       std::size_t chunk, const Vec2* position, std::size_t thread) {
+                       std::size_t chunk, const Vec2* position) {
   const Chunk& own = elements.chunks[chunk];
   if (!opensVolume(model, own)) return;
   const double bulk = SolidModuli(model.components[own.firstComponent].material).bulk;
   now_.toPressures(elements, own, model.nodes.mass, bulk);
   before_.toPressures(elements, own, model.nodes.mass, bulk);
-  std::fill(opening_.begin() + own.firstElement, opening_.begin() + own.lastElement, 0.);
-  Thread& room = threads_[thread];
-  Lanes flow(*this, model, elements, own, position, room);
-  const std::size_t first = room.former.size();
   const PlasticChunk in = inputOf(model, own);
-  returnPlastic(set, own, elements.lanes.data(), in, position, flow);
-  if (model.components[own.firstComponent].fails())
-    addDamage(model, elements, own, position, thread, first);
-  dissipated_[chunk] = flow.dissipated();
-  for (const double one : flow.sums.steepest)
-    room.squaredSteepest = std::max(room.squaredSteepest, one);
-  sumVolumes(set, own, elements.lanes.data(), in, position, now_.begin(own));
-  now_.end(elements, own);
+  openVolumes(set, own, elements.lanes.data(), in, position, opened_.begin(own));
+  opened_.end(elements, own);
 }
 
 bool PlasticFlow::addForces(InstructionSet set, Model& model, const ElementChunks& elements,
                             std::size_t chunk, const Vec2* position, Vec2* force,
                             std::size_t thread) {
   const Chunk& own = elements.chunks[chunk];
-  if (isSmoothed(own))
-    now_.toPressures(elements, own, model.nodes.mass,
-                     SolidModuli(model.components[own.firstComponent].material).bulk);
+  const double bulk = SolidModuli(model.components[own.firstComponent].material).bulk;
+  PlasticChunk in = inputOf(model, own);
+  if (opensVolume(model, own))
+    in.pressure = opened_.toPressures(elements, own, model.nodes.mass, bulk);
+  else if (isSmoothed(own))
+    now_.toPressures(elements, own, model.nodes.mass, bulk);
   Thread& room = threads_[thread];
   Lanes flow(*this, model, elements, own, position, room);
   const std::size_t first = room.former.size();
-  const PlasticChunk in = inputOf(model, own);
-  const bool isOpened = opensVolume(model, own);
   const bool good =
-      isOpened ? addOpenedForces(set, own, elements.lanes.data(), in, position, flow, force)
-               : addPlasticForces(set, own, elements.lanes.data(), in, position, flow, force);
-  dissipated_[chunk] += flow.dissipated();
+      addPlasticForces(set, own, elements.lanes.data(), in, position, flow, force);
+  dissipated_[chunk] = flow.dissipated();
   for (const double one : flow.sums.steepest)
     room.squaredSteepest = std::max(room.squaredSteepest, one);
-  if (model.components[own.firstComponent].fails() && !isOpened)
+  if (model.components[own.firstComponent].fails())
     addDamage(model, elements, own, position, thread, first);
   return good;
 }

@@ -5,11 +5,11 @@
 // triangles' whole volume, and a triangle the mean pressure of its nodes. Linear triangles, which
 // would lock in flow without change of volume, do not lock then. No cost if no body yields.
 //
-// Where flow changes the volume (frictional materials), volumes are averaged twice: triangles are
-// returned with the pressure of their nodes before the flow, and forces are those of the volumes
-// after it. They are then the exact gradient of the energy, and the plastic work is the stress
-// times the strain of the flow. A triangle returns as if its neighbours flowed as it does; what
-// this leaves above the yield surface is returned in the next step.
+// Where flow changes the volume (frictional materials), volumes are averaged twice: triangles open
+// by as much as if their neighbours opened as they do, and the pressures of the volumes after that
+// determine the rest of the flow and the forces. These are then the exact gradient of the energy,
+// no triangle is left above the yield surface, and the plastic work is the stress times the strain
+// of the flow.
 
 #include <span>
 #include <vector>
@@ -44,10 +44,10 @@ class PlasticFlow {
            const Vec2* position, std::size_t thread);
   /// Then the sums of nodes in several chunks.
   void sumShared(const ElementChunks& elements, std::size_t row);
-  /// If the flow of the chunk changes its volume: returns its triangles, and sums their volumes
-  /// anew; `sumShared` must follow.
+  /// If the flow of the chunk changes its volume: sums the volumes that follow; `sumShared` must be
+  /// called again.
   void open(InstructionSet set, Model& model, const ElementChunks& elements, std::size_t chunk,
-            const Vec2* position, std::size_t thread);
+            const Vec2* position);
   /// Second pass, for one chunk: forces (N) by local number. False if an element is flat.
   bool addForces(InstructionSet set, Model& model, const ElementChunks& elements, std::size_t chunk,
                  const Vec2* position, Vec2* force, std::size_t thread);
@@ -85,7 +85,8 @@ class PlasticFlow {
 
   std::vector<double> yield_;       // Pa, by triangle
   std::vector<double> thermal_;     // factor of the temperature in it
-  NodeVolumes now_, before_;        // at xⁿ, and at xⁿ⁻¹ if flow changes volumes
+  NodeVolumes now_;                 // at xⁿ, before flow
+  NodeVolumes before_, opened_;     // at xⁿ⁻¹, and at xⁿ after flow that changes volumes
   std::vector<double> opening_;     // by triangle, volume strain of the last flow
   std::vector<double> dissipated_;  // J, by chunk
   std::vector<Thread> threads_;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <numbers>
 
 #include "core/tolerances/dynamics.hpp"
 #include "core/tolerances/plasticity.hpp"
 #include "dynamics/lane_corners.hpp"
-#include "dynamics/plastic_kernel.hpp"
+#include "dynamics/yield_lanes.hpp"
 
 namespace yadefrag {
 
@@ -63,14 +65,14 @@ struct Trials {
   int flat = 0, yielding = 0;
 };
 
-template <bool kPlane, bool kNodal>
+/// `w`: yield stresses, and of a cone with nodal pressures the opening.
+template <bool kPlane, bool kNodal, bool kCone>
 [[gnu::always_inline]] inline Trials tryLanes(const ElementLanes& e, const PlasticChunk& in,
-                                              const StateLanes& s, const double* slow,
-                                              const Corners& c, double* squaredOver,
+                                              const StateLanes& s, const Corners& c, FlowLanes& w,
                                               TrialLanes& out) {
   const SolidModuli moduli = in.moduli;
   const double squaredShear = moduli.shear * moduli.shear;
-  const double slope = in.slope, limit = in.tensionLimit;
+  const double slope = std::numbers::sqrt3 * in.cone.slope, most = in.cone.limit;
   alignas(64) double pressure[kLanes];
   if constexpr (kNodal)
     for (std::size_t k = 0; k < kLanes; ++k)
@@ -80,9 +82,10 @@ template <bool kPlane, bool kNodal>
   int flat = 0, yielding = 0;
 #pragma omp simd reduction(+ : flat, yielding)
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const Matrix2 f = deformationGradient(
-        c.x[1][k] - c.x[0][k], c.y[1][k] - c.y[0][k], c.x[2][k] - c.x[0][k], c.y[2][k] - c.y[0][k],
-        s.edges[0][k], s.edges[1][k], s.edges[2][k], s.edges[3][k]);
+    const double d1x = c.x[1][k] - c.x[0][k], d1y = c.y[1][k] - c.y[0][k];
+    const double d2x = c.x[2][k] - c.x[0][k], d2y = c.y[2][k] - c.y[0][k];
+    const Matrix2 f = deformationGradient(d1x, d1y, d2x, d2y, s.edges[0][k], s.edges[1][k],
+                                          s.edges[2][k], s.edges[3][k]);
     double thickness = s.thickness[k];
     if constexpr (kPlane) thickness = elasticThickness(f, thickness, moduli);
     const ElasticTrial t(f, thickness);
@@ -93,9 +96,18 @@ template <bool kPlane, bool kNodal>
     else
       mean = meanStress(t.volume, moduli.bulk);
     out.squaredMises[k] = t.squaredMises();
-    const double yield = std::max(0., slow[k] - slope * mean);
-    const double over = mean > limit ? 1 : squaredShear * out.squaredMises[k] - yield * yield;
-    squaredOver[k] = over;
+    double yield = w.yield[k], limit = std::numeric_limits<double>::infinity();
+    if constexpr (kCone) {
+      const double inverse = e.inverseEdges[0][k] * e.inverseEdges[3][k] -
+                             e.inverseEdges[1][k] * e.inverseEdges[2][k];
+      w.size[k] = (d1x * d2y - d1y * d2x) * inverse;
+      yield = std::max(0., yield * w.size[k] - slope * mean), limit = most * w.size[k];
+    }
+    double over = squaredShear * out.squaredMises[k] - yield * yield;
+    if constexpr (kCone) over = mean > limit ? 1 : over;
+    if constexpr (kCone && kNodal) over = std::max(over, w.opening[k]);
+    over = t.volume > 0 ? over : 0;  // an inverted one is refused
+    w.over[k] = over;
     yielding += over > 0 ? 1 : 0;
     out.mean[k] = mean, out.volume[k] = t.volume;
     out.zx[k] = t.zx, out.zy[k] = t.zy, out.wx[k] = t.wx, out.wy[k] = t.wy;

@@ -22,9 +22,10 @@ struct GroupLanes {
   ConeLanes cone;
 };
 
-/// `kForces`: adds forces, too.
-template <bool kPlane, bool kNodal, YieldCurve::Kind kKind, bool kForces = true>
+template <bool kPlane, bool kNodal, YieldCurve::Kind kKind>
 struct AddForces {
+  static constexpr bool kCone = kKind == YieldCurve::Kind::kCone;
+
   const Chunk& chunk;
   const ElementLanes* lanes;
   const PlasticChunk& in;
@@ -49,14 +50,15 @@ struct AddForces {
         const Group group = groupOf(l + i);
         group.load(in, g.state);
         group.load(in.yield, g.flow.yield);
-        const Trials trials = tryLanes<kPlane, kNodal>(lanes[l + i], in, g.state, g.flow.yield,
-                                                       g.corners, g.flow.over, g.trial);
+        if constexpr (kCone && kNodal) group.load(in.opening, g.flow.opening);
+        const Trials trials = tryLanes<kPlane, kNodal, kCone>(lanes[l + i], in, g.state, g.corners,
+                                                              g.flow, g.trial);
         flat += trials.flat;
         yielding[found] = i;
-        found += trials.yielding != 0 && trials.flat == 0 ? 1 : 0;
+        found += trials.yielding != 0 ? 1 : 0;
       }
       if (found != 0) flowBlock(l, std::span(yielding).first(found), block, sums);
-      for (std::uint32_t i = 0; kForces && i < count; ++i) {
+      for (std::uint32_t i = 0; i < count; ++i) {
         forcesOfLanes(lanes[l + i], in.moduli.shear, block[i].trial, block[i].corners);
         scatter(lanes[l + i], block[i].corners, force);
       }
@@ -88,7 +90,7 @@ struct AddForces {
       for (const std::uint32_t i : yielding) work(block[i], l + i);
     };
     forEach([&](GroupLanes & g, std::uint32_t i) __attribute__((always_inline)) { prepare(i, g); });
-    if constexpr (kKind == YieldCurve::Kind::kCone)
+    if constexpr (kCone)
       flowOnCone(forEach, sums);
     else if constexpr (kKind != YieldCurve::Kind::kAlone)
       flowOnCurve(forEach, sums);
@@ -130,7 +132,7 @@ struct AddForces {
       formerMeans(lanes[i], in.formerPressure, moduli.bulk, g.flow, g.cone);
     });
     forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
-      returnToCone(in.cone, moduli, kNodal ? 0 : 1, g.trial, g.flow, g.cone, g.fresh);
+      returnToCone<kNodal>(in.cone, moduli, g.trial, g.flow, g.cone, g.fresh);
     });
     forEach([&](GroupLanes & g, std::uint32_t) __attribute__((always_inline)) {
       shapeLanes<true>(g.state, g.trial, g.flow, g.fresh);
@@ -191,10 +193,7 @@ struct AddForces {
     for (std::size_t i = 0; i < 4; ++i) group.store(g.state.edges[i], in.edges[i]);
     group.store(g.state.thickness, in.thickness);
     group.store(g.flow.strain, in.strain);
-    if constexpr (kKind == YieldCurve::Kind::kCone) {
-      if constexpr (kNodal) group.store(g.flow.opening, in.opening);
-      return;
-    }
+    if constexpr (kCone) return;
     group.store(g.flow.temperature, in.temperature);
     group.store(g.flow.yield, in.yield);
     if constexpr (kKind == YieldCurve::Kind::kCurved) group.store(g.flow.thermal, in.thermal);
@@ -211,38 +210,55 @@ struct AddForces {
   }
 };
 
-/// Forces after the flow.
-struct AddOpened {
+struct OpenVolumes {
   const Chunk& chunk;
   const ElementLanes* lanes;
   const PlasticChunk& in;
   const Vec2* position;
-  LaneReturn& flow;
-  Vec2* force;
+  double* nodes;
 
-  [[gnu::always_inline]] bool operator()() const {
-    int flat = 0;
-    FlowSums sums;
+  [[gnu::always_inline]] void operator()() const {
     GroupLanes g;
-    alignas(64) double opening[kLanes];
+    alignas(64) double third[kLanes];
     std::uint32_t first = chunk.firstElement;
     for (std::uint32_t l = chunk.firstLanes; l < chunk.lastLanes; ++l, first += kLanes) {
       gather(lanes[l], position, g.corners);
       const Group group(first, chunk.lastElement);
       group.load(in, g.state);
       group.load(in.yield, g.flow.yield);
-      group.load(in.opening, opening);
-      flat += tryLanes<false, true>(lanes[l], in, g.state, g.flow.yield, g.corners, g.flow.over,
-                                    g.trial)
-                  .flat;
+      for (double& one : g.flow.opening) one = 0;
+      const Trials trials =
+          tryLanes<false, true, true>(lanes[l], in, g.state, g.corners, g.flow, g.trial);
+      if (trials.yielding != 0) open(g.trial, g.flow);
+      group.store(g.flow.opening, in.opening);
 #pragma omp simd
       for (std::size_t k = 0; k < kLanes; ++k)
-        sums.dissipated[k] += lanes[l].volume[k] * opening[k] * g.trial.mean[k] / 2;
-      forcesOfLanes(lanes[l], in.moduli.shear, g.trial, g.corners);
-      scatter(lanes[l], g.corners, force);
+        third[k] = lanes[l].volume[k] * (1. / 3) * g.trial.volume[k];
+      for (std::size_t k = 0; k < kLanes; ++k)
+        for (const auto& corner : lanes[l].corner) nodes[corner[k]] += third[k];
     }
-    for (std::size_t k = 0; k < kLanes; ++k) flow.sums.dissipated[k] += sums.dissipated[k];
-    return flat == 0;
+  }
+
+ private:
+  [[gnu::always_inline]] void open(TrialLanes& t, FlowLanes& w) const {
+    const SolidModuli m = in.moduli;
+    const Cone c = in.cone;
+    double most = 0;
+    const auto trialOf = [&](std::size_t k) __attribute__((always_inline)) {
+      const double volume = t.volume[k];
+      return ConeTrial{m.shear * std::sqrt(t.squaredMises[k] * (1. / 3)), t.mean[k],
+                       nodalStiffness(t.mean[k] / volume, volume, m.bulk), w.size[k]};
+    };
+#pragma omp simd reduction(max : most)
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const double opening = coneFlow<true>(c, m.shear, trialOf(k)).opening;
+      w.opening[k] = w.over[k] > 0 ? opening : 0;
+      most = std::max(most, w.opening[k]);
+    }
+    for (std::size_t k = 0; most >= tolerance::kTinyFlow && k < kLanes; ++k)
+      if (w.opening[k] >= tolerance::kTinyFlow)
+        w.opening[k] = coneFlow<false>(c, m.shear, trialOf(k)).opening;
+    for (std::size_t k = 0; k < kLanes; ++k) t.volume[k] *= expOfSmall(-w.opening[k]);
   }
 };
 
@@ -286,10 +302,9 @@ bool addForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes
     if (in.curve.kind == kCurved)
       return runForWide(
           set, AddForces<kPlane, kNodal, kCurved>{chunk, lanes, in, position, flow, force});
-    if constexpr (!kNodal)
-      if (in.curve.kind == kCone)
-        return runForWide(
-            set, AddForces<kPlane, kNodal, kCone>{chunk, lanes, in, position, flow, force});
+    if (in.curve.kind == kCone)
+      return runForWide(set,
+                        AddForces<kPlane, kNodal, kCone>{chunk, lanes, in, position, flow, force});
   }
   return runForWide(set,
                     AddForces<kPlane, kNodal, kAlone>{chunk, lanes, in, position, flow, force});
@@ -305,15 +320,9 @@ bool addPlasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes
   return addForces<false, false>(set, chunk, lanes, in, position, flow, force);
 }
 
-void returnPlastic(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                   const PlasticChunk& in, const Vec2* position, LaneReturn& flow) {
-  using enum YieldCurve::Kind;
-  runForWide(set, AddForces<false, true, kCone, false>{chunk, lanes, in, position, flow, nullptr});
-}
-
-bool addOpenedForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                     const PlasticChunk& in, const Vec2* position, LaneReturn& flow, Vec2* force) {
-  return runForWide(set, AddOpened{chunk, lanes, in, position, flow, force});
+void openVolumes(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
+                 const PlasticChunk& in, const Vec2* position, double* nodes) {
+  runForWide(set, OpenVolumes{chunk, lanes, in, position, nodes});
 }
 
 void sumVolumes(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,

@@ -25,14 +25,12 @@ struct PlasticChunk {
   double* yield;        ///< Pa, slow yield stress
   double* thermal;      ///< part of it that the temperature leaves
   Cone cone;            ///< of a frictional material
-  double slope;         ///< √3 η of a cone, by which the mean stress reduces the yield stress
-  double tensionLimit;  ///< Pa
   SolidModuli moduli;
   bool planeStress;
   /// Pa, U'(J) by local number of the node; null: each element has its own.
   const double* pressure;
   const double* formerPressure;  ///< Pa, the same at the last step, if flow changes the volume
-  double* opening;               ///< volume strain of the flow, if it changes the volume
+  double* opening;  ///< volume strain of the flow, if it changes nodal pressures
   YieldCurve curve;
 };
 
@@ -51,19 +49,15 @@ class LaneReturn {
   FlowSums sums;
 };
 
-/// Adds the forces (N) of a chunk; positions and forces by local node number. False if an element
-/// is flat, inverted or not finite.
+/// Adds the forces (N) of a chunk; positions and forces by local node number; after `openVolumes`
+/// with the nodal pressures that follow. False if an element is flat, inverted or not finite.
 bool addPlasticForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
                       const PlasticChunk& in, const Vec2* position, LaneReturn& flow, Vec2* force);
 
-/// Only returns the elements of a chunk with nodal pressures; flat ones stay as they are.
-void returnPlastic(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                   const PlasticChunk& in, const Vec2* position, LaneReturn& flow);
-
-/// As addPlasticForces, after `returnPlastic`, with the nodal pressures after the flow. The work is
-/// that of these pressures.
-bool addOpenedForces(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
-                     const PlasticChunk& in, const Vec2* position, LaneReturn& flow, Vec2* force);
+/// Finds the openings on a cone with nodal pressures, and adds the volumes that follow as
+/// `sumVolumes`.
+void openVolumes(InstructionSet set, const Chunk& chunk, const ElementLanes* lanes,
+                 const PlasticChunk& in, const Vec2* position, double* nodes);
 
 /// Adds a third of V·J (m³) of each element to its nodes, by local number; V is the stress-free
 /// volume.

@@ -30,8 +30,12 @@ void flow(const ElasticTrial& t, double kept, double volumeStrain, YieldPoint& p
   const double size = gone * std::sqrt(t.squared) / 2;
   // exp of a symmetric matrix: x → e^h (cosh x − sinh/|ℓ| ℓ x̄), ℓ = gone · part · u
   const double squared = size * size;
-  const double cosh = 1 + squared / 2 * (1 + squared / 12 * (1 + squared / 30));
-  const double sinhFactor = 1 + squared / 6 * (1 + squared / 20 * (1 + squared / 42));
+  double cosh = 1 + squared / 2 * (1 + squared / 12 * (1 + squared / 30));
+  double sinhFactor = 1 + squared / 6 * (1 + squared / 20 * (1 + squared / 42));
+  if (size > tolerance::kTinyFlow) {
+    const double up = expOf(size), down = 1 / up;
+    cosh = (up + down) / 2, sinhFactor = (up - down) / (2 * size);
+  }
   const double grown = expOfSmall(across / 2 - volumeStrain / 3);
   const double diagonal = grown * cosh;
   const double by = grown * sinhFactor * gone * t.part / 2 * t.inverseZ;
@@ -94,38 +98,39 @@ ElasticTrial trialOf(const YieldConstants& c, const YieldPoint& point, const Tri
                      double& thickness) {
   const Matrix2 f = now.gradient(point.edges);
   thickness = c.planeStress ? freeThickness(f, point.thickness, 1, c.moduli) : point.thickness;
-  return {f, thickness};
+  return ElasticTrial::ofAnySize(f, thickness);
 }
 
 namespace {
 
-/// Flow on the cone and to its limits of tension (de Souza Neto, Perić and Owen 2008, box 8.8).
-/// `formerMean` (Pa): mean of τ at the last step.
+/// Flow on the cone; `formerMean` (Pa): mean of τ at the last step.
 void returnToCone(const YieldConstants& c, const ElasticTrial& former, double formerMean,
-                  bool isOwn, Returned& result) {
-  const auto [slope, strength, dilation, limit] = c.cone;
+                  double size, const NodalPressure* pressure, Returned& result) {
   const auto [bulk, shear] = c.moduli;
-  const double distortion = shear * std::sqrt(result.trial.squaredMises() / 3);  // √J₂
-  const double over = distortion + slope * result.mean - strength;
-  if (!(over > 0 || result.mean > limit)) return;
-  const double step = std::max(0., over) / (shear + bulk * slope * dilation);
-  double mean = result.mean - bulk * dilation * step;
-  double remaining = std::max(0., distortion - shear * step);
-  if (mean > limit || distortion < shear * step) {
-    mean = std::min(limit, result.mean);
-    remaining = std::min(distortion, std::max(0., strength - slope * mean));
+  const double volume = result.trial.volume;
+  const ConeTrial trial{shear * std::sqrt(result.trial.squaredMises() / 3), result.mean,
+                        bulk * volume * volume, size};
+  ConeFlow flowed{};
+  if (pressure == nullptr) {
+    flowed = coneFlow<false>(c.cone, shear, trial);
+    result.mean = meanAfter<false>(trial, flowed.opening);
+  } else {
+    result.mean *= expOfSmall(-pressure->opening);
+    flowed = {pressure->opening, goneBy(fallAt(c.cone, trial, result.mean), trial.distortion)};
   }
-  result.kept = distortion > 0 ? remaining / distortion : 1;
-  // J² is 1 + 2 J U'/κ.
-  result.opening = logRatio(bulk + 2 * result.mean, bulk + 2 * mean) / 2;
-  result.dissipation =
-      shear * (1 - result.kept) *
-          (product(result.trial, former) + result.kept * product(result.trial, result.trial)) +
-      result.opening * (formerMean + (isOwn ? mean : 0)) / 2;
-  result.mean = mean;
-  flow(result.trial, result.kept, result.opening, result.point, result.point.thickness);
-  const double sheared = (distortion - remaining) / (std::numbers::sqrt3 * shear);
-  result.point.strain += std::sqrt(sheared * sheared + 2. / 9 * result.opening * result.opening);
+  const double opening = flowed.opening;
+  if (!(opening > 0 || flowed.gone > 0)) return;
+  const double squared = product(result.trial, result.trial);
+  const double paired = product(result.trial, former);
+  const double pull = opening * (formerMean + result.mean) / (2 * shear);
+  const double gone = goneWithoutGain(flowed.gone, squared, paired, pull);
+  result.kept = 1 - gone;
+  result.opening = opening;
+  const double work = shear * coneWork(gone, squared, paired, pull);
+  result.dissipation = pressure == nullptr ? std::max(0., work) : work;
+  flow(result.trial, result.kept, opening, result.point, result.point.thickness);
+  const double slip = trial.distortion * gone / (std::numbers::sqrt3 * shear);
+  result.point.strain += std::sqrt(slip * slip + 2. / 9 * opening * opening);
 }
 
 /// In plane stress the thickness depends on the flow, and the flow on the thickness.
@@ -146,18 +151,18 @@ double settleThickness(const YieldConstants& c, const YieldPoint& point, const T
 
 }  // namespace
 
-Returned returnToYield(const YieldConstants& c, const YieldPoint& point, const TriangleEdges& now,
-                       const TriangleEdges& before, double dt, const NodalPressure* pressure) {
+Returned returnToYield(const YieldConstants& c, const YieldPoint& point,
+                       const TriangleMotion& motion, double dt, const NodalPressure* pressure) {
   double thickness = 1, formerThickness = 1;
-  Returned result{point, trialOf(c, point, now, thickness)};
+  Returned result{point, trialOf(c, point, motion.now, thickness)};
   const double volume = result.trial.volume;
   result.mean = pressure != nullptr ? pressure->now * volume : meanStress(volume, c.moduli.bulk);
   result.trialMean = result.mean;
   if (c.plastic.isFrictional()) {
-    const ElasticTrial former = trialOf(c, point, before, formerThickness);
+    const ElasticTrial former = trialOf(c, point, motion.before, formerThickness);
     const double mean = pressure != nullptr ? pressure->before * former.volume
                                             : meanStress(former.volume, c.moduli.bulk);
-    returnToCone(c, former, mean, pressure == nullptr, result);
+    returnToCone(c, former, mean, motion.size, pressure, result);
     return result;
   }
   const double slow = yieldStress(c.plastic, point.strain, point.temperature);
@@ -166,11 +171,11 @@ Returned returnToYield(const YieldConstants& c, const YieldPoint& point, const T
   double step = plasticStep(c, point, slow, trial, dt);
   result.kept = 1 - 3 * c.moduli.shear * step / trial;
   if (c.planeStress) {
-    step = settleThickness(c, point, now, slow, dt, step, thickness, result);
+    step = settleThickness(c, point, motion.now, slow, dt, step, thickness, result);
     result.mean = meanStress(result.trial.volume, c.moduli.bulk);
   }
   result.kept = std::max(0., result.kept);
-  const ElasticTrial former = trialOf(c, point, before, formerThickness);
+  const ElasticTrial former = trialOf(c, point, motion.before, formerThickness);
   result.dissipation =
       c.moduli.shear * (1 - result.kept) *
       (product(result.trial, former) + result.kept * product(result.trial, result.trial));
@@ -179,6 +184,14 @@ Returned returnToYield(const YieldConstants& c, const YieldPoint& point, const T
   result.point.strain += step;
   result.point.temperature += c.heating * std::max(0., result.dissipation);
   return result;
+}
+
+double nodalOpening(const YieldConstants& c, const ElasticTrial& trial, double size,
+                    double pressure) {
+  const auto [bulk, shear] = c.moduli;
+  const ConeTrial at{shear * std::sqrt(trial.squaredMises() / 3), pressure * trial.volume,
+                     nodalStiffness(pressure, trial.volume, bulk), size};
+  return coneFlow<false>(c.cone, shear, at).opening;
 }
 
 double squaredGradient(const std::array<double, 4>& e) {

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "dynamics/yield_law.hpp"
+#include "dynamics/cone_return.hpp"
 #include "mesh/body_material.hpp"
 #include "mesh/plastic_state.hpp"
 
@@ -74,10 +74,16 @@ struct TriangleEdges {
 [[nodiscard]] ElasticTrial trialOf(const YieldConstants& c, const YieldPoint& point,
                                    const TriangleEdges& now, double& thickness);
 
+/// The edges now and at the last step, and det F now.
+struct TriangleMotion {
+  TriangleEdges now, before;
+  double size;
+};
+
 /// (Pa) The mean of U'(J) at the nodes of an element that has not its own, now and at the last
-/// step.
+/// step. Of a cone, `now` is that after all elements have opened, this one by `opening`.
 struct NodalPressure {
-  double now, before;
+  double now, before, opening = 0;
 };
 
 /// A triangle after the return.
@@ -94,12 +100,16 @@ struct Returned {
   [[nodiscard]] double volume() const;
 };
 
-/// From the state after the last step to that at the edges `now`; `before`: those of the last step.
-/// With `pressure`, the one that follows the flow is not known yet: the dissipation is without its
-/// half of the opening. Without flow the point is unchanged.
+/// From the state after the last step to that at the edges now. Without flow the point is
+/// unchanged.
 [[nodiscard]] Returned returnToYield(const YieldConstants& c, const YieldPoint& point,
-                                     const TriangleEdges& now, const TriangleEdges& before,
-                                     double dt, const NodalPressure* pressure = nullptr);
+                                     const TriangleMotion& motion, double dt,
+                                     const NodalPressure* pressure = nullptr);
+
+/// The volume strain of the flow on a cone from this trial and this mean of U'(J) (Pa) at the nodes,
+/// if the neighbours open as this triangle does.
+[[nodiscard]] double nodalOpening(const YieldConstants& c, const ElasticTrial& trial, double size,
+                                  double pressure);
 
 /// (1/m²) Largest |∇N|² of a stress-free shape.
 [[nodiscard]] double squaredGradient(const std::array<double, 4>& edges);

@@ -33,6 +33,7 @@ struct alignas(64) FlowLanes {
   double power[kLanes], heat[kLanes];  ///< arguments of powers, then their logarithms
   double logarithm[kLanes];            ///< of the estimate's rate over the reference rate
   double opening[kLanes];              ///< volume strain of the flow
+  double size[kLanes];                 ///< det F
   double fails[kLanes];                ///< above 0 if the lane must be returned alone
 };
 

@@ -11,6 +11,8 @@
 //   e₁₁ − e₂₂ + 2i e₁₂ = 2 u artanh|u|/|u|,  e₃₃ = ⅓ log(λ²/det F),
 // and in the present frame u is w z/|z|². e is elastic and therefore small: series.
 
+#include "core/lane_math.hpp"
+#include "core/tolerances/plasticity.hpp"
 #include "dynamics/elastic_law.hpp"
 #include "mesh/elastic_material.hpp"
 
@@ -53,6 +55,18 @@ struct ElasticTrial {
     const double area = (squaredZ - squaredW) * .25;
     across = logRatio(thickness * thickness, area);
     volume = thickness * area;
+  }
+  /// With logarithms where the series are not exact to rounding: in a trial, e may be large.
+  static ElasticTrial ofAnySize(const Matrix2& f, double thickness) {
+    ElasticTrial t(f, thickness);
+    const double x = (t.wx * t.wx + t.wy * t.wy) * t.inverseZ;
+    if (!(x < 1) || (t.squared < tolerance::kSeries && t.across * t.across < tolerance::kSeries))
+      return t;
+    const double u = std::sqrt(x);
+    t.part = u > 0 ? logOf((1 + u) / (1 - u)) / u : t.part;
+    t.squared = t.part * t.part * x;
+    t.across = logOf(thickness * thickness * thickness / t.volume);
+    return t;
   }
   /// (Pa²) Square of von Mises' equivalent stress, √(3/2 s:s), over μ².
   [[nodiscard, gnu::always_inline]] double squaredMises() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tolerances/plasticity.hpp"
 #include "dynamics/collapse_barrier.hpp"
 #include "dynamics/element_state.hpp"
 #include "dynamics/plastic_damage.hpp"
@@ -42,10 +43,11 @@ struct Pair {
   bool smoothed;
   YieldPoint point;
   Corners step;  // m, displacements of the corners
-  TriangleEdges now, before;
-  double trialVolume;  // J at xⁿ, without further flow
-  ElasticTrial former{Matrix2{1, 0, 0, 1}, 1};
-  double formerMean = 0;  // Pa, of τ
+  TriangleMotion motion;
+  ElasticTrial trial{Matrix2{1, 0, 0, 1}, 1}, former = trial;
+  double formerMean = 0;       // Pa, of τ
+  NodalPressure pressure{};    // smoothed
+  double trialMean = 0;        // Pa, of τ, before any opening
   Returned present;       // after `settle`
 
   Pair(const Model& model, ElementId id, double dt)
@@ -55,18 +57,21 @@ struct Pair {
         smoothed(model.bodyOf(id).averagesVolume()),
         point(model.triangles.plastic, id.value),
         step(cornersOf(model, id, model.nodes.velocity)),
-        now(edgesOf(cornersOf(model, id, model.nodes.position))),
-        before(now) {
+        motion{edgesOf(cornersOf(model, id, model.nodes.position)), {}, 0} {
     for (Vec2& one : step) one *= dt;
-    const TriangleEdges change = edgesOf(step);
-    before = {now.first - change.first, now.second - change.second};
+    const TriangleEdges change = edgesOf(step), &now = motion.now;
+    motion.before = {now.first - change.first, now.second - change.second};
+    motion.size = now.twiceArea() / (2 * model.triangles.area[id.value]);
     double thickness = 1;
-    trialVolume = trialOf(constants, point, now, thickness).volume;
-    former = trialOf(constants, point, before, thickness);
+    trial = trialOf(constants, point, now, thickness);
+    former = trialOf(constants, point, motion.before, thickness);
     formerMean = meanStress(former.volume, constants.moduli.bulk);
   }
-  void settle(double dt, const NodalPressure* pressure = nullptr) {
-    present = returnToYield(constants, point, now, before, dt, pressure);
+  void settle(double dt, bool isNodal = false) {
+    present = returnToYield(constants, point, motion, dt, isNodal ? &pressure : nullptr);
+  }
+  void open() {
+    pressure.opening = nodalOpening(constants, trial, motion.size, pressure.now);
   }
 };
 
@@ -82,24 +87,26 @@ struct Yielding {
       if (model.bodyOf(e).yields() && !model.triangles.isDropped(e.value))
         pairs.emplace_back(model, e, dt);
     if (pairs.empty()) return;
-    now = average(model, [](const Pair& p) { return p.trialVolume; });
+    now = average(model, [](const Pair& p) { return p.trial.volume; });
     before = average(model, [](const Pair& p) { return p.former.volume; });
     for (Pair& p : pairs) {
-      if (!p.smoothed) {
-        p.settle(dt);
-        continue;
-      }
-      const NodalPressure pressure{meanPressure(model, p, now), meanPressure(model, p, before)};
-      p.settle(dt, &pressure);
-      p.formerMean = pressure.before * p.former.volume;
+      if (!p.smoothed) continue;
+      p.pressure = {meanPressure(model, p, now), meanPressure(model, p, before)};
+      p.formerMean = p.pressure.before * p.former.volume;
+      p.trialMean = p.pressure.now * p.trial.volume;
+      if (isOpening(p)) p.open();
     }
-    if (std::ranges::none_of(pairs, isOpening)) return;
-    // Flow has changed the volumes: the forces are those of the volumes after it.
-    now = average(model, [](const Pair& p) { return p.present.volume(); });
+    // Flow changes volumes: the stresses are those of the volumes after it.
+    if (std::ranges::any_of(pairs, isOpening)) {
+      now = average(model, [](const Pair& p) {
+        return p.trial.volume * expOfSmall(-p.pressure.opening);
+      });
+      for (Pair& p : pairs)
+        if (isOpening(p)) p.pressure.now = meanPressure(model, p, now);
+    }
     for (Pair& p : pairs) {
-      if (!isOpening(p)) continue;
-      p.present.mean = meanPressure(model, p, now) * p.present.volume();
-      p.present.dissipation += p.present.opening * p.present.mean / 2;
+      p.settle(dt, p.smoothed);
+      if (isOpening(p)) p.present.trialMean = p.trialMean;
     }
   }
   Yielding(const Model& model, double dt) : Yielding(model, allYielding(model), dt) {}
@@ -170,8 +177,8 @@ YieldingEnergy yieldingEnergy(const Model& model, std::span<const ElementId> ele
     } else {
       twice += volumeEnergy(p.present.volume(), bulk) + volumeEnergy(p.former.volume, bulk);
     }
-    const Corners now = forcesOf(p, p.now, presentStress(p));
-    const Corners before = forcesOf(p, p.before, PlaneStress(p.former, p.formerMean, 1, shear));
+    const Corners now = forcesOf(p, p.motion.now, presentStress(p));
+    const Corners before = forcesOf(p, p.motion.before, PlaneStress(p.former, p.formerMean, 1, shear));
     double work = 0;
     for (std::size_t i = 0; i < 3; ++i) work += dot(now[i] - before[i], p.step[i]);
     const double modulus = model.bodyOf(p.element).material.waveModulus();
@@ -204,23 +211,50 @@ std::vector<double> presentDamage(const Model& model, double dt) {
                         p.point.temperature,
                         material.isFrictional() ? now.trialMean : now.mean,
                         shear * now.kept * std::sqrt(now.trial.squaredMises()),
-                        now.volume(),
+                        material.isFrictional() ? p.motion.size : now.volume(),
                         model.triangles.plastic.resistanceOf(e)};
     damage[e] = damageAfter(material, stored[e], step, dt);
   }
   return damage;
 }
 
+namespace {
+
+/// `set(pair, τ/σ, mean of the barrier's stress (Pa))`
+template <class Set>
+void forStresses(const Model& model, double dt, Set set) {
+  for (const Pair& p : Yielding(model, dt).pairs) {
+    const double size = p.motion.size;
+    const double mean = CollapseBarrier(size, model.bodyOf(p.element).material.waveModulus()).slope;
+    set(p, p.constants.planeStress ? p.present.trial.volume : size, mean);
+  }
+}
+
+}  // namespace
+
 void setYieldingStresses(const Model& model, double dt,
                          std::vector<std::array<double, 3>>& stresses) {
-  for (const Pair& p : Yielding(model, dt).pairs) {
+  forStresses(model, dt, [&](const Pair& p, double volume, double mean) {
     const PlaneStress t = presentStress(p);
-    const Matrix2 f = deformationGradient(model, p.element);
-    const double modulus = model.bodyOf(p.element).material.waveModulus();
-    const double mean = CollapseBarrier(determinant(f), modulus).slope;
-    const double volume = p.constants.planeStress ? p.present.trial.volume : determinant(f);
     stresses[p.element.value] = {t.xx / volume + mean, t.yy / volume + mean, t.xy / volume};
-  }
+  });
+}
+
+void setYieldingAcross(const Model& model, double dt, std::vector<double>& stresses) {
+  forStresses(model, dt, [&](const Pair& p, double volume, double mean) {
+    if (p.constants.planeStress) return;
+    const double deviator = p.constants.moduli.shear * p.present.kept * p.present.trial.across;
+    stresses[p.element.value] = (p.present.mean + 2. / 3 * deviator) / volume + mean;
+  });
+}
+
+std::size_t countYielding(const Model& model, ComponentId body) {
+  std::size_t count = 0;
+  for (const Pair& p : Yielding(model, 0).pairs)
+    if (model.triangles.component[p.element.value] == body &&
+        p.present.point.strain - p.point.strain > tolerance::kNoFlow)
+      ++count;
+  return count;
 }
 
 void setYieldingEnergies(const Model& model, double dt, std::vector<double>& energies) {

@@ -33,6 +33,10 @@ struct YieldingEnergy {
 /// (Pa) Cauchy stress xx, yy, xy of the elements of these bodies.
 void setYieldingStresses(const Model& model, double dt,
                          std::vector<std::array<double, 3>>& stresses);
+/// (Pa) Their stress zz; 0 in plane stress.
+void setYieldingAcross(const Model& model, double dt, std::vector<double>& stresses);
+/// Triangles of a body that flow without any motion.
+[[nodiscard]] std::size_t countYielding(const Model& model, ComponentId body);
 /// (J) Strain energy of the elements of these bodies at the present positions.
 void setYieldingEnergies(const Model& model, double dt, std::vector<double>& energies);
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/errors.hpp"
@@ -46,6 +47,34 @@ void appendPlasticState(Model& model, const Component& added) {
   if (added.yields())
     for (std::size_t e = added.firstTriangle; e < added.lastTriangle; ++e)
       state.begin(e, model.triangles.inverseEdges[e], added.plastic.startTemperature);
+}
+
+/// Returns the stretches across the plane, if they are state of the body.
+std::vector<double> addStress(Model& model, const Component& added,
+                              std::span<const std::array<double, 3>> stress,
+                              std::span<const double> across) {
+  Triangles& triangles = model.triangles;
+  std::vector<double> thickness;
+  const bool isSpatial = !across.empty() && !added.material.planeStress;
+  if (isSpatial && added.yields()) thickness.resize(stress.size(), 1);
+  if ((isSpatial && !added.yields()) || !triangles.stressAcross.empty())
+    triangles.stressAcross.resize(triangles.size());
+  for (std::size_t t = 0; t < stress.size(); ++t) {
+    const ElementId element(added.firstTriangle + t);
+    const ElasticMaterial& material = model.materialOf(element).material;
+    const bool isGiven = isSpatial && !std::isnan(across[t]);
+    if (isGiven && added.yields()) {
+      const SpatialStretch all = stretchOf(material, stress[t], across[t]).value();
+      stretch(triangles, element, all.plane);
+      thickness[t] = all.across;
+      continue;
+    }
+    stretch(triangles, element, stretchOf(material, stress[t]).value());
+    if (isGiven)
+      triangles.stressAcross[element.value] =
+          across[t] - material.poisson * (stress[t][0] + stress[t][1]);
+  }
+  return thickness;
 }
 
 void removeTriangles(Model& model, Component& gone) {
@@ -99,7 +128,8 @@ void checkTriangles(const TriangleMesh& mesh) {
 
 ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component,
                        const MaterialPlaces& materials,
-                       std::span<const std::array<double, 3>> stress) {
+                       std::span<const std::array<double, 3>> stress,
+                       std::span<const double> across) {
   checkTriangles(mesh);
   const ComponentId id(model.components.size());
   Nodes& nodes = model.nodes;
@@ -124,11 +154,9 @@ ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& 
   triangles.component.resize(triangles.size(), id);
   appendMaterials(model, materials, added);
   model.components.push_back(added);
-  for (std::size_t t = 0; t < stress.size(); ++t) {
-    const ElementId element(added.firstTriangle + t);
-    stretch(triangles, element, stretchOf(model.materialOf(element).material, stress[t]).value());
-  }
+  const std::vector<double> thickness = addStress(model, added, stress, across);
   appendPlasticState(model, added);
+  std::ranges::copy(thickness, triangles.plastic.thickness.begin() + added.firstTriangle);
   addMasses(model, added);
   return id;
 }

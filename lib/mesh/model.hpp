@@ -67,6 +67,9 @@ struct Triangles {
   std::vector<ComponentId> component;
   /// Number of the triangle's material among its body's materials; empty if no body has several.
   std::vector<std::uint32_t> material;
+  /// (Pa) Of bodies that do not yield, in plane strain: initial stress across the plane without the
+  /// part of that in the plane, Poisson's ratio times (xx + yy). Empty: none.
+  std::vector<double> stressAcross;
   PlasticState plastic;
 
   /// All arrays by triangle, likewise.
@@ -78,6 +81,7 @@ struct Triangles {
       visit(Column{"area", Use::kMesh}, self.area);
       visit(Column{"triangleComponent", Use::kMesh}, self.component);
       visit(Column{"triangleMaterial", Use::kMaterials, kOptional}, self.material);
+      visit(Column{"stressAcross", Use::kMesh, kOptional}, self.stressAcross);
       PlasticState::columnsOf(self.plastic)(visit);
     };
   }

@@ -75,9 +75,9 @@ double thermalFactor(const PlasticMaterial& m, double temperature) {
 std::string PlasticMaterial::wrong() const {
   const auto isPositive = [](double v) { return v > 0 && std::isfinite(v); };
   const auto isNotNegative = [](double v) { return v >= 0 && std::isfinite(v); };
-  if (cohesion != 0) {
-    if (!isPositive(cohesion))
-      return wrongValue("cohesion", cohesion, " Pa", "positive and finite");
+  if (cohesion != 0 || internalFriction != 0) {
+    if (!isNotNegative(cohesion))
+      return wrongValue("cohesion", cohesion, " Pa", "0 or positive, and finite");
     if (!isNotNegative(internalFriction))
       return wrongValue("internalFriction", std::atan(internalFriction), "",
                         "at least 0 and below π/2 (rad)");
@@ -86,6 +86,8 @@ std::string PlasticMaterial::wrong() const {
                         "at least 0 and at most internalFriction");
     if (!(tensionLimit >= 0))
       return wrongValue("tensionLimit", tensionLimit, " Pa", "0 or positive");
+    if (failure.energy > 0 && cohesion == 0)
+      return wrongValue("cohesion", cohesion, " Pa", "positive if fractureEnergy is given");
     if (failure.energy > 0 && !(failure.spallStress > 0))
       return wrongValue("tensionLimit", tensionLimit, " Pa", "positive if fractureEnergy is given");
     if (failure.energy > 0 && !failure.isOn())

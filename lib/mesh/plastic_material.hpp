@@ -47,7 +47,7 @@ struct PlasticMaterial {
   FailureLaw failure{};
 
   [[nodiscard]] bool yields() const { return yieldStress > 0 || !table.empty() || isFrictional(); }
-  [[nodiscard]] bool isFrictional() const { return cohesion > 0; }
+  [[nodiscard]] bool isFrictional() const { return cohesion > 0 || internalFriction > 0; }
   /// True if the yield stress depends linearly on the plastic strain and on nothing else.
   [[nodiscard]] bool isStraight() const {
     return !isFrictional() && table.empty() && offsetStrain == 0 &&

@@ -234,16 +234,24 @@ void checkStress(const TriangleMesh& mesh, const BodySpec& spec) {
   requireOfTriangles("stress", spec.stress, mesh);
   if (!spec.displacement.empty())
     throw InputError("displacement and stress are both given, but only one of them can be.");
+  requireOfTriangles("stress", spec.stressAcross, mesh);
   for (std::size_t t = 0; t < spec.stress.size(); ++t) {
     const auto& stress = spec.stress[t];
     const ElasticMaterial& material = materialOf(spec, t).material;
-    if (stretchOf(material, stress)) continue;
+    const double across = spec.stressAcross.empty() ? NAN : spec.stressAcross[t];
+    require(!material.planeStress || std::isnan(across) || across == 0, "stress zz", across, " Pa",
+            "0 in plane stress");
+    const bool isSpatial = !material.planeStress && !std::isnan(across);
+    if (spec.plastic.yields() && isSpatial ? stretchOf(material, stress, across).has_value()
+                                           : stretchOf(material, stress) && !std::isinf(across))
+      continue;
     const Vec2 at = mesh.nodes[mesh.triangles[t][0]];
     throw InputError(
-        fmt::format("stress at ({:g}, {:g}) m is ({:g}, {:g}, {:g}) Pa, by which the material with "
-                    "young {:g} Pa "
-                    "would be strained by more than half; it must be less, and finite.",
-                    at.x, at.y, stress[0], stress[1], stress[2], material.young));
+        fmt::format("stress at ({:g}, {:g}) m is ({:g}, {:g}, {:g}{}) Pa, by which the material "
+                    "with young {:g} Pa would be strained by more than half; it must be less, and "
+                    "finite.",
+                    at.x, at.y, stress[0], stress[1], stress[2],
+                    std::isnan(across) ? "" : fmt::format(", {:g}", across), material.young));
   }
 }
 

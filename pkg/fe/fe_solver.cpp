@@ -17,6 +17,7 @@
 #include "core/tolerances/plasticity.hpp"
 #include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
+#include "dynamics/yielding_state.hpp"
 #include "entries/sphere_overlap.hpp"
 #include "fe/plastic_materials.hpp"
 #include "fe/running.hpp"
@@ -326,9 +327,6 @@ BodyMaterial bodyMaterialOf(const FEMat& material) {
     if (const std::string wrong = one.plastic.wrong(); !wrong.empty()) throw InputError(wrong);
   }
   if (const auto* frictional = dynamic_cast<const FrictionalFEMat*>(&material)) {
-    if (!(frictional->cohesion > 0))
-      throw InputError(fmt::format("cohesion is {:g} Pa; it must be positive and finite.",
-                                   frictional->cohesion));
     if (!(frictional->internalFriction >= 0 && frictional->internalFriction < std::numbers::pi / 2))
       throw InputError(
           fmt::format("internalFriction is {:g}; it must be at least 0 and below π/2 (rad).",
@@ -339,6 +337,8 @@ BodyMaterial bodyMaterialOf(const FEMat& material) {
           fmt::format("dilationAngle is {:g}; it must be at least 0 and at most internalFriction.",
                       frictional->dilationAngle));
     one.plastic = frictional->constants();
+    if (frictional->cohesion == 0 && frictional->internalFriction == 0)
+      throw InputError("cohesion and internalFriction are 0; one of them must be positive.");
     if (const std::string wrong = one.plastic.wrong(); !wrong.empty()) throw InputError(wrong);
   }
   return one;
@@ -393,6 +393,21 @@ void requireApartFromSpheres(const yade::Scene& scene, const TriangleMesh& mesh,
                     found->sphere, found->depth, found->depth / found->radius));
 }
 
+/// If the initial stress of a body is outside of its yield surface.
+std::string startWarning(const Model& model, ComponentId component, bool isSpatial) {
+  const Component& body = model.components[component.value];
+  const std::size_t count = body.yields() ? countYielding(model, component) : 0;
+  if (count == 0) return {};
+  return fmt::format(
+      "The initial stress is outside of the yield surface in {} of {} triangles, which flow in the "
+      "first step: take a lower stress{}.",
+      count, body.lastTriangle - body.firstTriangle,
+      isSpatial || body.material.planeStress
+          ? ""
+          : ", or give that across the plane, too, (xx, yy, xy, zz), which is otherwise "
+            "poisson*(xx + yy)");
+}
+
 }  // namespace
 
 AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
@@ -415,6 +430,10 @@ AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
   const ComponentId component = world_.addBody(mesh, spec);
   if (message.empty() && std::ranges::find(choices, CoarseMesh::kWarn) != choices.end())
     message = cohesiveZoneWarning(world_.model, world_.fracture.edges, component);
+  if (!spec.stress.empty()) {
+    const std::string yields = startWarning(world_.model, component, !spec.stressAcross.empty());
+    if (!yields.empty()) message += (message.empty() ? "" : " ") + yields;
+  }
   scene = &here;
   bodies_.add(here, world_, materials);
   for (const auto& one : materials) materials_.add(one);

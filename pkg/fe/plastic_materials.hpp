@@ -179,7 +179,7 @@ class FrictionalFEMat : public Published<FrictionalFEMat, Indexed<FrictionalFEMa
   static Attributes attributes() {
     using C = FrictionalFEMat;
     return attributeList(
-        attribute("cohesion", &C::cohesion, "c (Pa)."),
+        attribute("cohesion", &C::cohesion, "c (Pa); 0: dry sand, with internalFriction."),
         attribute("internalFriction", &C::internalFriction,
                   "phi (rad): the shear strength in plane strain is c + tan(phi)*pressure. "
                   "(frictionAngle is that of the surface, in contact.)"),

@@ -37,7 +37,8 @@ BrittlePlaces brittlePlacesOf(const py::object& strength, const py::object& frac
 py::tuple addMesh(FESolver& solver, const ScriptMesh& mesh, const py::list& materials,
                   const py::object& materialOf, const BrittlePlaces& places,
                   const py::object& velocity, const py::object& displacement,
-                  const py::object& stress, const py::object& held, const py::object& smooth,
+                  const py::object& stress, const py::object& stressAcross,
+                  const py::object& held, const py::object& smooth,
                   double thickness, bool selfContact, bool smoothed, const std::string& name) {
   BodySpec spec;
   spec.materials.ofTriangle = fromArray<std::uint32_t>(materialOf);
@@ -45,6 +46,7 @@ py::tuple addMesh(FESolver& solver, const ScriptMesh& mesh, const py::list& mate
   spec.velocity = fromArray<Vec2>(velocity);
   spec.displacement = fromArray<Vec2>(displacement);
   spec.stress = fromArray<std::array<double, 3>>(stress);
+  spec.stressAcross = fromArray<double>(stressAcross);
   spec.held = fromArray<std::uint8_t>(held);
   spec.smoothNodes = fromArray<std::uint8_t>(smooth);
   spec.thickness = thickness;
@@ -167,8 +169,8 @@ void defineBodies(SolverClass& solver) {
   solver
       .def("_addMesh", &addMesh,
            (arg("mesh"), arg("materials"), arg("materialOf"), arg("places"), arg("velocity"),
-            arg("displacement"), arg("stress"), arg("held"), arg("smooth"), arg("thickness"),
-            arg("selfContact"), arg("smoothed"), arg("name")))
+            arg("displacement"), arg("stress"), arg("stressAcross"), arg("held"), arg("smooth"),
+            arg("thickness"), arg("selfContact"), arg("smoothed"), arg("name")))
       .def("removeBody", &takeBody, yade::py::args("component"),
            "Removes a whole body, and the bodies of its surface, from the scene; the numbers of "
            "the other bodies do not change.")

@@ -67,6 +67,10 @@ py::object stressArrayOf(const FESolver& solver) {
   return toArray(stresses(solver.world().model, solver.world().lastDt));
 }
 
+py::object acrossArrayOf(const FESolver& solver) {
+  return toArray(stressesAcross(solver.world().model, solver.world().lastDt));
+}
+
 bool anyYields(const FESolver& solver) { return solver.world().model.triangles.plastic.isUsed(); }
 
 bool anyFails(const FESolver& solver) {
@@ -200,6 +204,9 @@ void defineArrays(SolverClass& solver) {
                     "Node numbers, counter-clockwise, array (m, 3).")
       .add_property("stress", &Locked<stressArrayOf>::call,
                     "Cauchy stress xx, yy, xy (Pa) of the triangles, array (m, 3).")
+      .add_property("stressZ", &Locked<acrossArrayOf>::call,
+                    "Cauchy stress zz (Pa) of the triangles, across the plane, array (m); 0 in "
+                    "plane stress.")
       .add_property(
           "strain", &Locked<strainArrayOf>::call,
           "Green and Lagrange's strain xx, yy, xy (half the shear angle) of the triangles, array "

@@ -20,11 +20,14 @@ Colour hue(double turn) {
   return colour;
 }
 
-/// Von Mises stress of each triangle, from the plane-stress components in the plane.
+/// Von Mises stress of each triangle.
 std::vector<double> misesOf(const Model& model) {
-  std::vector<double> values;
-  for (const auto& [xx, yy, xy] : stresses(model))
-    values.push_back(std::sqrt(std::max(0., xx * xx - xx * yy + yy * yy + 3 * xy * xy)));
+  std::vector<double> values = stressesAcross(model);
+  std::size_t e = 0;
+  for (const auto& [xx, yy, xy] : stresses(model)) {
+    const double x = yy - values[e], y = values[e] - xx, z = xx - yy;
+    values[e++] = std::sqrt((x * x + y * y + z * z) / 2 + 3 * xy * xy);
+  }
   return values;
 }
 

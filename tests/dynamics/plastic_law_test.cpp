@@ -35,10 +35,10 @@ class Triangle {
 
   /// Kirchhoff stress at F, in the directions of the triangle; the state stays the same.
   [[nodiscard]] PlaneStress at(const Matrix2& f) const {
-    return stress(returnToYield(c_, point, edges(f), last_, dt));
+    return stress(returnToYield(c_, point, motion(f), dt));
   }
   PlaneStress move(const Matrix2& f) {
-    const Returned back = returnToYield(c_, point, edges(f), last_, dt);
+    const Returned back = returnToYield(c_, point, motion(f), dt);
     point = back.point;
     last_ = edges(f);
     work += back.dissipation;
@@ -59,6 +59,9 @@ class Triangle {
   double dt = 0, work = 0;
 
  private:
+  [[nodiscard]] TriangleMotion motion(const Matrix2& f) const {
+    return {edges(f), last_, determinant(f)};
+  }
   [[nodiscard]] TriangleEdges edges(const Matrix2& f) const {
     const double c = std::cos(angle_), s = std::sin(angle_);
     const auto turned = [&](double x, double y) { return Vec2{c * x - s * y, s * x + c * y}; };

@@ -88,4 +88,8 @@ inline constexpr double kFlip = 1e-9;
 /// and compression has no unique solution near 1.
 inline constexpr double kMostStretch = .5;
 
+/// (count) Most iterations for an initial stress with that across the plane: each multiplies the
+/// error by the strain, at most a half.
+inline constexpr int kStretches = 60;
+
 }  // namespace yadefrag::tolerance

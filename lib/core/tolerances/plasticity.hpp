@@ -27,6 +27,10 @@ inline constexpr double kBinomial = .005;
 /// to rounding.
 inline constexpr double kTinyFlow = .02;
 
+/// (squared logarithmic strain) Up to this the series of four terms of a logarithm is exact to
+/// 10⁻¹⁴.
+inline constexpr double kSeries = 1e-3;
+
 /// (count) Groups of lanes per block of the vector loops: a block's values stay in the first-level
 /// cache, and the steps of different groups do not wait for each other.
 inline constexpr std::size_t kLaneBlock = 4;
@@ -40,6 +44,10 @@ inline constexpr int kThicknesses = 40;
 /// (count) Newton steps for the thickness of an elastic triangle in plane stress, from that of the
 /// last flow: the error of an elastic strain of 1 % is squared in each.
 inline constexpr int kElasticThicknesses = 4;
+
+/// (strain) Plastic strain of an initial stress up to which it is rounding: such a stress may lie on
+/// the yield surface.
+inline constexpr double kNoFlow = 1e-9;
 
 /// (ratio) Growth of the steepest gradient of any triangle by flow, after which the critical step
 /// is computed anew.

@@ -123,7 +123,9 @@ def test_wrongConstantsAreRefused(constants, sentence):
 
 
 @pytest.mark.parametrize('constants, sentence', [
-    (dict(cohesion=0), 'cohesion is 0 Pa; it must be positive and finite.'),
+    (dict(cohesion=-1), 'cohesion is -1 Pa; it must be 0 or positive, and finite.'),
+    (dict(cohesion=0, fractureEnergy=1), 'cohesion is 0 Pa; it must be positive if fractureEnergy is given.'),
+    (dict(cohesion=0, internalFriction=0), 'cohesion and internalFriction are 0; one of them must be positive.'),
     (dict(internalFriction=1.6), 'internalFriction is 1.6; it must be at least 0 and below π/2'),
     (dict(dilationAngle=.6), 'dilationAngle is 0.6; it must be at least 0 and at most internalFriction.'),
     (dict(tensionLimit=-1), 'tensionLimit is -1 Pa; it must be 0 or positive.'),
@@ -152,6 +154,63 @@ def test_aBlockOfSoilIsCrushed():
     width = numpy.ptp(fe.nodes[top, 0])
     assert -fe.reactions[top, 1].sum() / width == pytest.approx(strength, rel=.03)
     assert fe.plasticStrain.min() > 0 and fe.energy['plastic'] > 0
+
+
+@pytest.mark.parametrize('speed, element', [(10, 'linear'), (100, 'linear'), (400, 'linear'), (100, 'smoothed')])
+def test_flowOfFrictionDissipates(speed, element):
+    """A block with hardly any cohesion, of which nothing is dissipated, on a held base."""
+    O.materials.append(FrictionalFEMat(young=30e9, poisson=.2, density=2400, cohesion=1e4, internalFriction=.5,
+                                       dilationAngle=.5, tensionLimit=1e4))
+    fe = FESolver()
+    fe.addPolygon(rectangle((0, 0), (.008, .012)), size=3e-3, material=0, velocity=(0, -speed), element=element)
+    fe.prescribe(lambda x, y: y < 1e-9, vx=0, vy=0)
+    O.engines = yadefrag.engines(fe)
+    O.dt = .3 * fe.criticalTimeStep()
+    start = .5 * 2400 * .008 * .012 * speed**2
+    for _ in range(400):
+        O.run(1, True)
+        energy = fe.energy
+        assert energy['plastic'] >= 0 and energy['strain'] < start
+        assert energy['total'] == pytest.approx(start, rel=2e-3)
+    assert not fe.warnings
+
+
+def test_cohesionStaysAsSoilDilates():
+    """Biaxial test, shortened by a tenth: the limit load is that of Mohr and Coulomb although the volume grows."""
+    angle, cohesion, side = .5, 10e3, 5e3
+    O.materials.append(FrictionalFEMat(young=20e6, poisson=.3, density=1800, cohesion=cohesion, internalFriction=angle,
+                                       dilationAngle=angle))
+    fe = FESolver()
+    fe.addPolygon(rectangle((0, 0), (.1, .2)), size=.04, material=0, stress=(-side, -side, 0, -side),
+                  fixed=lambda x, y: 'y' if y < 1e-9 else False)
+    x, y = fe.nodes.T
+    top = numpy.flatnonzero(y > .2 - 1e-9)
+    for at in (x < 1e-9, x > .1 - 1e-9):
+        fe.pressure(numpy.flatnonzero(at), side)
+    fe.prescribe(top, vy=lambda x, y, t: -.1 * min(t / .01, 1))
+    fe.damping = 50
+    O.engines = yadefrag.engines(fe)
+    O.dt = .5 * fe.criticalTimeStep()
+    slope = math.tan(math.pi / 4 + angle / 2)**2
+    for part in (.5, 1):
+        while fe.time < .2 * part:
+            O.run(100, True)
+        xx, yy, _ = fe.stress.mean(axis=0)
+        assert yy / (xx * slope - 2 * cohesion * math.sqrt(slope)) == pytest.approx(1, abs=.01)
+    assert -fe.displacements[top, 1].mean() > .018
+
+
+def test_drySandIsAccepted():
+    O.materials.append(FrictionalFEMat(young=2e7, poisson=.3, density=1700, cohesion=0, internalFriction=.6,
+                                       dilationAngle=.07))
+    fe = FESolver()
+    fe.addPolygon(rectangle((0, 0), (1, .5)), size=.1, material=0, fixed=lambda x, y: y < 1e-9)
+    fe.gravity = (0, -9.81)
+    O.engines = yadefrag.engines(fe)
+    O.dt = .5 * fe.criticalTimeStep()
+    O.run(300, True)
+    assert numpy.isfinite(fe.stress).all() and fe.energy['plastic'] >= 0
+    assert (fe.stress[:, :2].sum(axis=1) + fe.stressZ < 1).all()  # no tension
 
 
 def test_hardeningTable():

@@ -36,7 +36,7 @@ def makeSolver():
         reactions=numpy.array([[0., 1], [0, 0], [2, 0], [0, 0]]),
         _reference=numpy.array([[0, 0], [1, 0], [1, 1], [0, 1.]]),
         triangles=numpy.array([[0, 1, 2], [0, 2, 3]]), strain=numpy.array([[1e-3, 0, 2e-3], [0, 0, 0]]),
-        stress=numpy.array([[1e6, 2e6, 3e6], [-1e6, 0, 0]]),
+        stress=numpy.array([[1e6, 2e6, 3e6], [-1e6, 0, 0]]), stressZ=numpy.array([0, 1e6]),
         components=numpy.array([0, 1]), fragmentOf=numpy.array([0, 1]),
         dropped=dict(count=0))
 
@@ -46,7 +46,7 @@ def makeEmpty():
         nodes=numpy.empty((0, 2)), displacements=numpy.empty((0, 2)),
         velocities=numpy.empty((0, 2)), contactForces=numpy.empty((0, 2)),
         reactions=numpy.empty((0, 2)), strain=numpy.empty((0, 3)),
-        triangles=numpy.empty((0, 3), dtype=int), stress=numpy.empty((0, 3)),
+        triangles=numpy.empty((0, 3), dtype=int), stress=numpy.empty((0, 3)), stressZ=numpy.empty(0),
         components=numpy.empty(0, dtype=int), fragmentOf=numpy.empty(0, dtype=int),
         dropped=dict(count=0))
 
@@ -82,7 +82,7 @@ def shown(ax):
 
 @pytest.mark.parametrize('field, values', [
     ('xx', [1e6, -1e6]), ('yy', [2e6, 0]), ('xy', [3e6, 0]),
-    ('mises', [numpy.sqrt(30) * 1e6, 1e6]), ('component', [0, 1]), ('speed', [5, 0, 1, 2]),
+    ('zz', [0, 1e6]), ('mises', [numpy.sqrt(30) * 1e6, numpy.sqrt(3) * 1e6]), ('component', [0, 1]), ('speed', [5, 0, 1, 2]),
     (numpy.array([7, 8]), [7, 8]), ([1, 2, 3, 4], [1, 2, 3, 4]),
 ])
 def test_fieldIsShown(field, values):

@@ -24,9 +24,10 @@ class Field(NamedTuple):
     drawn: Callable[[numpy.ndarray], numpy.ndarray] | None = None
 
 
-def _mises(stress):
-    xx, yy, xy = stress.T
-    return numpy.sqrt(xx**2 - xx * yy + yy**2 + 3 * xy**2)
+def _mises(fe):
+    xx, yy, xy = numpy.asarray(fe.stress, dtype=float).reshape(-1, 3).T
+    zz = numpy.asarray(fe.stressZ, dtype=float)
+    return numpy.sqrt(((xx - yy)**2 + (yy - zz)**2 + (zz - xx)**2) / 2 + 3 * xy**2)
 
 
 def _component(number):
@@ -39,11 +40,12 @@ FIELDS = {
     'speed': Field('speed (m/s)', True, lambda fe: numpy.linalg.norm(fe.velocities, axis=1)),
     'contactForce': Field('contact force (N)', True, lambda fe: fe.contactForces),
     'reaction': Field('reaction (N)', True, lambda fe: fe.reactions),
-    'stress': Field('stress (Pa)', False, lambda fe: fe.stress, drawn=_mises),
+    'stress': Field('stress (Pa)', False, lambda fe: fe.stress),
     'xx': Field('stress xx (Pa)', False, _component(0)),
     'yy': Field('stress yy (Pa)', False, _component(1)),
     'xy': Field('stress xy (Pa)', False, _component(2)),
-    'mises': Field('von Mises stress (Pa)', False, lambda fe: _mises(fe.stress)),
+    'zz': Field('stress zz (Pa)', False, lambda fe: fe.stressZ),
+    'mises': Field('von Mises stress (Pa)', False, _mises),
     'sigma1': Field('larger principal stress (Pa)', False, lambda fe: fe.principalStress[:, 0]),
     'sigma2': Field('smaller principal stress (Pa)', False, lambda fe: fe.principalStress[:, 1]),
     'strain': Field('strain', False, lambda fe: fe.strain,
@@ -66,7 +68,7 @@ def nameOf(field: Any) -> Any:
 
 def drawnValues(fe: FESolver, name: str) -> numpy.ndarray:
     """One number for each node or triangle, of a field of FIELDS."""
-    field = FIELDS[name]
+    field = FIELDS['mises' if name == 'stress' else name]
     values = numpy.asarray(field.values(fe), dtype=float)
     if field.drawn:
         return field.drawn(values)

@@ -96,30 +96,32 @@ def brittlePlaces(mesh: Mesh, materials: Any, interfaces: tuple[numpy.ndarray, n
     return _yadefrag.brittlePlaces(*ofTriangles, edges, *values)
 
 
-def stressOfTriangles(stress: Any, mesh: Mesh) -> numpy.ndarray:
-    """(m, 3) Pa of the mesh's triangles, from a triple, a function (x, y) or an array; empty for None."""
+def stressOfTriangles(stress: Any, mesh: Mesh) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """(m, 3) and (m) Pa of the mesh's triangles, xx, yy, xy and zz (nan: not given), from three or four
+    numbers, a function (x, y) or an array; both empty for None."""
     if stress is None:
-        return numpy.empty((0, 3))
+        return numpy.empty((0, 3)), numpy.empty(0)
+    count, values = len(mesh.triangles), array(stress)
     if callable(stress):
-        return numpy.array(atPlaces('stress', stress, centroids(mesh), _triple))
-    values = array(stress)
-    if values is None or values.ndim != 2 or values.dtype.kind not in 'iuf':
-        return numpy.tile(_triple('stress', stress), (len(mesh.triangles), 1))
-    if values.shape != (len(mesh.triangles), 3):
-        raise ValueError('stress has the shape %s, it must be (%d, 3): one triple for each '
-                         'triangle.' % (shown(values.shape), len(mesh.triangles)))
-    for i, one in enumerate(values):
-        _triple('stress[%d]' % i, one)
-    return values.astype(float)
+        rows = atPlaces('stress', stress, centroids(mesh), _stress)
+    elif values is None or values.ndim != 2 or values.dtype.kind not in 'iuf':
+        rows = [_stress('stress', stress)] * count
+    elif values.shape not in ((count, 3), (count, 4)):
+        raise ValueError('stress has the shape %s, it must be (%d, 3) or (%d, 4): three or four numbers for '
+                         'each triangle.' % (shown(values.shape), count, count))
+    else:
+        rows = [_stress('stress[%d]' % i, one) for i, one in enumerate(values)]
+    both = numpy.array(rows).reshape(-1, 4)
+    return both[:, :3].copy(), both[:, 3].copy() if numpy.isfinite(both[:, 3]).any() else numpy.empty(0)
 
 
-def _triple(name, value):
-    """Three finite floats."""
+def _stress(name, value):
+    """Four floats, the last nan if it is not given."""
     values = array(value)
-    if values is None or values.shape != (3,) or values.dtype.kind not in 'iuf' \
+    if values is None or values.shape not in ((3,), (4,)) or values.dtype.kind not in 'iuf' \
             or not numpy.isfinite(values).all():
-        refuse(name, value, 'three finite numbers (Pa): xx, yy, xy')
-    return values.astype(float)
+        refuse(name, value, 'three or four finite numbers (Pa): xx, yy, xy, or also zz')
+    return numpy.append(values.astype(float), [math.nan] * (4 - len(values)))
 
 
 def field(name: str, value: Any, nodes: numpy.ndarray, isOptional: bool = True) -> numpy.ndarray:

@@ -65,10 +65,12 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
     spin            rad/s about the centroid, added to `velocity`
     displacement    None, or a function (x, y) → pair: the start's displacement from the stress-free
                     shape, which is the outline (m)
-    stress          None, or the initial stress of the body in its given shape (Pa; xx, yy, xy; tension
-                    positive, as in fe.stress): one triple, a function (x, y) → triple, called at the
-                    triangles' centroids, or an array (m, 3) by triangle; e.g. the state of rock before
-                    an excavation. The outline is the stressed shape; the stress-free one is computed
+    stress          None, or the initial stress of the body in its given shape (Pa; xx, yy, xy, and, if
+                    it is given, zz across the plane; tension positive, as in fe.stress): three or four
+                    numbers, a function (x, y) → these, called at the triangles' centroids, or an array
+                    (m, 3) or (m, 4) by triangle; e.g. the state of rock before an excavation. Without
+                    zz it is poisson*(xx + yy), with which soil under even pressure may yield; a
+                    warning says so. The outline is the stressed shape; the stress-free one is computed
                     from it, triangle by triangle; density is that of the stress-free material. The
                     body is at rest if stresses and loads are in equilibrium: hold its boundary with
                     `fixed`, or load it with `pressure` or `loads`. Not together with displacement
@@ -124,7 +126,7 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
     selfContact = flag('selfContact', selfContact)
     thickness = positive('thickness', thickness, 'm')
     moved = field('displacement', displacement, nodes)
-    stressed = stressOfTriangles(stress, mesh)
+    stressed, across = stressOfTriangles(stress, mesh)
     given = field('velocity', velocity, nodes, isOptional=False)
     present = nodes + moved if len(moved) else nodes
     centroid = _centroid(present, mesh.triangles) if spin else numpy.zeros(2)
@@ -135,8 +137,8 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
         forget()  # messages of another solver
     component, message, depth = fe._addMesh(
         mesh=mesh, materials=materials.of, materialOf=materials.numbers, places=places, velocity=speed,
-        displacement=moved, stress=stressed, held=held, smooth=smooth, thickness=thickness,
-        selfContact=selfContact, smoothed=element == 'smoothed', name=name)
+        displacement=moved, stress=stressed, stressAcross=across, held=held, smooth=smooth,
+        thickness=thickness, selfContact=selfContact, smoothed=element == 'smoothed', name=name)
     if component < 0:
         raise Overlap(message, depth)
     addSolver(fe)

@@ -12,8 +12,8 @@ from yadefrag.hints import FESolver, File
 from yadefrag.io.files import replacing
 
 # Written unless others are chosen.
-_USUAL = ('displacement', 'velocity', 'contact force', 'reaction', 'stress', 'strain', 'plastic strain', 'temperature',
-          'damage', 'component', 'fragment')
+_USUAL = ('displacement', 'velocity', 'contact force', 'reaction', 'stress', 'stress zz', 'strain', 'plastic strain',
+          'temperature', 'damage', 'component', 'fragment')
 
 
 def _spatial(values):
@@ -27,9 +27,9 @@ def exportVTK(fe: FESolver, file: File, fields: Iterable[str] | None = None) -> 
 
     Points are the nodes at their present positions (m); at points: displacement from the stress-free
     shape (m), velocity (m/s), contact force and reaction (N); in triangles: stress (xx, yy, xy in Pa),
-    strain (xx, yy, xy), with materials that yield plastic strain and temperature (K), with materials
-    that fail damage, component and fragment (int). Removed fragments are left out. Cohesive cracks are
-    lines along their first side, with the values of the adjacent triangle, but 'damage' is the
+    stress zz (Pa), strain (xx, yy, xy), with materials that yield plastic strain and temperature (K),
+    with materials that fail damage, component and fragment (int). Removed fragments are left out.
+    Cohesive cracks are lines along their first side, with the values of the adjacent triangle, but 'damage' is the
     dissipated fraction of their fracture energy there (and 0 in triangles that cannot fail).
     fields  list of the names of fields to write, as above or as in plotMesh ('plasticStrain' is 'plastic
             strain', 'mises', 'speed' ...); None: those above
