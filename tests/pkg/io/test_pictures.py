@@ -333,7 +333,7 @@ def test_severalFieldsSideBySide(folder):
     (dict(rigidBodies=0), 'rigidBodies is 0, it must be True'),
     (dict(fields=[]), r'fields is \[\], it must be a list of 1 to 12'),
     (dict(fields='xx'), "fields is 'xx', it must be a list"),
-    (dict(fields=['xx', 'zz']), "field is 'zz', it must be one of"),
+    (dict(fields=['xx', 'zx']), "field is 'zx', it must be one of"),
     (dict(fields=['xx'], field='yy'), 'fields comes with field or ax'),
     (dict(fields=['xx', 'yy'], limits=[(0, 1)]), 'a list with a pair or None for each of the 2 fields'),
 ])
