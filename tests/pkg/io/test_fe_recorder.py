@@ -61,7 +61,7 @@ def test_recordsAreTheSolversValues(folder):
         mesh = meshio.read(os.path.join(folder, picture))
         assert (mesh.points[:, :2] == nodes).all()
         assert set(mesh.point_data) == {'displacement', 'velocity', 'contact force', 'reaction'}
-        assert set(mesh.cell_data) == {'stress', 'strain', 'component', 'fragment'}
+        assert set(mesh.cell_data) == {'stress', 'stress zz', 'strain', 'component', 'fragment'}
 
 
 def test_fieldsAreChosen(folder):
