@@ -160,13 +160,22 @@ void checkPlaces(const TriangleMesh& mesh, const BodySpec& spec) {
   }
 }
 
-/// A mass or a stiffness that is zero or infinite only because of the range of numbers.
+/// (m/s)
+double fastestNode(const BodySpec& spec) {
+  double fastest = 0;
+  for (const Vec2 velocity : spec.velocity) fastest = std::max(fastest, norm(velocity));
+  return fastest;
+}
+
+/// A mass, an energy or a stiffness that is zero or infinite only because of the range of numbers.
 void checkMasses(const TriangleMesh& mesh, const BodySpec& spec) {
   constexpr const char* kRange = "in the range of numbers, from 2e-308 to 2e+305";
   const auto isInRange = [](double value) {
     using Limits = std::numeric_limits<double>;
     return value >= Limits::min() && value <= Limits::max() / tolerance::kMostSummed;
   };
+  const double fastest = fastestNode(spec);
+  double energies = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     const ElasticMaterial& material = materialOf(spec, t).material;
@@ -174,6 +183,7 @@ void checkMasses(const TriangleMesh& mesh, const BodySpec& spec) {
     const double twice = cross(mesh.nodes[b] - mesh.nodes[a], mesh.nodes[c] - mesh.nodes[a]);
     const double mass = material.density * spec.thickness * twice / 2;
     require(isInRange(mass), "the mass of a triangle", mass, " kg", kRange);
+    energies += mass * std::max(1., fastest * fastest);
     const Vec2 edges[] = {mesh.nodes[b] - mesh.nodes[a], mesh.nodes[c] - mesh.nodes[b],
                           mesh.nodes[a] - mesh.nodes[c]};
     for (const Vec2 edge : edges) {
@@ -181,6 +191,8 @@ void checkMasses(const TriangleMesh& mesh, const BodySpec& spec) {
       require(isInRange(stiffness), "the stiffness of a triangle", stiffness, " N/m", kRange);
     }
   }
+  require(isInRange(energies), "the mass of the body, or its kinetic energy,", energies, " kg or J",
+          kRange);
 }
 
 struct Extent {
@@ -218,8 +230,7 @@ void checkRounding(const TriangleMesh& mesh, const BodySpec& spec) {
         "for "
         "that edge; edges must be longer than {:g} m, or the scene nearer to the origin.",
         extent.shortest, extent.farthest, tolerance::kLeastSize * extent.farthest));
-  double fastest = 0;
-  for (const Vec2 velocity : spec.velocity) fastest = std::max(fastest, norm(velocity));
+  const double fastest = fastestNode(spec);
   const double step = extent.shortest / fastestWave(spec);
   const double seen = tolerance::kLeastMotion * extent.farthest;
   if (fastest == 0 || fastest * step >= seen) return;

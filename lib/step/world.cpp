@@ -173,7 +173,8 @@ void World::buildIfChanged() {
   dynamics_.rebuild(model);
   if (stableStep > 0) dynamics_.flow().restore(loadedSteepness);
   loads.absorbing.findTriangles(model, surfaces);
-  reactions.clear();
+  for (std::size_t n = 0; n < reactions.size(); ++n)
+    if (model.nodes.held[n] == 0) reactions[n] = {};
   const auto& owners = surfaces.component;
   severalBodies_ =
       std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();

@@ -2,6 +2,7 @@
 
 #include <boost/archive/archive_exception.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <string_view>
 
@@ -23,9 +24,9 @@ class WorldArchive : ColumnArchive {
  public:
   using ColumnArchive::ColumnArchive;
 
-  void run(World& world, std::vector<int>& entryBodies) {
+  void run(World& world, std::vector<int>& entryBodies, std::vector<Vec2>& forces) {
     try {
-      all(world, entryBodies);
+      all(world, entryBodies, forces);
     } catch (const boost::archive::archive_exception& error) {
       if (!isLoading())
         throw RunError(
@@ -36,13 +37,15 @@ class WorldArchive : ColumnArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 19;
+  static constexpr std::uint64_t kFormat = 20;
 
-  void all(World& world, std::vector<int>& entryBodies) {
+  void all(World& world, std::vector<int>& entryBodies, std::vector<Vec2>& forces) {
     std::uint64_t format = kFormat;
     value("format", format);
     if (format != kFormat) refuse("its format is " + std::to_string(format));
     state(world);
+    std::vector<Vec2> reactions = world.reactions;
+    column("reactions", reactions), column("contactForces", forces);
     value("entryBodies", entryBodies);
     const bool isRight = checksum();
     if (isLoading()) {
@@ -50,7 +53,10 @@ class WorldArchive : ColumnArchive {
       const std::string wrong = findInvalidPart(world);
       if (!wrong.empty()) refuse(wrong + " are invalid");
       if (entryBodies.size() != world.surfaces.entries()) refuse("its bodies are invalid");
+      if (std::max(reactions.size(), forces.size()) > world.model.nodes.size())
+        refuse("its forces are invalid");
       world.rebuild();
+      world.reactions = std::move(reactions);
     }
   }
 
@@ -227,8 +233,6 @@ class WorldArchive : ColumnArchive {
     Candidates& candidates = contact.candidates;
     column("slaves", candidates.slaves), column("offsets", candidates.offsets);
     column("masters", candidates.masters);
-    std::vector<std::uint8_t> unused;  // flags of another rule of entry, in former states
-    value("outside", unused);
     auto& rows = contact.touches;
     member("touchSlave", rows, [](Touch& t) -> Index& { return t.pair.slave.value; });
     member("touchMaster", rows, [](Touch& t) -> Index& { return t.pair.master.value; });
@@ -277,8 +281,9 @@ class WorldArchive : ColumnArchive {
 
 }  // namespace
 
-void archiveWorld(AnyArchive& archive, World& world, std::vector<int>& entryBodies) {
-  WorldArchive(archive).run(world, entryBodies);
+void archiveWorld(AnyArchive& archive, World& world, std::vector<int>& entryBodies,
+                  std::vector<Vec2>& forces) {
+  WorldArchive(archive).run(world, entryBodies, forces);
 }
 
 }  // namespace yadefrag

@@ -11,8 +11,10 @@
 
 namespace yadefrag {
 
-/// `entryBodies`: YADE's body id of each entry. Throws InputError for data that are damaged or of
-/// another version, RunError if they cannot be written.
-void archiveWorld(AnyArchive& archive, World& world, std::vector<int>& entryBodies);
+/// `entryBodies`: YADE's body id of each entry; `forces` (N, by node): of contact in the last step.
+/// Throws InputError for data that are damaged or of another version, RunError if they cannot be
+/// written.
+void archiveWorld(AnyArchive& archive, World& world, std::vector<int>& entryBodies,
+                  std::vector<Vec2>& forces);
 
 }  // namespace yadefrag

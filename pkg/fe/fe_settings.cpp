@@ -181,7 +181,9 @@ Attributes FESolver::attributes() {
 
 void FESolver::archiveMore(AnyArchive& archive) {
   std::vector<yade::Body::id_t> ids = bodies_.ids();
-  archiveWorld(archive, world_, ids);
+  std::vector<Vec2> forces(contactForces().begin(), contactForces().end());
+  archiveWorld(archive, world_, ids, forces);
+  if (archive.isLoading()) loadedForces_ = std::move(forces);
   rigid_.archive(archive, world_);
   rolling_.archive(archive);
   crackContacts_.archive(archive);

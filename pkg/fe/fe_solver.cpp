@@ -72,6 +72,7 @@ void FESolver::action() try {
   } catch (const InputError& error) {
     throw std::invalid_argument(error.what());
   }
+  loadedForces_.clear();
   warn(known);
   if (rigid_.any()) {
     rigid_.giveForces(*scene, world_, length, given_);
@@ -251,7 +252,7 @@ void FESolver::updateBodies() {
   auto* const ours = dynamic_cast<MotionIntegrator*>(behind);
   rest.isOurs = ours && MotionIntegrator::isFast(*scene);
   bodies_.update(world_, rest, world_.threads);
-  if (rest.isOurs) ours->leaveOut(*scene, bodies_.idRanges());
+  if (rest.isOurs) ours->leaveOut(*scene, bodies_.idRanges(), bodies_.meetOthers(*scene));
 }
 
 /// The first integrator that moves the bodies, null for none; `behind`: only one after this engine.
@@ -457,6 +458,7 @@ void FESolver::removeBody(int component) {
       components[index].firstTriangle == components[index].lastTriangle)
     throw InputError(fmt::format("component is {}, which is no body of this FESolver.", component));
   balance_.forget(world_, ComponentId(index));
+  loadedForces_.clear();
   bodies_.remove(here, world_, ComponentId(index));
   world_.removeBody(ComponentId(index));
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The engine for finite-element bodies.
 
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -56,6 +57,10 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] World& changeWorld() { return world_; }
   [[nodiscard]] const EntryBodies& entryBodies() const { return bodies_; }
+  /// (N) Of contact, by node, in the last step; empty before the first contact.
+  [[nodiscard]] std::span<const Vec2> contactForces() const {
+    return loadedForces_.empty() ? world_.contact.forces().known : loadedForces_;
+  }
   /// Adds a message that has been written already.
   void note(std::string sentence) { world_.warnings.push_back(std::move(sentence)); }
   [[nodiscard]] const SceneEnergy& balance() const { return balance_; }
@@ -111,6 +116,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   [[nodiscard]] int threadsToUse() const;
 
   World world_;
+  std::vector<Vec2> loadedForces_;  // of contact, of a saved state, until the next step
   EntryBodies bodies_;
   EngineOrder order_;
   SceneWatch around_;

@@ -6,9 +6,11 @@
 #include <array>
 #include <cstddef>
 
+#include "abi/body_at.hpp"
 #include "core/instruction_set.hpp"
 #include "core/parallel.hpp"
 #include "core/request.hpp"
+#include "fe/running.hpp"
 
 namespace yadefrag {
 
@@ -98,11 +100,11 @@ void MotionIntegrator::readStep(MotionStep& step) const {
   part.moved += static_cast<long>(numMoved);
 }
 
-void MotionIntegrator::action() {
+void MotionIntegrator::action() try {
   fastBodies = 0;
   if (leftOutIn_ != scene->iter) leftOut_.clear();
   leftOutIn_ = -1;
-  if (!isFast(*scene)) return yade::NewtonIntegrator::action();
+  if (!isFast(*scene)) return callYades();
   scene->forces.sync();
   memory_.endStep(*scene);
   const auto& bodies = scene->bodies->body;
@@ -126,7 +128,7 @@ void MotionIntegrator::action() {
     parts_[static_cast<std::size_t>(number)] = part;
   });
   std::vector<yade::Body::id_t> others;
-  bool isAnyBeyond = false;
+  bool isAnyBeyond = !leftOut_.empty() && isLeftOutBeyond_;
   for (const Part& part : parts_) {
     others.insert(others.end(), part.others.begin(), part.others.end());
     fastBodies += part.moved;
@@ -138,11 +140,34 @@ void MotionIntegrator::action() {
   const double told = isAnyBeyond ? 2 : .5;
   maxVelocitySq = std::max(maxVelocitySq, told);
   threadMaxVelocitySq.at(0) = std::max(threadMaxVelocitySq.at(0), told);
+} catch (const std::exception& error) {
+  noteStop(error.what());
+  throw;
 }
 
-void MotionIntegrator::leaveOut(const yade::Scene& now, const IdRanges& moved) {
+void MotionIntegrator::leaveOut(const yade::Scene& now, const IdRanges& moved, bool areSearched) {
   leftOut_ = moved;
   leftOutIn_ = now.iter;
+  isLeftOutBeyond_ = false;
+  if (!areSearched) return;
+  const auto& bodies = now.bodies->body;
+  for (const IdRange& range : moved) {
+    for (std::size_t id = range.begin; id < range.end; ++id) {
+      const yade::Body* const body = bodyAt(bodies, id);
+      if (body && body->bound && isBeyondBound(*body->bound, *body->state)) isLeftOutBeyond_ = true;
+    }
+  }
+}
+
+void MotionIntegrator::callYades() {
+  timingDeltas.swap(yadesDeltas_);
+  try {
+    yade::NewtonIntegrator::action();
+  } catch (...) {
+    timingDeltas.swap(yadesDeltas_);
+    throw;
+  }
+  timingDeltas.swap(yadesDeltas_);
 }
 
 // Also what is done once in a step: changes of the cell's velocity gradient, warnings.
@@ -157,7 +182,7 @@ void MotionIntegrator::moveOthers(std::vector<yade::Body::id_t>& others) {
   // The list that it goes through.
   choose(false, true, true);
   try {
-    yade::NewtonIntegrator::action();
+    callYades();
   } catch (...) {
     choose(isDirty, isEnabled, isUsed);
     throw;

@@ -14,12 +14,13 @@ namespace yadefrag {
 
 class MotionIntegrator : public yade::NewtonIntegrator {
  public:
+  MotionIntegrator() { timingDeltas.swap(yadesDeltas_); }
   void action() override;
   /// False: NewtonIntegrator moves all bodies in this step.
   [[nodiscard]] static bool isFast(const yade::Scene& now) { return !now.trackEnergy; }
   /// While it is fast: leaves out bodies in this step that an engine has moved over it, as the
-  /// integrator would.
-  void leaveOut(const yade::Scene& now, const IdRanges& moved);
+  /// integrator would. `areSearched`: a collider asks whether one has left its bound.
+  void leaveOut(const yade::Scene& now, const IdRanges& moved, bool areSearched);
 
   long fastBodies = 0;
 
@@ -46,12 +47,16 @@ class MotionIntegrator : public yade::NewtonIntegrator {
   bool mayMove(const yade::Body& body, Part& part) const;
   void moveBlock(const MotionStep& step, std::size_t begin, std::size_t end, Part& part) const;
   void moveOthers(std::vector<yade::Body::id_t>& others);
+  void callYades();
 
+  // What YADE's action measures of its parts: yade.timing would show them as parts of all the time.
+  yade::shared_ptr<yade::TimingDeltas> yadesDeltas_;
   std::vector<Part> parts_;
   BodyMemory memory_;
   SummedForces forces_;
   IdRanges leftOut_;
   long leftOutIn_ = -1;  // step
+  bool isLeftOutBeyond_ = false;
 };
 
 class CurveIntegrator final

@@ -132,7 +132,7 @@ py::object displacementsOf(const FESolver& solver) {
 }
 
 py::object contactForcesOf(const FESolver& solver) {
-  const std::span<const Vec2> known = solver.world().contact.forces().known;
+  const std::span<const Vec2> known = solver.contactForces();
   std::vector<Vec2> forces(known.begin(), known.end());
   forces.resize(solver.world().model.nodes.size());  // empty before the first contact
   return nodeArray(solver, forces);

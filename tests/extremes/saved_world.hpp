@@ -53,7 +53,8 @@ inline std::string saved(World& world, unsigned flags = 0) {
   boost::archive::binary_oarchive archive(text, flags | boost::archive::no_codecvt);
   std::vector<int> bodies(world.surfaces.entries());
   ArchiveOf any(archive);
-  archiveWorld(any, world, bodies);
+  std::vector<Vec2> forces;
+  archiveWorld(any, world, bodies, forces);
   return text.str();
 }
 
@@ -62,7 +63,8 @@ inline void load(const std::string& bytes, World& world, unsigned flags = 0) {
   boost::archive::binary_iarchive archive(text, flags | boost::archive::no_codecvt);
   std::vector<int> bodies;
   ArchiveOf any(archive);
-  archiveWorld(any, world, bodies);
+  std::vector<Vec2> forces;
+  archiveWorld(any, world, bodies, forces);
 }
 
 }  // namespace yadefrag::test

@@ -301,3 +301,12 @@ def test_emptyScene():
     O.run(10, True)
     # Velocities at half steps: z = -g dt² n (n + 1) / 2.
     assert tuple(ball.state.pos) == pytest.approx((0, 0, -.01 * 55)) and O.engines[1].fastBodies == 1
+
+
+def test_timing():
+    """yade.timing shows no parts of NewtonIntegrator's time: these would be those of few bodies only."""
+    heap()
+    newton = engines('CurveIntegrator')
+    O.timingEnabled = True
+    O.run(20, True)
+    assert newton.execCount == 20 and newton.execTime > 0 and newton.timingDeltas is None
