@@ -77,7 +77,8 @@ def test_goesOnWithTheSameBits(folder, isBrittle, ending):
             if number:
                 O.run(50, True)
             here = state()
-            assert [name for name in one if one[name] != here[name]] == []
+            # YADE makes the geometry of contacts in the first step after loading.
+            assert [name for name in one if one[name] != here[name] and (number or name != 'contacts')] == []
             seen += len(here['contacts']) > 2
     assert seen > 2     # spheres touched the bodies
     assert (solverOfScene().numCracks > 0) == isBrittle
