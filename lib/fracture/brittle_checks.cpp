@@ -129,8 +129,35 @@ std::string zoneSentence(double young, const Cohesive& edge, double size) {
       atMost(tolerance::kAdvisedSize * wanted));
 }
 
-std::string withRemedy(std::string sentence) {
-  if (sentence.empty()) return sentence;
+/// A zone that is long beside the body. Of an opening crack, also where a sliding one is shorter.
+std::string wideSentence(double young, const Cohesive& edge, double width) {
+  const double zone = cohesiveZone(young, edge.fractureEnergy, edge.strength, edge.material) /
+                      std::min(1., slidingZone(edge.material));
+  const double most = tolerance::kMostZone * width;
+  if (zone <= most) return {};
+  return fmt::format(
+      "{}: the cohesive zone is {:.4g} m long, more than half of the body's shorter side of {:.4g} "
+      "m; in bending and compression it then carries more than its strength; with a fractureEnergy "
+      "of at most {:.3g} J/m² it does not.",
+      edge.name, zone, width, atMost(most / zone * edge.fractureEnergy));
+}
+
+/// (m) Of the body's box.
+double shorterSide(const Model& model, const Component& body) {
+  Vec2 least{INFINITY, INFINITY}, most{-INFINITY, -INFINITY};
+  for (std::uint32_t t = body.firstTriangle; t < body.lastTriangle; ++t)
+    for (const NodeId node : model.triangles.nodes[t]) {
+      const Vec2 at = model.nodes.position[node.value];
+      least = {std::min(least.x, at.x), std::min(least.y, at.y)};
+      most = {std::max(most.x, at.x), std::max(most.y, at.y)};
+    }
+  return std::min(most.x - least.x, most.y - least.y);
+}
+
+std::string bodyZoneSentence(const Model& model, const Component& body, double young,
+                             const Cohesive& edge) {
+  std::string sentence = zoneSentence(young, edge, sumsOf(model, body).meanLength);
+  if (sentence.empty()) return wideSentence(young, edge, shorterSide(model, body));
   sentence.pop_back();
   return sentence + "; coarseMesh='strength' gives cracks the right load on this mesh.";
 }
@@ -305,8 +332,7 @@ std::string cohesiveZoneWarning(const Model& model, ComponentId component) {
   if (!brittle.cracks() || brittle.fractureEnergy <= 0) return {};
   const std::string name = named(brittle.fractureEnergy, component);
   const Cohesive edge{brittle.tensileStrength, brittle.fractureEnergy, name, brittle};
-  return withRemedy(zoneSentence(body.material.young, edge.raised(hardestFactor(brittle)),
-                                 sumsOf(model, body).meanLength));
+  return bodyZoneSentence(model, body, body.material.young, edge.raised(hardestFactor(brittle)));
 }
 
 std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,
@@ -317,10 +343,8 @@ std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,
       leastOf(model, edges, EdgeId(std::size_t{0}), inside(model, edges, component),
               [&](EdgeId edge) { return zoneOf(model, edges, edge); });
   if (worst == EdgeId::none()) return {};
-  return withRemedy(
-      zoneSentence(youngAt(model, edges, worst),
-                   valuesOf(model, edges, worst).raised(hardestFactor(model, edges, worst)),
-                   sumsOf(model, body).meanLength));
+  return bodyZoneSentence(model, body, youngAt(model, edges, worst),
+                          valuesOf(model, edges, worst).raised(hardestFactor(model, edges, worst)));
 }
 
 std::string bondZoneWarning(const Model& model, const CrackEdges& edges, EdgeId first) {

@@ -37,9 +37,9 @@ void checkCohesiveResolution(const Model& model, const CrackEdges& edges, Compon
 /// The same for bonds between bodies.
 void checkBondResolution(const Model& model, const CrackEdges& edges, double dt);
 
-/// A message if the cohesive zone is shorter than four elements, so that bodies with a notch or a
-/// crack carry too much load (`cohesiveZone`); otherwise empty. An element's length is the mean of
-/// the component's edges.
+/// A message if the cohesive zone (`cohesiveZone`) is shorter than four elements, so that bodies
+/// with a notch or a crack carry too much load, or longer than half of the body, so that one
+/// without them does; otherwise empty. An element's length is the mean of the component's edges.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, ComponentId component);
 /// The same for the shortest zone of a body whose strength or fracture energy varies by place.
 [[nodiscard]] std::string cohesiveZoneWarning(const Model& model, const CrackEdges& edges,

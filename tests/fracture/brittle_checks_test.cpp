@@ -224,6 +224,20 @@ TEST(CohesiveZoneWarning, UsesTheZoneOfASlidingCrackIfThatIsShorter) {
   EXPECT_EQ(cohesiveZoneWarning(body(kSide, material), kBody), "");
 }
 
+TEST(CohesiveZoneWarning, StatesAZoneThatIsLongBesideTheBody) {
+  BrittleMaterial material{.tensileStrength = 300e6, .fractureEnergy = 1600};  // 4.9 mm
+  EXPECT_EQ(cohesiveZoneWarning(body(20, material), kBody), "");
+  material.fractureEnergy = 2000;
+  const std::string sentence = cohesiveZoneWarning(body(20, material), kBody);
+  EXPECT_EQ(
+      sentence.substr(0, sentence.find(';')),
+      "fractureEnergy is 2000 J/m² in component 0: the cohesive zone is 0.006111 m long, more "
+      "than half of the body's shorter side of 0.01 m");
+  material.fractureEnergy = numberAfter(sentence, "with a fractureEnergy of at most ");
+  EXPECT_GT(material.fractureEnergy, 1600);
+  EXPECT_EQ(cohesiveZoneWarning(body(20, material), kBody), "");
+}
+
 TEST(CohesiveZoneWarning, IsEmptyWithoutAFractureEnergy) {
   EXPECT_EQ(cohesiveZoneWarning(body(2, {.tensileStrength = 300e6}), kBody), "");
   EXPECT_EQ(cohesiveZoneWarning(body(2, {}), kBody), "");
