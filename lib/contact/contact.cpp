@@ -231,7 +231,8 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
         isHeldByCohesion(row, step.coupled))
       continue;
     row.friction = friction;
-    startRow(row, model, surfaces, before, known, step);
+    startRow(row, model, before, known, step);
+    if (sticks) releaseOpposed(surfaces, row);
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
     if (!step.rigid.empty()) joinRigid(row, model.nodes, step);
     rows_.push_back(row);
@@ -267,15 +268,19 @@ bool Contact::isThroughItself(const ContactSurfaces& surfaces, const PieceGeomet
 }
 
 /// Two corners that have passed each other: each is behind a face of the other, and the two rows
-/// push in the same direction. With friction in both, their forces would support each other without
-/// bound.
-bool Contact::contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const {
-  const auto pushesAlike = [&](std::uint32_t other, EntryId master) {
+/// push in the same direction. With friction in one of them, their forces would support each other
+/// without bound, as one normal is within the friction cone of the other: what contact then gives,
+/// friction takes.
+void Contact::releaseOpposed(const ContactSurfaces& surfaces, ContactRow& row) {
+  const auto release = [&](std::uint32_t number, EntryId master) {
+    ContactRow& other = rows_[number];
     const bool exchanged = master == row.slave || surfaces.next[master.value] == row.slave;
-    return exchanged && dot(rows_[other].normal, row.normal) > 0;
+    if (!exchanged || !(dot(other.normal, row.normal) > 0)) return false;
+    row.friction = row.tangentForce = other.friction = other.tangentForce = 0;
+    return false;
   };
-  return pairs_.any(row.master, pushesAlike) ||
-         pairs_.any(surfaces.next[row.master.value], pushesAlike);
+  (void)pairs_.any(row.master, release);
+  (void)pairs_.any(surfaces.next[row.master.value], release);
 }
 
 /// Computes the exact gaps at the corrected positions, and transforms them back to the predicted

@@ -108,12 +108,12 @@ class Contact {
   bool hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair) const;
   static bool isThroughItself(const ContactSurfaces& surfaces, const PieceGeometry& before,
                               SlaveMaster pair, const ContactStep& step);
-  bool contradicts(const ContactSurfaces& surfaces, const ContactRow& row) const;
+  void releaseOpposed(const ContactSurfaces& surfaces, ContactRow& row);
   bool addRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void joinRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step);
   [[nodiscard]] bool isOfRigid(NodeId node, const ContactStep& step) const;
-  void startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
-                const PieceGeometry& before, const Touch* former, const ContactStep& step) const;
+  void startRow(ContactRow& row, const Model& model, const PieceGeometry& before,
+                const Touch* former, const ContactStep& step) const;
   [[nodiscard]] static double frictionOf(SlaveMaster pair, const Model& model,
                                          const ContactSurfaces& surfaces);
   [[nodiscard]] static bool isHeldByCohesion(const ContactRow& row, const CoupledForces* cohesion);

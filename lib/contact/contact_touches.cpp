@@ -58,9 +58,8 @@ double Contact::frictionOf(SlaveMaster pair, const Model& model, const ContactSu
 }
 
 /// Sets slip, and the values stored for this contact in the last step.
-void Contact::startRow(ContactRow& row, const Model& model, const ContactSurfaces& surfaces,
-                       const PieceGeometry& before, const Touch* former,
-                       const ContactStep& step) const {
+void Contact::startRow(ContactRow& row, const Model& model, const PieceGeometry& before,
+                       const Touch* former, const ContactStep& step) const {
   row.gap -= dot(relative(row, displacement_), row.normal);
   if (row.friction > 0) row.slip = slipOf(row, model, step);
   const double decay = isHeldByCohesion(row, step.coupled) ? 0 : step.constants.overlapDecay;
@@ -74,7 +73,6 @@ void Contact::startRow(ContactRow& row, const Model& model, const ContactSurface
     const double gap = before.foot(row.master, before.slave(row.slave)).gap;
     row.toleratedGap = std::min(0., gap + decay * step.move);
   }
-  if (row.friction > 0 && contradicts(surfaces, row)) row.friction = row.tangentForce = 0;
 }
 
 /// (m) Largest depth at xⁿ of the contacts of the last step.

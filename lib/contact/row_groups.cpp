@@ -29,8 +29,8 @@ void RowSweeps::update(std::span<const ContactRow> rows, double tolerance) {
     bool differs = waits_[r] != 0 || std::abs(gap - swept.gap) > tolerance;
     swept.gap = gap;
     if (swept.friction > 0) {
-      differs = differs || std::abs(row.slip - swept.slip) > tolerance;
-      swept.slip = row.slip;
+      differs = differs || std::abs(row.slip - swept.slip) > tolerance || row.friction == 0;
+      swept.slip = row.slip, swept.friction = row.friction;
     }
     waits_[r] = differs ? 1 : 0;
   }

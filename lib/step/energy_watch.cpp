@@ -39,6 +39,7 @@ void EnergyWatch::begin(double energy, const EnergyLedger& ledger) {
   gone = expected + ledger.external - energy;
   most = energy;
   dissipated = ledger.contact + ledger.friction;
+  contact = ledger.contact, friction = ledger.friction;
   evaluatedCreated = evaluatedGrown = reportedCreated = reportedGrown = 0;
   knownGrowth = ofChanges = 0;
 }
@@ -51,15 +52,24 @@ void EnergyWatch::count(const WatchedStep& step) {
   // Includes energy that the bodies had or received, even if it has been dissipated since.
   most = std::max(most, expected + step.ledger.external - gone);
   dissipated = std::max(dissipated, step.ledger.contact + step.ledger.friction);
+  contact = std::max(contact, step.ledger.contact);
+  friction = std::max(friction, step.ledger.friction);
 }
 
 /// (J) Energy created. A quantity that can only be dissipated has created as much as its sum has
 /// decreased. Contact and friction are one such quantity: a force of friction may reverse the
-/// motion of a body, and then receives what the normal force gives, and the other way round. A
-/// cohesive crack releases stored energy: it has created energy only if the sum is below zero.
+/// motion of a body, and then receives what the normal force gives, and the other way round; only
+/// what exceeds that is counted of one alone. A cohesive crack releases stored energy: it has
+/// created energy only if the sum is below zero.
 double EnergyWatch::created(const EnergyLedger& ledger) const {
-  return std::max(0., dissipated - ledger.contact - ledger.friction) +
-         std::max(0., -ledger.fracture);
+  const double both = std::max(0., dissipated - ledger.contact - ledger.friction);
+  const double usual = (tolerance::kExchanged - tolerance::kGivenEnergy) * most;
+  return std::max(both, exchanged(ledger) - usual) + std::max(0., -ledger.fracture);
+}
+
+/// (J) What contact or friction alone has given to the other.
+double EnergyWatch::exchanged(const EnergyLedger& ledger) const {
+  return std::max(contact - ledger.contact, friction - ledger.friction);
 }
 
 double EnergyWatch::tolerated(double reported) const {
@@ -74,6 +84,16 @@ std::string EnergyWatch::contactMessage(const WatchedStep& step, double noise) {
   const double amount = created(step.ledger);
   if (!(amount > std::max(tolerated(reportedCreated), noise))) return {};
   reportedCreated = amount;
+  const double both = dissipated - step.ledger.contact - step.ledger.friction;
+  if (both + std::max(0., -step.ledger.fracture) < amount)
+    return fmt::format(
+        "{}{} has given {} to {}, where corners jam: only the sum of both in fe.energy is right; "
+        "{}.",
+        yadefrag::begin(step),
+        contact - step.ledger.contact > friction - step.ledger.friction ? "contact" : "friction",
+        amountText(exchanged(step.ledger), most),
+        contact - step.ledger.contact > friction - step.ledger.friction ? "friction" : "contact",
+        kShorterStep);
   const bool byCracks = -step.ledger.fracture > amount / 2;
   const bool bySplits = byCracks && split > amount / 2;
   const char* const cause = bySplits   ? "cracks in bodies with element='smoothed' have"

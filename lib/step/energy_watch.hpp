@@ -67,7 +67,8 @@ class EnergyWatch {
   double gone = 0;        ///< J, part of the supplied energy that left with removed bodies
   double most = 0;        ///< J, the largest energy that the bodies could have
   double dissipated = 0;  ///< J, largest contact + friction in the ledger: a decrease is created
-  double split = 0;       ///< J, part of the ledger's fracture: separated averages of strains
+  double contact = 0, friction = 0;  ///< J, the largest of each
+  double split = 0;  ///< J, part of the ledger's fracture: separated averages of strains
   double evaluatedCreated = 0, evaluatedGrown = 0;  ///< J, at the last evaluation
   double reportedCreated = 0, reportedGrown = 0,
          reportedDepth = 0;  ///< J, J, m, in the last message; 0: none
@@ -80,6 +81,7 @@ class EnergyWatch {
 
  private:
   [[nodiscard]] double created(const EnergyLedger& ledger) const;
+  [[nodiscard]] double exchanged(const EnergyLedger& ledger) const;
   [[nodiscard]] double tolerated(double reported) const;
   [[nodiscard]] std::string stepAdvice(const WatchedStep& step) const;
 };

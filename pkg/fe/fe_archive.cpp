@@ -98,6 +98,7 @@ class WorldArchive : ColumnArchive {
     value("expectedEnergy", watch.expected), value("goneEnergy", watch.gone);
     value("mostEnergy", watch.most);
     value("watchedContact", watch.dissipated);
+    value("mostContact", watch.contact), value("mostFriction", watch.friction);
     value("watchedSplit", watch.split);
     value("lookedCreated", watch.evaluatedCreated), value("lookedGrown", watch.evaluatedGrown);
     value("toldCreated", watch.reportedCreated), value("toldGrown", watch.reportedGrown);

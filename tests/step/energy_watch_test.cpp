@@ -74,10 +74,29 @@ TEST(EnergyWatch, FrictionMayTakeWhatContactGives) {
   EXPECT_EQ(message(watch, stepOf(ledger)), "");
   ledger.contact = 25, ledger.friction = .5;
   EXPECT_EQ(message(watch, stepOf(ledger)), "");
-  ledger.contact = 30, ledger.friction = -4.6;
+  ledger.contact = 30, ledger.friction = -4.4;
   EXPECT_EQ(message(watch, stepOf(ledger)), "") << "the other way round";
-  ledger.contact = 28;
+  ledger.contact = 27.9;
   EXPECT_NE(message(watch, stepOf(ledger)).find("contact has created 2.1 J"), std::string::npos);
+}
+
+/// As corners that jam did: the sum of both is right.
+TEST(EnergyWatch, ReportsContactThatGivesMuchToFriction) {
+  for (const bool byContact : {true, false}) {
+    EnergyWatch watch = watchOf(100);
+    EnergyLedger ledger;
+    double& gives = byContact ? ledger.contact : ledger.friction;
+    double& takes = byContact ? ledger.friction : ledger.contact;
+    gives = 30;
+    EXPECT_EQ(message(watch, stepOf(ledger)), "");
+    gives = 23, takes = 8;
+    const std::string said = message(watch, stepOf(ledger));
+    EXPECT_NE(said.find(byContact ? "contact has given 7 J" : "friction has given 7 J"),
+              std::string::npos);
+    EXPECT_NE(said.find("where corners jam"), std::string::npos);
+    gives = 22, takes = 9;
+    EXPECT_EQ(message(watch, stepOf(ledger)), "") << "less than a doubling";
+  }
 }
 
 /// No scene is known in which cohesive cracks create energy: the ledger is given.

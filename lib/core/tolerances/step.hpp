@@ -21,6 +21,10 @@ inline constexpr double kFarthestMove = 10;
 /// than this energy. Energies are evaluated again when that amount has grown by the second value.
 inline constexpr double kGivenEnergy = .01, kEvaluateAgain = 1.1;
 
+/// (of the bodies' largest energy) A message is given if contact or friction alone has given more
+/// energy than this to the other. Where friction reverses a motion it is less.
+inline constexpr double kExchanged = .05;
+
 /// (of the largest sum of m r v) A message is given if contact and cracks have created more angular
 /// momentum. Cohesive tractions create none but for rounding.
 inline constexpr double kGivenSpin = .001;
