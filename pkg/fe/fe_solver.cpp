@@ -395,18 +395,16 @@ void requireApartFromSpheres(const yade::Scene& scene, const TriangleMesh& mesh,
 }
 
 /// If the initial stress of a body is outside of its yield surface.
-std::string startWarning(const Model& model, ComponentId component, bool isSpatial) {
+std::string startWarning(const Model& model, ComponentId component) {
   const Component& body = model.components[component.value];
   const std::size_t count = body.yields() ? countYielding(model, component) : 0;
   if (count == 0) return {};
   return fmt::format(
       "The initial stress is outside of the yield surface in {} of {} triangles, which flow in the "
-      "first step: take a lower stress{}.",
-      count, body.lastTriangle - body.firstTriangle,
-      isSpatial || body.material.planeStress
-          ? ""
-          : ", or give that across the plane, too, (xx, yy, xy, zz), which is otherwise "
-            "poisson*(xx + yy)");
+      "first step: take a lower stress, or in plane strain another one across the plane (the "
+      "fourth "
+      "number).",
+      count, body.lastTriangle - body.firstTriangle);
 }
 
 }  // namespace
@@ -432,7 +430,7 @@ AddedBody FESolver::addBody(const TriangleMesh& mesh, BodySpec spec,
   if (message.empty() && std::ranges::find(choices, CoarseMesh::kWarn) != choices.end())
     message = cohesiveZoneWarning(world_.model, world_.fracture.edges, component);
   if (!spec.stress.empty()) {
-    const std::string yields = startWarning(world_.model, component, !spec.stressAcross.empty());
+    const std::string yields = startWarning(world_.model, component);
     if (!yields.empty()) message += (message.empty() ? "" : " ") + yields;
   }
   scene = &here;

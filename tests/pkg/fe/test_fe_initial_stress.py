@@ -215,7 +215,7 @@ def test_stressAcrossThePlaneIsKept(yields, tmp_path):
 def test_evenPressureDoesNotYield():
     clay = yadefrag.PlasticFEMat(young=10e6, poisson=.3, density=1800, yieldStress=34.6e3)
     p = 1e5
-    for stress, count in (((-p, -p, 0, -p), 0), ((-p, -p, 0), 1)):
+    for stress, count in (((-p, -p, 0, -p), 0), ((-p, -p, 0), 0), ((-p, -p, 0, -.6 * p), 1)):
         O.reset()
         solver = fe()
         number = O.materials.append(clay)
@@ -232,11 +232,11 @@ def test_aStressThatYieldsIsReported(recwarn):
     clay = yadefrag.PlasticFEMat(young=10e6, poisson=.3, density=1800, yieldStress=34.6e3)
     solver = fe()
     number = O.materials.append(clay)
-    for stress in ((-1e5, -1e5, 0), (-1e5, -1e5, 0, -1e5)):
+    for stress in ((-1e5, -1e5, 0, -.6e5), (-1e5, -1e5, 0)):
         solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material=number, stress=stress)
         solver.removeBody(len(solver._names) - 1)
     found = ''.join(str(one.message) for one in recwarn)
-    assert found.count('outside of the yield surface') == 1 and '(xx, yy, xy, zz)' in found
+    assert found.count('outside of the yield surface') == 1
 
 
 def test_aTunnelIsAsWideAsSalencons():

@@ -96,9 +96,9 @@ def brittlePlaces(mesh: Mesh, materials: Any, interfaces: tuple[numpy.ndarray, n
     return _yadefrag.brittlePlaces(*ofTriangles, edges, *values)
 
 
-def stressOfTriangles(stress: Any, mesh: Mesh) -> tuple[numpy.ndarray, numpy.ndarray]:
+def stressOfTriangles(stress: Any, mesh: Mesh, flows: bool) -> tuple[numpy.ndarray, numpy.ndarray]:
     """(m, 3) and (m) Pa of the mesh's triangles, xx, yy, xy and zz (nan: not given), from three or four
-    numbers, a function (x, y) or an array; both empty for None."""
+    numbers, a function (x, y) or an array; both empty for None. flows: zz is (xx + yy)/2 where it is not given."""
     if stress is None:
         return numpy.empty((0, 3)), numpy.empty(0)
     count, values = len(mesh.triangles), array(stress)
@@ -112,6 +112,8 @@ def stressOfTriangles(stress: Any, mesh: Mesh) -> tuple[numpy.ndarray, numpy.nda
     else:
         rows = [_stress('stress[%d]' % i, one) for i, one in enumerate(values)]
     both = numpy.array(rows).reshape(-1, 4)
+    if flows:
+        both[:, 3] = numpy.where(numpy.isnan(both[:, 3]), both[:, :2].mean(axis=1), both[:, 3])
     return both[:, :3].copy(), both[:, 3].copy() if numpy.isfinite(both[:, 3]).any() else numpy.empty(0)
 
 

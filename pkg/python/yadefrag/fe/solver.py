@@ -69,8 +69,8 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
                     it is given, zz across the plane; tension positive, as in fe.stress): three or four
                     numbers, a function (x, y) → these, called at the triangles' centroids, or an array
                     (m, 3) or (m, 4) by triangle; e.g. the state of rock before an excavation. Without
-                    zz it is poisson*(xx + yy), with which soil under even pressure may yield; a
-                    warning says so. The outline is the stressed shape; the stress-free one is computed
+                    zz it is poisson*(xx + yy), and (xx + yy)/2 for materials that yield: even pressure
+                    in the plane is even in space. A warning says if it yields. The outline is the stressed shape; the stress-free one is computed
                     from it, triangle by triangle; density is that of the stress-free material. The
                     body is at rest if stresses and loads are in equilibrium: hold its boundary with
                     `fixed`, or load it with `pressure` or `loads`. Not together with displacement
@@ -126,7 +126,8 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
     selfContact = flag('selfContact', selfContact)
     thickness = positive('thickness', thickness, 'm')
     moved = field('displacement', displacement, nodes)
-    stressed, across = stressOfTriangles(stress, mesh)
+    flows = materials.yields and not any(one.planeStress for one in materials.of)
+    stressed, across = stressOfTriangles(stress, mesh, flows)
     given = field('velocity', velocity, nodes, isOptional=False)
     present = nodes + moved if len(moved) else nodes
     centroid = _centroid(present, mesh.triangles) if spin else numpy.zeros(2)
