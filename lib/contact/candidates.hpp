@@ -10,20 +10,16 @@
 
 namespace yadefrag {
 
-/// Rows by slave: the masters of one slave are adjacent, and rules for adjacent pieces decide
-/// together which of them is active.
+/// Rows by slave.
 struct Candidates {
   std::vector<EntryId> slaves;         ///< slaves with candidates, ascending
   std::vector<std::uint32_t> offsets;  ///< row r: [offsets[r], offsets[r + 1])
   std::vector<EntryId> masters;        ///< ascending within a row
-  /// By row: distance (m) that the fastest node must travel before the row can have an active
-  /// (LocalSearch::scan); empty: unknown. Derived data.
-  std::vector<double> idleDistance;
 
   [[nodiscard]] std::size_t size() const { return masters.size(); }
   void clear();
   void addTo(Footprint& footprint) const {
-    footprint.add(Use::kSearch, slaves, offsets, masters, idleDistance);
+    footprint.add(Use::kSearch, slaves, offsets, masters);
   }
 };
 

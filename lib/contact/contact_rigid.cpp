@@ -7,8 +7,8 @@
 
 namespace yadefrag {
 
-/// Sets the row's part on such a boundary. All nodes of its body then move with the correction.
-void Contact::joinRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step) {
+/// Sets the row's part on such a boundary.
+void Contact::findRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step) const {
   ContactRow::RigidPart& part = row.rigid;
   for (int k = 0; k < row.count; ++k) {
     const auto at = static_cast<std::size_t>(k);
@@ -21,9 +21,13 @@ void Contact::joinRigid(ContactRow& row, const Nodes& nodes, const ContactStep& 
     part.weight += row.weight[at];
     part.lever += row.weight[at] * (step.before[node.value] - step.rigid.masses[mass].centre);
   }
-  if (part.mass == ContactRow::kNone || rigidLoads_[part.mass].hasRow) return;
-  rigidLoads_[part.mass].hasRow = true;
-  for (const NodeId node : step.rigid.nodesOf.row(part.mass)) touch(node);
+}
+
+/// All nodes of a body with a row move with the correction.
+void Contact::joinRigid(std::uint32_t mass, const ContactStep& step) {
+  if (rigidLoads_[mass].hasRow) return;
+  rigidLoads_[mass].hasRow = true;
+  for (const NodeId node : step.rigid.nodesOf.row(mass)) touch(node);
 }
 
 bool Contact::isOfRigid(NodeId node, const ContactStep& step) const {
@@ -31,11 +35,10 @@ bool Contact::isOfRigid(NodeId node, const ContactStep& step) const {
 }
 
 /// Moves the nodes of these boundaries to their position in the body's corrected pose. The rows'
-/// linear displacement differs from it by the second order of the rotation. `largest`, `farthest`
-/// (m²): as in `move`.
-void Contact::moveRigid(Model& model, const ContactStep& step, double& largest, double& farthest) {
+/// linear displacement differs from it by the second order of the rotation. `largest` (m²): as in
+/// `move`.
+void Contact::moveRigid(Model& model, const ContactStep& step, double& largest) {
   if (rigidLoads_.empty()) return;
-  for (RigidLoad& load : rigidLoads_) load.force = {}, load.moment = 0;
   for (const ContactRow& row : rows_) {
     if (row.rigid.mass == ContactRow::kNone) continue;
     RigidLoad& load = rigidLoads_[row.rigid.mass];
@@ -58,11 +61,10 @@ void Contact::moveRigid(Model& model, const ContactStep& step, double& largest, 
       const Vec2 arm = free - body.moved, atStart = before - body.centre;
       const Vec2 place =
           body.moved + shift + Vec2{cosine * arm.x - sine * arm.y, sine * arm.x + cosine * arm.y};
-      const Vec2 by = place - model.nodes.position[n], whole = place - free;
+      const Vec2 by = place - free;
       model.nodes.position[n] = place;
       displacement_[n] = shift + angle * Vec2{-atStart.y, atStart.x};
-      largest = std::max(largest, dot(whole, whole));
-      farthest = std::max(farthest, dot(by, by));
+      largest = std::max(largest, dot(by, by));
     }
   }
 }

@@ -31,12 +31,4 @@ class CoupledForces {
   virtual double converge(std::vector<Vec2>& position) = 0;
 };
 
-/// What the sweeps need for them.
-struct Coupling {
-  CoupledForces& forces;
-  std::vector<Vec2>& position;      ///< m, by node
-  std::span<const Vec2> displaced;  ///< m, by node: by contact, included in `position`
-  double moved = 0;                 ///< m, bound of the displacements by these forces
-};
-
 }  // namespace yadefrag

@@ -4,118 +4,71 @@
 // is sufficient. (Slip forces −μ sgn(v)|λ| as in eq. 8 would make the system unsymmetric, and the
 // sign must be known in advance.)
 //
-// Rows with common nodes are one group; after some sweeps of all, each group is solved alone
-// (row_groups.cpp).
-//
 // Sweeps from row to row (nonlinear block Gauss–Seidel of Moreau and Jean's contact dynamics),
 // without a matrix: each row uses the displacements of its nodes by the other rows so far. They
-// start from the forces of the last step and stay near them: where rows are redundant or
-// fragments jam, exact solutions have large forces that cancel each other, which friction converts
-// into energy. A remaining gap is corrected in the next step.
-//
-// Thousands of sweeps would be needed along a high stack, or where two bodies with different meshes
-// touch along their sides and both are slaves. Therefore conjugate gradients follow
-// (row_gradients.hpp): they change all forces that are within their bounds, until the first of them
-// reaches a bound. In rubble and in walls of blocks the next bound is near; there they are tried
-// rarely.
+// start from the forces of the last step and stay near them. Ten to twenty short sweeps are enough,
+// since no two rows of a step contradict each other. A remaining gap is corrected in the next step.
 
-#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "contact/contact_row.hpp"
 #include "contact/coupled_forces.hpp"
 #include "contact/inertia.hpp"
-#include "contact/row_gradients.hpp"
 #include "contact/row_system.hpp"
-#include "core/csr.hpp"
 #include "core/footprint.hpp"
-#include "core/work_list.hpp"
 
 namespace yadefrag {
 
 class RowSweeps {
  public:
-  /// Stop criterion: no gap or slip changes by more than `change` (m) in a sweep, or `most` sweeps
-  /// of a group; more of them, up to kMostSweeps, while its forces are far from a solution.
+  /// Sweeps end when none changes a gap or a slip by more than `change` (m), or after `most`
+  /// sweeps; later, up to kMostSweeps, while the forces are far from a solution.
   struct Stop {
     double change;
     int most;
   };
-  /// Improves the forces of all rows, and those that are coupled to them; returns the largest
-  /// change in the last sweep (m). The first rows may be those of former solutions since `clear`,
-  /// with the nodes and the normals they had then: only their gaps are read, and they are visited
-  /// if these have changed. The result is the same for any number of `threads`.
-  double solve(std::span<ContactRow> rows, const Inertia& inertia, Stop stop,
-               Coupling* coupling = nullptr, int threads = 1);
-  /// Number of sweeps of the last solution: that of the group with most of them.
-  [[nodiscard]] int sweeps() const { return count_; }
-  /// Number of rows of the last solution.
+  /// Must be called before the first row of a step.
+  void clear() { system_.clear(); }
+  /// A row with its forces of the last step.
+  void add(const ContactRow& row, const Inertia& inertia) { system_.add(row, inertia); }
+  /// The last two rows are those of one corner with both sides of a notch: solved together, since
+  /// from row to row their forces converge slowly where the notch is shallow.
+  void linkLast() { system_.linkLast(); }
+  /// Improves the forces of all rows, and those that are coupled to them (`position`: m, by node,
+  /// without contact); returns the largest change in the last sweep (m).
+  double solve(Stop stop, CoupledForces* coupled = nullptr, std::vector<Vec2>* position = nullptr);
+
   [[nodiscard]] std::size_t size() const { return system_.rows.size(); }
-  /// Must be called before the first solution of a step.
-  void clear();
+  /// Number of sweeps of the last solution.
+  [[nodiscard]] int sweeps() const { return count_; }
+  [[nodiscard]] const RowSystem::Row& row(std::size_t number) const {
+    return system_.rows[number];
+  }
+  /// (m) A row's gap with all forces, above the tolerated one.
+  [[nodiscard]] double gapAfter(const RowSystem::Row& row) const {
+    return row.gap + dot(system_.relativeMotion(row), row.normal);
+  }
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { system_.numbers.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, order_, groups_, shared_, links_, rowsOfNodes_.values, rowsOfNodes_.offsets,
-                  waits_, attempts_);
+    footprint.add(use, shared_, lastMoved_);
     system_.addTo(footprint, use);
-    gradients_.addTo(footprint, use);
-    waiting_.addTo(footprint, use);
   }
 
  private:
-  struct Link {
-    std::uint32_t node, row;
-  };
-  /// Rows that no other group's forces move.
-  struct Group : RowRange {
-    std::size_t firstWaiting;  // number of the first row in waiting_, at the begin of a word
-    int sweeps = 0;            // of this solution
-    double change = 0;         // m, in the last sweep
+  double sweep(int number, double change);
+  double relax(RowSystem::Row& row, int sweep, double change);
+  double relaxNotch(RowSystem::Row& row, int sweep, double change);
+  double setForces(RowSystem::Row& row, double normal, Vec2 moved, int sweep, double change);
+  [[nodiscard]] bool isDue(const RowSystem::Row& row, int sweep) const;
+  void share(CoupledForces* coupled, const std::vector<Vec2>* position);
+  double sweepCoupled(CoupledForces& forces, std::vector<Vec2>& position, double change, int sweep,
+                      bool last);
 
-    [[nodiscard]] std::size_t waitingOf(std::uint32_t row) const {
-      return firstWaiting + (row - begin);
-    }
-    [[nodiscard]] WorkList::Range words() const {
-      const std::size_t first = firstWaiting / WorkList::kPerWord;
-      return {first, first + WorkList::wordsFor(size())};
-    }
-  };
-  /// When conjugate gradients are tried: sweeps of a group in former solutions of the step that
-  /// divided the rows, between two attempts, and, with those of this solution, at the next one.
-  struct Attempts {
-    int former = 0, between = 0, next = 0;
-  };
-
-  void update(std::span<const ContactRow> rows, double tolerance);
-  void makeOneGroup();
-  void divide();
-  [[nodiscard]] Csr<std::uint32_t> findGroups() const;
-  void findWaiting();
-  void keepWaiting();
-  void countSweeps();
-
-  template <class Count>
-  double relax(RowSystem::Row& row, const RowSystem::Ends& ends, Count count);
-  double sweepAll(Stop stop, Coupling* coupling, int threads);
-  double sweepGroups(int until, Stop stop, int threads);
-  void sweepGroup(Group& group, int until, Stop stop);
-  double sweep(const Group& group, bool forwards, double tolerance);
-  void share(const Coupling* coupling, std::size_t modelNodes);
-  double sweepCoupled(Coupling& coupling, double tolerance, bool last = false);
-
-  void descendIfDue(const Group& group, double tolerance);
-  bool descend(const Group& group, double tolerance);
-
-  RowSystem system_;           // its rows are in the order of the groups
-  std::vector<Group> groups_;  // one of all rows until they are divided
-  bool isDivided_ = false;
-  // By row.
-  std::vector<std::uint32_t> order_;  // number of the row by its detection
-  std::vector<std::uint8_t> waits_;   // 1: to be visited in the next sweep
-  std::vector<Attempts> attempts_;    // by detection; of the group whose first row it is
+  RowSystem system_;
+  int count_ = 0;
+  std::vector<int> lastMoved_;  // by number of the node: the last sweep that moved it
   /// A node that coupled forces move, too.
   struct SharedNode {
     std::uint32_t number;
@@ -126,11 +79,6 @@ class RowSweeps {
     bool isKnown = false;
   };
   std::vector<SharedNode> shared_;
-  std::vector<Link> links_;
-  Csr<std::uint32_t> rowsOfNodes_;  // by number: numbers in waiting_
-  WorkList waiting_;  // rows with a node that another row has moved by more than the tolerance
-  int count_ = 0;     // sweeps of this solution
-  RowGradients gradients_;
 };
 
 }  // namespace yadefrag

@@ -6,52 +6,52 @@ namespace yadefrag {
 
 void RowSystem::clear() {
   rows.clear();
-  ends.clear();
   turns.clear();
   nodes.clear();
-  moved.nodes.clear();
+  moved.clear();
+  turned.clear();
 }
 
 void RowSystem::add(const ContactRow& row, const Inertia& inertia) {
-  Row& swept = rows.emplace_back();
-  Ends& of = ends.emplace_back();
-  swept.normal = row.normal;
-  swept.gap = row.gap - row.toleratedGap, swept.slip = row.slip, swept.friction = row.friction;
-  swept.normalForce = row.normalForce, swept.tangentForce = row.tangentForce;
+  if (numbers.size() < inertia.size()) numbers.resize(inertia.size());
+  Row& added = rows.emplace_back();
+  added.normal = row.normal;
+  added.gap = row.gap - row.toleratedGap, added.slip = row.slip, added.friction = row.friction;
+  added.normalForce = row.normalForce, added.tangentForce = row.tangentForce;
+  added.normalResponse = added.tangentResponse = added.slipPerNormal = 0;
   for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(row.count); ++k)
     if (!row.isOfRigid(inertia.nodes, row.node[k]))
-      addEnd(swept, of, row.node[k], row.weight[k], inertia);
-  if (row.rigid.mass != ContactRow::kNone) addRigid(swept, of, row.rigid, inertia);
+      addEnd(added, row.node[k], row.weight[k], inertia);
+  if (row.rigid.mass != ContactRow::kNone) addRigid(added, row.rigid, inertia);
 }
 
-void RowSystem::addEnd(Row& swept, Ends& of, NodeId number, double weight, const Inertia& inertia) {
+void RowSystem::addEnd(Row& row, NodeId number, double weight, const Inertia& inertia) {
   const std::uint32_t node = numberOf(number, inertia);
-  const Vec2 perForce = moved.nodes[node].perForce;
+  const Vec2 perForce = moved[node].perForce;
   if (perForce == Vec2{} && inertia.turningOf(number) == 0) return;
-  assert(of.count < of.node.size());
-  of.node[of.count] = node;
-  swept.weight[of.count++] = weight;
+  assert(row.count < row.node.size());
+  row.node[row.count] = node;
+  row.weight[row.count++] = weight;
   const Vec2 mobile = weight * weight * perForce;
-  swept.normalResponse += weighted(swept.normal, mobile, swept.normal);
-  if (!(swept.friction > 0)) return;
-  swept.tangentResponse += weighted(swept.along(), mobile, swept.along());
-  swept.slipPerNormal += weighted(swept.normal, mobile, swept.along());
+  row.normalResponse += weighted(row.normal, mobile, row.normal);
+  if (!(row.friction > 0)) return;
+  row.tangentResponse += weighted(row.along(), mobile, row.along());
+  row.slipPerNormal += weighted(row.normal, mobile, row.along());
 }
 
-void RowSystem::addRigid(Row& swept, Ends& of, const ContactRow::RigidPart& part,
-                         const Inertia& inertia) {
+void RowSystem::addRigid(Row& row, const ContactRow::RigidPart& part, const Inertia& inertia) {
   const NodeId number(inertia.nodes.size() + part.mass);
-  const std::uint32_t former = of.count;
-  addEnd(swept, of, number, part.weight, inertia);
-  if (of.count == former) return;
+  const std::uint32_t former = row.count;
+  addEnd(row, number, part.weight, inertia);
+  if (row.count == former) return;
   const double turning = inertia.step.squared() * inertia.turningOf(number);
-  const double normal = cross(part.lever, swept.normal);
-  const double tangent = cross(part.lever, Vec2{-swept.normal.y, swept.normal.x});
-  swept.normalResponse += turning * normal * normal;
-  swept.tangentResponse += turning * tangent * tangent;
-  swept.slipPerNormal += turning * normal * tangent;
-  of.turn = static_cast<std::uint32_t>(turns.size());
-  turns.push_back({part.lever, turning, of.node[former]});
+  const double normal = cross(part.lever, row.normal);
+  const double tangent = cross(part.lever, row.along());
+  row.normalResponse += turning * normal * normal;
+  row.tangentResponse += turning * tangent * tangent;
+  row.slipPerNormal += turning * normal * tangent;
+  row.turn = static_cast<std::uint32_t>(turns.size());
+  turns.push_back({part.lever, turning, row.node[former]});
 }
 
 std::uint32_t RowSystem::numberOf(NodeId node, const Inertia& inertia) {
@@ -60,14 +60,33 @@ std::uint32_t RowSystem::numberOf(NodeId node, const Inertia& inertia) {
   if (number < nodes.size() && nodes[number] == node) return number;
   number = static_cast<std::uint32_t>(nodes.size());
   nodes.push_back(node);
-  moved.nodes.push_back({{}, inertia.step.squared() * inertia.mobilityOf(node)});
+  moved.push_back({{}, inertia.step.squared() * inertia.mobilityOf(node)});
   return number;
 }
 
+void RowSystem::linkLast() {
+  assert(rows.size() > 1);
+  Row& first = rows[rows.size() - 2];
+  const Row& second = rows.back();
+  double sum = 0;
+  for (std::uint32_t k = 0; k < first.count; ++k)
+    for (std::uint32_t l = 0; l < second.count; ++l)
+      if (first.node[k] == second.node[l])
+        sum += first.weight[k] * second.weight[l] *
+               weighted(first.normal, moved[first.node[k]].perForce, second.normal);
+  if (first.turn != kNone && second.turn != kNone) {
+    const Turn &a = turns[first.turn], &b = turns[second.turn];
+    if (a.number == b.number)
+      sum += a.perMoment * cross(a.lever, first.normal) *
+             cross(b.lever, second.normal);
+  }
+  first.cross = sum;
+}
+
 void RowSystem::pushAll() {
-  for (MovedNode& node : moved.nodes) node.shift = {};
-  moved.turns.assign(turns.empty() ? 0 : nodes.size(), 0);
-  for (std::size_t r = 0; r < rows.size(); ++r) push(rows[r], ends[r], rows[r].force(), moved);
+  for (MovedNode& node : moved) node.shift = {};
+  turned.assign(turns.empty() ? 0 : nodes.size(), 0);
+  for (const Row& row : rows) push(row, row.force());
 }
 
 }  // namespace yadefrag

@@ -1,6 +1,6 @@
 #pragma once
-// The rows of a solution, with only the data that it reads and writes, and the displacements that
-// their forces cause: u = Δt² M⁻¹ Wᵀ λ (paper §2, eq. 5 to 7).
+// The rows of a step, with only the data that its solution reads and writes, and the displacements
+// that their forces cause: u = Δt² M⁻¹ Wᵀ λ (paper §2, eq. 5 to 7).
 
 #include <array>
 #include <cstdint>
@@ -12,30 +12,26 @@
 
 namespace yadefrag {
 
-/// Rows that are next to each other.
-struct RowRange {
-  std::uint32_t begin, end;
-  [[nodiscard]] std::uint32_t size() const { return end - begin; }
-};
-
 struct RowSystem {
+  static constexpr std::uint32_t kNone = 0xffffffff;
   struct Row {
     std::array<double, 5> weight;
     Vec2 normal;
-    double gap, slip, friction;
+    double gap, slip;  ///< m, without the forces; the gap is that above the tolerated one
+    double friction;
     double normalResponse, tangentResponse;  ///< m/N: change of gap and slip per force
     double slipPerNormal;                    ///< m/N: coupling, if a node is held in one direction
     double normalForce, tangentForce;        ///< N
+    /// m/N: change of the next row's gap per normal force of this one, and the reverse, if both
+    /// are solved together; else 0.
+    double cross = 0;
+    std::array<std::uint32_t, 5> node;  ///< those that the forces move: index in `nodes`
+    std::uint32_t count = 0;
+    /// Index in `turns` if the last node is a rigid body.
+    std::uint32_t turn = kNone;
 
     [[nodiscard]] Vec2 along() const { return {-normal.y, normal.x}; }
     [[nodiscard]] Vec2 force() const { return normalForce * normal + tangentForce * along(); }
-  };
-  static constexpr std::uint32_t kNone = 0xffffffff;
-  /// Nodes of a row that its forces move, and the rigid body of the last of these, if that is one.
-  struct Ends {
-    std::array<std::uint32_t, 5> node;  ///< index among the nodes of all rows
-    std::uint32_t count;
-    std::uint32_t turn = kNone;  ///< index in `turns`
   };
   /// Rotation of a rigid body in a row.
   struct Turn {
@@ -48,65 +44,51 @@ struct RowSystem {
     Vec2 shift;     ///< m
     Vec2 perForce;  ///< m/N
   };
-  /// Displacements of nodes and rotations of rigid bodies (rad), by number.
-  struct Motion {
-    std::vector<MovedNode> nodes;
-    std::vector<double> turns;  ///< empty without rigid bodies
-  };
 
   void clear();
   void add(const ContactRow& row, const Inertia& inertia);
+  /// The last two rows are solved together.
+  void linkLast();
   /// Computes the displacements by the forces of all rows.
   void pushAll();
-  /// Adds the displacements by a force (N) of a row to `motion`.
-  template <class Count>
-  void push(const Row& row, const Ends& of, Count count, Vec2 force, Motion& motion) const;
-  void push(const Row& row, const Ends& of, Vec2 force, Motion& motion) const {
-    push(row, of, of.count, force, motion);
-  }
+  /// Adds the displacements by a force (N) of a row.
+  void push(const Row& row, Vec2 force);
   /// (m) Displacement of a row's slave relative to its master.
-  template <class Count>
-  [[nodiscard]] Vec2 relativeMotion(const Row& row, const Ends& of, Count count,
-                                    const Motion& motion) const;
+  [[nodiscard]] Vec2 relativeMotion(const Row& row) const;
   void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, rows, ends, turns, nodes, numbers, moved.nodes, moved.turns);
+    footprint.add(use, rows, turns, nodes, numbers, moved, turned);
   }
 
-  // By row.
   std::vector<Row> rows;
-  std::vector<Ends> ends;
   std::vector<Turn> turns;             ///< of rows on rigid bodies
   std::vector<NodeId> nodes;           ///< nodes and rigid bodies with a row
   std::vector<std::uint32_t> numbers;  ///< by node: index in `nodes`; valid for these only
-  Motion moved;                        ///< by the forces
+  // By number: index in `nodes`.
+  std::vector<MovedNode> moved;
+  std::vector<double> turned;  ///< rad; empty without rigid bodies
 
  private:
-  void addEnd(Row& row, Ends& of, NodeId number, double weight, const Inertia& inertia);
-  void addRigid(Row& row, Ends& of, const ContactRow::RigidPart& part, const Inertia& inertia);
+  void addEnd(Row& row, NodeId number, double weight, const Inertia& inertia);
+  void addRigid(Row& row, const ContactRow::RigidPart& part, const Inertia& inertia);
   std::uint32_t numberOf(NodeId node, const Inertia& inertia);
 };
 
-template <class Count>
-void RowSystem::push(const Row& row, const Ends& of, Count count, Vec2 force,
-                     Motion& motion) const {
-  for (std::uint32_t k = 0; k < count; ++k) {
-    MovedNode& node = motion.nodes[of.node[k]];
+inline void RowSystem::push(const Row& row, Vec2 force) {
+  for (std::uint32_t k = 0; k < row.count; ++k) {
+    MovedNode& node = moved[row.node[k]];
     node.shift += row.weight[k] * Vec2{node.perForce.x * force.x, node.perForce.y * force.y};
   }
-  if (of.turn == kNone) return;
-  const Turn& turn = turns[of.turn];
-  motion.turns[turn.number] += turn.perMoment * cross(turn.lever, force);
+  if (row.turn == kNone) return;
+  const Turn& turn = turns[row.turn];
+  turned[turn.number] += turn.perMoment * cross(turn.lever, force);
 }
 
-template <class Count>
-Vec2 RowSystem::relativeMotion(const Row& row, const Ends& of, Count count,
-                               const Motion& motion) const {
+inline Vec2 RowSystem::relativeMotion(const Row& row) const {
   Vec2 relative;
-  for (std::uint32_t k = 0; k < count; ++k)
-    relative += row.weight[k] * motion.nodes[of.node[k]].shift;
-  if (of.turn == kNone) return relative;
-  const Turn& turn = turns[of.turn];
-  return relative + motion.turns[turn.number] * Vec2{-turn.lever.y, turn.lever.x};
+  for (std::uint32_t k = 0; k < row.count; ++k) relative += row.weight[k] * moved[row.node[k]].shift;
+  if (row.turn == kNone) return relative;
+  const Turn& turn = turns[row.turn];
+  return relative + turned[turn.number] * Vec2{-turn.lever.y, turn.lever.x};
 }
 
 }  // namespace yadefrag

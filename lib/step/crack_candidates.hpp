@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "contact/candidates.hpp"
-#include "contact/touch.hpp"
 #include "core/vec2.hpp"
 #include "surface/relink.hpp"
 
@@ -19,11 +18,5 @@ std::vector<EntryId> entriesAround(const ContactSurfaces& surfaces, const Candid
 /// Pairs of these entries whose boxes, enlarged by half the halo, overlap.
 std::vector<BoxPair> overlapsAmong(const ContactSurfaces& surfaces, std::span<const Vec2> positions,
                                    std::span<const EntryId> entries, double halo);
-
-/// The slaves that result from a split node inherit contacts: each is in contact with all masters
-/// of any of them. They are at the same position, and a slave's number may now belong to another of
-/// these nodes.
-void inheritTouches(std::vector<Touch>& touches, const ContactSurfaces& surfaces,
-                    std::span<const NodeId> originals, std::size_t nodeCount);
 
 }  // namespace yadefrag

@@ -150,7 +150,6 @@ bool contactIsValid(const World& world) {
                                     c.offsets.back() == c.masters.size() &&
                                     std::ranges::is_sorted(c.offsets);
   return offsetsFit && allBelow(c.slaves, entries) && allBelow(c.masters, entries) &&
-         world.contact.lastCorrection >= 0 && std::isfinite(world.contact.lastCorrection) &&
          std::ranges::all_of(world.contact.touches, [&](const Touch& t) {
            return t.pair.slave.value < entries && t.pair.master.value < entries;
          });

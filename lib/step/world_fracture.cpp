@@ -58,7 +58,7 @@ void World::followSplit() {
   const std::size_t count = model.nodes.size();
   contact.resize(count);
   dynamics_.follow(model, split_.changed, split_.originals);
-  const std::vector<EntryId> changed = relink(surfaces, split_.sides);
+  (void)relink(surfaces, split_.sides);
   const auto appear = [&](NodeId node) { search.appear(node, model.nodes.position[node.value]); };
   for (const NodeId node : split_.onSurface) appear(node);
   for (std::size_t n = count - split_.originals.size(); n < count; ++n) appear(NodeId(n));
@@ -70,8 +70,6 @@ void World::followSplit() {
   search.addCandidatesAround(searchScene(),
                              entriesAround(surfaces, contact.candidates, split_.sides));
   assert(haveLength(model.nodes.columns(), count) && surfaces.nodeSegment.size() == count);
-  inheritTouches(contact.touches, surfaces, split_.originals, count);
-  contact.allowOverlaps(surfaces, model.nodes.position, changed);
 }
 
 }  // namespace yadefrag

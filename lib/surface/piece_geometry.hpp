@@ -43,6 +43,7 @@ class PieceGeometryOf {
                   std::span<const Vec2> points = {})
       : surfaces_(surfaces), positions_(positions), points_(points) {}
 
+  [[nodiscard]] std::span<const Vec2> positions() const { return positions_; }
   [[nodiscard]] bool isArc(EntryId entry) const {
     return kSmooth && surfaces_.piece[entry.value] == Piece::kArc;
   }

@@ -4,17 +4,17 @@
 #include <cmath>
 #include <tuple>
 
-#include "contact/slave_normals.hpp"
 #include "core/errors.hpp"
+#include "core/tolerances/contact.hpp"
 #include "entries/plane.hpp"
 #include "entries/sphere_contact.hpp"
 
 namespace yadefrag {
 namespace {
 
-/// As in contact of FE bodies.
+/// Two pieces with these unit normals are one face for a sphere that rolls.
 bool areOneFace(Vec2 a, Vec2 b) {
-  return yadefrag::areOneFace(a, b, tolerance::Contact().faceAngle);
+  return dot(a, b) > 0 && std::abs(cross(a, b)) < tolerance::Contact().faceAngle;
 }
 
 using yade::Vector3r;

@@ -37,7 +37,7 @@ class WorldArchive : ColumnArchive {
   }
 
  private:
-  static constexpr std::uint64_t kFormat = 20;
+  static constexpr std::uint64_t kFormat = 21;
 
   void all(World& world, std::vector<int>& entryBodies, std::vector<Vec2>& forces) {
     std::uint64_t format = kFormat;
@@ -240,7 +240,6 @@ class WorldArchive : ColumnArchive {
     member("touchNormal", rows, [](Touch& t) -> double& { return t.normalForce; });
     member("touchTangent", rows, [](Touch& t) -> double& { return t.tangentForce; });
     member("touchAllowed", rows, [](Touch& t) -> double& { return t.toleratedGap; });
-    value("lastCorrection", contact.lastCorrection);
   }
 
   void search(World& world) {

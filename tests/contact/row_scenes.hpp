@@ -12,11 +12,23 @@ namespace yadefrag::test {
 
 inline constexpr double kDt = 1e-3;
 
-/// (m) The last change.
+/// (m) The last change. The rows have their forces then.
+inline double solveRows(RowSweeps& sweeps, std::span<ContactRow> rows, const Inertia& inertia,
+                        RowSweeps::Stop stop) {
+  sweeps.clear();
+  for (const ContactRow& row : rows) sweeps.add(row, inertia);
+  const double change = sweeps.solve(stop);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    rows[r].normalForce = sweeps.row(r).normalForce;
+    rows[r].tangentForce = sweeps.row(r).tangentForce;
+  }
+  return change;
+}
+
 inline double solveAll(std::span<ContactRow> rows, const Nodes& nodes, double drag = 0,
                        RowSweeps::Stop stop = {1e-17, 10000}) {
   RowSweeps sweeps;
-  return sweeps.solve(rows, {nodes, kDt, drag}, stop);
+  return solveRows(sweeps, rows, {nodes, kDt, drag}, stop);
 }
 
 /// Node `slave` on the segment of nodes a and b at ξ.
@@ -54,8 +66,7 @@ inline double slipAfter(const ContactRow& row, const std::vector<Vec2>& u) {
   return row.slip + dot(relative(row, u), row.tangent());
 }
 
-/// Two faces of unequal meshes of `a` and `b` segments, all nodes of which are slaves: conjugate
-/// gradients are needed from some ten on.
+/// Two faces of unequal meshes of `a` and `b` segments, all nodes of which are slaves.
 inline std::vector<ContactRow> bothFaces(std::size_t a, std::size_t b) {
   std::vector<ContactRow> rows;
   const auto add = [&](std::size_t n, std::size_t others, std::size_t own, std::size_t other,

@@ -69,8 +69,7 @@ TEST(RowSweeps, InfiniteMasses) {
 }
 
 /// A node between two fixed faces, nearer to each other than possible: no force is a solution, and
-/// the sweeps increase both by the same amount each time. Conjugate gradients must not go on in
-/// this direction: 20 of them made both forces 5e4 times that of one gap.
+/// the sweeps increase both by the same amount each time.
 TEST(RowSweeps, RowsThatContradictEachOtherGetNoMoreThanBySweeps) {
   Nodes nodes = plainNodes(3);
   nodes.held = {kFree, kHeldXY, kHeldXY};
@@ -78,7 +77,7 @@ TEST(RowSweeps, RowsThatContradictEachOtherGetNoMoreThanBySweeps) {
     std::vector<ContactRow> rows{onSegment(0, 1, 2, .5, -1e-6, .5), onSegment(0, 1, 2, .5, -1e-6)};
     rows[1].normal = {std::sin(angle), -std::cos(angle)};
     RowSweeps sweeps;
-    sweeps.solve(rows, {nodes, kDt}, {1e-9, 80});
+    solveRows(sweeps, rows, {nodes, kDt}, {1e-9, 80});
     const double one = 1e-6 * nodes.mass[0] / (kDt * kDt);
     for (const ContactRow& row : rows)
       EXPECT_LE(row.normalForce, 2 * sweeps.sweeps() * one) << "at an angle of " << angle;
@@ -234,7 +233,7 @@ void expectPlanted(Random& random, std::vector<ContactRow> rows, const Nodes& no
 TEST(RowSweeps, FindAKnownSolution) {
   Random random(32);
   for (const auto& [a, b] :
-       {std::pair<std::size_t, std::size_t>{1, 1}, {4, 6}, {10, 33}, {40, 40}, {200, 60}}) {
+       {std::pair<std::size_t, std::size_t>{1, 1}, {4, 6}, {10, 33}, {40, 40}}) {
     Nodes nodes = plainNodes(a + b + 2);
     for (double& mass : nodes.mass) mass = even(random, .5, 2);
     expectPlanted(random, bothFaces(a, b), nodes);
@@ -251,7 +250,7 @@ TEST(RowSweeps, ALaterSolutionGoesOn) {
   RowSweeps sweeps;
   int solutions = 0;
   for (double change = INFINITY; change > stop.change && solutions < 1000; ++solutions)
-    change = sweeps.solve(rows, {nodes, kDt, 0}, stop);
+    change = solveRows(sweeps, rows, {nodes, kDt, 0}, stop);
   EXPECT_GT(solutions, 2);
   const std::vector<Vec2> u = displacements(rows, nodes);
   for (std::size_t r = 0; r < rows.size(); ++r) ASSERT_NEAR(gapAfter(rows[r], u), left[r], 3e-6);

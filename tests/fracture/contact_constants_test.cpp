@@ -22,12 +22,11 @@ struct Constant {
 };
 
 constexpr std::array<Constant, 6> kConstants{
-    {{"OutsideDepth", [](Constants& c, double f) { c.outsideDepth *= f; }},
-     // A sine: twice the value is 43°, where one of the four impacts loses a contact.
-     {"FaceAngle", [](Constants& c, double f) { c.faceAngle *= f; }, 1.5},
-     {"Opposed", [](Constants& c, double f) { c.opposed *= f; }},
-     {"PastConcave", [](Constants& c, double f) { c.pastConcave *= f; }},
+    {{"FaceAngle", [](Constants& c, double f) { c.faceAngle *= f; }, 1.5},
+     {"Leaning", [](Constants& c, double f) { c.leaning *= f; }},
+     {"Slack", [](Constants& c, double f) { c.slack *= f; }},
      {"OverlapDecay", [](Constants& c, double f) { c.overlapDecay *= f; }},
+     {"Stop", [](Constants& c, double f) { c.stop *= f; }},
      {"RowSweeps",
       [](Constants& c, double f) { c.rowSweeps = static_cast<int>(c.rowSweeps * f); }}}};
 

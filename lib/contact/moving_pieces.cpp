@@ -1,0 +1,39 @@
+#include "contact/moving_pieces.hpp"
+
+#include "core/parallel.hpp"
+#include "surface/piece_geometry.hpp"
+
+namespace yadefrag {
+
+void MovingPieces::update(const ContactSurfaces& surfaces, std::span<const Vec2> before,
+                          std::span<const Vec2> now, int threads) {
+  const std::size_t count = surfaces.entries();
+  pieces_.resize(count);
+  const bool anySmooth = surfaces.anySmooth();
+  const PieceGeometry start(surfaces, before), end(surfaces, now);
+  forEachPart(count, threads, [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t e = first; e < last; ++e) {
+      const EntryId entry(e);
+      MovingPiece& piece = pieces_[e];
+      piece.next = surfaces.next[e];
+      piece.former = surfaces.prev[e].value & 0x7fffffffU;
+      piece.isArc = surfaces.piece[e] == Piece::kArc ? 1 : 0;
+      if (anySmooth) {
+        piece.begin = start.slave(entry), piece.moved = end.slave(entry) - piece.begin;
+      } else {
+        const NodeId node = surfaces.segmentNode[surfaces.entrySegment[e].value];
+        piece.begin = before[node.value], piece.moved = now[node.value] - piece.begin;
+      }
+    }
+  });
+  forEachPart(count, threads, [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t e = first; e < last; ++e) {
+      MovingPiece& piece = pieces_[e];
+      const Vec2 chord = pieces_[piece.next.value].begin - piece.begin;
+      piece.length = norm(chord);
+      piece.along = piece.length > 0 ? (1 / piece.length) * chord : Vec2{};
+    }
+  });
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,197 @@
+#include "contact/near_rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace yadefrag {
+
+ContactSizes::ContactSizes(double shortestSide, double move, const tolerance::Contact& constants)
+    : shortest(shortestSide),
+      zone(std::max(tolerance::kZone * shortestSide, tolerance::kZoneMoves * move)),
+      wide(tolerance::kWide * zone),
+      depth(zone),
+      slack(constants.slack * move + tolerance::kTouching * shortestSide),
+      leaning(constants.leaning * shortestSide),
+      faceAngle(constants.faceAngle) {}
+
+/// A corner of a boundary: the entry that begins there, and its two sides.
+struct NearRows::Corner {
+  EntryId entry;
+  const MovingPiece* own;     // begins there
+  const MovingPiece* former;  // ends there
+  double turn;                // sine; positive: convex. 0 at an arc
+  bool isRound;               // one of them is an arc
+  bool mayTouch;              // it is no notch, but for a small angle
+};
+
+/// A side at a corner, and a point (another corner) that may be in front of it.
+struct NearRows::Side {
+  EntryId piece, point;
+  const MovingPiece* of;
+  double gap;       // m, of the point at xⁿ
+  double gapAfter;  // m, the same at x*, for the corner's displacement
+  double inside;    // m, from the corner to the point's foot; negative: beside the side
+  double xi;
+  double leaning;   // sine, how far the point's own sides lean into this side
+  bool atEnd;       // the corner is the side's end
+};
+
+NearRows::Corner NearRows::cornerAt(EntryId entry) const {
+  const MovingPiece &own = pieces_[entry], &former = pieces_[own.prev()];
+  const bool isRound = own.isArc != 0 || former.isArc != 0;
+  const double turn = isRound ? 0 : cross(former.along, own.along);
+  return {entry, &own, &former, turn, isRound, turn > -sizes_.faceAngle};
+}
+
+/// (sine) How far a corner's sides lean into a side with this normal; 0: not at all.
+double NearRows::leaningOf(const Corner& corner, Vec2 normal) {
+  return std::max({0., -dot(corner.own->along, normal), dot(corner.former->along, normal)});
+}
+
+NearRows::Side NearRows::sideOf(const Corner& corner, const Corner& point, bool atEnd) const {
+  const MovingPiece& piece = atEnd ? *corner.former : *corner.own;
+  const Vec2 from = point.own->begin - corner.own->begin, normal = piece.normal();
+  const double gap = dot(from, normal), along = dot(from, piece.along);
+  Side side;
+  side.piece = atEnd ? corner.own->prev() : corner.entry, side.point = point.entry;
+  side.of = &piece;
+  side.gap = gap;
+  side.gapAfter = gap + dot(point.own->moved - corner.own->moved, normal);
+  side.inside = atEnd ? -along : along;
+  side.xi = atEnd ? 1 + along / piece.length : along / piece.length;
+  side.leaning = leaningOf(point, normal);
+  side.atEnd = atEnd;
+  return side;
+}
+
+/// True if both sides of a slave are in front of a side with this normal, but for a small angle.
+bool NearRows::isInFrontOf(EntryId slave, Vec2 normal) const {
+  const MovingPiece &own = pieces_[slave], &former = pieces_[own.prev()];
+  return dot(own.along, normal) >= -sizes_.faceAngle &&
+         dot(former.along, normal) <= sizes_.faceAngle;
+}
+
+void NearRows::cornerAndSide(EntryId slave, EntryId master, double along, double gap) {
+  const MovingPiece& piece = pieces_[master];
+  const double toEnd = std::min(along, piece.length - along);
+  if (toEnd < sizes_.zone || gap < -sizes_.depth) return;
+  // Deeper than it is from the end: it came in there.
+  if (gap < -tolerance::kThrough * toEnd) return;
+  if (!isInFrontOf(slave, piece.normal()) || !cornerAt(slave).mayTouch) return;
+  (void)add(slave, master, gap, along / piece.length);
+}
+
+void NearRows::corners(EntryId first, EntryId second) {
+  const Corner a = cornerAt(first), b = cornerAt(second);
+  if (a.own->prev() == second || b.own->prev() == first) return;  // the ends of one piece
+  if ((a.isRound && b.isRound) || (!a.mayTouch && !b.mayTouch)) return;
+  if (b.turn < tolerance::kNotch && a.mayTouch) return notch(b, a);
+  if (a.turn < tolerance::kNotch && b.mayTouch) return notch(a, b);
+  separate(a, b);
+}
+
+/// Both sides hold the tip. Where the boundary is nearly straight they are one, that which is
+/// nearer at the end of the step: the tip slides over the node within the step.
+void NearRows::notch(const Corner& corner, const Corner& tip) {
+  const std::array<Side, 2> sides{sideOf(corner, tip, false), sideOf(corner, tip, true)};
+  const bool isOne = dot(sides[0].of->along, sides[1].of->along) > tolerance::kOneSide;
+  bool anyBefore = false;
+  for (const Side& side : sides) {
+    const Vec2 normal = side.of->normal();
+    // A blunt tip's sides may lean into both sides of the notch, but must face them.
+    if (std::min(dot(tip.own->normal(), normal), dot(tip.former->normal(), normal)) >
+        tolerance::kFacing)
+      continue;
+    const Side& twin = sides[side.atEnd ? 0 : 1];
+    if (isOne && (twin.gapAfter < side.gapAfter || (twin.gapAfter == side.gapAfter && side.atEnd)))
+      continue;
+    if (side.gap < -sizes_.depth || side.inside >= sizes_.zone) continue;
+    const double xi = std::clamp(side.xi, -tolerance::kFootBeyond, 1 + tolerance::kFootBeyond);
+    if (!add(side.point, side.piece, side.gap, xi)) continue;
+    rows_.back().isSecondOfNotch = anyBefore;
+    anyBefore = true;
+  }
+}
+
+/// The separating side of two wedges.
+void NearRows::separate(const Corner& a, const Corner& b) {
+  std::array<Side, 4> sides;
+  int count = 0;
+  const Side* best = nullptr;
+  bool bestIsOpen = false;
+  double bestScore = 0;
+  const auto look = [&](const Corner& corner, const Corner& point, bool atEnd) {
+    Side& side = sides[static_cast<std::size_t>(count)];
+    side = sideOf(corner, point, atEnd);
+    if (side.leaning > sizes_.faceAngle) return false;
+    // At an arc only what is beside the side is known.
+    if (point.isRound && (side.inside < 0 || side.inside > side.of->length)) return false;
+    ++count;
+    const double less = side.leaning * sizes_.leaning;
+    const bool isOpen = side.gap - less >= -tolerance::kOpen * sizes_.shortest;
+    if (isOpen && side.gapAfter - less > 2 * sizes_.slack) return true;
+    const double score = (isOpen ? side.gapAfter : side.gap) - less +
+                         tolerance::kPerBeside * std::min(0., side.inside);
+    if (best == nullptr || (isOpen && !bestIsOpen) || (isOpen == bestIsOpen && score > bestScore))
+      best = &side, bestIsOpen = isOpen, bestScore = score;
+    return false;
+  };
+  // Ends as soon as one side separates them in any case.
+  if (!b.isRound && a.mayTouch && (look(b, a, false) || look(b, a, true))) return;
+  if (!a.isRound && b.mayTouch && (look(a, b, false) || look(a, b, true))) return;
+  if (best == nullptr) return;
+  addOf(*best, -INFINITY);
+  for (int k = 0; k < count; ++k) {
+    const Side& side = sides[static_cast<std::size_t>(k)];
+    if (side.point != best->point &&
+        dot(side.of->along, best->of->along) < tolerance::kAntiparallel)
+      addOf(side, tolerance::kPartner * sizes_.shortest);
+  }
+}
+
+/// `least` (m): how far over the side the point must be.
+void NearRows::addOf(const Side& side, double least) {
+  if (side.gap < -sizes_.depth || side.inside < least) return;
+  if (side.inside >= sizes_.zone) return;  // it is over the middle of this side
+  double xi = side.xi;
+  if (std::abs(xi) < tolerance::kFootAtNode) xi = 0;
+  if (std::abs(xi - 1) < tolerance::kFootAtNode) xi = 1;
+  (void)add(side.point, side.piece, side.gap,
+            std::clamp(xi, -tolerance::kFootBeyond, 1 + tolerance::kFootBeyond));
+}
+
+/// Adds a row with a straight master, unless it stays open in this step.
+bool NearRows::add(EntryId slave, EntryId master, double gapBefore, double xi) {
+  const MovingPiece &on = pieces_[master], &to = pieces_[on.next];
+  const Vec2 normal = on.normal();
+  const Vec2 moved = pieces_[slave].moved - pieces_.movedAt(on, xi);
+  double gap = gapBefore + dot(moved, normal);
+  if (gap - std::min(0., gapBefore) > sizes_.slack) return false;
+  // Of the second order: the side turns while the slave slides along it. Only the sign that
+  // deepens: with both, impacts have overlaps of 6e-3 of a segment.
+  const double turn = dot(to.moved - on.moved, normal) / on.length, slide = dot(moved, on.along);
+  gap -= std::max(0., turn * slide);
+  rows_.push_back({slave, master, normal, xi, gapBefore, gap, slide});
+  return true;
+}
+
+void NearRows::cornerAndArc(EntryId slave, EntryId master, const PieceGeometry& before,
+                            const PieceGeometry& now, const ContactSurfaces& surfaces) {
+  const MovingPiece& point = pieces_[slave];
+  const Foot after = now.foot(master, point.begin + point.moved);
+  const bool isOver = after.xi >= -tolerance::kFootRange && after.xi <= 1 + tolerance::kFootRange;
+  if (!isOver || !(after.gap < sizes_.slack) || after.gap < -sizes_.depth - sizes_.slack) return;
+  const Foot foot = before.foot(master, point.begin);
+  if (!isInFrontOf(slave, foot.normal)) return;
+  const double xi = std::clamp(foot.xi, 0., 1.);
+  const Stencil stencil = surfaces.master(master, xi);
+  const Vec2 moved =
+      point.moved - (combine(stencil, now.positions()) - combine(stencil, before.positions()));
+  const double gap = foot.gap + dot(moved, foot.normal);
+  if (gap - std::min(0., foot.gap) > sizes_.slack) return;
+  rows_.push_back({slave, master, foot.normal, xi, foot.gap, gap,
+                   dot(moved, Vec2{-foot.normal.y, foot.normal.x})});
+}
+
+}  // namespace yadefrag

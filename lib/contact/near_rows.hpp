@@ -1,0 +1,89 @@
+#pragma once
+// From a near pair to its rows. Which side holds two corners apart follows from the shape of the
+// boundaries at xⁿ alone; nothing is remembered from one step to the next.
+//
+//        1            2            3            4            5
+//     ╲  s  ╱       ╲   ╱       ╲ s ╱         ╲ s ╱     ───── s ┐
+//      ╲   ╱         ╲ ╱     ────╲ ╱──v    ╲   ╲ ╱   ╱    v ─────┼──
+//   ────╲ ╱────       s          v ─┘       ╲   ╳   ╱     └──────┘
+//        ▔         v ──────                  ╲─ v ─╱     rows with two
+//   side, its       corner:     the side that   notch:     antiparallel
+//   middle: a row   of four     stays open      both       sides
+//   with the side   sides one   separates them  sides hold
+//                   separates
+//
+// 1. A corner over the middle of a side has a row with that side.
+// 2., 3. Two corners: of the four sides that meet there one separates the two wedges, as in the
+//    theorem of separating axes. If several do, the one that stays open, or that is violated
+//    least. The row holds the corner of the other boundary in front of it.
+// 4. A notch (a concave corner) holds a tip with both sides.
+// 5. Two sides that overlap antiparallel beyond their corners need a second row.
+//
+// Rows are speculative: a pair that is open has one, too, if it may close in this step. The gap is
+// linear in the displacements from xⁿ, where normal and foot are.
+
+#include <span>
+#include <vector>
+
+#include "contact/moving_pieces.hpp"
+#include "core/tolerances/contact.hpp"
+#include "surface/piece_geometry.hpp"
+
+namespace yadefrag {
+
+/// A row that has been detected: a corner in front of a piece.
+struct NearRow {
+  EntryId slave, master;
+  Vec2 normal;    ///< outward normal of the master, at xⁿ
+  double xi;      ///< of the foot, 0 to 1 along the piece; straight pieces are extended a little
+  double before;  ///< m, gap at xⁿ
+  double gap;     ///< m, gap at x*, linear
+  double slip;    ///< m, of the slave along the tangent in this step
+  bool isSecondOfNotch = false;  ///< the row before this one is that of the notch's other side
+};
+
+/// Lengths of detection in one step.
+struct ContactSizes {
+  ContactSizes(double shortest, double move, const tolerance::Contact& constants);
+
+  double shortest;  ///< m, shortest segment
+  double zone;      ///< m, a corner nearer than this to the end of a side belongs to that corner
+  double wide;      ///< m, pairs farther from each other than this are left out
+  double depth;     ///< m, no row holds a corner that is deeper than this: it came another way
+  double slack;     ///< m, rows that are open by more than this at x* are left out
+  double leaning;   ///< m, per sine
+  double faceAngle; ///< sine
+};
+
+/// Appends the rows of near pairs to a list.
+class NearRows {
+ public:
+  NearRows(const MovingPieces& pieces, const ContactSizes& sizes, std::vector<NearRow>& rows)
+      : pieces_(pieces), sizes_(sizes), rows_(rows) {}
+
+  /// Case 1. `along`, `gap` (m): place of the slave along a straight master and before it.
+  void cornerAndSide(EntryId slave, EntryId master, double along, double gap);
+  /// Cases 2 to 5, for the corners at which two entries begin.
+  void corners(EntryId a, EntryId b);
+  /// A corner, or a point of an arc, in front of an arc. `before`, `now`: at xⁿ and x*.
+  void cornerAndArc(EntryId slave, EntryId master, const PieceGeometry& before,
+                    const PieceGeometry& now, const ContactSurfaces& surfaces);
+
+ private:
+  struct Corner;
+  struct Side;
+  [[nodiscard]] Corner cornerAt(EntryId entry) const;
+  [[nodiscard]] bool isInFrontOf(EntryId slave, Vec2 normal) const;
+  static double leaningOf(const Corner& corner, Vec2 normal);
+  [[nodiscard]] Side sideOf(const Corner& corner, const Corner& point, bool atEnd) const;
+  void notch(const Corner& corner, const Corner& tip);
+  void separate(const Corner& a, const Corner& b);
+  void addOf(const Side& side, double least);
+  bool add(EntryId slave, EntryId master, double gap, double xi);
+
+  const MovingPieces& pieces_;
+  const ContactSizes& sizes_;
+  std::vector<NearRow>& rows_;
+};
+
+}  // namespace yadefrag

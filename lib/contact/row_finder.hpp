@@ -1,0 +1,55 @@
+#pragma once
+// Detection: from the candidates to the rows of a step, once a step.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/candidates.hpp"
+#include "contact/near_rows.hpp"
+#include "core/footprint.hpp"
+#include "core/parallel.hpp"
+
+namespace yadefrag {
+
+class RowFinder {
+ public:
+  /// Positions of a step, by node.
+  struct Positions {
+    std::span<const Vec2> before;  ///< m, xⁿ
+    std::span<const Vec2> now;     ///< m, x*
+  };
+  /// The rows of all candidates, in the order of their slaves; valid until the next call. The
+  /// result is the same for any number of threads.
+  std::vector<NearRow>& find(const Candidates& candidates, const ContactSurfaces& surfaces,
+                             const Positions& positions, const ContactSizes& sizes, int threads);
+
+  void addTo(Footprint& footprint) const {
+    pieces_.addTo(footprint);
+    footprint.add(Use::kContact, rowOf_, parts_, rows_);
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  /// What one thread needs.
+  struct Visit {
+    const Candidates& candidates;
+    const ContactSurfaces& surfaces;
+    PieceGeometry before, now;
+    const ContactSizes& sizes;
+    NearRows rows;
+    std::vector<EntryId> near;  // masters of one slave
+    std::vector<EntryId> seen;  // corners that this slave has met
+  };
+  void visit(std::size_t row, Visit& with) const;
+  void visitStraight(EntryId slave, EntryId master, Visit& with) const;
+  void meet(EntryId slave, EntryId corner, Visit& with) const;
+  [[nodiscard]] bool meets(EntryId slave, EntryId corner, const Candidates& candidates) const;
+
+  MovingPieces pieces_;
+  std::vector<std::uint32_t> rowOf_;  // by entry: its row of the candidates, or none
+  std::vector<PartList<NearRow>> parts_;
+  std::vector<NearRow> rows_;
+};
+
+}  // namespace yadefrag
