@@ -42,10 +42,9 @@ double RowSweeps::sweep(int number, double change) {
 /// From the third sweep on only rows of which a node has moved in this or in the last sweep.
 bool RowSweeps::isDue(const RowSystem::Row& row, int sweep) const {
   if (!(row.normalResponse > 0)) return false;  // no node can move
-  if (sweep < 2) return true;
-  for (std::uint32_t k = 0; k < row.count; ++k)
-    if (lastMoved_[row.node[k]] >= sweep - 1) return true;
-  return false;
+  int last = sweep < 2 ? sweep : 0;
+  forNodes(row, [&](std::uint32_t node, double) { last = std::max(last, lastMoved_[node]); });
+  return last >= sweep - 1;
 }
 
 /// Sets one row's forces so that its own gap and slip vanish, within the bounds; returns the
@@ -100,7 +99,7 @@ double RowSweeps::setForces(RowSystem::Row& row, double normal, Vec2 moved, int 
   const double most =
       std::max(std::abs(pushed) * row.normalResponse, std::abs(pulled) * row.tangentResponse);
   if (most > tolerance::kMakesDue * change)
-    for (std::uint32_t k = 0; k < row.count; ++k) lastMoved_[row.node[k]] = sweep;
+    forNodes(row, [&](std::uint32_t node, double) { lastMoved_[node] = sweep; });
   return most;
 }
 

@@ -23,6 +23,8 @@ void RowSystem::add(const ContactRow& row, const Inertia& inertia) {
     if (!row.isOfRigid(inertia.nodes, row.node[k]))
       addEnd(added, row.node[k], row.weight[k], inertia);
   if (row.rigid.mass != ContactRow::kNone) addRigid(added, row.rigid, inertia);
+  for (std::uint32_t k = added.count; k < kFew; ++k)
+    added.node[k] = added.count > 0 ? added.node[0] : 0, added.weight[k] = 0;
 }
 
 void RowSystem::addEnd(Row& row, NodeId number, double weight, const Inertia& inertia) {

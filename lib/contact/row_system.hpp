@@ -13,7 +13,7 @@
 namespace yadefrag {
 
 struct RowSystem {
-  static constexpr std::uint32_t kNone = 0xffffffff;
+  static constexpr std::uint32_t kNone = 0xffffffff, kFew = 3;
   struct Row {
     std::array<double, 5> weight;
     Vec2 normal;
@@ -25,7 +25,9 @@ struct RowSystem {
     /// m/N: change of the next row's gap per normal force of this one, and the reverse, if both
     /// are solved together; else 0.
     double cross = 0;
-    std::array<std::uint32_t, 5> node;  ///< those that the forces move: index in `nodes`
+    /// Those that the forces move: index in `nodes`. With less than three of them the first one
+    /// fills the rest, with weight 0: most rows have three, and the loops a constant length.
+    std::array<std::uint32_t, 5> node;
     std::uint32_t count = 0;
     /// Index in `turns` if the last node is a rigid body.
     std::uint32_t turn = kNone;
@@ -73,11 +75,18 @@ struct RowSystem {
   std::uint32_t numberOf(NodeId node, const Inertia& inertia);
 };
 
+/// Calls `visit(number, weight)` for a row's nodes.
+template <class Visit>
+void forNodes(const RowSystem::Row& row, Visit visit) {
+  for (std::uint32_t k = 0; k < RowSystem::kFew; ++k) visit(row.node[k], row.weight[k]);
+  for (std::uint32_t k = RowSystem::kFew; k < row.count; ++k) visit(row.node[k], row.weight[k]);
+}
+
 inline void RowSystem::push(const Row& row, Vec2 force) {
-  for (std::uint32_t k = 0; k < row.count; ++k) {
-    MovedNode& node = moved[row.node[k]];
-    node.shift += row.weight[k] * Vec2{node.perForce.x * force.x, node.perForce.y * force.y};
-  }
+  forNodes(row, [&](std::uint32_t number, double weight) {
+    MovedNode& node = moved[number];
+    node.shift += weight * Vec2{node.perForce.x * force.x, node.perForce.y * force.y};
+  });
   if (row.turn == kNone) return;
   const Turn& turn = turns[row.turn];
   turned[turn.number] += turn.perMoment * cross(turn.lever, force);
@@ -85,7 +94,9 @@ inline void RowSystem::push(const Row& row, Vec2 force) {
 
 inline Vec2 RowSystem::relativeMotion(const Row& row) const {
   Vec2 relative;
-  for (std::uint32_t k = 0; k < row.count; ++k) relative += row.weight[k] * moved[row.node[k]].shift;
+  forNodes(row, [&](std::uint32_t number, double weight) {
+    relative += weight * moved[number].shift;
+  });
   if (row.turn == kNone) return relative;
   const Turn& turn = turns[row.turn];
   return relative + turned[turn.number] * Vec2{-turn.lever.y, turn.lever.x};
