@@ -130,8 +130,9 @@ ContactRow Contact::rowOf(const NearRow& near, const ContactSurfaces& surfaces, 
   const PieceRange range = pieceRange(surfaces.piece[near.master.value]);
   row.add(surfaces.slave(near.slave), 1);
   row.add(surfaces.master(near.master, range.begin + near.xi * (range.end - range.begin)), -1);
-  row.normal = near.normal, row.gap = near.gap, row.slip = near.slip;
+  row.normal = near.normal, row.gap = near.gap;
   row.friction = frictionOf({near.slave, near.master}, surfaces);
+  if (row.friction > 0) row.slip = near.slip;
   if (!step.rigid.empty()) findRigid(row, nodes, step);
   return row;
 }
@@ -173,15 +174,26 @@ void Contact::keepRows(const Model& model, const ContactSurfaces& surfaces,
   const StageTimer timer(step.times, &StageTimes::correction);
   for (std::size_t r = 0; r < near_.size(); ++r) {
     const RowSystem::Row& solved = sweeps_.row(r);
-    now_.maxPenetration = std::max(now_.maxPenetration, -sweeps_.gapAfter(solved));
+    const double tolerated = near_[r].gap - solved.gap;
+    now_.maxPenetration = std::max(now_.maxPenetration, -(sweeps_.gapAfter(solved) + tolerated));
     if (solved.normalForce == 0 && solved.tangentForce == 0) continue;
+    balanceFriction(near_[r], solved);
     ContactRow row = rowOf(near_[r], surfaces, model.nodes, step);
-    row.toleratedGap = row.gap - solved.gap;
+    row.toleratedGap = tolerated;
     row.normalForce = solved.normalForce, row.tangentForce = solved.tangentForce;
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
     if (row.rigid.mass != ContactRow::kNone) joinRigid(row.rigid.mass, step);
     rows_.push_back(row);
   }
+}
+
+/// Friction acts at the slave, and against it at the foot: with a gap between them at xⁿ it has a
+/// moment. The normal forces have the opposite one if the foot is moved along the side. The gap
+/// changes by the second order only.
+void Contact::balanceFriction(NearRow& near, const RowSystem::Row& solved) const {
+  const MovingPiece& on = finder_.pieces()[near.master];
+  if (on.isArc != 0 || !(solved.normalForce > 0)) return;
+  near.xi -= near.before * solved.tangentForce / solved.normalForce / on.length;
 }
 
 void Contact::touch(NodeId node) {

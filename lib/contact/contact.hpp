@@ -70,7 +70,7 @@ class Contact {
   [[nodiscard]] ContactForces forces() const { return ContactForces{forces_}; }
   /// (m) Largest correction of a node in the last step.
   [[nodiscard]] double largestCorrection() const { return now_.largestCorrection; }
-  /// (m) What the sweeps of the last step have left of penetrations beyond the tolerated ones.
+  /// (m) The deepest penetration of a row that the last step has left.
   [[nodiscard]] double maxPenetration() const { return now_.maxPenetration; }
   /// Number of sweeps over the rows in the last step.
   [[nodiscard]] int sweeps() const { return now_.sweeps; }
@@ -98,6 +98,7 @@ class Contact {
   void keepRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   [[nodiscard]] ContactRow rowOf(const NearRow& near, const ContactSurfaces& surfaces,
                                  const Nodes& nodes, const ContactStep& step) const;
+  void balanceFriction(NearRow& near, const RowSystem::Row& solved) const;
   bool startRow(ContactRow& row, const NearRow& near, const ContactStep& step) const;
   void findRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step) const;
   void joinRigid(std::uint32_t mass, const ContactStep& step);

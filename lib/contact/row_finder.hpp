@@ -24,6 +24,9 @@ class RowFinder {
   std::vector<NearRow>& find(const Candidates& candidates, const ContactSurfaces& surfaces,
                              const Positions& positions, const ContactSizes& sizes, int threads);
 
+  /// Of the last call.
+  [[nodiscard]] const MovingPieces& pieces() const { return pieces_; }
+
   void addTo(Footprint& footprint) const {
     pieces_.addTo(footprint);
     footprint.add(Use::kContact, rowOf_, parts_, rows_);
