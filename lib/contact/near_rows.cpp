@@ -44,8 +44,11 @@ NearRows::Corner NearRows::cornerAt(EntryId entry) const {
   return {entry, &own, &former, turn, isRound, turn > -sizes_.faceAngle};
 }
 
-/// (sine) How far a corner's sides lean into a side with this normal; 0: not at all.
+/// (sine) How far a corner's sides lean into a side with this normal; 0: not at all. Infinite for a
+/// corner on the other side of it: its body is in front of it, but it faces the same way.
 double NearRows::leaningOf(const Corner& corner, Vec2 normal) {
+  if (dot(corner.own->normal() + corner.former->normal(), normal) > tolerance::kAway)
+    return INFINITY;
   return std::max({0., -dot(corner.own->along, normal), dot(corner.former->along, normal)});
 }
 
@@ -65,20 +68,14 @@ NearRows::Side NearRows::sideOf(const Corner& corner, const Corner& point, bool 
   return side;
 }
 
-/// True if both sides of a slave are in front of a side with this normal, but for a small angle.
-bool NearRows::isInFrontOf(EntryId slave, Vec2 normal) const {
-  const MovingPiece &own = pieces_[slave], &former = pieces_[own.prev()];
-  return dot(own.along, normal) >= -sizes_.faceAngle &&
-         dot(former.along, normal) <= sizes_.faceAngle;
-}
-
 void NearRows::cornerAndSide(EntryId slave, EntryId master, double along, double gap) {
   const MovingPiece& piece = pieces_[master];
   const double toEnd = std::min(along, piece.length - along);
   if (toEnd < sizes_.zone || gap < -sizes_.depth) return;
   // Deeper than it is from the end: it came in there.
   if (gap < -tolerance::kThrough * toEnd) return;
-  if (!isInFrontOf(slave, piece.normal()) || !cornerAt(slave).mayTouch) return;
+  const Corner corner = cornerAt(slave);
+  if (!corner.mayTouch || leaningOf(corner, piece.normal()) > sizes_.faceAngle) return;
   (void)add(slave, master, gap, along / piece.length);
 }
 
@@ -183,7 +180,7 @@ void NearRows::cornerAndArc(EntryId slave, EntryId master, const PieceGeometry& 
   const bool isOver = after.xi >= -tolerance::kFootRange && after.xi <= 1 + tolerance::kFootRange;
   if (!isOver || !(after.gap < sizes_.slack) || after.gap < -sizes_.depth - sizes_.slack) return;
   const Foot foot = before.foot(master, point.begin);
-  if (!isInFrontOf(slave, foot.normal)) return;
+  if (leaningOf(cornerAt(slave), foot.normal) > sizes_.faceAngle) return;
   const double xi = std::clamp(foot.xi, 0., 1.);
   const Stencil stencil = surfaces.master(master, xi);
   const Vec2 moved =

@@ -73,7 +73,6 @@ class NearRows {
   struct Corner;
   struct Side;
   [[nodiscard]] Corner cornerAt(EntryId entry) const;
-  [[nodiscard]] bool isInFrontOf(EntryId slave, Vec2 normal) const;
   static double leaningOf(const Corner& corner, Vec2 normal);
   [[nodiscard]] Side sideOf(const Corner& corner, const Corner& point, bool atEnd) const;
   void notch(const Corner& corner, const Corner& tip);

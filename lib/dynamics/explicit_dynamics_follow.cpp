@@ -40,7 +40,8 @@ void ExplicitDynamics::rebuild(const Model& model) {
   heldVelocity_.clear();
   heldNodes_.clear();
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
-    if (model.nodes.held[n] != kFree) heldNodes_.emplace_back(n);
+    // Those of removed fragments have no mass.
+    if (model.nodes.held[n] != kFree && model.nodes.mass[n] > 0) heldNodes_.emplace_back(n);
   if (!heldNodes_.empty()) heldVelocity_ = model.nodes.velocity;
   scratch_.clear();
 }

@@ -76,6 +76,11 @@ inline constexpr double kOneSide = .9995;
 /// sides and of that side is smaller.
 inline constexpr double kFacing = -.1;
 
+/// (ratio) A corner is on the other side of a side, as that of a line, if the sum of the unit normals
+/// of its own sides points along that side's normal by more than this. At the tip of a splinter the
+/// sum is nearly 0.
+inline constexpr double kAway = .5;
+
 /// (ξ) A foot this far beyond a piece's end is still on an arc: rounding must not leave a gap
 /// between two adjacent pieces.
 inline constexpr double kFootRange = 1e-9;
