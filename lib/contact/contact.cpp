@@ -102,7 +102,7 @@ void Contact::detect(const Model& model, const ContactSurfaces& surfaces,
   makeRows(model, surfaces, step);
 }
 
-/// Of the rows that were detected, those that need a force or had one become part of the system.
+/// Those of the rows that were detected become the system, with their forces of the last step.
 void Contact::makeRows(const Model& model, const ContactSurfaces& surfaces,
                        const ContactStep& step) {
   indexTouches(surfaces.entries());
@@ -112,14 +112,38 @@ void Contact::makeRows(const Model& model, const ContactSurfaces& surfaces,
   bool hasFirst = false;  // the row before is in the system
   for (const NearRow& near : near_) {
     ContactRow row = rowOf(near, surfaces, model.nodes, step);
+    const Touch* const former = touchOf({row.slave, row.master});
+    const bool isHeld = isHeldByCohesion(row, step.coupled);
     const bool isPair = near.isSecondOfNotch && hasFirst;
-    hasFirst = startRow(row, near, step);
+    // Cohesion keeps corners of one split node together. Their rows would be as many as its
+    // cracks, and coupled with all of them (Ring.OnTheMeshOfAPolygon).
+    hasFirst = !isHeld || former != nullptr || near.gap < -tolerance::kHeldDepth * step.shortest;
     if (!hasFirst) continue;
-    sweeps_.add(row, inertia);
+    if (former != nullptr)
+      row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;
+    RowSystem::Row& added = sweeps_.add(row, inertia);
+    if (!isHeld)
+      added.gap -= toleratedGap(added, near.before, step);
+    else  // not reduced; but for the stored value the depth would drift
+      added.gap -= std::max(std::min(0., near.before), former ? former->toleratedGap : -INFINITY);
     if (isPair) sweeps_.linkLast();
     near_[kept++] = near;
   }
   near_.resize(kept);
+}
+
+/// (m) A part of the overlap at xⁿ (`before`: m, the gap) is left to later steps. What is removed
+/// becomes a velocity, which should be small beside that of the fastest node, or beside that by
+/// which the row's own force changes in a step.
+double Contact::toleratedGap(const RowSystem::Row& row, double before, const ContactStep& step) {
+  const double deep = -std::min(0., before);
+  // What the sweeps leave at rest goes slowly: pushed out at once, blocks would creep on a slope.
+  const bool isShallow = deep < tolerance::kShallow * step.shortest;
+  const double decay = isShallow ? std::min(step.constants.overlapDecay, tolerance::kShallowDecay)
+                                 : step.constants.overlapDecay;
+  const double most =
+      std::max(step.move, tolerance::kOwnPart * row.normalForce * row.normalResponse);
+  return std::min(0., decay * std::min(deep, most) - deep);
 }
 
 /// Without forces.
@@ -135,28 +159,6 @@ ContactRow Contact::rowOf(const NearRow& near, const ContactSurfaces& surfaces, 
   if (row.friction > 0) row.slip = near.slip;
   if (!step.rigid.empty()) findRigid(row, nodes, step);
   return row;
-}
-
-/// Sets the tolerated overlap, and the forces of the last step. False: the row is not needed.
-bool Contact::startRow(ContactRow& row, const NearRow& near, const ContactStep& step) const {
-  const Touch* const former = touchOf({row.slave, row.master});
-  const bool isHeld = isHeldByCohesion(row, step.coupled);
-  // Cohesion keeps corners of one split node together. Their rows would be as many as its cracks,
-  // and coupled with all of them (Ring.OnTheMeshOfAPolygon).
-  if (isHeld && former == nullptr && near.gap >= -tolerance::kHeldDepth * step.shortest)
-    return false;
-  const double held = std::min(0., near.before);
-  // What the sweeps leave at rest goes slowly: pushed out at once, blocks would creep on a slope.
-  const bool isShallow = -held < tolerance::kShallow * step.shortest;
-  const double decay = isHeld ? 0
-                              : std::min(step.constants.overlapDecay,
-                                         isShallow ? tolerance::kShallowDecay : INFINITY);
-  row.toleratedGap = std::min(0., held + decay * std::min(-held, step.move));
-  if (former == nullptr) return true;
-  // Else the depth of a pair that cohesion holds would drift.
-  if (isHeld) row.toleratedGap = std::max(row.toleratedGap, former->toleratedGap);
-  row.normalForce = former->normalForce, row.tangentForce = former->tangentForce;
-  return true;
 }
 
 void Contact::solve(Model& model, const ContactStep& step) {

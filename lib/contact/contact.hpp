@@ -99,7 +99,8 @@ class Contact {
   [[nodiscard]] ContactRow rowOf(const NearRow& near, const ContactSurfaces& surfaces,
                                  const Nodes& nodes, const ContactStep& step) const;
   void balanceFriction(NearRow& near, const RowSystem::Row& solved) const;
-  bool startRow(ContactRow& row, const NearRow& near, const ContactStep& step) const;
+  [[nodiscard]] static double toleratedGap(const RowSystem::Row& row, double before,
+                                           const ContactStep& step);
   void findRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step) const;
   void joinRigid(std::uint32_t mass, const ContactStep& step);
   [[nodiscard]] bool isOfRigid(NodeId node, const ContactStep& step) const;

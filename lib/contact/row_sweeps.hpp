@@ -31,7 +31,9 @@ class RowSweeps {
   /// Must be called before the first row of a step.
   void clear() { system_.clear(); }
   /// A row with its forces of the last step.
-  void add(const ContactRow& row, const Inertia& inertia) { system_.add(row, inertia); }
+  RowSystem::Row& add(const ContactRow& row, const Inertia& inertia) {
+    return system_.add(row, inertia);
+  }
   /// The last two rows are those of one corner with both sides of a notch: solved together, since
   /// from row to row their forces converge slowly where the notch is shallow.
   void linkLast() { system_.linkLast(); }

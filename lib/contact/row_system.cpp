@@ -12,7 +12,7 @@ void RowSystem::clear() {
   turned.clear();
 }
 
-void RowSystem::add(const ContactRow& row, const Inertia& inertia) {
+RowSystem::Row& RowSystem::add(const ContactRow& row, const Inertia& inertia) {
   if (numbers.size() < inertia.size()) numbers.resize(inertia.size());
   Row& added = rows.emplace_back();
   added.normal = row.normal;
@@ -25,6 +25,7 @@ void RowSystem::add(const ContactRow& row, const Inertia& inertia) {
   if (row.rigid.mass != ContactRow::kNone) addRigid(added, row.rigid, inertia);
   for (std::uint32_t k = added.count; k < kFew; ++k)
     added.node[k] = added.count > 0 ? added.node[0] : 0, added.weight[k] = 0;
+  return added;
 }
 
 void RowSystem::addEnd(Row& row, NodeId number, double weight, const Inertia& inertia) {

@@ -48,7 +48,7 @@ struct RowSystem {
   };
 
   void clear();
-  void add(const ContactRow& row, const Inertia& inertia);
+  Row& add(const ContactRow& row, const Inertia& inertia);
   /// The last two rows are solved together.
   void linkLast();
   /// Computes the displacements by the forces of all rows.

@@ -99,6 +99,11 @@ inline constexpr double kFootAtNode = 1e-7;
 /// Blocks creep on a slope otherwise.
 inline constexpr double kShallow = 1e-5, kShallowDecay = .1;
 
+/// (ratio) An overlap is reduced by no more than the largest displacement, or than this part of what
+/// the row's force of the last step moves the row by: at rest nothing else moves, and what the
+/// sweeps had left would remain as an uneven pressure.
+inline constexpr double kOwnPart = .01;
+
 /// (of the shortest segment) A new contact of pieces that cohesion holds together begins only if it
 /// is deeper than this. With 1e-5 a ring of two rows takes 2.6 times the time.
 inline constexpr double kHeldDepth = 5e-5;

@@ -66,7 +66,7 @@ inline constexpr double kRounding = 0x1p-53;
 
 /// (of the shortest segment) A message is given if the penetration at the end of a step exceeds
 /// this, or half a halo if that is less: beyond the halo, smooth surfaces have no contact.
-inline constexpr double kDeep = .1;
+inline constexpr double kDeep = .04;
 
 /// (steps) Interval between two checks of the triangles themselves, with one pass: each takes 0.4
 /// of a step of 36 blocks. An interval of 128 missed the overlaps above kDeep of two impacts in
