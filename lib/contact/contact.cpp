@@ -163,9 +163,9 @@ ContactRow Contact::rowOf(const NearRow& near, const ContactSurfaces& surfaces, 
 
 void Contact::solve(Model& model, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
-  const RowSweeps::Stop stop{
-      std::max(step.constants.stop * step.move, tolerance::kLeastChange * step.shortest),
-      step.constants.rowSweeps};
+  const double least = tolerance::kLeastChange * step.shortest;
+  const RowSweeps::Stop stop{std::max(step.constants.stop * step.move, least),
+                             step.constants.rowSweeps, least};
   (void)sweeps_.solve(stop, step.coupled, &model.nodes.position);
   now_.sweeps = sweeps_.sweeps();
 }

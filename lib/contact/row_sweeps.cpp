@@ -18,6 +18,8 @@ double RowSweeps::solve(Stop stop, CoupledForces* coupled, std::vector<Vec2>* po
     const bool isFar = change > tolerance::kFarFromSolved * stop.change;
     if (count_ >= (isFar ? most : stop.most)) break;
     change = sweep(count_, stop.change);
+    if (count_ == 0)
+      stop.change = std::clamp(tolerance::kOfFirst * change, stop.least, stop.change);
     if (isCoupled && (count_ % tolerance::kSweepsToCouple == 0 || !(change > stop.change)))
       change = std::max(change, sweepCoupled(*coupled, *position, stop.change, count_, false));
     ++count_;

@@ -22,11 +22,13 @@ namespace yadefrag {
 
 class RowSweeps {
  public:
-  /// Sweeps end when none changes a gap or a slip by more than `change` (m), or after `most`
-  /// sweeps; later, up to kMostSweeps, while the forces are far from a solution.
+  /// Sweeps end when none changes a gap or a slip by more than `change` (m) and kOfFirst of what
+  /// the first one changes, or by more than `least` (m), or after `most` sweeps; later, up to
+  /// kMostSweeps, while the forces are far from a solution.
   struct Stop {
     double change;
     int most;
+    double least = 0;
   };
   /// Must be called before the first row of a step.
   void clear() { system_.clear(); }

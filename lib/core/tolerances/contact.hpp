@@ -96,8 +96,9 @@ inline constexpr double kFootAtNode = 1e-7;
 // --- What a row holds.
 
 /// (of the shortest segment; ratio) An overlap below the first is reduced by the second in a step.
-/// Blocks creep on a slope otherwise.
-inline constexpr double kShallow = 1e-5, kShallowDecay = .1;
+/// Blocks creep on a slope otherwise, and two faces that rest on each other never come to rest: with
+/// .1 a patch has a stress error of .0075, with .03 of 6e-4.
+inline constexpr double kShallow = 1e-5, kShallowDecay = .03;
 
 /// (ratio) An overlap is reduced by no more than the largest displacement, or than this part of what
 /// the row's force of the last step moves the row by: at rest nothing else moves, and what the
