@@ -94,9 +94,10 @@ void Contact::takeBack() {
 void Contact::detect(const Model& model, const ContactSurfaces& surfaces,
                      const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
-  const ContactSizes sizes(step.shortest, step.move, step.constants);
-  near_.swap(finder_.find(candidates, surfaces, {step.before, model.nodes.position}, sizes,
-                          step.threads));
+  const RowFinder::Positions positions{step.before, model.nodes.position};
+  move_ = std::min(step.move, finder_.measure(surfaces, positions, step.threads));
+  const ContactSizes sizes(step.shortest, move_, step.constants);
+  near_.swap(finder_.find(candidates, surfaces, positions, sizes, step.threads));
   if (near_.empty()) return;
   makeRoom(model.nodes.size());
   makeRows(model, surfaces, step);
@@ -135,14 +136,15 @@ void Contact::makeRows(const Model& model, const ContactSurfaces& surfaces,
 /// (m) A part of the overlap at xⁿ (`before`: m, the gap) is left to later steps. What is removed
 /// becomes a velocity, which should be small beside that of the fastest node, or beside that by
 /// which the row's own force changes in a step.
-double Contact::toleratedGap(const RowSystem::Row& row, double before, const ContactStep& step) {
+double Contact::toleratedGap(const RowSystem::Row& row, double before,
+                             const ContactStep& step) const {
   const double deep = -std::min(0., before);
   // What the sweeps leave at rest goes slowly: pushed out at once, blocks would creep on a slope.
   const bool isShallow = deep < tolerance::kShallow * step.shortest;
   const double decay = isShallow ? std::min(step.constants.overlapDecay, tolerance::kShallowDecay)
                                  : step.constants.overlapDecay;
   const double most =
-      std::max(step.move, tolerance::kOwnPart * row.normalForce * row.normalResponse);
+      std::max(move_, tolerance::kOwnPart * row.normalForce * row.normalResponse);
   return std::min(0., decay * std::min(deep, most) - deep);
 }
 
@@ -164,7 +166,7 @@ ContactRow Contact::rowOf(const NearRow& near, const ContactSurfaces& surfaces, 
 void Contact::solve(Model& model, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
   const double least = tolerance::kLeastChange * step.shortest;
-  const RowSweeps::Stop stop{std::max(step.constants.stop * step.move, least),
+  const RowSweeps::Stop stop{std::max(step.constants.stop * move_, least),
                              step.constants.rowSweeps, least};
   (void)sweeps_.solve(stop, step.coupled, &model.nodes.position);
   now_.sweeps = sweeps_.sweeps();
@@ -174,12 +176,13 @@ void Contact::solve(Model& model, const ContactStep& step) {
 void Contact::keepRows(const Model& model, const ContactSurfaces& surfaces,
                        const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
+  const PieceGeometry before(surfaces, step.before);
   for (std::size_t r = 0; r < near_.size(); ++r) {
     const RowSystem::Row& solved = sweeps_.row(r);
     const double tolerated = near_[r].gap - solved.gap;
     now_.maxPenetration = std::max(now_.maxPenetration, -(sweeps_.gapAfter(solved) + tolerated));
     if (solved.normalForce == 0 && solved.tangentForce == 0) continue;
-    balanceFriction(near_[r], solved);
+    balanceFriction(near_[r], solved, before);
     ContactRow row = rowOf(near_[r], surfaces, model.nodes, step);
     row.toleratedGap = tolerated;
     row.normalForce = solved.normalForce, row.tangentForce = solved.tangentForce;
@@ -192,10 +195,13 @@ void Contact::keepRows(const Model& model, const ContactSurfaces& surfaces,
 /// Friction acts at the slave, and against it at the foot: with a gap between them at xⁿ it has a
 /// moment. The normal forces have the opposite one if the foot is moved along the side. The gap
 /// changes by the second order only.
-void Contact::balanceFriction(NearRow& near, const RowSystem::Row& solved) const {
-  const MovingPiece& on = finder_.pieces()[near.master];
-  if (on.isArc != 0 || !(solved.normalForce > 0)) return;
-  near.xi -= near.before * solved.tangentForce / solved.normalForce / on.length;
+void Contact::balanceFriction(NearRow& near, const RowSystem::Row& solved,
+                              const PieceGeometry& before) {
+  if (solved.tangentForce == 0 || !(solved.normalForce > 0)) return;
+  const PieceRange range = before.range(near.master);
+  const double size = range.end - range.begin;
+  const Vec2 tangent = size * before.tangent(near.master, range.begin + size * near.xi);
+  near.xi -= near.before * solved.tangentForce / solved.normalForce / norm(tangent);
 }
 
 void Contact::touch(NodeId node) {

@@ -26,7 +26,7 @@ namespace yadefrag {
 struct ContactStep {
   StepLength length;
   double drag;                   ///< αΔt/2
-  double move;                   ///< m, largest displacement of a surface node
+  double move;                   ///< m, upper bound of the displacements of surface nodes
   double shortest;               ///< m, shortest segment
   std::span<const Vec2> before;  ///< m, xⁿ; of surface nodes only
   int threads;
@@ -98,9 +98,9 @@ class Contact {
   void keepRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   [[nodiscard]] ContactRow rowOf(const NearRow& near, const ContactSurfaces& surfaces,
                                  const Nodes& nodes, const ContactStep& step) const;
-  void balanceFriction(NearRow& near, const RowSystem::Row& solved) const;
-  [[nodiscard]] static double toleratedGap(const RowSystem::Row& row, double before,
-                                           const ContactStep& step);
+  static void balanceFriction(NearRow& near, const RowSystem::Row& solved, const PieceGeometry& before);
+  [[nodiscard]] double toleratedGap(const RowSystem::Row& row, double before,
+                                    const ContactStep& step) const;
   void findRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step) const;
   void joinRigid(std::uint32_t mass, const ContactStep& step);
   [[nodiscard]] bool isOfRigid(NodeId node, const ContactStep& step) const;
@@ -115,6 +115,7 @@ class Contact {
   void sumForces();
   void finish(Model& model, const ContactStep& step);
 
+  double move_ = 0;  // m, largest displacement of a surface in this step, relative to the mean
   RowFinder finder_;
   RowSweeps sweeps_;
   std::vector<NearRow> near_;   // those of `sweeps_`

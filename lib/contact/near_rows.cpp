@@ -8,7 +8,9 @@ namespace yadefrag {
 
 ContactSizes::ContactSizes(double shortestSide, double move, const tolerance::Contact& constants)
     : shortest(shortestSide),
-      zone(std::max(tolerance::kZone * shortestSide, tolerance::kZoneMoves * move)),
+      zone(shortestSide *
+           std::clamp(tolerance::kZoneMoves * move / shortestSide, tolerance::kZone,
+                      tolerance::kWidestZone)),
       wide(tolerance::kWide * zone),
       depth(zone),
       slack(constants.slack * move + tolerance::kTouching * shortestSide),

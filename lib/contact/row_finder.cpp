@@ -8,7 +8,6 @@ namespace yadefrag {
 std::vector<NearRow>& RowFinder::find(const Candidates& candidates, const ContactSurfaces& surfaces,
                                       const Positions& positions, const ContactSizes& sizes,
                                       int threads) {
-  pieces_.update(surfaces, positions.before, positions.now, threads);
   rowOf_.assign(surfaces.entries(), kNone);
   const std::size_t count = candidates.slaves.size();
   for (std::size_t r = 0; r < count; ++r)

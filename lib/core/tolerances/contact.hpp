@@ -45,6 +45,9 @@ struct Contact {
 /// end of a side belongs to the corner there. With .02 and .1 of the segment overlaps are the same.
 inline constexpr double kZone = .05, kZoneMoves = 2.5;
 
+/// (of the shortest segment) Maximum of the zone. A pair may approach by half a segment in a step.
+inline constexpr double kWidestZone = .4;
+
 /// (of the zone; of its square) Pairs farther from each other than the first cannot touch in the
 /// step. Corners are met within a circle that is smaller by rounding.
 inline constexpr double kWide = 1.5, kInCircle = 1 - 1e-9;
