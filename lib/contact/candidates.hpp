@@ -18,9 +18,7 @@ struct Candidates {
 
   [[nodiscard]] std::size_t size() const { return masters.size(); }
   void clear();
-  void addTo(Footprint& footprint) const {
-    footprint.add(Use::kSearch, slaves, offsets, masters);
-  }
+  void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, slaves, offsets, masters); }
 };
 
 /// A slave and a master in whose halo it is.

@@ -91,8 +91,7 @@ void Contact::takeBack() {
   sumForces();
 }
 
-void Contact::detect(const Model& model, const ContactSurfaces& surfaces,
-                     const ContactStep& step) {
+void Contact::detect(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
   const RowFinder::Positions positions{step.before, model.nodes.position};
   move_ = std::min(step.move, finder_.measure(surfaces, positions, step.threads));
@@ -143,8 +142,7 @@ double Contact::toleratedGap(const RowSystem::Row& row, double before,
   const bool isShallow = deep < tolerance::kShallow * step.shortest;
   const double decay = isShallow ? std::min(step.constants.overlapDecay, tolerance::kShallowDecay)
                                  : step.constants.overlapDecay;
-  const double most =
-      std::max(move_, tolerance::kOwnPart * row.normalForce * row.normalResponse);
+  const double most = std::max(move_, tolerance::kOwnPart * row.normalForce * row.normalResponse);
   return std::min(0., decay * std::min(deep, most) - deep);
 }
 
@@ -166,8 +164,8 @@ ContactRow Contact::rowOf(const NearRow& near, const ContactSurfaces& surfaces, 
 void Contact::solve(Model& model, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
   const double least = tolerance::kLeastChange * step.shortest;
-  const RowSweeps::Stop stop{std::max(step.constants.stop * move_, least),
-                             step.constants.rowSweeps, least};
+  const RowSweeps::Stop stop{std::max(step.constants.stop * move_, least), step.constants.rowSweeps,
+                             least};
   (void)sweeps_.solve(stop, step.coupled, &model.nodes.position);
   now_.sweeps = sweeps_.sweeps();
 }

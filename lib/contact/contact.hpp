@@ -98,7 +98,8 @@ class Contact {
   void keepRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   [[nodiscard]] ContactRow rowOf(const NearRow& near, const ContactSurfaces& surfaces,
                                  const Nodes& nodes, const ContactStep& step) const;
-  static void balanceFriction(NearRow& near, const RowSystem::Row& solved, const PieceGeometry& before);
+  static void balanceFriction(NearRow& near, const RowSystem::Row& solved,
+                              const PieceGeometry& before);
   [[nodiscard]] double toleratedGap(const RowSystem::Row& row, double before,
                                     const ContactStep& step) const;
   void findRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step) const;
@@ -118,8 +119,8 @@ class Contact {
   double move_ = 0;  // m, largest displacement of a surface in this step, relative to the mean
   RowFinder finder_;
   RowSweeps sweeps_;
-  std::vector<NearRow> near_;   // those of `sweeps_`
-  PairsOfSlaves pairs_;         // of `touches`, at the begin of the step
+  std::vector<NearRow> near_;     // those of `sweeps_`
+  PairsOfSlaves pairs_;           // of `touches`, at the begin of the step
   std::vector<double> friction_;  // by component
   std::vector<ContactRow> rows_;
   Figures now_;

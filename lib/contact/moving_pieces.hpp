@@ -16,10 +16,10 @@ namespace yadefrag {
 /// A piece, by the chord from its begin to that of the next one: one line of the cache, since
 /// detection is limited by memory.
 struct alignas(64) MovingPiece {
-  Vec2 begin;      ///< m, at xⁿ
-  Vec2 moved;      ///< m, displacement of the begin to x*
-  Vec2 along;      ///< unit tangent of the chord at xⁿ
-  double length;   ///< m, of the chord at xⁿ
+  Vec2 begin;     ///< m, at xⁿ
+  Vec2 moved;     ///< m, displacement of the begin to x*
+  Vec2 along;     ///< unit tangent of the chord at xⁿ
+  double length;  ///< m, of the chord at xⁿ
   EntryId next;
   std::uint32_t former : 31;  ///< the entry before it
   std::uint32_t isArc : 1;

@@ -8,9 +8,8 @@ namespace yadefrag {
 
 ContactSizes::ContactSizes(double shortestSide, double move, const tolerance::Contact& constants)
     : shortest(shortestSide),
-      zone(shortestSide *
-           std::clamp(tolerance::kZoneMoves * move / shortestSide, tolerance::kZone,
-                      tolerance::kWidestZone)),
+      zone(shortestSide * std::clamp(tolerance::kZoneMoves * move / shortestSide, tolerance::kZone,
+                                     tolerance::kWidestZone)),
       wide(tolerance::kWide * zone),
       depth(zone),
       slack(constants.slack * move + tolerance::kTouching * shortestSide),
@@ -35,8 +34,8 @@ struct NearRows::Side {
   double gapAfter;  // m, the same at x*, for the corner's displacement
   double inside;    // m, from the corner to the point's foot; negative: beside the side
   double xi;
-  double leaning;   // sine, how far the point's own sides lean into this side
-  bool atEnd;       // the corner is the side's end
+  double leaning;  // sine, how far the point's own sides lean into this side
+  bool atEnd;      // the corner is the side's end
 };
 
 NearRows::Corner NearRows::cornerAt(EntryId entry) const {

@@ -46,13 +46,13 @@ struct NearRow {
 struct ContactSizes {
   ContactSizes(double shortest, double move, const tolerance::Contact& constants);
 
-  double shortest;  ///< m, shortest segment
-  double zone;      ///< m, a corner nearer than this to the end of a side belongs to that corner
-  double wide;      ///< m, pairs farther from each other than this are left out
-  double depth;     ///< m, no row holds a corner that is deeper than this: it came another way
-  double slack;     ///< m, rows that are open by more than this at x* are left out
-  double leaning;   ///< m, per sine
-  double faceAngle; ///< sine
+  double shortest;   ///< m, shortest segment
+  double zone;       ///< m, a corner nearer than this to the end of a side belongs to that corner
+  double wide;       ///< m, pairs farther from each other than this are left out
+  double depth;      ///< m, no row holds a corner that is deeper than this: it came another way
+  double slack;      ///< m, rows that are open by more than this at x* are left out
+  double leaning;    ///< m, per sine
+  double faceAngle;  ///< sine
 };
 
 /// Appends the rows of near pairs to a list.

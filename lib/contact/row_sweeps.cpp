@@ -35,8 +35,8 @@ double RowSweeps::sweep(int number, double change) {
   for (std::size_t i = 0; i < count; ++i) {
     RowSystem::Row& row = system_.rows[number % 2 == 0 ? i : count - 1 - i];
     if (!isDue(row, number)) continue;
-    most = std::max(most, row.cross != 0 ? relaxNotch(row, number, change)
-                                         : relax(row, number, change));
+    most = std::max(most,
+                    row.cross != 0 ? relaxNotch(row, number, change) : relax(row, number, change));
   }
   return most;
 }

@@ -46,9 +46,7 @@ class RowSweeps {
   [[nodiscard]] std::size_t size() const { return system_.rows.size(); }
   /// Number of sweeps of the last solution.
   [[nodiscard]] int sweeps() const { return count_; }
-  [[nodiscard]] const RowSystem::Row& row(std::size_t number) const {
-    return system_.rows[number];
-  }
+  [[nodiscard]] const RowSystem::Row& row(std::size_t number) const { return system_.rows[number]; }
   /// (m) A row's gap with all forces, above the tolerated one.
   [[nodiscard]] double gapAfter(const RowSystem::Row& row) const {
     return row.gap + dot(system_.relativeMotion(row), row.normal);

@@ -80,8 +80,7 @@ void RowSystem::linkLast() {
   if (first.turn != kNone && second.turn != kNone) {
     const Turn &a = turns[first.turn], &b = turns[second.turn];
     if (a.number == b.number)
-      sum += a.perMoment * cross(a.lever, first.normal) *
-             cross(b.lever, second.normal);
+      sum += a.perMoment * cross(a.lever, first.normal) * cross(b.lever, second.normal);
   }
   first.cross = sum;
 }

@@ -94,9 +94,8 @@ inline void RowSystem::push(const Row& row, Vec2 force) {
 
 inline Vec2 RowSystem::relativeMotion(const Row& row) const {
   Vec2 relative;
-  forNodes(row, [&](std::uint32_t number, double weight) {
-    relative += weight * moved[number].shift;
-  });
+  forNodes(row,
+           [&](std::uint32_t number, double weight) { relative += weight * moved[number].shift; });
   if (row.turn == kNone) return relative;
   const Turn& turn = turns[row.turn];
   return relative + turned[turn.number] * Vec2{-turn.lever.y, turn.lever.x};

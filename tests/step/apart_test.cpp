@@ -109,7 +109,8 @@ TEST(ApartBodies, ThrownInOneStep) {
   for (int i = 0; i < 3; ++i) {
     for (Vec2& velocity : world.model.nodes.velocity) velocity = .02 * velocity;
     world.step(dt);
-    EXPECT_LE(deepestNode(world), 1e-6);
+    // What sweeps leave: Contact::stop of a displacement of a segment.
+    EXPECT_LE(deepestNode(world), 1e-3);
   }
 }
 

@@ -20,7 +20,7 @@ TEST(EnergyWatch, ReportsDepth) {
     step.depth = depth;
     return watch.depthMessage(step);
   };
-  EXPECT_EQ(deep(.09), "");
+  EXPECT_EQ(deep(.03), "");
   EXPECT_EQ(deep(.2),
             "Step 7, time 0.5 s: bodies overlap by 0.2 m, 0.2 of the shortest segment; "
             "take a shorter step, which helps in about half of such scenes.");
@@ -35,7 +35,7 @@ TEST(EnergyWatch, ReportsOverlapsThatOnePassDoesNotDetect) {
   EnergyWatch watch;
   const EnergyLedger ledger;
   const WatchedStep step = stepOf(ledger);
-  EXPECT_EQ(watch.overlapMessage(step, .09), "");
+  EXPECT_EQ(watch.overlapMessage(step, .03), "");
   EXPECT_EQ(watch.overlapMessage(step, .2),
             "Step 7, time 0.5 s: bodies overlap by 0.2 m, 0.2 of the shortest segment, at points "
             "that are not checked: with passes=1 only those of the finer boundary are; take "

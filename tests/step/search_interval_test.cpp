@@ -232,7 +232,7 @@ TEST(SearchInterval, EmergencySearch) {
   world.step(dt);
   EXPECT_EQ(world.numSearches(), 2U);
   EXPECT_FALSE(world.contact.rows().empty());
-  EXPECT_LE(deepestNode(world), 1e-6);
+  EXPECT_LE(deepestNode(world), 5e-4);  // what sweeps leave of a displacement of .05 m
   EXPECT_GE(world.search.halo, 2 * .05) << "as wide as the motion demands";
 }
 
