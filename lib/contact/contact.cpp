@@ -151,9 +151,21 @@ ContactRow Contact::rowOf(const NearRow& near, const ContactSurfaces& surfaces, 
                           const ContactStep& step) const {
   ContactRow row;
   row.slave = near.slave, row.master = near.master;
-  const PieceRange range = pieceRange(surfaces.piece[near.master.value]);
-  row.add(surfaces.slave(near.slave), 1);
-  row.add(surfaces.master(near.master, range.begin + near.xi * (range.end - range.begin)), -1);
+  if (!surfaces.anySmooth()) {
+    // Without the generality of stencils: most rows are of this kind.
+    const auto add = [&](EntryId entry, double weight) {
+      if (weight == 0) return;
+      const auto at = static_cast<std::size_t>(row.count++);
+      row.node[at] = surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
+      row.weight[at] = weight;
+    };
+    add(near.slave, 1);
+    add(near.master, near.xi - 1), add(surfaces.next[near.master.value], -near.xi);
+  } else {
+    const PieceRange range = pieceRange(surfaces.piece[near.master.value]);
+    row.add(surfaces.slave(near.slave), 1);
+    row.add(surfaces.master(near.master, range.begin + near.xi * (range.end - range.begin)), -1);
+  }
   row.normal = near.normal, row.gap = near.gap;
   row.friction = frictionOf({near.slave, near.master}, surfaces);
   if (row.friction > 0) row.slip = near.slip;
@@ -177,9 +189,12 @@ void Contact::keepRows(const Model& model, const ContactSurfaces& surfaces,
   const PieceGeometry before(surfaces, step.before);
   for (std::size_t r = 0; r < near_.size(); ++r) {
     const RowSystem::Row& solved = sweeps_.row(r);
+    const bool hasForce = solved.normalForce != 0 || solved.tangentForce != 0;
+    // Without a force a row is open, unless no node of it can move.
+    if (!hasForce && solved.normalResponse > 0) continue;
     const double tolerated = near_[r].gap - solved.gap;
     now_.maxPenetration = std::max(now_.maxPenetration, -(sweeps_.gapAfter(solved) + tolerated));
-    if (solved.normalForce == 0 && solved.tangentForce == 0) continue;
+    if (!hasForce) continue;
     balanceFriction(near_[r], solved, before);
     ContactRow row = rowOf(near_[r], surfaces, model.nodes, step);
     row.toleratedGap = tolerated;
