@@ -139,13 +139,17 @@ void NearRows::separate(const Corner& a, const Corner& b) {
   if (!b.isRound && a.mayTouch && (look(b, a, false) || look(b, a, true))) return;
   if (!a.isRound && b.mayTouch && (look(a, b, false) || look(a, b, true))) return;
   if (best == nullptr) return;
+  const std::size_t former = rows_.size();
   addOf(*best, -INFINITY);
+  const std::size_t first = rows_.size();
   for (int k = 0; k < count; ++k) {
     const Side& side = sides[static_cast<std::size_t>(k)];
     if (side.point != best->point &&
         dot(side.of->along, best->of->along) < tolerance::kAntiparallel)
       addOf(side, tolerance::kPartner * sizes_.shortest);
   }
+  // Both rows move nearly the same nodes: from row to row their forces would not converge.
+  if (first > former && rows_.size() > first) rows_[first].isSecondOfNotch = true;
 }
 
 /// `least` (m): how far over the side the point must be.
