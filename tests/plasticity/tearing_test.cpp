@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "core/threads_for_few.hpp"
 #include "fracture/overlaps.hpp"
 #include "plasticity/yielding_bodies.hpp"
 
@@ -126,16 +125,6 @@ TEST(Tearing, EdgesOpenAtTheStressThatActs) {
     }
   }
   EXPECT_GE(known, 5);
-}
-
-TEST(Tearing, ThreadsDoNotChangeTheBits) {
-  const ThreadsForFew few;
-  Bar one(0), three(0);
-  three.world.threads = 3;
-  one.run(60e-6), three.run(60e-6);
-  EXPECT_GT(one.world.fracture.numCracks(), 10);
-  EXPECT_EQ(one.world.model.nodes.position, three.world.model.nodes.position);
-  EXPECT_EQ(one.damage(), three.damage());
 }
 
 /// In plane stress no volume strains are averaged: smoothed elements are linear ones, also where

@@ -199,19 +199,6 @@ def test_principalStressesAndEnlargedDisplacementsAreDrawn():
         yadefrag.plotMesh(solver, scale=-1)
 
 
-def test_startOfCracksIsSaved(folder):
-    solver = strip(0.)
-    while not solver.numCracks:
-        O.step()
-    steps(5)
-    wanted = yadefrag.crackTable(solver)
-    for ending in ('.yade', '.xml'):
-        O.save(folder + '/scene' + ending)
-        O.load(folder + '/scene' + ending)
-        solver = next(e for e in O.engines if isinstance(e, w.FESolver))
-        assert (yadefrag.crackTable(solver) == wanted).all()
-
-
 def test_openJointsHaveNoStart():
     O.materials.append(w.BrittleFEMat(young=1e7, density=1000, tensileStrength=1e9, label='b'))
     solver = w.FESolver()

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "fracture/open_edges.hpp"
+#include "validation/fracture/open_edges.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/figures.hpp"
 

@@ -10,8 +10,8 @@
 #include <numbers>
 #include <vector>
 
-#include "fracture/open_edges.hpp"
-#include "fracture/pulled_plate.hpp"
+#include "validation/fracture/open_edges.hpp"
+#include "validation/fracture/pulled_plate.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {
