@@ -137,7 +137,8 @@ def test_cracksAreATable(folder):
 
 
 def crackLines(solver):
-    return [c for c in yadefrag.plotMesh(solver).collections if type(c).__name__ == 'LineCollection']
+    from matplotlib.collections import LineCollection
+    return [c for c in yadefrag.plotMesh(solver).collections if isinstance(c, LineCollection)]
 
 
 @pytest.mark.parametrize('wall', [False, True])

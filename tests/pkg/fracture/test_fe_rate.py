@@ -140,7 +140,7 @@ def test_messagesAndTheStepCountTheLargestFactor():
         fe = w.FESolver()
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter('always')
-            fe.addPolygon(yadefrag.rectangle((0, 0), (.4, .2)), size=zone / 10, material=0)
+            fe.addPolygon(yadefrag.rectangle((0, 0), (.8, .7)), size=zone / 10, material=0)
         said[effect] = [str(one.message) for one in caught]
     assert said['none'] == []
     assert len(said['ceb-fip-2010']) == 1
