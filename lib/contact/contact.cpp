@@ -100,6 +100,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces, const Conta
   double reach = std::max(step.reach, tolerance::kReachSpare * lastCorrection);
   scan(model, surfaces, step, reach, step.move);
   for (int detection = 0; detection < tolerance::kDetections; ++detection) {
+    const std::size_t former = rows_.size();
     const bool anyNew = mayHaveEntered(step) && addRows(model, surfaces, step);
     if (rows_.empty()) break;
     if (detection > 0) {
@@ -113,6 +114,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces, const Conta
       }
       if (!anyNew && now_.maxPenetration <= 2 * inexact_) break;
     }
+    releaseOpposed(model, surfaces, former);
     const double moved = solve(model, step);
     sinceScan_ += moved, sinceSearch_ += moved;
     // Nodes that the correction moved beyond the reach of the scan are scanned again.
@@ -221,9 +223,7 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
     if (hasRow(surfaces, before, active.pair)) continue;
     if (stored.empty() && isThroughItself(surfaces, before, active.pair, step)) continue;
     const double friction = frictionOf(active.pair, model, surfaces);
-    // A line of its own: instructions are counted by line, and the call is no cost of friction.
-    const bool sticks = friction > 0;
-    ContactRow row = makeRow(surfaces, before, active, step.constants.faceAngle, sticks);
+    ContactRow row = makeRow(surfaces, before, active, step.constants.faceAngle, friction > 0);
     const Touch* const known = touchOn(stored, active.pair.master);
     // Cohesion keeps corners of one split node together. Their rows would be as many as its cracks,
     // and coupled with all of them (Ring.OnTheMeshOfAPolygon).
@@ -232,7 +232,6 @@ bool Contact::addRows(const Model& model, const ContactSurfaces& surfaces,
       continue;
     row.friction = friction;
     startRow(row, model, before, known, step);
-    if (sticks) releaseOpposed(surfaces, row);
     for (int k = 0; k < row.count; ++k) touch(row.node[static_cast<std::size_t>(k)]);
     if (!step.rigid.empty()) joinRigid(row, model.nodes, step);
     rows_.push_back(row);
@@ -270,17 +269,22 @@ bool Contact::isThroughItself(const ContactSurfaces& surfaces, const PieceGeomet
 /// Two corners that have passed each other: each is behind a face of the other, and the two rows
 /// push in the same direction. With friction in one of them, their forces would support each other
 /// without bound, as one normal is within the friction cone of the other: what contact then gives,
-/// friction takes.
-void Contact::releaseOpposed(const ContactSurfaces& surfaces, ContactRow& row) {
-  const auto release = [&](std::uint32_t number, EntryId master) {
-    ContactRow& other = rows_[number];
-    const bool exchanged = master == row.slave || surfaces.next[master.value] == row.slave;
-    if (!exchanged || !(dot(other.normal, row.normal) > 0)) return false;
-    row.friction = row.tangentForce = other.friction = other.tangentForce = 0;
-    return false;
-  };
-  (void)pairs_.any(row.master, release);
-  (void)pairs_.any(surfaces.next[row.master.value], release);
+/// friction takes. Rows from `first` on are new. Only before a solution: the forces are applied.
+void Contact::releaseOpposed(const Model& model, const ContactSurfaces& surfaces,
+                             std::size_t first) {
+  for (std::size_t r = first; r < rows_.size(); ++r) {
+    ContactRow& row = rows_[r];
+    const auto release = [&](std::uint32_t number, EntryId master) {
+      ContactRow& other = rows_[number];
+      const bool exchanged = master == row.slave || surfaces.next[master.value] == row.slave;
+      if (exchanged && dot(other.normal, row.normal) > 0)
+        row.friction = row.tangentForce = other.friction = other.tangentForce = 0;
+      return false;
+    };
+    if (!(frictionOf(pairOf(row), model, surfaces) > 0)) continue;
+    (void)pairs_.any(row.master, release);
+    (void)pairs_.any(surfaces.next[row.master.value], release);
+  }
 }
 
 /// Computes the exact gaps at the corrected positions, and transforms them back to the predicted

@@ -108,7 +108,7 @@ class Contact {
   bool hasRow(const ContactSurfaces& surfaces, const PieceGeometry& before, SlaveMaster pair) const;
   static bool isThroughItself(const ContactSurfaces& surfaces, const PieceGeometry& before,
                               SlaveMaster pair, const ContactStep& step);
-  void releaseOpposed(const ContactSurfaces& surfaces, ContactRow& row);
+  void releaseOpposed(const Model& model, const ContactSurfaces& surfaces, std::size_t first);
   bool addRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void joinRigid(ContactRow& row, const Nodes& nodes, const ContactStep& step);
   [[nodiscard]] bool isOfRigid(NodeId node, const ContactStep& step) const;

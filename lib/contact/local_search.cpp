@@ -55,9 +55,11 @@ void LocalSearch::scan(Candidates& candidates, const ContactSurfaces& surfaces,
   reach_ = reach;
   threads_ = threads;
   const std::size_t rows = candidates.slaves.size();
-  way_ += moved;
+  // Where slaves may be deeper than before, fewer are too deep to be near.
+  way_ += moved + std::max(0., start.deepest - deepest_);
+  deepest_ = std::max(deepest_, start.deepest);
   if (candidates.idleDistance.size() != rows || !std::isfinite(way_))
-    candidates.idleDistance.assign(rows, 0), way_ = 0;
+    candidates.idleDistance.assign(rows, 0), way_ = 0, deepest_ = start.deepest;
   near_.clear();
   triedAt_.clear();
   parts_.resize(static_cast<std::size_t>(std::max(threads, 1)));

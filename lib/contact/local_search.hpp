@@ -106,9 +106,10 @@ class LocalSearch {
   void tryRow(const Query& query, const Geometry& geometry, std::span<const Touch> touches,
               std::span<const Near> row, Part& part) const;
 
-  double way_ = 0;    // m, distance travelled by the fastest node since the candidates were found
-  double reach_ = 0;  // m, of the last scan
-  PathStart start_;   // of the last scan
+  double way_ = 0;      // m, distance travelled by the fastest node since the candidates were found
+  double deepest_ = 0;  // m, largest of the scans since then
+  double reach_ = 0;    // m, of the last scan
+  PathStart start_;     // of the last scan
   std::vector<Near> near_;
   std::vector<Part> parts_;  // by thread
   int threads_ = 1;

@@ -17,8 +17,8 @@ void World::beginUndo() {
 
 /// Allocates no memory.
 void World::takeBack() {
-  if (undo_.hasCorrected) contact.takeBack();
   search.takeBack(searchScene());
+  if (undo_.hasCorrected) contact.takeBack();  // clears idle distances of the former candidates
   if (undo_.hasMoved) dynamics_.takeBack(model);
   undoDrive();
   ledger = undo_.ledger;
