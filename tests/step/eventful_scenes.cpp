@@ -12,7 +12,7 @@ TriangleMesh rectangleAt(Vec2 low, Vec2 size, int nx, int ny) {
 
 /// A row of blocks; the outer ones fly inwards. `change` is called for each body.
 World row(int count, double gap, double speed,
-                 const std::function<void(int, BodySpec&, const TriangleMesh&)>& change) {
+          const std::function<void(int, BodySpec&, const TriangleMesh&)>& change) {
   World world;
   world.contactSettings.passes = 2;
   for (int k = 0; k < count; ++k) {
