@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "extremes/limits.hpp"
-#include "step/bodies.hpp"
 #include "fracture/two_sizes.hpp"
+#include "step/bodies.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {

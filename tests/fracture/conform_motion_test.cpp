@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "step/bodies.hpp"
 #include "fracture/random_cracks.hpp"
 #include "fracture/two_sizes.hpp"
+#include "step/bodies.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "step/bodies.hpp"
 #include "fracture/refused_body.hpp"
+#include "step/bodies.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "core/errors.hpp"
 #include "core/same_bits.hpp"
-#include "step/bodies.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "fracture/refused_body.hpp"
+#include "step/bodies.hpp"
 
 namespace yadefrag::test {
 namespace {

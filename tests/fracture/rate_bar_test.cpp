@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "dynamics/element_state.hpp"
-#include "step/bodies.hpp"
 #include "fracture/laboratory.hpp"
 #include "fracture/separation.hpp"
+#include "step/bodies.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {

@@ -14,8 +14,8 @@
 #include <numbers>
 
 #include "fracture/laboratory.hpp"
-#include "validation/fracture/open_edges.hpp"
 #include "step/figures.hpp"
+#include "validation/fracture/open_edges.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-
 #include "step/figures.hpp"
 #include "step/hertz.hpp"
 
