@@ -14,6 +14,12 @@ YOUNG, POISSON, DENSITY = 1e7, .3, 1000.  # fe_scene's material
 TENSOR = (-3e4, 1e4, 2e4)  # Pa
 
 
+def areas(solver):
+    a, b, c = solver.nodes[solver.triangles].transpose(1, 0, 2)
+    (x1, y1), (x2, y2) = (b - a).T, (c - a).T
+    return (x1 * y2 - x2 * y1) / 2
+
+
 def tractionsOn(solver, stress):
     """(n, 2) N: the outer forces on the boundary's nodes that balance a uniform stress, 1 m thick."""
     xx, yy, xy = stress
