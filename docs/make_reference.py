@@ -1,10 +1,9 @@
-"""Writes docs/reference.md, which is committed, from the docstrings: scripts/yade -n -x docs/make_reference.py
+"""Writes the manual's reference from the docstrings: scripts/yade -n -x docs/make_reference.py FILE (scripts/docs calls it).
 
-tests/pkg/examples/test_docs.py compares it with the docstrings.
+tests/pkg/examples/test_docs.py tests it.
 """
 
 import inspect
-import os
 import re
 import sys
 
@@ -108,5 +107,5 @@ def page():
 
 
 if __name__ == '__main__':
-    with open(os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), 'reference.md'), 'w') as file:
+    with open(sys.argv[1], 'w') as file:
         file.write(page())

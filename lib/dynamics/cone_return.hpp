@@ -96,8 +96,7 @@ template <bool kTiny>
   const double step = coneStep<kTiny>(c, shear, over, t.stiffness);
   const double sheared = c.dilation * step;
   const double above = t.stiffness - 2 * std::max(0., t.mean - limit);
-  const double pulled =
-      kTiny ? logRatio(t.stiffness, above) / 2 : logOf(t.stiffness / above) / 2;
+  const double pulled = kTiny ? logRatio(t.stiffness, above) / 2 : logOf(t.stiffness / above) / 2;
   // At the limit of tension the state is at the edge of the cone, or inside. Both sides of each
   // choice are computed first, so that the loops over lanes have no branch.
   const double atCone = shear * step, atLimit = fallAt(c, t, std::min(t.mean, limit));

@@ -43,7 +43,7 @@ class ExplicitDynamics {
 
   /// Stops the nodes of removed triangles for the rest of the simulation; no work is counted for
   /// that.
-  void drop(std::span<const NodeId> nodes);
+  void drop(const Model& model, std::span<const NodeId> nodes);
   /// Reserves memory for this number of nodes, so that the first splits need no allocation.
   void reserve(std::size_t nodes);
 
@@ -103,7 +103,7 @@ class ExplicitDynamics {
   /// the correction of the velocities.
   [[nodiscard]] double energyOfChange(const Model& model, const StepLength& length) const;
 
-  /// True if no node was held in the last step, nor since the last `rebuild`.
+  /// True if no node with a mass was held in the last step, nor since the last `rebuild`.
   [[nodiscard]] bool holdsNone() const { return heldNodes_.empty(); }
   /// (N) Reactions by node, 0 in directions that are not held: the force, in addition to all others
   /// on the node, that the prescribed motion requires. Call after `finish`, with the same

@@ -39,10 +39,13 @@ void ExplicitDynamics::rebuild(const Model& model) {
   leastHeight_ = leastHeight(model.triangles);
   heldVelocity_.clear();
   heldNodes_.clear();
-  for (std::size_t n = 0; n < model.nodes.size(); ++n)
-    // Those of removed fragments have no mass.
-    if (model.nodes.held[n] != kFree && model.nodes.mass[n] > 0) heldNodes_.emplace_back(n);
-  if (!heldNodes_.empty()) heldVelocity_ = model.nodes.velocity;
+  bool holds = false;
+  for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+    if (model.nodes.held[n] == kFree) continue;
+    holds = true;
+    if (model.nodes.mass[n] != 0) heldNodes_.emplace_back(n);
+  }
+  if (holds) heldVelocity_ = model.nodes.velocity;
   scratch_.clear();
 }
 
@@ -79,9 +82,10 @@ std::size_t ExplicitDynamics::follow(const Model& model, std::span<const Element
   return chunks;
 }
 
-void ExplicitDynamics::drop(std::span<const NodeId> nodes) {
+void ExplicitDynamics::drop(const Model& model, std::span<const NodeId> nodes) {
   if (heldVelocity_.empty()) return;
   for (const NodeId node : nodes) heldVelocity_[node.value] = {};
+  std::erase_if(heldNodes_, [&](NodeId node) { return model.nodes.mass[node.value] == 0; });
 }
 
 void ExplicitDynamics::setStressLimits(std::vector<double> leastStrengthByComponent) {

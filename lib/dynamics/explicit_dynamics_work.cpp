@@ -93,7 +93,6 @@ void ExplicitDynamics::measureReactions(const Model& model, const StepLength& le
   for (const NodeId node : heldNodes_) {
     const std::uint32_t n = node.value;
     reactions[n] = {};
-    if (nodes.mass[n] == 0) continue;  // of a removed triangle
     for (const auto& [axis, flag] : {std::pair{&Vec2::x, kHeldX}, std::pair{&Vec2::y, kHeldY}}) {
       if ((nodes.held[n] & flag) == 0) continue;
       const double gained = nodes.velocity[n].*axis - previousVelocity_[n].*axis;

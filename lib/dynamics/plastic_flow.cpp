@@ -272,8 +272,7 @@ bool PlasticFlow::addForces(InstructionSet set, Model& model, const ElementChunk
   Thread& room = threads_[thread];
   Lanes flow(*this, model, elements, own, position, room);
   const std::size_t first = room.former.size();
-  const bool good =
-      addPlasticForces(set, own, elements.lanes.data(), in, position, flow, force);
+  const bool good = addPlasticForces(set, own, elements.lanes.data(), in, position, flow, force);
   dissipated_[chunk] = flow.dissipated();
   for (const double one : flow.sums.steepest)
     room.squaredSteepest = std::max(room.squaredSteepest, one);

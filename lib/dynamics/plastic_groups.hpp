@@ -98,8 +98,8 @@ template <bool kPlane, bool kNodal, bool kCone>
     out.squaredMises[k] = t.squaredMises();
     double yield = w.yield[k], limit = std::numeric_limits<double>::infinity();
     if constexpr (kCone) {
-      const double inverse = e.inverseEdges[0][k] * e.inverseEdges[3][k] -
-                             e.inverseEdges[1][k] * e.inverseEdges[2][k];
+      const double inverse =
+          e.inverseEdges[0][k] * e.inverseEdges[3][k] - e.inverseEdges[1][k] * e.inverseEdges[2][k];
       w.size[k] = (d1x * d2y - d1y * d2x) * inverse;
       yield = std::max(0., yield * w.size[k] - slope * mean), limit = most * w.size[k];
     }

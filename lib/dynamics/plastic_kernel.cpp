@@ -51,8 +51,8 @@ struct AddForces {
         group.load(in, g.state);
         group.load(in.yield, g.flow.yield);
         if constexpr (kCone && kNodal) group.load(in.opening, g.flow.opening);
-        const Trials trials = tryLanes<kPlane, kNodal, kCone>(lanes[l + i], in, g.state, g.corners,
-                                                              g.flow, g.trial);
+        const Trials trials =
+            tryLanes<kPlane, kNodal, kCone>(lanes[l + i], in, g.state, g.corners, g.flow, g.trial);
         flat += trials.flat;
         yielding[found] = i;
         found += trials.yielding != 0 ? 1 : 0;

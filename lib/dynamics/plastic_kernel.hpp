@@ -22,15 +22,15 @@ struct alignas(64) FlowSums {
 struct PlasticChunk {
   std::array<double*, 4> edges;
   double *thickness, *strain, *temperature;
-  double* yield;        ///< Pa, slow yield stress
-  double* thermal;      ///< part of it that the temperature leaves
-  Cone cone;            ///< of a frictional material
+  double* yield;    ///< Pa, slow yield stress
+  double* thermal;  ///< part of it that the temperature leaves
+  Cone cone;        ///< of a frictional material
   SolidModuli moduli;
   bool planeStress;
   /// Pa, U'(J) by local number of the node; null: each element has its own.
   const double* pressure;
   const double* formerPressure;  ///< Pa, the same at the last step, if flow changes the volume
-  double* opening;  ///< volume strain of the flow, if it changes nodal pressures
+  double* opening;               ///< volume strain of the flow, if it changes nodal pressures
   YieldCurve curve;
 };
 

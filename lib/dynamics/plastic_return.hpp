@@ -106,8 +106,8 @@ struct Returned {
                                      const TriangleMotion& motion, double dt,
                                      const NodalPressure* pressure = nullptr);
 
-/// The volume strain of the flow on a cone from this trial and this mean of U'(J) (Pa) at the nodes,
-/// if the neighbours open as this triangle does.
+/// The volume strain of the flow on a cone from this trial and this mean of U'(J) (Pa) at the
+/// nodes, if the neighbours open as this triangle does.
 [[nodiscard]] double nodalOpening(const YieldConstants& c, const ElasticTrial& trial, double size,
                                   double pressure);
 

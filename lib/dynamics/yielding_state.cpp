@@ -45,10 +45,10 @@ struct Pair {
   Corners step;  // m, displacements of the corners
   TriangleMotion motion;
   ElasticTrial trial{Matrix2{1, 0, 0, 1}, 1}, former = trial;
-  double formerMean = 0;       // Pa, of τ
-  NodalPressure pressure{};    // smoothed
-  double trialMean = 0;        // Pa, of τ, before any opening
-  Returned present;       // after `settle`
+  double formerMean = 0;     // Pa, of τ
+  NodalPressure pressure{};  // smoothed
+  double trialMean = 0;      // Pa, of τ, before any opening
+  Returned present;          // after `settle`
 
   Pair(const Model& model, ElementId id, double dt)
       : element(id),
@@ -70,9 +70,7 @@ struct Pair {
   void settle(double dt, bool isNodal = false) {
     present = returnToYield(constants, point, motion, dt, isNodal ? &pressure : nullptr);
   }
-  void open() {
-    pressure.opening = nodalOpening(constants, trial, motion.size, pressure.now);
-  }
+  void open() { pressure.opening = nodalOpening(constants, trial, motion.size, pressure.now); }
 };
 
 double pressureAt(double ratio, double bulk) { return bulk / 2 * (ratio - 1 / ratio); }
@@ -98,9 +96,8 @@ struct Yielding {
     }
     // Flow changes volumes: the stresses are those of the volumes after it.
     if (std::ranges::any_of(pairs, isOpening)) {
-      now = average(model, [](const Pair& p) {
-        return p.trial.volume * expOfSmall(-p.pressure.opening);
-      });
+      now = average(model,
+                    [](const Pair& p) { return p.trial.volume * expOfSmall(-p.pressure.opening); });
       for (Pair& p : pairs)
         if (isOpening(p)) p.pressure.now = meanPressure(model, p, now);
     }
@@ -178,7 +175,8 @@ YieldingEnergy yieldingEnergy(const Model& model, std::span<const ElementId> ele
       twice += volumeEnergy(p.present.volume(), bulk) + volumeEnergy(p.former.volume, bulk);
     }
     const Corners now = forcesOf(p, p.motion.now, presentStress(p));
-    const Corners before = forcesOf(p, p.motion.before, PlaneStress(p.former, p.formerMean, 1, shear));
+    const Corners before =
+        forcesOf(p, p.motion.before, PlaneStress(p.former, p.formerMean, 1, shear));
     double work = 0;
     for (std::size_t i = 0; i < 3; ++i) work += dot(now[i] - before[i], p.step[i]);
     const double modulus = model.bodyOf(p.element).material.waveModulus();

@@ -16,7 +16,8 @@ void checkTriangles(const TriangleMesh& mesh);
 /// Adds a mesh as a new component: at rest, free, and without stress in its present shape. The
 /// function fills in the ranges of triangles and materials of `component`. Throws as
 /// checkTriangles. `stress`: initial stress of each triangle in the present shape, Pa (xx, yy, xy);
-/// empty: none; `across`: that across the plane, empty or NaN: not given. The stretch of each stress must exist (mesh/initial_stress.hpp).
+/// empty: none; `across`: that across the plane, empty or NaN: not given. The stretch of each
+/// stress must exist (mesh/initial_stress.hpp).
 ComponentId appendBody(Model& model, const TriangleMesh& mesh, const Component& component,
                        const MaterialPlaces& materials = {},
                        std::span<const std::array<double, 3>> stress = {},

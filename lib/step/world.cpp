@@ -60,8 +60,8 @@ ComponentId World::addBody(const TriangleMesh& mesh, const BodySpec& spec) {
   component.selfContact = spec.selfContact || component.brittle.cracks();
   component.element = spec.element;
   const std::size_t first = model.nodes.size();
-  const ComponentId id = appendBody(model, mesh, component, spec.materials, spec.stress,
-                                    spec.stressAcross);
+  const ComponentId id =
+      appendBody(model, mesh, component, spec.materials, spec.stress, spec.stressAcross);
   setResistance(model, id, spec);
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (!spec.displacement.empty()) model.nodes.position[first + i] += spec.displacement[i];

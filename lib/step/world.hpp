@@ -50,7 +50,7 @@ struct BodySpec : BodyMaterial {
   std::vector<Vec2> displacement;  ///< m, from the stress-free shape
   /// Pa (Cauchy; xx, yy, xy), by triangle, in the shape of the mesh; empty: none.
   std::vector<std::array<double, 3>> stress;
-  std::vector<double> stressAcross;  ///< Pa, by triangle, zz; empty or NaN: not given
+  std::vector<double> stressAcross;       ///< Pa, by triangle, zz; empty or NaN: not given
   std::vector<std::uint8_t> held;         ///< Held
   std::vector<std::uint8_t> smoothNodes;  ///< true for boundary nodes on a C¹-smooth part
   std::string name = {};                  ///< unique, without line breaks; may be empty

@@ -59,6 +59,7 @@ void World::takeOut(std::span<const ElementId> triangles) {
     ledger.dropped += mass / 2 * dot(velocity, velocity);
     mass = 0;
     velocity = {};
+    if (node.value < reactions.size()) reactions[node.value] = {};
     model.nodes.position[node.value] = model.nodes.reference[node.value];
     model.nodes.held[node.value] = kHeldXY;
   }
@@ -69,7 +70,7 @@ void World::takeOut(std::span<const ElementId> triangles) {
       flowed.begin(element.value, model.triangles.inverseEdges[element.value],
                    flowed.temperature[element.value]);
   }
-  dynamics_.drop(nodes);
+  dynamics_.drop(model, nodes);
   fracture.cohesion.removeDropped(model.triangles, fracture.edges);
   surfaces.drop(nodes);
   contact.removeGone(surfaces);

@@ -17,8 +17,8 @@ void World::beginUndo() {
 
 /// Allocates no memory.
 void World::takeBack() {
-  if (undo_.hasCorrected) contact.takeBack();
   search.takeBack(searchScene());
+  if (undo_.hasCorrected) contact.takeBack();
   if (undo_.hasMoved) dynamics_.takeBack(model);
   undoDrive();
   ledger = undo_.ledger;

@@ -37,9 +37,9 @@ BrittlePlaces brittlePlacesOf(const py::object& strength, const py::object& frac
 py::tuple addMesh(FESolver& solver, const ScriptMesh& mesh, const py::list& materials,
                   const py::object& materialOf, const BrittlePlaces& places,
                   const py::object& velocity, const py::object& displacement,
-                  const py::object& stress, const py::object& stressAcross,
-                  const py::object& held, const py::object& smooth,
-                  double thickness, bool selfContact, bool smoothed, const std::string& name) {
+                  const py::object& stress, const py::object& stressAcross, const py::object& held,
+                  const py::object& smooth, double thickness, bool selfContact, bool smoothed,
+                  const std::string& name) {
   BodySpec spec;
   spec.materials.ofTriangle = fromArray<std::uint32_t>(materialOf);
   spec.places = places;

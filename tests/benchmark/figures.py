@@ -1,4 +1,4 @@
-"""figures.py TESTS: runs the tests that record figures, and writes these to docs/data/figures.csv.
+"""figures.py TESTS...: runs the tests of these programs that record figures, and writes these to docs/data/figures.csv.
 
 Only suites whose sources record a figure are run. If a test fails, all is left as it is.
 """
@@ -33,18 +33,20 @@ def recorded(file):
                    'value': figure.get('value')}
 
 
-def main(tests):
+def main(*programs):
     where = origin.line()
     patterns = ':'.join(f'{name}.*:*/{name}.*' for name in suites())
+    rows = []
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, 'figures.xml')
-        command = [tests, f'--gtest_filter={patterns}', f'--gtest_output=xml:{file}', '--gtest_brief=1']
-        subprocess.run(command, check=True)
-        rows = list(recorded(file))
+        for program in programs:
+            command = [program, f'--gtest_filter={patterns}', f'--gtest_output=xml:{file}', '--gtest_brief=1']
+            subprocess.run(command, check=True)
+            rows += recorded(file)
     validation_table.require(rows)
     measured_tables.write('figures', f'{where}, `scripts/bench figures`', rows)
     print(f'docs/data/figures.csv has {len(rows)} figures.')
 
 
 if __name__ == '__main__':
-    main(sys.argv[1])
+    main(*sys.argv[1:])

@@ -14,7 +14,8 @@
 namespace yadefrag {
 namespace {
 
-/// Any constants: dilation up to the friction, cohesion down to 0, with and without a tension limit.
+/// Any constants: dilation up to the friction, cohesion down to 0, with and without a tension
+/// limit.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -82,9 +83,9 @@ TEST(FrictionalLaw, RandomPathsNeverGainEnergy) {
       const double after =
           deviatorEnergy(back.trial, back.kept, shear) + volumeEnergy(back.volume(), bulk);
       mostStored = std::max(mostStored, (after + work - before) / before);
-      const double over = std::max(distortion + c.cone.slope * back.mean -
-                                       c.cone.strength * determinant(f),
-                                   back.mean - c.cone.limit * determinant(f));
+      const double over =
+          std::max(distortion + c.cone.slope * back.mean - c.cone.strength * determinant(f),
+                   back.mean - c.cone.limit * determinant(f));
       mostOver = std::max(mostOver, over / (trial + std::abs(back.mean)));
       ASSERT_TRUE(std::isfinite(after)) << steps;
     }
@@ -111,8 +112,7 @@ TEST(FrictionalLaw, FlowIsStoredInTheShape) {
     double thickness = 1;
     const ElasticTrial again = trialOf(c, back.point, now, thickness);
     EXPECT_NEAR(again.volume / back.volume(), 1, 1e-12);
-    EXPECT_NEAR(again.squaredMises(),
-                back.kept * back.kept * back.trial.squaredMises(),
+    EXPECT_NEAR(again.squaredMises(), back.kept * back.kept * back.trial.squaredMises(),
                 1e-11 * back.trial.squaredMises() + 1e-14);
   }
 }
@@ -152,8 +152,8 @@ Outcome impact(ElementKind kind, double speed, double angle, double cohesion, do
 }
 
 /// At .003 to .11 of the wave speed; nearly without cohesion the flow of these dissipates nothing.
-/// A tenth of a percent is the error of the balance in steps across the edge of the cone; at 400 m/s
-/// and φ = .3 it was .011.
+/// A tenth of a percent is the error of the balance in steps across the edge of the cone; at 400
+/// m/s and φ = .3 it was .011.
 TEST(FrictionalLaw, ImpactsDoNotGainEnergy) {
   for (const ElementKind kind : {ElementKind::kLinear, ElementKind::kSmoothed})
     for (const double speed : {10., 100., 400.})

@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6280455788128765);
-  expectNear(places.y, 1.4476885719463695);
-  expectNear(speeds, 4564.013157146107);
-  expectNear(totalEnergy(world), 89.999543193769014);
-  expectNear(world.ledger.contact, 5.4665939191275843);
+  expectNear(places.x, 3.6280693759113518);
+  expectNear(places.y, 1.4477065123255202);
+  expectNear(speeds, 4565.8438493482281);
+  expectNear(totalEnergy(world), 89.999541520633187);
+  expectNear(world.ledger.contact, 5.468910086749398);
 }
 
 }  // namespace

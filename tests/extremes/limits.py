@@ -1,5 +1,5 @@
-"""limits.py TESTS ARGS: runs the tests of the extremes, ARGS as GoogleTest takes them, and writes the
-limits that they measure into docs/limits.md."""
+"""limits.py TESTS VALIDATION ARGS: runs the tests of the extremes in both programs, ARGS as GoogleTest takes them, and
+writes the limits that they measure into docs/limits.md."""
 
 import os
 import pathlib
@@ -18,11 +18,12 @@ def name(line):
     return line.split('|')[1].strip()
 
 
-def measured(tests, arguments):
+def measured(programs, arguments):
     """Rows by name."""
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([tests, '--gtest_filter=Extreme*:Limits*-LimitsTable*', *arguments],
-                       env={**os.environ, 'YADEFRAG_LIMITS': folder}, check=True)
+        for program in programs:
+            subprocess.run([program, '--gtest_filter=Extreme*:*/Extreme*:Limits*-LimitsTable*', *arguments],
+                           env={**os.environ, 'YADEFRAG_LIMITS': folder, 'YADEFRAG_LONG': '1'}, check=True)
         lines = [path.read_text() for path in sorted(pathlib.Path(folder).glob('*.row'))]
     return {name(line): line for line in lines}
 
@@ -43,6 +44,6 @@ def rewrite(text, rows, where):
 
 if __name__ == '__main__':
     readme = ROOT / 'docs' / 'limits.md'
-    rows = measured(sys.argv[1], sys.argv[2:])
+    rows = measured(sys.argv[1:3], sys.argv[3:])
     readme.write_text(rewrite(readme.read_text(), rows, origin.line()))
     print('docs/limits.md is rewritten.')

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/same_bits.hpp"
 #include "dynamics/element_state.hpp"
 #include "extremes/limits.hpp"
 #include "extremes/saved_world.hpp"

@@ -153,21 +153,6 @@ TEST_P(DropFragments, TheLedgerClosesInTheStepItself) {
   EXPECT_EQ(without.ledger.dropped, 0);
 }
 
-TEST_P(DropFragments, ThreadsAndRebuildingDoNotChangeTheResult) {
-  World one = impact(GetParam(), true, kArea), two = impact(GetParam(), true, kArea, 2);
-  const double dt = .8 * one.criticalTimeStep();
-  for (int i = 0; i < 300; ++i) {
-    one.step(dt), two.step(dt);
-    // As after loading: all that is not saved is made anew.
-    if (i % 40 == 39) two.rebuild();
-  }
-  EXPECT_GT(one.dropped.count, 5U);
-  EXPECT_EQ(one.dropped.count, two.dropped.count);
-  EXPECT_TRUE(sameBits(one.model.nodes.position, two.model.nodes.position));
-  EXPECT_TRUE(sameBits(one.model.nodes.velocity, two.model.nodes.velocity));
-  EXPECT_EQ(one.ledger.dropped, two.ledger.dropped);
-}
-
 TEST(DropFragmentsOf, ALargerAreaTakesWhatIsThereAlready) {
   World world = impact(0, true, 0);
   const double dt = .8 * world.criticalTimeStep();

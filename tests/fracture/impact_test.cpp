@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/same_bits.hpp"
-#include "core/threads_for_few.hpp"
 #include "fracture/impact_result.hpp"
 
 namespace yadefrag::test {
@@ -62,18 +60,6 @@ TEST(Impact, AFreeBlockKeepsTheMomentum) {
   expectSound(result);
   // Rounding: forces are summed by node in any order of size, 10³ nodes and 500 steps.
   figure("momentum_error", result.momentumError, 0, 1e-12);
-}
-
-TEST(Impact, ThreadsDoNotChangeTheResult) {
-  const ThreadsForFew few;
-  for (const double energy : {0., 500.}) {
-    const ImpactSetting setting{.fractureEnergy = energy, .steps = 300, .every = 1000};
-    ImpactSetting two = setting;
-    two.threads = 2;
-    const Nodes a = runImpact(setting).nodes, b = runImpact(two).nodes;
-    EXPECT_TRUE(sameBits(a.position, b.position));
-    EXPECT_TRUE(sameBits(a.velocity, b.velocity));
-  }
 }
 
 /// (N) Sum of the contact forces' sizes.

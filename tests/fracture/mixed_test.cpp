@@ -6,8 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/same_bits.hpp"
-#include "extremes/saved_world.hpp"
 #include "fracture/refused_body.hpp"
 #include "step/bodies.hpp"
 
@@ -206,19 +204,6 @@ TEST(Mixed, CracksPassAroundAStrongInclusionAndThroughAWeakOne) {
   EXPECT_EQ(cracksIn(strong, 1), 0U);
   const World weak = inclusion(2e6);
   EXPECT_GT(cracksIn(weak, 1), 5U);
-}
-
-TEST(Mixed, GoOnAfterAReloadWithTheSameBits) {
-  World world = inclusion(2e6);
-  World copy;
-  load(saved(world), copy);
-  EXPECT_EQ(copy.model.materials.size(), 2U);
-  EXPECT_EQ(copy.criticalTimeStep(), world.criticalTimeStep());
-  const double dt = world.lastDt;
-  for (int i = 0; i < 100; ++i) copy.step(dt), world.step(dt);
-  EXPECT_TRUE(sameBits(copy.model.nodes.position, world.model.nodes.position));
-  EXPECT_EQ(copy.fracture.numCracks(), world.fracture.numCracks());
-  EXPECT_EQ(totalEnergy(copy), totalEnergy(world));
 }
 
 TEST(Mixed, ImpossibleArgumentsAreRefusedAndTheWorldIsUnchanged) {

@@ -10,7 +10,6 @@
 
 #include "core/errors.hpp"
 #include "core/same_bits.hpp"
-#include "extremes/saved_world.hpp"
 #include "fracture/brittle_checks.hpp"
 #include "fracture/refused_body.hpp"
 #include "step/bodies.hpp"
@@ -140,29 +139,6 @@ TEST(Places, ScatterIsAboutTheFieldsValue) {
   std::vector<double> doubled = even;
   for (double& one : doubled) one *= 2;
   EXPECT_TRUE(sameBits(strengths(), doubled));
-}
-
-TEST(Places, GoOnAfterAReloadWithTheSameBits) {
-  World world;
-  const TriangleMesh mesh = barMesh();
-  world.addBody(mesh, weakBar(mesh));
-  const double dt = .5 * world.criticalTimeStep();
-  for (const double until : {.0005, .0013}) {  // before and while the crack opens
-    while (world.time < until) world.step(dt);
-    World copy;
-    load(saved(world), copy);
-    EXPECT_TRUE(copy.model.components[0].brittleByPlace);
-    EXPECT_TRUE(sameBits(copy.fracture.edges.fractureEnergy, world.fracture.edges.fractureEnergy));
-    World twin;
-    load(saved(world), twin);
-    for (int i = 0; i < 200; ++i) copy.step(dt), twin.step(dt);
-    World original;
-    original.addBody(mesh, weakBar(mesh));
-    while (original.steps < copy.steps) original.step(dt);
-    EXPECT_TRUE(sameBits(copy.model.nodes.position, original.model.nodes.position));
-    EXPECT_TRUE(sameBits(copy.model.nodes.velocity, original.model.nodes.velocity));
-    EXPECT_EQ(copy.ledger.fracture, original.ledger.fracture);
-  }
 }
 
 TEST(Places, FollowWhenAnotherBodyLeaves) {

@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "dynamics/element_state.hpp"
-#include "extremes/saved_world.hpp"
 #include "fracture/laboratory.hpp"
 #include "fracture/separation.hpp"
+#include "step/bodies.hpp"
 #include "step/figures.hpp"
 
 namespace yadefrag::test {
@@ -174,34 +174,6 @@ TEST(RateBar, AConstantFactorIsAnotherMaterial) {
   EXPECT_GT(worlds[1].ledger.fracture, .1 * unit);
   EXPECT_NEAR(worlds[0].ledger.fracture, worlds[1].ledger.fracture, 1e-6 * unit);
   EXPECT_NEAR(totalEnergy(worlds[0]), totalEnergy(worlds[1]), 1e-6 * unit);
-}
-
-// The limits of the stress check depend on strengths, which change when edges crack.
-TEST(RateBar, ThreadsAndLoadedStatesHaveTheSameBits) {
-  World worlds[3];
-  double dt = 0;
-  for (int k = 0; k < 3; ++k) {
-    breaking().addTo(worlds[k]);
-    worlds[k].threads = k + 1;
-    dt = .1 * worlds[k].criticalTimeStep();
-    while (worlds[k].fracture.numCracks() < 3) worlds[k].step(dt);
-    EXPECT_FALSE(worlds[k].fracture.overloads.empty());
-  }
-  World loaded;
-  load(saved(worlds[0]), loaded);
-  const auto& edges = loaded.fracture.edges;
-  EXPECT_EQ(edges.strength, worlds[0].fracture.edges.strength);
-  EXPECT_EQ(loaded.model.components[0].brittle.rate, rateEffectNamed("ceb-fip-2010"));
-  for (int n = 0; n < 120; ++n) {
-    for (World& world : worlds) world.step(dt);
-    loaded.step(dt);
-  }
-  EXPECT_GT(loaded.fracture.numCracks(), 20U);
-  for (const World* other : {&worlds[1], &worlds[2], &loaded}) {
-    EXPECT_TRUE(other->model.nodes.position == worlds[0].model.nodes.position);
-    EXPECT_TRUE(other->fracture.edges.strength == worlds[0].fracture.edges.strength);
-    EXPECT_TRUE(other->fracture.leastStrength == worlds[0].fracture.leastStrength);
-  }
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "core/same_bits.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/world.hpp"
 
@@ -66,18 +65,6 @@ TEST(SmoothedCracks, TheGainOfASplitNodeIsCountedInThatStep) {
   EXPECT_NEAR(totalOf(world), before, 1e-9 * start);
   EXPECT_LT(world.ledger.fracture, 0) << "a mean has no more energy than its parts";
   EXPECT_GT(world.ledger.fracture, -.1 * world.strainEnergy());
-}
-
-TEST(SmoothedCracks, ThreadsAndRebuildingChangeNothing) {
-  World one = plate(3, ElementKind::kSmoothed, 8e-6), two = plate(3, ElementKind::kSmoothed, 8e-6);
-  two.threads = 2;
-  const double dt = .5 * one.criticalTimeStep();
-  for (int i = 0; i < 500; ++i) {
-    one.step(dt), two.step(dt);
-    if (i % 50 == 0) two.rebuild();
-  }
-  EXPECT_GT(one.fracture.numCracks(), 20U);
-  EXPECT_TRUE(sameBits(one.model.nodes.position, two.model.nodes.position));
 }
 
 }  // namespace

@@ -5,149 +5,24 @@
 #include <map>
 #include <string>
 
-#include "extremes/saved_world.hpp"
-#include "step/run_result.hpp"
+#include "step/world.hpp"
 
 namespace yadefrag::test {
 
 using State = std::map<std::string, std::string>;
+using Scene = std::function<World()>;
+
+/// By name. A step of .3 of the critical one is accepted.
+std::map<std::string, Scene> scenes();
 
 /// The bytes of everything that a world keeps and shows; rows by their members, for they have
 /// padding.
-inline State stateOf(World& world) {
-  State state;
-  const auto add = [&](const char* name, const auto& value) {
-    state[name].append(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  for (const ContactRow& row : world.contact.rows()) {
-    add("rows", row.slave), add("rows", row.master), add("normals", row.normal);
-    add("gaps", row.gap), add("gaps", row.toleratedGap);
-    add("slips", row.slip), add("slips", row.friction);
-    add("rows' forces", row.normalForce), add("rows' forces", row.tangentForce);
-  }
-  for (std::size_t n = 0; n < world.model.nodes.size(); ++n)
-    add("contact forces", world.contact.forces()[n]);
-  add("figures", world.contact.largestCorrection());
-  add("figures", world.contact.maxPenetration());
-  for (const Vec2 force : world.loads.outerForces) add("outer forces", force);
-  for (const Vec2 position : world.model.nodes.position) add("position", position);
-  for (const Vec2 velocity : world.model.nodes.velocity) add("velocity", velocity);
-  for (const EntryId master : world.contact.candidates.masters) add("masters", master);
-  for (const NodeId node : world.search.nodes) add("search", node);
-  add("search", world.search.halo), add("search", world.search.validity);
-  add("search", world.numSearches());
-  add("ledger", world.ledger);
-  for (const auto& opening : world.fracture.cohesion.largest) add("openings", opening);
-  for (const auto& traction : world.fracture.cohesion.traction) add("tractions", traction);
-  state["saved"] = saved(world);
-  return state;
-}
+State stateOf(World& world);
 
-inline std::string whatDiffers(const State& a, const State& b) {
-  std::string names;
-  for (const auto& [name, bytes] : a)
-    if (!b.contains(name) || b.at(name) != bytes) names += name + "; ";
-  return names;
-}
-
-inline TriangleMesh rectangleAt(Vec2 low, Vec2 size, int nx, int ny) {
-  return structuredRectangle(low, low + size, nx, ny, QuadPattern::kCrossed);
-}
-
-/// A row of blocks; the outer ones fly inwards. `change` is called for each body.
-inline World row(int count, double gap, double speed,
-                 const std::function<void(int, BodySpec&, const TriangleMesh&)>& change) {
-  World world;
-  world.contactSettings.passes = 2;
-  for (int k = 0; k < count; ++k) {
-    const TriangleMesh mesh = rectangleAt({(1 + gap) * k, .07 * k}, {1, 1}, 3 + k % 3, 4);
-    const double inwards = k == 0 ? speed : k == count - 1 ? -speed : 0;
-    BodySpec spec = moving(mesh, rubber(), {inwards, .1 * inwards});
-    spec.friction = .3;
-    change(k, spec, mesh);
-    world.addBody(mesh, spec);
-  }
-  return world;
-}
-
-using Scene = std::function<World()>;
-
-inline void nothing(int, BodySpec&, const TriangleMesh&) {}
-
-inline void shatter(BodySpec& spec, double fractureEnergy) {
-  spec.brittle.tensileStrength = 2e5;
-  spec.brittle.strengthScatter = .3;
-  spec.brittle.fractureEnergy = fractureEnergy;
-}
-
-inline std::map<std::string, Scene> scenes() {
-  std::map<std::string, Scene> all;
-  all["contact"] = [] { return row(3, .002, 6, nothing); };
-  all["smooth"] = [] {
-    return row(3, .002, 6,
-               [](int, BodySpec& spec, const TriangleMesh& mesh) { smoothAll(spec, mesh); });
-  };
-  all["apart"] = [] {
-    return row(4, .05, 12,
-               [](int, BodySpec& spec, const TriangleMesh&) { spec.selfContact = false; });
-  };
-  all["rubble"] = [] {
-    return row(3, .002, 14, [](int k, BodySpec& spec, const TriangleMesh&) {
-      if (k < 2) shatter(spec, 0);
-    });
-  };
-  all["cohesion"] = [] {
-    return row(3, .002, 14, [](int, BodySpec& spec, const TriangleMesh&) { shatter(spec, 2000); });
-  };
-  all["dropped"] = [] {
-    World world =
-        row(3, .002, 14, [](int, BodySpec& spec, const TriangleMesh&) { shatter(spec, 0); });
-    world.fracture.minFragmentArea = .1;
-    return world;
-  };
-  all["torn"] = [] {
-    return row(3, .002, 14, [](int k, BodySpec& spec, const TriangleMesh&) {
-      spec.plastic.yieldStress = 1e5, spec.plastic.hardening = 1e5;
-      spec.plastic.failure.strain = .02 + .01 * k;
-      spec.plastic.failure.energy = 2000;
-      if (k == 0) spec.brittle.strengthScatter = .3;
-      spec.element = k == 1 ? ElementKind::kLinear : ElementKind::kSmoothed;
-    });
-  };
-  all["crushed"] = [] {
-    return row(3, .002, 14, [](int k, BodySpec& spec, const TriangleMesh&) {
-      PlasticMaterial& m = spec.plastic;
-      m.cohesion = 3e5, m.internalFriction = m.dilation = .3;
-      m.tensionLimit = m.failure.spallStress = 1e5;
-      m.failure.energy = 2000;
-      spec.element = k == 1 ? ElementKind::kLinear : ElementKind::kSmoothed;
-    });
-  };
-  all["driven"] = [] {
-    World world = row(2, .002, 6, [](int, BodySpec& spec, const TriangleMesh& mesh) {
-      hold(spec, mesh, kHeldY, [](Vec2 x) { return x.y < .01; });
-      hold(spec, mesh, kHeldXY, [](Vec2 x) { return x.x < .01; });
-    });
-    world.dynamicsSettings.damping = 3;
-    world.dynamicsSettings.gravity = {0, -9.81};
-    world.dynamicsSettings.viscosity = {.06, 1.2};
-    world.setLoads(std::vector<Vec2>(world.model.nodes.size(), {10, 20}));
-    return world;
-  };
-  all["alone"] = [] {
-    return row(1, 0, 6, [](int, BodySpec& spec, const TriangleMesh&) { spec.selfContact = false; });
-  };
-  return all;
-}
+/// Names of what is not the same; "" if nothing.
+std::string whatDiffers(const State& a, const State& b);
 
 /// A world that is saved and loaded, with the settings that belong to no state.
-inline World copyOf(World& world) {
-  World copy;
-  copy.contactSettings = world.contactSettings;
-  copy.dynamicsSettings = world.dynamicsSettings;
-  copy.fracture.minFragmentArea = world.fracture.minFragmentArea;
-  load(saved(world), copy);
-  return copy;
-}
+World copyOf(World& world);
 
 }  // namespace yadefrag::test

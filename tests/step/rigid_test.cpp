@@ -9,7 +9,6 @@
 #include "core/errors.hpp"
 #include "meshing/structured.hpp"
 #include "step/bodies.hpp"
-#include "step/eventful_scenes.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -171,15 +170,6 @@ TEST(Rigid, MadeAnewKeepsWhatTouchesIt) {
   other.replaceRigid({}, {});
   EXPECT_TRUE(other.contact.touches.empty());
   EXPECT_EQ(other.model.components.size(), 1);
-}
-
-TEST(Rigid, SavedAndLoadedGoesOnWithTheSameBits) {
-  World world = drop(false, .4, .3);
-  const double dt = .5 * world.criticalTimeStep();
-  for (int i = 0; i < 100; ++i) world.step(dt);
-  World copy = copyOf(world);
-  for (int i = 0; i < 200; ++i) world.step(dt), copy.step(dt);
-  EXPECT_EQ(whatDiffers(stateOf(world), stateOf(copy)), "");
 }
 
 }  // namespace

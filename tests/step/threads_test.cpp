@@ -116,7 +116,7 @@ TEST_P(Threads, DoNotChangeTheResult) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Passes, Threads, ::testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Passes, Threads, ::testing::Values(2));
 
 /// `forced`: a search in every step.
 End runWithSearches(bool forced, double speed, int passes, int count) {

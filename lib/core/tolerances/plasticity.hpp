@@ -45,8 +45,8 @@ inline constexpr int kThicknesses = 40;
 /// last flow: the error of an elastic strain of 1 % is squared in each.
 inline constexpr int kElasticThicknesses = 4;
 
-/// (strain) Plastic strain of an initial stress up to which it is rounding: such a stress may lie on
-/// the yield surface.
+/// (strain) Plastic strain of an initial stress up to which it is rounding: such a stress may lie
+/// on the yield surface.
 inline constexpr double kNoFlow = 1e-9;
 
 /// (ratio) Growth of the steepest gradient of any triangle by flow, after which the critical step

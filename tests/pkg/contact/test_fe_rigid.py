@@ -1,7 +1,6 @@
 """YADE's Wall, Box and Facet are rigid bodies to FE bodies: contact forces act on both."""
 import builtins
 import math
-import os
 
 import numpy as np
 import pytest
@@ -205,28 +204,6 @@ def test_surfaceThatMovesPushes(how):
     assert solver.nodes[:, 0].min() > front - 1e-7
     assert solver.energy['external'] > 0 and solver.energy['kinetic'] > .1
     assert abs(solver.energy['total']) < 1e-3 * solver.energy['external']
-
-
-def test_savedAndLoadedGoesOnWithTheSameBits(folder):
-    def make():
-        O.bodies.append([facet((-1, 0), (.05, 0), fixed=True), facet((1, 0), (.05, 0), fixed=True)])
-        O.bodies.append(wall(.5, axis=0))
-        O.bodies.append(utils.box((-.3, .1, 0), (.1, .05, .5)))
-        O.bodies[-1].state.blockedDOFs, O.bodies[-1].state.vel = 'zXY', (2, 0, 0)
-    solver = onSurface(make)
-    O.step()
-    steps(int(.05 / O.dt))
-    for name in ('scene.yade', 'scene.xml'):
-        O.save(os.path.join(folder, name))
-    steps(int(.05 / O.dt))
-    wanted = solver.nodes.tobytes(), solver.velocities.tobytes(), tuple(O.bodies[-1].state.pos)
-    searches = solver.numSearches
-    for name in ('scene.yade', 'scene.xml'):
-        O.load(os.path.join(folder, name))
-        [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
-        steps(int(.05 / O.dt))
-        found = solver.nodes.tobytes(), solver.velocities.tobytes(), tuple(O.bodies[-1].state.pos)
-        assert found == wanted and solver.numSearches == searches
 
 
 def test_surfacesComeAndGo():

@@ -15,40 +15,6 @@ from yade import wrapper as w
 O = builtins.O
 
 
-@pytest.mark.parametrize('ending', ['.xml', '.yade.gz', '.yade'])
-@pytest.mark.parametrize('finderName', ['LebesgueCollider', 'InsertionSortCollider', None])
-def test_savedRunGoesOnBitForBit(ending, finderName, folder):
-    def build():
-        solver = impact(finderName, smooth=True)
-        ball = chain.ball((.15, .151), .05, O.materials['m'])
-        ball.state.vel = (0, -1, 0)
-        ball.state.blockedDOFs = 'zXY'
-        O.bodies.append(ball)
-        run(solver, finderName and finder(finderName), spheres=bool(finderName), factor=.5)
-        return solver
-
-    solver = build()
-    steps(150)
-    path = os.path.join(folder, 'scene' + ending)
-    O.save(path)
-    saved = solver.nodes, solver.velocities, solver.energy, solver.numSearches
-    steps(350)
-    wanted = solver.nodes, solver.velocities, solver.energy, O.bodies[-1].state.pos
-    assert solver.numActives or solver.energy['contact'] != 0
-    O.reset()
-    O.load(path)
-    solver = [e for e in O.engines if isinstance(e, w.FESolver)][0]
-    loaded = solver.nodes, solver.velocities, solver.energy, solver.numSearches
-    assert all(np.array_equal(a, b) for a, b in zip(saved[:2], loaded[:2]))
-    assert saved[2:] == loaded[2:]
-    steps(350)
-    assert np.array_equal(solver.nodes, wanted[0]) and np.array_equal(solver.velocities, wanted[1])
-    assert solver.energy == wanted[2]
-    assert tuple(O.bodies[-1].state.pos) == tuple(wanted[3])
-    solver.removeBody(0)
-    O.step()
-
-
 def course(seed, folder=None):
     """A run whose step and settings change at random; with a folder, saved and loaded at random
     moments, too."""
@@ -84,17 +50,6 @@ def test_changesAndSavesAtRandom(seed, folder):
     solver, again = course(seed, folder)
     assert np.array_equal(solver.nodes, wanted[0]) and np.array_equal(solver.velocities, wanted[1])
     assert (solver.energy, solver.warnings, again) == (*wanted[2:], place)
-
-
-def test_memorySaveAndReload():
-    solver = impact('LebesgueCollider')
-    steps(50)
-    O.saveTmp()
-    steps(50)
-    nodes = solver.nodes
-    O.reload()
-    steps(50)
-    assert np.array_equal(O.engines[2].nodes, nodes)
 
 
 @pytest.mark.parametrize('ending', ['.xml', '.yade'])

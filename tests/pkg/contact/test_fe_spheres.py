@@ -177,22 +177,6 @@ def test_aCrackUnderASphereKeepsTheMomentum():
     assert abs(sums() - before)[2] < 1e-3 * before[0]
 
 
-def test_contactsAboveCracksAreSaved(tmp_path):
-    solver, clump = wallAndClump(2e9)
-    O.run(int(3.5e-4 / O.dt), True)
-    O.save(str(tmp_path / 'wall.xml'))
-    saved = (tmp_path / 'wall.xml').read_text().split('<changedContacts>')[1:]
-    assert builtins.sum(int(one.split('<count>')[1].split('<')[0]) for one in saved) > 0
-    O.run(300, True)
-    wanted = solver.nodes.copy(), np.array(clump.state.pos)
-    O.reset()
-    O.load(str(tmp_path / 'wall.xml'))
-    O.run(300, True)
-    again, = [engine for engine in O.engines if isinstance(engine, w.FESolver)]
-    assert np.array_equal(again.nodes, wanted[0])
-    assert np.array_equal(np.array(O.bodies[clump.id].state.pos), wanted[1])
-
-
 @pytest.mark.parametrize('loop, integrator', [('InteractionLoop', 'NewtonIntegrator'),
                                               ('CurveLoop', 'CurveIntegrator')])
 def test_theOrderOfEnginesMakesNoDifferenceToNewFaces(loop, integrator):

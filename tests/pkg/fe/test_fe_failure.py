@@ -75,24 +75,6 @@ def test_fieldsArePlottedExportedAndRecorded(tmp_path):
     assert int(last['failed triangles']) == (fe.damage >= 1).sum() > 0
 
 
-@pytest.mark.parametrize('ending', ['.yade.gz', '.xml'])
-def test_continuesFromAFileWithTheSameBits(tmp_path, ending):
-    plate()
-    O.run(100, True)
-    file = str(tmp_path / ('half' + ending))
-    O.save(file)
-
-    def end():
-        O.run(200, True)
-        fe = solverOfScene()
-        return [fe.nodes.tobytes(), fe.plasticStrain.tobytes(), fe.damage.tobytes(), fe.numCracks, repr(fe.energy)]
-
-    whole = end()
-    assert whole[3] > 0
-    O.load(file)
-    assert end() == whole
-
-
 @pytest.mark.parametrize('constants, sentence', [
     (dict(failureStrain=0), 'failureStrain is 0; it must be positive, or infinite for none.'),
     (dict(failureStrain=-.1), 'failureStrain is -0.1; it must be positive, or infinite for none.'),

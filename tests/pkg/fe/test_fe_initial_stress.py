@@ -1,7 +1,6 @@
 """Bodies that are stressed where they are drawn: rock before it is dug."""
 import builtins
 import math
-import os
 
 import numpy as np
 import pytest
@@ -15,6 +14,12 @@ YOUNG, POISSON, DENSITY = 1e7, .3, 1000.  # fe_scene's material
 TENSOR = (-3e4, 1e4, 2e4)  # Pa
 
 
+def areas(solver):
+    a, b, c = solver.nodes[solver.triangles].transpose(1, 0, 2)
+    (x1, y1), (x2, y2) = (b - a).T, (c - a).T
+    return (x1 * y2 - x2 * y1) / 2
+
+
 def tractionsOn(solver, stress):
     """(n, 2) N: the outer forces on the boundary's nodes that balance a uniform stress, 1 m thick."""
     xx, yy, xy = stress
@@ -26,12 +31,6 @@ def tractionsOn(solver, stress):
             forces[a] += half
             forces[b] += half
     return forces
-
-
-def areas(solver):
-    a, b, c = solver.nodes[solver.triangles].transpose(1, 0, 2)
-    (x1, y1), (x2, y2) = (b - a).T, (c - a).T
-    return (x1 * y2 - x2 * y1) / 2
 
 
 def softer():
@@ -125,22 +124,6 @@ def test_cracksDependOnTheStress():
         solver.loads = tractionsOn(solver, (part * 1e6,) * 2 + (0,))
         steps(3)
         assert (solver.numCracks > 0) == cracks
-
-
-@pytest.mark.parametrize('ending', ['.yade', '.xml'])
-def test_savedAndLoadedGoesOnWithTheSameBits(ending, folder):
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='m', stress=TENSOR)
-    run(solver)
-    steps(20)
-    path = os.path.join(folder, 'scene' + ending)
-    O.save(path)
-    steps(20)
-    wanted = solver.nodes.tobytes(), solver.stress.tobytes(), solver.energy
-    O.load(path)
-    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
-    steps(20)
-    assert (solver.nodes.tobytes(), solver.stress.tobytes(), solver.energy) == wanted
 
 
 def test_noStressIsAsWithoutTheWord():

@@ -93,27 +93,6 @@ def test_pressureStaysOnASideThatCracks():
     assert gained == pytest.approx(force, rel=1e-6)
 
 
-@pytest.mark.parametrize('ending', ['.yade', '.xml'])
-def test_pressureInTimeIsSaved(ending, folder):
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((-3, 0), (-2, 1)), size=.5, material='m', name='gone')
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', name='block')
-    run(solver)
-    chosen = np.intersect1d(solver.nodesOf('block'), np.nonzero(solver.nodes[:, 0] < 1e-9)[0])
-    solver.pressure(chosen, [(0, 0), (.01, 1e3)])
-    solver.absorb(lambda x, y: x > 1 - 1e-9)
-    solver.removeBody('gone')
-    steps(20)
-    path = os.path.join(folder, 'scene' + ending)
-    O.save(path)
-    steps(20)
-    wanted, energy = solver.nodes, solver.energy
-    assert energy['external'] > 0 and energy['damping'] > 0
-    O.load(path)
-    steps(20)
-    assert (loadedSolver().nodes == wanted).all() and loadedSolver().energy == energy
-
-
 def test_pressureByAFunction(folder):
     solver = fe()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')

@@ -87,23 +87,6 @@ def test_wrongMotionIsRefused(wrong, sentence):
     assert not fe.loads.any()
 
 
-def test_loadsAndMotionAreSaved(tmp_path):
-    def pull(fe):
-        loads = fe.loads
-        loads[isTop(fe), 1] = 1e3
-        fe.loads = loads
-
-    fe = clampedBlock(pull)
-    runSteps(50)
-    O.save(str(tmp_path / 'scene.yade.gz'))
-    runSteps(50)
-    wanted = fe.nodes
-    O.load(str(tmp_path / 'scene.yade.gz'))
-    runSteps(50)
-    loaded = [engine for engine in O.engines if isinstance(engine, FESolver)][0]
-    assert (loaded.nodes == wanted).all()
-
-
 def test_runCallsInBetween():
     clampedBlock(lambda fe: None)
     called = []

@@ -31,10 +31,6 @@ def steel():
     return FEMat(young=210e9, poisson=.3, density=7800)
 
 
-def solverOfScene():
-    return next(engine for engine in O.engines if isinstance(engine, FESolver))
-
-
 def test_barIsUpsetAndHeated():
     fe = bar()
     start = fe.energy['total']
@@ -72,23 +68,6 @@ def test_fieldsArePlottedExportedAndRecorded(tmp_path):
     last = dict(zip(head, lines[-1]))
     assert len(lines) == 4 and float(last['plastic (J)']) > 0
     assert float(last['largest plastic strain']) > .05 and float(last['highest temperature (K)']) > 300
-
-
-@pytest.mark.parametrize('ending', ['.yade.gz', '.xml'])
-def test_continuesFromAFileWithTheSameBits(tmp_path, ending):
-    bar()
-    O.run(200, True)
-    file = str(tmp_path / ('half' + ending))
-    O.save(file)
-
-    def end():
-        O.run(200, True)
-        fe = solverOfScene()
-        return [fe.nodes.tobytes(), fe.plasticStrain.tobytes(), fe.temperature.tobytes(), repr(fe.energy)]
-
-    whole = end()
-    O.load(file)
-    assert end() == whole
 
 
 def test_smoothedIsTheDefaultAndLinearTrianglesLock():

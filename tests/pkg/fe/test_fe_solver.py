@@ -62,17 +62,6 @@ def test_colliderWithoutTheFunctorLosesNothing():
     assert np.abs(solver.nodes - nodes).max() < 1e-13
 
 
-def test_twoThreadsGiveTheSameBits():
-    runs = []
-    for threads in (1, 2):
-        O.reset()
-        solver = impact('LebesgueCollider')
-        solver.ompThreads = threads
-        steps(300)
-        runs.append((solver.nodes, solver.velocities))
-    assert (runs[0][0] == runs[1][0]).all() and (runs[0][1] == runs[1][1]).all()
-
-
 # --- values
 
 def test_arraysAndLedger():

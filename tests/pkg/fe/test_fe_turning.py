@@ -175,27 +175,6 @@ def test_crackedNodesMoveOn():
     assert np.linalg.norm(solver.nodes[moved], axis=1) == pytest.approx(reference[moved], rel=1e-9)
 
 
-@pytest.mark.parametrize('ending', ['.yade', '.xml'])
-def test_savedMotionsGoOnWithTheSameBits(folder, ending):
-    solver = drum(name='drum')
-    solver.rotate('drum', [(0, 0), (.01, 30)], CENTRE)
-    solver.addPolygon(yadefrag.rectangle((3, 0), (4, 1)), size=.5, material='m', name='gone')
-    last = solver.addPolygon(yadefrag.rectangle((5, 0), (6, 1)), size=.5, material='m', name='anvil')
-    solver.prescribe('anvil', vy=[(0, 0), (.02, 1)])
-    solver.removeBody('gone')
-    assert solver.componentOf('anvil') == last
-    steps(30)
-    path = os.path.join(folder, 'scene' + ending)
-    O.save(path)
-    steps(30)
-    wanted, energy = solver.nodes, solver.energy
-    O.load(path)
-    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
-    assert solver.componentOf('anvil') == last and (solver.nodesOf('drum') == solver.nodesOf(0)).all()
-    steps(30)
-    assert (solver.nodes == wanted).all() and solver.energy == energy
-
-
 def test_functionsAreRequiredAfterALoad(folder):
     solver = block()
     path = os.path.join(folder, 'scene.yade')

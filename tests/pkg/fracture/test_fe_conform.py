@@ -9,7 +9,7 @@ import pytest
 
 import touching_outlines as touching
 import yadefrag
-from fe_impact import engines, goesOnAfterReload
+from fe_impact import engines
 from yade import utils
 from yade import wrapper as w
 
@@ -62,14 +62,6 @@ def test_sidesOfTwoSizesHoldAndBreak(sizes, angle):
     assert solver.crackCounts == dict(open=sides, damaged=0, whole=0)
     assert len(yadefrag.crackTable(solver)) == sides
     assert np.abs(momentumOf(solver) - before).max() < 1e-12 * solver.masses.sum() * 20
-
-
-def test_theyAreSaved(folder):
-    solver = pair((.002, .003), 8)
-    solver.bond(0, 1, 5e6, 100)
-    engines(solver, factor=.4)
-    O.run(40, True)
-    goesOnAfterReload(solver, os.path.join(folder, 'pair.yade'))
 
 
 def test_aBodyAddedLaterAndASphereTouchDividedSides():

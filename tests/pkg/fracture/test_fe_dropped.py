@@ -1,6 +1,5 @@
 """Fragments below FESolver.minFragmentArea: taken out of the scene, and booked."""
 import builtins
-import os
 
 import numpy as np
 import pytest
@@ -116,28 +115,6 @@ def test_spheresAmongDroppedFragments(finder):
     steps(5)
     requireBodiesAreEntries(solver)
     assert new == 2
-
-
-@pytest.mark.parametrize('ending', ['.xml', '.yade.gz'])
-def test_savedRunGoesOnBitForBit(ending, folder):
-    solver = dropping(weibullModulus=10, seed=3)
-    steps(150)
-    path = os.path.join(folder, 'scene' + ending)
-    O.save(path)
-    saved = state(solver), solver.dropped, solver.energy
-    assert solver.dropped['count'] > 0
-    steps(150)
-    wanted = state(solver), solver.dropped, solver.energy, solver.numSearches, len(O.bodies)
-    assert wanted[1]['count'] > saved[1]['count']
-    O.reset()
-    O.load(path)
-    solver = [e for e in O.engines if isinstance(e, w.FESolver)][0]
-    assert solver.minFragmentArea == kArea
-    assert areSame(state(solver), saved[0]) and (solver.dropped, solver.energy) == saved[1:]
-    steps(150)
-    assert areSame(state(solver), wanted[0])
-    assert (solver.dropped, solver.energy, solver.numSearches, len(O.bodies)) == wanted[1:]
-    requireBodiesAreEntries(solver)
 
 
 def test_bodyWithDroppedFragmentsIsRemoved():

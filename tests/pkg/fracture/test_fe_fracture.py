@@ -7,8 +7,7 @@ import pytest
 
 import fe_chain as chain
 import yadefrag
-from fe_impact import (areSame, brittle, engines, heapSpheres, impact, requireBodiesAreEntries,
-                       state, steps)
+from fe_impact import brittle, engines, heapSpheres, impact, requireBodiesAreEntries, steps
 from yadefrag.plots import pictures
 from yadefrag.plots.colours import fragmentColours
 from yade import wrapper as w
@@ -178,31 +177,6 @@ def test_cracksAreTheSameWithAnyColliderAndThreads():
         assert np.abs(found[2] - wanted[2]).max() < 1e-12, (finder, threads)
 
 
-@pytest.mark.parametrize('finder', ['InsertionSortCollider', 'HierarchyCollider',
-                                    'LinearCodeCollider'])
-@pytest.mark.parametrize('energy', [0, 500])
-@pytest.mark.filterwarnings('ignore:fractureEnergy')
-def test_anyColliderGivesTheSameBits(finder, energy):
-    runs = []
-    for one in ('LebesgueCollider', finder):
-        O.reset()
-        solver = impact(one, fractureEnergy=energy, strengthScatter=.1)
-        steps(200 if energy == 0 else 250)
-        runs.append((state(solver), solver.numCracks, solver.numSearches, solver.energy))
-    assert runs[0][1] > 20
-    assert areSame(runs[0][0], runs[1][0]) and runs[0][1:] == runs[1][1:]
-
-
-def test_threadsGiveTheSameBits():
-    runs = []
-    for threads in (1, 2):
-        O.reset()
-        solver = impact(threads=threads)
-        steps(200)
-        runs.append(state(solver))
-    assert areSame(*runs)
-
-
 def test_facesOfCracksStartNoSearch():
     """Where there is nothing but FE bodies, the collider need not look when an edge cracks."""
     solver = impact()
@@ -224,31 +198,6 @@ def test_brittleBodyIsRemoved():
 
 
 # --- saving and loading
-
-@pytest.mark.parametrize('ending', ['.xml', '.yade.gz'])
-@pytest.mark.parametrize('energy', [0, 500])
-@pytest.mark.filterwarnings('ignore:fractureEnergy')
-def test_savedRunGoesOnBitForBit(ending, energy, folder):
-    solver = impact(fractureEnergy=energy, weibullModulus=10, seed=3, referenceVolume=1e-7)
-    count = 120 if energy == 0 else 250
-    steps(count)
-    assert solver.numCracks > 5
-    path = os.path.join(folder, 'scene' + ending)
-    O.save(path)
-    saved = state(solver), solver.numCracks, solver.energy
-    steps(150)
-    wanted = state(solver), solver.numCracks, solver.energy, solver.numSearches, len(O.bodies)
-    assert wanted[1] > saved[1]
-    O.reset()
-    O.load(path)
-    solver = [e for e in O.engines if isinstance(e, w.FESolver)][0]
-    assert areSame(state(solver), saved[0]) and (solver.numCracks, solver.energy) == saved[1:]
-    steps(150)
-    assert solver.numCracks == wanted[1]
-    assert areSame(state(solver), wanted[0])
-    assert (solver.energy, solver.numSearches, len(O.bodies)) == wanted[2:]
-    requireBodiesAreEntries(solver)
-    assert O.bodies[len(O.bodies) - 1].material.label == 'b'
 
 
 # --- fragments and records

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import cracks, engines, goesOnAfterReload
+from fe_impact import cracks, engines
 from yade import wrapper as w
 
 O = builtins.O
@@ -185,14 +185,6 @@ def test_aBondHoldsAndBreaks():
     assert len(solver.fragments()) == 2
     assert solver.energy['fracture'] == pytest.approx(100 * kHeight, rel=.02)
     assert solver.numCracks == 0 and solver.crackCounts == dict(open=sides, damaged=0, whole=0)
-
-
-def test_bondsAreSaved(folder):
-    solver = pair(velocity=8)
-    solver.bond(0, 1, 5e6, 100)
-    engines(solver, factor=.4)
-    O.run(40, True)
-    goesOnAfterReload(solver, os.path.join(folder, 'pair.yade'))
 
 
 def test_bondedGrainsCarryStressAsOneBodyDoes():

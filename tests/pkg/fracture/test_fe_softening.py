@@ -1,6 +1,5 @@
 """Softening curves of cracks, from Python."""
 import builtins
-import os
 
 import numpy as np
 import pytest
@@ -83,21 +82,3 @@ def test_aNameOrPointsAreGivenAndReturned():
     ([(0, 'a'), (1, 0)], TypeError, 'it must be a name, or a list of points')])
 def test_othersAreRefusedByOneSentence(given, kind, message):
     assertRefused('softening', given, kind, message)
-
-
-@pytest.mark.parametrize('ending', ['.yade', '.xml'])
-@pytest.mark.parametrize('softening', ['petersson', 'exponential', kTable], ids=str)
-def test_aSavedRunGoesOnWithTheSameBits(softening, ending, folder):
-    path = os.path.join(folder, 'saved' + ending)
-    fe = bar(softening)
-    O.run(300, True)
-    assert yadefrag.crackTable(fe)['held'].any()
-    O.save(path)
-    results = []
-    for _ in range(2):
-        O.run(2000, True)
-        results.append((fe.nodes.tobytes(), fe.velocities.tobytes(), repr(fe.energy)))
-        O.load(path)
-        fe = O.engines[[type(e).__name__ for e in O.engines].index('FESolver')]
-        assert O.materials[0].softening == softening
-    assert results[0] == results[1]

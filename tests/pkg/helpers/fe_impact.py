@@ -56,18 +56,6 @@ def steps(count):
         O.step()
 
 
-def goesOnAfterReload(solver, path):
-    """200 steps from now give the same bits after the scene was saved and loaded."""
-    O.save(path)
-    O.run(200, True)
-    nodes, energy = solver.nodes, solver.energy
-    O.reset()
-    O.load(path)
-    again = next(e for e in O.engines if isinstance(e, w.FESolver))
-    O.run(200, True)
-    assert np.array_equal(again.nodes, nodes) and again.energy == energy
-
-
 def state(solver):
     return (solver.nodes, solver.velocities, solver.masses, solver.triangles,
             np.concatenate(solver.surfaces), solver.fragmentOf)

@@ -1,7 +1,7 @@
 """Messages of a step: for each the scene that provokes it, and the same scene with its advice followed.
 
-Rows of docs/checked.md. A cause and a remedy build a scene and run it; the cause must give the message, by an
-exception or in fe.warnings, the remedy must not.
+A cause and a remedy build a scene and run it; the cause must give the message, by an exception or in fe.warnings, the
+remedy must not. docs/checked.md has the thresholds.
 """
 import builtins
 import math

@@ -70,9 +70,9 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
                     numbers, a function (x, y) → these, called at the triangles' centroids, or an array
                     (m, 3) or (m, 4) by triangle; e.g. the state of rock before an excavation. Without
                     zz it is poisson*(xx + yy), and (xx + yy)/2 for materials that yield: even pressure
-                    in the plane is even in space. A warning says if it yields. The outline is the stressed shape; the stress-free one is computed
-                    from it, triangle by triangle; density is that of the stress-free material. The
-                    body is at rest if stresses and loads are in equilibrium: hold its boundary with
+                    in the plane is even in space. A warning says if it yields. The outline is the
+                    stressed shape; the stress-free one is computed from it, triangle by triangle;
+                    density is that of the stress-free material. The body is at rest if stresses and loads are in equilibrium: hold its boundary with
                     `fixed`, or load it with `pressure` or `loads`. Not together with displacement
     fixed           None, or a function (x, y) that returns False, True, 'x' or 'y': the directions
                     in which a node there keeps its velocity, independently of forces. If the nodes

@@ -34,8 +34,8 @@ def plotMesh(fe: FESolver, field: str | ArrayLike | None = None, file: File | No
     that cohesion holds, coloured by their damage, and open ones black, above them; and YADE's spheres,
     walls, boxes and facets. Returns Matplotlib's axes.
 
-    field   None (no colours), 'xx', 'yy', 'xy', 'zz' (Pa), 'mises' (Pa, from these four; 'stress' is the same), 'sigma1', 'sigma2' (Pa, larger and smaller principal stress in the
-            plane; 'principal1', 'principal2' are the same), 'strain' (√(xx² + yy² + 2xy²)), 'plasticStrain',
+    field   None (no colours), 'xx', 'yy', 'xy', 'zz' (Pa), 'mises' (Pa, from these four; 'stress' is the
+            same), 'sigma1', 'sigma2' (Pa, larger and smaller principal stress in the plane; 'principal1', 'principal2' are the same), 'strain' (√(xx² + yy² + 2xy²)), 'plasticStrain',
             'temperature' (K; grey without one), 'damage', 'speed' or 'velocity' (m/s), 'displacement' (m),
             'contactForce', 'reaction' (N; lengths of the vectors), 'component', 'fragment' (arbitrary
             colours, different for adjacent fragments), the names of exportVTK ('plastic strain'), or an

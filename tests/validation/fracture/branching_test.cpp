@@ -10,9 +10,9 @@
 #include <numbers>
 #include <vector>
 
-#include "fracture/open_edges.hpp"
-#include "fracture/pulled_plate.hpp"
 #include "step/figures.hpp"
+#include "validation/fracture/open_edges.hpp"
+#include "validation/fracture/pulled_plate.hpp"
 
 namespace yadefrag::test {
 namespace {

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <string>
 
@@ -137,7 +136,6 @@ TEST(ExpandingRing, FragmentsAsByMott) { figure("fragments_over_mott", meanOverM
 
 // Half a minute each.
 TEST(ExpandingRing, FinerTurnedOtherSeeds) {
-  if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   figure("finer", meanOverMott(5, 1), 1.1, .2);
   figure("turned", meanOverMott(3, 1, .3), 1.1, .2);
   figure("seed_4", meanOverMott(3, 4), 1.1, .2);
@@ -147,7 +145,6 @@ TEST(ExpandingRing, FinerTurnedOtherSeeds) {
 /// A large fracture energy makes fewer fragments than Mott's, down to those of the length of Grady
 /// and Kipp, (24 G/(ρ ε̇²))^⅓, for which the kinetic energy is just enough.
 TEST(ExpandingRing, AFractureEnergyLimitsTheFragments) {
-  if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   constexpr double kSpeed = 1000, kEnergy = 1e5;
   const double rate = kSpeed / kRadius;
   const double energetic = kAround / std::cbrt(24 * kEnergy / (2700 * rate * rate));

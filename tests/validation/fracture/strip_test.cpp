@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <random>
 
@@ -167,7 +166,6 @@ TEST(Strip, CrackRunsAtTheFractureEnergy) {
 
 // A fifth of an element each way. Measured: 1.020, as with the regular mesh.
 TEST(Strip, TheMeshNeedNotBeRegular) {
-  if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   const Outcome outcome = pullUntilBreak({24, .2});
   RecordProperty("release", std::to_string(outcome.release));
   EXPECT_NEAR(outcome.release, 1, .05);

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "fracture/laboratory.hpp"
@@ -102,7 +101,6 @@ TEST_P(BrazilianArcs, SplitFromTheMiddle) {
 INSTANTIATE_TEST_SUITE_P(ShearFactors, BrazilianArcs, testing::Values(3., 20.));
 
 TEST(BrazilianArcsMesh, FinerMeshesConvergeToTheTheory) {
-  if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   for (const double shearFactor : {3., 20.})
     for (const std::uint64_t seed : {1, 2, 3})
       figure("load", press({.625e-3, seed}, shearFactor).first, 1, .03);

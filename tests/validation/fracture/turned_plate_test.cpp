@@ -11,12 +11,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "fracture/laboratory.hpp"
-#include "fracture/open_edges.hpp"
 #include "step/figures.hpp"
+#include "validation/fracture/open_edges.hpp"
 
 namespace yadefrag::test {
 namespace {
@@ -106,7 +105,6 @@ TEST(TurnedPlate, CrackGoesAcross) {
 /// Over 36 elements, ten turns: 4.8°, the mean 0.8°, and the load scatters by 4.8 %. The crack goes
 /// from one node to a next one, up to 30° aside, and is one or two elements beside the middle.
 TEST(TurnedPlate, AllTurnsOfAFinerMesh) {
-  if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   const Spread spread = pullTurned({kWide / 60}, {0, 5, 10, 15, 20, 25, 30, 35, 40, 45});
   figure("steepest", spread.steepest, 0, 5);
   figure("mean_angle", spread.mean, 0, 2);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fracture/open_edges.hpp"
-#include "fracture/pulled_plate.hpp"
+#include "validation/fracture/open_edges.hpp"
+#include "validation/fracture/pulled_plate.hpp"
 
 namespace yadefrag::test {
 namespace {

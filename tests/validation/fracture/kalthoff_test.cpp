@@ -8,9 +8,9 @@
 #include <numbers>
 #include <string>
 
-#include "fracture/open_edges.hpp"
 #include "meshing/triangulate.hpp"
 #include "step/figures.hpp"
+#include "validation/fracture/open_edges.hpp"
 
 namespace yadefrag::test {
 namespace {

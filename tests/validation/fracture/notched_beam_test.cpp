@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "fracture/laboratory.hpp"
 #include "step/figures.hpp"
@@ -128,7 +127,6 @@ double strength(double perZone, Trial trial = {}) {
 TEST(NotchedBeam, FourElementsInAZoneDo) { figure("four_elements", strength(4), 1.05, .05); }
 
 TEST(NotchedBeam, MoreElementsAndSeeds) {
-  if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   for (const std::uint64_t seed : {1, 2, 3}) {
     Trial trial;
     trial.seed = seed;

@@ -12,7 +12,6 @@
 #include <cmath>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "fracture/laboratory.hpp"
 #include "step/figures.hpp"
@@ -115,8 +114,6 @@ RunResult Press::run(double way, double least) {
 
 RunResult uniaxial(const Trial& trial) { return Press(trial, rock(), 0).run(1.3, .2); }
 
-bool isLong() { return std::getenv("YADEFRAG_LONG") != nullptr; }
-
 /// The first crack is at the load of theory, since some edge lies along the worst plane, to a few
 /// degrees. It brings about the collapse, and the load still rises until the waves of it arrive.
 constexpr double kFirst = .005, kPeak = .02;
@@ -164,7 +161,6 @@ TEST(Uniaxial, RowsAndSmoothedStrainsCarryTheSame) {
 }
 
 TEST(Uniaxial, AllMeshes) {
-  if (!isLong()) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   for (const double size : {2e-3, kSize, .8e-3})
     for (const std::uint64_t seed : {1, 2, 3})
       for (const double turned : {0., 15., 30.}) {

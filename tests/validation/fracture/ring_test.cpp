@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "fracture/overlaps.hpp"
@@ -137,7 +136,6 @@ TEST(Ring, PiecesAreAsLargeAsTheory) {
 // Measured, coarse and fine mesh: 1.08 and 1.09 at 10³ s⁻¹, 1.11 and 1.06 at 10⁴, 1.16 and 1.21 at
 // 10⁵. At 10³, where a ring has no more than 60 fragments, 40 % are allowed. Several minutes.
 TEST(Ring, ThreeRatesFiveSeedsTwoMeshes) {
-  if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   for (const Case& one : {Case{1e3, 500, 2.5e-6}, Case{1e4, 500, 1e-6}, Case{1e5, 2500, .3e-6}}) {
     const double tolerance = one.rate < 5e3 ? .4 : .25;
     const double coarse = meanSize(one, 5);
@@ -241,7 +239,6 @@ double piecesOf(const Material& material, double rate, int rows, double partOfSt
 // Wanted: 20 %, with four rows 10 %. Measured: .58 to .88 (docs/measured.md), for the reason above:
 // the paths across an irregular mesh differ in strength.
 TEST(Ring, ThreeMaterialsThreeRatesThreeWidths) {
-  if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   const std::pair<const char*, Material> materials[] = {
       {"ceramic", kCeramic},
       {"alumina", {{390e9, 0, 3900, true}, 400e6, 40}},
@@ -261,7 +258,6 @@ TEST(Ring, ThreeMaterialsThreeRatesThreeWidths) {
 
 // Measured with .8, .4, .2 of the critical step: .733, .742, .750 of the formula's fragments.
 TEST(Ring, ShorterSteps) {
-  if (std::getenv("YADEFRAG_LONG") == nullptr) GTEST_SKIP() << "long: set YADEFRAG_LONG";
   const auto pieces = [](double part) {
     return (piecesOf(kCeramic, 1e4, 2, part, 1) + piecesOf(kCeramic, 1e4, 2, part, 2)) / 2;
   };

@@ -1,0 +1,222 @@
+"""What must not change a run, in every scene that something happens in: saving and loading, the number of threads, the
+collider. All that moves, and all that FESolver keeps, has the same bits."""
+import builtins
+import math
+
+import numpy as np
+import pytest
+
+import fe_chain as chain
+import fe_impact
+import yadefrag
+from fe_scene import fe, finder, run
+from yade import utils
+from yade import wrapper as w
+
+O = builtins.O
+kArrays = ('nodes', 'velocities', 'masses', 'triangles', 'fragmentOf', 'stress', 'plasticStrain', 'temperature',
+           'damage')
+kFigures = ('energy', 'numCracks', 'numSearches', 'numSegments', 'dropped', 'warnings', 'time')
+
+
+def solverOfScene():
+    return next(engine for engine in O.engines if isinstance(engine, w.FESolver))
+
+
+def state():
+    """{what: bytes or text} of all that the next steps depend on; YADE does not save the geometry of contacts."""
+    solver = solverOfScene()
+    found = {name: np.asarray(getattr(solver, name)).tobytes() for name in kArrays}
+    found.update({name: repr(getattr(solver, name)) for name in kFigures}, cracks=yadefrag.crackTable(solver).tobytes(),
+                 surfaces=np.concatenate(solver.surfaces).tobytes())
+    found['bodies'] = repr([(b.id, tuple(b.state.pos), tuple(b.state.vel), tuple(b.state.angVel))
+                            for b in O.bodies if b and not isinstance(b.shape, w.SurfaceSegment)])
+    found['contacts'] = repr(sorted((i.id1, i.id2, tuple(i.phys.normalForce), tuple(i.phys.shearForce))
+                                    for i in O.interactions if i.isReal))
+    return found
+
+
+def differences(a, b):
+    return [name for name in a if a[name] != b[name]]
+
+
+def brittle(**values):
+    return lambda: fe_impact.impact(**dict(dict(strengthScatter=.1, seed=3), **values))
+
+
+def dropped():
+    fe_impact.impact(weibullModulus=10, seed=3).minFragmentArea = 3e-6
+
+
+def discAndBall():
+    solver = fe()
+    solver.addPolygon(yadefrag.circle((0, 0), .1, 24), size=.02, material='m', velocity=(2, .3), smooth=True, spin=3)
+    solver.addPolygon(yadefrag.rectangle((.105, -.1), (.2, .1)), size=.02, material='m')
+    ball = chain.ball((.15, .151), .05, O.materials['m'])
+    ball.state.vel, ball.state.blockedDOFs = (0, -1, 0), 'zXY'
+    O.bodies.append(ball)
+    run(solver, finder('LebesgueCollider'), spheres=True, factor=.5)
+
+
+def bonded():
+    """Two bars of different meshes, which are torn apart."""
+    O.materials.append(w.FEMat(young=1e9, poisson=0, density=1000, planeStress=True, label='m'))
+    solver = w.FESolver()
+    for low, size in ((0, .002), (.05, .003)):
+        solver.addPolygon(yadefrag.rectangle((low, 0), (low + .05, .02)), size=size, material='m',
+                          velocity=lambda x, y: (8 * (x / .05 - 1), 0))
+    solver.bond(0, 1, 5e6, 100)
+    fe_impact.engines(solver, factor=.4)
+
+
+def stressed():
+    solver = fe()
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='m', stress=(-3e4, 1e4, 2e4))
+    run(solver)
+
+
+def driven():
+    """A drum that turns, an anvil that moves, a block with pressure and loads, after a body has been removed."""
+    solver = fe()
+    solver.addPolygon(*yadefrag.ring((0, 0), .7, 1, 32), size=.3, material='m', name='drum')
+    solver.addPolygon(yadefrag.rectangle((3, 0), (4, 1)), size=.5, material='m', name='gone')
+    solver.addPolygon(yadefrag.rectangle((5, 0), (6, 1)), size=.5, material='m', name='anvil')
+    solver.addPolygon(yadefrag.rectangle((7, 0), (8, 1)), size=.5, material='m', name='block')
+    solver.rotate('drum', [(0, 0), (.01, 30)], (0, 0))
+    solver.prescribe('anvil', vy=[(0, 0), (.02, 1)])
+    solver.pressure(lambda x, y: 7 - 1e-9 < x < 7 + 1e-9, [(0, 0), (.01, 1e3)])
+    solver.absorb(lambda x, y: x > 8 - 1e-9)
+    solver.removeBody('gone')
+    loads = solver.loads
+    loads[solver.nodesOf('block'), 1] = 10
+    solver.loads = loads
+    run(solver)
+
+
+def plastic(**failure):
+    """A harder bar plugs a plate of steel, which yields, or fails."""
+    def make():
+        O.materials.append(w.PlasticFEMat(young=200e9, poisson=.29, density=7830, yieldStress=792e6, hardening=510e6,
+                                          hardeningExponent=.26, rateFactor=.014, thermalExponent=1.03,
+                                          meltTemperature=1793, heatCapacity=477, **failure))
+        O.materials.append(w.FEMat(young=600e9, poisson=.22, density=15000))
+        solver = w.FESolver(passes=2)
+        solver.addPolygon(yadefrag.rectangle((-.012, 0), (.012, .002)), size=5e-4, material=0,
+                          fixed=lambda x, y: abs(x) > .0119)
+        solver.addPolygon(yadefrag.rectangle((-.003, .002), (.003, .006)), size=1e-3, material=1, velocity=(0, -500))
+        O.engines = yadefrag.engines(solver)
+        O.dt = .7 * solver.criticalTimeStep()
+    return make
+
+
+def rigid():
+    """A block falls on facets, a wall and a box that moves; another box obeys forces."""
+    solver = fe(gravity=(0, -10))
+    solver.addPolygon(yadefrag.rectangle((0, .001), (.1, .101)), size=.025, material='m', velocity=(.3, -1))
+    O.bodies.append([utils.facet([(*a, 1), (*a, -1), (*b, 0)], fixed=True)
+                     for a, b in (((-1, 0), (.05, 0)), ((1, 0), (.05, 0)))])
+    O.bodies.append([utils.wall(.5, axis=0), utils.box((-.3, .1, 0), (.1, .05, .5)),
+                     utils.box((.05, .14, 0), (.03, .02, .5))])
+    moving, free = O.bodies[-2], O.bodies[-1]
+    moving.state.blockedDOFs, moving.state.vel = 'zXY', (2, 0, 0)
+    free.state.blockedDOFs, free.state.vel = 'zXY', (1, -1, 0)
+    run(solver)
+
+
+def wallAndClump():
+    """Spheres in contact with a wall that cracks."""
+    O.materials.append(w.BrittleFEMat(young=30e9, poisson=.2, density=2400, frictionAngle=.3, tensileStrength=3e6,
+                                      strengthScatter=.1, label='wall'))
+    O.materials.append(w.FrictMat(young=2e9, poisson=.3, density=2400, frictionAngle=.3, label='s'))
+    solver = w.FESolver()
+    solver.addPolygon(yadefrag.rectangle((0, -.5), (.1, .5)), size=.02, material='wall',
+                      fixed=lambda x, y: abs(y) > .5 - 1e-9)
+    number, _ = O.bodies.appendClumped([chain.ball(at, .05, O.materials['s'])
+                                        for at in ((-.051, .01), (-.09, .07), (-.09, -.05))])
+    clump = O.bodies[number]
+    clump.state.vel, clump.state.blockedDOFs = (40, 0, 0), 'zXY'
+    run(solver, finder('LebesgueCollider'), spheres=True, factor=.2)
+
+
+kFails = dict(failureD1=.05, failureD2=3.44, failureD3=-2.12, failureD4=.002, failureD5=.61, fractureEnergy=2e4)
+kTable = [(0, 1), (.1, .4), (.5, .3), (1, 0)]
+# Scene: (makes it, steps before it is saved, what has happened by the end).
+kScenes = {
+    'elastic disc and sphere': (discAndBall, 250, lambda fe: fe.energy['contact'] != 0),
+    'cracks': (brittle(weibullModulus=10, referenceVolume=1e-7), 120, lambda fe: fe.numCracks > 5),
+    'cohesion': (brittle(fractureEnergy=500), 250, lambda fe: fe.numCracks > 5),
+    'petersson': (brittle(fractureEnergy=500, softening='petersson'), 250, lambda fe: fe.numCracks > 5),
+    'table': (brittle(fractureEnergy=500, softening=kTable), 250, lambda fe: fe.numCracks > 5),
+    'rate': (brittle(fractureEnergy=500, rateEffect='ceb-fip-2010', rateEnergyPower=.5), 400,
+             lambda fe: fe.numCracks > 5),
+    'dropped': (dropped, 150, lambda fe: fe.dropped['count'] > 0),
+    'bonded': (bonded, 40, lambda fe: fe.energy['fracture'] > 0),
+    'stressed': (stressed, 20, lambda fe: fe.energy['strain'] > 0),
+    'driven': (driven, 30, lambda fe: fe.energy['external'] > 0 and fe.energy['damping'] > 0),
+    'plastic': (plastic(), 100, lambda fe: fe.plasticStrain.max() > .01),
+    'failure': (plastic(strengthScatter=.1, **kFails), 100, lambda fe: fe.numCracks > 0),
+    'rigid': (rigid, 60, lambda fe: fe.energy['contact'] != 0),
+    'clump on cracks': (wallAndClump, 150, lambda fe: fe.numCracks > 0),
+}
+pytestmark = pytest.mark.filterwarnings('ignore:fractureEnergy', 'ignore:.*less than four elements')
+
+
+def start(name, threads=1):
+    """Makes a scene; the steps until it is saved."""
+    O.reset()
+    make, steps, _ = kScenes[name]
+    make()
+    solverOfScene().ompThreads = threads
+    return steps
+
+
+@pytest.mark.parametrize('name', kScenes)
+def test_savedAndLoaded(name, folder):
+    """In text and in binary, compressed or not."""
+    steps = start(name)
+    O.run(steps, True)
+    files = [folder + '/scene' + ending for ending in ('.yade', '.xml', '.yade.gz', '.xml.bz2')]
+    for file in files:
+        O.save(file)
+    O.saveTmp()
+    O.run(steps, True)
+    wanted = state()
+    assert kScenes[name][2](solverOfScene())
+    for file in files:
+        O.reset()
+        O.load(file)
+        O.run(steps, True)
+        assert differences(wanted, state()) == [], file
+    O.loadTmp()
+    O.run(steps, True)
+    assert differences(wanted, state()) == []
+
+
+@pytest.mark.parametrize('name', kScenes)
+def test_threads(name):
+    O.run(2 * start(name), True)
+    wanted = state()
+    O.run(2 * start(name, 2), True)
+    assert differences(wanted, state()) == []
+
+
+@pytest.mark.parametrize('finderName', ['InsertionSortCollider', 'HierarchyCollider', 'LinearCodeCollider'])
+@pytest.mark.parametrize('name', ['elastic disc and sphere', 'cracks', 'cohesion', 'clump on cracks'])
+def test_colliders(name, finderName):
+    found = []
+    for one in ('LebesgueCollider', finderName):
+        steps = start(name)
+        O.engines = [finder(one) if 'Collider' in type(engine).__name__ else engine for engine in O.engines]
+        O.run(2 * steps, True)
+        found.append(state())
+    assert differences(*found) == []
+
+
+def test_loadedScenesMayChange(folder):
+    """A body of a scene that was loaded can be removed."""
+    O.run(start('elastic disc and sphere'), True)
+    O.save(folder + '/scene.yade')
+    O.load(folder + '/scene.yade')
+    solverOfScene().removeBody(0)
+    O.run(10, True)
+    assert math.isfinite(solverOfScene().energy['total'])

@@ -1,0 +1,63 @@
+// What must not change a run, in every eventful scene: the number of threads, saving and loading at
+// any moment, making anew what is not saved, and how often is searched. The bits are the same.
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <utility>
+#include <vector>
+
+#include "core/same_bits.hpp"
+#include "core/threads_for_few.hpp"
+#include "extremes/limits.hpp"
+#include "step/eventful_scenes.hpp"
+
+namespace yadefrag::test {
+namespace {
+
+class SameBits : public testing::TestWithParam<std::pair<const std::string, Scene>> {};
+
+TEST_P(SameBits, ForAnyThreadsCopiesAndSearches) {
+  const ThreadsForFew few;
+  // Of the shorter run every second scene has one pass.
+  const int alone = 1 + static_cast<int>(GetParam().first.size() % 2);
+  for (const int passes : longRun() ? std::vector<int>{1, 2} : std::vector<int>{alone}) {
+    SCOPED_TRACE(passes);
+    const auto make = [&] {
+      World world = GetParam().second();
+      world.contactSettings.passes = passes;
+      return world;
+    };
+    World world = make();
+    const double dt = .3 * world.criticalTimeStep();
+    std::deque<World> whole, motion;  // with the state of `world`; with its motion
+    for (const int threads : {2, 3}) whole.emplace_back(make()).threads = threads;
+    for (const double halo : {.05, .5}) motion.emplace_back(make()).contactSettings.halo = halo;
+    World& rebuilt = motion.emplace_back(make());
+    const int steps = longRun() ? 1000 : 150, every = longRun() ? 10 : 60;
+    for (int i = 0; i < steps; ++i) {
+      if (i % every == 3) whole.push_back(copyOf(world));
+      if (i % 40 == 39) rebuilt.rebuild();
+      world.step(dt);
+      const State state = stateOf(world);
+      for (std::size_t k = 0; k < whole.size(); ++k) {
+        whole[k].step(dt);
+        ASSERT_EQ(whatDiffers(state, stateOf(whole[k])), "") << "step " << i << ", world " << k;
+      }
+      for (std::size_t k = 0; k < motion.size(); ++k) {
+        motion[k].step(dt);
+        ASSERT_TRUE(sameBits(world.model.nodes.position, motion[k].model.nodes.position) &&
+                    sameBits(world.model.nodes.velocity, motion[k].model.nodes.velocity))
+            << "step " << i << ", world " << k;
+        ASSERT_EQ(world.fracture.numCracks(), motion[k].fracture.numCracks());
+        ASSERT_EQ(world.ledger.dropped, motion[k].ledger.dropped);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SameBits, testing::ValuesIn(scenes()),
+                         [](const auto& test) { return test.param.first; });
+
+}  // namespace
+}  // namespace yadefrag::test
