@@ -53,7 +53,7 @@ void Contact::correct(Model& model, const ContactSurfaces& surfaces, const Conta
   if (!candidates.slaves.empty()) {
     detect(model, surfaces, step);
     if (sweeps_.size() > 0) {
-      solve(model, step);
+      solve(model, surfaces, step);
       keepRows(model, surfaces, step);
       move(model, step);
     }
@@ -173,13 +173,37 @@ ContactRow Contact::rowOf(const NearRow& near, const ContactSurfaces& surfaces, 
   return row;
 }
 
-void Contact::solve(Model& model, const ContactStep& step) {
+void Contact::solve(Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::correction);
   const double least = tolerance::kLeastChange * step.shortest;
   const RowSweeps::Stop stop{std::max(step.constants.stop * move_, least), step.constants.rowSweeps,
                              least};
-  (void)sweeps_.solve(stop, step.coupled, &model.nodes.position);
+  (void)sweeps_.begin(stop, step.coupled, &model.nodes.position);
+  measureGaps(model.nodes, surfaces);
+  sweeps_.improve(tolerance::kLastSweeps);
+  sweeps_.end(step.coupled, &model.nodes.position);
   now_.sweeps = sweeps_.sweeps();
+}
+
+/// At the positions that the forces lead to, gaps differ from the linear ones by the second order
+/// of the rotation. Only of rows with a force, and on straight pieces of bodies with elements.
+void Contact::measureGaps(const Nodes& nodes, const ContactSurfaces& surfaces) {
+  if (surfaces.anySmooth()) return;
+  const auto placeOf = [&](EntryId entry) {
+    const NodeId node = surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
+    return nodes.position[node.value] + sweeps_.shiftOf(node);
+  };
+  for (std::size_t r = 0; r < near_.size(); ++r) {
+    const RowSystem::Row& row = sweeps_.row(r);
+    if (!(row.normalForce > 0) || row.turn != RowSystem::kNone) continue;
+    const Vec2 begin = placeOf(near_[r].master);
+    const Vec2 side = placeOf(surfaces.next[near_[r].master.value]) - begin;
+    const double exact = cross(placeOf(near_[r].slave) - begin, side) / norm(side);
+    const double tolerated = near_[r].gap - row.gap;
+    const double linear = sweeps_.gapAfter(row) + tolerated;
+    near_[r].gap += exact - linear;
+    sweeps_.setGap(r, row.gap + (exact - linear));
+  }
 }
 
 /// Only rows with a force are kept.

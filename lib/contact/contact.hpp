@@ -94,7 +94,8 @@ class Contact {
   void clearForces();
   void detect(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   void makeRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
-  void solve(Model& model, const ContactStep& step);
+  void solve(Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
+  void measureGaps(const Nodes& nodes, const ContactSurfaces& surfaces);
   void keepRows(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step);
   [[nodiscard]] ContactRow rowOf(const NearRow& near, const ContactSurfaces& surfaces,
                                  const Nodes& nodes, const ContactStep& step) const;

@@ -7,25 +7,41 @@
 
 namespace yadefrag {
 
-double RowSweeps::solve(Stop stop, CoupledForces* coupled, std::vector<Vec2>* position) {
+double RowSweeps::begin(Stop stop, CoupledForces* coupled, std::vector<Vec2>* position) {
   system_.pushAll();
   lastMoved_.assign(system_.nodes.size(), 0);
   share(coupled, position);
   const bool isCoupled = !shared_.empty();
   const int most = std::max(stop.most, tolerance::kMostSweeps);
   double change = INFINITY;
-  for (count_ = 0; change > stop.change;) {
-    const bool isFar = change > tolerance::kFarFromSolved * stop.change;
+  change_ = stop.change;
+  for (count_ = 0; change > change_;) {
+    const bool isFar = change > tolerance::kFarFromSolved * change_;
     if (count_ >= (isFar ? most : stop.most)) break;
-    change = sweep(count_, stop.change);
-    if (count_ == 0)
-      stop.change = std::clamp(tolerance::kOfFirst * change, stop.least, stop.change);
-    if (isCoupled && (count_ % tolerance::kSweepsToCouple == 0 || !(change > stop.change)))
-      change = std::max(change, sweepCoupled(*coupled, *position, stop.change, count_, false));
+    change = sweep(count_, change_);
+    if (count_ == 0) change_ = std::clamp(tolerance::kOfFirst * change, stop.least, stop.change);
+    if (isCoupled && (count_ % tolerance::kSweepsToCouple == 0 || !(change > change_)))
+      change = std::max(change, sweepCoupled(*coupled, *position, change_, count_, false));
     ++count_;
   }
-  if (isCoupled) (void)sweepCoupled(*coupled, *position, stop.change, count_, true);
   return change;
+}
+
+/// Makes the row due if its gap has changed.
+void RowSweeps::setGap(std::size_t number, double gap) {
+  RowSystem::Row& row = system_.rows[number];
+  if (std::abs(gap - row.gap) > tolerance::kMakesDue * change_)
+    forNodes(row, [&](std::uint32_t node, double) { lastMoved_[node] = count_; });
+  row.gap = gap;
+}
+
+void RowSweeps::improve(int most) {
+  for (const int end = count_ + most; count_ < end; ++count_)
+    if (!(sweep(count_, change_) > change_)) break;
+}
+
+void RowSweeps::end(CoupledForces* coupled, std::vector<Vec2>* position) {
+  if (!shared_.empty()) (void)sweepCoupled(*coupled, *position, change_, count_, true);
 }
 
 /// Alternating directions: forces are transmitted along chains of rows.

@@ -41,7 +41,17 @@ class RowSweeps {
   void linkLast() { system_.linkLast(); }
   /// Improves the forces of all rows, and those that are coupled to them (`position`: m, by node,
   /// without contact); returns the largest change in the last sweep (m).
-  double solve(Stop stop, CoupledForces* coupled = nullptr, std::vector<Vec2>* position = nullptr);
+  double solve(Stop stop, CoupledForces* coupled = nullptr, std::vector<Vec2>* position = nullptr) {
+    const double change = begin(stop, coupled, position);
+    end(coupled, position);
+    return change;
+  }
+  /// The parts of `solve`. After `begin`, gaps may be set anew: `improve` follows with at most
+  /// `most` sweeps.
+  double begin(Stop stop, CoupledForces* coupled, std::vector<Vec2>* position);
+  void setGap(std::size_t number, double gap);
+  void improve(int most);
+  void end(CoupledForces* coupled, std::vector<Vec2>* position);
 
   [[nodiscard]] std::size_t size() const { return system_.rows.size(); }
   /// Number of sweeps of the last solution.
@@ -51,6 +61,8 @@ class RowSweeps {
   [[nodiscard]] double gapAfter(const RowSystem::Row& row) const {
     return row.gap + dot(system_.relativeMotion(row), row.normal);
   }
+  /// (m) Displacement of a node by all forces.
+  [[nodiscard]] Vec2 shiftOf(NodeId node) const { return system_.shiftOf(node); }
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { system_.numbers.reserve(nodes); }
   void addTo(Footprint& footprint, Use use) const {
@@ -70,6 +82,7 @@ class RowSweeps {
 
   RowSystem system_;
   int count_ = 0;
+  double change_ = 0;           // m, at which the sweeps of this solution end
   std::vector<int> lastMoved_;  // by number of the node: the last sweep that moved it
   /// A node that coupled forces move, too.
   struct SharedNode {

@@ -57,6 +57,11 @@ struct RowSystem {
   void push(const Row& row, Vec2 force);
   /// (m) Displacement of a row's slave relative to its master.
   [[nodiscard]] Vec2 relativeMotion(const Row& row) const;
+  /// (m) Displacement of a node; 0 without a row.
+  [[nodiscard]] Vec2 shiftOf(NodeId node) const {
+    const std::uint32_t number = node.value < numbers.size() ? numbers[node.value] : kNone;
+    return number < nodes.size() && nodes[number] == node ? moved[number].shift : Vec2{};
+  }
   void addTo(Footprint& footprint, Use use) const {
     footprint.add(use, rows, turns, nodes, numbers, moved, turned);
   }

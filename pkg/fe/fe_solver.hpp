@@ -16,6 +16,7 @@
 #include "fe/materials.hpp"
 #include "fe/scene_energy.hpp"
 #include "fe/scene_watch.hpp"
+#include "fe/tolerance_choice.hpp"
 #include "publish/published.hpp"
 #include "publish/step_lock.hpp"
 #include "rigid/rigid_bodies.hpp"
@@ -68,11 +69,8 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   /// Locked during each step, and during each read and change from Python.
   [[nodiscard]] StepLock& betweenSteps() const { return betweenSteps_; }
 
-  std::string correction = "lagrange";
-  std::string entry = "path";
   int passes = 1;
-  static constexpr double kPenaltyFactor = .2;  // of earlier versions
-  double penaltyFactor = kPenaltyFactor;
+  ToleranceChoice contactTolerance;
   double halo = ContactSettings().halo;
   double damping = 0;
   yade::Vector3r gravity = yade::Vector3r::Zero();
@@ -88,6 +86,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   static Attributes contactAttributes();
   static Attributes attributes();
   static void pyExtra(SolverClass& solver) {
+    convertTolerance();
     defineArrays(solver), defineBodies(solver), defineMotions(solver);
     defineQuality(solver), defineResults(solver);
   }
@@ -96,7 +95,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
  private:
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
-  [[nodiscard]] std::vector<std::string> unusedSettings() const;
   void giveSettings();
   void checkBodies();
   void collectForces();
@@ -131,9 +129,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   yade::Vector3r comparedGravity_ = yade::Vector3r::Zero(), comparedNewton_ = comparedGravity_;
   ScriptFunctions functions_;
   yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // value of `gravity` before it was set
-  // Of settings that only this class has, likewise.
-  std::string formerView_ = view, formerCorrection_ = correction, formerEntry_ = entry;
-  double formerPenaltyFactor_ = penaltyFactor;
+  std::string formerView_ = view;                          // likewise
   mutable StepLock betweenSteps_;
 };
 

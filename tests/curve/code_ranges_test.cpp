@@ -20,14 +20,14 @@ using Numberings = testing::Types<LebesgueNumbering<2>, LebesgueNumbering<3>, Li
 TYPED_TEST_SUITE(RangeLaws, Numberings);
 
 template <class Cell>
-struct Rectangle {
+struct CellRectangle {
   Cell low, high;
   std::array<std::uint32_t, 3> length{1, 1, 1};
 };
 
 template <class Numbering>
-Rectangle<typename Numbering::Cell> randomRectangle(std::mt19937_64& random) {
-  Rectangle<typename Numbering::Cell> r;
+CellRectangle<typename Numbering::Cell> randomRectangle(std::mt19937_64& random) {
+  CellRectangle<typename Numbering::Cell> r;
   constexpr std::uint32_t mask = Numbering::Code::kMask;
   for (std::size_t d = 0; d < r.low.size(); ++d) {
     r.length[d] = 1 + random() % 6;

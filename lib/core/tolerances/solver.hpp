@@ -10,8 +10,8 @@ inline constexpr int kSweepsToCouple = 4;
 
 /// (of the largest change in the first sweep) Sweeps end at this change if it is less than
 /// Contact::stop: where little changes from step to step, forces of redundant rows must still
-/// follow. Without it a patch has a stress error of .0027 and a force error of 4e-5, with it of 6e-4
-/// and 9e-7; impacts and walls take the same time.
+/// follow. Without it a patch has a stress error of .0027 and a force error of 4e-5, with it of
+/// 6e-4 and 9e-7; impacts and walls take the same time.
 inline constexpr double kOfFirst = .1;
 
 /// (of the shortest segment) Sweeps end at this change, even if nothing moves: rounding.
@@ -26,6 +26,16 @@ inline constexpr double kMakesDue = .3;
 /// for some steps.
 inline constexpr double kFarFromSolved = 100;
 inline constexpr int kMostSweeps = 1000;
+
+/// (count) Sweeps with the gaps of the positions that the former sweeps lead to. Without them a
+/// disc that rattles in a ring has overlaps of 2e-4 instead of 2e-5 of a segment, and impacts give
+/// four times as much energy.
+inline constexpr int kLastSweeps = 2;
+
+/// Named values of Contact::stop, and its limits: below the least one rounding decides, above the
+/// greatest one contact is lost.
+inline constexpr double kFineStop = 1e-4, kCoarseStop = 1e-2;
+inline constexpr double kLeastStop = 1e-9, kMostStop = .1;
 
 /// (of the product of both responses) Two rows with a smaller determinant are one: no pair of
 /// forces is found for both.

@@ -16,6 +16,7 @@ from yadefrag.arguments import isWhole, numbersOf, plain, refuse, shown
 _OF_NUMPY = (numpy.generic, numpy.ndarray)
 _LISTS = (list, tuple, numpy.ndarray)
 _RIGHT = {'gravity': 'two or three numbers',
+          'contactTolerance': "'fine', 'default', 'coarse' or a number",
           'softening': 'a name, or a list of points (opening over critical opening, traction over '
                        'strength)',
           'rateEffect': 'a name, or a list of points (strain rate in 1/s, factor of the strength)'}

@@ -1,0 +1,89 @@
+"""The tolerance at which the solution of contact ends, and pieces of a body that cracks stay apart."""
+import builtins
+import os
+
+import numpy as np
+import pytest
+
+import yadefrag
+from fe_scene import impact, run, steps
+from yade import wrapper as w
+
+O = builtins.O
+
+
+def solverOfScene():
+    return next(e for e in O.engines if isinstance(e, w.FESolver))
+
+
+def drop(**settings):
+    """A brittle block that a disc shatters."""
+    O.materials.append(w.BrittleFEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.3,
+                                      tensileStrength=5e4, strengthScatter=.1, label='b'))
+    solver = w.FESolver(**settings)
+    solver.addPolygon(yadefrag.rectangle((-.2, -.2), (.2, 0)), size=.03, material='b',
+                      fixed=lambda x, y: y < -.2 + 1e-9)
+    solver.addPolygon(yadefrag.circle((0, .101), .1, 24), size=.03, material='b', velocity=(0, -8))
+    run(solver)
+    return solver
+
+
+@pytest.mark.parametrize('tolerance, most', [('coarse', 1e-4), ('default', 3e-5), ('fine', 2e-5)])
+def test_piecesStayApart(tolerance, most):
+    solver = drop(contactTolerance=tolerance)
+    deepest = 0
+    for _ in range(20):
+        steps(20)
+        deepest = max(deepest, solver.deepestOverlap())
+    assert solver.numCracks > 20
+    assert deepest < most             # m; sides have some .03
+    assert -solver.energy['contact'] < 1e-3 * solver.energy['kinetic']
+
+
+def test_namesAndNumbers():
+    assert w.FESolver().contactTolerance == .003
+    for name, number in (('fine', 1e-4), ('default', .003), ('coarse', .01)):
+        assert w.FESolver(contactTolerance=name).contactTolerance == number
+    solver = w.FESolver(contactTolerance=np.float32(.5**8))
+    assert solver.contactTolerance == .5**8
+    solver.contactTolerance = 'fine'
+    assert solver.dict()['contactTolerance'] == 1e-4
+
+
+@pytest.mark.parametrize('wrong, shown', [('rough', "'rough'"), (0, '0'), (-1e-3, '-0.001'), (.2, '0.2'),
+                                          (float('nan'), 'nan'), ('x' * 99, 'a text of 99 bytes')])
+def test_badOnesAreRefusedAndChangeNothing(wrong, shown):
+    sentence = '^FESolver.contactTolerance is %s, it must be .*[.]$' % shown
+    with pytest.raises(ValueError, match=sentence):
+        w.FESolver(contactTolerance=wrong)
+    solver = w.FESolver(contactTolerance='coarse')
+    with pytest.raises(ValueError, match=sentence):
+        solver.contactTolerance = wrong
+    assert solver.contactTolerance == .01
+    with pytest.raises(TypeError, match="it must be 'fine', 'default', 'coarse' or a number"):
+        solver.contactTolerance = None
+
+
+def test_isSaved(tmp_path):
+    solver = impact(contactTolerance=1e-5)
+    steps(200)
+    file = os.path.join(str(tmp_path), 'scene.yade')
+    O.save(file, quiet=True)
+    steps(100)
+    wanted = np.array(solver.nodes)
+    O.load(file, quiet=True)
+    solver = solverOfScene()
+    assert solver.contactTolerance == 1e-5
+    steps(100)
+    assert (np.array(solver.nodes) == wanted).all()
+
+
+def test_finerOnesTakeMoreSweeps():
+    def nodes(tolerance):
+        O.reset()
+        solver = impact(contactTolerance=tolerance)
+        steps(300)
+        return np.array(solver.nodes)
+    exact = nodes(1e-9)
+    errors = [abs(nodes(one) - exact).max() for one in ('coarse', 1e-5)]
+    assert errors[0] > 3 * errors[1]
