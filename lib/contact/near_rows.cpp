@@ -186,7 +186,8 @@ void NearRows::cornerAndArc(EntryId slave, EntryId master, const PieceGeometry& 
   if (!isOver || !(after.gap < sizes_.slack) || after.gap < -sizes_.depth - sizes_.slack) return;
   const Foot foot = before.foot(master, point.begin);
   if (leaningOf(cornerAt(slave), foot.normal) > sizes_.faceAngle) return;
-  const double xi = std::clamp(foot.xi, 0., 1.);
+  // At the end itself the force would have a moment while the slave slides past it.
+  const double xi = std::clamp(foot.xi, -tolerance::kFootBeyond, 1 + tolerance::kFootBeyond);
   const Stencil stencil = surfaces.master(master, xi);
   const Vec2 moved =
       point.moved - (combine(stencil, now.positions()) - combine(stencil, before.positions()));
