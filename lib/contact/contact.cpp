@@ -186,23 +186,29 @@ void Contact::solve(Model& model, const ContactSurfaces& surfaces, const Contact
 }
 
 /// At the positions that the forces lead to, gaps differ from the linear ones by the second order
-/// of the rotation. Only of rows with a force, and on straight pieces of bodies with elements.
+/// of the rotation. Only of rows with a force, without rigid bodies.
 void Contact::measureGaps(const Nodes& nodes, const ContactSurfaces& surfaces) {
-  if (surfaces.anySmooth()) return;
-  const auto placeOf = [&](EntryId entry) {
-    const NodeId node = surfaces.segmentNode[surfaces.entrySegment[entry.value].value];
+  const auto placeOf = [&](NodeId node) {
     return nodes.position[node.value] + sweeps_.shiftOf(node);
+  };
+  const auto slaveOf = [&](EntryId entry) {
+    const Stencil at = surfaces.slave(entry);
+    Vec2 place;
+    for (int k = 0; k < at.count; ++k) place += at.weight[k] * placeOf(at.node[k]);
+    return place;
   };
   for (std::size_t r = 0; r < near_.size(); ++r) {
     const RowSystem::Row& row = sweeps_.row(r);
     if (!(row.normalForce > 0) || row.turn != RowSystem::kNone) continue;
-    const Vec2 begin = placeOf(near_[r].master);
-    const Vec2 side = placeOf(surfaces.next[near_[r].master.value]) - begin;
-    const double exact = cross(placeOf(near_[r].slave) - begin, side) / norm(side);
-    const double tolerated = near_[r].gap - row.gap;
-    const double linear = sweeps_.gapAfter(row) + tolerated;
-    near_[r].gap += exact - linear;
-    sweeps_.setGap(r, row.gap + (exact - linear));
+    const Stencil on = surfaces.master(near_[r].master, .5);
+    const Vec2 slave = slaveOf(near_[r].slave);
+    const Vec2 first = placeOf(on.node[0]), second = placeOf(on.node[1]);
+    const double exact = on.count == 3
+                             ? nearestOnArc(first, second, placeOf(on.node[2]), slave).gap
+                             : cross(slave - first, second - first) / norm(second - first);
+    const double by = exact - (sweeps_.gapAfter(row) + near_[r].gap - row.gap);
+    near_[r].gap += by;
+    sweeps_.setGap(r, row.gap + by);
   }
 }
 

@@ -32,8 +32,8 @@ struct Outcome {
   double deepest = 0;   ///< of a segment, at the end and a hundred times before
   double steps = 0;
   std::vector<Vec2> nodes;  ///< m, at the end, shift and turn taken back
-  [[nodiscard]] bool isSound(double mostGrowth = 5e-3) const {
-    return refusal.empty() && momentum < 1e-9 && growth < mostGrowth && deepest < 1e-2 &&
+  [[nodiscard]] bool isSound(double mostGrowth = 5e-3, double mostDeep = 1e-2) const {
+    return refusal.empty() && momentum < 1e-9 && growth < mostGrowth && deepest < mostDeep &&
            right.x > left.x && right.x > 0;
   }
 };

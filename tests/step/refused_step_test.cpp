@@ -151,7 +151,8 @@ TEST(RefusedStep, ChangesNothing) {
       Twins twins(scene, seed);
       twins.run(longRun() ? 2000 : 150);
       for (const auto& [reason, count] : twins.refusals) refusals[reason] += count;
-      EXPECT_TRUE(name == "alone" || twins.rows() > 50);
+      // Of pieces that cohesion holds only deep rows have a force.
+      EXPECT_GE(twins.rows(), name == "alone" ? 0U : name == "bonded" ? 30U : 50U);
       EXPECT_EQ(twins.world().fracture.numCracks() > 0, whole.count(name) == 0);
       EXPECT_EQ(twins.world().dropped.count > 0, name == "dropped");
     }

@@ -217,6 +217,7 @@ TEST(SearchInterval, EmergencySearch) {
   const TriangleMesh left = structuredRectangle({0, 0}, {1, 1}, 4, 4);
   const TriangleMesh right = structuredRectangle({1.03, .1}, {2.03, 1.1}, 5, 5);
   world.contactSettings.passes = 2;
+  world.contactSettings.constants.stop = 1e-6, world.contactSettings.constants.rowSweeps = 1000;
   world.addBody(left, moving(left, rubber(), {0, 0}));
   const ComponentId thrown = world.addBody(right, moving(right, rubber(), {0, 0}));
   const double dt = .5 * world.criticalTimeStep();
@@ -232,7 +233,7 @@ TEST(SearchInterval, EmergencySearch) {
   world.step(dt);
   EXPECT_EQ(world.numSearches(), 2U);
   EXPECT_FALSE(world.contact.rows().empty());
-  EXPECT_LE(deepestNode(world), 5e-4);  // what sweeps leave of a displacement of .05 m
+  EXPECT_LE(deepestNode(world), 1e-6);
   EXPECT_GE(world.search.halo, 2 * .05) << "as wide as the motion demands";
 }
 
