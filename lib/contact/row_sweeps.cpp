@@ -7,12 +7,38 @@
 
 namespace yadefrag {
 
+namespace {
+
+/// The smallest part that the other nodes have in the response of a row on a rigid body. Sweeps let
+/// a light body go to and fro between its neighbours: what one changes is this part of what is
+/// wrong.
+double leastShare(const RowSystem& system) {
+  double least = 1;
+  if (system.turns.empty()) return least;
+  for (const RowSystem::Row& row : system.rows) {
+    if (row.turn == RowSystem::kNone) continue;
+    const RowSystem::Turn& turn = system.turns[row.turn];
+    const double weight = row.weight[row.count - 1], lever = cross(turn.lever, row.normal);
+    const double own =
+        weight * weight *
+            weighted(row.normal, system.moved[row.node[row.count - 1]].perForce, row.normal) +
+        turn.perMoment * lever * lever;
+    const double others = 1 - own / row.normalResponse;
+    if (others > tolerance::kLeastShare) least = std::min(least, others);
+  }
+  return least;
+}
+
+}  // namespace
+
 double RowSweeps::begin(Stop stop, CoupledForces* coupled, std::vector<Vec2>* position) {
   system_.pushAll();
   lastMoved_.assign(system_.nodes.size(), 0);
   share(coupled, position);
   const bool isCoupled = !shared_.empty();
-  const int most = std::max(stop.most, tolerance::kMostSweeps);
+  const double share = std::max(leastShare(system_), tolerance::kUsedShare);
+  const int most = std::max(stop.most, static_cast<int>(tolerance::kMostSweeps / share));
+  stop.change = std::max(stop.least, share * stop.change);
   double change = INFINITY;
   change_ = stop.change;
   for (count_ = 0; change > change_;) {

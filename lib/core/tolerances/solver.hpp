@@ -24,13 +24,21 @@ inline constexpr double kMakesDue = .3;
 /// changes a gap or a slip by more than this multiple, up to the second number. Where a light box
 /// is between heavy blocks, 80 sweeps are too few at the impact, and contact would create energy
 /// for some steps.
-inline constexpr double kFarFromSolved = 100;
+inline constexpr double kFarFromSolved = 10;
 inline constexpr int kMostSweeps = 1000;
 
 /// (count) Sweeps with the gaps of the positions that the former sweeps lead to. Without them a
 /// disc that rattles in a ring has overlaps of 2e-4 instead of 2e-5 of a segment, and impacts give
 /// four times as much energy.
 inline constexpr int kLastSweeps = 2;
+
+/// (ratio) A rigid body of which the neighbours give way by less than this part of itself transmits
+/// nothing between them that matters.
+inline constexpr double kLeastShare = 1e-5;
+
+/// (ratio) The sweeps are as many as for a body with this share. A box of 1 g between blocks of 10 kg
+/// would give a tenth of their energy otherwise.
+inline constexpr double kUsedShare = 1e-3;
 
 /// Named values of Contact::stop, and its limits: below the least one rounding decides, above the
 /// greatest one contact is lost.
