@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6280693759113518);
-  expectNear(places.y, 1.4477065123255202);
-  expectNear(speeds, 4565.8438493482281);
-  expectNear(totalEnergy(world), 89.999541520633187);
-  expectNear(world.ledger.contact, 5.468910086749398);
+  expectNear(places.x, 3.6429926180756724);
+  expectNear(places.y, 1.4470890130752692);
+  expectNear(speeds, 4587.4181545811052);
+  expectNear(totalEnergy(world), 89.999577266386595);
+  expectNear(world.ledger.contact, 5.5085467540903341);
 }
 
 }  // namespace

@@ -166,8 +166,9 @@ TEST(WorldBodies, ContactGoesOnWhileOthersComeAndGo) {
     const BodyState a = stateOf(alone, ComponentId(k)), b = stateOf(among, ComponentId(k + 1));
     ASSERT_EQ(a.position.size(), b.position.size());
     for (std::size_t n = 0; n < a.position.size(); ++n)
-      // The displacement of all bodies decides how much of an overlap a step leaves.
-      ASSERT_LE(norm(a.position[n] - b.position[n]), 1e-6);
+      // The displacement of all bodies decides how much of an overlap a step leaves, some 1e-5 of a
+      // segment of .2 m.
+      ASSERT_LE(norm(a.position[n] - b.position[n]), 1e-5);
   }
 }
 
