@@ -20,7 +20,7 @@ file(STRINGS /etc/os-release is_forky REGEX "^VERSION_CODENAME=forky")
 if(is_forky)
   set(os_version 14)  # it has no number there before its release
 endif()
-execute_process(COMMAND dpkg-query -W -f "\${source:Upstream-Version}" yade
+execute_process(COMMAND dpkg-query -W -f "\${source:Upstream-Version}" libyade
                 OUTPUT_VARIABLE yade_upstream ERROR_QUIET)
 find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
 math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")

@@ -44,3 +44,12 @@ installed_plugin() {
 }
 
 jobs_at_once() { echo "${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"; }
+
+# Packages that only a run needs, some half of the time of all, are installed while the compiler works.
+make_plugin() {
+  "$root/scripts/setup" compile
+  "$root/scripts/setup" plugin &
+  local rest=$!
+  "$root/scripts/build" release _yadefrag
+  wait "$rest"
+}
