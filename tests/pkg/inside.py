@@ -14,8 +14,8 @@ from _pytest.runner import runtestprotocol
 
 
 # They take a minute or more: begun last, one of them would run alone.
-kLongest = ['test_yade_own.py', 'test_fe_examples.py', 'test_small_examples.py', 'test_valgrind.py',
-            'test_mpi.py', 'test_changed.py', 'test_ensemble.py', 'test_api_calls.py', 'test_soak.py']
+kLongest = ['test_long_examples.py', 'test_yade_own.py', 'test_fe_examples.py', 'test_small_examples.py',
+            'test_valgrind.py', 'test_mpi.py', 'test_changed.py', 'test_ensemble.py', 'test_api_calls.py', 'test_soak.py']
 
 
 class Shared:
