@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "mesh/model.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -34,8 +33,6 @@ class ApartBodies {
   [[nodiscard]] double spare() const { return spare_; }
   void comeNearer(double way) { spare_ -= way; }
   void restoreSpare(double spare) { spare_ = spare; }
-
-  void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, apart_, former_); }
 
  private:
   struct Gap {

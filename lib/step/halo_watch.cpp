@@ -300,14 +300,4 @@ void HaloWatch::addCandidatesAround(const Scene& scene, std::span<const EntryId>
   addCandidates(scene.contact.candidates, pairs_);
 }
 
-void HaloWatch::addTo(Footprint& footprint) const {
-  footprint.add(Use::kSearch, nodes, positions, former_.search.nodes, former_.search.positions,
-                overlapping_, pairs_, boxes_);
-  former_.candidates.addTo(footprint);
-  former_.apart.addTo(footprint);
-  apart_.addTo(footprint);
-  passRule_.addTo(footprint);
-  if (search_) search_->addTo(footprint);
-}
-
 }  // namespace yadefrag

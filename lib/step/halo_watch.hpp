@@ -111,7 +111,6 @@ class HaloWatch : public SearchState {
   }
   /// (m) Upper bound of the displacement of checked nodes from xⁿ to x*.
   [[nodiscard]] double largestMove() const { return motion_.largest; }
-  void addTo(Footprint& footprint) const;
 
  private:
   /// Bounds of positions and speeds of nodes until the next search.

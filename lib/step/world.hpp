@@ -165,9 +165,6 @@ class World {
   /// (J) Estimate of the energy that rounding of the coordinates has added to the bodies so far.
   [[nodiscard]] double roundingEnergy() const;
 
-  /// Memory of all arrays, by use.
-  [[nodiscard]] Footprint footprint() const;
-
   /// Computes all derived data after loading.
   void rebuild();
 
