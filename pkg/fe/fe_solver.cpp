@@ -149,7 +149,7 @@ void FESolver::takeGravity(const yade::NewtonIntegrator* newton) {
 }
 
 /// Takes over the gravity of the scene, and reports contacts and forces that the bodies will not
-/// have, and settings without an effect.
+/// have.
 void FESolver::checkScene(bool enginesAreNew) {
   const yade::NewtonIntegrator* newton = integrator(false);
   const std::size_t first = around_.checked();
@@ -158,7 +158,6 @@ void FESolver::checkScene(bool enginesAreNew) {
   if (around_.hasNewSpheres()) report({overlapWithSphere(first)});
   const bool rigidChanged = std::exchange(checkedRigid_, rigidBodies) != rigidBodies;
   report(materials_.sentences());
-  report(unusedSettings());
   if (world_.steps == 0) checkTimeStep();
   if (!bodiesAreNew && !enginesAreNew && !rigidChanged) return;
   double thickest = 0;

@@ -48,7 +48,6 @@ from yadefrag.fe.meshing import polygonMesh  # noqa: E402
 from yadefrag.fe.results import crackTable  # noqa: E402
 from yadefrag.fe.snapping import snapOutlines  # noqa: E402
 from yadefrag.io import FERecorder, exportVTK, outlineReport, readMesh, readOutline, readPolygon  # noqa: E402
-from yadefrag.io import recorder  # noqa: E402
 from yadefrag.plots import animate, plotFracture, plotFragmentSizes, plotMesh  # noqa: E402
 from yadefrag.plots.fragments import fragmentTable, recordFracture  # noqa: E402
 from yadefrag.scene import attributes, colliders, lifecycle, mpy  # noqa: E402
@@ -56,10 +55,6 @@ from yadefrag.scene.curve_order import inCurveOrder  # noqa: E402
 from yadefrag.scene.engines import engines  # noqa: E402
 from yadefrag.scene.progress import runSteps  # noqa: E402
 from yadefrag.studies import EnsembleTable, TradeoffTable, ensemble, tradeoff  # noqa: E402
-from yadefrag.studies import scene_choices as choices  # noqa: E402
-
-# Former names of modules: scenes that FERecorder's engine was saved with, and earlier manuals, have them.
-sys.modules.update({'yadefrag.recorder': recorder, 'yadefrag.choices': choices})
 
 
 def _renewDispatchers():

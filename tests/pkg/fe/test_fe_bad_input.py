@@ -103,8 +103,7 @@ def test_otherMaterialsAreRefused():
         w.FESolver().addPolygon(kSquare, size=.5, material=w.FrictMat())
 
 
-@pytest.mark.parametrize('name, value', [('correction', 'lagrangian'), ('passes', 3),
-                                         ('damping', -1), ('penaltyFactor', 0),
+@pytest.mark.parametrize('name, value', [('view', 'stress'), ('passes', 3), ('damping', -1),
                                          ('halo', -.1), ('halo', .6), ('halo', math.nan),
                                          ('gravity', (math.nan, 0, 0)), ('gravity', (0, 0, -9.8)),
                                          ('linearViscosity', -1), ('quadraticViscosity', -1)])

@@ -275,9 +275,6 @@ TABLE = {
     'smoothed elements nearly collapse: step': (
         PRESSED + 'take a step of at most', lambda: rubber(element='smoothed'),
         lambda: rubber(asked=6, element='smoothed')),
-    'a penalty': ("correction='penalty' has no effect", lambda: impact(correction='penalty'), impact),
-    'its factor': ('penaltyFactor=0.1 has no effect', lambda: impact(penaltyFactor=.1), impact),
-    'entry by flags': ("entry='flags' has no effect", lambda: impact(entry='flags'), impact),
     'spheres without their functor': (
         'no InteractionLoop has an Ig2_Sphere_SurfaceSegment', lambda: withSpheres(withoutFunctor),
         lambda: withSpheres(usual)),

@@ -111,7 +111,6 @@ def test_aBrokenReprIsNoReasonToFail():
     ('dead', 'no', "FESolver.dead is 'no', it must be True or False."),
     ('dead', 7, 'FESolver.dead is 7, it must be True or False.'),
     ('label', b'x', "FESolver.label is b'x', it must be a text."),
-    ('correction', 3, 'FESolver.correction is 3, it must be a text.'),
     ('gravity', (0,), 'FESolver.gravity is (0,), it must be two or three numbers.'),
     ('label', None, 'FESolver.label is None, it must be a text.')])
 def test_attributesOfAWrongKind(name, value, sentence):
