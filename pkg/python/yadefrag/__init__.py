@@ -24,7 +24,6 @@ support.require()
 from yade import wrapper  # noqa: E402
 from yadefrag import _yadefrag  # noqa: E402
 
-_yadefrag.checkRunningYade()
 if TYPE_CHECKING:  # what publish() adds
     from yade.wrapper import (Bo1_SurfaceSegment_Aabb, BrittleFEMat, CurveIntegrator, CurveLoop, FEMat, FESolver,
                               FrictionalFEMat, Gl1_SurfaceSegment, HierarchyCollider,
