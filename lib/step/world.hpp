@@ -26,7 +26,6 @@
 #include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "search/contact_search.hpp"
-#include "step/apart_bodies.hpp"
 #include "step/body_places.hpp"
 #include "step/energy_watch.hpp"
 #include "step/halo_watch.hpp"

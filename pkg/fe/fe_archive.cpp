@@ -252,7 +252,7 @@ class WorldArchive : ColumnArchive {
     column("searchNodes", search.nodes);
     column("searchPositions", search.positions);
     SearchBounds bounds = world.searchBounds();
-    value("searchFarthest", bounds.farthest), value("searchSpare", bounds.spare);
+    value("searchFarthest", bounds.farthest);
     value("searchSpeed", bounds.speed);
     if (isLoading()) search.loaded = bounds;
   }

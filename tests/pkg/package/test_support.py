@@ -9,12 +9,10 @@ import types
 
 import pytest
 
-import scenes
 import yade
 from yade import config, wrapper
 from yadefrag import _yadefrag, support
 
-O = scenes.O
 
 @pytest.fixture(autouse=True)
 def packaged(monkeypatch):
