@@ -1,11 +1,10 @@
 #include "search/sorted_list.hpp"
+#include "search/counted.hpp"
 
 #include <gtest/gtest.h>
 #include <algorithm>
 
 #include <random>
-
-#include "core/comparisons.hpp"
 
 namespace yadefrag {
 namespace {
@@ -37,8 +36,7 @@ TEST(SortedList, RadixSortIsASort) {
 /// A list with the given entries, which are sorted.
 SortedList listOf(const std::vector<CodedSlot>& entries) {
   SortedList list;
-  CountNothing uncounted;
-  list.insert(entries, uncounted);
+  list.insert(entries);
   return list;
 }
 
@@ -62,8 +60,7 @@ TEST(SortedList, InsertionIsASortOfBoth) {
     std::sort(all.begin(), all.end());
     SortedList list = listOf(entries);
     ASSERT_TRUE(same(list, entries));
-    CountNothing nothing;
-    list.insert(incoming, nothing);
+    list.insert(incoming);
     ASSERT_TRUE(same(list, all));
   }
 }
@@ -91,10 +88,9 @@ TEST(SortedList, ComparisonsOfAnInsertionDoNotGrowWithTheList) {
     sortByCode(entries);
     sortByCode(incoming);
     SortedList list = listOf(entries);
-    CountAll counted;
+    Counted counted;
     list.insert(incoming, counted);
-    perMoved.push_back(static_cast<double>(counted.total().resort) /
-                       (static_cast<double>(count) / 10));
+    perMoved.push_back(static_cast<double>(counted.number) / (static_cast<double>(count) / 10));
   }
   EXPECT_LT(perMoved[1], 1.1 * perMoved[0]);
   EXPECT_LT(perMoved[1], 10);
