@@ -12,7 +12,7 @@ import yadefrag
 from project import ROOT, yadeCommand
 from yadefrag import TradeoffTable
 from yadefrag.studies import tradeoff_grid as tool
-from yadefrag.studies import scene_choices
+from yadefrag.studies import run_process, scene_choices
 from yadefrag.studies.tradeoff_table import TradeoffRow
 
 kDuration = .05  # s
@@ -255,12 +255,12 @@ def faked(monkeypatch, results):
             raise result
         return result
 
-    monkeypatch.setattr(tool, '_runOne', runOne)
+    monkeypatch.setattr(run_process, 'perform', runOne)
     return asked
 
 
 def ok(wall, value=1.):
-    return dict(result='ok', message='', wall=wall, cpu=wall, steps=1, value=value, used={})
+    return dict(result='ok', message='', wall=wall, cpu=wall, seconds=wall, steps=1, value=value, used={})
 
 
 def test_mediansAndRatios(monkeypatch):
