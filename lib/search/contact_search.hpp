@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/box.hpp"
+#include "core/comparisons.hpp"
 #include "core/errors.hpp"
 #include "core/ids.hpp"
 #include "core/parallel.hpp"
@@ -45,6 +46,9 @@ class ContactSearch {
   /// Deletes all stored data: the next update is a complete one.
   virtual void clear() = 0;
 
+  /// Comparisons since construction; zero unless `makeSearch` was called with counting.
+  [[nodiscard]] virtual Comparisons comparisons() const = 0;
+
   /// Upper limit of threads that `update` and `findPairs` may use.
   void setThreads(int threads) { threads_ = threads; }
 
@@ -77,6 +81,6 @@ enum class SearchMethod {
   kHierarchy,   ///< a tree of boxes (HO), the paper's [12]
 };
 
-std::unique_ptr<ContactSearch> makeSearch(SearchMethod method);
+std::unique_ptr<ContactSearch> makeSearch(SearchMethod method, bool countComparisons = false);
 
 }  // namespace yadefrag

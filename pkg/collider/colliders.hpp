@@ -17,7 +17,7 @@ class LebesgueCollider final : public Published<LebesgueCollider, SearchCollider
       "ECCOMAS 2000, section 4. Raises RuntimeError naming the body if a position is not finite or "
       "a "
       "bound is inverted; the scene is then unchanged.";
-  LebesgueCollider() : Published(SearchMethod::kFastest) {}
+  LebesgueCollider() : Published(SearchMethod::kLebesgue) {}
 };
 
 class LinearCodeCollider final

@@ -14,7 +14,8 @@ using yade::Vector3r;
 bool SearchCollider::mayKeep() const {
   return keptWith_ == choices() && search_ && strideActive_ && !doSort &&
          !scene->interactions->dirty && !scene->isPeriodic && !periodic_ && verletDist > 0 &&
-         targetInterv > 0 && interactions_.madeByOthers(*scene) <= 0;
+         targetInterv > 0 && searchCounts_ == countComparisons &&
+         interactions_.madeByOthers(*scene) <= 0;
 }
 
 /// Returns false if so many bodies have changed that all must be searched.
@@ -30,9 +31,12 @@ bool SearchCollider::searchChanged(int threads) {
   // The interactions of erased bodies were erased with them. If any other interaction was erased,
   // it may have to be created again by a full search.
   if (interactions_.madeByOthers(*scene) < 0 && !someErased()) return false;
+  const Comparisons before = search_->comparisons();
   search_->setThreads(threads);
   search_->change(boxes_.boxes(), boxes_.changed());
   findPairs([this] { search_->findPairsOfChanged(near_.pairs); });
+  comparisons = static_cast<long>(search_->comparisons().total() - before.total());
+  comparisonsTotal += comparisons;
   searched = static_cast<long>(boxes_.changed().size());
   const auto& changed = boxes_.changed();
   const auto isChanged = [&](BoxId id) {

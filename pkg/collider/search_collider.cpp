@@ -142,13 +142,22 @@ Vector3r SearchCollider::cellSpan() const {
 }
 
 void SearchCollider::startSearchIfNeeded() {
-  if (search_ && !doSort && !scene->interactions->dirty && periodic_ == scene->isPeriodic) return;
-  if (!search_) search_ = std::make_unique<IncrementalSearch>(method_);
+  if (search_ && searchCounts_ == countComparisons && !doSort && !scene->interactions->dirty &&
+      periodic_ == scene->isPeriodic)
+    return;
+  if (!search_ || searchCounts_ != countComparisons) {
+    // The paper's counts are those of the method itself.
+    const bool isFree = method_ == SearchMethod::kLebesgue && !countComparisons;
+    search_ = std::make_unique<IncrementalSearch>(isFree ? SearchMethod::kFastest : method_,
+                                                  countComparisons);
+    searchCounts_ = countComparisons;
+  }
   search_->clear();
   ++numReinit;
 }
 
 void SearchCollider::updateSearch(int threads) {
+  const Comparisons before = search_->comparisons();
   search_->setThreads(threads);
   if (scene->isPeriodic) {
     const Vector3r& size = scene->cell->getSize();
@@ -161,6 +170,8 @@ void SearchCollider::updateSearch(int threads) {
     search_->update(boxes_.boxes());
     findPairs([this] { search_->findPairs(near_.pairs); });
   }
+  comparisons = static_cast<long>(search_->comparisons().total() - before.total());
+  comparisonsTotal += comparisons;
 }
 
 /// FESolver searches these itself.

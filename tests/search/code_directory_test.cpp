@@ -1,10 +1,11 @@
 #include "search/code_directory.hpp"
-#include "search/counted.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
+
+#include "core/comparisons.hpp"
 
 namespace yadefrag {
 namespace {
@@ -36,13 +37,14 @@ std::vector<std::uint64_t> randomCodes(std::mt19937_64& random, int kind, std::s
 
 TEST(CodeDirectory, FindsWhatBinarySearchFinds) {
   std::mt19937_64 random(3);
+  CountNothing nothing;
   for (int k = 0; k < 2000; ++k) {
     const auto codes = randomCodes(random, k % 5, random() % 400);
     CodeDirectory directory;
     directory.build(codes);
     const auto check = [&](std::uint64_t code) {
       const auto expected = std::lower_bound(codes.begin(), codes.end(), code) - codes.begin();
-      ASSERT_EQ(directory.lowerBound(code), expected);
+      ASSERT_EQ(directory.lowerBound(code, nothing), expected);
     };
     check(0);
     check(~std::uint64_t{0});
@@ -66,10 +68,10 @@ TEST(CodeDirectory, LooksDoNotGrowWithTheList) {
       std::sort(codes.begin(), codes.end());
       CodeDirectory directory;
       directory.build(codes);
-      Counted counted;
+      CountAll counted;
       for (std::size_t i = 0; i < 10000; ++i)
         static_cast<void>(directory.lowerBound(codes[random() % count] + random() % 3, counted));
-      perLook.push_back(static_cast<double>(counted.number) / 10000);
+      perLook.push_back(static_cast<double>(counted.total().range) / 10000);
     }
     EXPECT_LT(perLook[1], 1.3 * perLook[0]);
     EXPECT_LT(perLook[1], 9);

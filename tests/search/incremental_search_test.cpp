@@ -36,7 +36,7 @@ std::vector<BoxId> changedSlots(const std::vector<Box>& before, const std::vecto
 /// The pairs that a caller keeps from one change to the next.
 class KeptPairs {
  public:
-  explicit KeptPairs(SearchMethod method) : search_(method) {}
+  explicit KeptPairs(SearchMethod method, bool counts) : search_(method, counts) {}
 
   void look(const std::vector<Box>& before, const std::vector<Box>& now) {
     std::vector<BoxPair> found;
@@ -85,7 +85,7 @@ TEST(IncrementalSearch, SamePairsAsBruteForceWhileBoxesMoveComeAndGo) {
   for (std::uint64_t seed = 0; seed < sceneCount(); ++seed) {
     RandomScene scene(seed);
     std::vector<KeptPairs> kept;
-    for (const SearchMethod method : kMethods) kept.emplace_back(method);
+    for (const SearchMethod method : kMethods) kept.emplace_back(method, seed % 2);
     std::vector<Box> before;
     for (int step = 0; step < 6; ++step) {
       // Another array each time: what was given before may be gone.
@@ -149,6 +149,31 @@ TEST(IncrementalSearch, SameOrderForAnyNumberOfThreads) {
     ASSERT_EQ(pairs, first) << threads << " threads";
   }
   EXPECT_GT(first.size(), 10000U);
+}
+
+/// Comparisons of changes by one box among `count`.
+double comparisonsOfOneMove(std::size_t count) {
+  std::mt19937_64 random(5);
+  std::vector<Box> boxes = evenBoxes(count, random);
+  IncrementalSearch search(SearchMethod::kLebesgue, true);
+  search.update(boxes);
+  std::vector<BoxPair> pairs;
+  search.findPairs(pairs);
+  const auto before = search.comparisons().total();
+  constexpr int kMoves = 20;
+  for (int move = 0; move < kMoves; ++move) {
+    const BoxId one(random() % count);
+    boxes[one.value].max[1] += .1;
+    search.change(boxes, {&one, 1});
+    search.findPairsOfChanged(pairs);
+  }
+  return static_cast<double>(search.comparisons().total() - before) / kMoves;
+}
+
+TEST(IncrementalSearch, OneMoveCostsNoMoreAmongMany) {
+  // Without `count`, a search of 4·10⁴ boxes takes 4·10⁴ looks at least.
+  EXPECT_LT(comparisonsOfOneMove(40000), 1000);
+  EXPECT_LT(comparisonsOfOneMove(40000), 2 * comparisonsOfOneMove(1000) + 100);
 }
 
 TEST(IncrementalSearch, SortsInWhatHasWaitedForLong) {

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "core/comparisons.hpp"
 #include "curve/numbering.hpp"
 
 namespace yadefrag {
@@ -26,6 +27,7 @@ std::vector<std::uint64_t> randomCodes(std::mt19937_64& random, std::size_t coun
 
 TEST(RowBegins, AreLowerBounds) {
   std::mt19937_64 random(3);
+  CountNothing uncounted;
   for (int list = 0; list < 2000; ++list) {
     const std::uint64_t most = 1 + random() % 5000;
     const auto codes = randomCodes(random, random() % 300, most);
@@ -35,9 +37,20 @@ TEST(RowBegins, AreLowerBounds) {
       code = random() % 4 ? code + random() % 40 : random() % (most + 10);
       const int row = static_cast<int>(random() % 20);
       const auto wanted = std::lower_bound(codes.begin(), codes.end(), code) - codes.begin();
-      ASSERT_EQ(places.lowerBound(row, codes, code), wanted) << list;
+      ASSERT_EQ(places.lowerBound(row, codes, code, uncounted), wanted) << list;
     }
   }
+}
+
+/// Lemma A.3 with neighbours in the order of the sweep: a constant number of steps for each.
+TEST(RowBegins, AdvanceInAFewStepsEach) {
+  std::mt19937_64 random(4);
+  CountAll counted;
+  constexpr std::size_t kCodes = 100000;
+  const auto codes = randomCodes(random, kCodes, 3 * kCodes);
+  RowBegins::OfLevel places;
+  for (std::size_t i = 0; i < kCodes; ++i) places.lowerBound(0, codes, codes[i] + 500, counted);
+  EXPECT_LE(counted.total().range, 3 * kCodes);
 }
 
 template <int Dim>

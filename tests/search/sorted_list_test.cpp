@@ -1,10 +1,11 @@
 #include "search/sorted_list.hpp"
-#include "search/counted.hpp"
 
 #include <gtest/gtest.h>
 #include <algorithm>
 
 #include <random>
+
+#include "core/comparisons.hpp"
 
 namespace yadefrag {
 namespace {
@@ -36,7 +37,8 @@ TEST(SortedList, RadixSortIsASort) {
 /// A list with the given entries, which are sorted.
 SortedList listOf(const std::vector<CodedSlot>& entries) {
   SortedList list;
-  list.insert(entries);
+  CountNothing uncounted;
+  list.insert(entries, uncounted);
   return list;
 }
 
@@ -60,7 +62,8 @@ TEST(SortedList, InsertionIsASortOfBoth) {
     std::sort(all.begin(), all.end());
     SortedList list = listOf(entries);
     ASSERT_TRUE(same(list, entries));
-    list.insert(incoming);
+    CountNothing nothing;
+    list.insert(incoming, nothing);
     ASSERT_TRUE(same(list, all));
   }
 }
@@ -88,9 +91,10 @@ TEST(SortedList, ComparisonsOfAnInsertionDoNotGrowWithTheList) {
     sortByCode(entries);
     sortByCode(incoming);
     SortedList list = listOf(entries);
-    Counted counted;
+    CountAll counted;
     list.insert(incoming, counted);
-    perMoved.push_back(static_cast<double>(counted.number) / (static_cast<double>(count) / 10));
+    perMoved.push_back(static_cast<double>(counted.total().resort) /
+                       (static_cast<double>(count) / 10));
   }
   EXPECT_LT(perMoved[1], 1.1 * perMoved[0]);
   EXPECT_LT(perMoved[1], 10);
