@@ -362,13 +362,4 @@ void Contact::finish(Model& model, const ContactStep& step) {
   isFinished_ = true;
 }
 
-void Contact::addTo(Footprint& footprint) const {
-  footprint.add(Use::kContact, touches, formerTouches_, actives_, rows_, formerRows_, forces_,
-                displacement_, touched_, isTouched_, rigidLoads_);
-  candidates.addTo(footprint);
-  search_.addTo(footprint);
-  pairs_.addTo(footprint, Use::kContact);
-  sweeps_.addTo(footprint, Use::kContact);
-}
-
 }  // namespace yadefrag

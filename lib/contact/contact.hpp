@@ -81,8 +81,6 @@ class Contact {
   /// Number of sweeps over the rows, in all detections of the last step.
   [[nodiscard]] int sweeps() const { return now_.sweeps; }
 
-  void addTo(Footprint& footprint) const;
-
   Candidates candidates;
   std::vector<Touch> touches;  ///< by pair
   /// (m) Largest correction of the last step; the next step's first scan reaches farther than it.

@@ -51,11 +51,6 @@ class LocalSearch {
                    const PairsOfSlaves& known = {}, double moved = INFINITY);
 
   [[nodiscard]] bool anyNear() const { return !near_.empty(); }
-  void addTo(Footprint& footprint) const {
-    footprint.add(Use::kSearch, near_, parts_, chords_, pointsBefore_, points_, triedAt_, moved_);
-    for (const Part& part : parts_)
-      footprint.add(Use::kSearch, part.near, part.actives, part.trials);
-  }
 
  private:
   struct Near {

@@ -19,10 +19,6 @@ class RowGradients {
   /// From the residuals found, until none exceeds `tolerance` (m); returns false if a force reaches
   /// a bound before. The nodes of a range are those of no other.
   bool descend(RowSystem& system, RowRange range, double tolerance);
-  void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, former_, residual_, perResidual_, direction_, response_, along_.nodes,
-                  along_.turns);
-  }
 
  private:
   /// Normal and tangential part of a row: of a gap and a slip (m), or of two forces (N).

@@ -30,7 +30,6 @@
 #include "contact/row_gradients.hpp"
 #include "contact/row_system.hpp"
 #include "core/csr.hpp"
-#include "core/footprint.hpp"
 #include "core/work_list.hpp"
 
 namespace yadefrag {
@@ -57,13 +56,6 @@ class RowSweeps {
   void clear();
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { system_.numbers.reserve(nodes); }
-  void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, order_, groups_, shared_, links_, rowsOfNodes_.values, rowsOfNodes_.offsets,
-                  waits_, attempts_);
-    system_.addTo(footprint, use);
-    gradients_.addTo(footprint, use);
-    waiting_.addTo(footprint, use);
-  }
 
  private:
   struct Link {

@@ -8,7 +8,6 @@
 
 #include "contact/contact_row.hpp"
 #include "contact/inertia.hpp"
-#include "core/footprint.hpp"
 
 namespace yadefrag {
 
@@ -68,9 +67,6 @@ struct RowSystem {
   template <class Count>
   [[nodiscard]] Vec2 relativeMotion(const Row& row, const Ends& of, Count count,
                                     const Motion& motion) const;
-  void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, rows, ends, turns, nodes, numbers, moved.nodes, moved.turns);
-  }
 
   // By row.
   std::vector<Row> rows;

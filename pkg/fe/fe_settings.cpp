@@ -15,20 +15,6 @@
 
 namespace yadefrag {
 
-/// One sentence for each setting of earlier versions that a script has changed.
-std::vector<std::string> FESolver::unusedSettings() const {
-  std::vector<std::string> found;
-  const auto add = [&](const std::string& setting, const char* reason) {
-    found.push_back(fmt::format("{} has no effect: {} (docs/contact.md).", setting, reason));
-  };
-  const char* const noPenalty = "forces of contact just prevent interpenetration";
-  if (correction != "lagrange") add(fmt::format("correction='{}'", correction), noPenalty);
-  if (penaltyFactor != kPenaltyFactor)
-    add(fmt::format("penaltyFactor={:g}", penaltyFactor), noPenalty);
-  if (entry != "path") add(fmt::format("entry='{}'", entry), "points enter by their path");
-  return found;
-}
-
 void FESolver::checkSettings() const {
   const auto refuse = [](const char* name, const std::string& value, const char* right) {
     throw std::invalid_argument(
@@ -41,14 +27,9 @@ void FESolver::checkSettings() const {
     return text.size() <= 40 ? fmt::format("'{}'", text)
                              : fmt::format("a text of {} bytes", text.size());
   };
-  if (correction != "lagrange" && correction != "penalty")
-    refuse("correction", shown(correction), "'lagrange' or 'penalty'");
-  if (entry != "path" && entry != "flags") refuse("entry", shown(entry), "'path' or 'flags'");
   if (view != "component" && view != "fragment" && view != "mises")
     refuse("view", shown(view), "'component', 'fragment' or 'mises'");
   if (passes != 1 && passes != 2) refuseNumber("passes", passes, "1 or 2");
-  if (!(penaltyFactor > 0 && penaltyFactor <= 1))
-    refuseNumber("penaltyFactor", penaltyFactor, "above 0 and at most 1");
   if (!(halo >= 0 && halo <= tolerance::kWidestHalo))
     refuseNumber("halo", halo,
                  "positive and at most 0.5, or 0 for a width that depends on the speed");
@@ -72,11 +53,8 @@ void FESolver::postLoad(FESolver& /*self*/) {
   } catch (const std::invalid_argument&) {
     // The world still has the previous values.
     const StepSettings& step = world_.dynamicsSettings;
-    correction = formerCorrection_;
-    entry = formerEntry_;
     view = formerView_;
     passes = world_.contactSettings.passes;
-    penaltyFactor = formerPenaltyFactor_;
     halo = world_.contactSettings.halo;
     damping = step.damping;
     gravity = formerGravity_;
@@ -95,7 +73,6 @@ void FESolver::giveSettings() {
   world_.dynamicsSettings.damping = damping;
   formerGravity_ = gravity;
   formerView_ = view;
-  formerCorrection_ = correction, formerEntry_ = entry, formerPenaltyFactor_ = penaltyFactor;
   world_.dynamicsSettings.gravity = {gravity[0], gravity[1]};
   world_.dynamicsSettings.viscosity = {linearViscosity, quadraticViscosity};
   world_.fracture.maxCracks =
@@ -113,21 +90,10 @@ Attributes FESolver::contactAttributes() {
   using C = FESolver;
   using yade::Attr::triggerPostLoad;
   return attributeList(
-      attribute("correction", &C::correction,
-                "'lagrange': contact by forces that just prevent interpenetration. 'penalty' is "
-                "accepted for scripts of earlier versions, and has no effect.",
-                triggerPostLoad),
-      attribute("entry", &C::entry,
-                "'path': a point becomes active on a surface that its path in the step crosses. "
-                "'flags' is accepted for scripts of earlier versions, and has no effect.",
-                triggerPostLoad),
       attribute("passes", &C::passes,
                 "1: of two surfaces the points of the finer one and the sharp corners of the other "
                 "must not "
                 "penetrate; 2: the points of both. Where a body can crack, it is 2 in any case.",
-                triggerPostLoad),
-      attribute("penaltyFactor", &C::penaltyFactor,
-                "Accepted for scripts of earlier versions, above 0 and at most 1; no effect.",
                 triggerPostLoad),
       attribute(
           "halo", &C::halo,
@@ -163,11 +129,6 @@ Attributes FESolver::attributes() {
                 "Detached fragments with a smaller area (m², stress-free) are removed from "
                 "the scene, and counted in `dropped`, except held ones. 0: none is removed.",
                 triggerPostLoad),
-      attribute("energyFromSpheres", &C::energyFromSpheres,
-                "0, for scripts of earlier versions: contacts with faces of cracks begin without a "
-                "force, in any "
-                "order of O.engines.",
-                yade::Attr::readonly),
       attribute("rigidBodies", &C::rigidBodies,
                 "Contact with YADE's Wall, Box and Facet, also in clumps: their sections "
                 "with the plane z = 0, rigid, with the friction of their FrictMat. They move as "

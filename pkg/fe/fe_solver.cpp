@@ -17,6 +17,7 @@
 #include "core/tolerances/plasticity.hpp"
 #include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
+#include "core/wrong_value.hpp"
 #include "dynamics/yielding_state.hpp"
 #include "entries/sphere_overlap.hpp"
 #include "fe/plastic_materials.hpp"
@@ -149,7 +150,7 @@ void FESolver::takeGravity(const yade::NewtonIntegrator* newton) {
 }
 
 /// Takes over the gravity of the scene, and reports contacts and forces that the bodies will not
-/// have, and settings without an effect.
+/// have.
 void FESolver::checkScene(bool enginesAreNew) {
   const yade::NewtonIntegrator* newton = integrator(false);
   const std::size_t first = around_.checked();
@@ -158,7 +159,6 @@ void FESolver::checkScene(bool enginesAreNew) {
   if (around_.hasNewSpheres()) report({overlapWithSphere(first)});
   const bool rigidChanged = std::exchange(checkedRigid_, rigidBodies) != rigidBodies;
   report(materials_.sentences());
-  report(unusedSettings());
   if (world_.steps == 0) checkTimeStep();
   if (!bodiesAreNew && !enginesAreNew && !rigidChanged) return;
   double thickest = 0;
@@ -304,6 +304,9 @@ namespace {
 BodyMaterial bodyMaterialOf(const FEMat& material) {
   BodyMaterial one;
   one.material = {material.young, material.poisson, material.density, material.planeStress};
+  if (!(material.frictionAngle >= 0 && material.frictionAngle < std::numbers::pi / 2))
+    throw InputError(
+        wrongValue("frictionAngle", material.frictionAngle, "", "at least 0 and below π/2 (rad)"));
   one.friction = std::tan(material.frictionAngle);
   if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(&material)) {
     one.brittle = {.tensileStrength = brittle->tensileStrength,

@@ -68,11 +68,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   /// Locked during each step, and during each read and change from Python.
   [[nodiscard]] StepLock& betweenSteps() const { return betweenSteps_; }
 
-  std::string correction = "lagrange";
-  std::string entry = "path";
   int passes = 1;
-  static constexpr double kPenaltyFactor = .2;  // of earlier versions
-  double penaltyFactor = kPenaltyFactor;
   double halo = ContactSettings().halo;
   double damping = 0;
   yade::Vector3r gravity = yade::Vector3r::Zero();
@@ -81,7 +77,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   double quadraticViscosity = 0;
   int maxCracks = -1;
   double minFragmentArea = 0;
-  double energyFromSpheres = 0;
   bool rigidBodies = true;
   std::string view = "component";
 
@@ -96,7 +91,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
  private:
   void requireAlone(const yade::Scene& here) const;
   void checkSettings() const;
-  [[nodiscard]] std::vector<std::string> unusedSettings() const;
   void giveSettings();
   void checkBodies();
   void collectForces();
@@ -131,9 +125,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   yade::Vector3r comparedGravity_ = yade::Vector3r::Zero(), comparedNewton_ = comparedGravity_;
   ScriptFunctions functions_;
   yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // value of `gravity` before it was set
-  // Of settings that only this class has, likewise.
-  std::string formerView_ = view, formerCorrection_ = correction, formerEntry_ = entry;
-  double formerPenaltyFactor_ = penaltyFactor;
+  std::string formerView_ = view;                          // of `view`, likewise
   mutable StepLock betweenSteps_;
 };
 

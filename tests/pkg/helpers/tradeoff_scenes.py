@@ -50,7 +50,7 @@ def seen(_, ways):
 
 def whole(fe):
     """Numbers that depend on the choices."""
-    return [fe.passes, fe.correction == 'penalty', fe.penaltyFactor, fe.halo, fe.linearViscosity,
+    return [fe.passes, fe.halo, fe.linearViscosity,
             fe.quadraticViscosity, O.materials[0].planeStress, O.numThreads,
             len(O.engines), len(fe.triangles)]
 

@@ -323,14 +323,13 @@ def answer(error):
 def main(seed, calls, logName):
     draw = random.Random(int(seed))
     tradeoff_grid._runAll = ensemble_runs._run = lambda *_: None
-    moments = os.environ.get('YADEFRAG_API_MOMENTS', ','.join(kMoments)).split(',')
     counts = types.SimpleNamespace(done=0, refused=0)
     with open(logName, 'w', errors='backslashreplace') as log, tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         table = exampleFiles(folder)
         fe = None
         for number in range(int(calls)):
-            moment = draw.choice(moments)
+            moment = draw.choice(kMoments)
             if fe is None or number % 10 == 0:
                 fe = scene(moment)
             call = Call(draw, fe, folder, table)

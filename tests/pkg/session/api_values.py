@@ -46,7 +46,7 @@ def numbers():
 
 
 def texts():
-    return ['', 'm', 'x', 'none', 'penalty', 'xy', 'mises', 'fragment', 'é', '\ud800', 'a\0b', 'x' * 5000,
+    return ['', 'm', 'x', 'none', 'xy', 'mises', 'fragment', 'é', '\ud800', 'a\0b', 'x' * 5000,
             'line\nline', '/nowhere/x.csv', '/nowhere/x', b'', b'\xff\xfe', bytearray(b'm'), '%s', '{}']
 
 

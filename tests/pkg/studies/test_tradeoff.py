@@ -12,7 +12,7 @@ import yadefrag
 from project import ROOT, yadeCommand
 from yadefrag import TradeoffTable
 from yadefrag.studies import tradeoff_grid as tool
-from yadefrag.studies import scene_choices
+from yadefrag.studies import run_process, scene_choices
 from yadefrag.studies.tradeoff_table import TradeoffRow
 
 kDuration = .05  # s
@@ -42,13 +42,12 @@ def test_errorsAndTimes():
 
 
 def test_knownChoicesComeThrough():
-    chosen = dict(passes=2, correction='penalty:0.3', halo=.25, bulkViscosity=.5, plane='stress',
+    chosen = dict(passes=2, halo=.25, bulkViscosity=.5, plane='stress',
                   collider='none', size=.5, threads=2 if os.cpu_count() > 1 else 1, timeStep=.5)
-    with pytest.warns(UserWarning, match="correction='penalty' has no effect"):
-        table = trade(scenes.block, {name: [value] for name, value in chosen.items()}, scenes.whole)
+    table = trade(scenes.block, {name: [value] for name, value in chosen.items()}, scenes.whole)
     row, = table.rows
     assert row.result == 'ok', row.message
-    assert row.value == [2, 1, .3, .25, .03, .6, 1, chosen['threads'], 2, 8]
+    assert row.value == [2, .25, .03, .6, 1, chosen['threads'], 2, 8]
     assert {**row.settings, **chosen} == row.settings
 
 
@@ -256,12 +255,12 @@ def faked(monkeypatch, results):
             raise result
         return result
 
-    monkeypatch.setattr(tool, '_runOne', runOne)
+    monkeypatch.setattr(run_process, 'perform', runOne)
     return asked
 
 
 def ok(wall, value=1.):
-    return dict(result='ok', message='', wall=wall, cpu=wall, steps=1, value=value, used={})
+    return dict(result='ok', message='', wall=wall, cpu=wall, seconds=wall, steps=1, value=value, used={})
 
 
 def test_mediansAndRatios(monkeypatch):
@@ -305,9 +304,6 @@ local.__name__ = 'elsewhere'
 @pytest.mark.parametrize('wrong, sentence', [
     (dict(vary={'passes': [1, 3]}), 'passes=3, it must be 1 or 2'),
     (dict(vary={'passes': [True]}), 'passes=True, it must be 1 or 2'),
-    (dict(vary={'correction': ['lagrangian']}), "'lagrangian', it must be 'lagrange', 'penalty'"),
-    (dict(vary={'correction': ['penalty:2']}), "'penalty:2', it must be"),
-    (dict(vary={'correction': ['penalty:x']}), "'penalty:x', it must be"),
     (dict(vary={'smooth': [1]}), 'smooth=1, it must be True or False'),
     (dict(vary={'size': [0.]}), r'size=0.0, it must be a positive length'),
     (dict(vary={'timeStep': [-1]}), 'timeStep=-1, it must be a positive fraction'),

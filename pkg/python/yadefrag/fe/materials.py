@@ -6,7 +6,7 @@ from typing import Any
 import numpy
 
 from yade import wrapper
-from yadefrag.arguments import array, atPlaces, isWhole, number, plain, positive, real, refuse, shown
+from yadefrag.arguments import array, atPlaces, isWhole, number, plain, real, refuse, shown
 from yadefrag.fe.mesh_values import centroids
 from yadefrag.hints import FEMat, Mesh
 
@@ -27,11 +27,6 @@ def oneMaterial(material: Any, name: str = 'material', right: str = _RIGHT) -> F
             raise ValueError('%s is %s, which is not in O.materials.' % (name, shown(material))) from None
     if not isinstance(found, wrapper.FEMat):
         refuse(name, material, right)
-    positive("the material's young", found.young, 'Pa')
-    positive("the material's density", found.density, 'kg/m³')
-    number("the material's poisson", found.poisson, lambda v: -1 < v < .5, 'above -1 and below 0.5')
-    number("the material's frictionAngle", found.frictionAngle, lambda v: 0 <= v < math.pi / 2,
-           'at least 0 and below π/2 (rad)')
     return found
 
 

@@ -114,7 +114,7 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
     smooth = mesh.smooth if smooth is None else smoothNodes(smooth, mesh)
     materials = Materials(mesh, material)
     between = interfaces(mesh, materials, interfaceStrength, interfaceEnergy)
-    places = brittlePlaces(mesh, materials, between, strength, fractureEnergy, jointStrength, jointEnergy)
+    places = brittlePlaces(mesh, between, strength, fractureEnergy, jointStrength, jointEnergy)
     requireBetweenSteps()
     name = newName(fe, name)
     if element is None:

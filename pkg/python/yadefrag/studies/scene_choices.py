@@ -22,17 +22,6 @@ def _isNumber(value):
     return number is not None and math.isfinite(number)
 
 
-def _isPenalty(value):
-    """'penalty' or 'penalty:F' with 0 < F ≤ 1."""
-    kind, _, factor = value.partition(':') if isinstance(value, str) else ('', '', '')
-    if kind != 'penalty':
-        return False
-    try:
-        return ':' not in value or 0 < float(factor) <= 1
-    except ValueError:
-        return False
-
-
 def _isOneOf(*allowed):
     return lambda value: any(value is a if isinstance(a, bool) else
                              type(value) is type(a) and value == a for a in allowed)
@@ -41,10 +30,6 @@ def _isOneOf(*allowed):
 # name: (function that checks a value, description of valid values)
 KNOWN = {
     'passes': (_isOneOf(1, 2), '1 or 2'),
-    # Of earlier versions; FESolver reports that they have no effect.
-    'correction': (lambda v: v == 'lagrange' or _isPenalty(v),
-                   "'lagrange', 'penalty', or 'penalty:F' with a factor F above 0 and at most 1"),
-    'entry': (_isOneOf('path', 'flags'), "'path' or 'flags'"),
     'smooth': (_isOneOf(True, False), 'True or False'),
     'size': (lambda v: _isNumber(v) and v > 0, 'a positive length (m)'),
     'timeStep': (lambda v: _isNumber(v) and v > 0,
@@ -120,12 +105,6 @@ class Choices:
         FESolver."""
         settings.update(passes=self.get('passes', settings.get('passes', 1)),
                         halo=self.get('halo', settings.get('halo', 0)))
-        settings.update((name, self[name]) for name in ('correction', 'entry') if name in self._settings)
-        if 'correction' in settings:
-            kind, _, factor = arguments.text('correction', settings['correction']).partition(':')
-            settings['correction'] = kind
-            if factor:
-                settings['penaltyFactor'] = float(factor)
         times = self.get('bulkViscosity')
         if times is not None:
             settings.update(linearViscosity=times * LINEAR_VISCOSITY,
