@@ -53,7 +53,7 @@ def _ofTriangles(name, value, mesh, kind):
 
 
 def _ofJoints(name, value, sides, count):
-    """Floats of sides on joints, from a number or one for each of `count` joints; NaN for None.
+    """Floats of sides on joints, from a number, or None, or one of these for each of `count` joints; NaN for None.
 
     sides  number of the joint of each
     """
@@ -62,15 +62,15 @@ def _ofJoints(name, value, sides, count):
         return numpy.full(len(sides), math.nan)
     if real(value) is not None:
         return numpy.full(len(sides), number(name, value, isRight, right))
-    values = array(value)
-    if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf':
-        refuse(name, value, 'a number (%s), or one for each joint' % unit)
-    if len(values) != count:
+    isListed = isinstance(value, (list, tuple)) or isinstance(value, numpy.ndarray) and value.ndim == 1
+    if not isListed:
+        refuse(name, value, 'a number (%s), None, or one of these for each joint' % unit)
+    if len(value) != count:
         raise ValueError('%s has %d values, it must have one for each of the %d joints.' %
-                         (name, len(values), count))
-    for i, one in enumerate(values):
-        number('%s[%d]' % (name, i), one, isRight, right)
-    return values.astype(float)[sides]
+                         (name, len(value), count))
+    values = [math.nan if one is None else number('%s[%d]' % (name, i), one, isRight, right + ', or None')
+              for i, one in enumerate(value)]
+    return numpy.array(values, dtype=float)[sides]
 
 
 def brittlePlaces(mesh: Mesh, materials: Any, interfaces: tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray],
