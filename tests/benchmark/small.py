@@ -87,12 +87,13 @@ def main(arguments):
     for n, clumps in ((64, False), (64, True), (256, False), (256, True)):
         rounds = [[milliseconds(n, clumps, engines, steps=200000 // n) for engines in ENGINES] for _ in range(options.rounds)]
         ratios = [f'{statistics.median(turn[k] / turn[0] for turn in rounds):.2f}' for k in (1, 2)]
-        rows.append(dict(zip(('of the processor time, or of the peak memory', *ENGINES), (
+        rows.append(dict(zip(('scene', *ENGINES), (
             f'{n} {"clumps of two" if clumps else "spheres"}, ms per step',
             measured_tables.digits(statistics.median(turn[0] for turn in rounds)), *(f'× {one}' for one in ratios)))))
     both = [peak(options.yade, 27000, engines) for engines in ENGINES]
     rows.append(dict(zip(rows[0], ('packing of 27,000 spheres, MB', *(f'{one:.0f}' for one in both)))))
-    measured_tables.publish(options, 'small', rows, f'{report.origin.line()}, medians of {options.rounds} rounds, one thread, `scripts/bench small`')
+    measured_tables.publish(options, 'small', rows, f'processor time of a thread, medians of {options.rounds} rounds in turns, and peak memory, '
+                            f'{report.origin.line()}, `scripts/bench small`')
 
 
 if sys.argv[1:2] == ['peak']:
