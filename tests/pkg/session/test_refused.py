@@ -165,12 +165,24 @@ def test_scenes():
     for component in (2, -1, 'a', None, 1.5, True):
         assert sentenceOf(lambda: made.removeBody(component)).startswith('component is ')  # noqa: B023
     assert len(made.surfaces) == 2
+
+
+@pytest.mark.parametrize('isLoaded', [False, True])
+def test_aSolverOfAnotherScene(isLoaded):
+    """Also if the other scene is a saved state of the same one, with bodies of the same numbers."""
+    made = impact('LebesgueCollider')
+    O.step()
+    O.saveTmp()
     O.reset()
     O.materials.append(w.FEMat(label='m'))
+    if isLoaded:
+        O.loadTmp()
+    count = len(O.bodies)
     for call in (lambda: added(made), lambda: made.removeBody(0)):
         with pytest.raises(RuntimeError, match='O.reset, .* this scene needs a new FESolver'):
             call()
-    assert len(O.bodies) == 0 and added(w.FESolver()) == 0
+    assert len(O.bodies) == count
+    assert isLoaded or added(w.FESolver()) == 0
 
 
 @pytest.mark.parametrize('order', [(1e6, 10, 1e-3), (10, 1e6, 1e-3)])

@@ -136,9 +136,12 @@ def _values(name, value, mesh, sides, both, materials):
         return numpy.full(len(sides), math.nan)
     if real(value) is not None:
         return numpy.full(len(sides), number(name, value, _isValue, right))
+
+    def checked(at, one):
+        return math.nan if one is None else number(at, one, _isValue, right + ', or None')
+
     if callable(value):
-        return numpy.array(atPlaces(name, value, mesh.nodes[sides].mean(axis=1),
-                                    lambda at, one: number(at, one, _isValue, right)))
+        return numpy.array(atPlaces(name, value, mesh.nodes[sides].mean(axis=1), checked), dtype=float)
     if not isinstance(value, dict):
         refuse(name, value, 'None, a number (%s), a function (x, y) that returns one, or a dict '
                'with one by pair of materials' % _INTERFACE[name])
@@ -147,7 +150,7 @@ def _values(name, value, mesh, sides, both, materials):
         if not isinstance(key, tuple) or len(key) != 2:
             refuse("a key of %s" % name, key, 'a pair of materials')
         a, b = (materials.find(m, 'a material in %s' % name) for m in key)
-        chosen = number('%s[%s]' % (name, shown(key)), one, _isValue, right)
+        chosen = checked('%s[%s]' % (name, shown(key)), one)
         result[((both == (a, b)) | (both == (b, a))).all(axis=1)] = chosen
     return result
 

@@ -36,7 +36,7 @@ def _ofTriangles(name, value, mesh):
 
 
 def _ofJoints(name, value, sides, count):
-    """Floats of sides on joints, from a number or one for each of `count` joints; NaN for None.
+    """Floats of sides on joints, from a number, or None, or one of these for each of `count` joints; NaN for None.
 
     sides  number of the joint of each
     """
@@ -44,13 +44,13 @@ def _ofJoints(name, value, sides, count):
         return numpy.full(len(sides), math.nan)
     if real(value) is not None:
         return numpy.full(len(sides), number(name, value, math.isfinite, 'a finite number'))
-    values = array(value)
-    if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf' or not numpy.isfinite(values).all():
-        refuse(name, value, 'a number (%s), or one for each joint, finite' % _UNITS[name])
-    if len(values) != count:
-        raise ValueError('%s has %d values, it must have one for each of the %d joints.' %
-                         (name, len(values), count))
-    return values.astype(float)[sides]
+    if not (isinstance(value, (list, tuple)) or isinstance(value, numpy.ndarray) and value.ndim == 1):
+        refuse(name, value, 'a number (%s), None, or one of these for each joint' % _UNITS[name])
+    if len(value) != count:
+        raise ValueError('%s has %d values, it must have one for each of the %d joints.' % (name, len(value), count))
+    values = [math.nan if one is None else number('%s[%d]' % (name, i), one, math.isfinite, 'a finite number, or None')
+              for i, one in enumerate(value)]
+    return numpy.array(values, dtype=float)[sides]
 
 
 def brittlePlaces(mesh: Mesh, interfaces: tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray],

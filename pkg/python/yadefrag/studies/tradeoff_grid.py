@@ -156,7 +156,7 @@ def _values(name, values):
     """The checked values of a choice; NumPy's numbers become Python's."""
     if isinstance(values, numpy.ndarray):
         values = list(values.flat)
-    if not isinstance(values, (list, tuple)) or not values:
+    if not isinstance(values, (list, tuple, range)) or not values:
         raise ValueError('vary has %s for the choice %s, it must be a list of values.' %
                          (shown(values), shown(name)))
     return [checkChoice(name, value) for value in values]
