@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -75,17 +76,24 @@ void waitForStart(long iter, int subStep) {
 
 }  // namespace
 
-void beginRun(const yade::py::object& run, const yade::py::object& scene,
-              const yade::py::object& steps) {
+void beginRun(const yade::py::object& run, const yade::py::object& wait,
+              const yade::py::object& scene, const yade::py::object& steps) {
   // A paused run may still be in its last step: its progress is not that of the new run.
   if (!isInStep() && !yade::Omega::instance().isRunning()) replaceLoop();
   const yade::Scene& before = *yade::Omega::instance().getScene();
   const long iter = before.iter;
   const int subStep = before.subStep;
+  const bool isWaiting = wait.ptr() != Py_None;
   run(scene, steps, false);
-  if (isInStep()) return;
-  const WithoutGil free;
-  waitForStart(iter, subStep);
+  // The rest of a failed step may need Python's lock. YADE's O.wait() then lasts long enough, 40
+  // ms, for the thread to begin.
+  const bool isRest = subStep != -1;
+  if (!isInStep() && !(isRest && isWaiting)) {
+    std::optional<WithoutGil> free;
+    if (isRest) free.emplace();
+    waitForStart(iter, subStep);
+  }
+  if (isWaiting) wait(scene);
 }
 
 bool waitForEnd() {

@@ -16,9 +16,11 @@ void requirePaused();
 
 /// Calls run(scene, steps), YADE's O.run(), and returns when its thread is in its first step:
 /// before that, YADE must not stop or reset the run, since its thread would find its loop
-/// destroyed.
-void beginRun(const yade::py::object& run, const yade::py::object& scene,
-              const yade::py::object& steps);
+/// destroyed. Then calls wait(scene), YADE's O.wait(), unless it is None. Python's lock is kept
+/// until then, so that no engine that needs it, such as a PyRunner, can fail before YADE waits for
+/// its error.
+void beginRun(const yade::py::object& run, const yade::py::object& wait,
+              const yade::py::object& scene, const yade::py::object& steps);
 
 /// Stops a run of another thread; returns after its last step. Python's lock is released meanwhile.
 void stopRun();

@@ -20,6 +20,7 @@ from yadefrag.arguments import shownPath
 from yadefrag.io.files import replacing, requireWritable
 from yadefrag.scene import refusals, scene_check
 
+_LOOK = .05  # s, from one check for Ctrl-C to the next
 _saving = threading.RLock()  # held while a run rests for a save
 _count = SimpleNamespace(pauses=0, stepsBefore=0, interrupts=0)
 _saved = SimpleNamespace(part='', name='')  # of the last save: the file that YADE has written, its name afterwards
@@ -40,6 +41,9 @@ class _Thread(threading.local):
 
     def __init__(self):
         self.known, self.depth = _count.interrupts, 0
+        if threading.current_thread() is not threading.main_thread():
+            # Else Linux may deliver the signal here, and the main thread goes on waiting.
+            signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
 
 
 _mine = _Thread()
@@ -72,6 +76,37 @@ def _interrupt(number, frame):
         signal.default_int_handler(number, frame)
 
 
+def _stay(hasEnded):
+    while not hasEnded():
+        if _mine.known != _count.interrupts:
+            _yade.pause(wrapper.Omega())
+
+
+def _aside(call):
+    """call() in another thread: Python handles no signals in this one while YADE waits in it."""
+    errors, ended = [], threading.Event()
+
+    def work():
+        try:
+            call()
+        except BaseException as error:
+            errors.append(error)
+        finally:
+            ended.set()
+
+    thread = threading.Thread(target=work, daemon=True)
+    try:
+        thread.start()
+        _stay(lambda: ended.wait(_LOOK))
+    except BaseException:  # of a script's own handler
+        if thread.ident is not None:
+            _yadefrag.stopRun()
+            ended.wait()  # else it would wait for the next run, and take its error
+        raise
+    if errors:
+        raise errors[0]
+
+
 def _rests():
     with _saving:
         return not wrapper.Omega().running
@@ -80,24 +115,22 @@ def _rests():
 def waitForEnd() -> None:
     """O.wait() without its delay of up to 40 ms; an exception of a step is not raised again."""
     with wholeSteps():
-        try:
-            while not (_yadefrag.waitForEnd() and _rests()):
-                if _mine.known != _count.interrupts:
-                    _yade.pause(wrapper.Omega())
-        except BaseException:  # of a script's own handler
-            _yadefrag.stopRun()
-            raise
+        _stay(lambda: _yadefrag.waitForEnd() and _rests())
 
 
-def _raiseErrorOf(omega):
-    """RuntimeError if a step of the run that has ended was refused, or an engine has failed in it."""
-    why = _yadefrag.whyStopped()
-    if not why and omega.subStep != -1:
-        _yadefrag.stopRun()  # if paused, the last step may not be complete
-        if omega.subStep != -1:
-            why = 'An engine has failed in step %d; YADE has written the reason to stderr.' % omega.iter
-    if why:
-        raise RuntimeError(why)
+def _waitWith(omega, begin):
+    """begin(), then YADE's O.wait(), which has the errors of engines, but not of a run that has ended before."""
+    with refusals.raisedHere():
+        _aside(begin)
+        while not _rests():
+            _aside(lambda: _yade.wait(omega))
+        why = _yadefrag.whyStopped()
+        if not why and omega.subStep != -1:
+            _yadefrag.stopRun()  # if paused, the last step may not be complete
+            if omega.subStep != -1:
+                why = 'An engine has failed in step %d; YADE has written the reason to stderr.' % omega.iter
+        if why:
+            raise RuntimeError(why)
 
 
 @contextlib.contextmanager
@@ -117,7 +150,7 @@ def _resting():
             yield
         finally:
             if isToGoOn:
-                _yadefrag.beginRun(_yade.run, omega, -1)
+                _yadefrag.beginRun(_yade.run, None, omega, -1)
 
 
 class _Functions:
@@ -128,17 +161,16 @@ class _Functions:
         messages.tellNumbers()
         scene_check.tellUnmoved()
         _yadefrag.whyStopped()
-        with wholeSteps(), refusals.raisedHere() if wait else contextlib.nullcontext():
-            _yadefrag.beginRun(_yade.run, self, nSteps)
+        with wholeSteps():
             if wait:
-                waitForEnd()
-                _raiseErrorOf(self)
+                _waitWith(self, lambda: _yadefrag.beginRun(_yade.run, _yade.wait, self, nSteps))
+            else:
+                _yadefrag.beginRun(_yade.run, None, self, nSteps)
 
     def wait(self: Any) -> None:
-        with wholeSteps(), refusals.raisedHere():
+        with wholeSteps():
             if self.running or not _rests():
-                waitForEnd()
-                _raiseErrorOf(self)
+                _waitWith(self, lambda: _yade.wait(self))
 
     def step(self):
         """Ctrl-C ends it after its last engine, not in a PyRunner, which would fail."""
