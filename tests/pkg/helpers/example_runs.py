@@ -6,6 +6,7 @@ import subprocess
 from project import ROOT, yadeCommand
 
 kExamples = os.path.join(ROOT, 'examples')
+kSmall = os.path.join(kExamples, 'small')
 # (s) Each takes seconds; on a machine that does much else besides, minutes.
 kHanging = 600
 kShort = {
@@ -70,3 +71,14 @@ def checkReports(name, out):
         assert numbers(report['actives, last and most'])[1] > 0
         assert 0 < numbers(report['searches'])[0] < numbers(report['steps'])[0]
     return reports
+
+
+def figures(name, folder, *options):
+    """{what: [numbers]} of the lines 'what: words and numbers' that an example prints."""
+    done = subprocess.run([*yadeCommand(), '-j1', os.path.join(kSmall, name + '.py'), folder, *options],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=kHanging)
+    assert done.returncode == 0, done.stdout[-1500:] + done.stderr[-1500:]
+    assert os.path.getsize(os.path.join(folder, name + '.png')) > 10000
+    lines = [line.split(': ', 1) for line in done.stdout.splitlines() if ': ' in line]
+    return {what: [float(n) for n in re.findall(r'(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?', rest)]
+            for what, rest in lines}

@@ -198,7 +198,7 @@ def forms(fe, folder, trial):
         absorb=dict(nodes=nodes(fe)), reaction=dict(nodes=whole(fe)), nodesOf=dict(component=[W(0) + ['first']]),
         componentOf=dict(name=[TEXT('first')]), removeBody=dict(component=[W(0) + ['first']]), fragments=dict(held=[F(True), F(False)]),
         contactForce=dict(a=[W(0) + ['first']], b=[NONE, W(1) + ['second']]),
-        meshQuality=dict(component=[W(0) + ['first']], plot=[NONE, PATH(folder + '/p.png')]),
+        meshQuality=dict(component=[W(0) + ['first']]),
         relax=dict(tolerance=[R(2.**30)], most=[W(30)]), about=dict(show=[FN(lambda line: None)]),
         inCurveOrder=dict(bodies=[LIST([(0, 0, 0), (1, 1, 0)]) + [np.array([(0, 0, 0), (1, 1, 0)])], LIST([((1, 1, 0), .5)])]),
         engines=dict(fe=[[fe]], gravity=[NONE, P(0, -1) + [(0, -1, 0), np.array([0, -1, 0])]], spheres=[F(True), F(False)], damping=[R(.25)],

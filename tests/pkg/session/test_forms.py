@@ -28,7 +28,7 @@ kVariants = dict(
     twoMaterials=('addMesh', dict(strength=None), dict(material=['b', 'm'], interfaceStrength=1e4)),
     setLoads=('setLoads', {}, {}))
 kMore = dict(addMesh=dict(fractureEnergy=None, selfContact=True, name=None), polygonMesh=dict(simplify=None), outlineReport=dict(simplify=None),
-             addPolygon=dict(simplify=None, element=None, jointEnergy=None, mesh=None, meshSeed=0), reaction={}, meshQuality=dict(component=0, plot=None),
+             addPolygon=dict(simplify=None, element=None, jointEnergy=None, mesh=None, meshSeed=0), reaction={}, meshQuality=dict(component=0),
              componentOf=dict(name='first'), setLoads=dict(loads=None), engines=dict(damping=.2, collider=None, moving=False, loop=None, integrator=None),
              addTriangles=dict(strength=None, fractureEnergy=None, element=None, name=None), prescribe={}, pressure=dict(intoCracks=False))
 

@@ -4,7 +4,7 @@ import os
 import numpy as np
 import pytest
 
-from example_runs import cells, checkReports, kShort, numbers, rows, run
+from example_runs import cells, checkReports, figures, kShort, numbers, rows, run
 
 kColliders = ('Lebesgue', 'LinearCode', 'Hierarchy', 'InsertionSort')
 
@@ -64,3 +64,49 @@ def test_ringBreaksAsInTheory(folder):
     assert abs(float(plain[-1])) < 1e-3 and abs(float(scattered[-1])) < 1e-3
     assert sorted(os.listdir(folder)) == ['ring_pieces.png', 'ring_sizes.png']
     assert all(os.path.getsize(os.path.join(folder, f)) > 5000 for f in os.listdir(folder))
+
+
+def test_blastBeginsWithLamesSolution(folder):
+    """1 %: the hole is a polygon of 64 sides, its triangles are a tenth of its radius."""
+    found = figures('blast', folder)
+    mean, theory, least, most = found['hole widens by']
+    assert mean == pytest.approx(theory, rel=.01) and most - least < .01 * theory
+    assert theory == pytest.approx(1e5 * .02 / 30e9 * (.8 * .02**2 + 1.2 * .2**2) / (.2**2 - .02**2), rel=1e-4)
+    assert found['hoop stress at two radii'][0] == pytest.approx(found['hoop stress at two radii'][1], rel=.01)
+    cracks, fragments, change = found['cracks']
+    # Most cracks are still held by cohesion: few parts have come apart.
+    assert cracks > 100 and fragments > 1 and change < 1e-4
+
+
+def test_paneBreaksWhereAndWhenBeamTheoryRequires(folder):
+    """Pressure 6 %: it rises by a tenth in one vibration. Deflection 4 %: ten triangles high, of
+    constant strain."""
+    found = figures('glass', folder)
+    assert found['sinks by'][0] == pytest.approx(found['sinks by'][1], rel=.04)
+    assert found['reactions'][0] == pytest.approx(found['reactions'][1], rel=2e-3)
+    measured, theory = found['breaks at']
+    assert measured == pytest.approx(theory, rel=.06)
+    assert theory == pytest.approx(4 / 3 * 45e6 * (.008 / .1)**2 / .9, rel=1e-4)
+    assert found['first crack'][0] == pytest.approx(.5, abs=.02)
+    assert found['pieces'][0] >= 2
+
+
+def test_spheresBendABeam(folder):
+    """Deflection 3 %: −1.6 % with four triangles over the height, −0.5 % with eight."""
+    found = figures('spheres_on_beam', folder)
+    assert found['deflection'][0] == pytest.approx(found['deflection'][1], rel=.03)
+    weight = 9.81 * (3 * 7800 * 4 / 3 * 3.14159265 * .02**3 + 1200 * .04 * .02 * .54)
+    assert found['forces on the supports'] == [pytest.approx(weight / 2, rel=1e-4)] * 2 + \
+        [pytest.approx(weight / 2, rel=1e-6)]
+    assert found['force of the spheres'][0] == pytest.approx(found['force of the spheres'][1], rel=2e-4)
+
+
+def test_ringsBreakAsInTheoryOfOneDimension(folder):
+    """Two rings of each strength, 15 %: eight have +9, +7, +8 %, single ones differ by 3 %."""
+    found = figures('monte_carlo', folder, '2')
+    for strength, theory in ((240, .4215), (300, .3778), (375, .3221)):
+        mean, low, high, right, rings = found['%d MPa' % strength]
+        assert right == pytest.approx(theory, abs=1e-4) and rings == 2
+        assert low <= mean <= high and mean == pytest.approx(theory, rel=.15)
+    # Called again, it has nothing left to run: the same figures.
+    assert figures('monte_carlo', folder, '2') == found
