@@ -6,7 +6,7 @@ import sys
 import tempfile
 
 kHere = os.path.dirname(os.path.abspath(sys.argv[0]))
-sys.path[:0] = [kHere, os.path.join(kHere, '..', 'helpers')]
+sys.path[:0] = [kHere, os.path.join(kHere, '..', '..', 'pkg', 'helpers')]
 
 import numpy as np
 
