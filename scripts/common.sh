@@ -32,8 +32,7 @@ use_only_debian_python() {
 use_plugin() {
   local package_dir=$release_dir/python
   if [ ! -e "$package_dir/yadefrag/__init__.py" ] || [ ! -e "$package_dir/yadefrag/_yadefrag.so" ]; then
-    "$root/scripts/setup" plugin >&2
-    "$root/scripts/build" release _yadefrag >&2
+    make_plugin >&2
   fi
   export PYTHONPATH="$package_dir${PYTHONPATH:+:$PYTHONPATH}"
 }
@@ -45,7 +44,7 @@ installed_plugin() {
 
 jobs_at_once() { echo "${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"; }
 
-# Packages that only a run needs, some half of the time of all, are installed while the compiler works.
+# Packages that only a run needs take half of the time of all: they are installed while the compiler works.
 make_plugin() {
   "$root/scripts/setup" compile
   "$root/scripts/setup" plugin &
