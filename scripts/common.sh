@@ -32,7 +32,7 @@ use_only_debian_python() {
 use_plugin() {
   local package_dir=$release_dir/python
   if [ ! -e "$package_dir/yadefrag/__init__.py" ] || [ ! -e "$package_dir/yadefrag/_yadefrag.so" ]; then
-    make_plugin >&2
+    make_plugin plugin >&2
   fi
   export PYTHONPATH="$package_dir${PYTHONPATH:+:$PYTHONPATH}"
 }
@@ -44,11 +44,13 @@ installed_plugin() {
 
 jobs_at_once() { echo "${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"; }
 
-# Packages that only a run needs take half of the time of all: they are installed while the compiler works.
+# Packages that the compiler does not need take half of the time of all: they are installed while it works.
+# $1: plugin, or nothing for those of tests, too.
 make_plugin() {
-  "$root/scripts/setup" compile
-  "$root/scripts/setup" plugin &
-  local rest=$!
-  "$root/scripts/build" release _yadefrag
-  wait "$rest"
+  local rest result=0
+  "$root/scripts/setup" compile || return
+  "$root/scripts/setup" "$@" &
+  rest=$!
+  "$root/scripts/build" release _yadefrag || result=1
+  wait "$rest" && return "$result"
 }

@@ -1,5 +1,6 @@
 """YADE's own check scripts, unit tests and shipped examples, with a collider put in the place of
-YADE's (see swap.py): the quick ones, and with YADEFRAG_LONG, as in scripts/test long, all."""
+YADE's (see swap.py): the quick checks with the loop and the integrator, too; the collider alone, and all others, in
+the long tests."""
 import json
 import os
 import subprocess
@@ -16,7 +17,6 @@ from project import yadeCommand
 kHere = os.path.dirname(os.path.abspath(__file__))
 kExampleFolder = '/usr/share/doc/yade/examples'
 kCheckFolder = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
-kLong = 'YADEFRAG_LONG' in os.environ
 
 # Not here: checkList.py runs the others; the MPI scripts start other programs;
 # checkColliderConstantness.py reads the rival's sort lists (test_constantness.py stands for it);
@@ -44,7 +44,6 @@ kLongChecks = [
     'checkPotentialBlocks.py', 'checkSaveLoadClumps.py', 'checkTestDummy.py',
     'checkThermalEngine.py', 'check_TwoPhaseFlowEngine_PressureInjection.py',
     'checkbf_simple.py', 'checkbf_unixial_clump.py', 'colliderTorture.py']
-kChecks = kQuickChecks + kLongChecks * kLong
 # They do nothing in a YADE that is built without the feature, as those of Debian 13 and 14.
 kNeeds = {
     'checkHertzExtended.py': 'CGAL', 'checkPolyhedraCrush.py': 'CGAL', 'checkPolyhedra_shearForce.py': 'CGAL',
@@ -106,11 +105,12 @@ def reasonToSkip(script):
     return needed and needed not in yade.config.features and f'this YADE is built without {needed}'
 
 
-@pytest.mark.parametrize('script', kChecks)
+@pytest.mark.long
+@pytest.mark.parametrize('script', kQuickChecks + kLongChecks)
 def testCheckScript(collider, script):
     if why := reasonToSkip(script):
         pytest.skip(why)
-    names = [x for x in kChecks if not reasonToSkip(x)]
+    names = [x for x in kQuickChecks + kLongChecks if not reasonToSkip(x)]
     result = outcome(collider.name, 'checks', names)[script]
     checkResult(collider, result)
     if script not in kNoCollider and not collider.isRival:
@@ -170,18 +170,17 @@ kLongExamples = [
     'PeriodicBoundaries/periodic-triax.py', 'PeriodicBoundaries/periodicSandPile.py',
     'test/collider-stride-triax.py',
     'test/triax-basic-without-plots.py', 'timeStepperUsage.py']
-kExamples = kShortExamples + kLongExamples * kLong
 
 
 @pytest.mark.skipif(not os.path.isdir(kExampleFolder), reason="YADE's examples are not installed")
-@pytest.mark.parametrize('script', kExamples)
+@pytest.mark.parametrize('script', [*kShortExamples, *(pytest.param(e, marks=pytest.mark.long) for e in kLongExamples)])
 def testExample(collider, script):
     """The contacts are those that YADE's collider has when it searches in every step.
 
     With its strides on it loses floor contacts in periodicSandPile.py and so is no yardstick."""
     if collider.isRival and script.endswith('periodicSandPile.py'):
         pytest.xfail('with strides it loses contacts with the floor')
-    every = [os.path.join(kExampleFolder, s) for s in kExamples]
+    every = [os.path.join(kExampleFolder, s) for s in (kLongExamples if script in kLongExamples else kShortExamples)]
     path = os.path.join(kExampleFolder, script)
     expected = outcome('InsertionSortCollider', 'reference', every)[path]
     assert expected['error'] is None, expected['error']

@@ -25,7 +25,7 @@ kPictures = {
 }
 
 
-@pytest.mark.parametrize('name', kShort)
+@pytest.mark.parametrize('name', ['impact', *(pytest.param(n, marks=pytest.mark.long) for n in kShort if n != 'impact')])
 def test_physicsAndPicturesOfTheExample(name, folder):
     options = ['--out', folder]
     if name == 'cylinder':
@@ -36,6 +36,7 @@ def test_physicsAndPicturesOfTheExample(name, folder):
     assert all(os.path.getsize(os.path.join(folder, f)) > 5000 for f in kPictures[name])
 
 
+@pytest.mark.long
 def test_impulseOnTheCylinder():
     out, _ = run('cylinder', '--no-pictures')
     report = rows(out)[0]
@@ -45,7 +46,7 @@ def test_impulseOnTheCylinder():
     assert 40 < numbers(report['largest force'])[0] < 48
 
 
-@pytest.mark.parametrize('energy', [0, 500])
+@pytest.mark.parametrize('energy', [0, pytest.param(500, marks=pytest.mark.long)])
 def test_impactShatters(energy, folder):
     options = ['--fracture-energy', str(energy), '--size', str(6e-4), '--steps', '600']
     out, _ = run('impact', *options, '--out', folder)
@@ -67,6 +68,7 @@ def test_impactShatters(energy, folder):
     assert table[:, 4].sum() == pytest.approx(.04 * .02 + np.pi * .005**2, rel=.01)
 
 
+@pytest.mark.long
 def test_mortarCracksAroundItsStones(folder):
     out, _ = run('aggregates', '--steps', '400', '--out', folder)
     report = rows(out)[0]
@@ -99,6 +101,7 @@ def test_wrongOptions(name, options, sentence):
     assert sentence in complaints
 
 
+@pytest.mark.long
 def test_interruptedRunStillReports(folder):
     # On a terminal a bar shows that the run has started: an interrupt before that ends the script. It
     # has to be read, too, and one that Python loses while it writes the bar has to be sent again.

@@ -7,6 +7,8 @@ import re
 import subprocess
 import time
 
+import pytest
+
 from project import yadeCommand
 
 kSeconds = float(os.environ.get('YADEFRAG_API_SECONDS', '30'))
@@ -34,6 +36,7 @@ def batch(seed, log):
     return ([int(n) for n in end.groups()] if end else [0, 0]), ['seed %d: %s' % (seed, f) for f in found]
 
 
+@pytest.mark.long
 def test_everyCallIsAnsweredBySuccessOrASentence(folder):
     end, seed, found, counts = time.monotonic() + kSeconds, 1, [], [0, 0]
     while time.monotonic() < end:

@@ -48,6 +48,7 @@ def test_runsOfSeedsAndTables(folder):
         assert values == [drawn(7, 1.), drawn(8, 2.)]
 
 
+@pytest.mark.long
 def test_whatFailsIsARow():
     found = together(scenes.odd, range(5), scenes.oddValue, limit=8.).rows
     assert [row.result for row in found] == ['ok', 'failed', 'refused', 'too long', 'blew up']
@@ -111,6 +112,7 @@ def test_lostWorkersAreRowsThatAreDoneAgain(folder):
     assert row.result == 'ok'
 
 
+@pytest.mark.long
 def test_tradeoffByAnExecutorAndAgain(folder):
     file = folder + '/done.jsonl'
     arguments = dict(duration=.05, repeats=2, resume=file)
@@ -183,10 +185,12 @@ def byScript(folder, opening):
     assert kFound in done.stdout, done.stdout[-3000:]
 
 
+@pytest.mark.long
 def test_twoWorkersOfMpi(folder):
     byScript(folder, kMpi)
 
 
+@pytest.mark.long
 def test_twoWorkersOfDask(folder):
     file = os.path.join(folder, 'scheduler.json')
     # The workers are no yade, and have no plugin on their path.
