@@ -20,7 +20,7 @@ file(STRINGS /etc/os-release is_forky REGEX "^VERSION_CODENAME=forky")
 if(is_forky)
   set(os_version 14)  # it has no number there before its release
 endif()
-execute_process(COMMAND dpkg-query -W -f "\${source:Upstream-Version}" yade
+execute_process(COMMAND dpkg-query -W -f "\${source:Upstream-Version}" libyade
                 OUTPUT_VARIABLE yade_upstream ERROR_QUIET)
 find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
 math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
@@ -48,7 +48,7 @@ string(JOIN ", " CPACK_DEBIAN_PACKAGE_DEPENDS
        "yade (>= ${yade_upstream}), yade (<< ${yade_upstream}.~)"
        "python3 (>= ${python_version}~), python3 (<< ${Python3_VERSION_MAJOR}.${next_minor}~)"
        "python3-numpy")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib, python3-meshio, python3-pil, python3-shapely, python3-tqdm")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-matplotlib, python3-meshio, python3-pil, python3-scipy, python3-shapely, python3-tqdm")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
     "python3-distributed, python3-ezdxf, python3-skimage, python3-svgelements")
 # Python's compiled files are created at the installation and removed with the package.

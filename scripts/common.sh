@@ -32,8 +32,7 @@ use_only_debian_python() {
 use_plugin() {
   local package_dir=$release_dir/python
   if [ ! -e "$package_dir/yadefrag/__init__.py" ] || [ ! -e "$package_dir/yadefrag/_yadefrag.so" ]; then
-    "$root/scripts/setup" plugin >&2
-    "$root/scripts/build" release _yadefrag >&2
+    make_plugin plugin >&2
   fi
   export PYTHONPATH="$package_dir${PYTHONPATH:+:$PYTHONPATH}"
 }
@@ -44,3 +43,14 @@ installed_plugin() {
 }
 
 jobs_at_once() { echo "${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"; }
+
+# Packages that the compiler does not need take half of the time of all: they are installed while it works.
+# $1: plugin, or nothing for those of tests, too.
+make_plugin() {
+  local rest result=0
+  "$root/scripts/setup" compile || return
+  "$root/scripts/setup" "$@" &
+  rest=$!
+  "$root/scripts/build" release _yadefrag || result=1
+  wait "$rest" && return "$result"
+}

@@ -1,7 +1,7 @@
 """Shared set-up of the tests that run inside yade.
 
-A test with the argument `collider` runs once per collider class; YADEFRAG_COLLIDERS (comma separated)
-replaces the list, so that YADE's own InsertionSortCollider can be put through the same tests.
+A test with the argument `collider` runs with LebesgueCollider, or with each class of YADEFRAG_COLLIDERS (comma
+separated), so that another one, also YADE's InsertionSortCollider, can be put through the same tests.
 """
 import os
 import sys
@@ -12,8 +12,7 @@ import pytest
 # What tests of several folders share.
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), 'pkg', 'helpers'))
 
-kShipped = 'LebesgueCollider,LinearCodeCollider,HierarchyCollider'
-kColliders = os.environ.get('YADEFRAG_COLLIDERS', kShipped).split(',')
+kColliders = os.environ.get('YADEFRAG_COLLIDERS', 'LebesgueCollider').split(',')
 
 try:
     import yade

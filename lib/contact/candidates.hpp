@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "core/ids.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -18,7 +17,6 @@ struct Candidates {
 
   [[nodiscard]] std::size_t size() const { return masters.size(); }
   void clear();
-  void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, slaves, offsets, masters); }
 };
 
 /// A slave and a master in whose halo it is.

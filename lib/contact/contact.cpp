@@ -94,7 +94,7 @@ void Contact::takeBack() {
 void Contact::detect(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
   const RowFinder::Positions positions{step.before, model.nodes.position};
-  move_ = std::min(step.move, finder_.measure(surfaces, positions, step.threads));
+  move_ = std::min(step.move, finder_.measure(candidates, surfaces, positions, step.threads));
   const ContactSizes sizes(step.shortest, move_, step.constants);
   near_.swap(finder_.find(candidates, surfaces, positions, sizes, step.threads));
   if (near_.empty()) return;
@@ -306,15 +306,6 @@ void Contact::finish(Model& model, const ContactStep& step) {
         {{row.slave, row.master}, row.normalForce, row.tangentForce, row.toleratedGap});
   touches.swap(formerTouches_);
   isFinished_ = true;
-}
-
-void Contact::addTo(Footprint& footprint) const {
-  footprint.add(Use::kContact, touches, formerTouches_, near_, friction_, rows_, formerRows_,
-                forces_, displacement_, touched_, isTouched_, rigidLoads_);
-  candidates.addTo(footprint);
-  finder_.addTo(footprint);
-  pairs_.addTo(footprint, Use::kContact);
-  sweeps_.addTo(footprint, Use::kContact);
 }
 
 }  // namespace yadefrag

@@ -75,8 +75,6 @@ class Contact {
   /// Number of sweeps over the rows in the last step.
   [[nodiscard]] int sweeps() const { return now_.sweeps; }
 
-  void addTo(Footprint& footprint) const;
-
   Candidates candidates;
   std::vector<Touch> touches;  ///< of the rows of the last step, in their order
 
@@ -117,7 +115,7 @@ class Contact {
   void sumForces();
   void finish(Model& model, const ContactStep& step);
 
-  double move_ = 0;  // m, largest displacement of a surface in this step, relative to the mean
+  double move_ = 0;  // m, largest displacement of a slave relative to a candidate in this step
   RowFinder finder_;
   RowSweeps sweeps_;
   std::vector<NearRow> near_;     // those of `sweeps_`

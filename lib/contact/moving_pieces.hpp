@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "core/ids.hpp"
 #include "core/vec2.hpp"
 #include "surface/contact_surface.hpp"
@@ -35,16 +34,11 @@ class MovingPieces {
   void update(const ContactSurfaces& surfaces, std::span<const Vec2> before,
               std::span<const Vec2> now, int threads);
 
-  /// (m) Largest displacement of a begin from the mean of all: what moves together has no part in
-  /// it.
-  [[nodiscard]] double largestMove() const;
-
   [[nodiscard]] const MovingPiece& operator[](EntryId entry) const { return pieces_[entry.value]; }
   /// (m) Displacement to x* of the point of a straight piece at ξ, 0 to 1 along the piece.
   [[nodiscard]] Vec2 movedAt(const MovingPiece& piece, double xi) const {
     return (1 - xi) * piece.moved + xi * (*this)[piece.next].moved;
   }
-  void addTo(Footprint& footprint) const { footprint.add(Use::kContact, pieces_); }
 
  private:
   std::vector<MovingPiece> pieces_;

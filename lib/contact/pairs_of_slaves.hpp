@@ -33,7 +33,6 @@ class PairsOfSlaves {
   [[nodiscard]] bool contains(SlaveMaster pair) const {
     return any(pair.slave, [&](std::uint32_t, EntryId master) { return master == pair.master; });
   }
-  void addTo(Footprint& footprint, Use use) const { footprint.add(use, links_, first_); }
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;

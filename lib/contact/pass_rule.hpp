@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "contact/contact_settings.hpp"
-#include "core/footprint.hpp"
 #include "mesh/model.hpp"
 #include "surface/contact_surface.hpp"
 
@@ -35,8 +34,6 @@ class PassRule {
     const std::uint32_t own = surfaces.loop[slave.value], other = surfaces.loop[master.value];
     return own == other || isFiner(own, other) || sharp_[slave.value] != 0;
   }
-
-  void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, fineness_, sharp_); }
 
  private:
   [[nodiscard]] static bool isRigid(const Model& model, const ContactSurfaces& surfaces,

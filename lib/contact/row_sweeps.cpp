@@ -7,38 +7,13 @@
 
 namespace yadefrag {
 
-namespace {
-
-/// The smallest part that the other nodes have in the response of a row on a rigid body. Sweeps let
-/// a light body go to and fro between its neighbours: what one changes is this part of what is
-/// wrong.
-double leastShare(const RowSystem& system) {
-  double least = 1;
-  if (system.turns.empty()) return least;
-  for (const RowSystem::Row& row : system.rows) {
-    if (row.turn == RowSystem::kNone) continue;
-    const RowSystem::Turn& turn = system.turns[row.turn];
-    const double weight = row.weight[row.count - 1], lever = cross(turn.lever, row.normal);
-    const double own =
-        weight * weight *
-            weighted(row.normal, system.moved[row.node[row.count - 1]].perForce, row.normal) +
-        turn.perMoment * lever * lever;
-    const double others = 1 - own / row.normalResponse;
-    if (others > tolerance::kLeastShare) least = std::min(least, others);
-  }
-  return least;
-}
-
-}  // namespace
-
 double RowSweeps::begin(Stop stop, CoupledForces* coupled, std::vector<Vec2>* position) {
   system_.pushAll();
+  rigid_.index(system_);
   lastMoved_.assign(system_.nodes.size(), 0);
   share(coupled, position);
   const bool isCoupled = !shared_.empty();
-  const double share = std::max(leastShare(system_), tolerance::kUsedShare);
-  const int most = std::max(stop.most, static_cast<int>(tolerance::kMostSweeps / share));
-  stop.change = std::max(stop.least, share * stop.change);
+  const int most = std::max(stop.most, tolerance::kMostSweeps);
   double change = INFINITY;
   change_ = stop.change;
   for (count_ = 0; change > change_;) {
@@ -76,10 +51,23 @@ double RowSweeps::sweep(int number, double change) {
   double most = 0;
   for (std::size_t i = 0; i < count; ++i) {
     RowSystem::Row& row = system_.rows[number % 2 == 0 ? i : count - 1 - i];
-    if (!isDue(row, number)) continue;
+    if (row.turn != RowSystem::kNone || !isDue(row, number)) continue;
     most = std::max(most,
                     row.cross != 0 ? relaxNotch(row, number, change) : relax(row, number, change));
   }
+  for (std::size_t body = 0; body < rigid_.bodies(); ++body)
+    most = std::max(most, solveRigid(body, number, change));
+  return most;
+}
+
+/// The rows of one rigid body.
+double RowSweeps::solveRigid(std::size_t body, int sweep, double change) {
+  const auto rows = rigid_.rowsOf(body);
+  if (std::ranges::none_of(rows, [&](auto r) { return isDue(system_.rows[r], sweep); })) return 0;
+  const double most = rigid_.solve(system_, body);
+  if (!(most > tolerance::kMakesDue * change)) return most;
+  for (const std::uint32_t r : rows)
+    forNodes(system_.rows[r], [&](std::uint32_t node, double) { lastMoved_[node] = sweep; });
   return most;
 }
 

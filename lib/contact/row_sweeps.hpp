@@ -15,8 +15,8 @@
 #include "contact/contact_row.hpp"
 #include "contact/coupled_forces.hpp"
 #include "contact/inertia.hpp"
+#include "contact/rigid_rows.hpp"
 #include "contact/row_system.hpp"
-#include "core/footprint.hpp"
 
 namespace yadefrag {
 
@@ -65,13 +65,10 @@ class RowSweeps {
   [[nodiscard]] Vec2 shiftOf(NodeId node) const { return system_.shiftOf(node); }
   /// Reserves memory for this number of nodes of the model.
   void reserve(std::size_t nodes) { system_.numbers.reserve(nodes); }
-  void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, shared_, lastMoved_);
-    system_.addTo(footprint, use);
-  }
 
  private:
   double sweep(int number, double change);
+  double solveRigid(std::size_t body, int sweep, double change);
   double relax(RowSystem::Row& row, int sweep, double change);
   double relaxNotch(RowSystem::Row& row, int sweep, double change);
   double setForces(RowSystem::Row& row, double normal, Vec2 moved, int sweep, double change);
@@ -81,6 +78,7 @@ class RowSweeps {
                       bool last);
 
   RowSystem system_;
+  RigidRows rigid_;
   int count_ = 0;
   double change_ = 0;           // m, at which the sweeps of this solution end
   std::vector<int> lastMoved_;  // by number of the node: the last sweep that moved it

@@ -8,7 +8,6 @@
 
 #include "contact/contact_row.hpp"
 #include "contact/inertia.hpp"
-#include "core/footprint.hpp"
 
 namespace yadefrag {
 
@@ -61,9 +60,6 @@ struct RowSystem {
   [[nodiscard]] Vec2 shiftOf(NodeId node) const {
     const std::uint32_t number = node.value < numbers.size() ? numbers[node.value] : kNone;
     return number < nodes.size() && nodes[number] == node ? moved[number].shift : Vec2{};
-  }
-  void addTo(Footprint& footprint, Use use) const {
-    footprint.add(use, rows, turns, nodes, numbers, moved, turned);
   }
 
   std::vector<Row> rows;

@@ -5,18 +5,16 @@
 //   template <class Self>
 //   static auto columnsOf(Self& self) {
 //     return [&self](auto visit) {
-//       visit(Column{"position", Use::kMesh}, self.position);
-//       visit(Column{"load", Use::kLoads, kOptional}, self.load);
+//       visit(Column{"position"}, self.position);
+//       visit(Column{"load", kOptional}, self.load);
 //     };
 //   }
 //
-// and all that concerns whole rows goes through that list: the functions below, saved states and
-// footprints. A new array needs a member and a line there.
+// and all that concerns whole rows goes through that list: the functions below, saved states. A
+// new array needs a member and a line there.
 
 #include <cstddef>
 #include <span>
-
-#include "core/footprint.hpp"
 
 namespace yadefrag {
 
@@ -25,7 +23,6 @@ enum Presence : bool { kAlways = false, kOptional = true };
 
 struct Column {
   const char* name;  ///< in saved states
-  Use use;
   Presence presence = kAlways;
 
   template <class Array>
@@ -95,11 +92,6 @@ template <class Columns>
     fits = fits && (!column.isUsed(array) || array.size() == count);
   });
   return fits;
-}
-
-template <class Columns>
-void addTo(Footprint& footprint, const Columns& columns) {
-  columns([&](const Column& column, const auto& array) { footprint.add(column.use, array); });
 }
 
 }  // namespace yadefrag

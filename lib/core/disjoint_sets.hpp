@@ -8,8 +8,6 @@
 #include <numeric>
 #include <vector>
 
-#include "core/footprint.hpp"
-
 namespace yadefrag {
 
 /// The representative of a set depends on the order of the unions; the result of `number` does not.
@@ -47,8 +45,6 @@ class DisjointSets {
     }
     return count;
   }
-
-  void addTo(Footprint& footprint, Use use) const { footprint.add(use, rank_, parent_); }
 
  private:
   /// Made anew for each call: it consists of two pointers only.

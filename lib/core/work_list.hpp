@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/footprint.hpp"
-
 namespace yadefrag {
 
 /// One pass visits a number at most once. A number added ahead of the pass is visited in this pass,
@@ -78,7 +76,6 @@ class WorkList {
   }
 
   [[nodiscard]] Range all() const { return {0, words_.size()}; }
-  void addTo(Footprint& footprint, Use use) const { footprint.add(use, words_); }
 
  private:
   static std::uint64_t bit(std::size_t number) { return std::uint64_t{1} << number % kPerWord; }

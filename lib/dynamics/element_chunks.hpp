@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "mesh/model.hpp"
 
 namespace yadefrag {
@@ -95,12 +94,6 @@ struct ElementChunks {
 
   [[nodiscard]] std::size_t partials() const {
     return firstPartial.empty() ? 0 : firstPartial.back();
-  }
-
-  void addTo(Footprint& footprint) const {
-    footprint.add(Use::kDynamics, chunks, lanes, nodes, partialOf, sharedNodes, firstPartial,
-                  local_);
-    footprint.add(Use::kMaterials, laws);
   }
 
  private:

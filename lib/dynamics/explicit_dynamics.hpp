@@ -124,7 +124,6 @@ class ExplicitDynamics {
   /// Bodies that yield; of the last step.
   [[nodiscard]] const PlasticFlow& flow() const { return flow_; }
   PlasticFlow& flow() { return flow_; }
-  void addTo(Footprint& footprint) const;
 
  private:
   struct Update;

@@ -93,20 +93,4 @@ void ExplicitDynamics::setStressLimits(std::vector<double> leastStrengthByCompon
   watching_ = elements_.watch(leastStrength_);
 }
 
-void ExplicitDynamics::addTo(Footprint& footprint) const {
-  elements_.addTo(footprint);
-  smoothing_.addTo(footprint);
-  flow_.addTo(footprint);
-  footprint.add(Use::kDynamics, force_, partialForce_, previousPosition_, previousVelocity_,
-                scratch_);
-  footprint.add(Use::kViscosity, viscousForce_, partialViscous_);
-  footprint.add(Use::kHeld, heldVelocity_, heldNodes_);
-  footprint.add(Use::kFracture, leastStrength_, stressed_);
-  for (const Scratch& scratch : scratch_) {
-    footprint.add(Use::kDynamics, scratch.values, scratch.flat);
-    footprint.add(Use::kFracture, scratch.stressed);
-    footprint.add(Use::kSmoothing, scratch.room.mass, scratch.room.similar, scratch.room.distorted);
-  }
-}
-
 }  // namespace yadefrag

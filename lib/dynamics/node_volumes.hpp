@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "dynamics/element_chunks.hpp"
 
 namespace yadefrag {
@@ -28,10 +27,6 @@ class NodeVolumes {
   /// The chunk's values by local number.
   [[nodiscard]] const double* of(const Chunk& chunk) const {
     return value_.data() + chunk.firstNode;
-  }
-
-  void addTo(Footprint& footprint) const {
-    footprint.add(Use::kPlasticity, value_, partial_, whole_);
   }
 
  private:

@@ -60,9 +60,4 @@ void PlasticDamage::appendFailed(std::vector<ElementRange>& ranges) const {
   for (const Thread& one : threads_) append(one.failed);
 }
 
-void PlasticDamage::addTo(Footprint& footprint) const {
-  footprint.add(Use::kPlasticity, failed_, threads_);
-  for (const Thread& one : threads_) footprint.add(Use::kPlasticity, one.former, one.failed);
-}
-
 }  // namespace yadefrag

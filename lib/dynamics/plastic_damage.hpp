@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "dynamics/element_kernel.hpp"
 #include "dynamics/plastic_return.hpp"
 #include "mesh/model.hpp"
@@ -36,8 +35,6 @@ class PlasticDamage {
   void takeBack(Model& model);
   /// Appends the triangles that have failed.
   void appendFailed(std::vector<ElementRange>& ranges) const;
-
-  void addTo(Footprint& footprint) const;
 
  private:
   struct Former {

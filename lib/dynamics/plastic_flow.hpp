@@ -14,7 +14,6 @@
 #include <span>
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "dynamics/node_volumes.hpp"
 #include "dynamics/plastic_damage.hpp"
 #include "dynamics/plastic_kernel.hpp"
@@ -65,8 +64,6 @@ class PlasticFlow {
   void restore(const Steepness& steepness);
   /// Appends the triangles whose material has failed.
   void appendFailed(std::vector<ElementRange>& ranges) const { damage_.appendFailed(ranges); }
-
-  void addTo(Footprint& footprint) const;
 
  private:
   class Lanes;

@@ -57,13 +57,4 @@ void PlasticFlow::noteSteepest(const Model& model) {
               squaredSteepest_, squaredGradient(YieldPoint(model.triangles.plastic, e).edges));
 }
 
-void PlasticFlow::addTo(Footprint& footprint) const {
-  footprint.add(Use::kPlasticity, yield_, thermal_, opening_, dissipated_, threads_);
-  now_.addTo(footprint);
-  before_.addTo(footprint);
-  opened_.addTo(footprint);
-  for (const Thread& one : threads_) footprint.add(Use::kPlasticity, one.former, one.before);
-  damage_.addTo(footprint);
-}
-
 }  // namespace yadefrag

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "dynamics/smoothed_kernel.hpp"
 
 namespace yadefrag {
@@ -34,10 +33,6 @@ class StrainSmoothing {
   /// Second pass, for one chunk; `mass` (kg) by node.
   void addForces(InstructionSet set, const ElementChunks& elements, const Chunk& chunk,
                  const std::vector<double>& mass, Room& room, Vec2* force);
-
-  void addTo(Footprint& footprint) const {
-    footprint.add(Use::kSmoothing, gradient_, partialGradient_, wholeGradient_, distortion_);
-  }
 
  private:
   // Sums with a third of the volumes (m³), by chunk and local number; after sumShared stresses

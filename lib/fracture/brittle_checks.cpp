@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/errors.hpp"
@@ -12,6 +13,7 @@
 #include "fracture/coarse_mesh.hpp"
 #include "fracture/edge_material.hpp"
 #include "fracture/edge_strength.hpp"
+#include "outline/convex_hull.hpp"
 
 namespace yadefrag {
 namespace {
@@ -136,28 +138,25 @@ std::string wideSentence(double young, const Cohesive& edge, double width) {
   const double most = tolerance::kMostZone * width;
   if (zone <= most) return {};
   return fmt::format(
-      "{}: the cohesive zone is {:.4g} m long, more than half of the body's shorter side of {:.4g} "
+      "{}: the cohesive zone is {:.4g} m long, more than half of the body's smallest width of "
+      "{:.4g} "
       "m; in bending and compression it then carries more than its strength; with a fractureEnergy "
       "of at most {:.3g} J/m² it does not.",
       edge.name, zone, width, atMost(most / zone * edge.fractureEnergy));
 }
 
-/// (m) Of the body's box.
-double shorterSide(const Model& model, const Component& body) {
-  Vec2 least{INFINITY, INFINITY}, most{-INFINITY, -INFINITY};
+double widthOf(const Model& model, const Component& body) {
+  std::vector<Vec2> points;
   for (std::uint32_t t = body.firstTriangle; t < body.lastTriangle; ++t)
-    for (const NodeId node : model.triangles.nodes[t]) {
-      const Vec2 at = model.nodes.position[node.value];
-      least = {std::min(least.x, at.x), std::min(least.y, at.y)};
-      most = {std::max(most.x, at.x), std::max(most.y, at.y)};
-    }
-  return std::min(most.x - least.x, most.y - least.y);
+    for (const NodeId node : model.triangles.nodes[t])
+      points.push_back(model.nodes.position[node.value]);
+  return smallestWidth(std::move(points));
 }
 
 std::string bodyZoneSentence(const Model& model, const Component& body, double young,
                              const Cohesive& edge) {
   std::string sentence = zoneSentence(young, edge, sumsOf(model, body).meanLength);
-  if (sentence.empty()) return wideSentence(young, edge, shorterSide(model, body));
+  if (sentence.empty()) return wideSentence(young, edge, widthOf(model, body));
   sentence.pop_back();
   return sentence + "; coarseMesh='strength' gives cracks the right load on this mesh.";
 }

@@ -24,7 +24,6 @@
 #include "contact/coupled_forces.hpp"
 #include "core/csr.hpp"
 #include "core/disjoint_sets.hpp"
-#include "core/footprint.hpp"
 #include "core/step_length.hpp"
 #include "core/work_list.hpp"
 #include "dynamics/energy_ledger.hpp"
@@ -88,22 +87,14 @@ class Cohesion final : public CoupledForces {
   template <class Self>
   static auto columnsOf(Self& self) {
     return [&self](auto visit) {
-      visit(Column{"cohesiveEdge", Use::kCohesion}, self.edge);
-      visit(Column{"cohesiveLargest", Use::kCohesion}, self.largest);
-      visit(Column{"cohesiveTraction", Use::kCohesion}, self.traction);
-      visit(Column{"cohesiveArea", Use::kCohesion}, self.area);
+      visit(Column{"cohesiveEdge"}, self.edge);
+      visit(Column{"cohesiveLargest"}, self.largest);
+      visit(Column{"cohesiveTraction"}, self.traction);
+      visit(Column{"cohesiveArea"}, self.area);
     };
   }
   auto columns() { return columnsOf(*this); }
   auto columns() const { return columnsOf(*this); }
-  void addTo(Footprint& footprint) const {
-    yadefrag::addTo(footprint, columns());
-    footprint.add(Use::kCohesion, points_, couples_, firstAt_, groupOf_, groups_.values,
-                  groups_.offsets, pointsAt_.values, pointsAt_.offsets, improved_, start_, turned_,
-                  released);
-    sets_.addTo(footprint, Use::kCohesion);
-    waiting_.addTo(footprint, Use::kCohesion);
-  }
 
  private:
   struct Point {

@@ -62,11 +62,11 @@ struct CrackEdges {
   template <class Self>
   static auto columnsOf(Self& self) {
     return [&self](auto visit) {
-      visit(Column{"crackElement", Use::kFracture}, self.element);
-      visit(Column{"crackCorner", Use::kFracture}, self.corner);
-      visit(Column{"crackStrength", Use::kFracture}, self.strength);
-      visit(Column{"crackEnergy", Use::kFracture}, self.fractureEnergy);
-      visit(Column{"cracked", Use::kFracture}, self.cracked);
+      visit(Column{"crackElement"}, self.element);
+      visit(Column{"crackCorner"}, self.corner);
+      visit(Column{"crackStrength"}, self.strength);
+      visit(Column{"crackEnergy"}, self.fractureEnergy);
+      visit(Column{"cracked"}, self.cracked);
     };
   }
   auto columns() { return columnsOf(*this); }

@@ -113,14 +113,6 @@ double Fracture::splitEnergy(const Model& model, std::span<const NodeId> origina
   return gained;
 }
 
-void Fracture::addTo(Footprint& footprint) const {
-  yadefrag::addTo(footprint, edges.columns());
-  footprint.add(Use::kFracture, edges.ofElement, edges.ofNode, started, leastStrength, cracks_,
-                weakened_, overloads);
-  cohesion.addTo(footprint);
-  check_.addTo(footprint);
-}
-
 void Fracture::cohere(const Model& model) {
   for (const EdgeId edge : cracks_)
     if (edges.fractureEnergy[edge.value] > 0) cohesion.add(model, edges, edge);

@@ -58,8 +58,6 @@ class Fracture {
   [[nodiscard]] std::uint64_t numCracks() const { return numCracks_; }
   void restore(std::uint64_t numCracks) { numCracks_ = numCracks; }
 
-  void addTo(Footprint& footprint) const;
-
   /// Maximum total number of cracked edges.
   std::uint64_t maxCracks = ~std::uint64_t{0};
   /// (m²) Detached fragments with a smaller area are removed; 0: none.

@@ -19,10 +19,6 @@ class LooseFragments {
   void find(const Model& model, const CrackEdges& edges, const Cohesion& cohesion,
             std::span<const ElementId> around, double area);
 
-  void addTo(Footprint& footprint) const {
-    footprint.add(Use::kFracture, triangles, met_, holds_, fragment_);
-  }
-
   // Results.
   std::vector<ElementId> triangles;  ///< of each fragment, ascending, one after the other
   std::uint64_t count = 0;           ///< number of fragments

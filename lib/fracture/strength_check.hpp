@@ -16,7 +16,6 @@
 #include <span>
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "dynamics/element_kernel.hpp"
 #include "fracture/crack_edges.hpp"
 
@@ -54,10 +53,6 @@ class StrengthCheck {
                              std::vector<double>& leastStrength);
   /// Reserves memory for all that may be checked.
   void prepare(const Model& model, const CrackEdges& edges);
-  void addTo(Footprint& footprint) const {
-    footprint.add(Use::kFracture, elementSeen_, nodeSeen_, edgeSeen_, nodeTaken_, nodeTested_,
-                  elementStress_, nodeStress_, isInside_, fan_, around_, found_, over_, weakened_);
-  }
 
  private:
   using Stress = std::array<double, 3>;

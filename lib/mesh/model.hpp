@@ -36,15 +36,15 @@ struct Nodes {
   template <class Self>
   static auto columnsOf(Self& self) {
     return [&self](auto visit) {
-      visit(Column{"position", Use::kMesh}, self.position);
-      visit(Column{"velocity", Use::kMesh}, self.velocity);
-      visit(Column{"mass", Use::kMesh}, self.mass);
-      visit(Column{"load", Use::kLoads, kOptional}, self.load);
-      visit(Column{"held", Use::kMesh}, self.held);
-      visit(Column{"nodeComponent", Use::kMesh}, self.component);
-      visit(Column{"motion", Use::kHeld, kOptional}, self.motion);
-      visit(Column{"arm", Use::kHeld, kOptional}, self.arm);
-      visit(Column{"reference", Use::kMesh}, self.reference);
+      visit(Column{"position"}, self.position);
+      visit(Column{"velocity"}, self.velocity);
+      visit(Column{"mass"}, self.mass);
+      visit(Column{"load", kOptional}, self.load);
+      visit(Column{"held"}, self.held);
+      visit(Column{"nodeComponent"}, self.component);
+      visit(Column{"motion", kOptional}, self.motion);
+      visit(Column{"arm", kOptional}, self.arm);
+      visit(Column{"reference"}, self.reference);
     };
   }
   auto columns() { return columnsOf(*this); }
@@ -76,12 +76,12 @@ struct Triangles {
   template <class Self>
   static auto columnsOf(Self& self) {
     return [&self](auto visit) {
-      visit(Column{"triangles", Use::kMesh}, self.nodes);
-      visit(Column{"inverseEdges", Use::kMesh}, self.inverseEdges);
-      visit(Column{"area", Use::kMesh}, self.area);
-      visit(Column{"triangleComponent", Use::kMesh}, self.component);
-      visit(Column{"triangleMaterial", Use::kMaterials, kOptional}, self.material);
-      visit(Column{"stressAcross", Use::kMesh, kOptional}, self.stressAcross);
+      visit(Column{"triangles"}, self.nodes);
+      visit(Column{"inverseEdges"}, self.inverseEdges);
+      visit(Column{"area"}, self.area);
+      visit(Column{"triangleComponent"}, self.component);
+      visit(Column{"triangleMaterial", kOptional}, self.material);
+      visit(Column{"stressAcross", kOptional}, self.stressAcross);
       PlasticState::columnsOf(self.plastic)(visit);
     };
   }

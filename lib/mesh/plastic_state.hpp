@@ -27,15 +27,15 @@ struct PlasticState {
   template <class Self>
   static auto columnsOf(Self& self) {
     return [&self](auto visit) {
-      visit(Column{"elasticEdges11", Use::kPlasticity, kOptional}, self.edges[0]);
-      visit(Column{"elasticEdges12", Use::kPlasticity, kOptional}, self.edges[1]);
-      visit(Column{"elasticEdges21", Use::kPlasticity, kOptional}, self.edges[2]);
-      visit(Column{"elasticEdges22", Use::kPlasticity, kOptional}, self.edges[3]);
-      visit(Column{"elasticThickness", Use::kPlasticity, kOptional}, self.thickness);
-      visit(Column{"plasticStrain", Use::kPlasticity, kOptional}, self.strain);
-      visit(Column{"temperature", Use::kPlasticity, kOptional}, self.temperature);
-      visit(Column{"damage", Use::kPlasticity, kOptional}, self.damage);
-      visit(Column{"resistance", Use::kPlasticity, kOptional}, self.resistance);
+      visit(Column{"elasticEdges11", kOptional}, self.edges[0]);
+      visit(Column{"elasticEdges12", kOptional}, self.edges[1]);
+      visit(Column{"elasticEdges21", kOptional}, self.edges[2]);
+      visit(Column{"elasticEdges22", kOptional}, self.edges[3]);
+      visit(Column{"elasticThickness", kOptional}, self.thickness);
+      visit(Column{"plasticStrain", kOptional}, self.strain);
+      visit(Column{"temperature", kOptional}, self.temperature);
+      visit(Column{"damage", kOptional}, self.damage);
+      visit(Column{"resistance", kOptional}, self.resistance);
     };
   }
 

@@ -16,7 +16,6 @@ class BruteForce final : public ContactSearch {
   void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
   void clear() override { boxes_ = {}; }
   [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
-  void addTo(Footprint& /*footprint*/) const override {}
 
   void findPairs(std::vector<BoxPair>& pairs) override {
     for (std::size_t i = 0; i < boxes_.size(); ++i) {

@@ -10,16 +10,12 @@
 #include <span>
 #include <vector>
 
-#include "core/footprint.hpp"
-
 namespace yadefrag {
 
 class CodeDirectory {
  public:
   /// `codes` is ascending and must stay in place while the directory is used.
   void build(std::span<const std::uint64_t> codes);
-
-  void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, nodes_, table_); }
 
   /// Index of the first code ≥ `code`.
   template <class Count>

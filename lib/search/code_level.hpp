@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/box.hpp"
-#include "core/footprint.hpp"
 #include "core/parallel.hpp"
 #include "search/code_directory.hpp"
 #include "search/filter_blocks.hpp"
@@ -85,12 +84,6 @@ class CodeLevel {
     });
     if (changed_ && withDirectory) directory_.build(codes().first(size()));
     changed_ = false;
-  }
-
-  void addTo(Footprint& footprint) const {
-    list_.addTo(footprint);
-    filters_.addTo(footprint);
-    directory_.addTo(footprint);
   }
 
  private:

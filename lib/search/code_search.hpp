@@ -33,13 +33,6 @@ class CodeSearch final : public ContactSearch {
   void relocate(std::span<const Box> boxes) override { boxes_ = boxes; }
   void clear() override;
   [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
-  void addTo(Footprint& footprint) const override {
-    footprint.add(Use::kSearch, places_.codes, places_.numbers, places_.levels, changes_, occupied_,
-                  partPairs_);
-    for (const auto& arriving : arriving_) footprint.add(Use::kSearch, arriving);
-    for (const Level& level : levels_) level.addTo(footprint);
-    wide_.addTo(footprint);
-  }
 
  private:
   using Code = PositionCode<Dim>;

@@ -9,7 +9,6 @@
 #include "core/box.hpp"
 #include "core/comparisons.hpp"
 #include "core/errors.hpp"
-#include "core/footprint.hpp"
 #include "core/ids.hpp"
 #include "core/parallel.hpp"
 
@@ -49,8 +48,6 @@ class ContactSearch {
 
   /// Comparisons since construction; zero unless `makeSearch` was called with counting.
   [[nodiscard]] virtual Comparisons comparisons() const = 0;
-
-  virtual void addTo(Footprint& footprint) const = 0;
 
   /// Upper limit of threads that `update` and `findPairs` may use.
   void setThreads(int threads) { threads_ = threads; }

@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "core/growth.hpp"
 #include "core/instruction_set.hpp"
 #include "curve/numbering.hpp"
@@ -78,8 +77,6 @@ class FilterBlocks {
   /// AVX2 takes .9 of the time of SSE2, with long rows .6.
   void collectNear(InstructionSet set, const FilterBox& box, const std::uint64_t* codes,
                    std::span<const BlockRange> ranges, NearList& near) const;
-
-  void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, blocks_); }
 
   struct alignas(64) Block {
     std::array<std::array<float, kTogether>, 3> min, max;

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "core/growth.hpp"
 #include "search/filter_box.hpp"
 
@@ -28,8 +27,6 @@ class FilterList {
     for (std::size_t j = begin; codes[j] <= stop; ++j)
       if (mayOverlap(box, boxes_[j])) found(j);
   }
-
-  void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, boxes_); }
 
  private:
   std::vector<FilterBox> boxes_;

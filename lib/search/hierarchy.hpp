@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/box.hpp"
-#include "core/footprint.hpp"
 
 namespace yadefrag {
 
@@ -30,7 +29,6 @@ class Hierarchy {
 
   [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
   [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
-  void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, nodes_, order_); }
 
  private:
   void buildRange(std::span<const Box> boxes, std::uint32_t begin, std::uint32_t end);

@@ -65,11 +65,6 @@ class HierarchySearch final : public ContactSearch {
     tree_ = {};
   }
   [[nodiscard]] Comparisons comparisons() const override { return count_.total(); }
-  void addTo(Footprint& footprint) const override {
-    footprint.add(Use::kSearch, slots_);
-    tree_.addTo(footprint);
-    wide_.addTo(footprint);
-  }
 
  private:
   static bool isFinite(const Box& box) {

@@ -130,10 +130,4 @@ Comparisons IncrementalSearch::comparisons() const {
   return sum;
 }
 
-void IncrementalSearch::addTo(Footprint& footprint) const {
-  settled_->addTo(footprint);
-  aside_->addTo(footprint);
-  footprint.add(Use::kSearch, asideBoxes_, asideSlots_, asidePlace_, changed_);
-}
-
 }  // namespace yadefrag

@@ -40,7 +40,6 @@ class IncrementalSearch {
   void setThreads(int threads);
   void setMostPairs(std::size_t most);
   [[nodiscard]] Comparisons comparisons() const;
-  void addTo(Footprint& footprint) const;
   /// Number of boxes that are not sorted in.
   [[nodiscard]] std::size_t aside() const { return asideSlots_.size(); }
 

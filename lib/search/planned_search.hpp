@@ -43,10 +43,6 @@ class PlannedSearch final : public ContactSearch {
     return sum;
   }
 
-  void addTo(Footprint& footprint) const override {
-    if (search_) search_->addTo(footprint);
-  }
-
  private:
   [[nodiscard]] SearchPlan planNow(std::span<const Box> boxes) const {
     if constexpr (!kChooses) return planSearch(boxes);

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "core/growth.hpp"
 
 namespace yadefrag {
@@ -91,8 +90,6 @@ class SortedList {
       slots_[to] = in->slot;
     }
   }
-
-  void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, codes_, slots_); }
 
  private:
   void setEnd() {

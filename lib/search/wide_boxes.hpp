@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/box.hpp"
-#include "core/footprint.hpp"
 #include "core/ids.hpp"
 #include "search/contact_search.hpp"
 
@@ -19,7 +18,6 @@ class WideBoxes {
   void add(std::size_t slot) { slots_.push_back(static_cast<std::uint32_t>(slot)); }
   [[nodiscard]] std::size_t size() const { return slots_.size(); }
   [[nodiscard]] std::span<const std::uint32_t> slots() const { return slots_; }
-  void addTo(Footprint& footprint) const { footprint.add(Use::kSearch, slots_); }
 
   /// Pairs among the wide boxes; `most` limits the total number of `pairs`.
   template <class Count>

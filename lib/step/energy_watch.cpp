@@ -62,9 +62,14 @@ void EnergyWatch::count(const WatchedStep& step) {
 /// what exceeds that is counted of one alone. A cohesive crack releases stored energy: it has
 /// created energy only if the sum is below zero.
 double EnergyWatch::created(const EnergyLedger& ledger) const {
-  const double both = std::max(0., dissipated - ledger.contact - ledger.friction);
   const double usual = (tolerance::kExchanged - tolerance::kGivenEnergy) * most;
-  return std::max(both, exchanged(ledger) - usual) + std::max(0., -ledger.fracture);
+  return std::max(createdByBoth(ledger), exchanged(ledger) - usual) +
+         std::max(0., -ledger.fracture);
+}
+
+/// (J) By contact and friction together; not below zero by rounding.
+double EnergyWatch::createdByBoth(const EnergyLedger& ledger) const {
+  return std::max(0., dissipated - ledger.contact - ledger.friction);
 }
 
 /// (J) What contact or friction alone has given to the other.
@@ -84,8 +89,7 @@ std::string EnergyWatch::contactMessage(const WatchedStep& step, double noise) {
   const double amount = created(step.ledger);
   if (!(amount > std::max(tolerated(reportedCreated), noise))) return {};
   reportedCreated = amount;
-  const double both = dissipated - step.ledger.contact - step.ledger.friction;
-  if (both + std::max(0., -step.ledger.fracture) < amount)
+  if (createdByBoth(step.ledger) + std::max(0., -step.ledger.fracture) < amount)
     return fmt::format(
         "{}{} has given {} to {}, where corners jam: only the sum of both in fe.energy is right; "
         "{}.",

@@ -81,6 +81,7 @@ class EnergyWatch {
 
  private:
   [[nodiscard]] double created(const EnergyLedger& ledger) const;
+  [[nodiscard]] double createdByBoth(const EnergyLedger& ledger) const;
   [[nodiscard]] double exchanged(const EnergyLedger& ledger) const;
   [[nodiscard]] double tolerated(double reported) const;
   [[nodiscard]] std::string stepAdvice(const WatchedStep& step) const;

@@ -12,19 +12,6 @@
 
 namespace yadefrag {
 
-namespace {
-
-double fastest(const Model& model, const ContactSurfaces& surfaces) {
-  double most = 0;
-  for (const NodeId node : surfaces.segmentNode) {
-    const Vec2 velocity = model.nodes.velocity[node.value];
-    most = std::max(most, dot(velocity, velocity));
-  }
-  return std::sqrt(most);
-}
-
-}  // namespace
-
 double shortestSegment(const Model& model, const ContactSurfaces& surfaces,
                        std::span<const Vec2> positions) {
   const bool anyRigid = std::ranges::any_of(model.components, &Component::rigid);
@@ -45,8 +32,6 @@ void HaloWatch::rebuild(const Scene& scene) {
   if (isVoid() && scene.canTouch) watchAll(scene);
   const SearchBounds bounds = std::exchange(loaded, {});
   if (scene.canTouch) {
-    apart_.takeFrom(scene.model, nodes);
-    apart_.restoreSpare(bounds.spare);
     // A loaded state may crack before its first search.
     passRule_.update(scene.surfaces, scene.model.nodes.reference, scene.settings, scene.hasRigid);
   } else {
@@ -68,7 +53,6 @@ void HaloWatch::invalidate() {
 
 void HaloWatch::begin() {
   former_.motion = motion_;
-  former_.spare = apart_.spare();
   former_.hasSearched = former_.hasCandidates = false;
   former_.candidates.clear();
 }
@@ -77,19 +61,14 @@ void HaloWatch::begin() {
 void HaloWatch::keep() {
   if (former_.hasSearched) return;
   former_.search = *this;
-  former_.apart = apart_;
   former_.hasSearched = true;
 }
 
 void HaloWatch::takeBack(const Scene& scene) {
   if (former_.hasSearched && !former_.hasCandidates) search_.reset();  // it may be incomplete
   if (former_.hasCandidates) scene.contact.candidates = std::move(former_.candidates);
-  if (former_.hasSearched) {
-    std::swap(static_cast<SearchState&>(*this), former_.search);
-    std::swap(apart_, former_.apart);
-  }
+  if (former_.hasSearched) std::swap(static_cast<SearchState&>(*this), former_.search);
   motion_ = former_.motion;
-  apart_.restoreSpare(former_.spare);
 }
 
 void HaloWatch::watchAll(const Scene& scene) {
@@ -106,8 +85,7 @@ void HaloWatch::foreseeMotion(const Scene& scene, double dt) {
   const double most = scene.dynamics.speedLimit() * dt;
   motion_.isQuiet = scene.contact.candidates.size() == 0 && !isDue() && !scene.holdsCracks &&
                     motion_.farthest + most <= halo / 2 &&
-                    most <= tolerance::kFarthestMove * scene.finest &&
-                    !(apart_.any() && apart_.spare() < 2 * most);
+                    most <= tolerance::kFarthestMove * scene.finest;
 }
 
 /// Uses x*. If no node is faster than predicted, a quiet step needs no check of the nodes.
@@ -119,7 +97,6 @@ void HaloWatch::measureMove(const Scene& scene, double dt) {
   } else {
     motion_.most = scene.dynamics.speedLimit() * dt;
   }
-  watchApart(scene);
   if (motion_.isQuiet) {
     motion_.largest = motion_.most;
   } else {
@@ -144,42 +121,10 @@ void HaloWatch::updateSpeedLimit(const Scene& scene, double dt) {
   scene.dynamics.setSpeedLimit(std::min(tolerance::kSpeedSpare * most, tolerance::kMostSpeed));
 }
 
-/// (m) The reach of isolated bodies: no other body is nearer. Two bodies that touch in a step are,
-/// at its end, no farther from each other than twice its largest displacement.
-double HaloWatch::apartReach() const {
-  return std::max(halo, tolerance::kApartMoves * motion_.most);
-}
-
-/// Bodies that are no longer isolated are checked from this step on.
-void HaloWatch::watchApart(const Scene& scene) {
-  if (!apart_.any()) return;
-  apart_.comeNearer(2 * motion_.most);
-  if (apart_.spare() >= 0) return;
-  apart_.look(scene.model, scene.surfaces, apartReach());
-  if (apart_.spare() >= 0) return;
-  keep();
-  makeDue();
-  chooseWatched(scene);
-}
-
-void HaloWatch::chooseWatched(const Scene& scene) {
-  if (!apart_.choose(scene.model, scene.surfaces, apartReach())) return;
-  watchAll(scene);
-  const std::vector<ComponentId>& bodies = scene.model.nodes.component;
-  std::erase_if(nodes, [&](NodeId node) { return apart_.isApart(bodies[node.value]); });
-  positions.clear();
-  makeVoid();
-}
-
-/// Predicts whether the next step may leave the halo, or bring a body near an isolated one.
+/// Predicts whether the next step may leave the halo.
 void HaloWatch::foreseeSearch(const Scene& scene, double dt) {
   if (isDue()) return;
   const StageTimer timer(scene.times, &StageTimes::search);
-  if (apart_.any() && apart_.spare() < 2 * scene.dynamics.speedLimit() * dt) {
-    updateSpeedLimit(scene, dt);
-    apart_.look(scene.model, scene.surfaces, apartReach());
-    if (apart_.spare() < 2 * scene.dynamics.speedLimit() * dt) return makeDue();
-  }
   const double most = motion_.largest + scene.contact.largestCorrection();
   if (motion_.farthest + tolerance::kHaloSpare * most <= halo / 2) return;
   double farthest = 0;
@@ -204,16 +149,10 @@ double HaloWatch::wideHalo(const ContactSettings& settings, double move) const {
   return std::max(wanted, 2 * move);
 }
 
-/// As wide as this step's own displacement demands, or, with isolated bodies, whose displacement is
-/// not known, as the largest velocity does.
-void HaloWatch::chooseHalo(const Scene& scene, double dt) {
+/// As wide as this step's own displacement demands.
+void HaloWatch::chooseHalo(const Scene& scene) {
   shortest = shortestSegment(scene.model, scene.surfaces, scene.model.nodes.position);
-  const double spare = 2 * tolerance::kHaloSpare;
-  halo = wideHalo(scene.settings, apart_.any() ? spare * fastest(scene.model, scene.surfaces) * dt
-                                               : spare * motion_.largest);
-  // A step that needs more is refused; until then not all pairs should become candidates.
-  if (apart_.any())
-    halo = std::min(halo, 4 * tolerance::kHaloSpare * tolerance::kFarthestMove * shortest);
+  halo = wideHalo(scene.settings, 2 * tolerance::kHaloSpare * motion_.largest);
 }
 
 void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overlapping) {
@@ -230,8 +169,7 @@ void HaloWatch::considerPairs(const Scene& scene, std::span<const BoxPair> overl
   validity = Validity::kValid;
   ++count;
   // If all nodes are checked in every step, no bound of their speed is needed.
-  if (!apart_.any() && scene.contact.candidates.size() > 0)
-    scene.dynamics.setSpeedLimit(tolerance::kMostSpeed);
+  if (scene.contact.candidates.size() > 0) scene.dynamics.setSpeedLimit(tolerance::kMostSpeed);
 }
 
 /// No contact is missed: independently of predictions, x* is decisive.
@@ -248,21 +186,18 @@ void HaloWatch::searchIfLeft(const Scene& scene, double dt) {
   if (!(motion_.farthest <= halo / 2)) searchNow(scene, dt);
 }
 
-/// The search, at x*: boxes of all entries except those of isolated bodies, update of the position
-/// codes, pairs.
+/// The search, at x*: boxes of all entries, update of the position codes, pairs.
 void HaloWatch::searchNow(const Scene& scene, double dt) {
   keep();
-  chooseHalo(scene, dt);
+  chooseHalo(scene);
   updateSpeedLimit(scene, dt);
-  chooseWatched(scene);
   // The pairs are sorted later, so that their order does not matter.
   if (!search_) search_ = makeSearch(SearchMethod::kFastest);
   boxes_.resize(scene.surfaces.entries());
   for (std::size_t e = 0; e < boxes_.size(); ++e) {
-    const bool isOut =
-        scene.surfaces.isGone(EntryId(e)) || apart_.isApart(scene.surfaces.component[e]);
-    boxes_[e] = isOut ? Box::absent()
-                      : entryBox(scene.surfaces, scene.model.nodes.position, EntryId(e), halo);
+    boxes_[e] = scene.surfaces.isGone(EntryId(e))
+                    ? Box::absent()
+                    : entryBox(scene.surfaces, scene.model.nodes.position, EntryId(e), halo);
   }
   search_->setThreads(scene.threads);
   search_->update(boxes_);
@@ -271,10 +206,7 @@ void HaloWatch::searchNow(const Scene& scene, double dt) {
   considerPairs(scene, overlapping_);
 }
 
-void HaloWatch::addCorrection(double most) {
-  motion_.farthest += most;
-  apart_.comeNearer(2 * most);
-}
+void HaloWatch::addCorrection(double most) { motion_.farthest += most; }
 
 void HaloWatch::appear(NodeId node, Vec2 place) {
   nodes.push_back(node);
@@ -298,16 +230,6 @@ void HaloWatch::addCandidatesAround(const Scene& scene, std::span<const EntryId>
   selectPairs(scene.model, scene.surfaces, passRule_, places, halo,
               overlapsAmong(scene.surfaces, places, around, halo), pairs_);
   addCandidates(scene.contact.candidates, pairs_);
-}
-
-void HaloWatch::addTo(Footprint& footprint) const {
-  footprint.add(Use::kSearch, nodes, positions, former_.search.nodes, former_.search.positions,
-                overlapping_, pairs_, boxes_);
-  former_.candidates.addTo(footprint);
-  former_.apart.addTo(footprint);
-  apart_.addTo(footprint);
-  passRule_.addTo(footprint);
-  if (search_) search_->addTo(footprint);
 }
 
 }  // namespace yadefrag

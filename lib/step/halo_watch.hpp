@@ -2,8 +2,8 @@
 // The search for contact, its result and the time of the next one (paper §4.1): the only owner of
 // all three. The pairs, and the bounds of entries for a collider, are valid while no node has left
 // the halo. Most steps between two searches check no node, since the sum of the largest
-// displacements is a sufficient bound; the nodes of isolated bodies are not checked. Independently
-// of predictions x* is decisive: if a node has left the halo, a search is done in the same step.
+// displacements is a sufficient bound. Independently of predictions x* is decisive: if a node has
+// left the halo, a search is done in the same step.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,6 @@
 #include "contact/pass_rule.hpp"
 #include "dynamics/explicit_dynamics.hpp"
 #include "search/contact_search.hpp"
-#include "step/apart_bodies.hpp"
 
 namespace yadefrag {
 
@@ -25,7 +24,6 @@ namespace yadefrag {
 /// bound of the displacement from which contact gets its tolerances: a loaded state needs the same.
 struct SearchBounds {
   double farthest = INFINITY;  ///< m, distance of the checked nodes from `SearchState::positions`
-  double spare = -1;           ///< m, of isolated bodies; negative: unknown
   double speed = 0;            ///< m/s, of all nodes
 };
 
@@ -41,8 +39,7 @@ struct SearchState {
   double shortest = 0;  ///< m, shortest boundary segment then
   Validity validity = Validity::kVoid;
   std::uint64_t count = 0;  ///< number of searches so far
-  /// The checked nodes: of the surfaces of all bodies that are not isolated; those from cracks are
-  /// the last ones.
+  /// The checked nodes: those of all surfaces; those from cracks are the last ones.
   std::vector<NodeId> nodes;
   std::vector<Vec2> positions;  ///< m, of those nodes at the last search, or when they were added
   SearchBounds loaded;          ///< from a saved state, until the first step after loading
@@ -87,8 +84,7 @@ class HaloWatch : public SearchState {
   void searchIfLeft(const Scene& scene, double dt);
   /// Upper bound (m) of the displacement of nodes by contact.
   void addCorrection(double most);
-  /// With xⁿ⁺¹: predicts whether the next step may leave the halo, or bring a body near an isolated
-  /// one.
+  /// With xⁿ⁺¹: predicts whether the next step may leave the halo.
   void foreseeSearch(const Scene& scene, double dt);
   /// Restores the state at `begin`, for a refused step. Allocates no memory.
   void takeBack(const Scene& scene);
@@ -107,11 +103,10 @@ class HaloWatch : public SearchState {
   void addCandidatesAround(const Scene& scene, std::span<const EntryId> around);
 
   [[nodiscard]] SearchBounds bounds(const ExplicitDynamics& dynamics) const {
-    return {motion_.farthest, apart_.spare(), dynamics.speedLimit()};
+    return {motion_.farthest, dynamics.speedLimit()};
   }
   /// (m) Upper bound of the displacement of checked nodes from xⁿ to x*.
   [[nodiscard]] double largestMove() const { return motion_.largest; }
-  void addTo(Footprint& footprint) const;
 
  private:
   /// Bounds of positions and speeds of nodes until the next search.
@@ -125,27 +120,20 @@ class HaloWatch : public SearchState {
   /// The state at the begin of the step; the second part only for a step with a search.
   struct Former {
     MotionBounds motion;
-    double spare = 0;  // m, of isolated bodies
-
     bool hasSearched = false, hasCandidates = false;
     SearchState search;
-    ApartBodies apart;
     Candidates candidates;
   };
 
   void watchAll(const Scene& scene);
   void updateSpeedLimit(const Scene& scene, double dt);
-  void watchApart(const Scene& scene);
-  void chooseWatched(const Scene& scene);
-  [[nodiscard]] double apartReach() const;
   [[nodiscard]] double wideHalo(const ContactSettings& settings, double move) const;
-  void chooseHalo(const Scene& scene, double dt);
+  void chooseHalo(const Scene& scene);
   void keep();
   void searchNow(const Scene& scene, double dt);
   void considerPairs(const Scene& scene, std::span<const BoxPair> overlapping);
 
   MotionBounds motion_;
-  ApartBodies apart_;
   Former former_;
   PassRule passRule_;
   std::unique_ptr<ContactSearch> search_;

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "core/footprint.hpp"
 #include "dynamics/surface_loads.hpp"
 #include "fracture/fracture.hpp"
 
@@ -47,10 +46,6 @@ class Loads {
     return pressures.empty() ? outerForces : sum_;
   }
   void endStep() { outerForces.clear(), givenPressures.clear(); }
-
-  void addTo(Footprint& footprint) const {
-    footprint.add(Use::kLoads, outerForces, sum_, pressures, absorbing.segments);
-  }
 
  private:
   void removeUnused();

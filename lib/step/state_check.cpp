@@ -159,7 +159,7 @@ bool searchIsValid(const World& world) {
   const SearchState& s = world.search;
   return s.halo >= 0 && std::isfinite(s.halo) && allBelow(s.nodes, world.model.nodes.size()) &&
          (s.isVoid() || s.positions.size() == s.nodes.size()) && allFinite(s.positions) &&
-         s.loaded.farthest >= 0 && !std::isnan(s.loaded.spare) && s.loaded.speed >= 0;
+         s.loaded.farthest >= 0 && s.loaded.speed >= 0;
 }
 
 bool edgesAreValid(const World& world) {

@@ -26,7 +26,6 @@
 #include "mesh/model.hpp"
 #include "mesh/triangle_mesh.hpp"
 #include "search/contact_search.hpp"
-#include "step/apart_bodies.hpp"
 #include "step/body_places.hpp"
 #include "step/energy_watch.hpp"
 #include "step/halo_watch.hpp"
@@ -164,9 +163,6 @@ class World {
 
   /// (J) Estimate of the energy that rounding of the coordinates has added to the bodies so far.
   [[nodiscard]] double roundingEnergy() const;
-
-  /// Memory of all arrays, by use.
-  [[nodiscard]] Footprint footprint() const;
 
   /// Computes all derived data after loading.
   void rebuild();

@@ -80,11 +80,11 @@ class ContactSurfaces {
   template <class Self>
   static auto segmentColumnsOf(Self& self) {
     return [&self](auto visit) {
-      visit(Column{"segmentNode", Use::kSurfaces}, self.segmentNode);
-      visit(Column{"segmentNext", Use::kSurfaces}, self.segmentNext);
-      visit(Column{"segmentPrev", Use::kSurfaces}, self.segmentPrev);
-      visit(Column{"segmentSmooth", Use::kSmooth, kOptional}, self.segmentSmooth);
-      visit(Column{"segmentEntry", Use::kSurfaces}, self.segmentEntry);
+      visit(Column{"segmentNode"}, self.segmentNode);
+      visit(Column{"segmentNext"}, self.segmentNext);
+      visit(Column{"segmentPrev"}, self.segmentPrev);
+      visit(Column{"segmentSmooth", kOptional}, self.segmentSmooth);
+      visit(Column{"segmentEntry"}, self.segmentEntry);
     };
   }
   auto segmentColumns() { return segmentColumnsOf(*this); }
@@ -94,12 +94,12 @@ class ContactSurfaces {
   template <class Self>
   static auto entryColumnsOf(Self& self) {
     return [&self](auto visit) {
-      visit(Column{"entrySegment", Use::kSurfaces}, self.entrySegment);
-      visit(Column{"piece", Use::kSurfaces}, self.piece);
-      visit(Column{"next", Use::kSurfaces}, self.next);
-      visit(Column{"prev", Use::kSurfaces}, self.prev);
-      visit(Column{"loop", Use::kSurfaces}, self.loop);
-      visit(Column{"entryComponent", Use::kSurfaces}, self.component);
+      visit(Column{"entrySegment"}, self.entrySegment);
+      visit(Column{"piece"}, self.piece);
+      visit(Column{"next"}, self.next);
+      visit(Column{"prev"}, self.prev);
+      visit(Column{"loop"}, self.loop);
+      visit(Column{"entryComponent"}, self.component);
     };
   }
   auto entryColumns() { return entryColumnsOf(*this); }

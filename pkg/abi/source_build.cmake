@@ -14,6 +14,7 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${YADEFRAG_YADE_L
 execute_process(
   COMMAND ${Python3_EXECUTABLE} ${abi_dir}/tools/make_table.py --source "${yade_source}" "${yade_features}"
           ${YADE_PREFIX}/bin/${yade_command} "${found_version}" ${YADEFRAG_VERSION} ${generated_dir}/abi ${package_dir}/_built.py
+          ${YADEFRAG_YADE_LIBDIR}
   COMMAND_ERROR_IS_FATAL ANY)
 set(YADEFRAG_YADE_VERSION ${found_version})
 message(STATUS "YADE ${found_version} in ${YADE_PREFIX}, with the headers in ${yade_source}")

@@ -13,7 +13,7 @@ endif()
 
 execute_process(
   COMMAND ${Python3_EXECUTABLE} ${abi_dir}/tools/make_table.py "${found_version}" ${YADEFRAG_VERSION}
-          ${generated_dir}/abi ${package_dir}/_built.py
+          ${generated_dir}/abi ${package_dir}/_built.py ${YADEFRAG_YADE_LIBDIR}
   OUTPUT_VARIABLE reason OUTPUT_STRIP_TRAILING_WHITESPACE
   RESULT_VARIABLE failed)
 file(GLOB version_files CONFIGURE_DEPENDS ${abi_dir}/versions/*.json)

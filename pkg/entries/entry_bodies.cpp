@@ -54,15 +54,24 @@ std::vector<std::uint32_t> materialsAlong(const World& world) {
   return numbers;
 }
 
-bool isPresent(const yade::Scene& scene, yade::Body::id_t id) {
+/// `known`: what had this number before; another scene has other bodies with the same numbers.
+bool isPresent(const yade::Scene& scene, yade::Body::id_t id, const yade::Body* known) {
   const auto place = static_cast<std::size_t>(id);
-  return place < scene.bodies->size() && scene.bodies->body[place] &&
-         dynamic_cast<const SurfaceSegment*>(scene.bodies->body[place]->shape.get());
+  if (place >= scene.bodies->size()) return false;
+  const yade::Body* body = scene.bodies->body[place].get();
+  return body && (known == nullptr || body == known) &&
+         dynamic_cast<const SurfaceSegment*>(body->shape.get());
 }
 
+using Bodies = std::vector<yade::shared_ptr<yade::Body>>;
+
+/// `known` is empty if no body has been found yet.
 [[noreturn]] void throwMissing(const yade::Scene& scene, const std::vector<yade::Body::id_t>& ids,
-                               yade::Body::id_t id) {
-  if (std::none_of(ids.begin(), ids.end(), [&](auto one) { return isPresent(scene, one); }))
+                               const Bodies& known, yade::Body::id_t id) {
+  bool isAny = false;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    isAny = isAny || isPresent(scene, ids[i], known.empty() ? nullptr : known[i].get());
+  if (!isAny)
     throw RunError(
         "The bodies of this FESolver are not in the scene any more (O.reset, O.load, O.switchScene "
         "or O.bodies.clear left them behind); this scene needs a new FESolver.");
@@ -253,7 +262,8 @@ void EntryBodies::requireAll(const yade::Scene& scene) {
   for (std::size_t e = 0; e < ids_.size(); ++e) {
     if (!hasBody(EntryId(e))) continue;
     const auto id = static_cast<std::size_t>(ids_[e]);
-    if (id >= present.size() || present[id] != bodies_[e]) throwMissing(scene, ids_, ids_[e]);
+    if (id >= present.size() || present[id] != bodies_[e])
+      throwMissing(scene, ids_, bodies_, ids_[e]);
   }
 }
 
@@ -270,11 +280,11 @@ void EntryBodies::findBodies(const yade::Scene& scene) {
       continue;
     }
     const auto place = static_cast<std::size_t>(id);
-    if (place >= present.size() || !present[place]) throwMissing(scene, ids_, id);
+    if (place >= present.size() || !present[place]) throwMissing(scene, ids_, {}, id);
     bodies.push_back(present[place]);
     shapes.push_back(boost::dynamic_pointer_cast<SurfaceSegment>(present[place]->shape));
     states.push_back(present[place]->state);
-    if (!shapes.back()) throwMissing(scene, ids_, id);
+    if (!shapes.back()) throwMissing(scene, ids_, {}, id);
   }
   bodies_.swap(bodies);
   shapes_.swap(shapes);

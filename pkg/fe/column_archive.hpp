@@ -7,7 +7,6 @@
 #include <cstring>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -133,16 +132,12 @@ class ColumnArchive {
     for (std::size_t i = 0; i < flat.size(); ++i) read(rows[i]) = flat[i];
   }
 
-  /// The columns of a table (core/columns.hpp) whose names are `wanted`.
-  template <class Columns, class Wanted>
-  void table(const Columns& columns, Wanted wanted) {
-    columns([&]<class Element>(const Column& of, std::vector<Element>& array) {
-      if (wanted(std::string_view(of.name))) column(of.name, array);
-    });
-  }
+  /// The columns of a table (core/columns.hpp).
   template <class Columns>
   void table(const Columns& columns) {
-    table(columns, [](std::string_view) { return true; });
+    columns([&]<class Element>(const Column& of, std::vector<Element>& array) {
+      column(of.name, array);
+    });
   }
 
   /// Of existing rows: curves that consist of points.

@@ -3,8 +3,7 @@
 #include <boost/archive/archive_exception.hpp>
 
 #include <algorithm>
-#include <functional>
-#include <string_view>
+#include <string>
 
 #include "core/errors.hpp"
 #include "fe/column_archive.hpp"
@@ -61,8 +60,7 @@ class WorldArchive : ColumnArchive {
   }
 
   void state(World& world) {
-    const auto isLate = [](std::string_view name) { return name == "reference"; };
-    table(world.model.nodes.columns(), std::not_fn(isLate));
+    table(world.model.nodes.columns());
     motions(world.model.motions);
     table(world.model.triangles.columns());
     components(world.model.components);
@@ -82,7 +80,6 @@ class WorldArchive : ColumnArchive {
     value("droppedMass", dropped.mass), value("dropped", dropped.count);
     value("droppedMomentumX", dropped.momentum.x), value("droppedMomentumY", dropped.momentum.y);
     watch(world);
-    table(world.model.nodes.columns(), isLate);
     value("steps", world.steps), value("time", world.time), value("lastDt", world.lastDt);
     value("stableStep", world.stableStep);
     PlasticFlow::Steepness steepness = world.steepness();
@@ -254,7 +251,7 @@ class WorldArchive : ColumnArchive {
     column("searchNodes", search.nodes);
     column("searchPositions", search.positions);
     SearchBounds bounds = world.searchBounds();
-    value("searchFarthest", bounds.farthest), value("searchSpare", bounds.spare);
+    value("searchFarthest", bounds.farthest);
     value("searchSpeed", bounds.speed);
     if (isLoading()) search.loaded = bounds;
   }
@@ -262,15 +259,11 @@ class WorldArchive : ColumnArchive {
   void fracture(Fracture& fracture) {
     using Index = std::uint32_t;
     CrackEdges& edges = fracture.edges;
-    const auto isLate = [](std::string_view name) {
-      return name == "crackEnergy" || name == "cracked";
-    };
-    table(edges.columns(), std::not_fn(isLate));
+    table(edges.columns());
     value("crackStart", fracture.started);
     auto& overloads = fracture.overloads;
     member("overloadEdge", overloads, [](Overload& o) -> Index& { return o.edge.value; });
     member("overloadSince", overloads, [](Overload& o) -> double& { return o.since; });
-    table(edges.columns(), isLate);
     column("elementEdges", edges.ofElement), column("nodeElement", edges.ofNode);
     table(fracture.cohesion.columns());
     std::uint64_t numCracks = fracture.numCracks();

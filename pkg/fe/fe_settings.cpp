@@ -141,11 +141,6 @@ Attributes FESolver::attributes() {
                 "Detached fragments with a smaller area (m², stress-free) are removed from "
                 "the scene, and counted in `dropped`, except held ones. 0: none is removed.",
                 triggerPostLoad),
-      attribute("energyFromSpheres", &C::energyFromSpheres,
-                "0, for scripts of earlier versions: contacts with faces of cracks begin without a "
-                "force, in any "
-                "order of O.engines.",
-                yade::Attr::readonly),
       attribute("rigidBodies", &C::rigidBodies,
                 "Contact with YADE's Wall, Box and Facet, also in clumps: their sections "
                 "with the plane z = 0, rigid, with the friction of their FrictMat. They move as "

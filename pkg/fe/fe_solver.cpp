@@ -17,6 +17,7 @@
 #include "core/tolerances/plasticity.hpp"
 #include "core/tolerances/spheres.hpp"
 #include "core/tolerances/step.hpp"
+#include "core/wrong_value.hpp"
 #include "dynamics/yielding_state.hpp"
 #include "entries/sphere_overlap.hpp"
 #include "fe/plastic_materials.hpp"
@@ -303,6 +304,9 @@ namespace {
 BodyMaterial bodyMaterialOf(const FEMat& material) {
   BodyMaterial one;
   one.material = {material.young, material.poisson, material.density, material.planeStress};
+  if (!(material.frictionAngle >= 0 && material.frictionAngle < std::numbers::pi / 2))
+    throw InputError(
+        wrongValue("frictionAngle", material.frictionAngle, "", "at least 0 and below π/2 (rad)"));
   one.friction = std::tan(material.frictionAngle);
   if (const auto* brittle = dynamic_cast<const BrittleFEMat*>(&material)) {
     one.brittle = {.tensileStrength = brittle->tensileStrength,

@@ -79,7 +79,6 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   double quadraticViscosity = 0;
   int maxCracks = -1;
   double minFragmentArea = 0;
-  double energyFromSpheres = 0;
   bool rigidBodies = true;
   std::string view = "component";
 
@@ -129,7 +128,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   yade::Vector3r comparedGravity_ = yade::Vector3r::Zero(), comparedNewton_ = comparedGravity_;
   ScriptFunctions functions_;
   yade::Vector3r formerGravity_ = yade::Vector3r::Zero();  // value of `gravity` before it was set
-  std::string formerView_ = view;                          // likewise
+  std::string formerView_ = view;                          // of `view`, likewise
   mutable StepLock betweenSteps_;
 };
 

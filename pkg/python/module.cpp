@@ -1,8 +1,7 @@
-// The extension behind `import yadefrag`. Loading it changes nothing: yadefrag/__init__.py first
-// calls the check and then publishes the classes. (An exception while Boost.Python initialises a
+// The extension behind `import yadefrag`. Loading it changes nothing: yadefrag/__init__.py checks
+// the running YADE and then publishes the classes. (An exception while Boost.Python initialises a
 // module is lost, so that this is not done there.)
 
-#include "abi/support_check.hpp"
 #include "collider/colliders.hpp"
 #include "core/instruction_set.hpp"
 #include "entries/segment_functors.hpp"
@@ -45,10 +44,6 @@ std::string instructionSet() {
   return bestInstructionSet() == InstructionSet::kAvx2 ? "AVX2" : "SSE2";
 }
 
-void toImportError(const UnsupportedYade& error) {
-  PyErr_SetString(PyExc_ImportError, error.what());
-}
-
 /// A renderer that was created before the classes of this module has no functors and no table
 /// entries for the new shapes: YADE would end the process.
 void renewRenderer([[maybe_unused]] const py::object& renderer) {
@@ -62,9 +57,6 @@ void renewRenderer([[maybe_unused]] const py::object& renderer) {
 
 BOOST_PYTHON_MODULE(_yadefrag) {
   namespace py = boost::python;
-  py::register_exception_translator<yadefrag::UnsupportedYade>(&yadefrag::toImportError);
-  py::def("checkRunningYade", &yadefrag::checkRunningYade,
-          "Raises ImportError unless YADE's classes have the layout that this extension declares.");
   py::def("instructionSet", &yadefrag::instructionSet);
   yadefrag::defineBodyParts();
   yadefrag::defineMeshes();

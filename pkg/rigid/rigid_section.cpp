@@ -6,6 +6,7 @@
 
 #include "core/tolerances/collider.hpp"
 #include "entries/plane.hpp"
+#include "outline/convex_hull.hpp"
 
 namespace yadefrag {
 namespace {
@@ -30,27 +31,6 @@ void cut(const Vector3r& a, const Vector3r& b, double rounding, std::vector<Vec2
   if (bIn) points.push_back(inPlane(b));
   if (aIn || bIn || (a[2] > 0) == (b[2] > 0)) return;
   points.push_back(inPlane(a + a[2] / (a[2] - b[2]) * (b - a)));
-}
-
-/// Convex hull, counter-clockwise, without collinear or coincident points up to rounding.
-std::vector<Vec2> hullOf(std::vector<Vec2> points, double rounding) {
-  std::ranges::sort(points, [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  std::vector<Vec2> hull;
-  for (const bool upper : {false, true}) {
-    const std::size_t start = hull.size();
-    for (const Vec2 point : points) {
-      while (hull.size() > start &&
-             (norm(point - hull.back()) <= rounding ||
-              (hull.size() > start + 1 &&
-               cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <=
-                   rounding * norm(point - hull[hull.size() - 2]))))
-        hull.pop_back();
-      hull.push_back(point);
-    }
-    hull.pop_back();
-    if (!upper) std::ranges::reverse(points);
-  }
-  return hull;
 }
 
 std::vector<Vector3r> cornersOf(const yade::Body& body, const yade::Facet& facet) {

@@ -4,10 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "dynamics/mesh_step.hpp"
-#include "meshing/mesh_quality.hpp"
 #include "meshing/structured.hpp"
+#include "meshing/triangle_quality.hpp"
 #include "outline/polygon.hpp"
 #include "script/arrays.hpp"
 #include "script/calls.hpp"
@@ -99,26 +100,26 @@ SharedMesh meshOfRectangle(double left, double bottom, double right, double top,
       {structuredRectangle({left, bottom}, {right, top}, nx, ny, pattern), {}}, 0, {}});
 }
 
+/// (m)
+double shortestEdge(const TriangleMesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      least = std::min(least, norm(mesh.nodes[t[(k + 1) % 3]] - mesh.nodes[t[k]]));
+  return least;
+}
+
 /// yadefrag/fe/quality.py has checked the component.
 py::dict meshQualityOf(const FESolver& solver, int component) {
   const World& world = solver.world();
   const Component& body = world.model.components[component];
   const TriangleMesh mesh = stressFreeMesh(world.model, ComponentId(component));
-  const MeshQuality quality = meshQuality(mesh.nodes, mesh.triangles);
-  const auto byDirection = [](const auto& values) {
-    return toArray(std::vector<double>(values.begin(), values.end()));
-  };
   py::dict result;
-  result["numTriangles"] = quality.numTriangles;
+  result["numTriangles"] = mesh.triangles.size();
   result["size"] = latticeSide(mesh);
-  result["shortestEdge"] = quality.shortestEdge;
-  result["minAngle"] = quality.minAngle;
+  result["shortestEdge"] = shortestEdge(mesh);
+  result["minAngle"] = minAngle(mesh.nodes, mesh.triangles);
   result["timeStepRatio"] = meshTimeStep(mesh, body) / latticeTimeStep(body, latticeSide(mesh));
-  result["pathRatio"] = quality.meanPath;
-  result["pathSpread"] = quality.pathSpread;
-  result["edgeDeviation"] = quality.edgeDeviation;
-  result["pathRatioByDirection"] = byDirection(quality.paths);
-  result["edgesByDirection"] = byDirection(quality.edges);
   return result;
 }
 

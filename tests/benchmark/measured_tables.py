@@ -165,7 +165,7 @@ def times():
 
 TABLES = {'codes in short': codesInShort, 'codes': codes, 'searches of colliders': searchesOfColliders, 'times': times,
           'validation': validation,
-          **{name: functools.partial(whole, name) for name in ('intervals', 'stirred', 'advice', 'mpi', 'sizes', 'cracks', 'bodies')}}
+          **{name: functools.partial(whole, name) for name in ('intervals', 'stirred', 'advice', 'mpi', 'sizes', 'small', 'cracks', 'bodies')}}
 
 
 # --- figures --------------------------------------------------------------------------------------

@@ -94,6 +94,45 @@ TEST(RigidRows, BlockedDirectionsDoNotMove) {
   EXPECT_NEAR(scene.rows[0].normalForce * kDt * kDt / 1e-5, scene.nodes.mass[0], 1e-12);
 }
 
+/// Nodes press from both sides on a bar that is lighter by up to 10⁸: they stop each other in a few
+/// sweeps, as many as with a heavy bar.
+TEST(RigidRows, ALightBodyBetweenOthers) {
+  for (const double mass : {1e-8, 1e-4, 1., 1e4})
+    for (const double friction : {0., .6}) {
+      Scene scene({-.8, -.2, .5, .9, -.7, 0, .6}, {-1e-5, 2e-6, -3e-5, -1e-6, -2e-5, -1e-5, -1e-6},
+                  {{}, {}, {1 / mass, 1 / mass}, 3 / mass}, friction);
+      for (std::size_t r = 4; r < scene.rows.size(); ++r) {
+        ContactRow& row = scene.rows[r];
+        row.normal = {0, 1};
+        row.rigid.lever = {row.rigid.lever.x, .3};
+      }
+      RowSweeps sweeps;
+      solveRows(sweeps, scene.rows, scene.inertia(), {1e-13, 1000});
+      EXPECT_LE(sweeps.sweeps(), 20) << mass << ", " << friction;
+      scene.expectSolved(1e-11);
+      // What the bar itself takes is its share.
+      double up = 0, down = 0;
+      for (const ContactRow& row : scene.rows)
+        (row.normal.y > 0 ? up : down) += row.normalForce;
+      EXPECT_GT(up, 0);
+      EXPECT_NEAR(up / down, 1, 2 * mass) << mass;
+    }
+}
+
+/// The same between walls: there is no room, but forces remain finite.
+TEST(RigidRows, ALightBodyBetweenHeldNodes) {
+  Scene scene({-.5, .5, -.5, .5}, {-1e-6, -1e-6, 1e-6, 1e-6}, {{}, {}, {1e4, 1e4}, 3e4});
+  for (std::size_t r = 0; r < 4; ++r) scene.nodes.held[r] = kHeldXY;
+  for (std::size_t r = 2; r < 4; ++r)
+    scene.rows[r].normal = {0, 1}, scene.rows[r].rigid.lever.y = .3;
+  RowSweeps sweeps;
+  solveRows(sweeps, scene.rows, scene.inertia(), {1e-13, 1000});
+  for (const ContactRow& row : scene.rows) {
+    EXPECT_TRUE(std::isfinite(row.normalForce));
+    EXPECT_LE(row.normalForce, 1e3 * 1e-6 / (kDt * kDt * 1e4));
+  }
+}
+
 /// Three rows are as many as the body has degrees of freedom; five are redundant for it.
 TEST(RigidRows, AgreeWithTheBodysEquations) {
   const std::vector<double> at{-.9, -.3, .1, .5, 1.}, gaps{-1e-5, 2e-6, -3e-5, -1e-6, -2e-5};

@@ -17,8 +17,8 @@ struct Table {
   template <class Self>
   static auto columnsOf(Self& self) {
     return [&self](auto visit) {
-      visit(Column{"number", Use::kMesh}, self.number);
-      visit(Column{"rare", Use::kLoads, kOptional}, self.rare);
+      visit(Column{"number"}, self.number);
+      visit(Column{"rare", kOptional}, self.rare);
     };
   }
   auto columns() { return columnsOf(*this); }
@@ -53,14 +53,6 @@ TEST(Columns, RowsAreKeptAndArranged) {
   resizeRows(table.columns(), 4);
   EXPECT_EQ(table.number.back(), 0);
   EXPECT_EQ(table.rare.back(), 0);
-}
-
-TEST(Columns, MemoryIsCountedByUse) {
-  Table table{{1, 2}, {}};
-  Footprint sum;
-  addTo(sum, table.columns());
-  EXPECT_EQ(sum.of(Use::kMesh), table.number.capacity() * sizeof(int));
-  EXPECT_EQ(sum.of(Use::kLoads), 0U);
 }
 
 /// A member that is missing in the list would not follow a crack: all members have their line.

@@ -232,7 +232,14 @@ TEST(CohesiveZoneWarning, StatesAZoneThatIsLongBesideTheBody) {
   EXPECT_EQ(
       sentence.substr(0, sentence.find(';')),
       "fractureEnergy is 2000 J/m² in component 0: the cohesive zone is 0.006111 m long, more "
-      "than half of the body's shorter side of 0.01 m");
+      "than half of the body's smallest width of 0.01 m");
+  for (const double angle : {.1, .35, .8, 1.2, 2., 3.}) {
+    Model turned = body(20, material);
+    for (Vec2& at : turned.nodes.position)
+      at = {at.x * std::cos(angle) - at.y * std::sin(angle),
+            at.x * std::sin(angle) + at.y * std::cos(angle)};
+    EXPECT_EQ(cohesiveZoneWarning(turned, kBody), sentence) << angle;
+  }
   material.fractureEnergy = numberAfter(sentence, "with a fractureEnergy of at most ");
   EXPECT_GT(material.fractureEnergy, 1600);
   EXPECT_EQ(cohesiveZoneWarning(body(20, material), kBody), "");

@@ -1,8 +1,9 @@
 """Runs pytest inside the running yade: `scripts/yade -n -x tests/pkg/inside.py [pytest args]`.
 
 Exits with pytest's code. Arguments that name tests are relative to tests/pkg; the folder of a file, also
-../validation/yade, may be left out. With `--shared FOLDER`, processes that are started with the same empty folder run
-each file once.
+../validation/yade, may be left out. Without names, all that take long are left out: those marked `long`. With `--long`
+only they are run, and tests/validation/yade. With `--shared FOLDER`, processes that are started with the same empty
+folder run each file once.
 """
 import glob
 import os
@@ -13,9 +14,9 @@ import pytest
 from _pytest.runner import runtestprotocol
 
 
-# They take a minute or more: begun last, one of them would run alone.
-kLongest = ['test_yade_own.py', 'test_fe_examples.py', 'test_small_examples.py', 'test_valgrind.py',
-            'test_mpi.py', 'test_changed.py', 'test_ensemble.py', 'test_api_calls.py', 'test_soak.py']
+# They take half a minute or more: begun last, one of them would run alone.
+kLongest = ['test_long_examples.py', 'test_yade_own.py', 'test_valgrind.py', 'test_mpi.py', 'test_same_bits.py',
+            'test_api_calls.py', 'test_soak.py', 'test_tradeoff.py', 'test_forms.py', 'test_small_examples.py']
 
 
 class Shared:
@@ -56,6 +57,19 @@ class Shared:
         return True
 
 
+class Long:
+    """Pytest plugin: of the tests that are collected those that take long, or the others."""
+
+    def __init__(self, only):
+        self.only = only
+
+    def pytest_collection_modifyitems(self, config, items):
+        left = [item for item in items if self.only == (bool(item.get_closest_marker('long'))
+                                                        or 'validation' in item.path.parts)]
+        config.hook.pytest_deselected(items=[item for item in items if item not in left])
+        items[:] = left
+
+
 def located(argument):
     """The argument, with the folder of the file of tests that it names."""
     file, *test = argument.split('::')
@@ -77,9 +91,16 @@ def main():
     # A shell starts background jobs with interrupts ignored: tests of Ctrl-C would wait for ever.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     arguments = [located(argument) for argument in arguments]
-    if not any(os.path.exists(a.split('::')[0]) for a in arguments if not a.startswith('-')):
+    only = '--long' in arguments
+    if only:
+        arguments.remove('--long')
+        arguments += [here, '../validation/yade']
+    named = any(os.path.exists(a.split('::')[0]) for a in arguments if not a.startswith('-'))
+    if only or not named:
+        plugins.append(Long(only))
+    if not named:
         arguments.append(here)
-    options = ['-q', '-p', 'no:cacheprovider', '--rootdir', os.path.dirname(here), '--durations=20',
+    options = ['-q', '-o', 'markers=long: takes long', '-p', 'no:cacheprovider', '--rootdir', os.path.dirname(here), '--durations=20',
                '--durations-min=10',
                # A test that hangs ends the process with the stacks of its threads.
                '--timeout=1200', '--timeout-method=thread']

@@ -1,5 +1,5 @@
 // A search with a list of the changed boxes gives, after every change, the pairs of brute force.
-// YADEFRAG_SCENES sets the number of scenes (default 100,000, of which a hundredth is run here).
+// YADEFRAG_SCENES sets the number of scenes (default 30,000, of which a hundredth is run here).
 #include "search/incremental_search.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ constexpr SearchMethod kMethods[] = {SearchMethod::kLebesgue,  SearchMethod::kLi
 
 std::uint64_t sceneCount() {
   const char* text = std::getenv("YADEFRAG_SCENES");
-  return std::max<std::uint64_t>((text ? std::strtoull(text, nullptr, 10) : 100000) / 100, 100);
+  return std::max<std::uint64_t>((text ? std::strtoull(text, nullptr, 10) : 30000) / 100, 100);
 }
 
 std::vector<BoxId> changedSlots(const std::vector<Box>& before, const std::vector<Box>& now) {

@@ -1,5 +1,5 @@
 // Every search finds exactly the pairs of brute force, in random scenes whose boxes move, jump,
-// appear and vanish. YADEFRAG_SCENES sets the number of scenes (default 100,000).
+// appear and vanish. YADEFRAG_SCENES sets the number of scenes (default 30,000).
 #include <gtest/gtest.h>
 #include <memory>
 
@@ -15,7 +15,7 @@ namespace {
 
 std::uint64_t sceneCount() {
   const char* text = std::getenv("YADEFRAG_SCENES");
-  return text ? std::strtoull(text, nullptr, 10) : 100000;
+  return text ? std::strtoull(text, nullptr, 10) : 30000;
 }
 
 std::vector<BoxPair> sortedPairs(ContactSearch& search, const std::vector<Box>& boxes) {

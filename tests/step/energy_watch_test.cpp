@@ -113,6 +113,11 @@ TEST(EnergyWatch, CracksAreDistinguishedFromContact) {
       message(watch, stepOf(ledger))
           .find("element='smoothed' have created 7 J, 7 % of the bodies' energy; the strains "
                 "of elements that a crack separates") != std::string::npos);
+  // Contact and friction: their sum less both of them is below zero by rounding.
+  EnergyWatch another = watchOf(100);
+  ledger.contact = .2 * 8192, ledger.friction = .5 * 8192, ledger.fracture = -3;
+  EXPECT_TRUE(message(another, stepOf(ledger)).find("cracks have created 3 J") !=
+              std::string::npos);
 }
 
 TEST(EnergyWatch, DoesNotReportRounding) {

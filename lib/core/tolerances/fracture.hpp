@@ -19,8 +19,8 @@ inline constexpr double kShearLead = 3;
 /// (notched_beam_test.cpp).
 inline constexpr double kZoneElements = 4;
 
-/// (of the shorter side of the body) Length of the cohesive zone up to which the strength of a body
-/// without a notch is that of its material, to a seventh or so: `scripts/bench cracks`.
+/// (of the smallest width of the body) Length of the cohesive zone up to which the strength of a
+/// body without a notch is that of its material, to a seventh or so: `scripts/bench cracks`.
 inline constexpr double kMostZone = .5;
 
 /// (of a side) Largest distance between the ends of two sides that are bonded. In its first step

@@ -40,10 +40,6 @@ inline constexpr double kGoodHeight = .55;
 /// message; irregular meshes have up to 1.5.
 inline constexpr double kCostlyStep = 3;
 
-/// (of the longest line; of the line) Shortest line of edges that is compared with the path along
-/// it, and longest path that is searched for. In a lattice the path is at most 1.16 times the line.
-inline constexpr double kShortestLine = .6, kLongestPath = 1.3;
-
 /// (m/m) Growth of the desired edge length with the distance from a boundary with shorter edges.
 inline constexpr double kEdgeGrowth = .25;
 

@@ -21,9 +21,7 @@ inline constexpr double kLeastChange = 1e-13;
 inline constexpr double kMakesDue = .3;
 
 /// (of the change at which sweeps end; count) Beyond Contact::rowSweeps sweeps go on while one
-/// changes a gap or a slip by more than this multiple, up to the second number. Where a light box
-/// is between heavy blocks, 80 sweeps are too few at the impact, and contact would create energy
-/// for some steps.
+/// changes a gap or a slip by more than this multiple, up to the second number.
 inline constexpr double kFarFromSolved = 10;
 inline constexpr int kMostSweeps = 1000;
 
@@ -32,13 +30,19 @@ inline constexpr int kMostSweeps = 1000;
 /// four times as much energy.
 inline constexpr int kLastSweeps = 2;
 
-/// (ratio) A rigid body of which the neighbours give way by less than this part of itself transmits
-/// nothing between them that matters.
-inline constexpr double kLeastShare = 1e-5;
+/// (of a row's response) Neighbours of a rigid body that give way by less, held ones among them, are
+/// taken as this compliant in one joint solution of its rows; the sweeps find the rest.
+inline constexpr double kLeastShare = 1e-6;
 
-/// (ratio) The sweeps are as many as for a body with this share. A box of 1 g between blocks of 10 kg
-/// would give a tenth of their energy otherwise.
-inline constexpr double kUsedShare = 1e-3;
+/// (count; of the sum of its terms; ratio) Newton's method for the motion of a rigid body ends at
+/// this residual, which is rounding: mostly after two to four iterations.
+inline constexpr int kMostNewton = 50;
+inline constexpr double kNewtonResidual = 1e-13, kShortestSearch = 1e-6;
+
+/// (count; of the largest bound) Solutions for the bounds of friction by the normal forces of the
+/// solution before, until they change by less.
+inline constexpr int kFrictionPasses = 10;
+inline constexpr double kFrictionChange = 1e-6;
 
 /// Named values of Contact::stop, and its limits: below the least one rounding decides, above the
 /// greatest one contact is lost.

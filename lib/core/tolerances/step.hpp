@@ -83,20 +83,8 @@ inline constexpr double kHaloSteps = 40;
 /// (ratio) Margin for acceleration in the prediction whether the next step leaves the halo.
 inline constexpr double kHaloSpare = 1.1;
 
-/// (of the reach) A body is isolated if all others are farther away than `kApart` times the reach.
-/// With this margin the classification does not alternate between checks. Gaps up to `kApartSearch`
-/// times the reach are computed; a body covers such a gap in some hundred steps.
-inline constexpr double kApart = 2, kApartSearch = 8;
-
-/// (of the largest displacement in a step) Reach of isolated bodies, if that is more than the halo:
-/// two bodies that approach each other are detected well before they could touch.
-inline constexpr double kApartMoves = 8;
-
 /// (ratio) Margin for acceleration until all velocities are checked again. While no node is faster
 /// than that, a step needs no check of the nodes.
 inline constexpr double kSpeedSpare = 1.25;
-
-/// (count) Up to this number boxes are compared with each other without sorting.
-inline constexpr std::size_t kFewBoxes = 12;
 
 }  // namespace yadefrag::tolerance

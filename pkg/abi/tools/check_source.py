@@ -3,7 +3,7 @@
 check_source.py --versions: prints the versions whose sources Debian has.
 check_source.py --prefix FOLDER VERSION FEATURES: makes a YADE_PREFIX with empty libraries and the fetched sources.
 
-One file is compiled against both: its assertions of sizes, offsets and functions hold for pkg/abi in each
+One file is compiled against both: its assertions of sizes and offsets hold for pkg/abi in each
 build, and here for the headers of SOURCE, a source tree of that version. The order of the virtual functions
 in these headers must be that of versions/VERSION.json, with which each build compares pkg/abi. Without
 SOURCE, the sources are fetched from Debian once, into ~/.cache/yadefrag. The features are those of Debian's
@@ -57,8 +57,6 @@ def fetch(version):
 def compiled(version, source, folder):
     """The compiler's tables of virtual functions; ends with its messages if an assertion does not hold."""
     make_table.main(version, '0', folder / 'abi', folder / '_built.py')
-    unit = folder / 'unit.cpp'
-    unit.write_text('#include "abi/layout_checks.cpp"\n#include "abi/signature_checks.cpp"\n')
     config = {'features': FEATURES, 'bits': 64, 'decimals': 15}
     mpi = subprocess.run(['mpicxx', '--showme:incdirs'], capture_output=True, text=True, check=True).stdout.split()
     systems = [source, '/usr/include/eigen3', sysconfig.get_paths()['include'], *mpi]
@@ -67,7 +65,7 @@ def compiled(version, source, folder):
         ['g++', '-std=c++20', '-w', '-fsyntax-only', '-fno-access-control', '-DYADEFRAG_YADE_SOURCE',
          '-fdump-lang-class=%s' % (folder / 'classes.txt'), '-DYADE_DISABLE_REAL_MULTI_HP',
          *yade_build.compilerFlags(config), '-I%s' % PKG, '-I%s' % folder,
-         *['-isystem%s' % system for system in systems], str(unit)],
+         *['-isystem%s' % system for system in systems], str(PKG / 'abi' / 'layout_checks.cpp')],
         capture_output=True, text=True, check=False)
     if done.returncode:
         sys.exit(done.stderr)

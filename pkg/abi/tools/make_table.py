@@ -1,18 +1,21 @@
 #!/usr/bin/env python3
-"""make_table.py VERSION OWN FOLDER MODULE: generates files of the build from
+"""make_table.py VERSION OWN FOLDER MODULE LIBRARIES: generates files of the build from
 pkg/abi/versions/VERSION.json.
-make_table.py --source SOURCE FEATURES YADE VERSION OWN FOLDER MODULE: those of a build with YADE's own
-headers; YADE is its command.
+make_table.py --source SOURCE FEATURES YADE VERSION OWN FOLDER MODULE LIBRARIES: those of a build with YADE's
+own headers; YADE is its command.
 
-FOLDER gets layout_table.hpp, sizes and offsets for the compiler, and yade_build.hpp, the YADE of this
-build. MODULE is the same for Python, with the version of yadefrag, OWN. Exit code 2 and one sentence:
-this version of YADE is unknown.
+FOLDER gets layout_table.hpp, sizes and offsets for the compiler. MODULE describes this build and the YADE in
+LIBRARIES for Python, with the version of yadefrag, OWN. Exit code 2 and one sentence: this version of YADE is
+unknown.
 """
 
 import pathlib
 import sys
 
 import versions
+
+sys.path.append(str(pathlib.Path(__file__).parents[2] / 'python' / 'yadefrag'))
+from build_id import buildId  # noqa: E402
 
 TABLE = '''#pragma once
 // Made by pkg/abi/tools/make_table.py from pkg/abi/versions/%(version)s.json.
@@ -30,24 +33,14 @@ inline constexpr LayoutEntry kLayout[] = {
 }  // namespace yadefrag
 '''
 
-BUILD = '''#pragma once
-// Made by pkg/abi/tools/make_table.py.
-
-namespace yadefrag {
-
-inline constexpr const char* kYadeVersion = "%(version)s";
-/// For messages: "YADE <version> as ...".
-inline constexpr const char* kYadeBuild = "%(build)s";
-
-}  // namespace yadefrag
-'''
-
 MODULE = '''"""This build of yadefrag and its YADE. Made by pkg/abi/tools/make_table.py."""
 
 YADEFRAG = %(own)r
 VERSION = %(version)r
 # For messages: "YADE <version> as ...".
 BUILD = %(build)r
+# Of its libyade.so; '' for one without.
+BUILD_ID = %(id)r
 # Features of a YADE whose own headers were used; None with the declarations of pkg/abi.
 FEATURES = %(features)r
 # The command of that YADE.
@@ -71,7 +64,7 @@ def writeIfNew(path, text):
         path.write_text(text)
 
 
-def main(version, own, folder, module, source=None, features=None, command='yade'):
+def main(version, own, folder, module, libraries='', source=None, features=None, command='yade'):
     known = versions.known()
     if source is None and version not in known:
         print('yadefrag supports the packages of YADE %s, and not %s; a YADE that you build can have any version: '
@@ -86,10 +79,9 @@ def main(version, own, folder, module, source=None, features=None, command='yade
         build = '%s packages it' % facts['system']
     else:
         build = 'built from %s' % source
-    writeIfNew(folder / 'yade_build.hpp', BUILD % {'version': version, 'build': build})
     accepted = {name: other['system'] for name, other in known.items() if other['run']}
     writeIfNew(module, MODULE % {
-        'version': version, 'own': own, 'build': build, 'command': command, 'accepted': accepted,
+        'version': version, 'own': own, 'build': build, 'id': buildId(libraries), 'command': command, 'accepted': accepted,
         'features': None if features is None else sorted(features.split())})
     return 0
 

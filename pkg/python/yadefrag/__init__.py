@@ -24,7 +24,6 @@ support.require()
 from yade import wrapper  # noqa: E402
 from yadefrag import _yadefrag  # noqa: E402
 
-_yadefrag.checkRunningYade()
 if TYPE_CHECKING:  # what publish() adds
     from yade.wrapper import (Bo1_SurfaceSegment_Aabb, BrittleFEMat, CurveIntegrator, CurveLoop, FEMat, FESolver,
                               FrictionalFEMat, Gl1_SurfaceSegment, HierarchyCollider,
@@ -48,7 +47,6 @@ from yadefrag.fe.meshing import polygonMesh  # noqa: E402
 from yadefrag.fe.results import crackTable  # noqa: E402
 from yadefrag.fe.snapping import snapOutlines  # noqa: E402
 from yadefrag.io import FERecorder, exportVTK, outlineReport, readMesh, readOutline, readPolygon  # noqa: E402
-from yadefrag.io import recorder  # noqa: E402
 from yadefrag.plots import animate, plotFracture, plotFragmentSizes, plotMesh  # noqa: E402
 from yadefrag.plots.fragments import fragmentTable, recordFracture  # noqa: E402
 from yadefrag.scene import attributes, colliders, lifecycle, mpy  # noqa: E402
@@ -56,10 +54,6 @@ from yadefrag.scene.curve_order import inCurveOrder  # noqa: E402
 from yadefrag.scene.engines import engines  # noqa: E402
 from yadefrag.scene.progress import runSteps  # noqa: E402
 from yadefrag.studies import EnsembleTable, TradeoffTable, ensemble, tradeoff  # noqa: E402
-from yadefrag.studies import scene_choices as choices  # noqa: E402
-
-# Former names of modules: scenes that FERecorder's engine was saved with, and earlier manuals, have them.
-sys.modules.update({'yadefrag.recorder': recorder, 'yadefrag.choices': choices})
 
 
 def _renewDispatchers():

@@ -46,21 +46,13 @@ def _rows():
     yield 'built with', ("the declarations of pkg/abi, for a YADE package without headers" if _built.FEATURES is None
                          else "YADE's own headers, for its features " + ', '.join(_built.FEATURES)), True
     yield 'Python', platform.python_version(), True
-    problem = support.describeSurroundings() or _problemOfInterface()
+    problem = support.describeSurroundings()
     yield 'interface', problem or "YADE's classes have the expected layout", not problem
     yield 'instructions', _yadefrag.instructionSet(), True
     yield 'threads', _threads(), True
     examples, manual = _place('examples'), _place('docs') or _place('README.md')
     yield 'examples', str(examples or 'not found'), examples is not None
     yield 'manual', str(manual or 'not found'), manual is not None
-
-
-def _problemOfInterface():
-    try:
-        _yadefrag.checkRunningYade()
-    except ImportError as error:
-        return str(error)
-    return ''
 
 
 def _threads():

@@ -8,6 +8,7 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from yadefrag import _built
+from yadefrag.build_id import buildId
 
 YADEFRAG = _built.YADEFRAG
 # The extension is built for the layout of one YADE: that which was installed at the build.
@@ -82,7 +83,17 @@ def describeSurroundings(modules: Mapping[str, Any] | None = None) -> str:
     config = modules['yade.config']
     return describeMismatch(getattr(config, 'version', 'unknown'),
                             getattr(config, 'highPrecisionName', 'unknown precision'),
-                            getattr(config, 'features', []))
+                            getattr(config, 'features', [])) or describeOtherBuild(config.libDir)
+
+
+def describeOtherBuild(libraries: str) -> str:
+    """'' unless the library in the folder `libraries` is another build of the same version."""
+    found = buildId(libraries)
+    if found == _built.BUILD_ID:
+        return ''
+    return ('this build of yadefrag needs the YADE %s with the build id %s, and the running yade in %s has %s: '
+            'yadefrag must be built or installed again.' % (
+                VERSION, _built.BUILD_ID or '(none)', libraries, found or 'none'))
 
 
 def isReportAsked() -> bool:

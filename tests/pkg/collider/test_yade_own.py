@@ -1,6 +1,6 @@
 """YADE's own check scripts, unit tests and shipped examples, with a collider put in the place of
-YADE's (see swap.py). LebesgueCollider goes through all of them, the others through the quick
-ones."""
+YADE's (see swap.py): the quick checks with the loop and the integrator, too; the collider alone, and all others, in
+the long tests."""
 import json
 import os
 import subprocess
@@ -15,8 +15,8 @@ import test_constantness
 from project import yadeCommand
 
 kHere = os.path.dirname(os.path.abspath(__file__))
-kExamples = '/usr/share/doc/yade/examples'
-kChecks = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
+kExampleFolder = '/usr/share/doc/yade/examples'
+kCheckFolder = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
 
 # Not here: checkList.py runs the others; the MPI scripts start other programs;
 # checkColliderConstantness.py reads the rival's sort lists (test_constantness.py stands for it);
@@ -96,12 +96,8 @@ def checkResult(collider, result):
     assert result['rivals'] == 0, "YADE's own collider was still there"
 
 
-def isFull(collider):
-    return collider.name in ('LebesgueCollider', 'InsertionSortCollider')
-
-
 def reasonToSkip(script):
-    if not os.path.exists(os.path.join(kChecks, script)):
+    if not os.path.exists(os.path.join(kCheckFolder, script)):
         return f'this YADE has no {script}'
     if script == kYadesOrder and not yade.config.version.startswith('2023.'):
         return "it compares the interactions in the order of YADE's collider"
@@ -109,13 +105,12 @@ def reasonToSkip(script):
     return needed and needed not in yade.config.features and f'this YADE is built without {needed}'
 
 
+@pytest.mark.long
 @pytest.mark.parametrize('script', kQuickChecks + kLongChecks)
 def testCheckScript(collider, script):
-    if script in kLongChecks and not isFull(collider):
-        pytest.skip('long: LebesgueCollider runs it')
     if why := reasonToSkip(script):
         pytest.skip(why)
-    names = [x for x in kQuickChecks + kLongChecks * isFull(collider) if not reasonToSkip(x)]
+    names = [x for x in kQuickChecks + kLongChecks if not reasonToSkip(x)]
     result = outcome(collider.name, 'checks', names)[script]
     checkResult(collider, result)
     if script not in kNoCollider and not collider.isRival:
@@ -177,22 +172,19 @@ kLongExamples = [
     'test/triax-basic-without-plots.py', 'timeStepperUsage.py']
 
 
-@pytest.mark.skipif(not os.path.isdir(kExamples), reason="YADE's examples are not installed")
-@pytest.mark.parametrize('script', kShortExamples + kLongExamples)
+@pytest.mark.skipif(not os.path.isdir(kExampleFolder), reason="YADE's examples are not installed")
+@pytest.mark.parametrize('script', [*kShortExamples, *(pytest.param(e, marks=pytest.mark.long) for e in kLongExamples)])
 def testExample(collider, script):
     """The contacts are those that YADE's collider has when it searches in every step.
 
     With its strides on it loses floor contacts in periodicSandPile.py and so is no yardstick."""
-    if script in kLongExamples and not isFull(collider):
-        pytest.skip('long: LebesgueCollider runs it')
     if collider.isRival and script.endswith('periodicSandPile.py'):
         pytest.xfail('with strides it loses contacts with the floor')
-    every = [os.path.join(kExamples, s) for s in kShortExamples + kLongExamples]
-    names = every if isFull(collider) else every[:len(kShortExamples)]
-    path = os.path.join(kExamples, script)
+    every = [os.path.join(kExampleFolder, s) for s in (kLongExamples if script in kLongExamples else kShortExamples)]
+    path = os.path.join(kExampleFolder, script)
     expected = outcome('InsertionSortCollider', 'reference', every)[path]
     assert expected['error'] is None, expected['error']
-    result = outcome(collider.name, 'examples', names)[path]
+    result = outcome(collider.name, 'examples', every)[path]
     checkResult(collider, result)
     assert result['runs'] > 0
     compared = compareMoments(expected['moments'], result['moments'], result['radius'])

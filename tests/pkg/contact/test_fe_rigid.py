@@ -279,17 +279,6 @@ def test_overlapIsRefused():
     assert solver.warnings[0].startswith('FE bodies go through bodies of the shape Box, such as #%d' % number)
 
 
-def test_bodiesWithoutContactAreReported(capfd):
-    solver = fe(gravity=(0, -G))
-    block(solver)
-    O.bodies.append(utils.facet([(-1, 0, 0), (1, 0, 0), (0, -1, 0)]))  # in the plane
-    flat = O.bodies[-1].id
-    run(solver)
-    steps(20)
-    [warning] = solver.warnings
-    assert warning.startswith('FE bodies go through facets that lie in their plane z = 0, such as #%d' % flat)
-
-
 def test_integratorBeforeTheSolverIsReported():
     """Rigid bodies that obey forces then keep their velocity in a step; behind the solver they do not."""
     solver = fe()

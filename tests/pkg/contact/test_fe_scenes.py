@@ -43,7 +43,7 @@ def course(seed, folder=None):
     return solver, tuple(O.bodies[-1].state.pos)
 
 
-@pytest.mark.parametrize('seed', range(60 if os.environ.get('YADEFRAG_LONG') else 6))
+@pytest.mark.parametrize('seed', [*range(6), *(pytest.param(n, marks=pytest.mark.long) for n in range(6, 60))])
 def test_changesAndSavesAtRandom(seed, folder):
     plain, place = course(seed)
     wanted = plain.nodes, plain.velocities, plain.energy, plain.warnings

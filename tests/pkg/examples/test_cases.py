@@ -13,7 +13,8 @@ kFolder = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'cases')
 kHanging = 900  # s
 
 
-@pytest.mark.parametrize('name', sorted(f for f in os.listdir(kFolder) if f.endswith('.py')))
+@pytest.mark.parametrize('name', [pytest.param(f, marks=[pytest.mark.long] * (f == 'crushed_rock_ledger.py'))
+                                  for f in sorted(os.listdir(kFolder)) if f.endswith('.py')])
 def test_caseHolds(name, folder):
     done = subprocess.run([*yadeCommand(), '-j1', os.path.join(kFolder, name)], cwd=folder,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=kHanging)

@@ -107,11 +107,11 @@ def test_whatWouldBeIgnoredIsRefused():
         FESolver().addPolygon(outline, size=2e-3, material=0)
     with pytest.raises(ValueError, match='selfContact is False'):
         FESolver().addPolygon(outline, size=2e-3, material=1, selfContact=False)
-    with pytest.raises(ValueError, match='joints is given, but .* it must be a BrittleFEMat'):
+    with pytest.raises(ValueError, match='joints are given, but .* it must be a BrittleFEMat'):
         FESolver().addPolygon(outline, size=2e-3, material=1, joints=[((0, .01), (.008, .01))], jointStrength=0)
     O.materials.append(PlasticFEMat(**STEEL))
     for settings in (dict(strength=lambda x, y: 1), dict(fractureEnergy=lambda x, y: 1e3)):
-        with pytest.raises(ValueError, match='is given, but the material does not crack; it must be a BrittleFEMat, or'):
+        with pytest.raises(ValueError, match='are given, but the material neither cracks nor fails; it must be a BrittleFEMat, or'):
             FESolver().addPolygon(outline, size=2e-3, material=2, **settings)
     O.materials.append(PlasticFEMat(**STEEL, spallStress=3e9, fractureEnergy=1e4))
     with pytest.raises(ValueError, match='fractureEnergy is 0 J/m²; it must be positive for every triangle'):

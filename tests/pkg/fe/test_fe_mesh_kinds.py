@@ -51,14 +51,9 @@ def test_qualityOfTheDefaultMesh():
     c, s = math.cos(math.radians(20)), math.sin(math.radians(20))
     outline = [(c * x - s * y, s * x + c * y) for x, y in kSquare]
     quality = added(outline=outline, size=.01).meshQuality()
-    assert quality['pathRatio'] < 1.05 and quality['pathSpread'] < .015
-    assert quality['edgeDeviation'] < .15
     assert math.degrees(quality['minAngle']) > 30
     assert quality['timeStepRatio'] > .6
     assert abs(quality['size'] - .01) < .0007
-    rows = added(outline=outline, size=.01, mesh='regular').meshQuality()
-    assert rows['pathSpread'] > .025 and rows['edgeDeviation'] > 2
-    assert rows['numTriangles'] == len(added(outline=outline, size=.01, mesh='regular').triangles)
 
 
 def test_qualityOfARegularMesh():
@@ -69,21 +64,12 @@ def test_qualityOfARegularMesh():
     assert quality['numTriangles'] == 800
     assert quality['shortestEdge'] == pytest.approx(.05)
     assert quality['minAngle'] == pytest.approx(math.pi / 4)
-    assert quality['pathRatio'] > 1.05
-    assert len(quality['edgesByDirection']) == len(quality['pathRatioByDirection']) == 36
-    assert quality['edgesByDirection'].mean() == pytest.approx(1)
 
 
 def test_qualityIsOfTheStressFreeMesh():
     still = added().meshQuality()
     moved = added(displacement=lambda x, y: (.3 * x, 0)).meshQuality()
-    assert all(np.array_equal(still[k], moved[k], equal_nan=True) for k in still)
-
-
-def test_qualityPlot(folder):
-    file = os.path.join(folder, 'quality.png')
-    added().meshQuality(plot=file)
-    assert os.path.getsize(file) > 10000
+    assert still == moved
 
 
 @pytest.mark.parametrize('wrong, sentence', [

@@ -97,21 +97,6 @@ def test_movingWallGivesNoMessage(move):
     assert off < 5e-3 * max(work, solver.energy['strain'])
 
 
-def test_aSphereThatIsTooLightForTheStepIsReported():
-    """The step is stable for the bodies, not for the sphere; the shorter step that is advised is for both."""
-    found = {}
-    for factor in (.8, .01):
-        O.reset()
-        solver = fe()
-        block(solver)
-        O.bodies.append(ball((.44, .51), .0101, velocity=(0, -1), young=1e9, density=300))
-        run(solver, finder('LebesgueCollider'), spheres=True, factor=factor)
-        O.run(int(.004 / O.dt), True)
-        found[factor] = [one for one in solver.warnings if "contact with YADE's spheres has created" in one]
-    assert found[.8] and 'take a shorter step' in found[.8][0]
-    assert not found[.01]
-
-
 @pytest.mark.parametrize('smooth', [False, True])
 def test_shorterStepIsAdvisedOnlyWhereItHelps(smooth):
     """A steel sphere dents a plate that yields; the contact's (ω Δt)² is below .05 at both steps."""

@@ -115,7 +115,7 @@ def test_arraysOfAMesh():
     (lambda fe: fe.addMesh((kSquare, [(0, 2, 1), (0, 1, 3)]), 'm'), '(?i)triangle'),
     (lambda fe: fe.addMesh(Mesh(kSquare, [(0, 1, 2), (0, 2, 3)]), 'm', smooth=2), 'smooth is 2'),
     (lambda fe: fe.addMesh(rectangleMesh((0, 0), (1, 1), 2, 2), 'none'), "material is 'none'"),
-    (lambda fe: fe.addMesh(polygonMesh(kSquare, size=.4, joints=kJoints), 'm'), 'joints is given, but the material'),
+    (lambda fe: fe.addMesh(polygonMesh(kSquare, size=.4, joints=kJoints), 'm'), 'joints are given, but the material'),
     (lambda fe: fe.addMesh(polygonMesh(kSquare, size=.4, joints=kJoints), 'b', jointStrength=[1, 2]),
      'jointStrength has 2 values, it must have one for each of the 3 joints'),
     (lambda fe: polygonMesh(kSquare, size=0), 'size is 0'),

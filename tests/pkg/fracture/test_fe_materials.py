@@ -142,7 +142,7 @@ def test_spheresHaveTheMaterialBesideThem():
     (dict(material=halves, interfaceEnergy=lambda x, y: -1), r'interfaceEnergy\(.*is -1, it must'),
     (dict(material=halves, interfaceStrength={'hard': 1}), 'a key of interfaceStrength is'),
     (dict(material=halves, interfaceStrength={('hard', 'x'): 1}), "is 'x', which is not in O.mat"),
-    (dict(material=halves, interfaceStrength={('hard', 'soft'): None}), r'interfaceStrength\[.*is None'),
+    (dict(material=halves, interfaceStrength={('hard', 'soft'): 'x'}), r"interfaceStrength\[.*is 'x', it must be 0 or .*, or None"),
 ])
 def test_wrongValuesAreRefused(given, sentence):
     O.materials.append(hard())

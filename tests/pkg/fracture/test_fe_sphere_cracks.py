@@ -70,7 +70,7 @@ def momentaOf(solver, body):
 
 
 @pytest.mark.parametrize('clump', [False, True])
-@pytest.mark.parametrize('height', [.3, .31, .35])
+@pytest.mark.parametrize('height', [.31, *(pytest.param(h, marks=pytest.mark.long) for h in (.3, .35))])
 @pytest.mark.parametrize('kind', list(kBodies))
 def test_neitherEnergyNorMomentumIsCreated(kind, height, clump):
     """What the sphere loses is what the body gets: to .5 % with the friction of cohesive faces, and

@@ -97,7 +97,7 @@ def test_takenUpAgainWithoutDoubles(folder, ending):
 
 def test_recordsOfBodiesThatComeAndGoStay(folder):
     file = folder + '/run'
-    solver = scene(file, fields=())
+    solver = scene(file, fields=['velocity'])
     solver.addPolygon(yadefrag.rectangle((3, 0), (4, 1)), size=.5, material='m', name='first')
     O.run(20, True)
     solver.addPolygon(yadefrag.rectangle((5, 0), (6, 1)), size=.5, material='m', name='second')
@@ -111,6 +111,10 @@ def test_recordsOfBodiesThatComeAndGoStay(folder):
     column = 'reaction x of %s (N)'
     assert [row[column % 'first'] == 'nan' for row in rows] == [False] * 4 + [True] * 2
     assert [row[column % 'second'] == 'nan' for row in rows] == [True] * 2 + [False] * 4
+    for body in (0, 1, 'second'):  # no body is left to draw, and fe.time stands
+        solver.removeBody(body)
+    O.run(20, True)
+    assert table(file)[-1]['step'] == '70' and len(table(file)) == 7 and len(series(file)) == 6
 
 
 def test_otherFilesOfThisNameAreReplaced(folder):

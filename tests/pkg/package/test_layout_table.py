@@ -120,6 +120,7 @@ def test_virtualFunctionsOfTheRunningYadeAreTheMeasuredOnes():
     assert compared > 400
 
 
+@pytest.mark.long
 @pytest.mark.parametrize('version', KNOWN)
 def test_theDeclarationsFitEveryVersion(version, tmp_path):
     """Also those whose package is not here: sizes and offsets by the compiler, then the functions."""

@@ -39,7 +39,7 @@ def test_setUpRefusesOtherSystems(name, version, tmp_path):
 
 
 @pytest.mark.parametrize('command, words', [
-    (('setup', 'everything'), "takes nothing or 'plugin'"),
+    (('setup', 'everything'), "takes nothing, 'compile' or 'plugin'"),
     (('build', 'fast'), "no preset 'fast'"),
     (('test', 'yode'), "no tests called 'yode'"),
     (('test', 'lib', 'one'), 'after yade only'),

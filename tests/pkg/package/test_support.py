@@ -9,12 +9,10 @@ import types
 
 import pytest
 
-import scenes
 import yade
-from yade import wrapper
+from yade import config, wrapper
 from yadefrag import _yadefrag, support
 
-O = scenes.O
 
 @pytest.fixture(autouse=True)
 def packaged(monkeypatch):
@@ -79,24 +77,14 @@ def test_plainPythonIsReferredToYade():
     assert last.startswith('ImportError: ') and 'run by the command `yade`' in last
 
 
-def test_layoutCheckPassesAndLeavesTheSceneAlone():
-    scenes.addSpheres([(0, 0, 0), (1.5, 0, 0)], [1, 1])
-    newton = wrapper.NewtonIntegrator()
-    scenes.setEngines(scenes.makeCollider('InsertionSortCollider'), newton=newton)
-    O.dt = 1e-6
-    O.run(3, True)
-
-    def seen():
-        return (O.iter, O.dt, O.time, len(O.bodies), len(O.interactions), O.periodic, O.tags['id'],
-                [e.dict().keys() for e in O.engines], [b.dict().keys() for b in O.bodies],
-                [b.state.pos for b in O.bodies], newton.densityScaling, O._sceneObj.dict()['doSort'])
-
-    before = seen()
-    for _ in range(3):
-        _yadefrag.checkRunningYade()
-    assert seen() == before
-    O.run(3, True)
-    assert O.iter == 6
+def test_anotherBuildOfTheSameVersionIsRefusedInOneSentence(tmp_path):
+    library = tmp_path / 'libyade.so'
+    sentence = support.describeOtherBuild(str(tmp_path))
+    assert sentence.endswith('has none: yadefrag must be built or installed again.')
+    library.write_bytes(b'\x7fELF' + b'\x04\0\0\0\x14\0\0\0\x03\0\0\0GNU\0' + bytes(range(20)))
+    sentence = support.describeOtherBuild(str(tmp_path))
+    assert 'has 000102030405060708090a0b0c0d0e0f10111213:' in sentence and '\n' not in sentence
+    assert support.describeOtherBuild(config.libDir) == ''
 
 
 def test_yadesOwnClassesAreNotReplaced():

@@ -42,8 +42,8 @@ def scene(moment):
     O.materials.append(w.FEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.2, label='m'))
     O.materials.append(w.BrittleFEMat(young=1e7, poisson=.3, density=1000, tensileStrength=1e4, label='b'))
     fe = w.FESolver()
-    fe.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', velocity=(1, 0))
-    fe.addPolygon(yadefrag.rectangle((1, 0), (2, 1)), size=.5, material='b')
+    fe.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m', velocity=(1, 0), name='first')
+    fe.addPolygon(yadefrag.rectangle((1, 0), (2, 1)), size=.5, material='b', name='second')
     for x in range(3):
         body = w.Body()
         body.shape, body.material = w.Sphere(radius=.2), O.materials[0]
@@ -323,14 +323,13 @@ def answer(error):
 def main(seed, calls, logName):
     draw = random.Random(int(seed))
     tradeoff_grid._runAll = ensemble_runs._run = lambda *_: None
-    moments = os.environ.get('YADEFRAG_API_MOMENTS', ','.join(kMoments)).split(',')
     counts = types.SimpleNamespace(done=0, refused=0)
     with open(logName, 'w', errors='backslashreplace') as log, tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         table = exampleFiles(folder)
         fe = None
         for number in range(int(calls)):
-            moment = draw.choice(moments)
+            moment = draw.choice(kMoments)
             if fe is None or number % 10 == 0:
                 fe = scene(moment)
             call = Call(draw, fe, folder, table)

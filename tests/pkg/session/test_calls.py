@@ -1,4 +1,4 @@
-"""Calls with wrong arguments, messages that many bodies have, and what is written about a refused step."""
+"""Calls by position, messages that many bodies have, and what is written about a refused step."""
 import builtins
 import subprocess
 import warnings
@@ -35,40 +35,6 @@ def test_polygonsByPosition(arguments):
 def test_trianglesByPosition():
     found = solver()
     assert found.addTriangles(*yadefrag.rectangleMesh((0, 0), (1, 1), 2, 2), 's') == 0
-
-
-@pytest.mark.parametrize('call, sentence', [
-    (lambda fe: fe.addPolygon(), 'addPolygon needs outline, size and material: '
-                                 'addPolygon(outline, size=..., material=...).'),
-    (lambda fe: fe.addPolygon(kSquare, size=.5), 'addPolygon needs material'),
-    (lambda fe: fe.addPolygon(kSquare, .5, 's', size=.5), 'addPolygon has size twice, by position and by name.'),
-    (lambda fe: fe.addPolygon(kSquare, .5, 's', True), 'addPolygon takes outline, size and material'),
-    (lambda fe: fe.addPolygon(kSquare, sise=.5, material='s'), "addPolygon has no argument 'sise', but size."),
-    (lambda fe: fe.bond(0, 1, 1e6), 'bond needs energy: bond(a, b, strength, energy).'),
-    (lambda fe: fe.bond(0, 1, 1e6, 1, 2, 3, 4), 'bond takes a, b, strength and energy, but 7 are given'),
-    (lambda fe: fe.prescribe(vx=1), 'prescribe needs nodes'),
-    (lambda fe: fe.removeBody(), 'removeBody needs component: removeBody(component).'),
-    (lambda fe: fe.criticalTimeStep(3), 'criticalTimeStep takes no arguments'),
-    (lambda fe: fe.fragments(hold=True), "fragments has no argument 'hold', but held."),
-    (lambda fe: yadefrag.rectangle(0, 0, 1, 1), 'rectangle takes low and high, but 4 are given: rectangle(low, high)'),
-    (lambda fe: yadefrag.plotMesh(), 'plotMesh needs fe: plotMesh(fe).'),
-    (lambda fe: yadefrag.plotMesh(fe, feild='speed'), "plotMesh has no argument 'feild', but field."),
-    (lambda fe: w.FEMat(1e9), 'FEMat takes no arguments by position'),
-    (lambda fe: w.FESolver(2), 'FESolver takes no arguments by position'),
-])
-def test_wrongArgumentsGiveASentence(call, sentence):
-    fe = solver()
-    with pytest.raises(TypeError) as error:
-        call(fe)
-    text = str(error.value)
-    assert sentence in text and 'positional' not in text and '\n' not in text and text[-1] == '.'
-    assert len(fe.masses) == 0
-
-
-def test_errorsWithinAScriptsFunctionAreItsOwn():
-    fe = solver()
-    with pytest.raises(TypeError, match='NoneType'):
-        fe.addPolygon(kSquare, size=.5, material='s', velocity=lambda x, y: (x + None, 0))
 
 
 def wall(count, fe):

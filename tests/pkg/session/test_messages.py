@@ -11,7 +11,6 @@ import re
 import pytest
 
 import yadefrag
-from fe_scene import finder
 from yade import utils
 from yade import wrapper as w
 
@@ -54,12 +53,6 @@ def advised(sentence):
 
 
 # --- the step
-
-def aboveCritical(factor):
-    solver = steel()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (.04, .02)), size=.01, material='steel')
-    return ranAt(factor, solver, 10)
-
 
 def varying(draw, factor=.9):
     solver = steel()
@@ -153,19 +146,6 @@ def usual(solver):
     return yadefrag.engines(solver, spheres=True)
 
 
-def withoutFunctor(solver):
-    made = usual(solver)
-    made[2] = w.InteractionLoop([w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
-                                [w.Law2_ScGeom_FrictPhys_CundallStrack()])
-    return made
-
-
-def withoutBound(solver):
-    made = usual(solver)
-    made[1] = w.LebesgueCollider([w.Bo1_Sphere_Aabb()])
-    return made
-
-
 def withoutResetter(solver):
     return usual(solver)[1:]
 
@@ -186,37 +166,10 @@ def withCurveLoop(make):
     return swapped
 
 
-def moving(flag):
-    solver = steelBlock()
-    wall = O.bodies[O.bodies.append(utils.wall(.3, axis=1, material='steel'))]
-    wall.state.vel = (0, -1, 0)
-    return ranAt(.1, solver, 3, yadefrag.engines(solver, moving=flag))
-
-
 def facets(corners):
     solver = steelBlock()
     O.bodies.append(utils.facet(corners, material='steel'))
     return ranAt(.1, solver, 3)
-
-
-def otherShape(isFE):
-    solver = steelBlock()
-    if isFE:
-        solver.addPolygon(yadefrag.rectangle((0, -1), (1, -.5)), size=.5, material='steel', fixed=lambda x, y: True)
-    else:
-        O.bodies.append(utils.tetra([(0, -1, 0), (0, -2, 0), (1, -1, 0), (0, -1, 1)], material='steel'))
-    return ranAt(.1, solver, 3)
-
-
-def rigidOff(flag):
-    solver = steelBlock(rigidBodies=flag)
-    O.bodies.append(utils.wall(-1, axis=1, material='steel'))
-    return ranAt(.1, solver, 3)
-
-
-def forceEngine(engines):
-    solver = steelBlock()
-    return ranAt(.1, solver, 3, engines(solver))
 
 
 # --- the first step
@@ -241,11 +194,6 @@ def changedMaterial(when):
     return ranAt(.5, solver, 2)
 
 
-def withoutSolver(isIn):
-    solver = steelBlock()
-    return ranAt(.5, solver, 2, yadefrag.engines(solver) if isIn else [w.ForceResetter(), w.NewtonIntegrator()])
-
-
 def uniform(low):
     return lambda draw: low + (1 - low) * draw.random()
 
@@ -253,8 +201,6 @@ def uniform(low):
 UPRIGHT = [(-1, -1, 1), (1, -1, 1), (0, -1, -2)]
 PRESSED = 'is pressed to .* of its area in a step of .*; the flatter an element is, the stiffer it gets: '
 TABLE = {
-    'step above the critical one': (
-        'O.dt: The time step is .* the critical step', lambda: aboveCritical(1.05), lambda: aboveCritical(.8)),
     'steps that vary: a constant one': (
         'time integration has created .* keep the time step constant, or', lambda: varying(uniform(.3)),
         lambda: varying(lambda draw: 1)),
@@ -275,11 +221,6 @@ TABLE = {
     'smoothed elements nearly collapse: step': (
         PRESSED + 'take a step of at most', lambda: rubber(element='smoothed'),
         lambda: rubber(asked=6, element='smoothed')),
-    'spheres without their functor': (
-        'no InteractionLoop has an Ig2_Sphere_SurfaceSegment', lambda: withSpheres(withoutFunctor),
-        lambda: withSpheres(usual)),
-    'spheres without bounds': (
-        'has no Bo1_SurfaceSegment_Aabb', lambda: withSpheres(withoutBound), lambda: withSpheres(usual)),
     'no ForceResetter': (
         'and no ForceResetter.*the order is', lambda: withSpheres(withoutResetter), lambda: withSpheres(usual)),
     'no ForceResetter with CurveLoop': (
@@ -291,35 +232,17 @@ TABLE = {
     'ForceResetter too late': (
         'ForceResetter deletes the forces of CurveLoop', lambda: withSpheres(resetterLate),
         lambda: withSpheres(usual)),
-    'a force engine without a resetter': (
-        'O.engines has no ForceResetter: the forces of ForceEngine',
-        lambda: forceEngine(lambda fe: [w.ForceEngine(ids=[0]), fe]),
-        lambda: forceEngine(lambda fe: [w.ForceResetter(), w.ForceEngine(ids=[0]), fe])),
-    'a sphere beside the plane': (
-        'is beside the plane', lambda: withSpheres(usual, z=.2), lambda: withSpheres(usual)),
-    'a sphere that leaves the plane': (
-        "'z' among its blockedDOFs", lambda: withSpheres(usual, z=.01, blocked=''), lambda: withSpheres(usual)),
     'a thick body beside small spheres': (
         r'FE bodies are 1 m thick.*addPolygon\(thickness=0.04\)', lambda: withSpheres(usual, thickness=1, radius=.02),
         lambda: withSpheres(usual, thickness=.04, radius=.02)),
-    'a velocity without an integrator': (
-        r'no NewtonIntegrator behind FESolver moves it: engines\(fe, moving=True\)', lambda: moving(False),
-        lambda: moving(True)),
     'a facet in the plane': (
         'FE bodies go through facets that lie in their plane',
         lambda: facets([(-1, -1, 0), (1, -1, 0), (0, -2, 0)]), lambda: facets(UPRIGHT)),
-    'another shape': (
-        'of the shape Tetra.*a body of FESolver with fixed nodes can take its place', lambda: otherShape(False),
-        lambda: otherShape(True)),
-    'rigidBodies off': (
-        'FESolver.rigidBodies is False', lambda: rigidOff(False), lambda: rigidOff(True)),
     'O.dt is the default': (
         "O.dt has YADE's default, 1e-08 s, .*criticalTimeStep", lambda: defaultStep(1e-8), lambda: defaultStep(None)),
     'a changed material: earlier': (
         "young of material 'steel' was changed from 2e.11 to 1e.09", lambda: changedMaterial('after'),
         lambda: changedMaterial('before')),
-    'no solver in the engines': (
-        'O.engines has no FESolver', lambda: withoutSolver(False), lambda: withoutSolver(True)),
 }
 
 

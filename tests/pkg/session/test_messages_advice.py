@@ -5,7 +5,6 @@ import math
 import re
 import warnings
 
-import numpy as np
 import pytest
 
 import yadefrag
@@ -204,71 +203,7 @@ def box(mass=100, damping=0., isFirst=False, speed=3, steps=100):
     return ran(solver, steps)
 
 
-def ordered(engines):
-    """A free box beside a block."""
-    solver = soft()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.25, material='m')
-    one = utils.box((-.2, 0, 0), (.1, .1, .5), material='m')
-    one.state.blockedDOFs = 'zXY'
-    O.bodies.append(one)
-    O.engines = engines(solver)
-    O.dt = .5 * solver.criticalTimeStep()
-    return ran(solver, 3)
-
-
-def usual(solver):
-    return [w.ForceResetter(), solver, w.NewtonIntegrator(damping=0)]
-
-
-def facet(**state):
-    solver = soft()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.25, material='m')
-    O.bodies.append(utils.facet([(-.2, 0, 1), (-.2, 0, -1), (-.2, .1, 0)], material='m', fixed=False))
-    for name, value in state.items():
-        setattr(O.bodies[-1].state, name, value)
-    O.engines = usual(solver)
-    O.dt = .5 * solver.criticalTimeStep()
-    return ran(solver, 3)
-
-
-def falling(gravity, withSphere=False):
-    solver = soft()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.25, material='m', thickness=.2)
-    if withSphere:
-        ball = utils.sphere((.5, .7, 0), .1, material='m')
-        ball.state.blockedDOFs = '' if gravity[2] else 'zXY'
-        O.bodies.append(ball)
-    O.engines = yadefrag.engines(solver, spheres=withSphere, moving=True)
-    O.engines[-1].gravity = gravity
-    O.dt = .1 * solver.criticalTimeStep()
-    return ran(solver, 3)
-
-
 # --- adding bodies
-
-def added(low=(0, 0), corners=None, label='m', settings=(), **how):
-    """A second body; `how` it is added."""
-    solver = soft()
-    O.materials.append(w.BrittleFEMat(young=1e9, tensileStrength=1e6, label='b', **dict(settings)))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-    x, y = low
-    solver.addPolygon(corners or yadefrag.rectangle((x, y), (x + 1, y + 1)), size=.5, material=label, **how)
-    O.engines = yadefrag.engines(solver)
-    O.dt = .5 * solver.criticalTimeStep()
-    return ran(solver, 2)
-
-
-def bySolvers(count):
-    solvers = [soft()] + [w.FESolver() for _ in range(count - 1)]
-    for k in range(2):
-        solvers[k % count].addPolygon(yadefrag.rectangle((2 * k, 0), (2 * k + 1, 1)), size=.5, material='m')
-
-
-def periodic(flag):
-    O.periodic = flag
-    solver = soft()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-
 
 def rested(most, isHeld=True):
     solver = soft(gravity=(0, -1))
@@ -279,27 +214,7 @@ def rested(most, isHeld=True):
     solver.relax(most=most)
 
 
-def heavy(gravity):
-    solver = soft(gravity=(0, gravity))
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-    O.engines = yadefrag.engines(solver)
-    O.dt = .5 * solver.criticalTimeStep()
-    return ran(solver, 3)
-
-
 # --- running and saving
-
-def saved(name):
-    steel().addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='steel')
-    O.save(name)
-
-
-def failing(isComplete):
-    O.bodies.append(utils.sphere((0, 0, 0), 1))
-    O.engines = [w.InsertionSortCollider([w.Bo1_Sphere_Aabb()])] + [w.NewtonIntegrator()] * isComplete
-    O.dt = 1e-6
-    O.run(5, True)
-
 
 def standing(onWall=True):
     """A smooth disc on a slope of 0.04."""
@@ -370,50 +285,7 @@ TABLE = {
     'rigid bodies get energy: order': (ENERGY, lambda: box(isFirst=True), box),
     'rigid bodies get energy: heavier': (ENERGY, lambda: box(isFirst=True), lambda: box(1e4, isFirst=True)),
     'rigid bodies get energy: damping': (ENERGY, lambda: box(1, .2, speed=8), lambda: box(1, speed=8)),
-    'the integrator first': (
-        'NewtonIntegrator comes before FESolver', lambda: box(isFirst=True, steps=3), lambda: box(steps=3)),
-    'a facet without mass: mass': (
-        'has no mass or no inertia', facet, lambda: facet(mass=1, inertia=(1, 1, 1))),
-    'a facet without mass: blocked': (
-        'has no mass or no inertia', facet, lambda: facet(blockedDOFs='xyzXYZ')),
-    'forces on rigid bodies that add up': (
-        'has a NewtonIntegrator and no ForceResetter', lambda: ordered(lambda fe: usual(fe)[1:]),
-        lambda: ordered(usual)),
-    'a resetter behind the solver': (
-        'ForceResetter behind FESolver deletes', lambda: ordered(lambda fe: [fe, w.NewtonIntegrator(), w.ForceResetter()]),
-        lambda: ordered(usual)),
-    'the solver twice': (
-        'the same FESolver more than once', lambda: ordered(lambda fe: [w.ForceResetter(), fe, fe]),
-        lambda: ordered(usual)),
-    'gravity along z': (
-        'gravity of NewtonIntegrator along z does not act', lambda: falling((0, 0, -9.81)), lambda: falling((0, -9.81, 0))),
-    'gravity along z on a sphere': (
-        'Gravity along z moves sphere', lambda: falling((0, 0, -9.81), True), lambda: falling((0, -9.81, 0), True)),
-    'an overlap at the start': (
-        'it may touch others at the start', lambda: added((.5, 0)), lambda: added((1, 0))),
-    'far from the origin': (
-        'is lost in the rounding of coordinates', lambda: added((1e14, 0)), lambda: added((10, 0))),
-    'a displacement that inverts': (
-        'inverts the triangle', lambda: added((2, 0), displacement=lambda x, y: (-1.2 * x, 0)),
-        lambda: added((2, 0), displacement=lambda x, y: (-.1 * x, 0))),
-    'too large an initial stress': (
-        'would be strained by more than half', lambda: added((2, 0), stress=(-1e7, 0, 0)),
-        lambda: added((2, 0), stress=(-1e5, 0, 0))),
-    'brittle without self-contact: with': (
-        'selfContact is False, but', lambda: added((2, 0), label='b', selfContact=False),
-        lambda: added((2, 0), label='b', selfContact=True)),
-    'brittle without self-contact: not brittle': (
-        'selfContact is False, but', lambda: added((2, 0), label='b', selfContact=False),
-        lambda: added((2, 0), selfContact=False)),
-    'loads beyond numbers': ('for any step|not finite', lambda: heavy(-1e200), lambda: heavy(-10)),
-    'two solvers': ('bodies of another FESolver', lambda: bySolvers(2), lambda: bySolvers(1)),
-    'a periodic scene': ('FE bodies cannot be', lambda: periodic(True), lambda: periodic(False)),
     'no rest': ('relax: after .* steps', lambda: rested(5), lambda: rested(10**5)),
-    'a file that cannot be written': (
-        'could not be saved: its file cannot be opened', lambda: saved('/nowhere/x.yade'), lambda: saved('x.yade')),
-    'an engine that fails': (
-        'unable to locate NewtonIntegrator|An engine has failed in step 0; YADE has written the reason to stderr',
-        lambda: failing(False), lambda: failing(True)),
 }
 
 

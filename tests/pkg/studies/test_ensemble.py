@@ -15,7 +15,7 @@ import yadefrag
 from project import ROOT, yadeCommand
 from yadefrag import EnsembleTable
 from yadefrag.studies import ensemble_runs as tool
-from yadefrag.studies import run_in_yade, runs, student
+from yadefrag.studies import run_in_yade, runs
 from yadefrag.studies.ensemble_table import EnsembleRow
 
 
@@ -48,6 +48,7 @@ def test_runsOfSeedsAndTables(folder):
         assert values == [drawn(7, 1.), drawn(8, 2.)]
 
 
+@pytest.mark.long
 def test_whatFailsIsARow():
     found = together(scenes.odd, range(5), scenes.oddValue, limit=8.).rows
     assert [row.result for row in found] == ['ok', 'failed', 'refused', 'too long', 'blew up']
@@ -111,6 +112,7 @@ def test_lostWorkersAreRowsThatAreDoneAgain(folder):
     assert row.result == 'ok'
 
 
+@pytest.mark.long
 def test_tradeoffByAnExecutorAndAgain(folder):
     file = folder + '/done.jsonl'
     arguments = dict(duration=.05, repeats=2, resume=file)
@@ -183,10 +185,12 @@ def byScript(folder, opening):
     assert kFound in done.stdout, done.stdout[-3000:]
 
 
+@pytest.mark.long
 def test_twoWorkersOfMpi(folder):
     byScript(folder, kMpi)
 
 
+@pytest.mark.long
 def test_twoWorkersOfDask(folder):
     file = os.path.join(folder, 'scheduler.json')
     # The workers are no yade, and have no plugin on their path.
@@ -208,14 +212,6 @@ def test_twoWorkersOfDask(folder):
 
 
 # --- statistics
-
-@pytest.mark.parametrize('confidence, freedom, value', [
-    (.95, 1, 12.7062), (.95, 2, 4.3027), (.95, 4, 2.7764), (.95, 9, 2.2622), (.99, 5, 4.0321),
-    (.99, 30, 2.7500), (.9, 120, 1.6577), (.95, 5000, 1.9604)])
-def test_studentsTable(confidence, freedom, value):
-    """Abramowitz and Stegun 1964, table 26.10, four digits."""
-    assert student.quantile(confidence, freedom) == pytest.approx(value, abs=1e-4 if freedom < 1e3 else 1e-3)
-
 
 def table(values, **settings):
     return EnsembleTable([EnsembleRow(dict(seed=k, **{n: v[k] for n, v in settings.items()}), 'ok',

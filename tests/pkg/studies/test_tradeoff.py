@@ -12,7 +12,7 @@ import yadefrag
 from project import ROOT, yadeCommand
 from yadefrag import TradeoffTable
 from yadefrag.studies import tradeoff_grid as tool
-from yadefrag.studies import scene_choices
+from yadefrag.studies import run_process, scene_choices
 from yadefrag.studies.tradeoff_table import TradeoffRow
 
 kDuration = .05  # s
@@ -51,6 +51,7 @@ def test_knownChoicesComeThrough():
     assert {**row.settings, **chosen} == row.settings
 
 
+@pytest.mark.long
 def test_fractureByName():
     table = trade(scenes.brittle, {'fracture': ['none', 'instant', 'cohesive']}, scenes.kind)
     assert [row.value for row in table.rows] == [0, 1, 2]
@@ -66,6 +67,7 @@ def test_colliderAndItsDistance():
     assert table.label(table.rows[1]) == 'verletDist=-0.2'
 
 
+@pytest.mark.long
 def test_watched():
     table = trade(scenes.block, {'timeStep': [.1]}, scenes.seen, watch=scenes.look)
     row, = table.rows
@@ -135,6 +137,7 @@ def test_timeOutIsARow():
     assert table.rows[0].message == 'no result within 3 s.'
 
 
+@pytest.mark.long
 def test_againstAReferenceThatIsRun(folder):
     finest = trade(scenes.block, {'timeStep': [.8, .4]}, reference='finest')
     assert finest.reference is finest.rows[1] and finest.rows[1].error == 0
@@ -255,12 +258,12 @@ def faked(monkeypatch, results):
             raise result
         return result
 
-    monkeypatch.setattr(tool, '_runOne', runOne)
+    monkeypatch.setattr(run_process, 'perform', runOne)
     return asked
 
 
 def ok(wall, value=1.):
-    return dict(result='ok', message='', wall=wall, cpu=wall, steps=1, value=value, used={})
+    return dict(result='ok', message='', wall=wall, cpu=wall, seconds=wall, steps=1, value=value, used={})
 
 
 def test_mediansAndRatios(monkeypatch):
@@ -355,6 +358,7 @@ kExamples = os.path.join(ROOT, 'examples',
 @pytest.mark.parametrize('name, size, most', [
     ('bars', 2e-3, .08), ('hertz', 2e-3, .06), ('rolling', 2e-3, .03), ('ring', 2e-4, .3),
     ('compressed_rock', 2.5e-3, .1)])
+@pytest.mark.long
 def test_problemsOfTheBenchmark(monkeypatch, name, size, most):
     monkeypatch.syspath_prepend(kExamples)
     problem = importlib.import_module(name)
@@ -384,6 +388,7 @@ def measure(_):
 
 
 @pytest.mark.parametrize('guard', [True, False])
+@pytest.mark.long
 def test_inAScript(folder, guard):
     file = os.path.join(folder, 'script.py')
     with open(file, 'w') as f:

@@ -12,7 +12,7 @@ import tempfile
 import time
 
 kHere = os.path.dirname(os.path.abspath(sys.argv[0]))
-sys.path[:0] = [kHere, os.path.join(kHere, '..', 'helpers')]
+sys.path[:0] = [kHere, os.path.join(kHere, '..', '..', 'pkg', 'helpers')]
 import yadefrag  # noqa: E402
 from fe_impact import brittle, heapSpheres, impact  # noqa: E402
 from yade import wrapper as w  # noqa: E402

@@ -6,7 +6,7 @@ from typing import Any
 import numpy
 
 from yade import wrapper
-from yadefrag.arguments import array, atPlaces, isWhole, number, plain, positive, real, refuse, shown
+from yadefrag.arguments import array, atPlaces, isWhole, number, plain, real, refuse, shown
 from yadefrag.fe.mesh_values import centroids
 from yadefrag.hints import FEMat, Mesh
 
@@ -27,11 +27,6 @@ def oneMaterial(material: Any, name: str = 'material', right: str = _RIGHT) -> F
             raise ValueError('%s is %s, which is not in O.materials.' % (name, shown(material))) from None
     if not isinstance(found, wrapper.FEMat):
         refuse(name, material, right)
-    positive("the material's young", found.young, 'Pa')
-    positive("the material's density", found.density, 'kg/m³')
-    number("the material's poisson", found.poisson, lambda v: -1 < v < .5, 'above -1 and below 0.5')
-    number("the material's frictionAngle", found.frictionAngle, lambda v: 0 <= v < math.pi / 2,
-           'at least 0 and below π/2 (rad)')
     return found
 
 
@@ -141,9 +136,12 @@ def _values(name, value, mesh, sides, both, materials):
         return numpy.full(len(sides), math.nan)
     if real(value) is not None:
         return numpy.full(len(sides), number(name, value, _isValue, right))
+
+    def checked(at, one):
+        return math.nan if one is None else number(at, one, _isValue, right + ', or None')
+
     if callable(value):
-        return numpy.array(atPlaces(name, value, mesh.nodes[sides].mean(axis=1),
-                                    lambda at, one: number(at, one, _isValue, right)))
+        return numpy.array(atPlaces(name, value, mesh.nodes[sides].mean(axis=1), checked), dtype=float)
     if not isinstance(value, dict):
         refuse(name, value, 'None, a number (%s), a function (x, y) that returns one, or a dict '
                'with one by pair of materials' % _INTERFACE[name])
@@ -152,7 +150,7 @@ def _values(name, value, mesh, sides, both, materials):
         if not isinstance(key, tuple) or len(key) != 2:
             refuse("a key of %s" % name, key, 'a pair of materials')
         a, b = (materials.find(m, 'a material in %s' % name) for m in key)
-        chosen = number('%s[%s]' % (name, shown(key)), one, _isValue, right)
+        chosen = checked('%s[%s]' % (name, shown(key)), one)
         result[((both == (a, b)) | (both == (b, a))).all(axis=1)] = chosen
     return result
 

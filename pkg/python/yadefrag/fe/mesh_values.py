@@ -10,16 +10,7 @@ from yadefrag.arguments import array, atPlaces, number, pair, plain, real, refus
 from yadefrag.hints import Mesh
 
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
-# name: (unit, function that checks a value, description of valid values)
-_BRITTLE = {
-    'strength': ('Pa', lambda v: math.isfinite(v) and v > 0, 'a positive number (Pa)'),
-    'factor': ('a factor', lambda v: math.isfinite(v) and v > 0, 'a positive factor of the failure strain'),
-    'fractureEnergy': ('J/m²', lambda v: math.isfinite(v) and v >= 0,
-                       '0 or a positive number (J/m²)'),
-    'jointStrength': ('Pa', lambda v: math.isfinite(v) and v >= 0, '0 or a positive number (Pa)'),
-    'jointEnergy': ('J/m²', lambda v: math.isfinite(v) and v >= 0,
-                    '0 or a positive number (J/m²)'),
-}
+_UNITS = {'strength': 'Pa', 'fractureEnergy': 'J/m²', 'jointStrength': 'Pa', 'jointEnergy': 'J/m²'}
 
 
 def centroids(mesh: Mesh) -> numpy.ndarray:
@@ -27,65 +18,47 @@ def centroids(mesh: Mesh) -> numpy.ndarray:
     return mesh.nodes[mesh.triangles].mean(axis=1)
 
 
-def _ofTriangles(name, value, mesh, kind):
-    """(m) floats of the mesh's triangles; a function is evaluated at their centroids; empty for None.
+def _real(name, value):
+    return number(name, value, lambda v: True, 'a number')
 
-    kind  key of _BRITTLE
-    """
+
+def _ofTriangles(name, value, mesh):
+    """(m) floats of the mesh's triangles; a function is evaluated at their centroids; empty for None."""
     if value is None:
         return numpy.empty(0)
-    unit, isRight, right = _BRITTLE[kind]
     if callable(value):
-        return numpy.array(atPlaces(name, value, centroids(mesh), lambda at, one: number(at, one, isRight, right)))
+        return numpy.array(atPlaces(name, value, centroids(mesh), _real))
     values = array(value)
     if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf':
-        refuse(name, value, 'None, a function (x, y) that returns %s, or an array of one for each '
-               'triangle' % unit)
-    count = len(mesh.triangles)
-    if len(values) != count:
-        raise ValueError('%s has %d values, it must have one for each of the %d triangles.' %
-                         (name, len(values), count))
-    values = values.astype(float)
-    for i, one in enumerate(values):
-        if not isRight(one):
-            raise ValueError('%s[%d] is %s, it must be %s.' % (name, i, shown(float(one)), right))
-    return values
+        refuse(name, value, 'None, a function (x, y) that returns a number (%s), or an array of one for each '
+               'triangle' % _UNITS[name])
+    return values.astype(float)
 
 
 def _ofJoints(name, value, sides, count):
-    """Floats of sides on joints, from a number or one for each of `count` joints; NaN for None.
+    """Floats of sides on joints, from a number, or None, or one of these for each of `count` joints; NaN for None.
 
     sides  number of the joint of each
     """
-    unit, isRight, right = _BRITTLE[name]
     if value is None:
         return numpy.full(len(sides), math.nan)
     if real(value) is not None:
-        return numpy.full(len(sides), number(name, value, isRight, right))
-    values = array(value)
-    if values is None or values.ndim != 1 or values.dtype.kind not in 'iuf':
-        refuse(name, value, 'a number (%s), or one for each joint' % unit)
-    if len(values) != count:
-        raise ValueError('%s has %d values, it must have one for each of the %d joints.' %
-                         (name, len(values), count))
-    for i, one in enumerate(values):
-        number('%s[%d]' % (name, i), one, isRight, right)
-    return values.astype(float)[sides]
+        return numpy.full(len(sides), number(name, value, math.isfinite, 'a finite number'))
+    if not (isinstance(value, (list, tuple)) or isinstance(value, numpy.ndarray) and value.ndim == 1):
+        refuse(name, value, 'a number (%s), None, or one of these for each joint' % _UNITS[name])
+    if len(value) != count:
+        raise ValueError('%s has %d values, it must have one for each of the %d joints.' % (name, len(value), count))
+    values = [math.nan if one is None else number('%s[%d]' % (name, i), one, math.isfinite, 'a finite number, or None')
+              for i, one in enumerate(value)]
+    return numpy.array(values, dtype=float)[sides]
 
 
-def brittlePlaces(mesh: Mesh, materials: Any, interfaces: tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray],
+def brittlePlaces(mesh: Mesh, interfaces: tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray],
                   strength: Any, fractureEnergy: Any, jointStrength: Any, jointEnergy: Any) -> Any:
     """_yadefrag.BrittlePlaces, for FESolver._addMesh. `interfaces`: result of materials.interfaces;
-    values of joints have priority. ValueError for a material that does not crack, and for invalid
-    values."""
+    values of joints have priority."""
     areOwn = mesh._numJoints > 0 and (jointStrength is not None or jointEnergy is not None)
-    given = dict(strength=strength, fractureEnergy=fractureEnergy, joints=areOwn or None)
-    for name, value in given.items():
-        if value is not None and not (materials.crack or materials.fails and name != 'joints'):
-            raise ValueError('%s is given, but the material does not crack; it must be a '
-                             'BrittleFEMat%s.' % (name, '' if name == 'joints' else ', or a material that yields and fails'))
-    ofTriangles = [_ofTriangles('strength', strength, mesh, 'factor' if materials.fails else 'strength'),
-                   _ofTriangles('fractureEnergy', fractureEnergy, mesh, 'fractureEnergy')]
+    ofTriangles = [_ofTriangles('strength', strength, mesh), _ofTriangles('fractureEnergy', fractureEnergy, mesh)]
     edges, *values = interfaces
     if areOwn:
         joints = mesh.joints

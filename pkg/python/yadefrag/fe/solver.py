@@ -105,16 +105,16 @@ def _add(fe: FESolver, mesh: Mesh, material: Any, *, smooth: Any = None,
     jointEnergy     J/m², likewise; None: that of the adjacent triangles
     interfaceStrength  Pa, of edges between two materials, without scatter: a number, a function
                     (x, y) called at their middles, or a dict {(material, material): number}; 0:
-                    open from the start; None, and pairs that are not in the dict: that of the weaker
-                    material. Materials without fracture can crack there. The strength of a joint
-                    has priority
+                    open from the start; None, also in both, and pairs that are not in the dict: that
+                    of the weaker material. Materials without fracture can crack there. The strength
+                    of a joint has priority
     interfaceEnergy J/m², likewise
     name            None, or a text that may replace the body's number in all functions
     """
     smooth = mesh.smooth if smooth is None else smoothNodes(smooth, mesh)
     materials = Materials(mesh, material)
     between = interfaces(mesh, materials, interfaceStrength, interfaceEnergy)
-    places = brittlePlaces(mesh, materials, between, strength, fractureEnergy, jointStrength, jointEnergy)
+    places = brittlePlaces(mesh, between, strength, fractureEnergy, jointStrength, jointEnergy)
     requireBetweenSteps()
     name = newName(fe, name)
     if element is None:

@@ -10,6 +10,7 @@ from xml.sax.saxutils import escape
 from yade import wrapper
 from yadefrag.arguments import path, shown, shownPath, whole
 from yadefrag.fe.between_steps import betweenSteps
+from yadefrag.fe.contents import shownTriangles
 from yadefrag.hints import File
 from yadefrag.io.export import exportVTK, fieldNames
 from yadefrag.io.files import appendText, requireWritable, writeText
@@ -146,7 +147,7 @@ _END = '</Collection>\n</VTKFile>\n'
 
 
 def _appendPicture(fe, name, fields):
-    if not fields:
+    if not fields or not len(shownTriangles(fe)):
         return
     kept = [entry for entry in _entries(name + '.pvd') if _before(entry[0], fe.time)]
     last = max([_number(picture) for _, picture in kept], default=-1)

@@ -28,7 +28,6 @@ _COUNTS = ('step', 'time (s)', 'cracks', 'segments', 'fragments')
 _STATES = ('open', 'damaged', 'whole')
 _RECORD = _COUNTS + tuple('%s (J)' % e for e in _ENERGIES) + tuple('%s cracks' % s for s in _STATES)
 _RECORDED = ','.join(_RECORD)
-_FORMER = ','.join(_RECORD[:-len(_STATES)])  # of version 0.1, which can be drawn
 
 
 def fragmentTable(fe: FESolver, file: File | None = None) -> numpy.ndarray:
@@ -152,7 +151,7 @@ def _linesOf(name):
     """The lines of a file of recordFracture, with the heading; none if the file is of another kind."""
     with open(name, encoding='utf-8-sig', errors='replace') as file:
         lines = file.read().splitlines()
-    return lines if lines and lines[0] in (_RECORDED, _FORMER) else []
+    return lines if lines and lines[0] == _RECORDED else []
 
 
 def _recorded(file):
@@ -163,7 +162,7 @@ def _recorded(file):
         data = numpy.array(rows, dtype=float)
     except ValueError:
         data = numpy.empty(0)
-    if data.ndim != 2 or data.shape[1] < len(_RECORD) - len(_STATES):
+    if data.ndim != 2 or data.shape[1] != len(_RECORD):
         raise ValueError('%s has no lines of recordFracture, or a damaged one.' % shownPath(name))
     return dict(zip(_RECORD, data.T))
 
@@ -182,8 +181,7 @@ def plotFracture(file: File, picture: File | None = None) -> tuple[Axes, Axes]:
     upper, lower = figure.subplots(2, 1, sharex=True)
     for name, colour, style in zip(('cracks', 'segments', 'fragments', 'open cracks'),
                                    DISTINCT[len(_ENERGIES):] + DISTINCT[len(_ENERGIES):], ('-', '-', '-', '--')):
-        if name in data:
-            upper.plot(time, data[name], style, label=name, color=colour)
+        upper.plot(time, data[name], style, label=name, color=colour)
     upper.set(ylabel='number', ylim=(0, None))
     for name, colour in zip(_ENERGIES, DISTINCT):
         lower.plot(time, data[name + ' (J)'], label=name, color=colour)

@@ -15,11 +15,11 @@ from yadefrag.arguments import isWhole, numbersOf, plain, refuse, shown
 
 _OF_NUMPY = (numpy.generic, numpy.ndarray)
 _LISTS = (list, tuple, numpy.ndarray)
-_RIGHT = {'gravity': 'two or three numbers',
-          'contactTolerance': "'fine', 'default', 'coarse' or a number",
+_RIGHT = {'contactTolerance': "'fine', 'default', 'coarse' or a number",
           'softening': 'a name, or a list of points (opening over critical opening, traction over '
                        'strength)',
-          'rateEffect': 'a name, or a list of points (strain rate in 1/s, factor of the strength)'}
+          'rateEffect': 'a name, or a list of points (strain rate in 1/s, factor of the strength)',
+          'hardeningTable': "'none', or a list of points (plastic strain, yield stress in Pa)"}
 _WRONG_KIND = (TypeError, OverflowError, UnicodeError)  # as Boost.Python refuses
 
 
@@ -40,7 +40,8 @@ def __setattr__(self: Any, name: str, value: Any) -> None:
         if _isGravity(self, name):
             object.__setattr__(self, 'takesGravity', False)
     except _WRONG_KIND:
-        right = _RIGHT.get(name) or _right(getattr(self, name), value)
+        right = 'two or three numbers' if _isGravity(self, name) else \
+            _RIGHT.get(name) or _right(getattr(self, name), value)
         refuse('%s.%s' % (type(self).__name__, name), value, right,
                TypeError)  # as for YADE's own classes
 

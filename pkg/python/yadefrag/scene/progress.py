@@ -25,7 +25,7 @@ def runSteps(steps: int, every: int | None = None, call: Callable[[], object] | 
     """
     steps = whole('steps', steps, most=MOST_STEPS)
     every = None if every is None else whole('every', every, most=MOST_STEPS)
-    if call is not None and (every is None or not callable(call)):
+    if (call is None) != (every is None) or call is not None and not callable(call):
         raise ValueError('call is %s with every=%s: give a function and the number of steps between its '
                          'calls.' % (shown(call), shown(every)))
     requireNoStep('runSteps')

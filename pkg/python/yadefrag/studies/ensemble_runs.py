@@ -13,7 +13,7 @@ from yadefrag.hints import File
 from yadefrag.io.files import requireWritable
 from yadefrag.studies.ensemble_table import COLUMNS, EnsembleRow, EnsembleTable
 from yadefrag.studies.grouping import passOn
-from yadefrag.studies.runs import Finished, Processes, jobOf, requireExecutor, requireOutside, runAll
+from yadefrag.studies.runs import Finished, jobOf, requireExecutor, requireOutside, runAll
 from yadefrag.studies.scene_choices import Choices
 from yadefrag.studies.tradeoff_grid import MOST_SECONDS, checkChoice, writeTable
 
@@ -129,11 +129,7 @@ def _run(rows, job, finished, executor, workers):
     jobs = [dict(job, settings=row.settings) for row, _ in due]
     try:
         with bar:
-            if executor is not None:
-                runAll(jobs, take, executor)
-            else:
-                with Processes(workers) as own:
-                    runAll(jobs, take, own)
+            runAll(jobs, take, executor, workers)
     except KeyboardInterrupt:
         done = sum(row.result != 'not run' for row in rows)
         print('Stopped after %d of %d runs.' % (done, len(rows)), file=sys.stderr)

@@ -13,8 +13,8 @@ import numpy
 from yadefrag.arguments import array, number, path, refuse, text
 from yadefrag.hints import ArrayLike, File
 from yadefrag.io.files import savePicture
+from yadefrag.libraries import needed
 from yadefrag.plots.colours import DISTINCT
-from yadefrag.studies import student
 from yadefrag.studies.grouping import grouped, samples, varying
 from yadefrag.studies.tradeoff_table import describe, writeRows
 
@@ -299,7 +299,13 @@ def _meanOf(table, confidence):
     if count == 1:
         return mean, numpy.full_like(mean, numpy.nan), numpy.full_like(mean, numpy.nan)
     deviation = table.std(axis=0, ddof=1)
-    return mean, deviation, student.quantile(confidence, count - 1) * deviation / math.sqrt(count)
+    return mean, deviation, _student(confidence, count - 1) * deviation / math.sqrt(count)
+
+
+def _student(confidence, freedom):
+    """The t for which a value of Student's distribution is from -t to t with that probability."""
+    statistics = needed('scipy.stats', 'python3-scipy', 'confidence bands work')
+    return statistics.t.ppf((1 + confidence) / 2, freedom)
 
 
 def _places(runs):

@@ -62,30 +62,38 @@ def requireExecutor(executor: Any) -> Any:
 
 
 def runAll(jobs: list[dict[str, Any]], take: Callable[[int, dict[str, Any]], None], executor: Any = None,
-           one: Callable[[dict[str, Any]], dict[str, Any]] = run_process.perform) -> None:
+           workers: int = 1) -> None:
     """Does the runs of `jobs`, and calls take(number in jobs, result) at the end of each.
 
-    executor  None: one after the other, here, by `one`; or one with `submit`, whose futures have
+    executor  None: on this machine, `workers` at a time; or one with `submit`, whose futures have
               `done`, `result` and `cancel`. For a lost worker the result is 'lost', with the reason.
-              KeyboardInterrupt cancels the runs that have not begun
+              KeyboardInterrupt cancels the runs that have not begun, and ends those on this machine
     """
-    if executor is None:
-        for number, job in enumerate(jobs):
-            take(number, one(job))
+    if executor is not None:
+        program = os.path.join(_HERE, 'run_process.py')
+        _take([executor.submit(eval, _BY_PATH, dict(program=program, job=job)) for job in jobs], take)
         return
-    program = os.path.join(_HERE, 'run_process.py')
-    futures = {}
+    with concurrent.futures.ThreadPoolExecutor(workers) as own:
+        try:
+            _take([own.submit(run_process.perform, job) for job in jobs], take)
+        except BaseException:
+            own.shutdown(wait=False, cancel_futures=True)
+            run_process.endAll()
+            raise
+
+
+def _take(futures, take):
+    """Results as they come; futures of some executors can only be asked."""
+    waiting = dict(enumerate(futures))
     try:
-        for number, job in enumerate(jobs):
-            futures[number] = executor.submit(eval, _BY_PATH, dict(program=program, job=job))
-        while futures:
-            ended = [number for number, future in futures.items() if future.done()]
+        while waiting:
+            ended = [number for number, future in waiting.items() if future.done()]
             for number in ended:
-                take(number, _resultOf(futures.pop(number)))
+                take(number, _resultOf(waiting.pop(number)))
             if not ended:
                 time.sleep(_POLL)
     finally:
-        for future in futures.values():
+        for future in waiting.values():
             future.cancel()
 
 
@@ -95,20 +103,6 @@ def _resultOf(future):
     except Exception as error:  # of the executor, or of a lost worker
         return dict(result='lost', message='%s: %s' % (type(error).__name__,
                                                        ' '.join(str(error).split())[:200]))
-
-
-class Processes(concurrent.futures.ThreadPoolExecutor):
-    """Parallel runs on this machine, each a process; they end at the end of the `with` block."""
-
-    def submit(self, function: Callable, *args: Any) -> Any:  # type: ignore[override]
-        program = args[1]  # run_process, which ends the runs of this process
-        return super().submit(run_process.perform, program['job'])
-
-    def __exit__(self, *problem: Any) -> bool | None:
-        if problem[0] is not None:
-            self.shutdown(wait=False, cancel_futures=True)
-            run_process.endAll()
-        return super().__exit__(*problem)
 
 
 class Finished:

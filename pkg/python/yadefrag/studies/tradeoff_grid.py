@@ -22,7 +22,7 @@ from yadefrag.arguments import number, path, plain, positive, refuse, shown, sho
 from yadefrag.hints import ArrayLike, File
 from yadefrag.io.files import requireWritable
 from yadefrag.messages import warn
-from yadefrag.studies import run_process, scene_choices as known
+from yadefrag.studies import scene_choices as known
 from yadefrag.studies.grouping import SEED, passOn
 from yadefrag.studies.runs import Finished, jobOf, requireExecutor, requireOutside, runAll
 from yadefrag.studies.tradeoff_table import COLUMNS, TradeoffRow, TradeoffTable, describe, namesOfCases
@@ -156,7 +156,7 @@ def _values(name, values):
     """The checked values of a choice; NumPy's numbers become Python's."""
     if isinstance(values, numpy.ndarray):
         values = list(values.flat)
-    if not isinstance(values, (list, tuple)) or not values:
+    if not isinstance(values, (list, tuple, range)) or not values:
         raise ValueError('vary has %s for the choice %s, it must be a list of values.' %
                          (shown(values), shown(name)))
     return [checkChoice(name, value) for value in values]
@@ -222,12 +222,7 @@ def _runTurn(turn, rows, settings, job, executor, finished, bar):
         bar.update()
 
     bar.set_postfix_str(describe(due[0][1]) if len(due) == 1 else '', refresh=False)
-    runAll([dict(job, settings=setting) for _, setting in due], take, executor, _runOne)
-
-
-def _runOne(job):
-    """The result of one run in a new yade, a dict as run_in_yade.perform returns it."""
-    return run_process.perform(job)
+    runAll([dict(job, settings=setting) for _, setting in due], take, executor)
 
 
 def _take(row, found):
@@ -247,8 +242,7 @@ def _take(row, found):
     row.cpus.append(found['cpu'])
     row.wall, row.cpu = statistics.median(row.walls), statistics.median(row.cpus)
     row.steps, row.value = found['steps'], found['value']
-    if found.get('seconds') is not None:  # of a file of version 0.1: unknown
-        row.seconds = found['seconds'] * row.wall / found['wall']
+    row.seconds = found['seconds'] * row.wall / found['wall']
 
 
 def _setErrors(table, right, settings):

@@ -18,8 +18,7 @@ from yadefrag.studies.grouping import SEED, grouped
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_FORMER = ('result', 'wall', 'cpu', 'error', 'value', 'steps', 'walls', 'cpus', 'message')  # of version 0.1
-COLUMNS = (*_FORMER, 'seconds', 'warnings')
+COLUMNS = ('result', 'wall', 'cpu', 'error', 'value', 'steps', 'walls', 'cpus', 'message', 'seconds', 'warnings')
 _TIMES = {'wall': 'wall-clock time over simulated time (s/s)',
           'cpu': 'processor time over simulated time (s/s)'}
 
@@ -172,10 +171,9 @@ class TradeoffTable:
             except csv.Error as error:
                 raise ValueError('%s is not a table: %s.' % (shownPath(name), error)) from None
         head = lines[0] if lines else []
-        columns = next((one for one in (COLUMNS, _FORMER) if tuple(head[-len(one):]) == one), None)
-        if columns is None:
+        if tuple(head[-len(COLUMNS):]) != COLUMNS:
             raise ValueError('%s does not end with the columns %s.' % (shownPath(name), ', '.join(COLUMNS)))
-        rows = [_row(head, line, columns) for line in lines[1:]]
+        rows = [_row(head, line) for line in lines[1:]]
         if None in rows:
             raise ValueError('%s has a damaged row, the one after %d others.' %
                              (shownPath(name), rows.index(None)))
@@ -286,13 +284,13 @@ def _requireTime(time):
         refuse('time', time, "'wall' or 'cpu'")
 
 
-def _row(head, line, columns):
+def _row(head, line):
     """The TradeoffRow of a line below `head`; None for a line that `csv` cannot have written."""
     if len(line) != len(head):
         return None
     cells = [_decode(cell) for cell in line]
-    settings = {n: v for n, v in zip(head, cells[:-len(columns)]) if v is not None}
-    row = TradeoffRow(settings, **dict(zip(columns, cells[-len(columns):])))
+    settings = {n: v for n, v in zip(head, cells[:-len(COLUMNS)]) if v is not None}
+    row = TradeoffRow(settings, **dict(zip(COLUMNS, cells[-len(COLUMNS):])))
     row.message, row.warnings = row.message or '', row.warnings or []
     isRight = (isinstance(row.result, str) and isinstance(row.message, str)
                and all(real(value) is not None or value is None and row.result != 'ok'

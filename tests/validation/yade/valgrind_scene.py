@@ -6,7 +6,7 @@ import sys
 import tempfile
 
 kHere = os.path.dirname(os.path.abspath(sys.argv[0]))
-sys.path[:0] = [kHere, os.path.join(kHere, '..', 'helpers')]
+sys.path[:0] = [kHere, os.path.join(kHere, '..', '..', 'pkg', 'helpers')]
 
 import numpy as np
 
@@ -85,7 +85,7 @@ def run(name, periodic):
                           rng.normal(size=(50, 3)) * .01)
     else:
         build(rng)
-    collider = scenes.makeCollider(name, countComparisons=True)
+    collider = scenes.makeCollider(name)
     scenes.setEngines(collider, interactionLoop=scenes.loop('CurveLoop') if name == 'LebesgueCollider' else None)
     O.run(5, True)
     insertAndErase(rng)
@@ -94,7 +94,6 @@ def run(name, periodic):
     if not periodic:
         probe()
     collider, = [e for e in O.engines if type(e).__name__ == name]
-    assert collider.comparisonsTotal > 0
     collider.doSort = True
     collider.trueHalo = False
     O.run(2, True)

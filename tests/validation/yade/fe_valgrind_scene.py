@@ -4,7 +4,7 @@ import sys
 import tempfile
 
 kHere = os.path.dirname(os.path.abspath(sys.argv[0]))
-sys.path[:0] = [kHere, os.path.join(kHere, '..', 'helpers')]
+sys.path[:0] = [kHere, os.path.join(kHere, '..', '..', 'pkg', 'helpers')]
 
 import fe_chain as chain
 import yadefrag

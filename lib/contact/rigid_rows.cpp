@@ -1,0 +1,176 @@
+#include "contact/rigid_rows.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/tolerances/solver.hpp"
+
+namespace yadefrag {
+
+namespace {
+
+using Eigen::Map;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Map<const Vector3d> vectorOf(const std::array<double, 3>& motion) {
+  return Map<const Vector3d>(motion.data());
+}
+
+}  // namespace
+
+void RigidRows::index(const RowSystem& system) {
+  rowsOf_.offsets.clear();
+  if (system.turns.empty()) return;
+  bodyOf_.assign(system.nodes.size(), RowSystem::kNone);
+  shares_.assign(system.nodes.size(), 0);
+  std::vector<std::uint32_t> rows;
+  std::uint32_t bodies = 0;
+  for (std::uint32_t r = 0; r < system.rows.size(); ++r) {
+    if (system.rows[r].turn == RowSystem::kNone) continue;
+    rows.push_back(r);
+    std::uint32_t& body = bodyOf_[system.turns[system.rows[r].turn].number];
+    if (body == RowSystem::kNone) body = bodies++;
+  }
+  const auto bodyOfRow = [&](std::size_t i) {
+    return bodyOf_[system.turns[system.rows[rows[i]].turn].number];
+  };
+  fillRows(rowsOf_, bodies, rows.size(), bodyOfRow, [&](std::size_t i) { return rows[i]; });
+}
+
+/// gᵢ, aᵢ and Dᵢ of both forces of the body's rows.
+void RigidRows::collect(const RowSystem& system, std::size_t body) {
+  const auto others = [](const RowSystem::Row& row, auto visit) {
+    for (std::uint32_t k = 0; k + 1 < row.count; ++k) visit(row.node[k], row.weight[k]);
+  };
+  for (const std::uint32_t r : rowsOf(body))
+    others(system.rows[r], [&](std::uint32_t node, double) { shares_[node] = 0; });
+  for (const std::uint32_t r : rowsOf(body))
+    others(system.rows[r], [&](std::uint32_t node, double) { ++shares_[node]; });
+  forces_.clear();
+  start_ = {};
+  for (const std::uint32_t r : rowsOf(body)) {
+    const RowSystem::Row& row = system.rows[r];
+    const RowSystem::Turn& turn = system.turns[row.turn];
+    const Vec2 perForce = system.moved[turn.number].perForce;
+    const double weight = row.weight[row.count - 1];
+    const auto leverOf = [&](Vec2 along) -> Motion {
+      return {weight * along.x * std::sqrt(perForce.x), weight * along.y * std::sqrt(perForce.y),
+              cross(turn.lever, along) * std::sqrt(turn.perMoment)};
+    };
+    double normal = 0, tangent = 0, both = 0;
+    others(row, [&](std::uint32_t node, double w) {
+      const Vec2 mobile = w * w * shares_[node] * system.moved[node].perForce;
+      normal += weighted(row.normal, mobile, row.normal);
+      tangent += weighted(row.along(), mobile, row.along());
+      both += std::abs(weighted(row.normal, mobile, row.along()));
+    });
+    const Vec2 moved = system.relativeMotion(row);
+    const auto add = [&](Vec2 along, double compliance, double response, double free, double value,
+                         double bound) {
+      compliance = std::max(compliance, tolerance::kLeastShare * response);
+      forces_.push_back(
+          {leverOf(along), compliance, free - compliance * value, value, bound});
+      for (std::size_t k = 0; k < 3; ++k) start_[k] += forces_.back().lever[k] * value;
+    };
+    add(row.normal, normal + both, row.normalResponse, row.gap + dot(moved, row.normal),
+        row.normalForce, INFINITY);
+    const bool slides = !(row.tangentResponse > 0);  // without friction
+    add(row.along(), slides ? 1 : tangent + both, row.tangentResponse,
+        row.slip + dot(moved, row.along()), row.tangentForce, slides ? 0 : row.friction);
+  }
+  for (Force& force : forces_)
+    force.free -= vectorOf(force.lever).dot(vectorOf(start_));
+}
+
+/// The function of which the motion is the minimum; sets the forces. Its gradient is
+/// p − Σ aᵢλᵢ − Σ bᵢτᵢ.
+double RigidRows::energy(const Motion& motion) {
+  double sum = .5 * vectorOf(motion).squaredNorm();
+  for (Force& force : forces_) {
+    const double gap = force.free + vectorOf(force.lever).dot(vectorOf(motion));
+    const double least = std::isinf(force.bound) ? 0 : -force.bound;
+    force.value = std::clamp(-gap / force.compliance, least, force.bound);
+    sum -= force.value * (gap + .5 * force.compliance * force.value);
+  }
+  return sum;
+}
+
+/// Newton's method with a search along its direction.
+void RigidRows::minimize(Motion& motion) {
+  double value = energy(motion);
+  for (int iteration = 0; iteration < tolerance::kMostNewton; ++iteration) {
+    Matrix3d stiffness = Matrix3d::Identity();
+    Vector3d residual = vectorOf(motion);
+    double scale = residual.lpNorm<1>();
+    for (const Force& force : forces_) {
+      const auto lever = vectorOf(force.lever);
+      residual -= force.value * lever;
+      scale += std::abs(force.value) * lever.lpNorm<1>();
+      const double least = std::isinf(force.bound) ? 0 : -force.bound;
+      if (force.value > least && force.value < force.bound)
+        stiffness += (1 / force.compliance) * lever * lever.transpose();
+    }
+    if (!(residual.lpNorm<1>() > tolerance::kNewtonResidual * scale)) return;
+    const Vector3d direction = -stiffness.ldlt().solve(residual);
+    const double slope = direction.dot(residual);
+    double length = 1;
+    for (;; length /= 2) {
+      Motion next = motion;
+      Map<Vector3d>(next.data()) += length * direction;
+      const double reached = energy(next);
+      if (reached <= value + 1e-4 * length * slope || length < tolerance::kShortestSearch) {
+        motion = next, value = reached;
+        break;
+      }
+    }
+    if (length < tolerance::kShortestSearch) return;  // rounding
+  }
+}
+
+double RigidRows::solve(RowSystem& system, std::size_t body) {
+  collect(system, body);
+  Motion motion = start_;
+  const std::span<const std::uint32_t> rows = rowsOf(body);
+  // Friction follows the normal forces, which it changes in turn.
+  for (int pass = 0; pass < tolerance::kFrictionPasses; ++pass) {
+    double most = 0, changed = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double bound = system.rows[rows[i]].friction * forces_[2 * i].value;
+      changed = std::max(changed, std::abs(bound - forces_[2 * i + 1].bound));
+      most = std::max(most, bound);
+      forces_[2 * i + 1].bound = bound;
+    }
+    if (pass > 0 && !(changed > tolerance::kFrictionChange * most)) break;
+    minimize(motion);
+  }
+  Motion by;
+  for (std::size_t k = 0; k < 3; ++k) by[k] = motion[k] - start_[k];
+  return apply(system, body, by);
+}
+
+/// `by`: the change of the body's motion.
+double RigidRows::apply(RowSystem& system, std::size_t body, const Motion& by) {
+  const std::span<const std::uint32_t> rows = rowsOf(body);
+  double most = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    RowSystem::Row& row = system.rows[rows[i]];
+    const Force &normal = forces_[2 * i], &tangent = forces_[2 * i + 1];
+    const double pushed = normal.value - row.normalForce;
+    const double pulled = tangent.value - row.tangentForce;
+    row.normalForce = normal.value, row.tangentForce = tangent.value;
+    if (pushed == 0 && pulled == 0) continue;
+    system.push(row, pushed * row.normal + pulled * row.along());
+    most = std::max({most, std::abs(vectorOf(normal.lever).dot(vectorOf(by))),
+                     std::abs(pushed) * normal.compliance});
+    if (row.tangentResponse > 0)
+      most = std::max({most, std::abs(vectorOf(tangent.lever).dot(vectorOf(by))),
+                       std::abs(pulled) * tangent.compliance});
+  }
+  return most;
+}
+
+}  // namespace yadefrag

@@ -1,0 +1,162 @@
+"""Each argument accepts every form that its docstring states, with the same result, and refuses what is none.
+
+forms.py has the forms; a call of api_calls.py that succeeds has the other arguments.
+"""
+import builtins
+import inspect
+import os
+import re
+import shutil
+import warnings
+
+import numpy as np
+import pytest
+
+import api_calls
+import forms
+import yadefrag
+from yade import wrapper as w
+from yadefrag.arguments import shown
+from yadefrag.studies import ensemble_runs, tradeoff_grid
+
+O = builtins.O
+# Calls of the same function with arguments that need each other: what replaces those of `right`.
+kVariants = dict(
+    plotMesh=('plotMesh', {}, dict(file=None)),
+    severalFields=('plotMesh', dict(field=None, limits=None, ax=None, file=None), dict(fields=['xx', 'speed'])),
+    twoJoints=('addPolygon', {}, dict(joints=[((5.2, 5.2), (5.8, 5.7)), ((5.2, 5.8), (5.4, 5.8))], jointStrength=0, jointEnergy=None)),
+    twoMaterials=('addMesh', dict(strength=None), dict(material=['b', 'm'], interfaceStrength=1e4)),
+    setLoads=('setLoads', {}, {}))
+kMore = dict(addMesh=dict(fractureEnergy=None, selfContact=True, name=None), polygonMesh=dict(simplify=None), outlineReport=dict(simplify=None),
+             addPolygon=dict(simplify=None, element=None, jointEnergy=None, mesh=None, meshSeed=0), reaction={}, meshQuality=dict(component=0),
+             componentOf=dict(name='first'), setLoads=dict(loads=None), engines=dict(damping=.2, collider=None, moving=False, loop=None, integrator=None),
+             addTriangles=dict(strength=None, fractureEnergy=None, element=None, name=None), prescribe={}, pressure=dict(intoCracks=False))
+
+
+def made(name, folder):
+    """(solver, the call, its right arguments, groups of forms by argument) in a new scene and folder."""
+    shutil.rmtree(folder, ignore_errors=True)
+    os.mkdir(folder)
+    api_calls.exampleFiles(folder)
+    with open(folder + '/numbers', 'w') as file:
+        file.write('1 2\n')
+    fe = api_calls.scene('between')
+    function, without, more = kVariants.get(name, (name, {}, {}))
+    right = {**api_calls.right(fe, folder).get(function, {}), **kMore.get(function, {}), **without, **more}
+    for one in ('displacement', 'stress', 'snap') if function.startswith('add') else ():
+        right.pop(one, None)  # not together
+    O.dt *= .2  # for bonds and joints
+    call = getattr(yadefrag, function, None) or getattr(fe, function, None) or (lambda loads: setattr(fe, 'loads', loads))
+    return fe, call, right, forms.forms(fe, folder, (api_calls.trialScene, api_calls.trialMeasure))[name]
+
+
+def told(value):
+    """The result of a call as text."""
+    if isinstance(value, np.ndarray):
+        return repr(value.tolist())
+    if isinstance(value, yadefrag.Mesh):
+        return told([value.nodes, value.triangles, value.joints, *value.loops, value.smooth])
+    if isinstance(value, (list, tuple)):
+        return '[%s]' % ', '.join(map(told, value))
+    if isinstance(value, dict):
+        return told(list(value.items()))
+    if isinstance(value, (yadefrag.TradeoffTable, yadefrag.EnsembleTable)):
+        return repr([row.settings for row in value.rows])
+    if hasattr(value, 'get_xlim'):  # axes
+        return told([value.get_xlim(), value.get_ylim(), *((one.get_array(), one.get_clim()) for one in value.collections)])
+    if isinstance(value, w.Serializable):
+        return type(value).__name__ + told([one for one in value.dict().items() if one[0] not in ('realLast', 'virtLast')])
+    return re.sub(' at 0x[0-9a-f]*', '', repr(value))
+
+
+def outcome(name, argument, place, folder):
+    """All that a call with one form has done: its result, the scene after two steps, and files."""
+    fe, call, right, groups = made(name, folder)
+    value = groups[argument][place[0]][place[1]]
+    jobs = []
+    tradeoff_grid._runAll = lambda rows, settings, job, *others: jobs.append([settings, sorted(job.items()), others[0]])
+    ensemble_runs._run = lambda rows, job, finished, executor, workers: jobs.append([sorted(job.items()), workers])
+    before = set(os.listdir(folder))
+    try:
+        result = told(call(**{**right, argument: value}))
+    except Exception as error:
+        pytest.fail('%s(%s=%s) is refused: %s' % (name, argument, shown(value), error))
+    if hasattr(w.FESolver, kVariants.get(name, (name,))[0]):
+        O.step()
+        O.save(folder + '/state.xml')
+    seen = [result, repr(jobs)]
+    for file in sorted(os.listdir(folder)):
+        if file not in before or file == 'run.csv':
+            with open(folder + '/' + file, 'rb') as one:
+                seen.append(re.sub(rb'<item>(isoTime|id|d.id|id.d)=.*|<speed>.*', b'', one.read()))
+    return seen
+
+
+def cases():
+    """(function, argument) of all."""
+    fe = api_calls.scene('between')
+    return [(name, argument) for name, one in forms.forms(fe, '/', (None, None)).items() for argument in one]
+
+
+@pytest.fixture(autouse=True)
+def restored(monkeypatch):
+    monkeypatch.setattr(tradeoff_grid, '_runAll', None)
+    monkeypatch.setattr(ensemble_runs, '_run', None)
+    with warnings.catch_warnings():
+        warnings.simplefilter('ignore')
+        yield
+
+
+@pytest.mark.parametrize('name, argument', cases(), ids=lambda v: v)
+def test_everyFormIsAccepted(name, argument, folder):
+    folder += '/own'
+    sizes = [len(group) for group in made(name, folder)[3][argument]]
+    for group, size in enumerate(sizes):
+        first = outcome(name, argument, (group, 0), folder)
+        for k in range(1, size):
+            assert outcome(name, argument, (group, k), folder) == first, 'form %d of group %d' % (k, group)
+
+
+@pytest.mark.parametrize('name, argument', cases(), ids=lambda v: v)
+def test_whatIsNoFormIsRefused(name, argument, folder):
+    fe, call, right, groups = made(name, folder + '/own')
+    hasNone = any(form is None for group in groups[argument] for form in group)
+    for wrong in forms.WRONG + [None] * (not hasNone):
+        before = api_calls.state(fe)
+        with pytest.raises((ValueError, TypeError, RuntimeError, OSError)) as error:
+            call(**{**right, argument: wrong})
+        assert not api_calls.whatIsWrong(error.value) and api_calls.state(fe) == before, \
+            '%s=%s: %s' % (argument, shown(wrong), error.value)
+
+
+def test_everyArgumentHasForms():
+    fe = api_calls.scene('between')
+    table = forms.forms(fe, '/', (None, None))
+    for variant, (function, *_) in kVariants.items():
+        table.setdefault(function, {}).update(table[variant])
+    bodies = {argument for name in table if name.startswith('add') for argument in table[name]}
+    # Of attributes, updateAttrs among them, see test_values.py.
+    methods = [name for name in vars(w.FESolver) if name[0] != '_' and name != 'updateAttrs' and callable(getattr(w.FESolver, name))]
+    missing = []
+    for name in api_calls.ownFunctions() + methods:
+        function = getattr(yadefrag, name, None) or getattr(w.FESolver, name)
+        for argument, parameter in inspect.signature(function).parameters.items():
+            known = bodies if name.startswith('add') else table.get(name, ())
+            if argument not in known and argument != 'self' and parameter.kind != parameter.VAR_KEYWORD:
+                missing.append('%s(%s)' % (name, argument))
+    assert not missing
+
+
+@pytest.mark.parametrize('cls', [one for one in api_calls.ownClasses() if issubclass(one, w.Serializable)])
+def test_everyAttributeAcceptsItsForms(cls):
+    for name, preset in cls().dict().items():
+        for group in forms.attribute(cls, name, preset) if name in api_calls.settable(cls) else ():
+            found = []
+            for form in group:
+                one, other = cls(**{name: form}), cls()
+                setattr(other, name, form)
+                found += [getattr(one, name), getattr(other, name)]
+            assert all(value == found[0] for value in found), '%s: %s' % (name, found)
+            for wrong in [object()] + [(1, 2)] * (name == 'gravity' and cls is not w.FESolver):
+                with pytest.raises(TypeError, match='it must be (?!two)' if wrong == (1, 2) else 'it must be'):
+                    setattr(other, name, wrong)
