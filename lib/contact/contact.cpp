@@ -94,7 +94,7 @@ void Contact::takeBack() {
 void Contact::detect(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
   const RowFinder::Positions positions{step.before, model.nodes.position};
-  move_ = std::min(step.move, finder_.measure(candidates, surfaces, positions, step.threads));
+  move_ = std::min(step.move, finder_.measure(surfaces, positions, step.threads));
   const ContactSizes sizes(step.shortest, move_, step.constants);
   near_.swap(finder_.find(candidates, surfaces, positions, sizes, step.threads));
   if (near_.empty()) return;

@@ -115,7 +115,7 @@ class Contact {
   void sumForces();
   void finish(Model& model, const ContactStep& step);
 
-  double move_ = 0;  // m, largest displacement of a slave relative to a candidate in this step
+  double move_ = 0;  // m, largest displacement of a surface in this step, relative to the mean
   RowFinder finder_;
   RowSweeps sweeps_;
   std::vector<NearRow> near_;     // those of `sweeps_`

@@ -1,5 +1,8 @@
 #include "contact/moving_pieces.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/parallel.hpp"
 #include "surface/piece_geometry.hpp"
 
@@ -34,6 +37,18 @@ void MovingPieces::update(const ContactSurfaces& surfaces, std::span<const Vec2>
       piece.along = piece.length > 0 ? (1 / piece.length) * chord : Vec2{};
     }
   });
+}
+
+double MovingPieces::largestMove() const {
+  Vec2 sum;
+  std::size_t moving = 0;
+  for (const MovingPiece& piece : pieces_) sum += piece.moved, moving += piece.moved != Vec2{} ? 1 : 0;
+  if (moving == 0) return 0;
+  const Vec2 mean = 1 / static_cast<double>(moving) * sum;
+  double most = 0;
+  for (const MovingPiece& piece : pieces_)
+    most = std::max(most, dot(piece.moved - mean, piece.moved - mean));
+  return std::sqrt(most);
 }
 
 }  // namespace yadefrag

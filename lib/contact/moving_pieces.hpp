@@ -34,6 +34,10 @@ class MovingPieces {
   void update(const ContactSurfaces& surfaces, std::span<const Vec2> before,
               std::span<const Vec2> now, int threads);
 
+  /// (m) Largest displacement of a begin from the mean of those that move: what moves together has no
+  /// part in it, and a wall at rest far away changes nothing.
+  [[nodiscard]] double largestMove() const;
+
   [[nodiscard]] const MovingPiece& operator[](EntryId entry) const { return pieces_[entry.value]; }
   /// (m) Displacement to x* of the point of a straight piece at ξ, 0 to 1 along the piece.
   [[nodiscard]] Vec2 movedAt(const MovingPiece& piece, double xi) const {

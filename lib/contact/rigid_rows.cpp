@@ -51,7 +51,6 @@ void RigidRows::collect(const RowSystem& system, std::size_t body) {
   for (const std::uint32_t r : rowsOf(body))
     others(system.rows[r], [&](std::uint32_t node, double) { ++shares_[node]; });
   forces_.clear();
-  start_ = {};
   for (const std::uint32_t r : rowsOf(body)) {
     const RowSystem::Row& row = system.rows[r];
     const RowSystem::Turn& turn = system.turns[row.turn];
@@ -69,21 +68,17 @@ void RigidRows::collect(const RowSystem& system, std::size_t body) {
       both += std::abs(weighted(row.normal, mobile, row.along()));
     });
     const Vec2 moved = system.relativeMotion(row);
-    const auto add = [&](Vec2 along, double compliance, double response, double free, double value,
-                         double bound) {
+    const auto add = [&](Vec2 along, double compliance, double response, double gap, double force,
+                         double most) {
       compliance = std::max(compliance, tolerance::kLeastShare * response);
-      forces_.push_back(
-          {leverOf(along), compliance, free - compliance * value, value, bound});
-      for (std::size_t k = 0; k < 3; ++k) start_[k] += forces_.back().lever[k] * value;
+      forces_.push_back({leverOf(along), compliance, gap, force, 0, most, 0});
     };
     add(row.normal, normal + both, row.normalResponse, row.gap + dot(moved, row.normal),
         row.normalForce, INFINITY);
     const bool slides = !(row.tangentResponse > 0);  // without friction
     add(row.along(), slides ? 1 : tangent + both, row.tangentResponse,
-        row.slip + dot(moved, row.along()), row.tangentForce, slides ? 0 : row.friction);
+        row.slip + dot(moved, row.along()), row.tangentForce, 0);
   }
-  for (Force& force : forces_)
-    force.free -= vectorOf(force.lever).dot(vectorOf(start_));
 }
 
 /// The function of which the motion is the minimum; sets the forces. Its gradient is
@@ -91,10 +86,10 @@ void RigidRows::collect(const RowSystem& system, std::size_t body) {
 double RigidRows::energy(const Motion& motion) {
   double sum = .5 * vectorOf(motion).squaredNorm();
   for (Force& force : forces_) {
-    const double gap = force.free + vectorOf(force.lever).dot(vectorOf(motion));
-    const double least = std::isinf(force.bound) ? 0 : -force.bound;
-    force.value = std::clamp(-gap / force.compliance, least, force.bound);
-    sum -= force.value * (gap + .5 * force.compliance * force.value);
+    const double gap = force.gap + vectorOf(force.lever).dot(vectorOf(motion));
+    force.change =
+        std::clamp(-gap / force.compliance, force.least - force.former, force.most - force.former);
+    sum -= force.change * (gap + .5 * force.compliance * force.change);
   }
   return sum;
 }
@@ -108,10 +103,9 @@ void RigidRows::minimize(Motion& motion) {
     double scale = residual.lpNorm<1>();
     for (const Force& force : forces_) {
       const auto lever = vectorOf(force.lever);
-      residual -= force.value * lever;
-      scale += std::abs(force.value) * lever.lpNorm<1>();
-      const double least = std::isinf(force.bound) ? 0 : -force.bound;
-      if (force.value > least && force.value < force.bound)
+      residual -= force.change * lever;
+      scale += std::abs(force.change) * lever.lpNorm<1>();
+      if (force.change > force.least - force.former && force.change < force.most - force.former)
         stiffness += (1 / force.compliance) * lever * lever.transpose();
     }
     if (!(residual.lpNorm<1>() > tolerance::kNewtonResidual * scale)) return;
@@ -122,53 +116,51 @@ void RigidRows::minimize(Motion& motion) {
       Motion next = motion;
       Map<Vector3d>(next.data()) += length * direction;
       const double reached = energy(next);
-      if (reached <= value + 1e-4 * length * slope || length < tolerance::kShortestSearch) {
-        motion = next, value = reached;
-        break;
-      }
+      const bool isLast = length < tolerance::kShortestSearch;  // rounding
+      if (reached > value + 1e-4 * length * slope && !isLast) continue;
+      motion = next, value = reached;
+      if (isLast) return;
+      break;
     }
-    if (length < tolerance::kShortestSearch) return;  // rounding
   }
 }
 
 double RigidRows::solve(RowSystem& system, std::size_t body) {
   collect(system, body);
-  Motion motion = start_;
+  Motion motion = {};
   const std::span<const std::uint32_t> rows = rowsOf(body);
   // Friction follows the normal forces, which it changes in turn.
   for (int pass = 0; pass < tolerance::kFrictionPasses; ++pass) {
     double most = 0, changed = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double bound = system.rows[rows[i]].friction * forces_[2 * i].value;
-      changed = std::max(changed, std::abs(bound - forces_[2 * i + 1].bound));
+      const Force& normal = forces_[2 * i];
+      Force& tangent = forces_[2 * i + 1];
+      const double bound = system.rows[rows[i]].friction * (normal.former + normal.change);
+      changed = std::max(changed, std::abs(bound - tangent.most));
       most = std::max(most, bound);
-      forces_[2 * i + 1].bound = bound;
+      tangent.least = -bound, tangent.most = bound;
     }
     if (pass > 0 && !(changed > tolerance::kFrictionChange * most)) break;
     minimize(motion);
   }
-  Motion by;
-  for (std::size_t k = 0; k < 3; ++k) by[k] = motion[k] - start_[k];
-  return apply(system, body, by);
+  return apply(system, body, motion);
 }
 
-/// `by`: the change of the body's motion.
-double RigidRows::apply(RowSystem& system, std::size_t body, const Motion& by) {
+/// `motion`: the change of the body's.
+double RigidRows::apply(RowSystem& system, std::size_t body, const Motion& motion) {
   const std::span<const std::uint32_t> rows = rowsOf(body);
   double most = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     RowSystem::Row& row = system.rows[rows[i]];
     const Force &normal = forces_[2 * i], &tangent = forces_[2 * i + 1];
-    const double pushed = normal.value - row.normalForce;
-    const double pulled = tangent.value - row.tangentForce;
-    row.normalForce = normal.value, row.tangentForce = tangent.value;
-    if (pushed == 0 && pulled == 0) continue;
-    system.push(row, pushed * row.normal + pulled * row.along());
-    most = std::max({most, std::abs(vectorOf(normal.lever).dot(vectorOf(by))),
-                     std::abs(pushed) * normal.compliance});
-    if (row.tangentResponse > 0)
-      most = std::max({most, std::abs(vectorOf(tangent.lever).dot(vectorOf(by))),
-                       std::abs(pulled) * tangent.compliance});
+    if (normal.change == 0 && tangent.change == 0) continue;
+    row.normalForce = normal.former + normal.change;
+    row.tangentForce = tangent.former + tangent.change;
+    system.push(row, normal.change * row.normal + tangent.change * row.along());
+    for (const Force* force : {&normal, &tangent})
+      if (force->change != 0)
+        most = std::max({most, std::abs(vectorOf(force->lever).dot(vectorOf(motion))),
+                         std::abs(force->change) * force->compliance});
   }
   return most;
 }

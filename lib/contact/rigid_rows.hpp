@@ -1,19 +1,21 @@
 #pragma once
-// All rows on one rigid body, solved together. From row to row, a light body between two others goes
-// to and fro: what a sweep changes is the part that its neighbours give way, and their impact is not
-// transmitted. Here the motion p of the body is the unknown (two displacements and the rotation,
-// scaled by the roots of mobilities). For a given p the rows do not depend on each other, if each
-// node that several rows share is divided among them, which makes it more compliant than it is:
+// All rows on one rigid body, solved together. From row to row, a light body between two others
+// goes to and fro: what a sweep changes is the part that its neighbours give way, and their impact
+// is not transmitted. Here the motion p of the body is the unknown (two displacements and the
+// rotation, scaled by the roots of mobilities). For a given p the rows do not depend on each other,
+// if each node that several rows share is divided among them, which makes it more compliant than it
+// is. With the changes p of the motion and λ, τ of the forces,
 //
-//   λᵢ(p) = max(0, −(gᵢ + aᵢ·p)/Dᵢ),  τᵢ(p) = −(hᵢ + bᵢ·p)/Eᵢ within ±μλᵢ,  p = Σ aᵢλᵢ + bᵢτᵢ,
+//   λᵢ(p) = −(gᵢ + aᵢ·p)/Dᵢ,  τᵢ(p) = −(hᵢ + bᵢ·p)/Eᵢ,  each within its bounds,  p = Σ aᵢλᵢ + bᵢτᵢ,
 //
-// with gaps g and slips h without these forces, and compliances D and E of the row's other nodes.
+// where g and h are the gaps and slips so far, and D and E compliances of the row's other nodes.
 // That is the minimum of a convex piecewise quadratic function: Newton's method finds it in a few
 // iterations (bounds of friction: those of the normal forces before). What the division of nodes
-// changes vanishes from sweep to sweep, since g and h hold the forces so far.
+// changes vanishes from sweep to sweep.
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "contact/row_system.hpp"
@@ -38,22 +40,22 @@ class RigidRows {
   using Motion = std::array<double, 3>;
   /// One force of a row: normal or tangential.
   struct Force {
-    Motion lever;       // √m per N, aᵢ: what a unit of it moves the body by
-    double compliance;  // m/N, Dᵢ
-    double free;        // m, gᵢ
-    double value;       // N
-    double bound;       // N: the force is from 0 on (infinite), or within ±bound
+    Motion lever;        // aᵢ, √m per N: what a unit of it moves the body by
+    double compliance;   // Dᵢ, m/N
+    double gap;          // gᵢ or hᵢ, m
+    double former;       // N, so far
+    double least, most;  // N, bounds of the force
+    double change;       // N
   };
   void collect(const RowSystem& system, std::size_t body);
   void minimize(Motion& motion);
   double energy(const Motion& motion);
-  double apply(RowSystem& system, std::size_t body, const Motion& by);
+  double apply(RowSystem& system, std::size_t body, const Motion& motion);
 
   Csr<std::uint32_t> rowsOf_;
   std::vector<std::uint32_t> bodyOf_;  // by number in the system: its row of `rowsOf_`
   std::vector<std::uint32_t> shares_;  // by number in the system: rows of the body with this node
   std::vector<Force> forces_;          // of one body: normal and tangential of each row
-  Motion start_ = {};                  // the body's motion so far
 };
 
 }  // namespace yadefrag

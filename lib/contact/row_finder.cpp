@@ -5,20 +5,6 @@
 
 namespace yadefrag {
 
-double RowFinder::measure(const Candidates& candidates, const ContactSurfaces& surfaces,
-                          const Positions& positions, int threads) {
-  pieces_.update(surfaces, positions.before, positions.now, threads);
-  double most = 0;
-  for (std::size_t r = 0; r < candidates.slaves.size(); ++r) {
-    const Vec2 moved = pieces_[candidates.slaves[r]].moved;
-    for (std::uint32_t c = candidates.offsets[r]; c < candidates.offsets[r + 1]; ++c) {
-      const Vec2 by = moved - pieces_[candidates.masters[c]].moved;
-      most = std::max(most, dot(by, by));
-    }
-  }
-  return std::sqrt(most);
-}
-
 std::vector<NearRow>& RowFinder::find(const Candidates& candidates, const ContactSurfaces& surfaces,
                                       const Positions& positions, const ContactSizes& sizes,
                                       int threads) {

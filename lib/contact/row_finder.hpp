@@ -18,10 +18,12 @@ class RowFinder {
     std::span<const Vec2> before;  ///< m, xⁿ
     std::span<const Vec2> now;     ///< m, x*
   };
-  /// Before `find`. Returns the largest displacement (m) in the step of a slave relative to one of
-  /// its masters.
-  double measure(const Candidates& candidates, const ContactSurfaces& surfaces,
-                 const Positions& positions, int threads);
+  /// Before `find`. Returns the largest displacement (m) of a surface in the step, relative to the
+  /// mean.
+  double measure(const ContactSurfaces& surfaces, const Positions& positions, int threads) {
+    pieces_.update(surfaces, positions.before, positions.now, threads);
+    return pieces_.largestMove();
+  }
   /// The rows of all candidates, in the order of their slaves; valid until the next call. The
   /// result is the same for any number of threads.
   std::vector<NearRow>& find(const Candidates& candidates, const ContactSurfaces& surfaces,

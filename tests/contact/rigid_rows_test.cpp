@@ -67,7 +67,8 @@ struct Scene {
         EXPECT_LE(gapAndSlip.x, tolerance);
       }
       const double most = row.friction * row.normalForce;
-      EXPECT_LE(std::abs(row.tangentForce), most * (1 + 1e-12));
+      // Bounds follow the normal forces of the solution before (kFrictionChange).
+      EXPECT_LE(std::abs(row.tangentForce), most * (1 + 1e-5));
       if (std::abs(row.tangentForce) < .99 * most) {
         EXPECT_NEAR(gapAndSlip.y, 0, tolerance);
       }
@@ -112,8 +113,7 @@ TEST(RigidRows, ALightBodyBetweenOthers) {
       scene.expectSolved(1e-11);
       // What the bar itself takes is its share.
       double up = 0, down = 0;
-      for (const ContactRow& row : scene.rows)
-        (row.normal.y > 0 ? up : down) += row.normalForce;
+      for (const ContactRow& row : scene.rows) (row.normal.y > 0 ? up : down) += row.normalForce;
       EXPECT_GT(up, 0);
       EXPECT_NEAR(up / down, 1, 2 * mass) << mass;
     }
