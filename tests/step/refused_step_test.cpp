@@ -149,7 +149,7 @@ TEST(RefusedStep, ChangesNothing) {
     for (const std::uint64_t seed :
          longRun() ? std::vector<std::uint64_t>{2, 3, 4} : std::vector<std::uint64_t>{3}) {
       Twins twins(scene, seed);
-      twins.run(longRun() ? 2000 : 100);
+      twins.run(longRun() ? 2000 : 150);
       for (const auto& [reason, count] : twins.refusals) refusals[reason] += count;
       // Of pieces that cohesion holds only deep rows have a force.
       EXPECT_GE(twins.rows(), name == "alone" ? 0U : name == "bonded" ? 30U : 50U);

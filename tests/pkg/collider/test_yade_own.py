@@ -24,7 +24,7 @@ kCheckFolder = os.path.join(os.path.dirname(yade.__file__), 'tests', 'checks')
 # DEM-PFV-check.py, which fails with its own collider as soon as that searches in every step, and
 # checkPolyhedraDrum.py.
 kQuickChecks = [
-    'checkAvoidSelfInteractionMask.py', 'checkBlockGen.py',
+    'checkBlockGen.py',
     'checkCapillaryModels.py', 'checkColliderCorrectness.py', 'checkFlipCell.py',
     'checkGravity.py', 'checkGravityRungeKuttaCashKarp54.py', 'checkHertzExtended.py',
     'checkLiquidMigration.py', 'checkLubrication.py', 'checkLubricationWithRoughness.py',
@@ -39,7 +39,7 @@ kQuickChecks = [
     'checkCoatingOfSegBodies.py', 'checkLS_DEM_viscoelastic.py', 'checkPeriodicThermalConduction.py',
     'checkPolyhedra_shearForce.py', 'checkShapeVolume.py']
 kLongChecks = [
-    'checkAlpha.py', 'checkClumpHopper.py', 'checkDEM-PFVPressureInjection.py',
+    'checkAlpha.py', 'checkAvoidSelfInteractionMask.py', 'checkClumpHopper.py', 'checkDEM-PFVPressureInjection.py',
     'checkFlipSpheres.py', 'checkJCFpm.py', 'checkLS_DEM.py', 'checkLS_DEM_pbc.py',
     'checkPotentialBlocks.py', 'checkSaveLoadClumps.py', 'checkTestDummy.py',
     'checkThermalEngine.py', 'check_TwoPhaseFlowEngine_PressureInjection.py',

@@ -11,9 +11,10 @@ from project import yadeCommand
 
 kFolder = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'cases')
 kHanging = 900  # s
+kLong = 'concrete_softening.py', 'crushed_rock_ledger.py'
 
 
-@pytest.mark.parametrize('name', [pytest.param(f, marks=[pytest.mark.long] * (f == 'crushed_rock_ledger.py'))
+@pytest.mark.parametrize('name', [pytest.param(f, marks=[pytest.mark.long] * (f in kLong))
                                   for f in sorted(os.listdir(kFolder)) if f.endswith('.py')])
 def test_caseHolds(name, folder):
     done = subprocess.run([*yadeCommand(), '-j1', os.path.join(kFolder, name)], cwd=folder,
