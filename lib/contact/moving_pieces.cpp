@@ -40,11 +40,15 @@ void MovingPieces::update(const ContactSurfaces& surfaces, std::span<const Vec2>
 }
 
 double MovingPieces::largestMove() const {
+  // By the displacement itself: a part at rest has no weight, one that rounding moves hardly any.
   Vec2 sum;
-  std::size_t moving = 0;
-  for (const MovingPiece& piece : pieces_) sum += piece.moved, moving += piece.moved != Vec2{} ? 1 : 0;
-  if (moving == 0) return 0;
-  const Vec2 mean = 1 / static_cast<double>(moving) * sum;
+  double weights = 0;
+  for (const MovingPiece& piece : pieces_) {
+    const double weight = norm(piece.moved);
+    sum += weight * piece.moved, weights += weight;
+  }
+  if (!(weights > 0)) return 0;
+  const Vec2 mean = 1 / weights * sum;
   double most = 0;
   for (const MovingPiece& piece : pieces_)
     most = std::max(most, dot(piece.moved - mean, piece.moved - mean));

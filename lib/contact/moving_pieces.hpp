@@ -34,7 +34,7 @@ class MovingPieces {
   void update(const ContactSurfaces& surfaces, std::span<const Vec2> before,
               std::span<const Vec2> now, int threads);
 
-  /// (m) Largest displacement of a begin from the mean of those that move: what moves together has no
+  /// (m) Largest displacement of a begin from the weighted mean of all: what moves together has no
   /// part in it, and a wall at rest far away changes nothing.
   [[nodiscard]] double largestMove() const;
 

@@ -20,6 +20,11 @@ bool haveSeveralMaterials(const Model& model, std::span<const ElementId> element
                              [&](ElementId e) { return number(e) != number(elements.front()); });
 }
 
+/// True if tips of cracks count, which hold below the strength.
+bool mayHold(const Component& component) {
+  return component.brittle.fractureEnergy > 0 || component.brittleByPlace;
+}
+
 /// Of both ends of an edge.
 std::array<double, 3> meanOf(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return {.5 * (a[0] + b[0]), .5 * (a[1] + b[1]), .5 * (a[2] + b[2])};
@@ -47,9 +52,17 @@ std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackE
   return pickApart(model, edges);
 }
 
-/// Most stressed elements in rubble have no edge left that could crack.
+/// Most stressed elements in rubble have no edge left that could crack. The largest traction is a
+/// convex function of the stress: where a mean over elements reaches the strength, one of them
+/// does.
 void StrengthCheck::checkCorners(const Model& model, const CrackEdges& edges, ElementId element,
                                  std::span<const double> leastStrength) {
+  const ComponentId body = model.triangles.component[element.value];
+  const Component& component = model.components[body.value];
+  if (!mayHold(component) && !component.isMixed() &&
+      largestTraction(stressOf(model, element), component.brittle, component.friction) <
+          tolerance::kNearlyStrength * leastStrength[body.value])
+    return;
   std::array<bool, 3> whole{};
   for (std::uint8_t i = 0; i < 3; ++i) whole[i] = edges.across({element, i}) != ElementId::none();
   for (std::uint8_t i = 0; i < 3; ++i)
@@ -69,8 +82,7 @@ void StrengthCheck::checkNode(const Model& model, const CrackEdges& edges, NodeI
   const double most =
       largestTraction(stressAt(model, edges, node), component.brittle, component.friction);
   const bool isWeak = most >= leastStrength[body.value];
-  const bool mayHold = component.brittle.fractureEnergy > 0 || component.brittleByPlace;
-  if (!isWeak && !mayHold) return;
+  if (!isWeak && !mayHold(component)) return;
   if (!isWeak && isInside_[node.value] != 0 && !model.bodyOf(edges.ofNode[node.value]).isMixed())
     return;
   around_.clear();

@@ -63,9 +63,9 @@ inline constexpr double kOpen = 1e-4;
 /// distance beside the side counts by this part.
 inline constexpr double kPerBeside = .05;
 
-/// (cosine) Two sides with a smaller one are antiparallel, and if they overlap by more than kPartner
-/// (of the shortest segment) two rows are needed. Without the second one overlaps are 1.6e-2 at
-/// 200 m/s.
+/// (cosine) Two sides with a smaller one are antiparallel, and if they overlap by more than
+/// kPartner (of the shortest segment) two rows are needed. Without the second one overlaps
+/// are 1.6e-2 at 200 m/s.
 inline constexpr double kAntiparallel = -.94, kPartner = .02;
 
 /// (sine) A corner that turns by less, to the void, is a notch.
@@ -79,9 +79,9 @@ inline constexpr double kOneSide = .9995;
 /// sides and of that side is smaller.
 inline constexpr double kFacing = -.1;
 
-/// (ratio) A corner is on the other side of a side, as that of a line, if the sum of the unit normals
-/// of its own sides points along that side's normal by more than this. At the tip of a splinter the
-/// sum is nearly 0.
+/// (ratio) A corner is on the other side of a side, as that of a line, if the sum of the unit
+/// normals of its own sides points along that side's normal by more than this. At the tip of a
+/// splinter the sum is nearly 0.
 inline constexpr double kAway = .5;
 
 /// (ξ) A foot this far beyond a piece's end is still on an arc: rounding must not leave a gap
@@ -99,12 +99,12 @@ inline constexpr double kFootAtNode = 1e-7;
 // --- What a row holds.
 
 /// (of the shortest segment; ratio) An overlap below the first is reduced by the second in a step.
-/// Blocks creep on a slope otherwise, and two faces that rest on each other never come to rest: with
-/// .1 a patch has a stress error of .0075, with .03 of 6e-4.
+/// Blocks creep on a slope otherwise, and two faces that rest on each other never come to rest:
+/// with .1 a patch has a stress error of .0075, with .03 of 6e-4.
 inline constexpr double kShallow = 1e-5, kShallowDecay = .03;
 
-/// (ratio) An overlap is reduced by no more than the largest displacement, or than this part of what
-/// the row's force of the last step moves the row by: at rest nothing else moves, and what the
+/// (ratio) An overlap is reduced by no more than the largest displacement, or than this part of
+/// what the row's force of the last step moves the row by: at rest nothing else moves, and what the
 /// sweeps had left would remain as an uneven pressure.
 inline constexpr double kOwnPart = .01;
 

@@ -69,4 +69,8 @@ inline constexpr std::size_t kSpareNodes = 8;
 /// the edges of an irregular mesh are 1.03 to 1.07 of its `size`.
 inline constexpr double kAdvisedSize = .9;
 
+/// (ratio) Elements below this part of the strength are not those of a mean that reaches it:
+/// rounding.
+inline constexpr double kNearlyStrength = 1 - 1e-12;
+
 }  // namespace yadefrag::tolerance
