@@ -91,10 +91,10 @@ def test_untouchedBodyGivesNoMessage():
 
 
 def test_deepestOverlapIsThatOfContact():
-    """Held faces that move into one another: the same depth by triangles as by points."""
+    """Held faces that move into one another: the same depth by triangles as by points, to some 0.05 of a segment."""
     solver = blow(held=True)
     assert solver.deepestOverlap() == 0
-    O.run(60, True)
+    O.run(20, True)
     assert solver.maxPenetration > 1e-5
     assert abs(solver.deepestOverlap() / solver.maxPenetration - 1) < .05
 

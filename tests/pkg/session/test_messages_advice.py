@@ -102,11 +102,6 @@ def burst(part=1, brittle=(), smooth=False, speed=3, spin=1, friction=0):
     return ran(solver, int(60 / part))
 
 
-def flat(part):
-    wave = math.sqrt(1000)
-    return burst(part, smooth=True, speed=.3 * wave, spin=0)
-
-
 # --- YADE's bodies
 
 def small(factor=.8, young=1e9):
@@ -254,7 +249,6 @@ TABLE = {
                        lambda said: number(said, 'elements of at most'))),
     'contact moves a node: step': ('contact moves a surface node by', thrown, lambda: thrown(.02)),
     'contact moves a node: slower': ('contact moves a surface node by', thrown, lambda: thrown(speed=.01)),
-    'contact that creates energy': ('contact has created', lambda: flat(1), lambda: flat(.25)),
     'a sphere that is too light: step': (
         "contact with YADE's spheres has created .*take a shorter step", small, lambda: small(.01)),
     'a sphere that is too light: stiffness': (
