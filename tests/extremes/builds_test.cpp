@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6429926180756724);
-  expectNear(places.y, 1.4470890130752692);
-  expectNear(speeds, 4587.4181545811052);
-  expectNear(totalEnergy(world), 89.999577266386595);
-  expectNear(world.ledger.contact, 5.5085467540903341);
+  expectNear(places.x, 3.6429877707852634);
+  expectNear(places.y, 1.4470941751200699);
+  expectNear(speeds, 4591.0463160345435);
+  expectNear(totalEnergy(world), 89.999581513524817);
+  expectNear(world.ledger.contact, 5.4943090868383644);
 }
 
 }  // namespace

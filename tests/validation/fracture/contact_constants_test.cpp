@@ -52,9 +52,9 @@ TEST_P(ContactConstants, MayBeHalvedAndDoubled) {
       EXPECT_GT(result.growth, 2);
     }
     const std::string at = factor < 1 ? "_at_half" : "_at_most";
-    // At the default values the largest overlap of 168 impacts is 3e-3, and 7e-5 in all but two.
-    // Lost contacts lead to overlaps of a tenth and more.
-    figure(("deepest_in_segments" + at).c_str(), deepest, 0, 1e-3);
+    // At the default values the largest overlap of 144 impacts at 50 to 400 m/s is 2.3e-3; three
+    // are above 1e-3. Lost contacts lead to overlaps of a tenth and more.
+    figure(("deepest_in_segments" + at).c_str(), deepest, 0, 3e-3);
     // Cohesion and contact exchange energy within a step (impact_test.cpp).
     figure(("given_by_contact" + at).c_str(), given, 0, .012);
   }
