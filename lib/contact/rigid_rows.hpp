@@ -1,10 +1,10 @@
 #pragma once
 // All rows on one rigid body, solved together. From row to row, a light body between two others
-// goes to and fro: what a sweep changes is the part that its neighbours give way, and their impact
-// is not transmitted. Here the motion p of the body is the unknown (two displacements and the
-// rotation, scaled by the roots of mobilities). For a given p the rows do not depend on each other,
-// if each node that several rows share is divided among them, which makes it more compliant than it
-// is. With the changes p of the motion and λ, τ of the forces,
+// moves back and forth: what a sweep changes is the part that its neighbours give way, and their
+// impact is not transmitted. Here the motion p of the body is the unknown (two displacements and
+// the rotation, scaled by the roots of mobilities). For a given p the rows do not depend on each
+// other, if each node that several rows share is divided among them, which makes it more compliant
+// than it is. With the changes p of the motion and λ, τ of the forces,
 //
 //   λᵢ(p) = −(gᵢ + aᵢ·p)/Dᵢ,  τᵢ(p) = −(hᵢ + bᵢ·p)/Eᵢ,  each within its bounds,  p = Σ aᵢλᵢ + bᵢτᵢ,
 //
