@@ -81,46 +81,43 @@ void RigidRows::collect(const RowSystem& system, std::size_t body) {
   }
 }
 
-/// The function of which the motion is the minimum; sets the forces. Its gradient is
-/// p − Σ aᵢλᵢ − Σ bᵢτᵢ.
-double RigidRows::energy(const Motion& motion) {
-  double sum = .5 * vectorOf(motion).squaredNorm();
+/// Sets the forces; returns the gradient of the function, p − Σ aᵢλᵢ − Σ bᵢτᵢ, and the sum of its
+/// terms without their signs.
+RigidRows::Residual RigidRows::residualAt(const Motion& motion) {
+  Vector3d sum = vectorOf(motion);
+  double scale = sum.lpNorm<1>();
   for (Force& force : forces_) {
-    const double gap = force.gap + vectorOf(force.lever).dot(vectorOf(motion));
+    const auto lever = vectorOf(force.lever);
+    const double gap = force.gap + lever.dot(vectorOf(motion));
     force.change =
         std::clamp(-gap / force.compliance, force.least - force.former, force.most - force.former);
-    sum -= force.change * (gap + .5 * force.compliance * force.change);
+    sum -= force.change * lever;
+    scale += std::abs(force.change) * lever.lpNorm<1>();
   }
-  return sum;
+  return {{sum.x(), sum.y(), sum.z()}, scale};
 }
 
-/// Newton's method with a search along its direction.
+/// Newton's method. Along its direction the slope grows: a step that leads too far past the minimum
+/// is halved. (The function itself decides no better than the root of rounding.)
 void RigidRows::minimize(Motion& motion) {
-  double value = energy(motion);
+  Residual residual = residualAt(motion);
   for (int iteration = 0; iteration < tolerance::kMostNewton; ++iteration) {
+    const Vector3d gradient = vectorOf(residual.value);
+    if (!(gradient.lpNorm<1>() > tolerance::kNewtonResidual * residual.scale)) return;
     Matrix3d stiffness = Matrix3d::Identity();
-    Vector3d residual = vectorOf(motion);
-    double scale = residual.lpNorm<1>();
     for (const Force& force : forces_) {
       const auto lever = vectorOf(force.lever);
-      residual -= force.change * lever;
-      scale += std::abs(force.change) * lever.lpNorm<1>();
       if (force.change > force.least - force.former && force.change < force.most - force.former)
         stiffness += (1 / force.compliance) * lever * lever.transpose();
     }
-    if (!(residual.lpNorm<1>() > tolerance::kNewtonResidual * scale)) return;
-    const Vector3d direction = -stiffness.ldlt().solve(residual);
-    const double slope = direction.dot(residual);
-    double length = 1;
-    for (;; length /= 2) {
-      Motion next = motion;
-      Map<Vector3d>(next.data()) += length * direction;
-      const double reached = energy(next);
-      const bool isLast = length < tolerance::kShortestSearch;  // rounding
-      if (reached > value + 1e-4 * length * slope && !isLast) continue;
-      motion = next, value = reached;
-      if (isLast) return;
-      break;
+    const Vector3d direction = -stiffness.ldlt().solve(gradient);
+    const double most = -.5 * direction.dot(gradient);
+    const Motion start = motion;
+    for (double length = 1;; length /= 2) {
+      Map<Vector3d>(motion.data()) = vectorOf(start) + length * direction;
+      residual = residualAt(motion);
+      if (direction.dot(vectorOf(residual.value)) <= most) break;
+      if (length < tolerance::kShortestSearch) return;  // rounding
     }
   }
 }

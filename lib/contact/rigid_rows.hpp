@@ -47,9 +47,13 @@ class RigidRows {
     double least, most;  // N, bounds of the force
     double change;       // N
   };
+  struct Residual {
+    Motion value;
+    double scale;
+  };
   void collect(const RowSystem& system, std::size_t body);
   void minimize(Motion& motion);
-  double energy(const Motion& motion);
+  Residual residualAt(const Motion& motion);
   double apply(RowSystem& system, std::size_t body, const Motion& motion);
 
   Csr<std::uint32_t> rowsOf_;

@@ -32,7 +32,7 @@ inline constexpr int kLastSweeps = 2;
 
 /// (of a row's response) Neighbours of a rigid body that give way by less, held ones among them,
 /// are taken as this compliant in one joint solution of its rows; the sweeps find the rest.
-inline constexpr double kLeastShare = 1e-10;
+inline constexpr double kLeastShare = 1e-12;
 
 /// (count; of the sum of its terms; ratio) Newton's method for the motion of a rigid body ends at
 /// this residual, which is rounding: mostly after two to four iterations.
