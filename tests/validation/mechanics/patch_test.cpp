@@ -130,7 +130,8 @@ void patchTest(const Patch& patch, double tolerance = .005) {
   // What sweeps leave while the bodies come to rest.
   figure("total_force_error", two.total, 0, 3e-5);
   figure("single_pass_total_force_error", one.total, 0, 1e-6);
-  figure("penetration", two.gap, 0, 1e-9 * kSide);
+  // 10⁻⁴ of the shortening of 10⁻³: shallow overlaps are reduced slowly.
+  figure("penetration", two.gap, 0, 1e-7 * kSide);
 }
 
 TEST(PatchTest, Meshes8And12) { patchTest({8, 12}); }
