@@ -25,11 +25,11 @@ TEST(ExtremeBuilds, DebugAndReleaseAgree) {
   const auto expectNear = [](double value, double wanted) {
     EXPECT_NEAR(value, wanted, kAgreement * wanted);
   };
-  expectNear(places.x, 3.6429877707852634);
-  expectNear(places.y, 1.4470941751200699);
-  expectNear(speeds, 4591.0463160345435);
-  expectNear(totalEnergy(world), 89.999581513524817);
-  expectNear(world.ledger.contact, 5.4943090868383644);
+  expectNear(places.x, 3.6430002001557953);
+  expectNear(places.y, 1.4470867826392377);
+  expectNear(speeds, 4588.9575169145764);
+  expectNear(totalEnergy(world), 89.999577295195351);
+  expectNear(world.ledger.contact, 5.4998862108601845);
 }
 
 }  // namespace

