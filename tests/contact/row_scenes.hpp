@@ -17,7 +17,7 @@ inline double solveRows(RowSweeps& sweeps, std::span<ContactRow> rows, const Ine
                         RowSweeps::Stop stop) {
   sweeps.clear();
   for (const ContactRow& row : rows) sweeps.add(row, inertia);
-  const double change = sweeps.solve(stop);
+  const double change = sweeps.begin(stop, nullptr, nullptr);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     rows[r].normalForce = sweeps.row(r).normalForce;
     rows[r].tangentForce = sweeps.row(r).tangentForce;

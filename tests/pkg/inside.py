@@ -64,10 +64,11 @@ class Long:
         self.only = only
 
     def pytest_collection_modifyitems(self, config, items):
-        left = [item for item in items if self.only == (bool(item.get_closest_marker('long'))
-                                                        or 'validation' in item.path.parts)]
-        config.hook.pytest_deselected(items=[item for item in items if item not in left])
-        items[:] = left
+        parts = {True: [], False: []}
+        for item in items:
+            parts[item.get_closest_marker('long') is not None or 'validation' in item.path.parts].append(item)
+        config.hook.pytest_deselected(items=parts[not self.only])
+        items[:] = parts[self.only]
 
 
 def located(argument):

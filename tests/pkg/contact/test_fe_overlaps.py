@@ -9,7 +9,6 @@ import pytest
 
 import yade.wrapper as w
 import yadefrag
-from fe_scene import run, steps
 from scenes import clear
 from yadefrag import runSteps
 
@@ -103,25 +102,3 @@ def test_deepOverlapsOfOnePassAreTold(passes):
         assert not fe.warnings and deepest < 1e-3 * SIZE / 3.26
     else:
         assert told and deepest > .1 * SIZE / 3.26
-
-
-def drop(**settings):
-    """A brittle block that a disc shatters."""
-    O.materials.append(w.BrittleFEMat(young=1e7, poisson=.3, density=1000, frictionAngle=.3,
-                                      tensileStrength=5e4, strengthScatter=.1, label='b'))
-    solver = w.FESolver(**settings)
-    solver.addPolygon(yadefrag.rectangle((-.2, -.2), (.2, 0)), size=.03, material='b',
-                      fixed=lambda x, y: y < -.2 + 1e-9)
-    solver.addPolygon(yadefrag.circle((0, .101), .1, 24), size=.03, material='b', velocity=(0, -8))
-    run(solver)
-    return solver
-
-
-def test_piecesOfABlockStayApart():
-    solver = drop()
-    deepest = 0
-    for _ in range(20):
-        steps(20)
-        deepest = max(deepest, solver.deepestOverlap())
-    assert solver.numCracks > 20
-    assert deepest < 2e-5             # m; sides have some .03

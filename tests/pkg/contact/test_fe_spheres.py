@@ -7,7 +7,7 @@ import pytest
 
 import fe_chain as chain
 import yadefrag
-from fe_scene import fe, finder, momentum, run
+from fe_scene import fe, finder, momentum, run, solverOfScene
 from yade import wrapper as w
 
 O = builtins.O
@@ -207,7 +207,7 @@ def swapEngines(loop, integrator):
 def bodiesNow():
     """All numbers of the motion of bodies and nodes, as bytes."""
     rows = [[*b.state.pos, *b.state.vel, *b.state.angVel, *b.state.ori] for b in O.bodies if b]
-    return [np.array(rows).tobytes(), next(e for e in O.engines if isinstance(e, w.FESolver)).nodes.tobytes()]
+    return [np.array(rows).tobytes(), solverOfScene().nodes.tobytes()]
 
 
 def test_curveIntegratorLeavesOutPieces():

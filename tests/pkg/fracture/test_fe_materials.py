@@ -8,6 +8,7 @@ import pytest
 
 import yadefrag
 from fe_impact import cracks, engines
+from fe_scene import solverOfScene
 from yade import wrapper as w
 
 O = builtins.O
@@ -108,7 +109,7 @@ def test_listsArraysAndFunctionsAreTheSame(folder):
             O.save(os.path.join(folder, 'bar.yade'))
             O.reset()
             O.load(os.path.join(folder, 'bar.yade'))
-            solver = next(e for e in O.engines if isinstance(e, w.FESolver))
+            solver = solverOfScene()
         O.run(100, True)
         return solver.nodes, solver.energy, solver.materialNumbers, solver.criticalTimeStep()
 

@@ -8,7 +8,7 @@ import pytest
 
 import yadefrag
 from fe_impact import brittle, cracks, engines
-from fe_scene import fe, finder  # noqa: F401  fixtures
+from fe_scene import fe, finder, solverOfScene  # noqa: F401  fixtures
 from yade import wrapper as w
 
 O = builtins.O
@@ -63,7 +63,7 @@ def test_arraysAreTheSameAsFunctions(folder):
     O.save(os.path.join(folder, 'bar.yade'))
     O.reset()
     O.load(os.path.join(folder, 'bar.yade'))
-    again = next(e for e in O.engines if isinstance(e, w.FESolver))
+    again = solverOfScene()
     O.run(400, True)
     assert again.numCracks > 0
     assert np.array_equal(again.nodes, nodes) and again.energy == energy

@@ -31,6 +31,10 @@ def run(solver, collider=None, spheres=False, newton=True, factor=.8):
     O.dt = factor * solver.criticalTimeStep()
 
 
+def solverOfScene():
+    return next(engine for engine in O.engines if isinstance(engine, w.FESolver))
+
+
 def finder(name, **attributes):
     return getattr(w, name)([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()], **attributes)
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, steps
+from fe_scene import fe, solverOfScene, steps
 from yade import utils
 from yade import wrapper as w
 
@@ -27,10 +27,6 @@ def scene(file, **settings):
         yadefrag.FERecorder(iterPeriod=10, file=file, **settings)]
     O.dt = .8 * solver.criticalTimeStep()
     return solver
-
-
-def solverOfScene():
-    return next(e for e in O.engines if isinstance(e, w.FESolver))
 
 
 def table(file):

@@ -9,6 +9,7 @@ import pytest
 
 import yadefrag
 from fe_impact import areSame, brittle, impact, state, steps
+from fe_scene import solverOfScene
 from project import yadeCommand
 from yade import wrapper as w
 from yadefrag import _yadefrag
@@ -23,10 +24,6 @@ def cracking():
     solver = impact()
     steps(120)
     return solver
-
-
-def theSolver():
-    return next(engine for engine in O.engines if isinstance(engine, w.FESolver))
 
 
 @pytest.fixture
@@ -228,7 +225,7 @@ def test_savedInTheBackground():
     cracking()
     last = O.iter + 150
     steps(150)
-    wanted = state(theSolver())
+    wanted = state(solverOfScene())
     O.reset()
     cracking()
     marks = []
@@ -243,14 +240,14 @@ def test_savedInTheBackground():
     O.wait()
     assert O.iter == last and not O.running
     saver.join()
-    assert areSame(state(theSolver()), wanted)
+    assert areSame(state(solverOfScene()), wanted)
     seen = set()
     for mark in marks[::max(1, len(marks) // 6)]:
         O.loadTmp(mark)
         seen.add(O.iter)
         while O.iter < last:
             O.step()
-        assert areSame(state(theSolver()), wanted)
+        assert areSame(state(solverOfScene()), wanted)
     assert len(seen) > 1
 
 

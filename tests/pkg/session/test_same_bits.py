@@ -9,7 +9,7 @@ import pytest
 import fe_chain as chain
 import fe_impact
 import yadefrag
-from fe_scene import fe, finder, run
+from fe_scene import fe, finder, run, solverOfScene
 from yade import utils
 from yade import wrapper as w
 
@@ -17,10 +17,6 @@ O = builtins.O
 kArrays = ('nodes', 'velocities', 'masses', 'triangles', 'fragmentOf', 'stress', 'plasticStrain', 'temperature',
            'damage')
 kFigures = ('energy', 'numCracks', 'numSearches', 'numSegments', 'dropped', 'warnings', 'time')
-
-
-def solverOfScene():
-    return next(engine for engine in O.engines if isinstance(engine, w.FESolver))
 
 
 def state():
