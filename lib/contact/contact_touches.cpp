@@ -56,13 +56,8 @@ void Contact::indexTouches(std::size_t entries) {
 
 /// The contact of the last step, or null.
 const Touch* Contact::touchOf(SlaveMaster pair) const {
-  const Touch* found = nullptr;
-  (void)pairs_.any(pair.slave, [&](std::uint32_t number, EntryId master) {
-    if (master != pair.master) return false;
-    found = &touches[number];
-    return true;
-  });
-  return found;
+  const std::uint32_t number = pairs_.numberOf(pair);
+  return number == PairsOfSlaves::kNone ? nullptr : &touches[number];
 }
 
 void Contact::renumber(std::span<const EntryId> numbers) {

@@ -23,19 +23,15 @@ class PairsOfSlaves {
     first_[pair.slave.value] = static_cast<std::uint32_t>(links_.size());
     links_.push_back({pair, next});
   }
-  /// True if `test(number, master)` is true for any pair of the slave.
-  template <class Test>
-  [[nodiscard]] bool any(EntryId slave, Test test) const {
-    for (std::uint32_t i = firstOf(slave); i != kNone; i = links_[i].next)
-      if (test(i, links_[i].pair.master)) return true;
-    return false;
+  /// The number of a pair, or kNone.
+  [[nodiscard]] std::uint32_t numberOf(SlaveMaster pair) const {
+    std::uint32_t at = firstOf(pair.slave);
+    while (at != kNone && links_[at].pair.master != pair.master) at = links_[at].next;
+    return at;
   }
-  [[nodiscard]] bool contains(SlaveMaster pair) const {
-    return any(pair.slave, [&](std::uint32_t, EntryId master) { return master == pair.master; });
-  }
+  static constexpr std::uint32_t kNone = 0xffffffff;
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffff;
   struct Link {
     SlaveMaster pair;
     std::uint32_t next;  // of the same slave

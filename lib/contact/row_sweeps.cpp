@@ -19,10 +19,10 @@ double RowSweeps::begin(Stop stop, CoupledForces* coupled, std::vector<Vec2>* po
   for (count_ = 0; change > change_;) {
     const bool isFar = change > tolerance::kFarFromSolved * change_;
     if (count_ >= (isFar ? most : stop.most)) break;
-    change = sweep(count_, change_);
+    change = sweep(count_);
     if (count_ == 0) change_ = std::clamp(tolerance::kOfFirst * change, stop.least, stop.change);
     if (isCoupled && (count_ % tolerance::kSweepsToCouple == 0 || !(change > change_)))
-      change = std::max(change, sweepCoupled(*coupled, *position, change_, count_, false));
+      change = std::max(change, sweepCoupled(*coupled, *position, count_, false));
     ++count_;
   }
   return change;
@@ -38,34 +38,33 @@ void RowSweeps::setGap(std::size_t number, double gap) {
 
 void RowSweeps::improve(int most) {
   for (const int end = count_ + most; count_ < end; ++count_)
-    if (!(sweep(count_, change_) > change_)) break;
+    if (!(sweep(count_) > change_)) break;
 }
 
 void RowSweeps::end(CoupledForces* coupled, std::vector<Vec2>* position) {
-  if (!shared_.empty()) (void)sweepCoupled(*coupled, *position, change_, count_, true);
+  if (!shared_.empty()) (void)sweepCoupled(*coupled, *position, count_, true);
 }
 
 /// Alternating directions: forces are transmitted along chains of rows.
-double RowSweeps::sweep(int number, double change) {
+double RowSweeps::sweep(int number) {
   const std::size_t count = system_.rows.size();
   double most = 0;
   for (std::size_t i = 0; i < count; ++i) {
     RowSystem::Row& row = system_.rows[number % 2 == 0 ? i : count - 1 - i];
     if (row.turn != RowSystem::kNone || !isDue(row, number)) continue;
-    most = std::max(most,
-                    row.cross != 0 ? relaxNotch(row, number, change) : relax(row, number, change));
+    most = std::max(most, row.cross != 0 ? relaxNotch(row, number) : relax(row, number));
   }
   for (std::size_t body = 0; body < rigid_.bodies(); ++body)
-    most = std::max(most, solveRigid(body, number, change));
+    most = std::max(most, solveRigid(body, number));
   return most;
 }
 
 /// The rows of one rigid body.
-double RowSweeps::solveRigid(std::size_t body, int sweep, double change) {
+double RowSweeps::solveRigid(std::size_t body, int sweep) {
   const auto rows = rigid_.rowsOf(body);
   if (std::ranges::none_of(rows, [&](auto r) { return isDue(system_.rows[r], sweep); })) return 0;
   const double most = rigid_.solve(system_, body);
-  if (!(most > tolerance::kMakesDue * change)) return most;
+  if (!(most > tolerance::kMakesDue * change_)) return most;
   for (const std::uint32_t r : rows)
     forNodes(system_.rows[r], [&](std::uint32_t node, double) { lastMoved_[node] = sweep; });
   return most;
@@ -81,15 +80,15 @@ bool RowSweeps::isDue(const RowSystem::Row& row, int sweep) const {
 
 /// Sets one row's forces so that its own gap and slip vanish, within the bounds; returns the
 /// displacement that this causes (m).
-double RowSweeps::relax(RowSystem::Row& row, int sweep, double change) {
+double RowSweeps::relax(RowSystem::Row& row, int sweep) {
   const Vec2 moved = system_.relativeMotion(row);
   const double gap = row.gap + dot(moved, row.normal);
   const double normal = std::max(0., row.normalForce - gap / row.normalResponse);
-  return setForces(row, normal, moved, sweep, change);
+  return setForces(row, normal, moved, sweep);
 }
 
 /// The same for both rows of a notch: each alone, or both, whichever closes no gap.
-double RowSweeps::relaxNotch(RowSystem::Row& row, int sweep, double change) {
+double RowSweeps::relaxNotch(RowSystem::Row& row, int sweep) {
   RowSystem::Row& twin = (&row)[1];
   const Vec2 moved = system_.relativeMotion(row), twinMoved = system_.relativeMotion(twin);
   // Gaps without both forces.
@@ -109,13 +108,12 @@ double RowSweeps::relaxNotch(RowSystem::Row& row, int sweep, double change) {
       }
     }
   }
-  const double most = setForces(row, first, moved, sweep, change);
-  return std::max(most, setForces(twin, second, system_.relativeMotion(twin), sweep, change));
+  const double most = setForces(row, first, moved, sweep);
+  return std::max(most, setForces(twin, second, system_.relativeMotion(twin), sweep));
 }
 
-/// `moved` (m): the row's relative motion so far; `change` (m): what makes other rows due.
-double RowSweeps::setForces(RowSystem::Row& row, double normal, Vec2 moved, int sweep,
-                            double change) {
+/// `moved` (m): the row's relative motion so far.
+double RowSweeps::setForces(RowSystem::Row& row, double normal, Vec2 moved, int sweep) {
   const double pushed = normal - row.normalForce;
   row.normalForce = normal;
   double pulled = 0;
@@ -130,7 +128,7 @@ double RowSweeps::setForces(RowSystem::Row& row, double normal, Vec2 moved, int 
   system_.push(row, pushed * row.normal + pulled * row.along());
   const double most =
       std::max(std::abs(pushed) * row.normalResponse, std::abs(pulled) * row.tangentResponse);
-  if (most > tolerance::kMakesDue * change)
+  if (most > tolerance::kMakesDue * change_)
     forNodes(row, [&](std::uint32_t node, double) { lastMoved_[node] = sweep; });
   return most;
 }
@@ -148,25 +146,25 @@ void RowSweeps::share(CoupledForces* coupled, const std::vector<Vec2>* position)
 
 /// One sweep of the coupled forces, at the positions with the present contact forces; in the `last`
 /// one they converge. Returns the largest displacement (m).
-double RowSweeps::sweepCoupled(CoupledForces& forces, std::vector<Vec2>& position, double change,
-                               int sweep, bool last) {
+double RowSweeps::sweepCoupled(CoupledForces& forces, std::vector<Vec2>& position, int sweep,
+                               bool last) {
   for (SharedNode& one : shared_) {
     const Vec2 byContact = system_.moved[one.number].shift - one.byOthers;
-    if (norm(byContact - one.byContact) > (last ? 0 : change) || !one.isKnown)
+    if (norm(byContact - one.byContact) > (last ? 0 : change_) || !one.isKnown)
       forces.noteMoved(one.node);
     one.byContact = byContact, one.isKnown = true;
     Vec2& at = position[one.node.value];
     at += byContact;
     one.at = at;
   }
-  const double most = last ? forces.converge(position) : forces.sweep(position, change);
+  const double most = last ? forces.converge(position) : forces.sweep(position, change_);
   for (SharedNode& one : shared_) {
     Vec2& at = position[one.node.value];
     const Vec2 moved = at - one.at;
     at = at - one.byContact;
     one.byOthers += moved;
     system_.moved[one.number].shift += moved;
-    if (norm(moved) > tolerance::kMakesDue * change) lastMoved_[one.number] = sweep;
+    if (norm(moved) > tolerance::kMakesDue * change_) lastMoved_[one.number] = sweep;
   }
   return most;
 }

@@ -40,14 +40,9 @@ class RowSweeps {
   /// from row to row their forces converge slowly where the notch is shallow.
   void linkLast() { system_.linkLast(); }
   /// Improves the forces of all rows, and those that are coupled to them (`position`: m, by node,
-  /// without contact); returns the largest change in the last sweep (m).
-  double solve(Stop stop, CoupledForces* coupled = nullptr, std::vector<Vec2>* position = nullptr) {
-    const double change = begin(stop, coupled, position);
-    end(coupled, position);
-    return change;
-  }
-  /// The parts of `solve`. After `begin`, gaps may be set anew: `improve` follows with at most
-  /// `most` sweeps.
+  /// without contact; null without coupled forces); returns the largest change in the last sweep
+  /// (m). Then gaps may be set anew: `improve` follows with at most `most` sweeps. `end` is the
+  /// last call of a step.
   double begin(Stop stop, CoupledForces* coupled, std::vector<Vec2>* position);
   void setGap(std::size_t number, double gap);
   void improve(int most);
@@ -67,15 +62,14 @@ class RowSweeps {
   void reserve(std::size_t nodes) { system_.numbers.reserve(nodes); }
 
  private:
-  double sweep(int number, double change);
-  double solveRigid(std::size_t body, int sweep, double change);
-  double relax(RowSystem::Row& row, int sweep, double change);
-  double relaxNotch(RowSystem::Row& row, int sweep, double change);
-  double setForces(RowSystem::Row& row, double normal, Vec2 moved, int sweep, double change);
+  double sweep(int number);
+  double solveRigid(std::size_t body, int sweep);
+  double relax(RowSystem::Row& row, int sweep);
+  double relaxNotch(RowSystem::Row& row, int sweep);
+  double setForces(RowSystem::Row& row, double normal, Vec2 moved, int sweep);
   [[nodiscard]] bool isDue(const RowSystem::Row& row, int sweep) const;
   void share(CoupledForces* coupled, const std::vector<Vec2>* position);
-  double sweepCoupled(CoupledForces& forces, std::vector<Vec2>& position, double change, int sweep,
-                      bool last);
+  double sweepCoupled(CoupledForces& forces, std::vector<Vec2>& position, int sweep, bool last);
 
   RowSystem system_;
   RigidRows rigid_;

@@ -71,17 +71,13 @@ void RowSystem::linkLast() {
   assert(rows.size() > 1);
   Row& first = rows[rows.size() - 2];
   const Row& second = rows.back();
+  if (first.turn != kNone || second.turn != kNone) return;  // RigidRows solves those of its body
   double sum = 0;
   for (std::uint32_t k = 0; k < first.count; ++k)
     for (std::uint32_t l = 0; l < second.count; ++l)
       if (first.node[k] == second.node[l])
         sum += first.weight[k] * second.weight[l] *
                weighted(first.normal, moved[first.node[k]].perForce, second.normal);
-  if (first.turn != kNone && second.turn != kNone) {
-    const Turn &a = turns[first.turn], &b = turns[second.turn];
-    if (a.number == b.number)
-      sum += a.perMoment * cross(a.lever, first.normal) * cross(b.lever, second.normal);
-  }
   first.cross = sum;
 }
 

@@ -57,14 +57,15 @@ std::vector<EdgeId> StrengthCheck::overstressed(const Model& model, const CrackE
 /// does.
 void StrengthCheck::checkCorners(const Model& model, const CrackEdges& edges, ElementId element,
                                  std::span<const double> leastStrength) {
+  std::array<bool, 3> whole{};
+  for (std::uint8_t i = 0; i < 3; ++i) whole[i] = edges.across({element, i}) != ElementId::none();
+  if (whole == std::array<bool, 3>{}) return;
   const ComponentId body = model.triangles.component[element.value];
   const Component& component = model.components[body.value];
   if (!mayHold(component) && !component.isMixed() &&
       largestTraction(stressOf(model, element), component.brittle, component.friction) <
           tolerance::kNearlyStrength * leastStrength[body.value])
     return;
-  std::array<bool, 3> whole{};
-  for (std::uint8_t i = 0; i < 3; ++i) whole[i] = edges.across({element, i}) != ElementId::none();
   for (std::uint8_t i = 0; i < 3; ++i)
     if (whole[i] || whole[beforeCorner(i)])
       checkNode(model, edges, model.triangles.nodes[element.value][i], leastStrength);
