@@ -24,12 +24,8 @@ void FESolver::checkSettings() const {
   const auto refuseNumber = [&](const char* name, double value, const char* right) {
     refuse(name, fmt::format("{:g}", value), right);
   };
-  const auto shown = [](const std::string& text) {
-    return text.size() <= 40 ? fmt::format("'{}'", text)
-                             : fmt::format("a text of {} bytes", text.size());
-  };
   if (view != "component" && view != "fragment" && view != "mises")
-    refuse("view", shown(view), "'component', 'fragment' or 'mises'");
+    refuse("view", shownText(view), "'component', 'fragment' or 'mises'");
   if (passes != 1 && passes != 2) refuseNumber("passes", passes, "1 or 2");
   if (!(contactTolerance.value >= tolerance::kLeastStop &&
         contactTolerance.value <= tolerance::kMostStop))

@@ -16,7 +16,6 @@
 #include "fe/materials.hpp"
 #include "fe/scene_energy.hpp"
 #include "fe/scene_watch.hpp"
-#include "fe/tolerance_choice.hpp"
 #include "publish/published.hpp"
 #include "publish/step_lock.hpp"
 #include "rigid/rigid_bodies.hpp"
@@ -85,7 +84,7 @@ class FESolver final : public Published<FESolver, yade::GlobalEngine> {
   static Attributes contactAttributes();
   static Attributes attributes();
   static void pyExtra(SolverClass& solver) {
-    convertTolerance();
+    convertChoice<ToleranceChoice>();
     defineArrays(solver), defineBodies(solver), defineMotions(solver);
     defineQuality(solver), defineResults(solver);
   }

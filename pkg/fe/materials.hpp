@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "abi/yade.hpp"
-#include "fe/law_choice.hpp"
+#include "fe/choices.hpp"
 #include "publish/indexed.hpp"
 #include "publish/published.hpp"
 
@@ -48,7 +48,10 @@ class BrittleFEMat : public Published<BrittleFEMat, Indexed<BrittleFEMat, FEMat>
   RateChoice rateEffect;
   double rateEnergyPower = 1;
 
-  static void pyExtra(const yade::py::object& /*pyClass*/) { convertLaws(); }
+  static void pyExtra(const yade::py::object& /*pyClass*/) {
+    convertChoice<SofteningChoice>(), convertChoice<RateChoice>();
+    convertChoice<HardeningChoice>();
+  }
 
  private:
   using C = BrittleFEMat;

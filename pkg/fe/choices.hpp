@@ -1,6 +1,6 @@
 #pragma once
-// The attributes BrittleFEMat.softening and rateEffect and PlasticFEMat.hardeningTable: a name, or
-// a list of points.
+// Attributes that are given by a name, or by their values: BrittleFEMat.softening and rateEffect
+// and PlasticFEMat.hardeningTable by a list of points, FESolver.contactTolerance by a number.
 
 #include <boost/serialization/nvp.hpp>
 #include <boost/serialization/string.hpp>
@@ -10,11 +10,15 @@
 #include <string_view>
 #include <vector>
 
+#include "core/tolerances/contact.hpp"
 #include "mesh/plastic_material.hpp"
 #include "mesh/rate_effect.hpp"
 #include "mesh/softening_curve.hpp"
 
 namespace yadefrag {
+
+/// In quotes; of a long text its length.
+[[nodiscard]] std::string shownText(const std::string& text);
 
 struct LawChoice {
   std::string name;           ///< empty: points are given
@@ -57,8 +61,21 @@ struct HardeningChoice : LawChoice {
   [[nodiscard]] Table law() const;
 };
 
-/// Registers the conversions: from a str or pairs of numbers (ValueError or TypeError for others),
-/// and to a str or a list of tuples.
-void convertLaws();
+struct ToleranceChoice {
+  double value = tolerance::Contact().stop;
+
+  /// Throws InputError for an unknown name.
+  [[nodiscard]] static ToleranceChoice named(const std::string& name);
+
+  template <class Archive>
+  void serialize(Archive& archive, unsigned /*version*/) {
+    archive& BOOST_SERIALIZATION_NVP(value);
+  }
+};
+
+/// Registers the conversions of one of these: from a str, or from pairs of numbers or a number
+/// (ValueError or TypeError for others), and to a str, a list of tuples or a float.
+template <class Choice>
+void convertChoice();
 
 }  // namespace yadefrag

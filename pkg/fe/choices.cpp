@@ -1,9 +1,13 @@
-#include "fe/law_choice.hpp"
+#include "fe/choices.hpp"
+
+#include <fmt/core.h>
 
 #include <new>
+#include <type_traits>
 
 #include "abi/yade.hpp"
 #include "core/errors.hpp"
+#include "core/tolerances/solver.hpp"
 #include "publish/value_kind.hpp"
 
 namespace yadefrag {
@@ -35,36 +39,56 @@ std::vector<double> tableOf(const py::object& given) {
                              "; it must be a name, or a list of points (" + Choice::kPoints + ").");
 }
 
+/// Throws InputError for an unknown name or invalid points.
+template <class Choice>
+Choice choiceOf(const py::object& given) {
+  const bool isName = PyUnicode_Check(given.ptr()) != 0;
+  const std::string name = isName ? std::string(py::extract<std::string>(given)) : std::string();
+  Choice choice;
+  if constexpr (std::is_base_of_v<LawChoice, Choice>) {
+    choice.name = name;
+    if (!isName) choice.table = tableOf<Choice>(given);
+    (void)(isName ? Choice::named(name) : choice.law());
+  } else if (isName) {
+    choice = Choice::named(name);
+  } else {
+    choice.value = py::extract<double>(given);
+  }
+  return choice;
+}
+
 template <class Choice>
 struct FromPython {
-  static void* accepts(PyObject* object) { return object; }
+  static void* accepts(PyObject* object) {
+    const bool isAny = std::is_base_of_v<LawChoice, Choice>;
+    return isAny || PyUnicode_Check(object) || PyNumber_Check(object) ? object : nullptr;
+  }
 
   static void construct(PyObject* object, py::converter::rvalue_from_python_stage1_data* data) {
-    Choice choice;
-    const py::object given{py::handle<>(py::borrowed(object))};
-    const bool isName = PyUnicode_Check(object) != 0;
-    choice.name = isName ? std::string(py::extract<std::string>(given)) : std::string();
-    if (!isName) choice.table = tableOf<Choice>(given);
+    using Storage = py::converter::rvalue_from_python_storage<Choice>;
+    void* const place = reinterpret_cast<Storage*>(data)->storage.bytes;  // NOLINT: Boost's way
     try {
-      (void)(isName ? Choice::named(choice.name) : choice.law());
+      data->convertible =
+          new (place) Choice(choiceOf<Choice>(py::object(py::handle<>(py::borrowed(object)))));
     } catch (const InputError& error) {
       raise(PyExc_ValueError, error.what());
     }
-    using Storage = py::converter::rvalue_from_python_storage<Choice>;
-    void* const place = reinterpret_cast<Storage*>(data)->storage.bytes;  // NOLINT: Boost's way
-    data->convertible = new (place) Choice(std::move(choice));
   }
 };
 
+py::object shownIn(const ToleranceChoice& choice) { return py::object(choice.value); }
+
+py::object shownIn(const LawChoice& choice) {
+  if (!choice.name.empty()) return py::object(choice.name);
+  py::list points;
+  for (std::size_t i = 0; i + 1 < choice.table.size(); i += 2)
+    points.append(py::make_tuple(choice.table[i], choice.table[i + 1]));
+  return points;
+}
+
 template <class Choice>
 struct ToPython {
-  static PyObject* convert(const Choice& choice) {
-    if (!choice.name.empty()) return py::incref(py::object(choice.name).ptr());
-    py::list points;
-    for (std::size_t i = 0; i + 1 < choice.table.size(); i += 2)
-      points.append(py::make_tuple(choice.table[i], choice.table[i + 1]));
-    return py::incref(points.ptr());
-  }
+  static PyObject* convert(const Choice& choice) { return py::incref(shownIn(choice).ptr()); }
 };
 
 template <class Point>
@@ -74,14 +98,12 @@ std::vector<Point> pointsOf(const std::vector<double>& table) {
   return points;
 }
 
-template <class Choice>
-void convertLaw() {
-  py::converter::registry::push_back(&FromPython<Choice>::accepts, &FromPython<Choice>::construct,
-                                     py::type_id<Choice>());
-  py::to_python_converter<Choice, ToPython<Choice>>();
-}
-
 }  // namespace
+
+std::string shownText(const std::string& text) {
+  return text.size() <= 40 ? fmt::format("'{}'", text)
+                           : fmt::format("a text of {} bytes", text.size());
+}
 
 SofteningCurve SofteningChoice::law() const {
   return name.empty() ? SofteningCurve(pointsOf<SofteningPoint>(table)) : named(name);
@@ -108,14 +130,30 @@ HardeningChoice::Table HardeningChoice::law() const {
   return material.table;
 }
 
+ToleranceChoice ToleranceChoice::named(const std::string& name) {
+  if (name == "fine") return {tolerance::kFineStop};
+  if (name == "default") return {};
+  if (name == "coarse") return {tolerance::kCoarseStop};
+  throw InputError(fmt::format(
+      "FESolver.contactTolerance is {}, it must be 'fine', 'default', 'coarse' or a number.",
+      shownText(name)));
+}
+
 template const ValueKind& kindOf<SofteningChoice>();
 template const ValueKind& kindOf<RateChoice>();
 template const ValueKind& kindOf<HardeningChoice>();
+template const ValueKind& kindOf<ToleranceChoice>();
 
-void convertLaws() {
-  convertLaw<SofteningChoice>();
-  convertLaw<RateChoice>();
-  convertLaw<HardeningChoice>();
+template <class Choice>
+void convertChoice() {
+  py::converter::registry::push_back(&FromPython<Choice>::accepts, &FromPython<Choice>::construct,
+                                     py::type_id<Choice>());
+  py::to_python_converter<Choice, ToPython<Choice>>();
 }
+
+template void convertChoice<SofteningChoice>();
+template void convertChoice<RateChoice>();
+template void convertChoice<HardeningChoice>();
+template void convertChoice<ToleranceChoice>();
 
 }  // namespace yadefrag
