@@ -15,6 +15,16 @@ struct Candidates {
   std::vector<std::uint32_t> offsets;  ///< row r: [offsets[r], offsets[r + 1])
   std::vector<EntryId> masters;        ///< ascending within a row
 
+  /// How far a row's slave is from a contact, at the last detection that looked at it. All values
+  /// hold for changes of shape by motion, and are lost with any change of the candidates.
+  struct Distance {
+    double far;   ///< m, from the pieces and corners that were not near; and
+    double open;  ///< m, gap that keeps the near ones without a row
+    double when;  ///< m, `ContactStep::travelled` then
+  };
+  std::vector<Distance> distances;  ///< by row; empty: unknown
+  Distance nearest{};               ///< of all rows
+
   [[nodiscard]] std::size_t size() const { return masters.size(); }
   void clear();
 };

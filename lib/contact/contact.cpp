@@ -93,10 +93,12 @@ void Contact::takeBack() {
 
 void Contact::detect(const Model& model, const ContactSurfaces& surfaces, const ContactStep& step) {
   const StageTimer timer(step.times, &StageTimes::localSearch);
+  if (!RowFinder::mayFind(candidates, {step.shortest, step.move, step.constants}, travelled_))
+    return;
   const RowFinder::Positions positions{step.before, model.nodes.position};
   move_ = std::min(step.move, finder_.measure(surfaces, positions, step.threads));
   const ContactSizes sizes(step.shortest, move_, step.constants);
-  near_.swap(finder_.find(candidates, surfaces, positions, sizes, step.threads));
+  near_.swap(finder_.find(candidates, surfaces, positions, sizes, travelled_, step.threads));
   if (near_.empty()) return;
   makeRoom(model.nodes.size());
   makeRows(model, surfaces, step);
@@ -305,6 +307,7 @@ void Contact::finish(Model& model, const ContactStep& step) {
     formerTouches_.push_back(
         {{row.slave, row.master}, row.normalForce, row.tangentForce, row.toleratedGap});
   touches.swap(formerTouches_);
+  travelled_ += step.move + now_.largestCorrection;
   isFinished_ = true;
 }
 

@@ -14,7 +14,9 @@ ContactSizes::ContactSizes(double shortestSide, double move, const tolerance::Co
       depth(zone),
       slack(constants.slack * move + tolerance::kTouching * shortestSide),
       leaning(constants.leaning * shortestSide),
-      faceAngle(constants.faceAngle) {}
+      faceAngle(constants.faceAngle),
+      closing(tolerance::kOpenShare * tolerance::kClosing * (slack + move)),
+      isFast(tolerance::kZoneMoves * move > tolerance::kWidestZone * shortestSide) {}
 
 /// A corner of a boundary: the entry that begins there, and its two sides.
 struct NearRows::Corner {
@@ -69,24 +71,51 @@ NearRows::Side NearRows::sideOf(const Corner& corner, const Corner& point, bool 
   return side;
 }
 
-void NearRows::cornerAndSide(EntryId slave, EntryId master, double along, double gap) {
+double NearRows::cornerAndSide(EntryId slave, EntryId master, double along, double gap) {
   const MovingPiece& piece = pieces_[master];
   const double toEnd = std::min(along, piece.length - along);
-  if (toEnd < sizes_.zone || gap < -sizes_.depth) return;
+  const double open = std::max({0., gap, tolerance::kZone * sizes_.shortest - toEnd});
+  if (toEnd < sizes_.zone || gap < -sizes_.depth) return open;
   // Deeper than it is from the end: it came in there.
-  if (gap < -tolerance::kThrough * toEnd) return;
+  if (gap < -tolerance::kThrough * toEnd) return open;
   const Corner corner = cornerAt(slave);
-  if (!corner.mayTouch || leaningOf(corner, piece.normal()) > sizes_.faceAngle) return;
-  (void)add(slave, master, gap, along / piece.length);
+  if (!corner.mayTouch || leaningOf(corner, piece.normal()) > sizes_.faceAngle) return open;
+  return add(slave, master, gap, along / piece.length) ? 0 : open;
 }
 
-void NearRows::corners(EntryId first, EntryId second) {
+double NearRows::corners(EntryId first, EntryId second) {
   const Corner a = cornerAt(first), b = cornerAt(second);
-  if (a.own->prev() == second || b.own->prev() == first) return;  // the ends of one piece
-  if ((a.isRound && b.isRound) || (!a.mayTouch && !b.mayTouch)) return;
-  if (b.turn < tolerance::kNotch && a.mayTouch) return notch(b, a);
-  if (a.turn < tolerance::kNotch && b.mayTouch) return notch(a, b);
-  separate(a, b);
+  if (a.own->prev() == second || b.own->prev() == first) return INFINITY;  // the ends of one piece
+  if ((a.isRound && b.isRound) || (!a.mayTouch && !b.mayTouch)) return 0;
+  const std::size_t former = rows_.size();
+  if (b.turn < tolerance::kNotch && a.mayTouch)
+    notch(b, a);
+  else if (a.turn < tolerance::kNotch && b.mayTouch)
+    notch(a, b);
+  else
+    separate(a, b);
+  return rows_.size() > former ? 0 : openDistance(a, b);
+}
+
+/// Whatever case of the page these corners become by a small change of shape: a row needs a side
+/// with a gap below the slack, and there is none if all four sides are open, both sides of one
+/// corner in front of a convex one, or one side between two convex ones (`separate`).
+double NearRows::openDistance(const Corner& a, const Corner& b) const {
+  if (a.isRound || b.isRound) return 0;
+  const auto isConvex = [](const Corner& c) { return c.turn > tolerance::kStillConvex; };
+  double all = INFINITY, most = 0;
+  for (const auto& [corner, point] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
+    const std::array<Side, 2> sides{sideOf(*corner, *point, false), sideOf(*corner, *point, true)};
+    const double both = std::min(sides[0].gap, sides[1].gap);
+    all = std::min(all, both);
+    if (!isConvex(*point)) continue;
+    for (const Side& side : sides) {
+      if (side.leaning > sizes_.faceAngle - tolerance::kStillConvex) continue;
+      const double gap = isConvex(*corner) ? side.gap - side.leaning * sizes_.leaning : both;
+      most = std::max(most, gap);
+    }
+  }
+  return std::max(all, most);
 }
 
 /// Both sides hold the tip. Where the boundary is nearly straight they are one, that which is

@@ -53,18 +53,21 @@ struct ContactSizes {
   double slack;      ///< m, rows that are open by more than this at x* are left out
   double leaning;    ///< m, per sine
   double faceAngle;  ///< sine
+  double closing;    ///< m, nodes move by less towards a pair that stays open in this step
+  bool isFast;       ///< the zone does not cover a step
 };
 
-/// Appends the rows of near pairs to a list.
+/// Appends the rows of near pairs to a list. Those of straight pieces return an open distance (m):
+/// while both move by less than a kOpenShare of it, the pair has no row. 0: it may have one.
 class NearRows {
  public:
   NearRows(const MovingPieces& pieces, const ContactSizes& sizes, std::vector<NearRow>& rows)
       : pieces_(pieces), sizes_(sizes), rows_(rows) {}
 
   /// Case 1. `along`, `gap` (m): place of the slave along a straight master and before it.
-  void cornerAndSide(EntryId slave, EntryId master, double along, double gap);
+  double cornerAndSide(EntryId slave, EntryId master, double along, double gap);
   /// Cases 2 to 5, for the corners at which two entries begin.
-  void corners(EntryId a, EntryId b);
+  double corners(EntryId a, EntryId b);
   /// A corner, or a point of an arc, in front of an arc. `before`, `now`: at xⁿ and x*.
   void cornerAndArc(EntryId slave, EntryId master, const PieceGeometry& before,
                     const PieceGeometry& now, const ContactSurfaces& surfaces);
@@ -75,6 +78,7 @@ class NearRows {
   [[nodiscard]] Corner cornerAt(EntryId entry) const;
   static double leaningOf(const Corner& corner, Vec2 normal);
   [[nodiscard]] Side sideOf(const Corner& corner, const Corner& point, bool atEnd) const;
+  [[nodiscard]] double openDistance(const Corner& a, const Corner& b) const;
   void notch(const Corner& corner, const Corner& tip);
   void separate(const Corner& a, const Corner& b);
   void addOf(const Side& side, double least);

@@ -1,17 +1,46 @@
 #include "contact/row_finder.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace yadefrag {
 
-std::vector<NearRow>& RowFinder::find(const Candidates& candidates, const ContactSurfaces& surfaces,
+namespace {
+
+/// The least of all, as if they were of now.
+Candidates::Distance leastOf(std::span<const Candidates::Distance> distances, double travelled) {
+  Candidates::Distance least{INFINITY, INFINITY, travelled};
+  for (const Candidates::Distance& one : distances) {
+    const double moved = travelled - one.when;
+    least.far = std::min(least.far, one.far - 2 * moved);
+    least.open = std::min(least.open, one.open - moved / tolerance::kOpenShare);
+  }
+  return least;
+}
+
+}  // namespace
+
+/// True if the slave has no row in this step. `distance`: of a former one.
+bool RowFinder::isQuiet(const Candidates::Distance& distance, const ContactSizes& sizes,
+                        double travelled) {
+  const double moved = travelled - distance.when;
+  return !sizes.isFast && distance.far - 2 * moved > tolerance::kFar * sizes.wide &&
+         tolerance::kOpenShare * distance.open - moved > sizes.closing;
+}
+
+bool RowFinder::mayFind(const Candidates& candidates, const ContactSizes& sizes, double travelled) {
+  return candidates.distances.empty() || !isQuiet(candidates.nearest, sizes, travelled);
+}
+
+std::vector<NearRow>& RowFinder::find(Candidates& candidates, const ContactSurfaces& surfaces,
                                       const Positions& positions, const ContactSizes& sizes,
-                                      int threads) {
+                                      double travelled, int threads) {
   rowOf_.assign(surfaces.entries(), kNone);
   const std::size_t count = candidates.slaves.size();
   for (std::size_t r = 0; r < count; ++r)
     rowOf_[candidates.slaves[r].value] = static_cast<std::uint32_t>(r);
+  candidates.distances.resize(count);
   parts_.resize(static_cast<std::size_t>(threadsFor(count, threads)));
   forEachPart(count, threads, [&](std::size_t begin, std::size_t end, int part) {
     PartList<NearRow>& found = parts_[static_cast<std::size_t>(part)];
@@ -23,8 +52,18 @@ std::vector<NearRow>& RowFinder::find(const Candidates& candidates, const Contac
                sizes,
                {pieces_, sizes, found},
                {},
+               {},
                {}};
-    for (std::size_t r = begin; r < end; ++r) visit(r, with);
+    for (std::size_t r = begin; r < end; ++r) {
+      Candidates::Distance& distance = candidates.distances[r];
+      const std::size_t former = found.size();
+      if (isQuiet(distance, sizes, travelled)) {
+        assert((visit(r, with), found.size() == former));
+        continue;
+      }
+      visit(r, with);
+      distance = {with.far, found.size() > former ? 0 : with.open, travelled};
+    }
   });
   rows_.clear();
   if (parts_.size() == 1) {
@@ -32,6 +71,8 @@ std::vector<NearRow>& RowFinder::find(const Candidates& candidates, const Contac
   } else {
     for (const auto& part : parts_) rows_.insert(rows_.end(), part.begin(), part.end());
   }
+  candidates.nearest = rows_.empty() ? leastOf(candidates.distances, travelled)
+                                     : Candidates::Distance{0, 0, travelled};
   return rows_;
 }
 
@@ -46,43 +87,68 @@ void RowFinder::visit(std::size_t row, Visit& with) const {
   const std::uint32_t begin = candidates.offsets[row], end = candidates.offsets[row + 1];
   if (with.near.size() < end - begin) with.near.resize(end - begin);
   std::size_t count = 0;
+  double far = INFINITY;
   for (std::uint32_t c = begin; c < end; ++c) {
     const EntryId master = candidates.masters[c];
     const MovingPiece& piece = pieces_[master];
     const Vec2 from = at - piece.begin;
     const double gap = std::abs(cross(piece.along, from)), half = .5 * piece.length;
     const double beside = std::abs(dot(from, piece.along) - half) - half;
+    const double distance = std::max(gap, beside);
+    const bool isNear = (distance <= wide) | static_cast<bool>(piece.isArc);
     with.near[count] = master;
-    count += static_cast<std::size_t>((gap <= wide) & (beside <= wide)) |
-             static_cast<std::size_t>(piece.isArc);
+    count += static_cast<std::size_t>(isNear);
+    far = std::min(far, isNear ? INFINITY : distance);
   }
   with.seen.clear();
+  with.far = far, with.open = tolerance::kMostOpen * with.sizes.shortest;
   for (std::size_t k = 0; k < count; ++k) {
     const EntryId master = with.near[k];
     if (pieces_[master].isArc != 0)
-      with.rows.cornerAndArc(slave, master, with.before, with.now, with.surfaces);
+      visitArc(slave, master, with);
     else
       visitStraight(slave, master, with);
   }
+}
+
+void RowFinder::visitArc(EntryId slave, EntryId master, Visit& with) const {
+  const MovingPiece& piece = pieces_[master];
+  const Vec2 at = pieces_[slave].begin, from = at - piece.begin;
+  const double gap = std::abs(cross(piece.along, from)), half = .5 * piece.length;
+  const double beside = std::abs(dot(from, piece.along) - half) - half;
+  // A Bézier arc is no farther from its chord than half of what its middle node is.
+  const double bulge = .5 * with.before.bulge(master, with.before.ends(master));
+  const double distance = std::max(gap, beside) - bulge;
+  if (distance > tolerance::kFar * with.sizes.wide && !with.sizes.isFast) {
+    with.far = std::min(with.far, distance);
+    return;
+  }
+  with.open = 0;
+  with.rows.cornerAndArc(slave, master, with.before, with.now, with.surfaces);
 }
 
 void RowFinder::visitStraight(EntryId slave, EntryId master, Visit& with) const {
   const MovingPiece& piece = pieces_[master];
   const Vec2 at = pieces_[slave].begin, from = at - piece.begin;
   const double along = dot(from, piece.along), gap = dot(from, piece.normal());
-  // A little less than the masters that are near, so that both corners of a pair see each other.
-  const double circle = tolerance::kInCircle * with.sizes.wide * with.sizes.wide;
-  if (dot(from, from) < circle) meet(slave, master, with);
-  const Vec2 fromEnd = at - pieces_[piece.next].begin;
-  if (dot(fromEnd, fromEnd) < circle) meet(slave, piece.next, with);
-  with.rows.cornerAndSide(slave, master, along, gap);
+  meet(slave, master, from, with);
+  meet(slave, piece.next, at - pieces_[piece.next].begin, with);
+  with.open = std::min(with.open, with.rows.cornerAndSide(slave, master, along, gap));
 }
 
-/// Two corners that are near each other: once for each such pair.
-void RowFinder::meet(EntryId slave, EntryId corner, Visit& with) const {
+/// Two corners, `from` (m) each other: once for each pair that is near.
+void RowFinder::meet(EntryId slave, EntryId corner, Vec2 from, Visit& with) const {
+  // A little less than the masters that are near, so that both corners of a pair see each other.
+  const double circle = tolerance::kInCircle * with.sizes.wide * with.sizes.wide;
+  const double square = dot(from, from);
+  if (!(square < circle)) {
+    with.far = std::min(with.far, std::sqrt(square));
+    return;
+  }
   if (corner == slave || std::ranges::find(with.seen, corner) != with.seen.end()) return;
   with.seen.push_back(corner);
-  if (slave < corner || !meets(corner, slave, with.candidates)) with.rows.corners(slave, corner);
+  if (slave < corner || !meets(corner, slave, with.candidates))
+    with.open = std::min(with.open, with.rows.corners(slave, corner));
 }
 
 /// True if a near corner is met when the slave is visited.

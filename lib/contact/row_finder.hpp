@@ -24,10 +24,16 @@ class RowFinder {
     pieces_.update(surfaces, positions.before, positions.now, threads);
     return pieces_.largestMove();
   }
+  /// False if no slave can have a row in this step, by the distances of an earlier one: most steps
+  /// of bodies that are apart. `travelled` (m): bound of the distance that each surface node has
+  /// moved so far.
+  [[nodiscard]] static bool mayFind(const Candidates& candidates, const ContactSizes& sizes,
+                                    double travelled);
   /// The rows of all candidates, in the order of their slaves; valid until the next call. The
-  /// result is the same for any number of threads.
-  std::vector<NearRow>& find(const Candidates& candidates, const ContactSurfaces& surfaces,
-                             const Positions& positions, const ContactSizes& sizes, int threads);
+  /// result is the same for any number of threads. Sets the distances of the candidates.
+  std::vector<NearRow>& find(Candidates& candidates, const ContactSurfaces& surfaces,
+                             const Positions& positions, const ContactSizes& sizes,
+                             double travelled, int threads);
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;
@@ -40,10 +46,14 @@ class RowFinder {
     NearRows rows;
     std::vector<EntryId> near;  // masters of one slave
     std::vector<EntryId> seen;  // corners that this slave has met
+    double far = 0, open = 0;   // m, of the slave: see Candidates::Distance
   };
+  [[nodiscard]] static bool isQuiet(const Candidates::Distance& distance, const ContactSizes& sizes,
+                                    double travelled);
   void visit(std::size_t row, Visit& with) const;
+  void visitArc(EntryId slave, EntryId master, Visit& with) const;
   void visitStraight(EntryId slave, EntryId master, Visit& with) const;
-  void meet(EntryId slave, EntryId corner, Visit& with) const;
+  void meet(EntryId slave, EntryId corner, Vec2 from, Visit& with) const;
   [[nodiscard]] bool meets(EntryId slave, EntryId corner, const Candidates& candidates) const;
 
   MovingPieces pieces_;

@@ -52,6 +52,18 @@ inline constexpr double kWidestZone = .4;
 /// step. Corners are met within a circle that is smaller by rounding.
 inline constexpr double kWide = 1.5, kInCircle = 1 - 1e-9;
 
+/// (ratio) Slaves are not looked at while all nodes have moved by less than the first of the gap
+/// that keeps a pair open, with the turn of its side, and of at most the second, of the shortest
+/// segment. Then no sine has changed by kStillConvex.
+inline constexpr double kOpenShare = .2, kMostOpen = .05, kStillConvex = .1;
+
+/// (of slack and displacement) A pair whose gap is larger has no row: both move towards each other,
+/// and the gap at x* must be above two slacks.
+inline constexpr double kClosing = 2.1;
+
+/// (of the wide distance) Farther pieces are not near, arcs with their bulge neither.
+inline constexpr double kFar = 1.5;
+
 /// (of its distance from a side's end) A corner deeper than this behind the middle of a side came
 /// past the end.
 inline constexpr double kThrough = .5;
