@@ -59,10 +59,3 @@ def testPlacesWithRadiiAndEqualPlaces():
     assert yadefrag.inCurveOrder(pairs) == [pairs[0], pairs[2], pairs[3], pairs[1]]
     assert yadefrag.inCurveOrder(iter([(2, 2, 2)])) == [(2, 2, 2)]
     assert yadefrag.inCurveOrder([]) == []
-
-
-@pytest.mark.parametrize('wrong', [(1, 2), (1, 2, float('nan')), 'abc', 3, None, (1, 2, 3, 4),
-                                   ((1, 2, float('inf')), .1)])
-def testRefusesWhatHasNoPlace(wrong):
-    with pytest.raises(ValueError, match=r'bodies\[1\]'):
-        yadefrag.inCurveOrder([(0, 0, 0), wrong])

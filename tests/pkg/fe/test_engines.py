@@ -143,16 +143,6 @@ def test_loopWithOtherFunctorsIsUsed():
     assert yadefrag.engines(solver, spheres=True, loop=own)[2] is own
 
 
-@pytest.mark.parametrize('name, value', [
-    ('loop', w.NewtonIntegrator), ('loop', 'CurveLoop'), ('integrator', w.InteractionLoop), ('integrator', 3),
-    ('collider', w.CurveLoop), ('collider', 'LebesgueCollider')])
-def test_wrongClassesAreRefused(name, value):
-    solver = fe()
-    with pytest.raises(ValueError, match='^%s is .* it must be None, or a class derived from ' % name):
-        yadefrag.engines(solver, spheres=True, gravity=(0, -1), **{name: value})
-    assert tuple(solver.gravity) == (0, 0, 0) and solver.takesGravity
-
-
 # --- gravity
 
 def accelerations(solver, ball, count=20):

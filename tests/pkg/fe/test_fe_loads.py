@@ -294,25 +294,3 @@ def test_bodyThatFallsIsNotAtRest():
     run(solver)
     with pytest.warns(UserWarning, match='after [0-9]+ steps the kinetic energy is still'):
         assert solver.relax(1e-6, most=100) >= 100
-
-
-@pytest.mark.parametrize('wrong, sentence', [
-    (lambda fe: fe.pressure([0], 1), 'No side of the boundary'),
-    (lambda fe: fe.pressure([99], 1), 'there are'),
-    (lambda fe: fe.pressure(lambda x, y: True, 'high'), "p is 'high'"),
-    (lambda fe: fe.pressure(lambda x, y: True, math.inf), 'p is inf'),
-    (lambda fe: fe.pressure(lambda x, y: True, [(1, 0), (0, 0)]), 'times that do not ascend'),
-    (lambda fe: fe.absorb([0]), 'No side of the boundary'),
-    (lambda fe: fe.absorb('rim'), "component is 'rim'"),
-    (lambda fe: fe.relax(0), 'tolerance is 0'),
-    (lambda fe: fe.relax(most=0), 'most is 0'),
-])
-def test_wrongLoadsAreRefused(wrong, sentence):
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-    run(solver)
-    with pytest.raises(ValueError) as error:
-        wrong(solver)
-    assert sentence in str(error.value)
-    steps(2)
-    assert solver.energy['external'] == 0 and solver.energy['damping'] == 0

@@ -207,18 +207,3 @@ def test_openJointsHaveNoStart():
     table = yadefrag.crackTable(solver)
     assert len(table) > 0 == solver.numCracks and np.isnan(table['start']).all()
     assert (table['damage'] == 1).all() and not table['held'].any() and table['y'] == pytest.approx(.5)
-
-
-@pytest.mark.parametrize('call, sentence', [
-    (lambda fe: fe.contactForce('anvil'), "a is 'anvil', it must be the number or the name"),
-    (lambda fe: fe.contactForce(0, 9), 'b is 9, which is no body'),
-    (lambda fe: fe.reaction('anvil'), "component is 'anvil'"),
-    (lambda fe: fe.reaction([99]), 'but there are'),
-    (lambda fe: yadefrag.crackTable(3), 'fe is 3, it must be an FESolver'),
-])
-def test_wrongArgumentsOfQueriesAreRefused(call, sentence):
-    solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material='m')
-    with pytest.raises(ValueError) as error:
-        call(solver)
-    assert sentence in str(error.value)

@@ -227,39 +227,10 @@ def test_aRefusedStepPutsDrivenNodesBack():
         assert (solver.nodes == before).all() and (solver.velocities == speed).all()
 
 
-@pytest.mark.parametrize('wrong, sentence', [
-    (lambda fe: fe.prescribe([0, 1], vx=[1., 2., 3.]), 'vx has 3 values, it must have one for each of the 2'),
-    (lambda fe: fe.prescribe([0], vx=[(0, 1), (0, 2)]), 'vx has times that do not ascend'),
-    (lambda fe: fe.prescribe([0], vx=[(0, math.nan)]), 'not finite'),
-    (lambda fe: fe.prescribe([0, 1], vx=[1., 2.], vy=[(0, 1)]), 'vx is an array, but the other'),
-    (lambda fe: fe.prescribe('anvil', vx=1), "component is 'anvil', it must be the number or the name"),
-    (lambda fe: fe.rotate(7, 1, (0, 0)), 'component is 7, which is no body'),
-    (lambda fe: fe.rotate([0], 'fast', (0, 0)), "omega is 'fast'"),
-    (lambda fe: fe.rotate([0], 1, 'here'), "centre is 'here'"),
-    (lambda fe: fe.rotate([99], 1, (0, 0)), 'there are'),
-    (lambda fe: fe.nodesOf('anvil'), "component is 'anvil'"),
-    (lambda fe: fe.nodesOf(1.5), 'component is 1.5'),
-    (lambda fe: fe.removeBody('anvil'), "component is 'anvil'"),
-])
-def test_wrongMotionsAreRefused(wrong, sentence):
-    solver = block()
-    before, energy = solver.velocities, solver.energy
-    with pytest.raises(ValueError) as error:
-        wrong(solver)
-    assert sentence in str(error.value)
-    assert (solver.velocities == before).all() and solver.energy == energy
-    steps(2)
-    assert not solver.reactions.any()
-
-
 def test_namesAreTakenOnce():
     solver = fe()
     place = [yadefrag.rectangle((2 * k, 0), (2 * k + 1, 1)) for k in range(2)]
     assert solver.addPolygon(place[0], size=.5, material='m', name='anvil') == 0
-    for name in ('anvil', '', 'a\nb', 3):
-        with pytest.raises(ValueError):
-            solver.addPolygon(place[1], size=.5, material='m', name=name)
-    assert len(set(solver.components)) == 1
     solver.removeBody('anvil')
     assert solver.addPolygon(place[1], size=.5, material='m', name='anvil') == 1
     assert repr(solver.meshQuality('anvil')) == repr(solver.meshQuality(1))

@@ -131,30 +131,6 @@ def test_spheresHaveTheMaterialBesideThem():
         assert body.material.label == ('hard' if x < kLength / 2 else 'soft'), x
 
 
-@pytest.mark.parametrize('given, sentence', [
-    (dict(material=lambda x, y: 'none'), r"material\(.*is 'none', which is not in O.materials"),
-    (dict(material=lambda x, y: None), r'material\(.*is None, it must be an FEMat'),
-    (dict(material=['hard']), 'material has 1 values, it must have one for each of the'),
-    (dict(material=(['hard'], [1])), r'material\[1\] must be an array of whole numbers from 0 to 0'),
-    (dict(material=halves, element='smoothed'), "element is 'smoothed', but the body has several"),
-    (dict(material='hard', interfaceStrength=1), 'interfaceStrength is given, but the body has one'),
-    (dict(material=halves, interfaceStrength=-1), 'interfaceStrength is -1, it must be 0 or a pos'),
-    (dict(material=halves, interfaceStrength='x'), "interfaceStrength is 'x', it must be None"),
-    (dict(material=halves, interfaceEnergy=lambda x, y: -1), r'interfaceEnergy\(.*is -1, it must'),
-    (dict(material=halves, interfaceStrength={'hard': 1}), 'a key of interfaceStrength is'),
-    (dict(material=halves, interfaceStrength={('hard', 'x'): 1}), "is 'x', which is not in O.mat"),
-    (dict(material=halves, interfaceStrength={('hard', 'soft'): 'x'}), r"interfaceStrength\[.*is 'x', it must be 0 or .*, or None"),
-])
-def test_wrongValuesAreRefused(given, sentence):
-    O.materials.append(hard())
-    O.materials.append(soft())
-    solver = w.FESolver()
-    with pytest.raises(ValueError, match=sentence) as error:
-        solver.addPolygon(yadefrag.rectangle((0, 0), (kLength, kHeight)), size=.01, **given)
-    assert str(error.value).count('. ') == 0
-    assert len(O.bodies) == 0 and len(solver.nodes) == 0
-
-
 # --- bonds
 
 
@@ -212,20 +188,6 @@ def test_bondedGrainsCarryStressAsOneBodyDoes():
     wanted = 1e9 * (1 - .2) / (1 + .2) / (1 - .4) * O.time
     # What runs ahead of the waves, and what sweeps leave, is some thousandths.
     assert solver.stress[inside, 0] == pytest.approx(wanted, rel=.01)
-
-
-@pytest.mark.parametrize('given, sentence', [
-    (dict(a=0, b=1, strength=0, energy=1), 'strength is 0, it must be a positive number'),
-    (dict(a=0, b=1, strength=1, energy=-1), 'energy is -1, it must be a positive number'),
-    (dict(a=0, b='x', strength=1, energy=1), "b is 'x', it must be the number or the name of a body"),
-    (dict(a=0, b=2, strength=1, energy=1), 'There is no body 2 to bond'),
-    (dict(a=1, b=1, strength=1, energy=1), 'cannot be bonded to itself'),
-])
-def test_wrongBondsAreRefused(given, sentence):
-    solver = pair()
-    with pytest.raises(ValueError, match=sentence):
-        solver.bond(**given)
-    assert solver.bond(0, 1, 1e6, 100) > 0
 
 
 def test_bodiesThatDoNotTouchAreRefused():

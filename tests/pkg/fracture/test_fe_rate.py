@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import yadefrag
-from refused import assertRefused
 from yade import wrapper as w
 
 O = builtins.O
@@ -91,44 +90,6 @@ def test_anEffectMultipliesWhatAnEdgeHas():
     assert isJoint.any() and table['strength'][isJoint] == pytest.approx(np.full(isJoint.sum(), kStrength / 2))
     others = table['strength'][~isJoint] / kStrength
     assert len(others) and (others > .89).all() and (others < 1.11).all() and np.ptp(others) > 1e-3
-
-
-def test_aNameOrPointsAreGivenAndReturned():
-    material = w.BrittleFEMat()
-    assert material.rateEffect == 'none' and material.rateEnergyPower == 1
-    for one in ('ceb-fip-2010', kTable, 'none'):
-        material.rateEffect = one
-        assert material.rateEffect == one and material.dict()['rateEffect'] == one
-        assert w.BrittleFEMat(rateEffect=one).rateEffect == one
-    material.rateEffect = np.array(kTable)
-    assert material.rateEffect == kTable
-
-
-@pytest.mark.parametrize('given, kind, message', [
-    ('ceb', ValueError, "rateEffect is 'ceb'; it must be one of 'none', 'ceb-fip-2010', or points"),
-    ('', ValueError, "rateEffect is ''; it must be one of"),
-    ([], ValueError, 'rateEffect has no points; it must have at least two'),
-    ([(1, 1)], ValueError, 'rateEffect has one point; it must have at least two'),
-    ([(1, 1), (.5, 2)], ValueError, 'rateEffect has the strain rate 0.5 1/s after 1 1/s; rates must increase'),
-    ([(1, 1), (2, .5)], ValueError, 'rateEffect has the factor 0.5; factors must be from 1'),
-    ([(-1, 1), (2, 2)], ValueError, 'rateEffect has the strain rate -1 1/s; rates must be positive'),
-    ([(1, 1), (float('nan'), 2)], ValueError, 'rates must be positive and finite'),
-    ([(1, 1), (2, float('nan'))], ValueError, 'rateEffect has the factor nan'),
-    (3, TypeError, 'rateEffect is 3, it must be a name, or a list of points (strain rate in 1/s, factor'),
-    (None, TypeError, 'rateEffect is None, it must be a name'),
-    ([1, 2], TypeError, 'it must be a name, or a list of points'),
-    ([(1, 1, 1), (2, 2, 2)], TypeError, 'it must be a name, or a list of points')])
-def test_othersAreRefusedByOneSentence(given, kind, message):
-    assertRefused('rateEffect', given, kind, message)
-
-
-@pytest.mark.parametrize('power', [-1, 11, float('nan'), float('inf')])
-def test_aWrongPowerIsRefusedWithTheBody(power):
-    O.materials.append(concrete(rateEnergyPower=power))
-    fe = w.FESolver()
-    with pytest.raises(ValueError, match='rateEnergyPower is .*; it must be from 0, for an energy'):
-        fe.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.5, material=0)
-    assert len(fe.nodes) == 0 and len(O.bodies) == 0
 
 
 def test_messagesAndTheStepCountTheLargestFactor():

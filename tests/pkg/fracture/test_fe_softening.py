@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 
 import yadefrag
-from refused import assertRefused
 from yade import wrapper as w
 
 O = builtins.O
@@ -52,33 +51,3 @@ def test_aJointOpensWithItsEnergyUpToTheCriticalOpening(softening):
     assert fe.energy['fracture'] == pytest.approx(kEnergy * kHeight, rel=2e-3)
     assert fe.energy['total'] == pytest.approx(begin, abs=1e-3 * kEnergy * kHeight)
     assert not fe.warnings
-
-
-def test_aNameOrPointsAreGivenAndReturned():
-    material = w.BrittleFEMat()
-    assert material.softening == 'linear'
-    for one in kCurves:
-        material.softening = one
-        assert material.softening == one
-        assert w.BrittleFEMat(softening=one).softening == one
-    material.softening = np.array(kTable)
-    assert material.softening == kTable
-    assert material.dict()['softening'] == kTable
-
-
-@pytest.mark.parametrize('given, kind, message', [
-    ('cubic', ValueError, "softening is 'cubic'; it must be one of 'linear', 'bilinear'"),
-    ('', ValueError, "softening is ''; it must be one of"),
-    ([(0, 1)], ValueError, 'softening has 1 points; it must have at least two'),
-    ([(0, .9), (1, 0)], ValueError, 'softening begins at (0, 0.9); it must begin at (0, 1)'),
-    ([(0, 1), (2e-4, 0)], ValueError, 'softening ends at (0.0002, 0); it must end at (1, 0)'),
-    ([(0, 1), (.5, .2), (.4, .1), (1, 0)], ValueError, 'softening has the opening 0.4 after 0.5'),
-    ([(0, 1), (.4, .1), (.5, .2), (1, 0)], ValueError, 'softening has the traction 0.2 after 0.1'),
-    ([(0, 1), (float('nan'), .2), (1, 0)], ValueError, 'openings must increase'),
-    (3, TypeError, 'softening is 3, it must be a name, or a list of points'),
-    (None, TypeError, 'softening is None, it must be a name'),
-    ([0, 1, 1, 0], TypeError, 'it must be a name, or a list of points'),
-    ([(0, 1), (1, 0, 0)], TypeError, 'it must be a name, or a list of points'),
-    ([(0, 'a'), (1, 0)], TypeError, 'it must be a name, or a list of points')])
-def test_othersAreRefusedByOneSentence(given, kind, message):
-    assertRefused('softening', given, kind, message)

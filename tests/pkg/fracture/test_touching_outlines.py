@@ -146,20 +146,6 @@ def test_theRefusalStatesTheOverlapAndARemedyThatHelps():
         solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.1, material='m')
 
 
-@pytest.mark.parametrize('given, sentence', [
-    (dict(snap=-1), 'snap is -1, it must be 0, a positive number'),
-    (dict(snap='x'), "snap is 'x', it must be"),
-    (dict(snap=.1, displacement=lambda x, y: (0, 0)), 'snap and displacement are both given'),
-    (dict(snap=2.), 'would collapse; it must be less than half its width'),
-])
-def test_wrongTolerancesAreRefused(given, sentence):
-    solver = solverOf()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.1, material='m')
-    with pytest.raises(ValueError, match=sentence):
-        solver.addPolygon(yadefrag.rectangle((1, .4), (1.1, .5)), size=.1, material='m', **given)
-    assert len(solver.surfaces) == 1
-
-
 # --- outlines that are given the same points; bonds
 
 def test_gapsAreClosedOnRequest():
@@ -237,17 +223,6 @@ def test_aCoarserBodyIsGivenTheNodesOfAFinerOne():
     solver.addPolygon(yadefrag.rectangle((1, 0), (2, 1)), size=.08, material='m', snap=1e-6)
     triangles = len(solver.triangles)
     assert solver.bond(0, 1, 1e6, 1e4) == 20 and len(solver.triangles) == triangles
-
-
-@pytest.mark.parametrize('given, sentence', [
-    ((3, 1.), 'shapes is 3, it must be a list of outlines'),
-    (([[(0, 0), (1, 0)]], 1.), r'shapes\[0\]'),
-    (([[(0, 0), (1, 0), (1, 1)]], 0), 'tolerance is 0, it must be a positive number'),
-    (([[(0, 0), (1, 0), (1, 1)], [(1, 0), (1.01, 0), (1, .01)]], .1), 'would collapse'),
-])
-def test_wrongOutlinesAreRefused(given, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        yadefrag.snapOutlines(*given)
 
 
 # --- joints

@@ -1,4 +1,4 @@
-"""What is refused is shown in short; attributes of a wrong kind. What is accepted: test_forms.py."""
+"""Curves are given and returned alike; what is refused is shown in short. What is accepted: test_forms.py."""
 import builtins
 
 import numpy as np
@@ -11,6 +11,27 @@ from yadefrag import arguments
 
 O = builtins.O
 kSquare = [(0, 0), (1, 0), (1, 1), (0, 1)]
+
+# --- curves by a name or by points
+
+SOFTENING = [(0, 1), (.1, .4), (.5, .3), (1, 0)]
+
+
+@pytest.mark.parametrize('cls, attribute, values', [
+    (w.BrittleFEMat, 'softening', ('linear', 'bilinear', 'petersson', 'ceb-fip-2010', 'exponential', 'reinhardt', SOFTENING)),
+    (w.BrittleFEMat, 'rateEffect', ('none', 'ceb-fip-2010', [(1, 1), (100, 4)])),
+    (w.PlasticFEMat, 'hardeningTable', ('none', [(0, 1e8), (.1, 2e8)]))])
+def test_curvesAreReturnedAsGiven(cls, attribute, values):
+    """The first one is the default."""
+    material = cls()
+    for value in (values[0], *reversed(values), values[0]):
+        assert cls(**{attribute: value}).dict()[attribute] == value
+        assert cls().dict()[attribute] == values[0]
+        setattr(material, attribute, value)
+        assert getattr(material, attribute) == material.dict()[attribute] == value
+    setattr(material, attribute, np.array(values[-1]))
+    assert getattr(material, attribute) == values[-1]
+
 
 # --- what is shown
 
