@@ -2,7 +2,6 @@
 energy within the step, whatever their masses."""
 import builtins
 import math
-import os
 
 import numpy as np
 import pytest
@@ -258,28 +257,6 @@ def test_boxComesToRestUnderItsWeight():
     assert abs(body.state.pos[1] - place) < 1e-9 and body.state.vel.norm() < 1e-6
     assert O.forces.f(body.id)[1] == pytest.approx(.05 * 9.81, rel=1e-4)
     assert solver.warnings == []
-
-
-def test_savedAndRefusedStepsGoOnWithTheSameBits(folder):
-    solver = fe()
-    blockOf(solver)
-    body = box((-.061, .08), (.06, .04), mass=.3, velocity=(1, 0), turning=2)
-    run(solver)
-    steps(int(.004 / O.dt))
-    O.save(os.path.join(folder, 'box.yade'))
-    engines = O.engines
-    fair = O.dt
-    O.dt = 2 * solver.criticalTimeStep()
-    with pytest.raises(ValueError):
-        O.step()
-    O.dt, O.engines = fair, engines
-    steps(200)
-    nodes, place = solver.nodes, (*body.state.pos, body.state.angVel[2])
-    O.load(os.path.join(folder, 'box.yade'))
-    steps(200)
-    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
-    body = [b for b in O.bodies if isinstance(b.shape, w.Box)][0]
-    assert (solver.nodes == nodes).all() and (*body.state.pos, body.state.angVel[2]) == place
 
 
 def test_bodyThatStopsToObeyForcesIsHeld():

@@ -1,12 +1,11 @@
 """The tolerance at which the solution of contact ends, and pieces of a body that cracks stay apart."""
 import builtins
-import os
 
 import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import impact, run, solverOfScene, steps
+from fe_scene import impact, run, steps
 from yade import wrapper as w
 
 O = builtins.O
@@ -44,20 +43,6 @@ def test_namesAndNumbers():
     assert solver.contactTolerance == .5**8
     solver.contactTolerance = 'fine'
     assert solver.dict()['contactTolerance'] == 1e-4
-
-
-def test_isSaved(tmp_path):
-    solver = impact(contactTolerance=1e-5)
-    steps(200)
-    file = os.path.join(str(tmp_path), 'scene.yade')
-    O.save(file, quiet=True)
-    steps(100)
-    wanted = np.array(solver.nodes)
-    O.load(file, quiet=True)
-    solver = solverOfScene()
-    assert solver.contactTolerance == 1e-5
-    steps(100)
-    assert (np.array(solver.nodes) == wanted).all()
 
 
 def test_finerOnesTakeMoreSweeps():

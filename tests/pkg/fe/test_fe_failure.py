@@ -27,10 +27,6 @@ def plate(speed=500, **material):
     return fe
 
 
-def solverOfScene():
-    return next(engine for engine in O.engines if isinstance(engine, FESolver))
-
-
 def test_aPlateIsPlugged():
     fe = plate()
     start = fe.energy['total']
@@ -133,22 +129,6 @@ def test_theFractureEnergyMayVary():
     assert weak.any() and (table['energy'][weak] == 0).all() and not table['held'][weak].any()
     tough = table['x'] > .0115
     assert tough.any() and (table['energy'][tough] == 1e6).all() and table['held'][tough].all()
-
-
-def test_whatIsScatteredContinuesFromAFile(tmp_path):
-    fe, _ = bar(material=dict(weibullModulus=8, failureStrain=.08))
-    file = str(tmp_path / 'half.yade.gz')
-    O.save(file)
-
-    def end():
-        O.run(200, True)
-        solver = solverOfScene()
-        return solver.nodes.tobytes(), solver.damage.tobytes(), solver.numCracks
-
-    whole = end()
-    assert whole[2] > 0
-    O.load(file)
-    assert end() == whole
 
 
 CONCRETE = dict(young=30e9, poisson=.2, density=2400, cohesion=5e6, internalFriction=.5, dilationAngle=.5,

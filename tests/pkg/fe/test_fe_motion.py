@@ -98,20 +98,12 @@ def bentBeam(element):
     start = fe.nodes[tip, 1].mean()
     O.run(12000, True)
     theory = 8**3 * 4 * (1 - poisson**2) / young + 1.2 * 8 * 2 * (1 + poisson) / young
-    return (fe.nodes[tip, 1].mean() - start) / theory, fe
+    return (fe.nodes[tip, 1].mean() - start) / theory
 
 
-def test_smoothedStrainsBend(tmp_path):
-    assert bentBeam('linear')[0] == pytest.approx(.89, abs=.02)
-    bent, fe = bentBeam('smoothed')
-    assert bent == pytest.approx(1.01, abs=.02)
-    path = str(tmp_path / 'beam.yade.gz')
-    O.save(path)
-    O.run(50, True)
-    expected = fe.nodes
-    O.load(path)
-    O.run(50, True)
-    assert (O.engines[0].nodes == expected).all()
+def test_smoothedStrainsBend():
+    assert bentBeam('linear') == pytest.approx(.89, abs=.02)
+    assert bentBeam('smoothed') == pytest.approx(1.01, abs=.02)
 
 
 def drift(factor):

@@ -133,22 +133,12 @@ def test_createdEnergyIsThatOfTheBodies():
     assert solver.energy['scene'] - solver.energy['total'] == pytest.approx(gained, rel=.05)
 
 
-def test_balanceIsSavedAndRecorded(tmp_path):
-    def go():
-        solver = falling(angle=.3, factor=.2)
-        O.engines = O.engines + [yadefrag.FERecorder(iterPeriod=50, file=str(tmp_path / 'run'), fields=[])]
-        return solver
-    solver = go()
-    O.run(2000, True)
-    O.save(str(tmp_path / 'x.yade'))
-    O.run(500, True)
+def test_balanceIsRecorded(tmp_path):
+    solver = falling(angle=.3, factor=.2)
+    O.engines = O.engines + [yadefrag.FERecorder(iterPeriod=50, file=str(tmp_path / 'run'), fields=[])]
+    O.run(2500, True)
     wanted = solver.energy
     assert 'scene' in wanted and wanted['scene'] != wanted['total']
-    O.reset()
-    O.load(str(tmp_path / 'x.yade'))
-    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
-    O.run(500, True)
-    assert solver.energy == wanted
     head, *rows = (tmp_path / 'run.csv').read_text().splitlines()
     place = head.split(',').index('scene (J)')
     # The last record is of a step before the end of the run, or of that.

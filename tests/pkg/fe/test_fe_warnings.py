@@ -1,6 +1,5 @@
 """What FESolver complains of: energy that contact makes, bodies that sink into one another."""
 import builtins
-import random
 import warnings
 
 import pytest
@@ -52,31 +51,6 @@ def test_overlapIsReportedOncePerDoubling(capfd, tmp_path):
         [again] = [e for e in O.engines if isinstance(e, w.FESolver)]
         assert again.warnings == sentences
         assert 'WARN  FESolver' not in capfd.readouterr().err
-
-
-def vary(critical, steps, seed=3):
-    """Steps drawn anew between 0.27 and 0.9 of the critical one; the same ones for one seed."""
-    [solver] = [e for e in O.engines if isinstance(e, w.FESolver)]
-    rng = random.Random(seed)
-    for _ in range(steps):
-        O.dt = rng.uniform(.27, .9) * critical
-        O.step()
-    return solver
-
-
-@pytest.mark.parametrize('before, after', [(200, 800), (800, 250)])
-def test_reloadedRunWarnsTheSame(before, after, tmp_path):
-    critical = blow().criticalTimeStep()
-    vary(critical, before)
-    path = str(tmp_path / 'x.yade')
-    O.save(path)
-    solver = vary(critical, after, seed=5)
-    wanted, nodes = solver.warnings, solver.nodes
-    assert wanted
-    O.reset()
-    O.load(path)
-    solver = vary(critical, after, seed=5)
-    assert solver.warnings == wanted and (solver.nodes == nodes).all()
 
 
 def test_untouchedBodyGivesNoMessage():

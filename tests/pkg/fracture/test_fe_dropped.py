@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import areSame, heapSpheres, impact, requireBodiesAreEntries, state, steps
+from fe_impact import heapSpheres, impact, requireBodiesAreEntries, steps
 from yadefrag.plots.colours import fragmentColours
 from yade import utils
 from yade import wrapper as w
@@ -71,20 +71,6 @@ def test_momentumOfAFreeBlock():
     assert gone['count'] > 3
     assert np.allclose(momentum(solver) + gone['momentum'], start, rtol=0,
                        atol=1e-11 * np.linalg.norm(start))
-
-
-@pytest.mark.parametrize('finder', ['InsertionSortCollider', None])
-def test_sameWithAnyCollider(finder):
-    runs = []
-    for one in ('LebesgueCollider', finder):
-        O.reset()
-        solver = dropping(one)
-        steps(220)
-        runs.append((state(solver), solver.dropped, solver.numCracks))
-    assert runs[0][1]['count'] > 3
-    assert runs[0][2] == runs[1][2] and runs[0][1]['count'] == runs[1][1]['count']
-    if finder:
-        assert areSame(runs[0][0], runs[1][0]) and runs[0][1] == runs[1][1]
 
 
 @pytest.mark.parametrize('finder', ['LebesgueCollider', 'InsertionSortCollider'])

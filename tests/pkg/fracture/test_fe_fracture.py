@@ -1,4 +1,4 @@
-"""Brittle bodies in YADE: faces of cracks as bodies, any collider, saving, fragments, records."""
+"""Brittle bodies in YADE: faces of cracks as bodies, spheres on them, fragments, records."""
 import builtins
 import os
 
@@ -15,21 +15,6 @@ from yade import wrapper as w
 O = builtins.O
 
 
-# --- input
-
-def test_coarseMeshIsReported():
-    with pytest.warns(UserWarning, match='less than four elements'):
-        impact(fractureEnergy=5)
-
-
-def test_openingThatNoStepResolvesIsRefused():
-    with pytest.warns(UserWarning):
-        impact(fractureEnergy=1e-6)
-    with pytest.raises((ValueError, RuntimeError), 
-                       match='^fractureEnergy is .*a step of .* is sufficient'):
-        O.step()
-
-
 def test_maxCracks():
     solver = impact()
     solver.maxCracks = 7
@@ -39,8 +24,6 @@ def test_maxCracks():
     steps(5)
     assert solver.numCracks > 7
 
-
-# --- cracks
 
 @pytest.mark.parametrize('smooth', [False, True])
 def test_facesOfCracksAreBodies(smooth):
@@ -127,24 +110,6 @@ def test_spheresOnABodyThatCracks(finder):
             assert b.state.pos[1] > .02
 
 
-def test_cracksAreTheSameWithAnyColliderAndThreads():
-    wanted = None
-    for finder, threads in ((None, 1), ('LebesgueCollider', 1), ('LebesgueCollider', 2),
-                            ('InsertionSortCollider', 1)):
-        O.reset()
-        solver = impact(finder, threads)
-        counts = []
-        for _ in range(20):
-            steps(10)
-            counts.append((solver.numCracks, solver.numSegments))
-        found = counts, solver.fragmentOf, solver.nodes
-        wanted = wanted or found
-        assert counts[-1][0] > 20
-        assert found[0] == wanted[0], (finder, threads)
-        assert np.array_equal(found[1], wanted[1]), (finder, threads)
-        assert np.abs(found[2] - wanted[2]).max() < 1e-12, (finder, threads)
-
-
 def test_facesOfCracksStartNoSearch():
     """Where there is nothing but FE bodies, the collider need not look when an edge cracks."""
     solver = impact()
@@ -163,9 +128,6 @@ def test_brittleBodyIsRemoved():
                                                    b.shape.component == 1])
     steps(20)
     assert len(solver.fragments()) == 1
-
-
-# --- saving and loading
 
 
 # --- fragments and records

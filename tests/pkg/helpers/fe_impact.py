@@ -4,7 +4,9 @@ import builtins
 import numpy as np
 
 import fe_chain as chain
+import fe_scene
 import yadefrag
+from fe_scene import steps  # noqa: F401  for tests
 from yade import wrapper as w
 
 O = builtins.O
@@ -17,15 +19,7 @@ def brittle(**values):
 
 
 def engines(solver, finder='LebesgueCollider', factor=.5):
-    made = [w.ForceResetter()]
-    if finder:
-        made.append(getattr(w, finder)([w.Bo1_Sphere_Aabb(), w.Bo1_SurfaceSegment_Aabb()]))
-    made += [w.InteractionLoop(
-        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Sphere_SurfaceSegment_ScGeom()],
-        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()]),
-        solver, w.NewtonIntegrator(damping=0)]
-    O.engines = made
-    O.dt = factor * solver.criticalTimeStep()
+    fe_scene.run(solver, finder and fe_scene.finder(finder), spheres=True, factor=factor)
 
 
 def impact(finder='LebesgueCollider', threads=1, speed=20, smooth=True, **values):
@@ -49,11 +43,6 @@ def heapSpheres():
         ball.state.vel = (0, -5, 0)
         O.bodies.append(ball)
     O.dt *= .5
-
-
-def steps(count):
-    for _ in range(count):
-        O.step()
 
 
 def state(solver):

@@ -1,5 +1,5 @@
-"""What must not change a run, in every scene that something happens in: saving and loading, the number of threads, the
-collider. All that moves, and all that FESolver keeps, has the same bits."""
+"""What must not change a run, in every scene that something happens in: saving and loading, the number of threads, steps
+that are refused, the collider. All that moves, and all that FESolver keeps, has the same bits."""
 import builtins
 import math
 
@@ -9,24 +9,29 @@ import pytest
 import fe_chain as chain
 import fe_impact
 import yadefrag
-from fe_scene import fe, finder, run, solverOfScene
+from fe_scene import fe, finder, impact, run, solverOfScene
 from yade import utils
 from yade import wrapper as w
 
 O = builtins.O
 kArrays = ('nodes', 'velocities', 'masses', 'triangles', 'fragmentOf', 'stress', 'plasticStrain', 'temperature',
            'damage')
-kFigures = ('energy', 'numCracks', 'numSearches', 'numSegments', 'dropped', 'warnings', 'time')
+kFigures = ('energy', 'numCracks', 'numSearches', 'numSegments', 'numActives', 'maxPenetration', 'dropped', 'warnings', 'time',
+            'criticalTimeStep')
 
 
 def state():
     """{what: bytes or text} of all that the next steps depend on; YADE does not save the geometry of contacts."""
     solver = solverOfScene()
     found = {name: np.asarray(getattr(solver, name)).tobytes() for name in kArrays}
-    found.update({name: repr(getattr(solver, name)) for name in kFigures}, cracks=yadefrag.crackTable(solver).tobytes(),
+    figures = {name: getattr(solver, name) for name in kFigures}
+    found.update({name: repr(one() if callable(one) else one) for name, one in figures.items()}, cracks=yadefrag.crackTable(solver).tobytes(),
                  surfaces=np.concatenate(solver.surfaces).tobytes())
     found['bodies'] = repr([(b.id, tuple(b.state.pos), tuple(b.state.vel), tuple(b.state.angVel))
                             for b in O.bodies if b and not isinstance(b.shape, w.SurfaceSegment)])
+    found['pieces'] = repr([(b.id, tuple(b.state.pos), b.shape.halo) for b in O.bodies
+                            if b and isinstance(b.shape, w.SurfaceSegment)])
+    found['attributes'] = repr({**solver.dict(), 'ompThreads': None})
     found['contacts'] = repr(sorted((i.id1, i.id2, tuple(i.phys.normalForce), tuple(i.phys.shearForce))
                                     for i in O.interactions if i.isReal))
     return found
@@ -38,6 +43,22 @@ def differences(a, b):
 
 def brittle(**values):
     return lambda: fe_impact.impact(**dict(dict(strengthScatter=.1, seed=3), **values))
+
+
+def elastic(smooth, **settings):
+    return lambda: impact('LebesgueCollider', smooth, **settings)
+
+
+def varying():
+    """Steps that change create energy, of which a message tells each doubling."""
+    O.materials.append(w.FEMat(young=210e9, poisson=.3, density=7800))
+    solver = w.FESolver()
+    for k in range(2):
+        nodes, triangles = yadefrag.rectangleMesh((.01 * k, -.001 * k), (.01 * k + .01, -.001 * k + .01), 6 + k, 6 + k)
+        solver.addTriangles(nodes, triangles, material=0, velocity=(20 * (1 - k), 0))
+    run(solver, finder('LebesgueCollider'))
+    command = 'O.dt = %r * (.27 + .63 * (O.iter * 7919 %% 97) / 97)' % solver.criticalTimeStep()
+    O.engines = [w.PyRunner(command=command, iterPeriod=1, initRun=True), *O.engines]
 
 
 def dropped():
@@ -67,7 +88,8 @@ def bonded():
 
 def stressed():
     solver = fe()
-    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='m', stress=(-3e4, 1e4, 2e4))
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, 1)), size=.2, material='m', stress=(-3e4, 1e4, 2e4),
+                      element='smoothed')
     run(solver)
 
 
@@ -138,6 +160,9 @@ kFails = dict(failureD1=.05, failureD2=3.44, failureD3=-2.12, failureD4=.002, fa
 kTable = [(0, 1), (.1, .4), (.5, .3), (1, 0)]
 # Scene: (makes it, steps before it is saved, what has happened by the end).
 kScenes = {
+    'elastic': (elastic(False, contactTolerance=1e-5), 150, lambda fe: fe.energy['contact'] != 0),
+    'smooth': (elastic(True, passes=2), 150, lambda fe: fe.energy['contact'] != 0),
+    'steps that vary': (varying, 200, lambda fe: len(fe.warnings) > 1),
     'elastic disc and sphere': (discAndBall, 250, lambda fe: fe.energy['contact'] != 0),
     'cracks': (brittle(weibullModulus=10, referenceVolume=1e-7), 120, lambda fe: fe.numCracks > 5),
     'cohesion': (brittle(fractureEnergy=500), 250, lambda fe: fe.numCracks > 5),
@@ -150,13 +175,34 @@ kScenes = {
     'stressed': (stressed, 20, lambda fe: fe.energy['strain'] > 0),
     'driven': (driven, 30, lambda fe: fe.energy['external'] > 0 and fe.energy['damping'] > 0),
     'plastic': (plastic(), 100, lambda fe: fe.plasticStrain.max() > .01),
-    'failure': (plastic(strengthScatter=.1, **kFails), 100, lambda fe: fe.numCracks > 0),
+    'failure': (plastic(weibullModulus=8, **kFails), 100, lambda fe: fe.numCracks > 0),
     'rigid': (rigid, 60, lambda fe: fe.energy['contact'] != 0),
     'clump on cracks': (wallAndClump, 150, lambda fe: fe.numCracks > 0),
 }
+# YADE's loop changes the contacts of spheres before FESolver can refuse a step.
+kSpheres = 'elastic disc and sphere', 'clump on cracks'
 # Each of those that are long takes some ten seconds; 'rate' has cohesive cracks, too.
 kNames = [pytest.param(name, marks=[pytest.mark.long] * (name in ('cohesion', 'petersson', 'table'))) for name in kScenes]
 pytestmark = pytest.mark.filterwarnings('ignore:fractureEnergy', 'ignore:.*less than four elements')
+
+
+def refuse():
+    """Steps that FESolver refuses change nothing."""
+    before, fair = state(), O.dt
+    piece = [b.id for b in O.bodies if b and isinstance(b.shape, w.SurfaceSegment)][-1]
+    for force in ((math.inf, 0, 0), (0, math.nan, 0), (1e300, -1e300, 0), (1e12, 0, 0)):
+        O.forces.setPermF(piece, force)
+        with pytest.raises(RuntimeError, match='Step .*(not finite|range of numbers|a node moves)'):
+            O.step()
+        O.forces.setPermF(piece, (0, 0, 0))
+        assert differences(before, state()) == [], force
+    if isinstance(O.engines[0], w.PyRunner) or solverOfScene().plasticStrain.any():  # they set the step themselves
+        return
+    O.dt = 50 * fair
+    with pytest.raises(ValueError, match='must be above 0 and at most'):
+        O.step()
+    O.dt = fair
+    assert differences(before, state()) == []
 
 
 def start(name, threads=1):
@@ -191,22 +237,42 @@ def test_savedAndLoaded(name, folder):
 
 
 @pytest.mark.parametrize('name', kNames)
-def test_threads(name):
-    O.run(2 * start(name), True)
+def test_threadsAndRefusedSteps(name):
+    steps = start(name)
+    O.run(2 * steps, True)
     wanted = state()
-    O.run(2 * start(name, 2), True)
+    start(name, 2)
+    for part in range(1, 5):
+        O.run(2 * steps * part // 4 - O.iter, True)
+        if part < 4 and name not in kSpheres:
+            refuse()
     assert differences(wanted, state()) == []
 
 
-@pytest.mark.parametrize('name', ['elastic disc and sphere', 'cracks', 'rate', 'clump on cracks'])
+def behind(engines):
+    return [engine for engine in engines if not isinstance(engine, w.Collider)] + engines[1:2]
+
+
+def withoutItsFunctor(engines):
+    return [engines[0], w.LebesgueCollider([w.Bo1_Sphere_Aabb()]), *engines[2:]]
+
+
+@pytest.mark.parametrize('name', ['elastic', 'smooth', 'cracks', 'rate', 'dropped', *kSpheres])
 def test_colliders(name):
-    found = []
-    for one in ('LebesgueCollider', 'InsertionSortCollider'):
-        steps = start(name)
-        O.engines = [finder(one) if 'Collider' in type(engine).__name__ else engine for engine in O.engines]
+    """Any collider, and without spheres also none, one behind the solver, and one that has no functor for pieces."""
+    others = () if name in kSpheres else (None, behind, withoutItsFunctor)
+    wanted = None
+    for one in ('LebesgueCollider', 'LinearCodeCollider', 'HierarchyCollider', 'InsertionSortCollider', *others):
+        steps, engines = start(name), O.engines
+        assert isinstance(engines[1], w.Collider)
+        O.engines = one(engines) if callable(one) else [engines[0], *([finder(one)] if one else []), *engines[2:]]
         O.run(2 * steps, True)
-        found.append(state())
-    assert differences(*found) == []
+        wanted = wanted or state()
+        assert differences(wanted, state()) == [], one
+        assert kScenes[name][2](solverOfScene())
+        assert not others or solverOfScene().numSearches < 2 * steps and not list(O.interactions)
+        # Where nothing could meet the bounds, no search is requested.
+        assert one is not behind or O.engines[-1].numAction == 1
 
 
 def test_loadedScenesMayChange(folder):
