@@ -1,4 +1,6 @@
 """A collider in a script: probed, timed, replaced, its attributes, how often it searches."""
+import builtins
+
 import numpy as np
 import pytest
 
@@ -128,31 +130,6 @@ def testAttributeNames(collider):
     assert engine.verletDist == .25
 
 
-def testUnknownKeyword(collider):
-    with pytest.raises(AttributeError):
-        collider(noSuchAttribute=1)
-    with pytest.raises(AttributeError):
-        collider().updateAttrs({'noSuchAttribute': 1})
-
-
-def testWrongArguments(collider):
-    cls = type(collider())
-    with pytest.raises(Exception):
-        cls([w.Bo1_Sphere_Aabb()], [w.Bo1_Facet_Aabb()])
-    with pytest.raises(Exception):
-        cls([w.NewtonIntegrator()])
-    with pytest.raises(Exception):
-        collider(verletDist='far')
-
-
-def testKnownToYade(collider):
-    assert O.isChildClassOf(collider.name, 'Collider')
-    assert isinstance(collider(), w.Collider)
-    assert type(collider()).__name__ == collider.name
-    assert getattr(w, collider.name) is type(collider())
-    assert collider.name in repr(collider()) or collider.name in str(type(collider()))
-
-
 def testNumActionCountsStrides(collider):
     def actions(verletDist):
         scenes.clear()
@@ -229,8 +206,55 @@ def testDeadCollider(collider):
     assert stepAndCheck(steps=5)
 
 
-def testLabelAndTypedEngine(collider):
-    import builtins
-    setEngines(collider(label='theOne'))
+# --- as YADE's own: dumpBounds() and typedEngine('InsertionSortCollider')
+
+def dumped(engine, periodic):
+    scenes.clear()
+    O.periodic = periodic
+    if periodic:
+        O.cell.setBox(3., 4., 5.)
+    rng = np.random.default_rng(3)
+    addSpheres(rng.uniform(-6, 6, (40, 3)), rng.uniform(.2, .4, 40), np.zeros((40, 3)), dynamic=False)
+    O.bodies.append(w.Body())  # without a bound
+    O.bodies[-1].state.pos, O.bodies[-1].dynamic = (1, 2, 3), False
+    setEngines(engine)
+    O.dt = 1e-9
+    before = engine.dumpBounds()
+    O.step()
+    return before, engine.dumpBounds()
+
+
+@pytest.mark.parametrize('periodic', [False, True])
+def test_dumpedAsByYade(collider, periodic):
+    """With bounds that are not enlarged, the same numbers."""
+    expected = dumped(w.InsertionSortCollider([w.Bo1_Sphere_Aabb()], verletDist=0), periodic)
+    found = dumped(collider(verletDist=0), periodic)
+    assert found[0] == expected[0] == ([], [], [])
+    assert isinstance(found[1], tuple) and [len(axis) for axis in found[1]] == [82] * 3
+    for mine, yades in zip(found[1], expected[1]):
+        assert all(type(one) is tuple and list(map(type, one)) == list(map(type, two))
+                   for one, two in zip(mine, yades))
+        assert [one[0] for one in mine] == pytest.approx([two[0] for two in yades], abs=1e-12)
+        assert sorted(one[1:] for one in mine) == sorted(two[1:] for two in yades)
+
+
+def test_erasedBodiesAreLeftOut(collider):
+    engine = collider()
+    dumped(engine, False)
+    O.bodies.erase(7)
+    O.step()
+    assert all(len(axis) == 80 and all(abs(one[1]) != 7 for one in axis) for axis in engine.dumpBounds())
+
+
+def test_foundByTheNameOfYadesCollider(collider):
+    engine = collider(label='theOne')
+    scenes.clear()
+    setEngines(engine)
     assert builtins.theOne.label == 'theOne'
-    assert utils.typedEngine(collider.name).label == 'theOne'
+    assert utils.typedEngine('InsertionSortCollider') == engine == utils.typedEngine(type(engine).__name__)
+    assert type(utils.typedEngine('NewtonIntegrator')) is w.NewtonIntegrator
+    with pytest.raises(IndexError):
+        utils.typedEngine('GravityEngine')
+    rival = w.InsertionSortCollider()
+    O.engines = [engine, rival]
+    assert utils.typedEngine('InsertionSortCollider') == rival  # if there is one

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import heapSpheres, impact, requireBodiesAreEntries, steps
+from fe_impact import impact, requireBodiesAreEntries, steps
 from yadefrag.plots.colours import fragmentColours
 from yade import utils
 from yade import wrapper as w
@@ -71,38 +71,6 @@ def test_momentumOfAFreeBlock():
     assert gone['count'] > 3
     assert np.allclose(momentum(solver) + gone['momentum'], start, rtol=0,
                        atol=1e-11 * np.linalg.norm(start))
-
-
-@pytest.mark.parametrize('finder', ['LebesgueCollider', 'InsertionSortCollider'])
-def test_spheresAmongDroppedFragments(finder):
-    """Interactions of bodies that go, go as well, and the others carry on."""
-    solver = dropping(finder)
-    heapSpheres()
-    touched = 0
-    for _ in range(30):
-        steps(20)
-        touched += sum(i.isReal for i in O.interactions)
-        for i in O.interactions:
-            assert O.bodies[i.id1] is not None and O.bodies[i.id2] is not None
-    requireBodiesAreEntries(solver)
-    assert touched > 20 and solver.dropped['count'] > 2
-    # A body that is made later gets a number of its own.
-    new = solver.addPolygon(yadefrag.rectangle((.1, 0), (.11, .01)), size=.005, material='m')
-    steps(5)
-    requireBodiesAreEntries(solver)
-    assert new == 2
-
-
-def test_bodyWithDroppedFragmentsIsRemoved():
-    solver = dropping()
-    steps(200)
-    assert solver.dropped['count'] > 0
-    before = solver.dropped
-    solver.removeBody(0)
-    assert {b.shape.component for b in O.bodies if b} == {1}
-    steps(20)
-    assert len(solver.fragments()) == 1 and solver.dropped == before
-    requireBodiesAreEntries(solver)
 
 
 def test_energyIsTracked():

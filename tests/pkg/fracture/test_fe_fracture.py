@@ -95,19 +95,41 @@ def test_spheresTouchNewFaces(finder):
 
 
 @pytest.mark.parametrize('finder', ['LebesgueCollider', 'InsertionSortCollider'])
-def test_spheresOnABodyThatCracks(finder):
-    """A heap of spheres on the block: pieces that change their kind keep carrying them."""
+@pytest.mark.parametrize('area', [0, 3e-6])
+def test_spheresOnABodyThatCracks(finder, area):
+    """A heap of spheres on the block: pieces that change their kind keep carrying them; interactions of fragments below
+    `area` (m²), which are dropped, go with these."""
     solver = impact(finder)
+    solver.minFragmentArea = area
     heapSpheres()
     touched = 0
     for _ in range(30):
         steps(20)
         touched += sum(i.isReal for i in O.interactions)
+        assert all(O.bodies[n] is not None for i in O.interactions for n in (i.id1, i.id2))
     requireBodiesAreEntries(solver)
-    assert touched > 20 and solver.numCracks > 20
-    for b in O.bodies:
-        if isinstance(b.shape, w.Sphere):
-            assert b.state.pos[1] > .02
+    assert touched > 20 and solver.numCracks > (10 if area else 20) and (solver.dropped['count'] > 2) == (area > 0)
+    if not area:
+        assert all(b.state.pos[1] > .02 for b in O.bodies if isinstance(b.shape, w.Sphere))
+    # A body that is made later gets a number of its own.
+    assert solver.addPolygon(yadefrag.rectangle((.1, 0), (.11, .01)), size=.005, material='m') == 2
+    steps(5)
+    requireBodiesAreEntries(solver)
+
+
+@pytest.mark.parametrize('area', [0, 3e-6])
+def test_brittleBodyIsRemoved(area):
+    """Also one of which fragments below `area` (m²) have been dropped."""
+    solver = impact()
+    solver.minFragmentArea = area
+    steps(200)
+    before = solver.dropped
+    assert solver.numCracks > 10 and (before['count'] > 0) == (area > 0)
+    solver.removeBody(0)
+    assert {b.shape.component for b in O.bodies if b} == {1}
+    steps(20)
+    assert len(solver.fragments()) == 1 and solver.dropped == before
+    requireBodiesAreEntries(solver)
 
 
 def test_facesOfCracksStartNoSearch():
@@ -117,17 +139,6 @@ def test_facesOfCracksStartNoSearch():
     steps(250)
     assert solver.numCracks > 30
     assert collider.numAction <= solver.numSearches + 1
-
-
-def test_brittleBodyIsRemoved():
-    solver = impact()
-    steps(150)
-    assert solver.numCracks > 10
-    solver.removeBody(0)
-    assert len([b for b in O.bodies if b]) == len([b for b in O.bodies if b and
-                                                   b.shape.component == 1])
-    steps(20)
-    assert len(solver.fragments()) == 1
 
 
 # --- fragments and records

@@ -1,7 +1,6 @@
-"""Several materials in a body, what is between them, and bonds between bodies, from Python."""
+"""Several materials in a body, and what is between them, from Python."""
 import builtins
 import os
-import warnings
 
 import numpy as np
 import pytest
@@ -129,75 +128,3 @@ def test_spheresHaveTheMaterialBesideThem():
     for body in O.bodies:
         x = body.state.pos[0]
         assert body.material.label == ('hard' if x < kLength / 2 else 'soft'), x
-
-
-# --- bonds
-
-
-def pair(gap=0, sizes=(.002, .002), velocity=0):
-    O.materials.append(w.FEMat(young=1e9, poisson=0, density=1000, planeStress=True, label='m'))
-    solver = w.FESolver()
-    half = kLength / 2
-    for low, size in ((0, sizes[0]), (half + gap, sizes[1])):
-        solver.addPolygon(yadefrag.rectangle((low, 0), (low + half, kHeight)), size=size, material='m',
-                          velocity=lambda x, y: (velocity * (x / half - 1), 0))
-    return solver
-
-
-def test_aBondHoldsAndBreaks():
-    solver = pair(velocity=.5)
-    sides = solver.bond(0, 1, 5e6, 100)
-    assert sides == round(kHeight / .002)
-    engines(solver, factor=.4)
-    O.run(1000, True)
-    assert len(solver.fragments(held=False)) == 2 and len(solver.fragments()) == 1
-    # Below its strength a bond is whole, although rounding opens its faces.
-    assert solver.crackCounts == dict(open=0, damaged=0, whole=sides)
-    assert abs(solver.energy['fracture']) < 1e-6 * 100 * kHeight
-    O.reset()
-    solver = pair(velocity=20)
-    solver.bond(0, 1, 5e6, 100)
-    engines(solver, factor=.4)
-    O.run(1000, True)
-    assert len(solver.fragments()) == 2
-    assert solver.energy['fracture'] == pytest.approx(100 * kHeight, rel=.02)
-    assert solver.numCracks == 0 and solver.crackCounts == dict(open=sides, damaged=0, whole=0)
-
-
-def test_bondedGrainsCarryStressAsOneBodyDoes():
-    grains = yadefrag.voronoi(yadefrag.rectangle((0, 0), (.04, .04)), 8, 3, shortest=.004)
-    O.materials.append(w.FEMat(young=1e9, poisson=.2, density=1000, label='m'))
-    solver = w.FESolver()
-    for grain in grains:
-        solver.addPolygon(grain, size=.003, material='m', velocity=lambda x, y: (x - .02, 0))
-    count = 0
-    for a in range(len(grains)):
-        for b in range(a):
-            try:
-                count += solver.bond(a, b, 1e7, 5000)
-            except ValueError as error:
-                assert 'No sides of the bodies' in str(error)
-    assert count > 20
-    engines(solver, factor=.4)
-    O.run(8, True)
-    assert len(solver.fragments(held=True)) == 1
-    # Drawn evenly at 1 /s; waves from the free sides have come less than 8 mm.
-    middles = solver.nodes[solver.triangles].mean(axis=1)
-    inside = np.abs(middles - .02).max(axis=1) < .012
-    assert 8 * O.dt * 1055 < .008
-    wanted = 1e9 * (1 - .2) / (1 + .2) / (1 - .4) * O.time
-    # What runs ahead of the waves, and what sweeps leave, is some thousandths.
-    assert solver.stress[inside, 0] == pytest.approx(wanted, rel=.01)
-
-
-def test_bodiesThatDoNotTouchAreRefused():
-    with pytest.raises(ValueError, match='No sides of the bodies 0 and 1'):
-        pair(gap=.01).bond(0, 1, 1e6, 100)
-
-
-def test_aMeshTooCoarseForABondIsReported():
-    solver = pair()
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter('always')
-        solver.bond(0, 1, 5e6, 1)
-    assert any('of the bond between the bodies 0 and 1' in str(one.message) for one in caught)

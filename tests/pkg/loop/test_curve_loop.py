@@ -1,21 +1,16 @@
-"""CurveLoop in the place of YADE's InteractionLoop: the same bits, whatever functors the scene has."""
-import json
+"""CurveLoop in the place of YADE's InteractionLoop: the same bits, whatever functors the scene has. Threads: test_threads.py."""
 import os
-import subprocess
 
 import numpy as np
 import pytest
 import yade.wrapper as w
 import yadefrag
 from yade import utils
-from yade.minieigenHP import Matrix3, Vector3
+from yade.minieigenHP import Matrix3
 
 import scenes
 from heaps import heap, state
-from project import yadeCommand
 from scenes import O
-
-kHere = os.path.dirname(os.path.abspath(__file__))
 
 kFunctors = dict(
     friction=lambda: ([w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
@@ -166,21 +161,6 @@ def test_energies():
         loop, _ = run(name, kFunctors['traced'](), 300)
         losses.append(loop.lawDispatcher.functors[0].plasticDissipation())
     assert losses[0] == losses[1] > 0
-
-
-def test_threads():
-    """yade -j1, -j2, -j3: the same bits, where YADE's loop depends on the number."""
-    found = []
-    for number in (1, 2, 3):
-        done = subprocess.run([*yadeCommand(), f'-j{number}', os.path.join(kHere, 'loop_threads.py')],
-                              capture_output=True, text=True, timeout=300)
-        lines = [x[4:] for x in done.stdout.splitlines() if x.startswith('@@@ ')]
-        assert done.returncode == 0 and len(lines) == 1, done.stdout[-1500:] + done.stderr[-1500:]
-        found.append(json.loads(lines[0]))
-    assert [f['threads'] for f in found] == [1, 2, 3]
-    assert min(found[0]['contacts']) > 1600
-    for one in found[1:]:
-        assert one['states'] == found[0]['states']
 
 
 def fresh(former):

@@ -61,6 +61,8 @@ def test_errorsAreYades(made):
     settable = next(name for name in made().dict() if getattr(type(made()), name).fset)
     with pytest.raises(TypeError):
         made(**{settable: object()})
+    with pytest.raises(AttributeError):
+        made().updateAttrs({'noSuchAttribute': 1})
     with pytest.raises((TypeError, ValueError, RuntimeError)):
         made(1, 2)
 

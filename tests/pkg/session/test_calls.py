@@ -72,7 +72,7 @@ def test_aMessageOfManyBondsIsGivenOnceWithTheirNumber():
         O.engines, O.dt = [fe], 1e-7
         yadefrag.runSteps(1)
     said = [str(one.message) for one in caught]
-    assert len(said) == 2 and said[0].startswith('bond: energy is 100 J/m²')
+    assert len(said) == 2 and said[0].startswith('bond: energy is 100 J/m² of the bond between the bodies 0 and 1 at')
     assert said[1].startswith('3 bonds have this message') and said[1].endswith('the bonds 0-1, 1-2, 2-3.')
 
 
