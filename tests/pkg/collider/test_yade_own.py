@@ -4,7 +4,6 @@ the long tests."""
 import json
 import os
 import subprocess
-import sys
 import tempfile
 from xml.etree import ElementTree
 

@@ -7,6 +7,7 @@ import pytest
 
 import fe_chain as chain
 import yadefrag
+from fe_impact import wallAndClump
 from fe_scene import fe, finder, momentum, run, solverOfScene
 from yade import wrapper as w
 
@@ -110,24 +111,6 @@ def test_spheresRainOnABeam(smooth):
     found = rain('LebesgueCollider', smooth)
     assert np.abs(found[0] - wanted[0]).max() < 1e-9
     assert np.abs(found[1] - wanted[1]).max() < 1e-9
-
-
-def wallAndClump(young, fixed=lambda x, y: abs(y) > .5 - 1e-9):
-    """A brittle wall, and a clump of three spheres that hits it at 40 m/s."""
-    O.materials.append(w.BrittleFEMat(young=30e9, poisson=.2, density=2400, frictionAngle=.3,
-                                      tensileStrength=3e6, strengthScatter=.1, label='wall'))
-    O.materials.append(w.FrictMat(young=young, poisson=.3, density=2400, frictionAngle=.3,
-                                  label='s'))
-    solver = w.FESolver()
-    solver.addPolygon(yadefrag.rectangle((0, -.5), (.1, .5)), size=.02, material='wall',
-                      fixed=fixed)
-    balls = [chain.ball(at, .05, O.materials['s'])
-             for at in ((-.051, .01), (-.09, .07), (-.09, -.05))]
-    number, _ = O.bodies.appendClumped(balls)
-    clump = O.bodies[number]
-    clump.state.vel, clump.state.blockedDOFs = (40, 0, 0), 'zXY'
-    run(solver, finder('LebesgueCollider'), spheres=True, factor=.2)
-    return solver, clump
 
 
 def allEnergy(solver, clump):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_impact import brittle
+from fe_impact import STEEL, brittle
 from fe_scene import pixelContour
 from yade import wrapper as w
 
@@ -33,8 +33,9 @@ def same(a, b):
 
 
 def test_whatCracksGetsAnIrregularMesh():
-    default, regular = added(), added(mesh='regular')
-    assert same(default, added(mesh='irregular')) and not same(default, regular)
+    for material in (brittle(fractureEnergy=0), w.PlasticFEMat(**STEEL, failureStrain=.3)):
+        default, regular = added(material=material), added(material=material, mesh='regular')
+        assert same(default, added(material=material, mesh='irregular')) and not same(default, regular)
     assert same(added(material=elastic()), regular)
     assert same(added(material=elastic(), mesh='irregular'), default)
 

@@ -5,24 +5,10 @@ import warnings
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, run
+from fe_scene import blow, fe, finder, run
 from yade import wrapper as w
 
 O = builtins.O
-
-
-def blow(held=False, **settings):
-    """Two blocks of 1 cm that meet at 20 m/s; `held`: all their nodes keep their velocities."""
-    material = w.FEMat(young=210e9, poisson=.3, density=7800)
-    O.materials.append(material)
-    solver = w.FESolver(**settings)
-    for k in range(2):
-        low = (.01 * k, -.001 * k)
-        nodes, triangles = yadefrag.rectangleMesh(low, (low[0] + .01, low[1] + .01), 6 + k, 6 + k)
-        solver.addTriangles(nodes, triangles, material=material, velocity=(20 * (1 - k), 0),
-                            fixed=lambda x, y: held)
-    run(solver, finder('LebesgueCollider'))
-    return solver
 
 
 @pytest.mark.parametrize('settings', [{}, dict(passes=2)])

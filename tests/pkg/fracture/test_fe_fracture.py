@@ -267,12 +267,3 @@ def test_bodiesBesideEachOtherHaveDifferentColours(shift):
               if min(boxes[a][2], boxes[b][2]) - max(boxes[a][0], boxes[b][0]) >= -.0011
               and min(boxes[a][3], boxes[b][3]) - max(boxes[a][1], boxes[b][1]) >= -.0011]
     assert len(beside) > 20 and all(of[a] != of[b] for a, b in beside)
-
-
-def test_vtkHasFragments(folder):
-    meshio = pytest.importorskip('meshio')
-    solver = impact()
-    steps(200)
-    yadefrag.exportVTK(solver, folder + '/out.vtu')
-    found = meshio.read(folder + '/out.vtu').cell_data['fragment'][0]
-    assert np.array_equal(found, solver.fragmentOf) and found.max() > 1

@@ -54,6 +54,17 @@ def impact(name=None, smooth=False, **settings):
     return solver
 
 
+def blow(held=False, **settings):
+    """Two blocks of 1 cm that meet at 20 m/s; `held`: all their nodes keep their velocities."""
+    O.materials.append(w.FEMat(young=210e9, poisson=.3, density=7800))
+    solver = w.FESolver(**settings)
+    for k in range(2):
+        nodes, triangles = yadefrag.rectangleMesh((.01 * k, -.001 * k), (.01 * k + .01, -.001 * k + .01), 6 + k, 6 + k)
+        solver.addTriangles(nodes, triangles, material=0, velocity=(20 * (1 - k), 0), fixed=lambda x, y: held)
+    run(solver, finder('LebesgueCollider'))
+    return solver
+
+
 def momentum(solver):
     """(linear (2,), angular) of the nodes, and of the spheres."""
     m, x, v = solver.masses, solver.nodes, solver.velocities

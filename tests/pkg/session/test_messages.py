@@ -121,16 +121,6 @@ def kicked(part):
     return ran(solver, int(40 / part))
 
 
-# --- contact
-
-def impact(**settings):
-    solver = steel(**settings)
-    for k in range(2):
-        nodes, triangles = yadefrag.rectangleMesh((.01 * k, -.001 * k), (.01 * k + .01, -.001 * k + .01), 6 + k, 6 + k)
-        solver.addTriangles(nodes, triangles, material='steel', velocity=(20 * (1 - k), 0))
-    return ranAt(.8, solver, 400)
-
-
 # --- YADE's bodies
 
 def withSpheres(make, engines=None, gravity=None, thickness=.1, blocked='zXY', radius=.05, z=0):

@@ -87,21 +87,6 @@ def thrown(factor=.9, speed=.1):
     return ran(solver, int(3 / factor))
 
 
-def burst(part=1, brittle=(), smooth=False, speed=3, spin=1, friction=0):
-    """Three coarse blocks of weak rubber that meet, crack, and press their fragments flat. No finer scene, no more
-    usual material is known in which contact creates energy."""
-    O.materials.append(w.BrittleFEMat(young=1e6, poisson=.3, density=1000, frictionAngle=friction, tensileStrength=100,
-                                      label='b', **dict(brittle)))
-    solver = w.FESolver()
-    for i in range(3):
-        nodes, triangles = yadefrag.rectangleMesh((.05 * i, .003 * i), (.05 * i + .05, .05 + .004 * i), 2, 2 + i % 2)
-        solver.addTriangles(nodes, triangles, material='b', smooth=smooth, spin=spin,
-                            velocity=((1 - i) * speed, .3 * speed * (i == 1)))
-    O.engines = yadefrag.engines(solver)
-    O.dt = .9 * part * solver.criticalTimeStep()
-    return ran(solver, int(60 / part))
-
-
 # --- YADE's bodies
 
 def small(factor=.8, young=1e9):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
+from fe_impact import FAILS, STEEL
 from fe_scene import fe, run, steps
 from test_refused import sentenceOf
 from yade import wrapper as w
@@ -17,9 +18,6 @@ INF, NAN = math.inf, math.nan
 
 # --- constants of materials: {what: (class, constants that are accepted, [(wrong ones, sentence)])}
 
-STEEL = dict(young=200e9, poisson=.29, density=7830, yieldStress=792e6, hardening=510e6, hardeningExponent=.26,
-             rateFactor=.014, thermalExponent=1.03, meltTemperature=1793, heatCapacity=477)
-FAILS = dict(failureD1=.05, failureD2=3.44, failureD3=-2.12, failureD4=.002, failureD5=.61, fractureEnergy=2e4)
 SOIL = dict(young=1e8, poisson=.3, density=2000, cohesion=1e4, internalFriction=.5)
 CONCRETE = dict(young=30e9, poisson=.2, density=2400, cohesion=5e6, internalFriction=.5, dilationAngle=.5,
                 tensionLimit=1.2e6)

@@ -9,7 +9,7 @@ import pytest
 import fe_chain as chain
 import fe_impact
 import yadefrag
-from fe_scene import fe, finder, impact, run, solverOfScene
+from fe_scene import blow, fe, finder, impact, run, solverOfScene
 from yade import utils
 from yade import wrapper as w
 
@@ -51,13 +51,7 @@ def elastic(smooth, **settings):
 
 def varying():
     """Steps that change create energy, of which a message tells each doubling."""
-    O.materials.append(w.FEMat(young=210e9, poisson=.3, density=7800))
-    solver = w.FESolver()
-    for k in range(2):
-        nodes, triangles = yadefrag.rectangleMesh((.01 * k, -.001 * k), (.01 * k + .01, -.001 * k + .01), 6 + k, 6 + k)
-        solver.addTriangles(nodes, triangles, material=0, velocity=(20 * (1 - k), 0))
-    run(solver, finder('LebesgueCollider'))
-    command = 'O.dt = %r * (.27 + .63 * (O.iter * 7919 %% 97) / 97)' % solver.criticalTimeStep()
+    command = 'O.dt = %r * (.27 + .63 * (O.iter * 7919 %% 97) / 97)' % blow().criticalTimeStep()
     O.engines = [w.PyRunner(command=command, iterPeriod=1, initRun=True), *O.engines]
 
 
@@ -111,22 +105,6 @@ def driven():
     run(solver)
 
 
-def plastic(**failure):
-    """A harder bar plugs a plate of steel, which yields, or fails."""
-    def make():
-        O.materials.append(w.PlasticFEMat(young=200e9, poisson=.29, density=7830, yieldStress=792e6, hardening=510e6,
-                                          hardeningExponent=.26, rateFactor=.014, thermalExponent=1.03,
-                                          meltTemperature=1793, heatCapacity=477, **failure))
-        O.materials.append(w.FEMat(young=600e9, poisson=.22, density=15000))
-        solver = w.FESolver(passes=2)
-        solver.addPolygon(yadefrag.rectangle((-.012, 0), (.012, .002)), size=5e-4, material=0,
-                          fixed=lambda x, y: abs(x) > .0119)
-        solver.addPolygon(yadefrag.rectangle((-.003, .002), (.003, .006)), size=1e-3, material=1, velocity=(0, -500))
-        O.engines = yadefrag.engines(solver)
-        O.dt = .7 * solver.criticalTimeStep()
-    return make
-
-
 def rigid():
     """A block falls on facets, a wall and a box that moves; another box obeys forces."""
     solver = fe(gravity=(0, -10))
@@ -141,22 +119,6 @@ def rigid():
     run(solver)
 
 
-def wallAndClump():
-    """Spheres in contact with a wall that cracks."""
-    O.materials.append(w.BrittleFEMat(young=30e9, poisson=.2, density=2400, frictionAngle=.3, tensileStrength=3e6,
-                                      strengthScatter=.1, label='wall'))
-    O.materials.append(w.FrictMat(young=2e9, poisson=.3, density=2400, frictionAngle=.3, label='s'))
-    solver = w.FESolver()
-    solver.addPolygon(yadefrag.rectangle((0, -.5), (.1, .5)), size=.02, material='wall',
-                      fixed=lambda x, y: abs(y) > .5 - 1e-9)
-    number, _ = O.bodies.appendClumped([chain.ball(at, .05, O.materials['s'])
-                                        for at in ((-.051, .01), (-.09, .07), (-.09, -.05))])
-    clump = O.bodies[number]
-    clump.state.vel, clump.state.blockedDOFs = (40, 0, 0), 'zXY'
-    run(solver, finder('LebesgueCollider'), spheres=True, factor=.2)
-
-
-kFails = dict(failureD1=.05, failureD2=3.44, failureD3=-2.12, failureD4=.002, failureD5=.61, fractureEnergy=2e4)
 kTable = [(0, 1), (.1, .4), (.5, .3), (1, 0)]
 # Scene: (makes it, steps before it is saved, what has happened by the end).
 kScenes = {
@@ -174,10 +136,10 @@ kScenes = {
     'bonded': (bonded, 40, lambda fe: fe.energy['fracture'] > 0),
     'stressed': (stressed, 20, lambda fe: fe.energy['strain'] > 0),
     'driven': (driven, 30, lambda fe: fe.energy['external'] > 0 and fe.energy['damping'] > 0),
-    'plastic': (plastic(), 100, lambda fe: fe.plasticStrain.max() > .01),
-    'failure': (plastic(weibullModulus=8, **kFails), 100, lambda fe: fe.numCracks > 0),
+    'plastic': (fe_impact.plate, 100, lambda fe: fe.plasticStrain.max() > .01),
+    'failure': (lambda: fe_impact.plate(weibullModulus=8, **fe_impact.FAILS), 100, lambda fe: fe.numCracks > 0),
     'rigid': (rigid, 60, lambda fe: fe.energy['contact'] != 0),
-    'clump on cracks': (wallAndClump, 150, lambda fe: fe.numCracks > 0),
+    'clump on cracks': (fe_impact.wallAndClump, 150, lambda fe: fe.numCracks > 0),
 }
 # YADE's loop changes the contacts of spheres before FESolver can refuse a step.
 kSpheres = 'elastic disc and sphere', 'clump on cracks'
