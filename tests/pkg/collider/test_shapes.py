@@ -1,4 +1,5 @@
-"""Bodies other than spheres: the real contacts that YADE's collider has when it runs every step."""
+"""Bodies other than spheres: the real contacts that YADE's collider has when it runs every step. Other shapes, and those of
+facets and boxes at random places: test_every_shape.py, test_funnel.py."""
 import math
 
 import numpy as np
@@ -8,7 +9,7 @@ import scenes
 from scenes import O, addSpheres, setEngines
 import yade.wrapper as w
 from yade import utils
-from yade.minieigenHP import Quaternion, Vector3
+from yade.minieigenHP import Vector3
 
 kSteps = 30
 
@@ -40,28 +41,12 @@ def flying(rng, n=80, speed=.02, radius=.05):
                rng.normal(size=(n, 3)) * speed)
 
 
-def facets(rng):
-    flying(rng)
-    for _ in range(25):
-        corner = rng.uniform(0, 1, 3)
-        points = [Vector3(*(corner + rng.uniform(-.2, .2, 3))) for _ in range(3)]
-        O.bodies.append(utils.facet(points, fixed=True))
-
-
 def flatFacets(rng):
     """Boxes of no thickness, all in one plane, on the border of one another."""
     flying(rng)
     for x in np.arange(0, 1, .25):
         for y in np.arange(0, 1, .25):
             O.bodies.append(utils.facet([(x, y, .5), (x + .25, y, .5), (x, y + .25, .5)]))
-
-
-def boxes(rng):
-    flying(rng)
-    for _ in range(15):
-        angle = rng.uniform(0, math.pi)
-        O.bodies.append(utils.box(Vector3(*rng.uniform(0, 1, 3)), Vector3(*rng.uniform(.01, .2, 3)),
-                                  Quaternion(Vector3(*rng.normal(size=3)), angle), fixed=True))
 
 
 def walls(rng):
@@ -95,7 +80,7 @@ def movingWalls(rng):
         body.state.vel = Vector3(*v)
 
 
-@pytest.mark.parametrize('build', [facets, flatFacets, boxes, walls, hugeFloor, movingWalls],
+@pytest.mark.parametrize('build', [flatFacets, walls, hugeFloor, movingWalls],
                          ids=lambda f: f.__name__)
 @pytest.mark.parametrize('verletDist', [-.5, 0, .1])
 def testShapes(collider, build, verletDist):

@@ -11,6 +11,7 @@ import numpy as np
 
 import scenes
 import yadefrag  # noqa: F401  adds CurveLoop
+from heaps import packing
 from scenes import O, w
 from yade import utils
 from yade.minieigenHP import Vector3
@@ -42,21 +43,9 @@ def gas(collider, kind):
         scenes.addSpheres(np.random.default_rng(number).uniform(0, 1, (40, 3)), [.02] * 40)
 
 
-def packing(shape, spacing, dt):
-    """Spheres with friction in random motion, in an order that is not that of their places."""
-    chance = np.random.default_rng(2)
-    places = np.array(list(np.ndindex(shape))) * spacing
-    chance.shuffle(places)
-    O.materials.append(w.FrictMat(young=1e7, poisson=.3, density=2000, frictionAngle=.4))
-    scenes.addSpheres(places, [.5] * len(places), chance.normal(0, 2, (len(places), 3)), dynamic=True)
-    for body in O.bodies:
-        body.state.angVel = chance.normal(0, 3, 3)
-    O.dt = dt
-
-
 def stirred(collider, _):
     """CurveLoop: contacts go and come, and so do bodies, for which rows are made."""
-    packing((12, 12, 8), .97, 1e-4)
+    packing((12, 12, 8), .97, 1e-4, isTurning=True)
     loop = w.CurveLoop([w.Ig2_Sphere_Sphere_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
                        [w.Law2_ScGeom_FrictPhys_CundallStrack()])
     scenes.setEngines(collider, interactionLoop=loop)
@@ -70,7 +59,7 @@ def stirred(collider, _):
 
 def falling(_, integrator):
     """Without contacts, with YADE's integrator or ours."""
-    packing((12, 12, 16), 1.2, 1e-3)
+    packing((12, 12, 16), 1.2, 1e-3, isTurning=True)
     O.engines = [w.ForceResetter(), getattr(w, integrator)(gravity=(0, 0, -9), damping=.2)]
     O.run(100, True)
     yield moment()

@@ -14,11 +14,7 @@ from scenes import O
 
 def engines(name, **settings):
     newton = getattr(w, name)(**dict(dict(damping=.1, gravity=(1, 2, -10)), **settings))
-    loop = w.InteractionLoop(
-        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Facet_Sphere_ScGeom(), w.Ig2_Box_Sphere_ScGeom(),
-         w.Ig2_Wall_Sphere_ScGeom()],
-        [w.Ip2_FrictMat_FrictMat_FrictPhys()], [w.Law2_ScGeom_FrictPhys_CundallStrack()])
-    O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), loop, newton]
+    O.engines = [w.ForceResetter(), scenes.makeCollider('LebesgueCollider'), scenes.loop(), newton]
     return newton
 
 
