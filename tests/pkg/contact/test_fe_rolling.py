@@ -4,9 +4,8 @@ import builtins
 import numpy as np
 import pytest
 
-import fe_chain as chain
 import yadefrag
-from fe_scene import fe, finder, momentum, run, steps
+from fe_scene import fe, finder, momentum, run, steps, throwBall
 from yade import wrapper as w
 
 O = builtins.O
@@ -18,9 +17,7 @@ def sphereOn(outline, start, velocity, blocked='xyzXYZ', fixed=lambda x, y: True
     solver = fe()
     O.materials['m'].frictionAngle = FRICTION
     solver.addPolygon(outline, size=.02, material='m', fixed=fixed)
-    ball = chain.ball(start, R, O.materials['m'])
-    ball.state.blockedDOFs, ball.state.vel = blocked, (*velocity, 0)
-    O.bodies.append(ball)
+    ball = throwBall(start, R, velocity, blocked=blocked)
     run(solver, finder('LebesgueCollider'), spheres=True, factor=.3)
     return solver, ball
 

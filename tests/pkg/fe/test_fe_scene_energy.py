@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import yadefrag
-from fe_scene import fe, finder, run
+from fe_scene import fe, finder, kineticEnergy, run
 from yade import utils
 from yade import wrapper as w
 
@@ -24,11 +24,6 @@ def ball(place, radius=.1, velocity=(0, 0), young=1e7, density=1000, angle=.3, s
 def block(solver, **settings):
     settings = dict(size=.125, fixed=lambda x, y: y < 1e-9) | settings
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), material='m', **settings)
-
-
-def energyOf(*bodies):
-    return builtins.sum(.5 * b.state.mass * b.state.vel.squaredNorm() + .5 * b.state.inertia[2] * b.state.angVel[2]**2
-                        for b in bodies)
 
 
 def drift(solver, count, portion=20):
@@ -55,7 +50,7 @@ def falling(damping=0, factor=.1, name='LebesgueCollider', **settings):
 @pytest.mark.parametrize('angle', [0, .5])
 def test_spheresThatFallGiveNoMessage(damping, angle):
     solver = falling(damping, angle=angle)
-    given = energyOf(*[b for b in O.bodies if isinstance(b.shape, w.Sphere)])
+    given = kineticEnergy(*[b for b in O.bodies if isinstance(b.shape, w.Sphere)])
     # Young's moduli of 1e7: the spheres bounce, roll and come to rest within .4 s.
     off, messages = drift(solver, int(.4 / O.dt))
     assert messages == []
@@ -125,10 +120,10 @@ def test_createdEnergyIsThatOfTheBodies():
     sphere = ball((.44, .51), .0101, velocity=(0, -1), young=1e9, density=300)
     O.bodies.append(sphere)
     run(solver, finder('LebesgueCollider'), spheres=True, factor=.8)
-    before = energyOf(sphere)
+    before = kineticEnergy(sphere)
     O.run(int(.002 / O.dt), True)
     O.run(2, True)
-    gained = energyOf(sphere) - before - solver.energy['outside']
+    gained = kineticEnergy(sphere) - before - solver.energy['outside']
     assert gained > .1 * before
     assert solver.energy['scene'] - solver.energy['total'] == pytest.approx(gained, rel=.05)
 

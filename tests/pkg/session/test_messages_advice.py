@@ -8,6 +8,7 @@ import warnings
 import pytest
 
 import yadefrag
+from fe_scene import throwBall
 from test_messages import advised, ran, steel
 from yade import utils
 from yade import wrapper as w
@@ -93,9 +94,7 @@ def small(factor=.8, young=1e9):
     """A sphere that is too light for the step of the bodies."""
     solver = soft()
     solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.125, material='m', fixed=lambda x, y: y < 1e-9)
-    ball = utils.sphere((.44, .51, 0), .0101, material=w.FrictMat(young=young, density=300, frictionAngle=.3))
-    ball.state.vel, ball.state.blockedDOFs = (0, -1, 0), 'zXY'
-    O.bodies.append(ball)
+    throwBall((.44, .51), .0101, (0, -1), w.FrictMat(young=young, density=300, frictionAngle=.3))
     O.engines = yadefrag.engines(solver, spheres=True)
     O.dt = factor * solver.criticalTimeStep()
     return ran(solver, int(.004 / O.dt))
@@ -109,9 +108,7 @@ def bent(smooth=False, factor=.5):
                       smooth=smooth, thickness=.02, fixed=lambda x, y: x < 1e-9 or x > .3999)
     soft = w.FrictMat(young=3e6, poisson=.2, density=1500, frictionAngle=.3)
     for i in range(5):
-        ball = utils.sphere((.08 + .06 * i, .05 + .03 * (i % 2), 0), .02, material=soft)
-        ball.state.vel, ball.state.blockedDOFs = (0, -3, 0), 'zXY'
-        O.bodies.append(ball)
+        throwBall((.08 + .06 * i, .05 + .03 * (i % 2)), .02, (0, -3), soft)
     O.engines = yadefrag.engines(solver, gravity=(0, -9.81), spheres=True)
     O.dt = factor * solver.criticalTimeStep()
     O.run(int(.02 / O.dt), True)
@@ -124,9 +121,7 @@ def thrownAt(young=1e7, radius=.01, speed=50, factor=.4, body=1e9, smooth=False)
     solver = w.FESolver()
     solver.addPolygon(yadefrag.rectangle((0, 0), (.4, .1)), size=.02, material='m', thickness=.02, smooth=smooth,
                       fixed=lambda x, y: y < 1e-9)
-    ball = utils.sphere((.2, .1001 + radius, 0), radius, material=w.FrictMat(young=young, density=7800, frictionAngle=.3))
-    ball.state.vel, ball.state.blockedDOFs = (0, -speed, 0), 'zXY'
-    O.bodies.append(ball)
+    ball = throwBall((.2, .1001 + radius), radius, (0, -speed), w.FrictMat(young=young, density=7800, frictionAngle=.3))
     O.engines = yadefrag.engines(solver, spheres=True)
     O.dt = factor * solver.criticalTimeStep()
     O.run(int(1200 / factor), True)
@@ -137,20 +132,14 @@ def thrownAt(young=1e7, radius=.01, speed=50, factor=.4, body=1e9, smooth=False)
 def putAt(height, isLate=True):
     """A sphere is put onto a block, or a block below a sphere."""
     solver = soft()
-    def block():
-        solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.25, material='m', thickness=.2)
-    def sphere():
-        ball = utils.sphere((.5, height, 0), .1, material='m')
-        ball.state.blockedDOFs = 'zXY'
-        O.bodies.append(ball)
     if not isLate:
-        sphere()
-    block()
+        throwBall((.5, height), .1)
+    solver.addPolygon(yadefrag.rectangle((0, 0), (1, .5)), size=.25, material='m', thickness=.2)
     O.engines = yadefrag.engines(solver, spheres=True)
     O.dt = .2 * solver.criticalTimeStep()
     ran(solver, 3)
     if isLate:
-        sphere()
+        throwBall((.5, height), .1)
     return ran(solver, 200)
 
 

@@ -6,10 +6,9 @@ import math
 import numpy as np
 import pytest
 
-import fe_chain as chain
 import fe_impact
 import yadefrag
-from fe_scene import blow, fe, finder, impact, run, solverOfScene
+from fe_scene import blow, fe, finder, impact, run, solverOfScene, throwBall
 from yade import utils
 from yade import wrapper as w
 
@@ -63,9 +62,7 @@ def discAndBall():
     solver = fe()
     solver.addPolygon(yadefrag.circle((0, 0), .1, 24), size=.02, material='m', velocity=(2, .3), smooth=True, spin=3)
     solver.addPolygon(yadefrag.rectangle((.105, -.1), (.2, .1)), size=.02, material='m')
-    ball = chain.ball((.15, .151), .05, O.materials['m'])
-    ball.state.vel, ball.state.blockedDOFs = (0, -1, 0), 'zXY'
-    O.bodies.append(ball)
+    throwBall((.15, .151), .05, (0, -1))
     run(solver, finder('LebesgueCollider'), spheres=True, factor=.5)
 
 
