@@ -81,31 +81,6 @@ def test_minimalAngle():
     assert numpy.pi / 6 < fe.minAngle <= numpy.pi / 4 + 1e-12
 
 
-def bentBeam(element):
-    """Deflection of a clamped beam, four triangles high, over Timoshenko's."""
-    O.reset()
-    young, poisson = 1e7, .3
-    O.materials.append(FEMat(young=young, poisson=poisson, density=1000, frictionAngle=0, label='m'))
-    fe = FESolver(damping=2 * 3.52 / 64 * math.sqrt(young / 1000 / 12))
-    fe.addPolygon(rectangle((0, 0), (8, 1)), size=.25, material='m', fixed=lambda x, y: x < 1e-9,
-                  element=element)
-    O.engines = [fe]
-    O.dt = .9 * fe.criticalTimeStep()
-    tip = fe.nodes[:, 0] > 8 - 1e-9
-    loads = fe.loads
-    loads[tip, 1] = 1 / tip.sum()
-    fe.loads = loads
-    start = fe.nodes[tip, 1].mean()
-    O.run(12000, True)
-    theory = 8**3 * 4 * (1 - poisson**2) / young + 1.2 * 8 * 2 * (1 + poisson) / young
-    return (fe.nodes[tip, 1].mean() - start) / theory
-
-
-def test_smoothedStrainsBend():
-    assert bentBeam('linear') == pytest.approx(.89, abs=.02)
-    assert bentBeam('smoothed') == pytest.approx(1.01, abs=.02)
-
-
 def drift(factor):
     """(of the work) What the books lose in one turn of a drum with stones of rubber."""
     O.reset()
