@@ -69,7 +69,8 @@ def ceb(rate):
 
 def concrete(**more):
     return w.BrittleFEMat(**dict(dict(young=kYoung, poisson=kPoisson, density=2400, frictionAngle=.6, planeStress=True,
-                                      tensileStrength=kConcreteStrength, fractureEnergy=kConcreteEnergy, label='concrete'), **more))
+                                      tensileStrength=kConcreteStrength, fractureEnergy=kConcreteEnergy,
+                                      label='concrete'), **more))
 
 
 def drawnBar(rate, start, material=None, **more):

@@ -1,4 +1,5 @@
-"""Bodies that are hit, ready to run, for the tests of cracks: a brittle block, a plate of steel, a wall; what must hold then."""
+"""Bodies that are hit, ready to run, for the tests of cracks: a brittle block, a plate of steel, a wall; what
+must hold then."""
 import builtins
 
 import numpy as np

@@ -1,4 +1,5 @@
-"""CurveLoop in the place of YADE's InteractionLoop: the same bits, whatever functors the scene has. Threads: test_threads.py."""
+"""CurveLoop in the place of YADE's InteractionLoop: the same bits, whatever functors the scene has.
+Threads: test_threads.py."""
 import os
 
 import numpy as np

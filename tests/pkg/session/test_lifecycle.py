@@ -18,7 +18,8 @@ def runOn(steps=15):
     return history, scenes.positions().tolist()
 
 
-@pytest.mark.parametrize('name', ['scene.xml', 'scene.xml.gz', 'scene.xml.bz2', 'scene.yade', 'scene.yade.gz', 'memory', 'text'])
+@pytest.mark.parametrize('name', [
+    'scene.xml', 'scene.xml.gz', 'scene.xml.bz2', 'scene.yade', 'scene.yade.gz', 'memory', 'text'])
 @pytest.mark.parametrize('steps', [0, 7])
 def testSaveAndLoad(collider, folder, name, steps):
     """The loaded scene has the same collider with the same attributes, misses no contact, and runs on alike."""

@@ -277,7 +277,8 @@ ATTRIBUTES = {
                (10**30, 'FESolver.passes is 1000000000...00000000000, it must be closer to 0.')],
     'contactTolerance': [
         *[(wrong, 'FESolver.contactTolerance is %s, it must be ' % text) for wrong, text in (
-            ('rough', "'rough'"), (0, '0'), (-1e-3, '-0.001'), (.2, '0.2'), (math.nan, 'nan'), ('x' * 99, 'a text of 99 bytes'))],
+            ('rough', "'rough'"), (0, '0'), (-1e-3, '-0.001'), (.2, '0.2'), (math.nan, 'nan'),
+            ('x' * 99, 'a text of 99 bytes'))],
         *[(wrong, "%s, it must be 'fine', 'default', 'coarse' or a number." % (wrong,)) for wrong in ((1,), None)]],
     'minFragmentArea': [(wrong, 'it must be positive') for wrong in (-1, math.nan, math.inf)],
     'maxCracks': [(-2, 'FESolver.maxCracks is -2')],

@@ -168,7 +168,8 @@ ADDED = [
         ('weak', " is 'weak', it must be None, a function"))],
     *[({'material': 'yields', name: lambda x, y: 1}, 'are given, but the material neither cracks nor fails; it must be a '
        'BrittleFEMat, or') for name in ('strength', 'fractureEnergy')],
-    (dict(material='spalls', fractureEnergy=lambda x, y: 0), 'fractureEnergy is 0 J/m²; it must be positive for every triangle'),
+    (dict(material='spalls', fractureEnergy=lambda x, y: 0),
+     'fractureEnergy is 0 J/m²; it must be positive for every triangle'),
     (dict(material='fails', selfContact=False), 'selfContact is False'),
     (dict(material='hard', selfContact=False), 'selfContact is False, but the material is a Brittle'),
     # Joints.

@@ -24,8 +24,8 @@ def state():
     solver = solverOfScene()
     found = {name: np.asarray(getattr(solver, name)).tobytes() for name in kArrays}
     figures = {name: getattr(solver, name) for name in kFigures}
-    found.update({name: repr(one() if callable(one) else one) for name, one in figures.items()}, cracks=yadefrag.crackTable(solver).tobytes(),
-                 surfaces=np.concatenate(solver.surfaces).tobytes())
+    found.update({name: repr(one() if callable(one) else one) for name, one in figures.items()},
+                 cracks=yadefrag.crackTable(solver).tobytes(), surfaces=np.concatenate(solver.surfaces).tobytes())
     found['bodies'] = repr([(b.id, tuple(b.state.pos), tuple(b.state.vel), tuple(b.state.angVel))
                             for b in O.bodies if b and not isinstance(b.shape, w.SurfaceSegment)])
     found['pieces'] = repr([(b.id, tuple(b.state.pos), b.shape.halo) for b in O.bodies
