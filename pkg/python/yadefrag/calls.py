@@ -58,19 +58,13 @@ def _sentence(name, signature, given, settings):
     twice = [key for key in places[:len(given)] if key in settings]
     if twice:
         return '%s has %s twice, by position and by name.' % (name, twice[0])
-    missing = [key for key, one in parameters.items()
-               if one.default is one.empty and one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD)
-               and key not in places[:len(given)] and key not in settings]
-    return '%s needs %s: %s.' % (name, _listed(missing), _template(name, parameters))
+    needed = [key for key, one in parameters.items()
+              if one.default is one.empty and one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD)]
+    missing = [key for key in needed if key not in places[:len(given)] and key not in settings]
+    return '%s needs %s: %s(%s).' % (name, _listed(missing), name, ', '.join(
+        key if key in places else key + '=...' for key in needed))
 
 
 def _listed(names):
     names = list(names)
     return ', '.join(names[:-1]) + ' and ' + names[-1] if len(names) > 1 else ''.join(names)
-
-
-def _template(name, parameters):
-    """'addPolygon(outline, size=..., material=...)': the arguments that a call cannot lack."""
-    needed = [(key, one) for key, one in parameters.items() if one.default is one.empty
-              and one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD)]
-    return '%s(%s)' % (name, ', '.join(key if one.kind in _BY_POSITION else key + '=...' for key, one in needed))

@@ -6,7 +6,7 @@ import pytest
 
 import yadefrag
 from fe_impact import areSame, heapSpheres, impact, requireBodiesAreEntries, state, steps
-from yadefrag.plots.colours import fragmentColours
+from yadefrag.plots.axes import fragmentColours
 from yade import utils
 from yade import wrapper as w
 

@@ -4,7 +4,6 @@ import os
 import random
 import signal
 import stat
-import subprocess
 import time
 
 import pytest
@@ -14,24 +13,12 @@ import yadefrag
 from fe_scene import impact
 from yade import utils
 from yade import wrapper as w
-from yadefrag.io import files
+from yadefrag import files
 from yadefrag.studies import tradeoff_grid
 from yadefrag.studies.tradeoff_table import TradeoffRow
 
 O = builtins.O
 kNowhere = ['/nowhere/run', '/proc/run', '{folder}/file/run']
-
-
-@pytest.fixture
-def small(folder):
-    """A disk of 8 KB."""
-    disk = folder + '/disk'
-    os.mkdir(disk)
-    mount = ['mount', '-t', 'tmpfs', '-o', 'size=8k', 'none', disk]
-    if subprocess.run(mount, capture_output=True).returncode:
-        pytest.skip('no disk can be mounted here')
-    yield disk
-    subprocess.run(['umount', disk], check=True)
 
 
 def table():

@@ -9,10 +9,10 @@ from collections.abc import Callable
 import numpy
 
 from yade import wrapper
-from yadefrag.arguments import array, flag, number, positive, refuse, requireTakes, shown, whole
-from yadefrag.fe.between_steps import betweenSteps, calledInStep, requireBetweenSteps, requireNoStep
+from yadefrag.arguments import (ArrayLike, FESolver, Nodes, array, flag, number, positive, refuse, requireTakes,
+                                shown, whole)
+from yadefrag.fe.contents import betweenSteps, calledInStep, requireBetweenSteps, requireNoStep
 from yadefrag.fe.motions import chosenNodes, tableOrNumber
-from yadefrag.hints import ArrayLike, FESolver, Nodes
 from yadefrag.messages import warn
 from yadefrag.scene import lifecycle
 from yadefrag.scene.progress import runPart

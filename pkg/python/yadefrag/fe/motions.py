@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy
 
-from yadefrag.arguments import array, atPlaces, flag, number, pair, real, refuse, requireTakes
-from yadefrag.fe.between_steps import calledInStep, requireBetweenSteps
-from yadefrag.fe.contents import isBody
-from yadefrag.hints import ArrayLike, FESolver, Nodes
+from yadefrag.arguments import (ArrayLike, FESolver, Nodes, array, atPlaces, flag, number, pair, real, refuse,
+                                requireTakes)
+from yadefrag.fe.contents import calledInStep, isBody, requireBetweenSteps
 from yadefrag.messages import warn
 
 _RIGHT = ('a finite number (m/s), an array of one for each of the nodes, a table of pairs (s, m/s), '

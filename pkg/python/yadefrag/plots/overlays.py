@@ -9,7 +9,7 @@ import numpy
 
 from yade import wrapper
 from yadefrag import _yadefrag
-from yadefrag.hints import FESolver
+from yadefrag.arguments import FESolver
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

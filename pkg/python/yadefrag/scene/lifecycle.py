@@ -17,7 +17,7 @@ from typing import Any
 from yade import wrapper
 from yadefrag import _yadefrag, messages
 from yadefrag.arguments import shownPath
-from yadefrag.io.files import replacing, requireWritable
+from yadefrag.files import replacing, requireWritable
 from yadefrag.scene import refusals, scene_check
 
 _LOOK = .05  # s, from one check for Ctrl-C to the next

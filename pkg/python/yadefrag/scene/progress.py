@@ -7,7 +7,7 @@ from collections.abc import Callable
 from yade import wrapper
 from yadefrag import _yadefrag
 from yadefrag.arguments import shown, whole
-from yadefrag.fe.between_steps import requireNoStep
+from yadefrag.fe.contents import requireNoStep
 from yadefrag.scene import lifecycle, refusals
 
 MOST_STEPS = 2**62  # the largest number that YADE can count

@@ -9,8 +9,7 @@ import threading
 
 import numpy
 
-from yadefrag.io.readers import needed
-from yadefrag.io.readers.elements import Elements
+from yadefrag.io.readers import Elements, needed
 
 _PACKAGE = 'python3-meshio'
 _LONGEST = 30, 3e-5  # s, and s for each byte: some of meshio's readers never end for an incomplete file

@@ -7,8 +7,7 @@ import re
 
 import numpy
 
-from yadefrag.io.readers import by_meshio
-from yadefrag.io.readers.elements import Elements, cornersOf
+from yadefrag.io.readers import Elements, by_meshio, cornersOf
 
 _KINDS = {
     1: 'line2', 2: 'triangle3', 3: 'quad4', 4: 'tetra4', 5: 'hexahedron8', 6: 'wedge6', 7: 'pyramid5',
