@@ -168,13 +168,15 @@ def writtenBy(folder, format, ending, column):
 def outcome(file, column):
     try:
         with contextlib.redirect_stdout(io.StringIO()) as said:
-            found = areas(readMesh(file))
+            mesh = readMesh(file)
         assert said.getvalue() == ''
     except ValueError as error:
         assert re.match(r'.*[.]$', str(error)), error
         return next(word for word, part in kRefused.items() if part in str(error))
+    points, _, whole, ofTriangles = kMeshes[column]
+    assert {*map(tuple, mesh.nodes.round(9).tolist())} <= {*points} and mesh.nodeSets == {}
+    found = areas(mesh)
     assert (found > 0).all()
-    _, _, whole, ofTriangles = kMeshes[column]
     return {ofTriangles: 'triangles', whole: 'read'}[round(found.sum(), 9)]
 
 
