@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import yadefrag
+from outline_files import area, offLine
 from yadefrag import _yadefrag
 from yadefrag.fe import geometry
 from yadefrag.fe.geometry import simplified
@@ -17,10 +18,6 @@ from yadefrag.io import outlines
 kAngle = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
 kPlate = geometry.rectangle((0, 0), (2, 2))
 kDisc = geometry.circle((1, 1), 1, 40)
-
-
-def area(loop):
-    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(loop, loop[1:] + loop[:1])) / 2
 
 
 def isOneSentence(error):
@@ -129,18 +126,11 @@ def fewer(loops, tolerance, flags=None):
     return [outline, *holes]
 
 
-def toLoop(point, loop):
-    """(m) Distance of a point from a loop."""
-    sides = np.roll(loop, -1, axis=0) - loop
-    along = np.clip(((point - loop) * sides).sum(1) / (sides**2).sum(1), 0, 1)
-    return np.hypot(*(point - loop - along[:, None] * sides).T).min()
-
-
 def shareKept(loops, tolerance):
     """Of the points, after a check of the result."""
     simple = fewer(loops, tolerance)
     _yadefrag.checkedPolygon(simple[0], simple[1:])  # no crossings, holes inside
-    farthest = max(toLoop(point, now) for loop, now in zip(loops, simple) for point in loop)
+    farthest = max(map(offLine, loops, simple))
     assert farthest <= tolerance * (1 + 1e-12) and len(simple) == len(loops)
     assert all(np.array_equal(one, other) for one, other in zip(simple, fewer(loops, tolerance)))
     return sum(map(len, simple)) / sum(map(len, loops))

@@ -5,7 +5,8 @@ import os
 import numpy as np
 import pytest
 
-from test_mesh_files import areas, written
+from outline_files import written
+from test_mesh_files import areas
 from yadefrag import readMesh
 
 # A unit square of two triangles.

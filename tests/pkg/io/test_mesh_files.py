@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from fe_scene import fe
+from outline_files import written
 from yade import wrapper as w
 from yadefrag import readMesh, rectangleMesh
 from yadefrag.io.readers import by_meshio
@@ -61,13 +62,6 @@ kMeshes = {  # {column: (points, cells, area, area of the triangles)}
 }
 kRefused = {'none': 'has no triangles', 'solid': 'has elements of the kind', 'flat': 'is flat',
             'time': 'reading did not end', 'library': 'is not a readable mesh'}
-
-
-def written(folder, name, text):
-    file = os.path.join(folder, name)
-    with open(file, 'w', encoding='utf-8') as out:
-        out.write(text)
-    return file
 
 
 def areas(mesh):

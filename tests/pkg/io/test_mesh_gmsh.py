@@ -6,7 +6,8 @@ import meshio
 import numpy as np
 import pytest
 
-from test_mesh_files import areas, written
+from outline_files import written
+from test_mesh_files import areas
 from yadefrag import readMesh
 
 # Squares [0, 1] and [1, 2]: surface 1 in two groups, surface 2 in none; the left side in a group without a name,
