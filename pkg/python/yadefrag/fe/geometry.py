@@ -10,7 +10,7 @@ import numpy
 
 from yadefrag import _yadefrag
 from yadefrag.arguments import ArrayLike, Loop, listOf, pair, pointsOf, positive, real, refuse, shown, whole
-from yadefrag.libraries import shapely, treeOf
+from yadefrag.messages import shapely, treeOf
 
 CIRCLE_POINTS = 64
 MOST_POINTS = 10**7  # a longer list needs gigabytes

@@ -10,7 +10,7 @@ import numpy
 
 from yadefrag import _yadefrag, arguments
 from yadefrag.arguments import ArrayLike, Loop
-from yadefrag.libraries import shapely, treeOf
+from yadefrag.messages import shapely, treeOf
 
 MOST_GRAINS = 10**5
 _TRIES = 10**4  # random points for a grain: of an outline that fills a thousandth of its box, ten are inside on average

@@ -4,8 +4,8 @@ import functools
 import numbers
 
 from yade import wrapper
-from yadefrag.calls import inWords
 from yadefrag.fe.contents import bodyNumber, requireBetweenSteps
+from yadefrag.messages import inWords
 
 
 def _pieceOf(body):

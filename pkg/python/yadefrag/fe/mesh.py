@@ -14,11 +14,10 @@ from yadefrag import _yadefrag
 from yadefrag._yadefrag import Mesh
 from yadefrag.arguments import (ArrayLike, ByPlace, FESolver, array, flag, listOf, number, pair, pointsOf, positive,
                                 refuse, requireTakes, shown, whole)
-from yadefrag.calls import inWords
 from yadefrag.fe.geometry import holesOf, simplified
 from yadefrag.fe.mesh_values import isClockwise, isField, mayCrack, smoothFlags, smoothNodes
 from yadefrag.io.mesh_files import MeshFile, requireApart
-from yadefrag.messages import warn
+from yadefrag.messages import inWords, warn
 
 _fill = Mesh.__init__  # from checked arrays
 _SPACING = .2  # of the size: nearer vertices of the neighbours give one vertex

@@ -16,7 +16,6 @@ import numpy
 
 from yade import wrapper
 from yadefrag.arguments import ArrayLike, ByPlace, FEMat, FESolver, flag, number, positive, real, refuse
-from yadefrag.calls import inWords
 from yadefrag.fe import guards
 from yadefrag.fe.bonds import bond, bondAll
 from yadefrag.fe.contents import betweenSteps, componentOf, newName, nodesOf, requireBetweenSteps, shownTriangles
@@ -28,7 +27,7 @@ from yadefrag.fe.motions import keepTurning, prescribe, rotate
 from yadefrag.fe.results import contactForce, crackCounts, energy, meshQuality, principalStress, reaction
 from yadefrag.fe.snapping import Overlap, addSnapped, snapTolerance, tellCostly, tellJoined
 from yadefrag.io.mesh_files import MeshFile
-from yadefrag.messages import forget, noteFixed, warnOfOne
+from yadefrag.messages import forget, inWords, noteFixed, warnOfOne
 from yadefrag.scene.scene_check import addSolver
 
 _ELEMENTS = ('linear', 'smoothed')

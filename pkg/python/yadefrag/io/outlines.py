@@ -16,8 +16,7 @@ from yadefrag.arguments import (ArrayLike, FEMat, File, Shape, flag, listOf, num
 from yadefrag.fe.geometry import holesOf, simplified
 from yadefrag.fe.mesh_values import oneMaterial
 from yadefrag.io.readers import Found, dxf, leftOutWords, loops, plain, svg
-from yadefrag.libraries import shapely, treeOf
-from yadefrag.messages import warn
+from yadefrag.messages import shapely, treeOf, warn
 
 _GAP = 1e-6  # of the longer side of the drawing: drawings have six digits
 _FLAT = 1e-12  # of the square of its extent: the area of a loop that is a line

@@ -15,7 +15,7 @@ from yadefrag.fe.contents import betweenSteps, heldCracks, requireSolver, shownM
 from yadefrag.fe.fields import FIELDS, nameOf
 from yadefrag.files import appendText, replacing, requireWritable, writeText
 from yadefrag.messages import warn
-from yadefrag.scene.progress import MOST_STEPS
+from yadefrag.scene.lifecycle import MOST_STEPS
 
 # Written unless others are chosen.
 _USUAL = ('displacement', 'velocity', 'contact force', 'reaction', 'stress', 'stress zz', 'strain', 'plastic strain',

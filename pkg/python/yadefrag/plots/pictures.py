@@ -12,8 +12,8 @@ from yadefrag.arguments import ArrayLike, FESolver, File, flag, number, numbersO
 from yadefrag.fe.contents import betweenSteps, requireNoStep, requireSolver, shownMesh
 from yadefrag.fe.fields import FIELDS, fieldValues, nameOf
 from yadefrag.files import replacing, requireWritable, savePicture
-from yadefrag.plots.axes import MOST_PANELS, barSettings, fragmentColours, newPanels, palette, panelSize, requireAxes
-from yadefrag.plots.overlays import CrackLines, YadeBodies, damageBar
+from yadefrag.plots.axes import (MOST_PANELS, CrackLines, YadeBodies, barSettings, damageBar, fragmentColours,
+                                 newPanels, palette, panelSize, requireAxes)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -285,7 +285,7 @@ def _runInParts(steps, every):
     """Runs YADE's scene in parts; yields its step number before the first part and after each."""
     from yade.wrapper import Omega
 
-    from yadefrag.scene.progress import runPart
+    from yadefrag.scene.lifecycle import runPart
 
     scene = Omega()
     yield scene.iter

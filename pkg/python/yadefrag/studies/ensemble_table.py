@@ -12,7 +12,7 @@ import numpy
 
 from yadefrag.arguments import ArrayLike, File, array, number, path, refuse, text
 from yadefrag.files import savePicture
-from yadefrag.libraries import needed
+from yadefrag.messages import needed
 from yadefrag.plots.axes import DISTINCT
 from yadefrag.studies.tradeoff_table import describe, grouped, samples, varying, writeRows
 

@@ -19,7 +19,7 @@ from typing import NoReturn
 import numpy
 from numpy.typing import ArrayLike
 
-from yadefrag import libraries
+from yadefrag import messages
 from yadefrag.arguments import shownPath
 
 _CORNERS = {'triangle': 3, 'quad': 4, 'line': 2, 'vertex': 1}
@@ -56,7 +56,7 @@ def leftOutWords(leftOut: Mapping[str, int]) -> str:
 
 def needed(module: str, package: str, file: str) -> ModuleType:
     """The module of an optional library that reads `file`."""
-    return libraries.needed(module, package, shownPath(file) + ' can be read')
+    return messages.needed(module, package, shownPath(file) + ' can be read')
 
 
 def refuseFile(file: str, kind: str, error: BaseException) -> NoReturn:
