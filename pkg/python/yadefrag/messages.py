@@ -17,7 +17,7 @@ from typing import Any
 from yadefrag.arguments import shown
 
 _HERE = os.path.dirname(__file__) + os.sep
-_SHOWN = 90  # characters of a message that is quoted
+_SHOWN, _SHOWN_OF_RUNS = 90, 200  # characters of a message that is quoted
 _LISTED = 12  # bodies or bonds in a sentence
 _NUMBER = re.compile(r'[-+]?[\d.]+(e[-+]?\d+)?')
 _repeated = {}  # {message without its numbers: (the first message, 'bodies' or 'bonds', those that have it)}
@@ -71,7 +71,21 @@ def tellNumbers() -> None:
             continue
         first, what, known = _repeated[kind]
         warn('%d %s have this message, which was given for the first of them only: "%s"; they are %s.' %
-             (len(known), what, first if len(first) <= _SHOWN else first[:_SHOWN] + '…', _inWords(what, known)))
+             (len(known), what, _begin(first, _SHOWN), _inWords(what, known)))
+
+
+def passOn(what: str, rows: Sequence[Any]) -> None:
+    """Warns once of each kind of message that runs gave, with the number of these runs."""
+    kinds = {}
+    for row in rows:
+        for kind, sentence in {_NUMBER.sub('', s): s for s in row.warnings}.items():
+            kinds.setdefault(kind, []).append(sentence)
+    for sentences in kinds.values():
+        first = _begin(sentences[0], _SHOWN_OF_RUNS)
+        others = ', some with other numbers' if len(set(sentences)) > 1 else ''
+        warn('%s: %d of %d runs gave this message%s: "%s" The others are in `warnings` of the rows.' %
+             (what, len(sentences), len(rows), others, first) if len(sentences) > 1 else
+             '%s: one of %d runs gave the message: "%s"' % (what, len(rows), first))
 
 
 def forget() -> None:
@@ -79,6 +93,10 @@ def forget() -> None:
     _repeated.clear()
     _nowhere.clear()
     untold.clear()
+
+
+def _begin(sentence, most):
+    return sentence if len(sentence) <= most else sentence[:most] + '…'
 
 
 def _inWords(what, known):

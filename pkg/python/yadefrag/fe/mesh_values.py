@@ -11,12 +11,12 @@ from yadefrag import _yadefrag
 from yadefrag.arguments import FEMat, Mesh, array, atPlaces, isWhole, number, pair, plain, real, refuse, shown
 
 _HELD = {False: 0, None: 0, 'x': 1, 'y': 2, 'xy': 3, 'yx': 3, True: 3}
-_UNITS = {'strength': 'Pa', 'fractureEnergy': 'J/m²', 'jointStrength': 'Pa', 'jointEnergy': 'J/m²'}
+_UNITS = {'strength': 'Pa', 'fractureEnergy': 'J/m²', 'jointStrength': 'Pa', 'jointEnergy': 'J/m²',
+          'interfaceStrength': 'Pa', 'interfaceEnergy': 'J/m²'}
 _RIGHT = 'an FEMat, its label or its number in O.materials'
 _SEVERAL = _RIGHT + ('; or a function (x, y) that returns one, a list of one for each triangle, or '
                      'a pair of a list of materials and an array of their numbers in it, one for '
                      'each triangle')
-_INTERFACE = {'interfaceStrength': 'Pa', 'interfaceEnergy': 'J/m²'}
 
 
 def centroids(mesh: Mesh) -> numpy.ndarray:
@@ -294,7 +294,7 @@ def _isValue(value):
 
 def _values(name, value, mesh, sides, both, materials):
     """(k) floats for the sides; NaN where the materials determine the value."""
-    right = '0 or a positive number (%s)' % _INTERFACE[name]
+    right = '0 or a positive number (%s)' % _UNITS[name]
     if value is None:
         return numpy.full(len(sides), math.nan)
     if real(value) is not None:
@@ -307,7 +307,7 @@ def _values(name, value, mesh, sides, both, materials):
         return numpy.array(atPlaces(name, value, mesh.nodes[sides].mean(axis=1), checked), dtype=float)
     if not isinstance(value, dict):
         refuse(name, value, 'None, a number (%s), a function (x, y) that returns one, or a dict '
-               'with one by pair of materials' % _INTERFACE[name])
+               'with one by pair of materials' % _UNITS[name])
     result = numpy.full(len(sides), math.nan)
     for key, one in value.items():
         if not isinstance(key, tuple) or len(key) != 2:
@@ -323,7 +323,7 @@ def interfaces(mesh: Mesh, materials: Materials, strength: Any,
     """(k, 2) nodes of the sides with an individual strength (Pa) or energy (J/m²), and (k) of both,
     NaN where the materials determine the value: addPolygon's interfaceStrength and -Energy."""
     nothing = numpy.empty((0, 2), dtype=numpy.uint32), numpy.empty(0), numpy.empty(0)
-    given = [name for name, value in zip(_INTERFACE, (strength, energy)) if value is not None]
+    given = [name for name, value in zip(('interfaceStrength', 'interfaceEnergy'), (strength, energy)) if value is not None]
     if not given:
         return nothing
     if not len(materials.numbers):

@@ -7,11 +7,11 @@ from typing import Any
 import numpy
 
 from yadefrag.arguments import File, isWhole, plain, refuse, shown, text, whole
+from yadefrag.messages import passOn
 from yadefrag.studies.ensemble_table import COLUMNS, EnsembleRow, EnsembleTable
 from yadefrag.studies.runs import Finished, counted, jobOf, requireExecutor, runAll
 from yadefrag.studies.scene_choices import Choices
 from yadefrag.studies.tradeoff_grid import checkChoice, requireFiles, writeTable
-from yadefrag.studies.tradeoff_table import passOn
 
 _MOST_RUNS = 10**6
 

@@ -18,10 +18,10 @@ import numpy
 
 from yadefrag.arguments import ArrayLike, File, path, plain, refuse, shown, shownPath, text, whole
 from yadefrag.files import requireWritable
-from yadefrag.messages import warn
+from yadefrag.messages import passOn, warn
 from yadefrag.studies import scene_choices as known
 from yadefrag.studies.runs import Finished, counted, jobOf, requireExecutor, runAll
-from yadefrag.studies.tradeoff_table import COLUMNS, SEED, TradeoffRow, TradeoffTable, describe, namesOfCases, passOn
+from yadefrag.studies.tradeoff_table import COLUMNS, SEED, TradeoffRow, TradeoffTable, describe, namesOfCases
 
 _REPEATABLE = ('not run', 'ok')
 

@@ -6,14 +6,12 @@ import csv
 import dataclasses
 import io
 import json
-import re
 import statistics
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from yadefrag.arguments import File, listOf, path, real, refuse, shownPath, text
 from yadefrag.files import writeText
-from yadefrag.messages import warn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,8 +21,6 @@ _TIMES = {'wall': 'wall-clock time over simulated time (s/s)',
           'cpu': 'processor time over simulated time (s/s)'}
 Row = TypeVar('Row', bound=Any)
 SEED = 'seed'  # runs that differ in it only are repetitions
-_NUMBER = re.compile(r'[-+]?[\d.]+(e[-+]?\d+)?')
-_SHOWN = 200  # characters of a message
 
 
 @dataclasses.dataclass
@@ -359,20 +355,6 @@ def grouped(rows: Sequence[Row], names: Iterable[str]) -> list[tuple[dict[str, A
         of = {name: row.settings[name] for name in names if name in row.settings}
         groups.setdefault(repr(of), (of, []))[1].append(row)
     return list(groups.values())
-
-
-def passOn(what: str, rows: Sequence[Any]) -> None:
-    """Warns once of each kind of message that runs gave, with the number of these runs."""
-    kinds = {}
-    for row in rows:
-        for sentence in {_NUMBER.sub('', s): s for s in row.warnings}.items():
-            kinds.setdefault(sentence[0], []).append(sentence[1])
-    for sentences in kinds.values():
-        first = sentences[0] if len(sentences[0]) <= _SHOWN else sentences[0][:_SHOWN] + '…'
-        others = ', some with other numbers' if len(set(sentences)) > 1 else ''
-        warn('%s: %d of %d runs gave this message%s: "%s" The others are in `warnings` of the rows.' %
-             (what, len(sentences), len(rows), others, first) if len(sentences) > 1 else
-             '%s: one of %d runs gave the message: "%s"' % (what, len(rows), first))
 
 
 def _values(rows, name):
