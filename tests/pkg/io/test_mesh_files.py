@@ -16,7 +16,7 @@ from fe_scene import fe
 from outline_files import written
 from yade import wrapper as w
 from yadefrag import readMesh, rectangleMesh
-from yadefrag.io.readers import by_meshio
+from yadefrag.io.readers import gmsh
 
 O = builtins.O
 # A strip of 2 × 1 squares: one cut in triangles (steel, the second clockwise), one a quad (stone);
@@ -226,7 +226,7 @@ def outcome(file, column):
 
 @pytest.mark.parametrize('row', rows()[1], ids=lambda row: row[0])
 def test_formatIsAsInTheTable(folder, monkeypatch, row):
-    monkeypatch.setattr(by_meshio, '_LONGEST', (3, 0))
+    monkeypatch.setattr(gmsh, '_LONGEST', (3, 0))
     format, ending, *expected = row
     found = []
     for column in rows()[0]:

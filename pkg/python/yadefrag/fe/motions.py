@@ -202,7 +202,8 @@ def keepTurning(fe: FESolver, component: int, held: numpy.ndarray, velocity: num
     doubled = [i for i in range(len(places), len(own)) if tuple(present[i].tolist()) in heldPlaces]
     chosen = own[numpy.concatenate([fixed, doubled]).astype(int)].astype(numpy.uint32)
     drifts = [tableOrNumber('velocity', float(one), 'm/s') for one in drift]
-    _move(fe, chosen, 3, tuple(map(float, centre)), *drifts, tableOrNumber('spin', float(total), 'rad/s'))
+    _move(fe, chosen, 3, tuple(map(float, centre)), *drifts,
+          turn=tableOrNumber('spin', float(total), 'rad/s'))
 
 
 def _areInLine(places):

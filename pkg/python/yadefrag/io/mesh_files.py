@@ -6,7 +6,7 @@ import os
 import numpy
 
 from yadefrag.arguments import File, path, positive, shownPath
-from yadefrag.io.readers import Elements, abaqus, by_meshio, cornersOf, counted, gmsh, orderOf, refuseFile
+from yadefrag.io.readers import Elements, abaqus, cornersOf, counted, gmsh, orderOf, refuseFile
 from yadefrag.messages import warn
 
 _READERS = {'.msh': gmsh.read, '.inp': abaqus.read}
@@ -78,7 +78,7 @@ def readMesh(file: File, scale: float = 1) -> MeshFile:
     scale = positive('scale', scale, 'm per unit of the file')
     with open(name, 'rb'):  # OSError, before a library raises another exception
         pass
-    read = _READERS.get(os.path.splitext(name)[1].lower(), by_meshio.read)
+    read = _READERS.get(os.path.splitext(name)[1].lower(), gmsh.readByMeshio)
     try:
         elements = read(name)
     except (ValueError, IndexError, KeyError, OSError, OverflowError, MemoryError) as error:
