@@ -201,9 +201,8 @@ def keepTurning(fe: FESolver, component: int, held: numpy.ndarray, velocity: num
     heldPlaces = set(map(tuple, present[fixed].tolist()))
     doubled = [i for i in range(len(places), len(own)) if tuple(present[i].tolist()) in heldPlaces]
     chosen = own[numpy.concatenate([fixed, doubled]).astype(int)].astype(numpy.uint32)
-    drifts = [tableOrNumber('velocity', float(one), 'm/s') for one in drift]
-    _move(fe, chosen, 3, tuple(map(float, centre)), *drifts,
-          turn=tableOrNumber('spin', float(total), 'rad/s'))
+    vx, vy = (tableOrNumber('velocity', float(one), 'm/s') for one in drift)
+    _move(fe, chosen, 3, tuple(map(float, centre)), vx, vy, tableOrNumber('spin', float(total), 'rad/s'))
 
 
 def _areInLine(places):
