@@ -7,7 +7,7 @@ import pytest
 import yadefrag
 from fe_impact import impact, requireBodiesAreEntries, steps
 from fe_scene import momentum, throwBall
-from yadefrag.plots.colours import fragmentColours
+from yadefrag.plots.axes import fragmentColours
 from yade import wrapper as w
 
 O = builtins.O

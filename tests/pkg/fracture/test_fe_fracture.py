@@ -9,7 +9,7 @@ import fe_chain as chain
 import yadefrag
 from fe_impact import brittle, engines, heapSpheres, impact, requireBodiesAreEntries, steps
 from yadefrag.plots import pictures
-from yadefrag.plots.colours import fragmentColours
+from yadefrag.plots.axes import fragmentColours
 from yade import wrapper as w
 
 O = builtins.O

@@ -11,7 +11,7 @@ import yadefrag
 from fe_impact import brittle, engines
 from fe_scene import pixelContour
 from yade import wrapper as w
-from yadefrag.fe.simplify import simplified
+from yadefrag.fe.geometry import simplified
 
 O = builtins.O
 
