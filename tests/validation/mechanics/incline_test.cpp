@@ -56,8 +56,9 @@ struct Slope {
 };
 
 constexpr double kSettle = .3;  // s
-constexpr double kQuiet = .05;  // s, before it squeals: in two passes a change of sides begins it with 1e-9
-constexpr double kWatch = .5;   // s
+constexpr double kQuiet =
+    .05;  // s, before it squeals: in two passes a change of sides begins it with 1e-9
+constexpr double kWatch = .5;  // s
 
 void sticks(double angle, int passes, bool softGround = false) {
   Slope slope(angle, passes, softGround);
