@@ -15,6 +15,8 @@
 
 namespace yadefrag::test {
 
+inline constexpr double kDegree = M_PI / 180;
+
 using Loop = std::vector<Vec2>;
 
 inline Loop box(Vec2 low, Vec2 high) { return {low, {high.x, low.y}, high, {low.x, high.y}}; }
